@@ -12,7 +12,7 @@
 #include "app/io/character/bake.hpp"
 #include "app/io/character/export.hpp"
 #include "app/io/character/read.hpp"
-#include "app/labs/humanoid/ik/ground_setting.hpp"
+#include "app/labs/humanoid/ik/ground.hpp"
 
 namespace tendril::app {
 namespace {

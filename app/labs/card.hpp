@@ -64,4 +64,9 @@ class Cards {
     std::map<std::string, std::vector<Card>> cards_;
 };
 
+class CommandTable;
+
+/// view.card
+void add_card_commands(CommandTable& table);
+
 }  // namespace tendril::app

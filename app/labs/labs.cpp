@@ -5,15 +5,13 @@
 #include <utility>
 
 #include "app/document/command.hpp"
-#include "app/labs/camera_commands.hpp"
-#include "app/labs/card_commands.hpp"
+#include "app/labs/card.hpp"
 #include "app/labs/chain/chain_lab.hpp"
-#include "app/labs/closing_command.hpp"
 #include "app/labs/humanoid/humanoid_lab.hpp"
+#include "app/labs/lab_commands.hpp"
 #include "app/labs/rig/rig_lab.hpp"
 #include "app/labs/rope/rope_lab.hpp"
 #include "app/labs/signal/signal_lab.hpp"
-#include "app/labs/video_commands.hpp"
 
 namespace tendril::app {
 

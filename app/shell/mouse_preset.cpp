@@ -2,7 +2,7 @@
 
 #include <cctype>
 
-#include "app/labs/camera_commands.hpp"
+#include "app/labs/lab_commands.hpp"
 
 namespace tendril::app {
 namespace {

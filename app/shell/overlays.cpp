@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "app/labs/camera_commands.hpp"
+#include "app/labs/lab_commands.hpp"
 #include "app/shell/axis_gizmo.hpp"
 #include "app/shell/shell.hpp"
 #include "app/shell/theme.hpp"

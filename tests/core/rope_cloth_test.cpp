@@ -130,7 +130,7 @@ TEST(RopeCloth, MayHaveHoles) {
     world = World(state);
     run(world, 1.0);
     EXPECT_TRUE(all_finite(world));
-    EXPECT_LT(world.position(40).y, -4.0f);         // what is cut out falls
+    EXPECT_LT(world.position(40).y, -4.0f);        // what is cut out falls
     EXPECT_NEAR(world.position(76).y, -1.0, 0.1);  // the rim below the hole hangs on
     EXPECT_LE(glm::length(world.state().position[49] - world.state().position[76]), 40.0);
 }

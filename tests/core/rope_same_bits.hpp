@@ -15,8 +15,8 @@ namespace tendril::test {
 class StateBits {
   public:
     explicit StateBits(const rope::State& state) {
-        const auto& [settings, bodies, links, position, displacement, mass, pins, colliders,
-                     body_slots, collider_slots, remainder, displaced_in, substeps, dropped] = state;
+        const auto& [settings, bodies, links, position, displacement, mass, pins, colliders, body_slots,
+                     collider_slots, remainder, displaced_in, substeps, dropped] = state;
         add(settings, bodies, links, position, displacement, mass, pins, colliders, body_slots,
             collider_slots, remainder, displaced_in, substeps, dropped);
     }

@@ -83,7 +83,8 @@ TEST(RopeState, EveryFieldCountsWhenStatesAreCompared) {
         EXPECT_NE(world.state(), other) << i;
     }
     State other = world.state();
-    other.displacement[0].x = -other.displacement[0].x;  // a pinned particle's: no value changes, but a bit does
+    other.displacement[0].x =
+        -other.displacement[0].x;  // a pinned particle's: no value changes, but a bit does
     EXPECT_EQ(world.state(), other);
     EXPECT_FALSE(same_bits(world.state(), other));
 }

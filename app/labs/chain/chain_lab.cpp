@@ -6,14 +6,11 @@
 
 #include "app/document/json_complete.hpp"
 #include "app/labs/chain/chain_runtime.hpp"
-#include "app/labs/chain/colours.hpp"
 #include "app/labs/chain/commands.hpp"
 #include "app/labs/chain/draw.hpp"
-#include "app/labs/chain/incidents.hpp"
 #include "app/labs/chain/past.hpp"
 #include "app/labs/chain/presets.hpp"
-#include "app/labs/chain/shown.hpp"
-#include "app/labs/kit/guarded_step.hpp"
+#include "app/labs/kit/arguments.hpp"
 
 namespace tendril::app {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "app/labs/chain/chain_runtime.hpp"
 #include "app/labs/chain/presets.hpp"
-#include "app/labs/kit/require.hpp"
+#include "app/labs/kit/arguments.hpp"
 
 namespace tendril::app {
 ChainPart first_chain() {

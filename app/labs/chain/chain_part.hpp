@@ -11,7 +11,7 @@
 #include "app/document/document.hpp"
 #include "app/labs/chain/reach.hpp"
 #include "app/labs/chain/study.hpp"
-#include "app/labs/kit/flip_rule.hpp"
+#include "app/labs/kit/flips.hpp"
 #include "app/labs/kit/motion.hpp"
 #include "app/labs/kit/selection.hpp"
 

@@ -1,11 +1,23 @@
+#include "app/labs/chain/draw.hpp"
+
+#include <imgui.h>
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec2.hpp>
 #include <utility>
+#include <vector>
 
 #include "app/document/units.hpp"
 #include "app/labs/chain/chain_lab.hpp"
-#include "app/labs/chain/draw.hpp"
+#include "app/labs/chain/chain_runtime.hpp"
+#include "app/labs/chain/panel.hpp"
 #include "app/labs/chain/past.hpp"
+#include "app/labs/kit/limit_shape.hpp"
+#include "app/labs/kit/past_view.hpp"
 
 namespace tendril::app {
 namespace {
@@ -215,6 +227,331 @@ LabSetting segment_style() {
 
 void ChainLab::draw(const View& view, DrawList& list) const {
     Drawing(view, list).run();
+}
+
+namespace {
+
+using Colours = std::array<glm::vec3, ik::all_methods.size()>;  // in the order of ik::Method
+
+constexpr Colours on_dark{rgb(0xF2F5F8), rgb(0x3F8FE0), rgb(0xCC79A7), rgb(0xA9792B),
+                          rgb(0x35C3A5), rgb(0xB9A6F2), rgb(0x8FA33B)};
+constexpr Colours on_light{rgb(0x1E252E), rgb(0x1D6FC4), rgb(0xB2558A), rgb(0x8A5D10),
+                           rgb(0x00886C), rgb(0x7A5FD0), rgb(0x66791A)};
+
+}  // namespace
+
+glm::vec3 pole_colour(const Palette& palette) {
+    return palette.theme == Theme::Light ? rgb(0xB2558A) : rgb(0xCC79A7);
+}
+
+glm::vec3 solver_colour(const Palette& palette, ik::Method method) {
+    return (palette.theme == Theme::Light ? on_light : on_dark)[static_cast<std::size_t>(method)];
+}
+
+ShownChain shown_chain(const Workspace& workspace) {
+    const ChainPart& part = chain_part(workspace);
+    Studied studied = workspace.runtimes.of<ChainRuntime>(chain_lab).studied(part);
+    return {part, std::move(studied.trace), std::move(studied.race)};
+}
+
+std::vector<glm::vec3> shown_joints(const ShownChain& shown) {
+    return shown.trace ? shown.trace->pose(shown.part.study.step) : positions(shown.part.chain);
+}
+
+bool shows_end(const ShownChain& shown) {
+    return !shown.trace || shown.part.study.step == shown.trace->frames();
+}
+
+const ik::ActiveLimit* shown_active_limit(const ShownChain& shown) {
+    const auto& result = shown.part.result;
+    return result && result->active_limit && shows_end(shown) ? &*result->active_limit : nullptr;
+}
+
+ShownSegment shown_segment(const ShownChain& shown, const std::vector<glm::vec3>& joints, std::size_t index) {
+    const float length = shown.part.chain.segments()[index].length;
+    if (index == 0) return {joints[0], length, 0.0f};
+    const float distance = glm::distance(joints[index], joints[index - 1]);
+    // Outside a solve a bone has its length, but for rounding, which is the error's to show.
+    return {joints[index], shows_end(shown) ? length : distance, std::abs(distance - length)};
+}
+
+float worst_error(const ShownChain& shown, const std::vector<glm::vec3>& joints) {
+    const auto segments = shown.part.chain.segments();
+    float worst = 0.0f;
+    for (std::size_t i = 1; i < joints.size(); ++i) {
+        worst = std::max(worst, std::abs(glm::distance(joints[i], joints[i - 1]) - segments[i].length));
+    }
+    return worst;
+}
+
+const char* end_name(const ChainPart& part, std::size_t index) {
+    const bool reaches = part.mode == ChainMode::Reach;
+    if (index == 0) return reaches ? "root" : "head";
+    if (index + 1 == part.chain.size()) return reaches ? "tip" : "tail";
+    return "";
+}
+
+float shown_residual(const ChainPart& part, const std::vector<glm::vec3>& joints) {
+    return joints.empty() ? 0.0f : glm::distance(joints.back(), part.target);
+}
+
+void draw_incident(const View& view, const ChainPart& part, DrawList& list) {
+    const auto& incident = view.workspace.ui.incident;
+    if (!incident) return;
+    const auto before = std::dynamic_pointer_cast<const ChainPart>(view.workspace.around(*incident).before);
+    if (!before || before->chain.size() != part.chain.size() || incident->joint >= part.chain.size()) return;
+    const auto was = before->chain.segments(), is = part.chain.segments();
+    const glm::vec4 ghost = faded(view.palette, view.palette.ghost, 0.9f);
+    for (std::size_t i = 1; i < was.size(); ++i)
+        list.line(was[i - 1].position, was[i].position, 2.5f * view.scale, ghost);
+    for (const Segment& joint : was) list.sphere(joint.position, 4.5f * view.scale, Unit::Pixels, ghost);
+    list.ring(before->target, 12.0f * view.scale, 1.5f * view.scale, ghost).layer = Layer::Overlay;
+    if (incident->kind != Incident::Kind::Flip) return;
+    const std::size_t joint = incident->joint;
+    // About that neighbour which moved less.
+    const auto moved = [&](std::size_t i) { return glm::distance(was[i].position, is[i].position); };
+    const bool last = joint + 1 == is.size();
+    const std::size_t about =
+        joint == 0 || (!last && moved(joint + 1) < moved(joint - 1)) ? joint + 1 : joint - 1;
+    draw_turn(view, was[joint].position, is[joint].position, is[about].position, list);
+    draw_incident_mark(view, *incident, is[joint].position, list);
+}
+
+namespace {
+
+/// What the eye sees of a sphere is smaller than its great circle, and nearer.
+void outline(const View& view, DrawList& list, glm::vec3 centre, float radius) {
+    const Camera& camera = view.camera;
+    glm::vec3 middle = centre;
+    float seen = radius;
+    glm::vec3 towards = -camera.forward();
+    if (!camera.pose().orthographic) {
+        const float distance = glm::distance(camera.eye(), centre);
+        if (!(distance > 1.001f * radius)) return;  // seen from within it has no outline
+        towards = (camera.eye() - centre) / distance;
+        const float share = radius / distance;
+        middle = centre + towards * (radius * share);
+        seen = radius * std::sqrt(1.0f - share * share);
+    }
+    const glm::vec3 across = glm::normalize(glm::cross(camera.up(), towards));
+    draw_circle(list, middle, seen, across, glm::cross(towards, across), 1.5f * view.scale,
+                faded(view.palette, view.palette.ghost, 0.38f));
+}
+
+}  // namespace
+
+void draw_circle(DrawList& list, glm::vec3 centre, float radius, glm::vec3 across, glm::vec3 up, float pixels,
+                 glm::vec4 colour) {
+    constexpr int sides = 128;
+    glm::vec3 from = centre + radius * across;
+    for (int i = 1; i <= sides; ++i) {
+        const float angle = glm::two_pi<float>() * static_cast<float>(i) / sides;
+        const glm::vec3 to = centre + radius * (std::cos(angle) * across + std::sin(angle) * up);
+        list.line(from, to, pixels, colour);
+        from = to;
+    }
+}
+
+LabSetting reach_sphere() {
+    return {.key = "reach sphere",
+            .command = "view.reach_sphere",
+            .title = "Show or hide sphere of reach",
+            .argument = "show",
+            .help = "Shows the sphere of what the chain can reach, in mode reach",
+            .choices = {{"off", "hidden"}, {"on", "shown"}}};
+}
+
+void draw_reach_sphere(const View& view, const ShownChain& shown, DrawList& list) {
+    if (shown.part.chain.size() < 2) return;
+    const glm::vec3 root = shown.part.chain.position(0);
+    const float reach = shown.part.chain.reach();
+    if (!(reach > 0.0f)) return;
+    outline(view, list, root, reach);
+    const float high = std::abs(root.y);
+    if (high >= reach) return;
+    const glm::vec3 foot(root.x, 0.0f, root.z);
+    draw_circle(list, foot, std::sqrt(reach * reach - high * high), {1.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 1.0f},
+                view.scale, faded(view.palette, view.palette.ghost, 0.3f));
+}
+
+// Limits as they are: a cone where the bone may point, a fan for a hinge, a dial for twist.
+
+namespace {
+
+constexpr std::size_t max_limits =
+    24;  ///< drawn; in longer chains those of the selected joints and of the active limit
+
+class LimitDrawing {
+  public:
+    LimitDrawing(const View& view, const ShownChain& shown, DrawList& list)
+        : view_(view),
+          part_(shown.part),
+          list_(list),
+          active_(shown_active_limit(shown)),
+          bones_(segment_style().chosen(view.workspace.settings) == 1),
+          joints_(shown_joints(shown)),
+          turns_(rotations_at(joints_, part_.reach.state.rotations, part_.chain.default_direction())) {}
+
+    void run() {
+        const std::size_t bones = joints_.size() - 1;
+        for (std::size_t i = 0; i < bones; ++i) {
+            const bool shown = bones <= max_limits || is_active(i) || part_.selection.has(i);
+            if (shown && limit_of(part_.reach, i).kind != ik::JointKind::Free) joint(i);
+        }
+    }
+
+  private:
+    float px(float pixels) const { return pixels * view_.scale; }
+    bool is_active(std::size_t i) const { return active_ != nullptr && active_->joint == i; }
+
+    void joint(std::size_t i) {
+        const ik::Limit limit = limit_of(part_.reach, i);
+        const glm::vec3 rest = part_.chain.default_direction();
+        const glm::quat parent = i == 0 ? glm::quat(1, 0, 0, 0) : turns_[i - 1];
+        const float bone = part_.chain.segments()[i + 1].length;
+        const float pixels = 90.0f * view_.scale * view_.camera.metres_per_pixel(joints_[i]);
+        const bool active = is_active(i), lit = active || part_.selection.has(i);
+        const LimitShape shape(limit, rest, parent);
+        const LimitLook look{.centre = joints_[i],
+                             .radius = std::min(0.75f * bone, pixels),
+                             .colour = active ? view_.palette.limit
+                                       : lit  ? view_.palette.selection
+                                              : view_.palette.ghost,
+                             .strength = lit ? 1.0f : 0.75f};
+        const LimitPen pen(view_, list_, look);
+        const ik::JointAngles angles = ik::measure(limit, rest, glm::conjugate(parent) * turns_[i]);
+        if (bones_ && shape.is_hinge()) pen.fill(shape);
+        pen.outline(shape);
+        pen.dot(shape, angles);
+        pen.dial(shape, angles, 0.5f, 0.22f);
+        pen.rest(shape);
+        if (active) {
+            needed(pen, look, shape, angles);
+            list_.ring(look.centre, px(13.0f), px(3.0f), glm::vec4(view_.palette.limit, 1.0f)).layer =
+                Layer::Overlay;
+        }
+    }
+
+    /// Where the bone would have to point for the target, dashed, with the angle beside it.
+    void needed(const LimitPen& pen, const LimitLook& look, const LimitShape& shape,
+                const ik::JointAngles& now) {
+        const ik::ActiveLimit& limit = *active_;
+        if (limit.bound == ik::Bound::TwistMin || limit.bound == ik::Bound::TwistMax) return;
+        const bool sideways = limit.bound == ik::Bound::Left || limit.bound == ik::Bound::Right;
+        const bool down = limit.bound == ik::Bound::Down || limit.bound == ik::Bound::Right;
+        const float angle = down ? -std::abs(limit.needed) : limit.needed;
+        const glm::vec3 towards =
+            look.radius * (sideways ? shape.direction(now.up, angle) : shape.direction(angle, now.left));
+        constexpr int dashes = 7;
+        for (int i = 0; i < dashes; ++i) {
+            const float from = (static_cast<float>(i) + 0.2f) / dashes;
+            pen.line(look.centre + from * towards, look.centre + (from + 0.6f / dashes) * towards, 2.0f,
+                     1.0f);
+        }
+        list_.labels.push_back({.at = look.centre + 1.05f * towards,
+                                .clearance = px(6.0f),
+                                .text = "needs " + needed_degrees(limit) + "\xc2\xb0",
+                                .colour = view_.palette.text,
+                                .rank = 3});
+    }
+
+    const View& view_;
+    const ChainPart& part_;
+    DrawList& list_;
+    const ik::ActiveLimit* active_;
+    bool bones_;
+    std::vector<glm::vec3> joints_;
+    std::vector<glm::quat> turns_;
+};
+
+}  // namespace
+
+void draw_limits(const View& view, const ShownChain& shown, DrawList& list) {
+    if (shown.part.reach.limits.empty() || shown.part.chain.size() < 2) return;
+    LimitDrawing(view, shown, list).run();
+}
+
+void draw_pole(const View& view, const ChainPart& part, DrawList& list) {
+    if (!part.reach.pole) return;
+    const glm::vec3 at = *part.reach.pole;
+    const bool hovered = view.hovered == pole_pick || view.dragged == pole_pick;
+    if (!part.chain.empty()) {
+        const glm::vec3 root = part.chain.position(0), along = part.target - root;
+        const float square = glm::dot(along, along);
+        const float share =
+            square < 1e-9f ? 0.0f : std::clamp(glm::dot(at - root, along) / square, 0.0f, 1.0f);
+        list.line(root, part.target, view.scale, faded(view.palette, pole_colour(view.palette), 0.35f));
+        list.line(at, root + along * share, 1.5f * view.scale,
+                  faded(view.palette, pole_colour(view.palette), 0.5f));
+    }
+    Stroke& ball = list.sphere(at, (hovered ? 9.5f : 8.0f) * view.scale, Unit::Pixels,
+                               glm::vec4(pole_colour(view.palette), 1.0f));
+    ball.shadow = true;
+    ball.layer = Layer::Overlay;
+    ball.pick = pole_pick;
+    ball.rank = 2;
+    list.labels.push_back({.at = at,
+                           .clearance = 12.0f * view.scale,
+                           .text = "pole",
+                           .colour = view.palette.text_dim,
+                           .rank = 1});
+}
+
+namespace {
+
+/// What a mode does, in a box of 3 by 1: the joints from head to tail, the one that goes to the target, and
+/// the one that stays, if any.
+struct ModePicture {
+    std::vector<glm::vec2> joints;
+    std::size_t at_target = 0;
+    int stays = -1;
+};
+
+ModePicture picture_of(ChainMode mode) {
+    switch (mode) {
+        case ChainMode::Forward:
+            return {{{2.7f, 0.25f}, {1.9f, 0.45f}, {1.1f, 0.6f}, {0.3f, 0.65f}}, 0};
+        case ChainMode::Backward:
+            return {{{0.3f, 0.65f}, {1.1f, 0.6f}, {1.9f, 0.45f}, {2.7f, 0.25f}}, 3};
+        case ChainMode::Fixed:
+            return {{{2.6f, 0.45f}, {1.9f, 0.1f}, {1.1f, 0.25f}, {0.5f, 0.8f}}, 0, 3};
+        case ChainMode::WithIndex:
+            return {{{0.4f, 0.85f}, {0.9f, 0.45f}, {1.5f, 0.15f}, {2.1f, 0.45f}, {2.6f, 0.85f}}, 2};
+        case ChainMode::Reach:
+            break;
+    }
+    return {{{0.5f, 0.8f}, {1.1f, 0.25f}, {1.9f, 0.1f}, {2.6f, 0.45f}}, 3, 0};
+}
+
+}  // namespace
+
+void draw_mode(ChainMode mode, const Palette& colours) {
+    const float high = ImGui::GetTextLineHeight(), wide = 3.0f * high;
+    const ImVec2 low = ImGui::GetItemRectMin(), top = ImGui::GetItemRectMax();
+    const float right = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
+    if (right - wide < top.x + 0.5f * high) return;  // the words come first
+    const ImVec2 corner{right - wide, 0.5f * (low.y + top.y) - 0.5f * high};
+    const auto at = [&](glm::vec2 place) {
+        return ImVec2(corner.x + place.x * high, corner.y + place.y * high);
+    };
+    const auto ink = [](glm::vec3 colour) {
+        return ImGui::ColorConvertFloat4ToU32({colour.r, colour.g, colour.b, 1.0f});
+    };
+    const ModePicture picture = picture_of(mode);
+    ImDrawList* list = ImGui::GetWindowDrawList();
+    const float unit = high / 15.0f;
+    for (std::size_t i = 1; i < picture.joints.size(); ++i)
+        list->AddLine(at(picture.joints[i - 1]), at(picture.joints[i]), ink(colours.neutral), 1.5f * unit);
+    for (std::size_t i = 0; i < picture.joints.size(); ++i) {
+        const bool head = i == 0, tail = i + 1 == picture.joints.size();
+        const glm::vec3 colour = head ? colours.head : tail ? colours.tail : colours.joint;
+        list->AddCircleFilled(at(picture.joints[i]), (head || tail ? 2.6f : 2.0f) * unit, ink(colour), 12);
+    }
+    list->AddCircle(at(picture.joints[picture.at_target]), 4.8f * unit, ink(colours.target), 16, 1.5f * unit);
+    if (picture.stays < 0) return;
+    const ImVec2 foot = at(picture.joints[static_cast<std::size_t>(picture.stays)]);
+    list->AddLine({foot.x - 5.0f * unit, foot.y + 4.0f * unit}, {foot.x + 5.0f * unit, foot.y + 4.0f * unit},
+                  ink(colours.text_dim), 1.5f * unit);
 }
 
 }  // namespace tendril::app

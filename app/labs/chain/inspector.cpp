@@ -1,14 +1,15 @@
 #include <imgui.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "app/document/json_complete.hpp"
 #include "app/document/units.hpp"
-#include "app/labs/chain/panels.hpp"
-#include "app/labs/kit/folding.hpp"
-#include "app/labs/kit/incident_rows.hpp"
+#include "app/io/solver_json.hpp"
+#include "app/labs/chain/panel.hpp"
+#include "app/labs/kit/panel_rows.hpp"
+#include "app/labs/kit/past_view.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/fonts.hpp"
 #include "app/widgets/text.hpp"
@@ -135,6 +136,166 @@ void ChainLab::inspector(const Workspace& workspace, Emit& emit) const {
     if (reaches) limit_rows(shown.part, emit);
     chain_rows(shown, joints);
     if (folding_section(workspace, "Joints, in metres", emit, false)) joint_table(shown, joints, emit);
+}
+
+// The inspector of the Chain lab: what is selected. Of several joints it shows the active one, and sets what
+// one sets on all.
+
+namespace {
+
+using Joints = std::vector<glm::vec3>;
+
+/// A command's arguments: which joints, and what is set on them.
+ArgumentList of_joints(const std::vector<std::size_t>& joints, const char* name, ArgumentValue value) {
+    const NamedArgument which = joints.size() == 1 ? NamedArgument{"index", joints.front()}
+                                                   : NamedArgument{"joints", SharedJson(Json(joints))};
+    return {which, {name, std::move(value)}};
+}
+
+/// "1, 2, 5"; of many only the first.
+std::string list_text(const std::vector<std::size_t>& joints) {
+    constexpr std::size_t most = 8;
+    std::string text;
+    for (std::size_t i = 0; i < std::min(most, joints.size()); ++i)
+        text += (i > 0 ? ", " : "") + std::to_string(joints[i]);
+    return joints.size() > most ? text + " ..." : text;
+}
+
+/// Under the microscope a joint is read, not set: it is where the step has it.
+void joint_in_step(const ShownChain& chain, const Joints& joints, std::size_t i) {
+    const ShownSegment shown = shown_segment(chain, joints, i);
+    reading("x", "%.3f m", static_cast<double>(shown.position.x));
+    reading("y", "%.3f m", static_cast<double>(shown.position.y));
+    reading("z", "%.3f m", static_cast<double>(shown.position.z));
+    reading("bone in this step", "%.3f m", static_cast<double>(shown.length));
+    reading("to the target", "%.3f m", static_cast<double>(glm::distance(shown.position, chain.part.target)));
+}
+
+void one_joint(const ShownChain& shown, const Joints& joints, std::size_t i, Emit& emit) {
+    const ChainPart& part = shown.part;
+    const std::string end = end_name(part, i);
+    reading("joint", "%zu%s", i, end.empty() ? "" : (" (" + end + ")").c_str());
+    if (shown.trace) return joint_in_step(shown, joints, i);
+    glm::vec3 to = joints[i];
+    if (point_field("at", to, 0.01f)) emit.continuously("chain.pull", {{"index", i}, {"to", to}});
+    explain("Where the joint is. A change pulls it there, and the chain follows.");
+    length_field(i == 0 ? "length" : "bone length", part, emit);
+    if (i == 0) note("No bone leads to this joint: its length counts once a joint is inserted before it.");
+    reading("to the target", "%.3f m", static_cast<double>(glm::distance(joints[i], part.target)));
+}
+
+void several_joints(const ShownChain& shown, Emit& emit) {
+    const ChainPart& part = shown.part;
+    const std::vector<std::size_t>& all = part.selection.all();
+    reading("joints", "%zu", all.size());
+    note(list_text(all));
+    if (!shown.trace) length_field("bone lengths", part, emit);
+}
+
+struct AngleRow {
+    const char* title;
+    const char* key;
+    const char* help;
+    float low;  ///< degrees; the highest is 180
+};
+
+std::vector<AngleRow> angle_rows(ik::JointKind kind) {
+    if (kind == ik::JointKind::Free) return {};
+    if (kind == ik::JointKind::Hinge)
+        return {{"minimum", "min_deg", "The smallest angle about the axis; 0 is straight.", -180.0f},
+                {"maximum", "max_deg", "The largest angle about the axis; 0 is straight.", -180.0f}};
+    constexpr const char* cone = "How far the bone may turn this way from straight: a side of its cone.";
+    return {{"up", "up_deg", cone, 0.0f},
+            {"down", "down_deg", cone, 0.0f},
+            {"left", "left_deg", cone, 0.0f},
+            {"right", "right_deg", cone, 0.0f},
+            {"twist from", "twist_min_deg", "How far the bone may turn about itself, one way.", -180.0f},
+            {"twist to", "twist_max_deg", "How far the bone may turn about itself, the other way.", -180.0f}};
+}
+
+bool same_limits(const ReachSettings& reach, const std::vector<std::size_t>& joints) {
+    return std::all_of(joints.begin(), joints.end(), [&](std::size_t joint) {
+        return limit_of(reach, joint) == limit_of(reach, joints.front());
+    });
+}
+
+}  // namespace
+
+void selection_rows(const ShownChain& shown, const Joints& joints, Emit& emit) {
+    section("Selection");
+    const ChainPart& part = shown.part;
+    if (part.selection.several()) return several_joints(shown, emit);
+    if (part.selection.active()) return one_joint(shown, joints, *part.selection.active(), emit);
+    if (!part.chosen_point) return note("Nothing is selected.");
+    reading("selected", "%s", chain_points.title(*part.chosen_point));
+    note("Drag an arrow to move it along one axis, a square to keep it in a plane.");
+}
+
+void length_field(const char* name, const ChainPart& part, Emit& emit) {
+    const std::vector<std::size_t>& joints = part.selection.all();
+    const std::size_t shown = *part.selection.active();
+    float length = part.chain.length(shown);
+    if (number_field(name, length, 0.01f, 0.0f, 1000.0f, "%.3f m"))
+        emit.continuously("chain.set_length", of_joints(joints, "length", length));
+    explain(joints.size() > 1
+                ? "The length of the bones that lead to the selected joints: shown is one, set are all."
+            : shown == 0 ? "The length of the bone that leads here once a joint is inserted before this one."
+                         : "The length of the bone that leads to this joint.");
+}
+
+void limit_rows(const ChainPart& part, Emit& emit) {
+    // No bone starts at the tail.
+    std::vector<std::size_t> joints = part.selection.all();
+    if (!joints.empty() && joints.back() + 1 == part.chain.size()) joints.pop_back();
+    if (joints.empty()) return;
+    const std::size_t joint = std::binary_search(joints.begin(), joints.end(), *part.selection.active())
+                                  ? *part.selection.active()
+                                  : joints.back();
+    const bool several = joints.size() > 1;
+    section(several ? "Limit of these joints" : "Limit of this joint");
+    const auto with = [&](const char* name, ArgumentValue value) {
+        return of_joints(joints, name, std::move(value));
+    };
+    if (several && !same_limits(part.reach, joints))
+        note("They differ. Shown is joint " + std::to_string(joint) + "; what you set, you set on all.");
+    const ik::Limit limit = limit_of(part.reach, joint);
+    std::array<const char*, all_joint_kinds.size()> titles{};
+    std::transform(all_joint_kinds.begin(), all_joint_kinds.end(), titles.begin(), kind_title);
+    int kind = static_cast<int>(limit.kind);
+    if (choice_field("kind", kind, titles.data(), static_cast<int>(titles.size()))) {
+        emit("chain.limit", with("kind", ik::name(all_joint_kinds[static_cast<std::size_t>(kind)])));
+    }
+    explain(
+        "How the bone after this joint may turn: a hinge about one axis, the others within a cone and about "
+        "the bone. Each begins with the angles that people usually have.");
+    if (limit.kind == ik::JointKind::Free) {
+        note("Turns freely.");
+        return;
+    }
+    const Json json = limit_json(limit);
+    for (const AngleRow& row : angle_rows(limit.kind)) {
+        if (!json.contains(row.key)) continue;
+        float angle = json.at(row.key).get<float>();
+        if (number_field(row.title, angle, 0.5f, row.low, 180.0f, "%.1f deg")) {
+            emit.continuously("chain.limit", with(row.key, angle));
+        }
+        explain(row.help);
+    }
+    static constexpr const char* axes[] = {"X", "Y", "Z", "another"};
+    int axis = 3;
+    for (int i = 0; i < 3; ++i) {
+        glm::vec3 unit(0.0f);
+        unit[i] = 1.0f;
+        if (limit.axis == unit) axis = i;
+    }
+    if (choice_field("axis", axis, axes, axis == 3 ? 4 : 3) && axis < 3) {
+        glm::vec3 unit(0.0f);
+        unit[axis] = 1.0f;
+        emit("chain.limit", with("axis", unit));
+    }
+    explain("About which axis a turn is called up; a hinge turns about it alone.");
+    note(
+        "Axis of upward rotation, in world axes with the chain straight. A straight chain has all angles 0.");
 }
 
 }  // namespace tendril::app

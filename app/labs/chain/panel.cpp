@@ -1,17 +1,18 @@
-#include <imgui.h>
+#include "app/labs/chain/panel.hpp"
 
+#include <imgui.h>
 #include <algorithm>
 #include <array>
+#include <glm/geometric.hpp>
 #include <string_view>
 
 #include "app/document/units.hpp"
+#include "app/fields/field_rows.hpp"
 #include "app/labs/chain/draw.hpp"
-#include "app/labs/chain/panels.hpp"
 #include "app/labs/chain/past.hpp"
 #include "app/labs/chain/presets.hpp"
-#include "app/labs/kit/folding.hpp"
+#include "app/labs/kit/panel_rows.hpp"
 #include "app/labs/kit/past_strip.hpp"
-#include "app/labs/kit/preset_rows.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/icons.hpp"
 #include "app/widgets/timeline.hpp"
@@ -168,6 +169,182 @@ void ChainLab::timeline(const Workspace& workspace, Emit& emit) const {
     }
     const StripLine strip = past_strip(workspace, emit);
     past_plot(workspace, chain_past(), chain_past_curve(workspace), strip, emit);
+}
+
+namespace {
+
+/// "0.23 m", or "4.1 mm" of what is small.
+std::string distance_text(float metres) {
+    const auto value = static_cast<double>(metres);
+    return value >= 0.01 ? fixed_text(value, 2) + " m" : si_text(value, "m");
+}
+
+Verdict reach_verdict(const ChainPart& part) {
+    if (!part.result) return {"Drag the target", Verdict::Kind::Open};
+    const ik::Report& report = part.result->report;
+    const std::string off = distance_text(report.residual);
+    switch (report.status) {
+        case ik::Status::Converged:
+            return {"Reached", Verdict::Kind::Good};
+        case ik::Status::Stretched:
+            return {"Out of reach: " + off + " short", Verdict::Kind::Bad};
+        case ik::Status::TooClose:
+            return {"Too close: " + off + " off", Verdict::Kind::Bad};
+        case ik::Status::Limited: {
+            const auto& limit = part.result->active_limit;
+            if (!limit) return {"Limited: " + off + " short", Verdict::Kind::Bad};
+            return {"Limited by joint " + std::to_string(limit->joint) + ": " + off + " short",
+                    Verdict::Kind::Bad};
+        }
+        case ik::Status::Stalled:
+            return {"Stalled: " + off + " short", Verdict::Kind::Bad};
+        case ik::Status::IterationLimit:
+            return {"Not there yet: " + off + " to go", Verdict::Kind::Bad};
+        case ik::Status::InvalidInput:
+            break;
+    }
+    return {"Refused", Verdict::Kind::Bad};
+}
+
+/// Which joint a trailing mode brings to the target.
+std::size_t led_joint(const ChainPart& part) {
+    if (part.mode == ChainMode::Backward) return part.chain.size() - 1;
+    return part.mode == ChainMode::WithIndex ? part.index : 0;
+}
+
+}  // namespace
+
+Verdict chain_verdict(const ChainPart& part) {
+    if (part.chain.empty()) return {"No joints", Verdict::Kind::Open};
+    if (part.mode == ChainMode::Reach) return reach_verdict(part);
+    const std::size_t joint = led_joint(part);
+    const std::string end = joint == 0                       ? "Head"
+                            : joint + 1 == part.chain.size() ? "Tail"
+                                                             : "Joint " + std::to_string(joint);
+    const float off = glm::distance(part.chain.position(joint), part.target);
+    if (off <= std::max(part.tolerance, 1e-6f * part.chain.reach()))
+        return {end + " on the target", Verdict::Kind::Good};
+    return {end + " " + distance_text(off) + " from the target", Verdict::Kind::Open};
+}
+
+namespace {
+
+void coloured_note(const std::string& text, glm::vec3 colour) {
+    ImGui::PushStyleColor(ImGuiCol_Text, {colour.r, colour.g, colour.b, 1.0f});
+    ImGui::PushTextWrapPos(0.0f);
+    ImGui::TextUnformatted(text.c_str(), text.c_str() + text.size());
+    ImGui::PopTextWrapPos();
+    ImGui::PopStyleColor();
+}
+
+}  // namespace
+
+void report_rows(const ShownChain& shown, const std::vector<glm::vec3>& joints, const Palette& palette) {
+    const ChainPart& part = shown.part;
+    if (!shows_end(shown)) {
+        verdict("On its way", palette.text);
+        reading("tip to target", "%.4f m", static_cast<double>(shown_residual(part, joints)));
+        note("A step of the solve; its report comes with the last one.");
+        return;
+    }
+    show_verdict(chain_verdict(part), palette);
+    if (part.mode != ChainMode::Reach) {
+        note(chain_modes.help(part.mode));
+        return;
+    }
+    if (!part.result) {
+        note("The tip then reaches for it.");
+        return;
+    }
+    const ReachResult& result = *part.result;
+    if (result.active_limit) coloured_note(active_limit_text(*result.active_limit) + ".", palette.limit);
+    note(std::string(ik::name(result.report.status)) + ": " + status_help(result.report.status));
+    note(ran_text(result.method, result.report, !part.reach.limits.empty()) + ".");
+    reading("iterations", "%d", result.report.iterations);
+    reading("tip to target", "%.4f m", static_cast<double>(shown_residual(part, joints)));
+}
+
+namespace {
+
+/// Why the method does not honour an option, as its row says; empty where it does.
+std::string why_unused(const ReachSettings& reach, ik::Option option) {
+    const bool limited = !reach.limits.empty();
+    if (ik::honours(reach.method, option, limited)) return {};
+    const bool otherwise = ik::honours(reach.method, option, !limited);
+    const char* const when = !otherwise ? "" : limited ? " within limits" : " without joint limits";
+    return std::string(solver_title(reach.method)) + " does not use this" + when + ".";
+}
+
+FieldRows solver_settings(const ReachSettings& reach, Emit& emit) {
+    return FieldRows(reach, "chain.solver", emit);
+}
+
+void stop_rows(const ReachSettings& reach, float length, Emit& emit) {
+    const FieldRows rows = solver_settings(reach, emit);
+    rows.row("iterations", {.why_not = why_unused(reach, ik::Option::MaxIterations)});
+    rows.row("tolerance", {.otherwise = reach_tolerance(reach, length)});
+    if (row_button("Default tolerance", 1, reach.tolerance.has_value(), "A thousandth of the reach"))
+        emit("chain.solver", {{"default_tolerance", true}});
+}
+
+void option_rows(const ReachSettings& reach, Emit& emit) {
+    const FieldRows rows = solver_settings(reach, emit);
+    const auto why_not = [&](ik::Option option) { return why_unused(reach, option); };
+    rows.row("snap_back", {.why_not = why_not(ik::Option::SnapBack)});
+    rows.row("soft_zone", {.why_not = why_not(ik::Option::SoftZone)});
+    rows.row("damping", {.why_not = why_not(ik::Option::Damping)});
+    rows.row("twist_deg", {.why_not = why_not(ik::Option::Twist)});
+    const std::string unused = why_not(ik::Option::Restarts);
+    rows.row("restarts", {.otherwise = default_restarts, .why_not = unused});
+    ImGui::BeginDisabled(!unused.empty());
+    if (row_button("Default restarts", 1, reach.restarts.has_value(),
+                   "8, but none while the target is dragged"))
+        emit("chain.solver", {{"default_restarts", true}});
+    ImGui::EndDisabled();
+}
+
+/// A pole begins above the middle of the line from head to target, clear of the chain.
+glm::vec3 first_pole(const ChainPart& part) {
+    const glm::vec3 middle = 0.5f * (part.chain.segments().front().position + part.target);
+    return middle + glm::vec3(0.0f, 0.6f * std::max(1.0f, part.chain.reach()), 0.0f);
+}
+
+void pole_rows(const ChainPart& part, Emit& emit) {
+    if (part.chain.empty()) return;
+    bool on = part.reach.pole.has_value();
+    if (ImGui::Checkbox("Pole target: the elbow points at it", &on)) {
+        emit("chain.pole", on ? ArgumentList{{"to", first_pole(part)}} : ArgumentList{{"off", true}});
+    }
+    explain("Turns the chain about the line from root to tip until it bends towards a point that you place.");
+    if (!part.reach.pole) return;
+    glm::vec3 pole = *part.reach.pole;
+    if (point_field("pole", pole, 0.01f)) emit.continuously("chain.pole", {{"to", pole}});
+    explain("Where the pole target is: what the elbow or knee points at.");
+    solver_settings(part.reach, emit)
+        .row("pole_turn", {.why_not = why_unused(part.reach, ik::Option::PoleTurn)});
+}
+
+}  // namespace
+
+void solver_rows(const ChainPart& part, Emit& emit) {
+    std::array<const char*, ik::all_methods.size()> titles{};
+    std::transform(ik::all_methods.begin(), ik::all_methods.end(), titles.begin(), solver_title);
+    int method = static_cast<int>(part.reach.method);
+    std::array<const char*, ik::all_methods.size()> why_not{};
+    std::transform(ik::all_methods.begin(), ik::all_methods.end(), why_not.begin(),
+                   [&](ik::Method each) { return takes(each, part.chain) ? nullptr : needs_two_bones; });
+    if (choice_field("##solver", method, titles.data(), static_cast<int>(titles.size()), why_not.data())) {
+        emit("chain.solver", {{"name", ik::name(ik::all_methods[static_cast<std::size_t>(method)])}});
+    }
+    explain("The solver that brings the tip to the target. Race, below, compares them on this chain.");
+    std::vector<std::string> notes;
+    for (const ik::Method each : ik::all_methods) notes.emplace_back(solver_help(each));
+    notes.push_back(why_not_taken(part.reach.method, part.chain) + ".");
+    const bool taken = takes(part.reach.method, part.chain);
+    note_of(notes, taken ? static_cast<std::size_t>(part.reach.method) : notes.size() - 1);
+    stop_rows(part.reach, part.chain.reach(), emit);
+    option_rows(part.reach, emit);
+    pole_rows(part, emit);
 }
 
 }  // namespace tendril::app

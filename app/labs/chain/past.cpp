@@ -1,13 +1,17 @@
 // A joint's angle, or how far the tip is from its target, over the last ten seconds; and the poses of them.
 #include "app/labs/chain/past.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <limits>
 
+#include "app/document/units.hpp"
 #include "app/labs/chain/chain_lab.hpp"
-#include "app/labs/chain/shown.hpp"
+#include "app/labs/chain/draw.hpp"
+#include "app/labs/chain/panel.hpp"
+#include "app/labs/kit/flips.hpp"
 
 namespace tendril::app {
 namespace {
@@ -97,6 +101,172 @@ PoseLines chain_lines(const SharedPart& part) {
     for (std::size_t i = 1; i < segments.size(); ++i)
         lines.emplace_back(segments[i - 1].position, segments[i].position);
     return lines;
+}
+
+namespace {
+
+struct Turn {
+    std::size_t joint = 0;
+    float angle = 0.0f;  ///< radians
+};
+
+/// Of the bone that turned the furthest, or the first of those that turned together, the end that moved
+/// further.
+Turn furthest_turn(const Chain& before, const Chain& after) {
+    constexpr float equal = 1e-3f;  // radians
+    const auto a = before.segments(), b = after.segments();
+    Turn furthest;
+    for (std::size_t i = 1; i < a.size(); ++i) {
+        const float angle =
+            angle_between(a[i].position - a[i - 1].position, b[i].position - b[i - 1].position);
+        if (angle <= furthest.angle + equal) continue;
+        const auto moved = [&](std::size_t joint) {
+            return glm::distance(a[joint].position, b[joint].position);
+        };
+        furthest = {moved(i - 1) > moved(i) ? i - 1 : i, angle};
+    }
+    return furthest;
+}
+
+/// Which side of its limit a joint is at, for each way it may turn: -1, 0 (within), 1.
+struct Sides {
+    int hinge = 0, up = 0, left = 0, twist = 0;
+
+    /// Whether it went from one end of a range to the other.
+    bool opposite(const Sides& other) const {
+        return hinge * other.hinge < 0 || up * other.up < 0 || left * other.left < 0 ||
+               twist * other.twist < 0;
+    }
+};
+
+int side_of(float angle, float low, float high) {
+    constexpr float at = 0.035f;  // radians: two degrees from its end it is there
+    if (high - low <= 2.0f * at) return 0;
+    return angle <= low + at ? -1 : angle >= high - at ? 1 : 0;
+}
+
+Sides sides_of(const ChainPart& part, std::size_t bone) {
+    const ik::Limit& limit = part.reach.limits[bone];
+    const auto& rotations = part.reach.state.rotations;
+    if (limit.kind == ik::JointKind::Free || bone >= rotations.size()) return {};
+    const glm::quat parent = bone > 0 ? rotations[bone - 1] : glm::quat(1, 0, 0, 0);
+    const ik::JointAngles angles =
+        ik::measure(limit, part.chain.default_direction(), glm::conjugate(parent) * rotations[bone]);
+    if (limit.kind == ik::JointKind::Hinge) return {.hinge = side_of(angles.up, limit.min, limit.max)};
+    return {.up = side_of(angles.up, -limit.down, limit.up),
+            .left = side_of(angles.left, -limit.right, limit.left),
+            .twist = side_of(angles.twist, limit.twist_min, limit.twist_max)};
+}
+
+bool limit_switched(const ChainPart& before, const ChainPart& after) {
+    for (std::size_t bone = 0; bone < after.reach.limits.size(); ++bone)
+        if (sides_of(before, bone).opposite(sides_of(after, bone))) return true;
+    return false;
+}
+
+/// What moved, from one solve to the next.
+struct Move {
+    float reach = 0.0f;
+    float distance = 0.0f;  ///< metres, of target or pole target, whichever moved further
+    float angle = 0.0f;     ///< radians, of the target as the root sees it
+    float swivel = 0.0f;    ///< radians, of the pole target as the line from root to target sees it
+};
+
+Move move_of(const ChainPart& before, const ChainPart& after) {
+    const glm::vec3 root = after.chain.segments().front().position, line = after.target - root;
+    Move move{.reach = after.chain.reach(),
+              .distance = glm::distance(before.target, after.target),
+              .angle = angle_between(before.target - root, line)};
+    if (!before.reach.pole || !after.reach.pole || *before.reach.pole == *after.reach.pole) return move;
+    move.swivel = angle_between(glm::cross(line, *before.reach.pole - root),
+                                glm::cross(line, *after.reach.pole - root));
+    move.distance = std::max(move.distance, glm::distance(*before.reach.pole, *after.reach.pole));
+    return move;
+}
+
+ReachPose reach_pose(const ChainPart& part) {
+    ReachPose pose{.target = part.target, .pole = part.reach.pole};
+    for (const Segment& segment : part.chain.segments()) pose.joints.push_back(segment.position);
+    return pose;
+}
+
+/// The first cause that holds; the sentence says no more than what is known.
+std::string cause_of(const ChainPart& before, const ChainPart& after) {
+    const ReachPose was = reach_pose(before), is = reach_pose(after);
+    const float reach = after.chain.reach();
+    if (went_through_root(was, is, reach)) return "the target went through the root";
+    const PolePassage pole = pole_passage(was, is);
+    if (pole.passed) return "the target's line passed the pole";
+    if (after.result->report.restarts > 0) return "the solver restarted from another pose";
+    if (limit_switched(before, after)) return "a limit switched sides";
+    if (was_straight(was, is, reach)) return "the chain was straight (collinear)";
+    if (pole.close) return "the target's line came close to the pole";
+    return "the solver went over to another pose that the target allows";
+}
+
+std::optional<Incident> flip(const ChainPart& before, const ChainPart& after) {
+    const FlipRule& rule = after.flips;
+    const Turn turn = furthest_turn(before.chain, after.chain);
+    if (glm::degrees(turn.angle) <= rule.degrees) return std::nullopt;
+    const Move move = move_of(before, after);
+    const bool far = std::max(move.angle, move.swivel) >= rule.angle_share * turn.angle &&
+                     move.distance >= rule.reach_share * move.reach;
+    if (far) return std::nullopt;
+    return Incident{.kind = Incident::Kind::Flip,
+                    .joint = turn.joint,
+                    .degrees = glm::degrees(turn.angle),
+                    .cause = cause_of(before, after)};
+}
+
+/// "Out of reach: the target is out of reach, ...", in the words of the verdict.
+std::string status_cause(const ChainPart& part) {
+    const std::string verdict = chain_verdict(part).text;
+    return verdict.substr(0, verdict.find(':')) + ": " + status_help(part.result->report.status);
+}
+
+/// The same chain under the same rules: what changed came of target and pole target.
+bool comparable(const ChainPart& before, const ChainPart& after) {
+    const Chain &a = before.chain, &b = after.chain;
+    if (before.mode != ChainMode::Reach || after.mode != ChainMode::Reach) return false;
+    if (before.study.open() || after.study.open() || !after.result) return false;
+    if (a.size() != b.size() || a.size() < 2 || a.position(0) != b.position(0)) return false;
+    const ReachSettings &was = before.reach, &is = after.reach;
+    if (was.method != is.method || was.limits != is.limits || was.pole_turn != is.pole_turn ||
+        was.twist_deg != is.twist_deg || was.pole.has_value() != is.pole.has_value())
+        return false;
+    if (before.target == after.target && was.pole == is.pole) return false;
+    return std::equal(a.segments().begin(), a.segments().end(), b.segments().begin(),
+                      [](const Segment& x, const Segment& y) { return x.length == y.length; });
+}
+
+}  // namespace
+
+std::vector<Incident> chain_incidents(const ChainPart& before, const ChainPart& after) {
+    if (!comparable(before, after)) return {};
+    std::vector<Incident> incidents;
+    const ik::Report& report = after.result->report;
+    if (auto jumped = flip(before, after)) {
+        incidents.push_back(std::move(*jumped));
+    } else if (report.restarts > 0 && before.result && before.result->report.restarts == 0) {
+        incidents.push_back({.kind = Incident::Kind::Restart,
+                             .joint = after.chain.size() - 1,
+                             .cause = "the solver restarted from " +
+                                      count_text(static_cast<std::size_t>(report.restarts), "other pose")});
+    }
+    const auto& limit = after.result->active_limit;
+    const auto joint_before = before.result && before.result->active_limit
+                                  ? std::optional(before.result->active_limit->joint)
+                                  : std::nullopt;
+    if (limit && joint_before != limit->joint) {
+        incidents.push_back({.kind = Incident::Kind::Limit,
+                             .joint = limit->joint,
+                             .degrees = glm::degrees(limit->limit),
+                             .cause = active_limit_text(*limit)});
+    } else if (before.result && before.result->report.status != report.status) {
+        incidents.push_back(
+            {.kind = Incident::Kind::Status, .joint = after.chain.size() - 1, .cause = status_cause(after)});
+    }
+    return incidents;
 }
 
 }  // namespace tendril::app

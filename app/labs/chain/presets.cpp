@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "app/labs/chain/chain_part.hpp"
-#include "app/labs/kit/require.hpp"
+#include "app/labs/kit/arguments.hpp"
 
 namespace tendril::app {
 namespace {

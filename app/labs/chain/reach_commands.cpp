@@ -3,7 +3,7 @@
 
 #include "app/document/json_complete.hpp"
 #include "app/io/solver_json.hpp"
-#include "app/labs/chain/command_support.hpp"
+#include "app/labs/chain/commands.hpp"
 
 template <>
 std::span<const tendril::Field> tendril::fields<tendril::app::ReachSettings>() noexcept {

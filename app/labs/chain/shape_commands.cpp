@@ -1,9 +1,9 @@
 // The chain itself: its segments, and its presets.
 #include <algorithm>
 
-#include "app/labs/chain/command_support.hpp"
+#include "app/labs/chain/commands.hpp"
 #include "app/labs/chain/presets.hpp"
-#include "app/labs/kit/require.hpp"
+#include "app/labs/kit/arguments.hpp"
 
 namespace tendril::app {
 namespace {

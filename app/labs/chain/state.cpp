@@ -2,9 +2,9 @@
 #include "app/document/json_complete.hpp"
 #include "app/io/solver_json.hpp"
 #include "app/labs/chain/chain_lab.hpp"
+#include "app/labs/chain/draw.hpp"
+#include "app/labs/chain/panel.hpp"
 #include "app/labs/chain/past.hpp"
-#include "app/labs/chain/shown.hpp"
-#include "app/labs/chain/verdict.hpp"
 
 namespace tendril::app {
 namespace {

@@ -1,16 +1,21 @@
 #include "app/labs/chain/study.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <cstdio>
+#include <glm/geometric.hpp>
 #include <stdexcept>
+#include <tendril/ik/solver.hpp>
 
 #include "app/document/json_complete.hpp"
 #include "app/document/json_place.hpp"
+#include "app/document/units.hpp"
 #include "app/labs/chain/chain_part.hpp"
-#include "app/labs/kit/require.hpp"
+#include "app/labs/chain/chain_runtime.hpp"
+#include "app/labs/kit/arguments.hpp"
 
 namespace tendril::app {
-
 namespace {
 
 std::vector<glm::vec3> straight(const Chain& chain) {
@@ -127,6 +132,242 @@ Study load_study(const JsonPlace& place, const Chain& chain) {
     });
     study.side_by_side = place["side_by_side"].flag();
     return study;
+}
+
+namespace {
+
+constexpr int timings = 5;
+
+/// Sees what the microscope sees: the same curve, and whether the best pose came back in the end.
+class Watch final : public ik::Observer {
+  public:
+    explicit Watch(Racer& racer) : racer_(racer) {}
+    void step(const ik::Step& step) noexcept override {
+        if (step.phase == ik::Phase::RestoreBest) racer_.restored = true;
+    }
+    void iteration_done(int, float residual) noexcept override {
+        racer_.residuals.push_back(residual);
+        racer_.restored = false;  // what came back before goes on
+    }
+
+  private:
+    Racer& racer_;
+};
+
+Racer run(ik::Method method, const Chain& chain, const ReachSettings& settings, glm::vec3 target,
+          ChainRuntime& runtime) {
+    using Clock = std::chrono::steady_clock;
+    Racer racer;
+    racer.method = method;
+    const std::vector<glm::vec3> start = positions(chain);
+    ik::Solver& solver = runtime.solver(chain);
+    ReachSettings each = settings;
+    const ik::State begin = state_for(each, solver.bones());
+    const ik::Options options = solver_options(each, solver.reach());
+    Watch watch(racer);
+    const auto solve = [&](ik::Observer* observer) {
+        racer.joints = start;
+        each.state = begin;
+        racer.report = solver.solve(method, racer.joints, each.state, target, options, observer);
+    };
+    solve(&watch);
+    if (racer.residuals.empty()) racer.residuals = {glm::distance(start.back(), target)};
+    for (int i = 0; i < timings; ++i) {
+        const auto from = Clock::now();
+        solve(nullptr);
+        const double took = std::chrono::duration<double, std::micro>(Clock::now() - from).count();
+        racer.microseconds = i == 0 ? took : std::min(racer.microseconds, took);
+    }
+    return racer;
+}
+
+}  // namespace
+
+Race run_race(const Chain& chain, const ReachSettings& settings, glm::vec3 target, const Racers& racers,
+              ChainRuntime& runtime) {
+    Race race;
+    race.within_limits = !settings.limits.empty();
+    race.tolerance = reach_tolerance(settings, chain.reach());
+    for (const ik::Method method : ik::all_methods) {
+        if (racers[static_cast<std::size_t>(method)])
+            race.racers.push_back(run(method, chain, settings, target, runtime));
+    }
+    return race;
+}
+
+std::string end_text(const Racer& racer) {
+    return std::string(ik::name(racer.report.status)) + ", " +
+           si_text(static_cast<double>(racer.residuals.back()), "m") + " from the target";
+}
+
+std::string restored_text(const Racer& racer) {
+    if (!racer.restored) return {};
+    return "best pose restored: " + si_text(static_cast<double>(racer.report.residual), "m");
+}
+
+std::string race_csv(const Race& race) {
+    std::string csv = "solver,iteration,residual,microseconds,status,ran,restored\n";
+    for (const Racer& racer : race.racers) {
+        const auto last = static_cast<double>(std::max<std::size_t>(racer.residuals.size() - 1, 1));
+        for (std::size_t i = 0; i < racer.residuals.size(); ++i) {
+            char line[160];
+            std::snprintf(line, sizeof line, "%s,%zu,%.9g,%.3f,", ik::name(racer.method), i,
+                          static_cast<double>(racer.residuals[i]),
+                          racer.microseconds * static_cast<double>(i) / last);
+            csv += line;
+            if (i + 1 < racer.residuals.size()) {
+                csv += ",,\n";
+                continue;
+            }
+            char restored[32] = "";
+            if (racer.restored) {
+                std::snprintf(restored, sizeof restored, "%.9g", static_cast<double>(racer.report.residual));
+            }
+            csv += std::string(ik::name(racer.report.status)) + ",\"" +
+                   ran_text(racer.method, racer.report, race.within_limits) + "\"," + restored + "\n";
+        }
+    }
+    return csv;
+}
+
+namespace {
+
+class Recorder final : public ik::Observer {
+  public:
+    explicit Recorder(Trace& trace) : trace_(trace) {}
+    void step(const ik::Step& step) noexcept override {
+        if (trace_.steps.size() >= static_cast<std::size_t>(max_trace_steps)) {
+            trace_.cut = true;
+            return;
+        }
+        if (trace_.steps.empty() || trace_.steps.back().order != step.order) {
+            trace_.frame_begins.push_back(trace_.steps.size());
+        }
+        trace_.steps.push_back(step);
+    }
+    void iteration_done(int, float residual) noexcept override {
+        if (!trace_.cut) trace_.residuals.push_back(residual);
+    }
+
+  private:
+    Trace& trace_;
+};
+
+}  // namespace
+
+std::span<const ik::Step> Trace::frame(std::size_t frame) const {
+    if (frame == 0 || frame > frames()) return {};
+    const std::size_t begin = frame_begins[frame - 1];
+    const std::size_t end = frame < frames() ? frame_begins[frame] : steps.size();
+    return std::span(steps).subspan(begin, end - begin);
+}
+
+std::vector<glm::vec3> Trace::pose(std::size_t frame) const {
+    std::vector<glm::vec3> joints = start;
+    const std::size_t end = frame < frames() ? frame_begins[frame] : steps.size();
+    for (std::size_t i = 0; i < end; ++i) joints[steps[i].joint] = steps[i].to;
+    return joints;
+}
+
+int Trace::iteration(std::size_t frame) const {
+    const auto steps_of = this->frame(frame);
+    return steps_of.empty() ? 0 : steps_of.front().iteration;
+}
+
+std::size_t Trace::end_of_iteration(int iteration) const {
+    const std::vector<int> ends = iteration_ends(*this);
+    const auto wanted = std::min(static_cast<std::size_t>(std::max(0, iteration)), ends.size() - 1);
+    return static_cast<std::size_t>(ends[wanted]);
+}
+
+std::vector<int> iteration_ends(const Trace& trace) {
+    std::vector<int> ends{0};
+    for (std::size_t frame = 1; frame <= trace.frames(); ++frame) {
+        const auto iteration = static_cast<std::size_t>(trace.iteration(frame));
+        if (iteration >= ends.size()) ends.resize(iteration + 1, ends.back());
+        ends.back() = static_cast<int>(frame);
+    }
+    return ends;
+}
+
+Trace record_trace(Chain chain, ReachSettings settings, glm::vec3 target, ChainRuntime& runtime) {
+    Trace trace;
+    trace.method = settings.method;
+    trace.start = positions(chain);
+    Recorder recorder(trace);
+    ik::Solver& solver = runtime.solver(chain);
+    trace.report = solver.solve(settings.method, chain, state_for(settings, solver.bones()), target,
+                                solver_options(settings, solver.reach()), &recorder);
+    return trace;
+}
+
+// A step of a solve in words.
+
+namespace {
+
+/// "joint 2", "joints 2 to 4".
+std::string joints_of(std::span<const ik::Step> steps) {
+    std::size_t low = steps.front().joint, high = low;
+    for (const ik::Step& step : steps) {
+        low = std::min(low, step.joint);
+        high = std::max(high, step.joint);
+    }
+    if (low == high) return "joint " + std::to_string(low);
+    return "joints " + std::to_string(low) + " to " + std::to_string(high);
+}
+
+std::string pull(const Trace& trace, std::size_t frame, const ik::Step& step) {
+    if (step.neighbour == ik::no_joint) {
+        return step.phase == ik::Phase::ForwardReaching
+                   ? "Forward reaching: the tip goes onto the target."
+                   : "Backward reaching: the root goes back to its place.";
+    }
+    const float length = glm::distance(trace.pose(frame)[step.neighbour], step.to);
+    char text[200];
+    std::snprintf(text, sizeof text,
+                  "%s reaching: joint %zu slides along its line to joint %zu until it is %.3f m away.",
+                  step.phase == ik::Phase::ForwardReaching ? "Forward" : "Backward", step.joint,
+                  step.neighbour, static_cast<double>(length));
+    return text;
+}
+
+}  // namespace
+
+std::string describe_frame(const Trace& trace, std::size_t frame) {
+    const auto steps = trace.frame(frame);
+    if (steps.empty()) return "The start: nothing has moved yet.";
+    const ik::Step& first = steps.front();
+    const std::string joints = joints_of(steps);
+    const std::string about =
+        first.neighbour == ik::no_joint ? "" : " about joint " + std::to_string(first.neighbour);
+    switch (first.phase) {
+        case ik::Phase::Prepare:
+            return "Before the first iteration: the chain is prepared (" + joints + ").";
+        case ik::Phase::ForwardReaching:
+        case ik::Phase::BackwardReaching:
+            return pull(trace, frame, first);
+        case ik::Phase::Accelerate:
+            return "The chain is straightened or bent until it spans the distance, then turned onto "
+                   "the target (" +
+                   joints + ").";
+        case ik::Phase::Rotate:
+            return "Everything beyond turns" + about + ", so that the tip looks at the target (" + joints +
+                   ").";
+        case ik::Phase::Gradient:
+            return "All joints turn a little, as the Jacobian says (" + joints + ").";
+        case ik::Phase::Pole:
+            return "The chain swivels until the elbow points at the pole target (" + joints + ").";
+        case ik::Phase::Limit:
+            return "Limits: " + joints + (steps.size() == 1 ? " is" : " are") +
+                   " brought back within limits.";
+        case ik::Phase::Analytic:
+            return "Solved in closed form, without iterating (" + joints + ").";
+        case ik::Phase::RestoreBest:
+            return "The best pose is restored, for the last was worse (" + joints + ").";
+        case ik::Phase::Blend:
+            return "Blended with the given pose by the weight (" + joints + ").";
+    }
+    return {};
 }
 
 }  // namespace tendril::app

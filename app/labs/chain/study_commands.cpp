@@ -4,8 +4,8 @@
 
 #include "app/document/atomic_file.hpp"
 #include "app/labs/chain/chain_runtime.hpp"
-#include "app/labs/chain/command_support.hpp"
-#include "app/labs/chain/shown.hpp"
+#include "app/labs/chain/commands.hpp"
+#include "app/labs/chain/draw.hpp"
 
 namespace tendril::app {
 namespace {

@@ -4,8 +4,8 @@
 #include <cstdio>
 
 #include "app/document/units.hpp"
-#include "app/labs/chain/colours.hpp"
-#include "app/labs/chain/panels.hpp"
+#include "app/labs/chain/draw.hpp"
+#include "app/labs/chain/panel.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/fonts.hpp"
 #include "app/widgets/plot.hpp"

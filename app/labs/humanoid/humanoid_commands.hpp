@@ -3,7 +3,7 @@
 
 #include "app/document/command.hpp"
 #include "app/labs/humanoid/humanoid_part.hpp"
-#include "app/labs/kit/part_command.hpp"
+#include "app/labs/kit/arguments.hpp"
 
 namespace tendril::app {
 

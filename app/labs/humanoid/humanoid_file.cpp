@@ -6,7 +6,7 @@
 #include "app/document/json_place.hpp"
 #include "app/labs/humanoid/clip/clip_lint.hpp"
 #include "app/labs/humanoid/humanoid_commands.hpp"
-#include "app/labs/humanoid/node_selection.hpp"
+#include "app/labs/humanoid/humanoid_part.hpp"
 
 namespace tendril::app {
 namespace {

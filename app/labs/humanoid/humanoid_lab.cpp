@@ -3,11 +3,11 @@
 #include <glm/trigonometric.hpp>
 
 #include "app/io/character/read.hpp"
-#include "app/labs/humanoid/attachments/wearing.hpp"
+#include "app/labs/humanoid/attachments/attachment_motion.hpp"
 #include "app/labs/humanoid/humanoid_commands.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "app/labs/humanoid/past/past.hpp"
-#include "app/labs/humanoid/springs/swing.hpp"
+#include "app/labs/humanoid/springs/springs.hpp"
 
 namespace tendril::app {
 CameraPose HumanoidLab::first_view() const {

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <tendril/humanoid/skeleton.hpp>
+#include <vector>
 
 #include "app/document/document.hpp"
 #include "app/document/names.hpp"
@@ -14,7 +16,7 @@
 #include "app/labs/humanoid/clip/playback.hpp"
 #include "app/labs/humanoid/ik/ik_settings.hpp"
 #include "app/labs/humanoid/springs/springs.hpp"
-#include "app/labs/kit/flip_rule.hpp"
+#include "app/labs/kit/flips.hpp"
 #include "app/labs/kit/selection.hpp"
 
 namespace tendril::app {
@@ -110,3 +112,24 @@ template <>
 std::span<const tendril::Field> tendril::fields<tendril::app::HumanoidView>() noexcept;
 template <>
 std::span<const tendril::app::FieldText> tendril::app::field_texts<tendril::app::HumanoidView>();
+
+namespace tendril::app {
+
+// Which nodes of a skeleton are selected. Files and commands have them by name: another skeleton may have the
+// same.
+
+/// Of all that are selected, in the skeleton's order.
+std::vector<std::string> names_of(const Selection& selection, const humanoid::Skeleton& skeleton);
+/// Of the active one; empty: nothing is selected.
+std::string active_name(const Selection& selection, const humanoid::Skeleton& skeleton);
+
+/// The nodes of the same names; what has none is not selected.
+Selection selection_in(const humanoid::Skeleton& skeleton, const Selection& selection,
+                       const humanoid::Skeleton& before);
+
+/// A name, empty where nothing is selected, or {"active", "all"}.
+Json save_selection(const Selection& selection, const humanoid::Skeleton& skeleton);
+/// Without nodes that the skeleton does not have. Throws std::runtime_error that begins with the place.
+Selection load_selection(const JsonPlace& place, const humanoid::Skeleton& skeleton);
+
+}  // namespace tendril::app

@@ -7,11 +7,11 @@
 
 #include "app/document/runtime.hpp"
 #include "app/io/character/twist_spread.hpp"
-#include "app/labs/humanoid/character/kept_maps.hpp"
-#include "app/labs/humanoid/character/loading.hpp"
+#include "app/labs/humanoid/character/character_commands.hpp"
+#include "app/labs/humanoid/character/loaded_character.hpp"
 #include "app/labs/humanoid/clip/clip_lint.hpp"
 #include "app/labs/humanoid/ik/shown_pose.hpp"
-#include "app/labs/humanoid/past/past_pose.hpp"
+#include "app/labs/humanoid/past/flips.hpp"
 #include "app/widgets/fields.hpp"
 
 namespace tendril::app {

@@ -3,11 +3,11 @@
 #include <glm/common.hpp>
 
 #include "app/document/json_complete.hpp"
-#include "app/labs/humanoid/character/figure.hpp"
+#include "app/labs/humanoid/draw.hpp"
 #include "app/labs/humanoid/humanoid_lab.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
-#include "app/labs/humanoid/ik/quaternion_json.hpp"
-#include "app/labs/kit/name_list.hpp"
+#include "app/labs/humanoid/ik/ik_file.hpp"
+#include "app/labs/kit/arguments.hpp"
 
 namespace tendril::app {
 namespace {

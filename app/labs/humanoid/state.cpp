@@ -3,12 +3,11 @@
 
 #include "app/document/json_complete.hpp"
 #include "app/labs/humanoid/humanoid_lab.hpp"
+#include "app/labs/humanoid/humanoid_part.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
-#include "app/labs/humanoid/ik/chains.hpp"
+#include "app/labs/humanoid/ik/solvers.hpp"
 #include "app/labs/humanoid/limits/limit_ranges.hpp"
-#include "app/labs/humanoid/limits/selected_joints.hpp"
-#include "app/labs/humanoid/node_selection.hpp"
-#include "app/labs/humanoid/panels.hpp"
+#include "app/labs/humanoid/panel.hpp"
 #include "app/labs/humanoid/past/past.hpp"
 
 namespace tendril::app {

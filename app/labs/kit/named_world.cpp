@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "app/labs/kit/require.hpp"
+#include "app/labs/kit/arguments.hpp"
 
 namespace tendril::app {
 namespace {

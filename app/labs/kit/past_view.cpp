@@ -1,19 +1,22 @@
 #include "app/labs/kit/past_view.hpp"
 
 #include <imgui.h>
-
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <iterator>
 #include <utility>
 
 #include "app/document/json_complete.hpp"
+#include "app/document/units.hpp"
 #include "app/labs/kit/part_cache.hpp"
 #include "app/labs/kit/past_strip.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/fonts.hpp"
 #include "app/widgets/plot.hpp"
+#include "app/widgets/text.hpp"
 
 namespace tendril::app {
 namespace {
@@ -236,6 +239,83 @@ Json past_view_state(const Workspace& workspace, const PastView& view,
         for (const Rewind::Moment* const moment : ghost_moments(workspace, view))
             json["ghosts"].push_back(moment->tick);
     return json;
+}
+
+void draw_turn(const View& view, glm::vec3 from, glm::vec3 to, glm::vec3 about, DrawList& list) {
+    constexpr int sides = 24;
+    const glm::vec4 colour(view.palette.limit, 1.0f);
+    const float radius_from = glm::distance(from, about), radius_to = glm::distance(to, about);
+    glm::vec3 last = from;
+    for (int i = 1; i <= sides; ++i) {
+        const float t = static_cast<float>(i) / sides;
+        const glm::vec3 chord = glm::mix(from, to, t) - about;
+        const float length = glm::length(chord), radius = glm::mix(radius_from, radius_to, t);
+        // A half turn has no shorter way: it goes straight.
+        const glm::vec3 next = length > 0.05f * radius ? about + chord * (radius / length) : about + chord;
+        list.line(last, next, 2.0f * view.scale, colour).layer = Layer::Overlay;
+        last = next;
+    }
+}
+
+void draw_incident_mark(const View& view, const Incident& incident, glm::vec3 at, DrawList& list) {
+    list.ring(at, 14.0f * view.scale, 2.5f * view.scale, glm::vec4(view.palette.limit, 1.0f)).layer =
+        Layer::Overlay;
+    if (incident.kind != Incident::Kind::Flip) return;
+    list.labels.push_back({.at = at,
+                           .clearance = 18.0f * view.scale,
+                           .text = fixed_text(static_cast<double>(incident.degrees), 0) + " degrees",
+                           .colour = view.palette.text,
+                           .rank = 4});
+}
+
+namespace {
+
+constexpr std::size_t max_rows = 5;
+
+/// "1.4 s ago"
+std::string age_text(const Workspace& workspace, const Incident& incident) {
+    const std::uint64_t after = incident.tick + 1, now = workspace.moment;
+    if (after == now) return "just now";
+    const double seconds = static_cast<double>(after > now ? after - now : now - after) * tick_seconds;
+    char text[32];
+    std::snprintf(text, sizeof text, after > now ? "in %.2f s" : "%.2f s ago", seconds);
+    return text;
+}
+
+void incident_row(const Workspace& workspace, std::size_t number, const Palette& palette, Emit& emit) {
+    const Incident& incident = workspace.rewind.incidents()[number];
+    const auto& shown = workspace.ui.incident;
+    const bool chosen = shown && shown->tick == incident.tick && shown->kind == incident.kind;
+    ImGui::PushID(static_cast<int>(number));
+    colour_mark(incident_colour(incident, palette));
+    // Of a flip the first words: how far it turned is told when it is shown.
+    std::string title = incident_title(incident);
+    title = title.substr(0, title.find(':')) + ", " + age_text(workspace, incident);
+    ImGui::PushStyleVar(ImGuiStyleVar_SelectableTextAlign, ImVec2(0.0f, 0.5f));
+    if (ImGui::Selectable(elided(title, ImGui::GetContentRegionAvail().x).c_str(), chosen,
+                          ImGuiSelectableFlags_None, {0.0f, ImGui::GetFrameHeight()})) {
+        chosen ? emit("time.incident") : emit("time.incident", {{"number", number}});
+    }
+    ImGui::PopStyleVar();
+    ImGui::PopID();
+    if (ImGui::IsItemHovered()) tooltip(incident.cause + ".");
+}
+
+}  // namespace
+
+void incident_rows(const Workspace& workspace, const Palette& palette, Emit& emit) {
+    const auto& incidents = workspace.rewind.incidents();
+    if (incidents.empty()) return;
+    section("What happened");
+    if (const auto& shown = workspace.ui.incident) {
+        note(incident_title(*shown) + ":");
+        ImGui::PushTextWrapPos(0.0f);
+        ImGui::TextUnformatted((shown->cause + ".").c_str());
+        ImGui::PopTextWrapPos();
+    }
+    std::size_t rows = 0;
+    for (std::size_t i = incidents.size(); i-- > 0 && rows < max_rows; ++rows)
+        incident_row(workspace, i, palette, emit);
 }
 
 }  // namespace tendril::app

@@ -20,6 +20,8 @@
 #include "app/labs/kit/past_strip.hpp"
 #include "app/labs/kit/setting.hpp"
 #include "app/labs/lab.hpp"
+#include "app/view/palette.hpp"
+#include "app/widgets/emit.hpp"
 
 namespace tendril::app {
 
@@ -95,5 +97,18 @@ void draw_past_ghosts(const View& view, const PastView& past,
 
 /// For --state: {"plot": null or what is plotted, with its values, "ghosts": their ticks}.
 Json past_view_state(const Workspace& workspace, const PastView& view, const std::optional<PastCurve>& curve);
+
+// Marks in the picture of what an incident did: how far something turned, and where.
+
+/// The way that the end of a bone went which turned about its start, on the shorter way round.
+void draw_turn(const View& view, glm::vec3 from, glm::vec3 to, glm::vec3 about, DrawList& list);
+
+/// A ring around what it happened to and, for a flip, how far it turned.
+void draw_incident_mark(const View& view, const Incident& incident, glm::vec3 at, DrawList& list);
+
+// The section of an inspector that lists what happened in the last ten seconds.
+
+/// The last flips and what else happened; a click goes to it. Nothing where there are none.
+void incident_rows(const Workspace& workspace, const Palette& palette, Emit& emit);
 
 }  // namespace tendril::app

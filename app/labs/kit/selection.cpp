@@ -54,8 +54,7 @@ void Selection::removed(std::size_t at) {
 
 void Selection::keep_below(std::size_t count) {
     all_.erase(std::lower_bound(all_.begin(), all_.end(), count), all_.end());
-    if (active_ && *active_ >= count)
-        active_ = all_.empty() ? std::nullopt : std::optional(all_.back());
+    if (active_ && *active_ >= count) active_ = all_.empty() ? std::nullopt : std::optional(all_.back());
 }
 
 Json Selection::save() const {
@@ -72,7 +71,8 @@ Selection Selection::load(const JsonPlace& place, std::size_t count) {
         return selection;
     }
     std::vector<std::size_t> all;
-    place["all"].for_each("selected", count, [&](const JsonPlace& each) { all.push_back(each.index(count - 1)); });
+    place["all"].for_each("selected", count,
+                          [&](const JsonPlace& each) { all.push_back(each.index(count - 1)); });
     const std::size_t active = place["active"].index(count - 1);
     selection.take(all, false);
     if (!selection.has(active)) place["active"].fail("is not among those that are selected");

@@ -1,17 +1,27 @@
-// The Rig lab's picture: bones with their axes, nulls, figures, what is selected and what is pending.
-#include <algorithm>
-#include <glm/common.hpp>
-#include <glm/gtc/quaternion.hpp>
+#include "app/labs/rig/draw.hpp"
 
-#include "app/labs/rig/control_shape.hpp"
-#include "app/labs/rig/draw_walks.hpp"
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <memory>
+
+#include "app/document/units.hpp"
+#include "app/labs/kit/past_view.hpp"
+#include "app/labs/rig/controls.hpp"
+#include "app/labs/rig/panel.hpp"
 #include "app/labs/rig/past.hpp"
-#include "app/labs/rig/picture.hpp"
 #include "app/labs/rig/rig_lab.hpp"
 #include "app/labs/rig/rig_runtime.hpp"
-#include "app/labs/rig/settings.hpp"
+#include "app/labs/rig/take.hpp"
+#include "app/view/globe.hpp"
+#include "app/view/surface_support.hpp"
 
 namespace tendril::app {
+
+// The Rig lab's picture: bones with their axes, nulls, figures, what is selected and what is pending.
+
 namespace {
 
 constexpr glm::vec4 unseen{0.0f};  ///< of strokes that can be caught, but are drawn otherwise
@@ -235,6 +245,270 @@ std::vector<LegendRow> RigLab::legend(const Workspace& workspace) const {
         rows.push_back({"local pose pending", colours.tail, true});
     }
     return rows;
+}
+
+namespace {
+
+constexpr float blob_radius = 0.45f;  ///< metres, at rest
+
+double curve_value(const RigPart& part, const char* name) {
+    const auto at = part.rig.curve(name);
+    return at ? part.state.curves[*at] : 0.0;
+}
+
+/// The colours of the rainbow, alike in strength, for a hue from 0 to 1 and round again.
+glm::vec3 of_hue(double hue) {
+    const auto wrapped = static_cast<float>(6.0 * (hue - std::floor(hue)));
+    const glm::vec3 full =
+        glm::clamp(glm::vec3(std::abs(wrapped - 3.0f) - 1.0f, 2.0f - std::abs(wrapped - 2.0f),
+                             2.0f - std::abs(wrapped - 4.0f)),
+                   0.0f, 1.0f);
+    return 0.88f * glm::mix(glm::vec3(1.0f), full, 0.68f);
+}
+
+glm::vec3 placed(const rig::Transform& pose, glm::vec3 point) {
+    return glm::vec3(pose.translation + pose.rotation * (pose.scale * glm::dvec3(point)));
+}
+
+double mean_scale(const rig::Transform& pose) {
+    return (std::abs(pose.scale.x) + std::abs(pose.scale.y) + std::abs(pose.scale.z)) / 3.0;
+}
+
+}  // namespace
+
+Figure figure_of(const RigPart& part, std::size_t element) {
+    const rig::Element& made = part.rig.definition().elements[element];
+    if (made.kind == rig::ElementKind::Bone && (made.name == "head" || made.name == "skull"))
+        return Figure::Head;
+    const bool blob = made.kind == rig::ElementKind::Null && made.name == "blob" &&
+                      part.rig.curve("stretch") && part.rig.curve("bulge") && part.rig.curve("hue");
+    return blob ? Figure::Blob : Figure::None;
+}
+
+std::vector<glm::dvec3> bone_ends(const rig::Hierarchy& elements, rig::ElementId bone) {
+    std::vector<glm::dvec3> ends;
+    for (auto child = elements.first_child(bone); child; child = elements.next_sibling(child))
+        if (elements.kind(child) == rig::ElementKind::Bone)
+            ends.push_back(elements.known(child, rig::Space::Global)->translation);
+    if (!ends.empty()) return ends;
+    // A last bone goes on the way that led to it, and one by itself stands upright.
+    const rig::Transform pose = *elements.known(bone, rig::Space::Global);
+    const rig::Transform local = *elements.known(bone, rig::Space::Local);
+    const double length = glm::length(local.translation);
+    const rig::ElementId parent = elements.parent(bone);
+    const bool goes_on = parent && elements.kind(parent) == rig::ElementKind::Bone && length > 1e-9;
+    const glm::dvec3 way = goes_on ? 0.4 * local.translation : glm::dvec3(0.0, 0.25, 0.0);
+    return {pose.translation + pose.rotation * (pose.scale * way)};
+}
+
+double bone_size(const rig::Hierarchy& elements, rig::ElementId bone) {
+    const glm::dvec3 from = elements.known(bone, rig::Space::Global)->translation;
+    const std::vector<glm::dvec3> ends = bone_ends(elements, bone);
+    double sum = 0.0;
+    for (const glm::dvec3& end : ends) sum += glm::distance(from, end);
+    return sum / static_cast<double>(ends.size());
+}
+
+double head_radius(const rig::Hierarchy& elements, rig::ElementId bone) {
+    // What turns with it keeps its distance, so the head is as large however it looks.
+    const double scale = mean_scale(*elements.known(bone, rig::Space::Global));
+    return scale > 1e-9 ? 0.8 * bone_size(elements, bone) / scale : 0.0;
+}
+
+Bounds figure_bounds(const RigPart& part, const rig::Hierarchy& elements, std::size_t element) {
+    const rig::Transform pose = *elements.known(part.rig.id(element), rig::Space::Global);
+    const auto at = glm::vec3(pose.translation);
+    const auto scale = static_cast<float>(mean_scale(pose));
+    switch (figure_of(part, element)) {
+        case Figure::Head:
+            return {at, scale * static_cast<float>(head_radius(elements, part.rig.id(element)))};
+        case Figure::Blob: {
+            const auto stretch = static_cast<float>(std::clamp(curve_value(part, "stretch"), 0.0, 3.0));
+            return {at, scale * blob_radius * (1.0f + stretch)};
+        }
+        case Figure::None:
+            break;
+    }
+    return {at, 0.0f};
+}
+
+void draw_head(const View& view, DrawList& list, const rig::Transform& pose, double radius, glm::vec3 colour,
+               PickId pick) {
+    const auto size = static_cast<float>(radius);
+    globe(
+        list, view.camera,
+        [&](glm::vec3 p) {
+            // Narrower than it is deep, and narrower still towards the chin.
+            const float chin = 0.16f * std::max(-p.y, 0.0f);
+            return placed(pose, size * glm::vec3((0.86f - chin) * p.x, p.y, (0.94f - chin) * p.z));
+        },
+        colour);
+    const float scale = size * static_cast<float>(mean_scale(pose));
+    const glm::vec3 white = glm::mix(view.palette.text, glm::vec3(1.0f), 0.7f);
+    const auto ball = [&](glm::vec3 at, float wide, glm::vec3 paint) {
+        list.sphere(placed(pose, size * at), wide * scale, Unit::Metres, glm::vec4(paint, 1.0f)).pick = pick;
+    };
+    for (const float side : {-1.0f, 1.0f}) {
+        ball({0.33f * side, 0.17f, 0.76f}, 0.19f, white);
+        ball({0.34f * side, 0.17f, 0.885f}, 0.105f, rgb(0x20262E));
+    }
+    const glm::vec3 skin = glm::mix(colour, rgb(0xD98E73), 0.55f);
+    list.bone(placed(pose, size * glm::vec3(0.0f, 0.0f, 0.86f)),
+              placed(pose, size * glm::vec3(0.0f, -0.12f, 1.06f)), 0.07f * scale, 0.12f * scale,
+              glm::vec4(skin, 1.0f))
+        .pick = pick;
+    // A mouth, from corner to corner.
+    glm::vec3 last{};
+    for (int i = -3; i <= 3; ++i) {
+        const float across = 0.09f * static_cast<float>(i);
+        const glm::vec3 on(across, -0.46f + 0.9f * across * across,
+                           0.775f * std::sqrt(1.0f - across * across));
+        const glm::vec3 at = placed(pose, size * on);
+        if (i > -3)
+            list.bone(last, at, 0.035f * scale, 0.035f * scale, glm::vec4(rgb(0x7A4A46), 1.0f)).pick = pick;
+        last = at;
+    }
+    const auto centre = glm::vec3(pose.translation);
+    cast(list, centre, centre, 0.9f * scale);
+    list.sphere(centre, 0.9f * scale, Unit::Metres, glm::vec4(0.0f)).pick = pick;
+}
+
+void draw_blob(const View& view, DrawList& list, const rig::Transform& pose, const RigPart& part,
+               glm::vec3 tint, float tinted, PickId pick) {
+    const auto stretch = static_cast<float>(std::clamp(curve_value(part, "stretch"), -0.8, 3.0));
+    const auto bulge = static_cast<float>(std::clamp(curve_value(part, "bulge"), -0.8, 3.0));
+    const float tall = 1.0f + stretch,
+                wide = 1.0f / std::sqrt(tall);  // what it gains in height it loses in width
+    const auto shape = [&](glm::vec3 p) {
+        const float off = (p.y + 0.25f) / 0.45f;
+        const float out = wide * (1.0f + 0.65f * bulge * std::exp(-off * off));
+        return placed(pose, blob_radius * glm::vec3(out * p.x, tall * p.y, out * p.z));
+    };
+    globe(list, view.camera, shape, glm::mix(of_hue(curve_value(part, "hue")), tint, tinted));
+    const float scale = blob_radius * static_cast<float>(mean_scale(pose));
+    const float belly = std::min(wide * (1.0f + 0.5f * bulge), 1.2f * tall);
+    const glm::vec3 top = placed(pose, {0.0f, blob_radius * std::max(tall - belly, 0.0f), 0.0f});
+    const glm::vec3 bottom = placed(pose, {0.0f, -blob_radius * std::max(tall - belly, 0.0f), 0.0f});
+    cast(list, top, bottom, belly * scale);
+    list.bone(top, bottom, belly * scale, belly * scale, glm::vec4(0.0f)).pick = pick;
+}
+
+void draw_walks(const View& view, DrawList& list) {
+    const RigPart& part = rig_part(view.workspace);
+    const rig::Hierarchy& elements = view.workspace.runtimes.of<RigRuntime>(rig_lab).resolved(view.workspace);
+    for (const RigWalk& walk : part.walks) {
+        const rig::ElementId parent = elements.parent(part.rig.id(*part.rig.element(walk.control)));
+        const rig::Transform space = parent ? *elements.known(parent, rig::Space::Global) : rig::Transform();
+        constexpr int sides = 96;
+        const auto at = [&](int side) {
+            const double ticks = static_cast<double>(ticks_per_round(walk.motion)) * side / sides;
+            const rig::Transform point{.translation = walk_point(walk.motion, ticks)};
+            return glm::vec3(rig::compose(space, point).translation);
+        };
+        for (int side = 0; side < sides; ++side)
+            list.line(at(side), at(side + 1), 1.5f * view.scale, glm::vec4(view.palette.target, 0.3f));
+    }
+}
+
+// The skeleton as it was before an incident, over what came of it.
+
+namespace {
+
+constexpr std::size_t max_ghosts = 5000;  ///< bones
+
+/// The bones and nothing else.
+void draw_skeleton(const RigPicture& picture, const rig::Hierarchy& elements, const glm::vec4& paint) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < picture.part.state.controls.size() && count < max_ghosts; ++i) {
+        const rig::ElementId id = picture.part.rig.id(i);
+        if (elements.kind(id) != rig::ElementKind::Bone) continue;
+        ++count;
+        const glm::vec3 from(elements.known(id, rig::Space::Global)->translation);
+        picture.list.sphere(from, picture.px(4.5f), Unit::Pixels, paint).layer = Layer::Overlay;
+        for (const glm::dvec3& end : bone_ends(elements, id))
+            picture.list.line(from, glm::vec3(end), picture.px(2.5f), paint).layer = Layer::Overlay;
+    }
+}
+
+/// Of the bone that flipped: it may have turned about itself.
+void draw_axes(const RigPicture& picture, const rig::Transform& pose, float length) {
+    const glm::vec3 colours[]{picture.view.palette.axis_x, picture.view.palette.axis_y,
+                              picture.view.palette.axis_z};
+    const glm::vec3 at(pose.translation);
+    for (int axis = 0; axis < 3; ++axis) {
+        glm::dvec3 along(0.0);
+        along[axis] = 1.0;
+        picture.list
+            .line(at, at + 0.36f * length * glm::vec3(pose.rotation * along), picture.px(2.0f),
+                  faded(picture.view.palette, colours[axis], 0.45f))
+            .layer = Layer::Overlay;
+    }
+}
+
+}  // namespace
+
+void draw_incident(const RigPicture& picture) {
+    const auto& incident = picture.view.workspace.ui.incident;
+    if (!incident) return;
+    const auto before =
+        std::dynamic_pointer_cast<const RigPart>(picture.view.workspace.around(*incident).before);
+    if (!before || &before->rig.definition() != &picture.part.rig.definition()) return;
+    rig::Hierarchy was = before->solved_state().elements;
+    was.resolve_all();
+    draw_skeleton(picture, was, faded(picture.view.palette, picture.view.palette.ghost, 0.9f));
+    if (incident->joint >= picture.part.state.controls.size()) return;
+    const rig::ElementId id = picture.part.rig.id(incident->joint);
+    const glm::vec3 at = picture.point(incident->joint);
+    if (incident->kind != Incident::Kind::Flip)
+        return draw_incident_mark(picture.view, *incident, at, picture.list);
+    const rig::Transform pose = *was.known(id, rig::Space::Global);
+    draw_axes(picture, pose, static_cast<float>(bone_size(was, id)));
+    const auto from = bone_ends(was, id), to = bone_ends(picture.elements, id);
+    for (std::size_t i = 0; i < std::min(from.size(), to.size()); ++i)
+        draw_turn(picture.view, glm::vec3(from[i]), glm::vec3(to[i]), at, picture.list);
+    draw_incident_mark(picture.view, *incident, at, picture.list);
+}
+
+LabSetting rig_axes_setting() {
+    return {.key = "bone_axes",
+            .command = "view.bone_axes",
+            .title = "Show or hide bone axes",
+            .argument = "show",
+            .help = "Shows or hides the axes of every bone",
+            .choices = {{"shown", "Axes at every bone"}, {"hidden", "No axes at bones"}}};
+}
+
+LabSetting rig_pending_setting() {
+    return {
+        .key = "pending_rings",
+        .command = "view.pending_rings",
+        .title = "Show or hide pending rings",
+        .argument = "show",
+        .help = "Draws a ring around what the last edit or solve left pending",
+        .choices = {{"hidden", "No rings around pending poses"}, {"shown", "Rings around pending poses"}}};
+}
+
+LabSetting rig_figures_setting() {
+    return {.key = "figures",
+            .command = "view.figures",
+            .title = "Show or hide heads and blobs",
+            .argument = "show",
+            .help = "Shows or hides heads and blobs, so that the bones within are seen",
+            .choices = {{"shown", "Heads and blobs drawn"}, {"hidden", "Bones only"}}};
+}
+
+LabSetting rig_strip_setting() {
+    return {.key = "rig_strip",
+            .command = "view.rig_strip",
+            .title = "Show the take or the past",
+            .argument = "of",
+            .help = "Shows the take below the scene of the Rig lab, or its last ten seconds",
+            .choices = {{"take", "The take below the scene"}, {"past", "The last ten seconds below it"}}};
+}
+
+std::vector<LabSetting> RigLab::settings() const {
+    return {rig_axes_setting(),  rig_figures_setting(), pending_marks(),  rig_pending_setting(),
+            rig_strip_setting(), rig_past().plot,       rig_past().ghosts};
 }
 
 }  // namespace tendril::app

@@ -4,10 +4,15 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/trigonometric.hpp>
+#include <tendril/rig/workspace.hpp>
 
+#include "app/document/units.hpp"
+#include "app/labs/kit/flips.hpp"
 #include "app/labs/rig/rig_edit.hpp"
+#include "app/labs/rig/unit_inputs.hpp"
 
 namespace tendril::app {
 namespace {
@@ -112,6 +117,300 @@ std::vector<BoneFlip> bone_flips(const rig::Rig& rig, const rig::State& was, con
     std::vector<BoneFlip> flips;
     for (const Bone& bone : bones) flips.push_back({bone.element, bone.radians});
     return flips;
+}
+
+namespace {
+
+constexpr const char* not_known = "cause not known";
+
+/// How bones are turned before the first unit and after each.
+class Turns final : public rig::Observer {
+  public:
+    Turns(const rig::Rig& rig, const std::vector<BoneFlip>& flips) : rig_(rig), flips_(flips) {}
+
+    void begin(rig::State& state) override { row(state); }
+    void unit_done(std::size_t, rig::State& state) override { row(state); }
+    const glm::dquat& at(std::size_t row, std::size_t flip) const { return rows_[row][flip]; }
+    std::size_t rows() const { return rows_.size(); }
+    /// The unit that turned it last; none where none did.
+    std::optional<std::size_t> last_unit(std::size_t flip) const {
+        constexpr double touched = 1e-7;  // radians
+        for (std::size_t row = rows_.size(); row-- > 1;)
+            if (turn_between(at(row - 1, flip), at(row, flip)) > touched) return row - 1;
+        return std::nullopt;
+    }
+
+  private:
+    void row(rig::State& state) {
+        std::vector<glm::dquat>& row = rows_.emplace_back();
+        for (const BoneFlip& flip : flips_)
+            row.push_back(state.elements.get(rig_.id(flip.element), rig::Space::Global).rotation);
+    }
+
+    const rig::Rig& rig_;
+    const std::vector<BoneFlip>& flips_;
+    std::vector<std::vector<glm::dquat>> rows_;
+};
+
+/// The rig before and after one unit.
+class Witness final : public rig::Observer {
+  public:
+    Witness(std::size_t unit, UnitSolve& solve) : unit_(unit), solve_(solve) {}
+
+    void begin(rig::State& state) override {
+        if (unit_ == 0) solve_.found.state = state;
+    }
+    void unit_done(std::size_t unit, rig::State& state) override {
+        if (unit + 1 == unit_) solve_.found.state = state;
+        if (unit == unit_) solve_.left.state = state;
+    }
+
+  private:
+    std::size_t unit_;
+    UnitSolve& solve_;
+};
+
+UnitSolve solve_of(const RigPart& part, rig::State state, std::size_t unit, rig::Workspace& scratch) {
+    UnitSolve solve{part, part};
+    Witness witness(unit, solve);
+    part.rig.solve(state, 0.0, scratch, &witness);
+    solve.found.state.elements.resolve_all();
+    solve.left.state.elements.resolve_all();
+    return solve;
+}
+
+/// The first unit after which the two are turned as differently as half the flip.
+std::optional<std::size_t> parting_unit(const Turns& was, const Turns& is, std::size_t flip, double radians) {
+    for (std::size_t row = 1; row < std::min(was.rows(), is.rows()); ++row)
+        if (turn_between(was.at(row, flip), is.at(row, flip)) >= 0.5 * radians) return row - 1;
+    return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<FlipCause> flip_causes(const RigPart& part, const rig::State& was, const rig::State& is,
+                                   const std::vector<BoneFlip>& flips) {
+    const std::vector<rig::Unit>& units = part.rig.definition().units;
+    rig::Workspace scratch(part.rig);
+    Turns before(part.rig, flips), after(part.rig, flips);
+    rig::State first = was, second = is;
+    part.rig.solve(first, 0.0, scratch, &before);
+    part.rig.solve(second, 0.0, scratch, &after);
+    std::vector<FlipCause> causes;
+    for (std::size_t i = 0; i < flips.size(); ++i) {
+        const auto unit = parting_unit(before, after, i, flips[i].radians);
+        if (!unit) {
+            causes.push_back({std::nullopt, not_known});
+            continue;
+        }
+        std::string who = "unit " + units[*unit].name;
+        if (const auto last = after.last_unit(i); last && *last != *unit)
+            who += " (unit " + units[*last].name + " wrote it last)";
+        const auto why = unit_cause(units[*unit], solve_of(part, was, *unit, scratch),
+                                    solve_of(part, is, *unit, scratch), flips[i].radians);
+        causes.push_back({unit, who + ": " + why.value_or(not_known)});
+    }
+    return causes;
+}
+
+// What can turn a bone at a stroke, by the kind of unit.
+
+namespace {
+
+using Cause = std::optional<std::string>;
+constexpr float close_by = 0.17f;  ///< radians, ten degrees
+
+/// What a unit takes, in one of the two solves.
+class Given {
+  public:
+    Given(const rig::Unit& unit, const RigPart& part)
+        : inputs_(unit_inputs(part, part.state.elements, unit)) {}
+
+    const std::vector<UnitInput>& all() const { return inputs_; }
+    const rig::Value* value(std::string_view path) const {
+        const auto found = std::ranges::find(inputs_, path, &UnitInput::path);
+        return found == inputs_.end() ? nullptr : std::get_if<rig::Value>(&found->value);
+    }
+    std::optional<glm::vec3> point(std::string_view path) const {
+        const rig::Value* const given = value(path);
+        if (!given) return std::nullopt;
+        if (const auto* vector = std::get_if<glm::dvec3>(given)) return glm::vec3(*vector);
+        if (const auto* pose = std::get_if<rig::Transform>(given)) return glm::vec3(pose->translation);
+        return std::nullopt;
+    }
+    std::optional<glm::dquat> rotation(std::string_view path) const {
+        const rig::Value* const given = value(path);
+        if (!given) return std::nullopt;
+        if (const auto* rotation = std::get_if<glm::dquat>(given)) return *rotation;
+        if (const auto* pose = std::get_if<rig::Transform>(given)) return pose->rotation;
+        return std::nullopt;
+    }
+    double number(std::string_view path, double otherwise) const {
+        const rig::Value* const given = value(path);
+        if (!given) return otherwise;
+        if (const auto* on = std::get_if<bool>(given)) return *on ? 1.0 : 0.0;
+        const auto* number = std::get_if<double>(given);
+        return number ? *number : otherwise;
+    }
+
+  private:
+    std::vector<UnitInput> inputs_;
+};
+
+struct Both {
+    const rig::Unit& unit;
+    const UnitSolve &before, &after;
+    Given was{unit, before.found}, is{unit, after.found};
+    double radians = 0.0;
+};
+
+/// What the library itself reports, of the unit or of one in its body.
+Cause by_report(const Both& both) {
+    const rig::State &was = both.before.left.state, &is = both.after.left.state;
+    const auto top = unit_row(both.before.left, both.unit.name);
+    for (const UnitRow& row : unit_rows(both.before.left)) {
+        const rig::Warning before = was.units[row.at].warning, after = is.units[row.at].warning;
+        if (row.top != top->top || before == after) continue;
+        const std::string who = row.inner ? "in its body, " + row.unit->name + ": " : "";
+        if (after != rig::Warning::None) return who + rig::message(after);
+        return who + "no longer so: " + rig::message(before);
+    }
+    return std::nullopt;
+}
+
+Cause by_switch(const Both& both) {
+    const double was = both.was.number("/when", 1.0), is = both.is.number("/when", 1.0);
+    if (was != is) return is > 0.0 ? "it was switched on" : "it was switched off";
+    const double from = both.was.number("/weight", 1.0), to = both.is.number("/weight", 1.0);
+    if (std::abs(to - from) < 0.1) return std::nullopt;
+    return "its weight went from " + fixed_text(from, 2) + " to " + fixed_text(to, 2);
+}
+
+/// A rotation that it takes, and that turned as far.
+Cause by_input(const Both& both) {
+    for (const UnitInput& input : both.was.all()) {
+        if (input.literal()) continue;
+        const auto from = both.was.rotation(input.path), to = both.is.rotation(input.path);
+        if (!from || !to) continue;
+        const double turn = turn_between(*from, *to);
+        if (turn >= 0.5 * both.radians)
+            return "its input " + input.title + ", from " + input.from + ", turned " +
+                   fixed_text(glm::degrees(turn), 0) + " degrees";
+    }
+    return std::nullopt;
+}
+
+/// Half a turn has no shortest way: near it, the axis that a unit turns about goes round, and the bone with
+/// it by twice as much.
+Cause by_half_turn(glm::vec3 from_was, glm::vec3 to_was, glm::vec3 from_is, glm::vec3 to_is, double radians) {
+    const float furthest = std::max(angle_between(from_was, to_was), angle_between(from_is, to_is));
+    const float axis = angle_between(glm::cross(from_was, to_was), glm::cross(from_is, to_is));
+    if (glm::pi<float>() - furthest > close_by || axis < 0.25f * static_cast<float>(radians))
+        return std::nullopt;
+    return "the target was about half a turn away, where no way round is the shortest";
+}
+
+/// The direction that an aim's target is in; none where it is not known.
+std::optional<glm::vec3> way_to(const Given& given, const rig::AimInputs& inputs, const std::string& path,
+                                glm::vec3 from) {
+    const auto target = given.point(path + "/target");
+    if (!target) return std::nullopt;
+    return inputs.kind == rig::AimTarget::Location ? *target - from : *target;
+}
+
+Cause by_aim(const Both& both, const rig::Transform& was, const rig::Transform& is,
+             const rig::AimInputs& primary, const std::optional<rig::AimInputs>& secondary) {
+    const glm::vec3 at_was(was.translation), at_is(is.translation);
+    const auto first_was = way_to(both.was, primary, "/primary", at_was),
+               first_is = way_to(both.is, primary, "/primary", at_is);
+    const auto axis_was = both.was.point("/primary/axis"), axis_is = both.is.point("/primary/axis");
+    if (!first_was || !first_is || !axis_was || !axis_is) return std::nullopt;
+    rig::State scratch = both.before.found.state;
+    const auto size = static_cast<float>(skeleton_size(both.before.found.rig, scratch));
+    if (primary.kind == rig::AimTarget::Location &&
+        distance_to(glm::vec3(0.0f), *first_was, *first_is) < 0.02f * size)
+        return "the target went through the bone";
+    if (secondary) {
+        const auto second_was = way_to(both.was, *secondary, "/secondary", at_was),
+                   second_is = way_to(both.is, *secondary, "/secondary", at_is);
+        if (!second_was || !second_is) return std::nullopt;
+        const ReachPose before{{at_was}, at_was + *first_was, at_was + *second_was},
+            after{{at_was}, at_was + *first_is, at_was + *second_is};
+        const PolePassage passage = pole_passage(before, after);
+        if (passage.passed) return "the second target passed the line that the first is on";
+        if (passage.close) return "the second target came close to the line that the first is on";
+        return std::nullopt;  // what the first leaves open, the second decides
+    }
+    return by_half_turn(glm::vec3(was.rotation * glm::dvec3(*axis_was)), *first_was,
+                        glm::vec3(is.rotation * glm::dvec3(*axis_is)), *first_is, both.radians);
+}
+
+/// Of the bone that a unit has for its item.
+std::optional<rig::Transform> item_pose(const RigPart& part, const rig::Item& item) {
+    const auto* const name = std::get_if<std::string>(&item.which);
+    const auto at = name ? part.rig.element(*name) : std::nullopt;
+    return at ? part.state.elements.known(part.rig.id(*at), rig::Space::Global) : std::nullopt;
+}
+
+/// From the root to the tip.
+std::vector<glm::vec3> joints_between(const RigPart& part, const rig::Item& root, const rig::Item& tip) {
+    const rig::Hierarchy& tree = part.state.elements;
+    const auto first = part.rig.element(std::get<std::string>(root.which)),
+               last = part.rig.element(std::get<std::string>(tip.which));
+    std::vector<glm::vec3> joints;
+    if (!first || !last) return joints;
+    for (rig::ElementId at = part.rig.id(*last); at; at = tree.parent(at)) {
+        joints.insert(joints.begin(), glm::vec3(tree.known(at, rig::Space::Global)->translation));
+        if (at == part.rig.id(*first)) break;
+    }
+    return joints;
+}
+
+std::optional<ReachPose> reach_pose(const Given& given, const RigPart& found, const RigPart& left,
+                                    const rig::Item& root, const rig::Item& tip) {
+    const auto target = given.point("/target");
+    ReachPose pose{joints_between(left, root, tip), {}, given.point("/pole_target")};
+    // Where it turns from counts for where the root is; how it is bent, for where it has turned to.
+    if (!target || pose.joints.empty() || joints_between(found, root, tip).empty()) return std::nullopt;
+    pose.target = *target;
+    return pose;
+}
+
+Cause by_reach(const Both& both, const rig::Item& root, const rig::Item& tip) {
+    const auto was = reach_pose(both.was, both.before.found, both.before.left, root, tip),
+               is = reach_pose(both.is, both.after.found, both.after.left, root, tip);
+    if (!was || !is) return std::nullopt;
+    float reach = 0.0f;
+    for (std::size_t i = 1; i < is->joints.size(); ++i)
+        reach += glm::distance(is->joints[i - 1], is->joints[i]);
+    if (went_through_root(*was, *is, reach)) return "the target went through the root";
+    const PolePassage pole = pole_passage(*was, *is);
+    if (pole.passed) return "the target's line passed the pole";
+    if (was_straight(*was, *is, reach)) return "the chain was straight (collinear)";
+    if (pole.close) return "the target's line came close to the pole";
+    return std::nullopt;
+}
+
+Cause by_kind(const Both& both) {
+    const rig::Operation& operation = both.unit.operation;
+    if (const auto* aim = std::get_if<rig::Aim>(&operation)) {
+        const auto was = item_pose(both.before.found, aim->item), is = item_pose(both.after.found, aim->item);
+        return was && is ? by_aim(both, *was, *is, aim->primary, aim->secondary) : std::nullopt;
+    }
+    if (const auto* chain = std::get_if<rig::TwoBone>(&operation))
+        return by_reach(both, chain->root, chain->tip);
+    if (const auto* chain = std::get_if<rig::Fabrik>(&operation))
+        return by_reach(both, chain->root, chain->tip);
+    return std::nullopt;
+}
+
+}  // namespace
+
+Cause unit_cause(const rig::Unit& unit, const UnitSolve& before, const UnitSolve& after, double radians) {
+    const Both both{.unit = unit, .before = before, .after = after, .radians = radians};
+    for (const auto& look : {by_report, by_switch, by_kind, by_input})
+        if (Cause cause = look(both)) return cause;
+    return std::nullopt;
 }
 
 }  // namespace tendril::app

@@ -2,13 +2,25 @@
 // poses of them.
 #include "app/labs/rig/past.hpp"
 
+#include <imgui.h>
 #include <algorithm>
+#include <array>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 #include <limits>
+#include <set>
 
-#include "app/labs/kit/joint_turn.hpp"
-#include "app/labs/rig/figure.hpp"
+#include "app/document/units.hpp"
+#include "app/labs/kit/limit_shape.hpp"
+#include "app/labs/rig/draw.hpp"
+#include "app/labs/rig/flips.hpp"
+#include "app/labs/rig/panel.hpp"
 #include "app/labs/rig/rig_part.hpp"
+#include "app/labs/rig/unit_inputs.hpp"
+#include "app/labs/rig/values.hpp"
+#include "app/widgets/fields.hpp"
+#include "app/widgets/text.hpp"
 
 namespace tendril::app {
 namespace {
@@ -123,6 +135,199 @@ PoseLines rig_lines(const SharedPart& part) {
         for (const glm::dvec3& end : bone_ends(elements, id)) lines.emplace_back(from, glm::vec3(end));
     }
     return lines;
+}
+
+namespace {
+
+constexpr std::size_t max_of_a_kind = 8;  ///< in one tick: a rig may have thousands of bones
+
+void add_flips(const RigPart& before, const RigPart& after, std::vector<Incident>& incidents) {
+    if (before.edited || after.edited) return;
+    const rig::State &was = before.solved_state(), &is = after.solved_state();
+    if (was.controls == is.controls && !before.moving) return;
+    std::vector<BoneFlip> flips = bone_flips(after.rig, was, is, after.flips);
+    if (flips.empty()) return;
+    flips.resize(std::min<std::size_t>(flips.size(), 16 * max_of_a_kind));
+    const std::vector<FlipCause> causes = flip_causes(after, was, is, flips);
+    std::set<std::optional<std::size_t>> told;
+    for (std::size_t i = 0; i < flips.size() && told.size() < max_of_a_kind; ++i) {
+        if (!told.insert(causes[i].unit).second) continue;
+        incidents.push_back({.kind = Incident::Kind::Flip,
+                             .joint = flips[i].element,
+                             .name = after.rig.definition().elements[flips[i].element].name,
+                             .degrees = static_cast<float>(glm::degrees(flips[i].radians)),
+                             .cause = causes[i].text});
+    }
+}
+
+void add_reports(const RigPart& before, const RigPart& after, std::vector<Incident>& incidents) {
+    std::size_t count = 0;
+    for (const UnitRow& row : unit_rows(after)) {
+        const rig::Warning was = before.state.units[row.at].warning, is = after.state.units[row.at].warning;
+        if (is == was || is == rig::Warning::None) continue;
+        if (++count > max_of_a_kind) return;
+        incidents.push_back({.kind = Incident::Kind::Status,
+                             .name = row.unit->name,
+                             .cause = "unit " + row.unit->name + " has a problem: " + rig::message(is)});
+    }
+}
+
+/// A number, or one of the numbers, of a control.
+std::optional<double> part_of(const rig::Value& value, int axis) {
+    if (const auto* number = std::get_if<double>(&value))
+        return axis == 0 ? std::optional(*number) : std::nullopt;
+    if (const auto* vector = std::get_if<glm::dvec3>(&value)) return (*vector)[axis];
+    if (const auto* pose = std::get_if<rig::Transform>(&value)) return pose->translation[axis];
+    return std::nullopt;
+}
+
+int axis_count(rig::ControlKind kind) {
+    switch (kind) {
+        case rig::ControlKind::Float:
+            return 1;
+        case rig::ControlKind::Vector2d:
+            return 2;
+        case rig::ControlKind::Position:
+        case rig::ControlKind::Transform:
+            return 3;
+        default:
+            return 0;
+    }
+}
+
+/// "maximum 1.00", "minimum 0.20 m along y"
+std::string limit_text(const rig::Control& control, int axis, bool maximum) {
+    const double at = (maximum ? *control.maximum : *control.minimum)[axis];
+    std::string text = (maximum ? "its maximum is " : "its minimum is ") + fixed_text(at, 2);
+    if (control.kind == rig::ControlKind::Float) return text;
+    const int along =
+        control.kind == rig::ControlKind::Vector2d ? control.axes[static_cast<std::size_t>(axis)] : axis;
+    return text + " m along " + std::array{"x", "y", "z"}[static_cast<std::size_t>(along)];
+}
+
+/// At the limit of one of its numbers; a range of no length is none.
+bool at_limit(const rig::Control& control, const rig::Value& value, int axis, bool maximum) {
+    const auto& limit = maximum ? control.maximum : control.minimum;
+    if (!limit) return false;
+    if (control.minimum && control.maximum && (*control.minimum)[axis] == (*control.maximum)[axis])
+        return false;
+    const auto number = part_of(value, axis);
+    return number && *number == (*limit)[axis];
+}
+
+void add_limits(const RigPart& before, const RigPart& after, std::vector<Incident>& incidents) {
+    if (before.state.controls == after.state.controls) return;
+    std::size_t count = 0;
+    const auto& elements = after.rig.definition().elements;
+    for (std::size_t i = 0; i < elements.size(); ++i) {
+        if (!elements[i].control) continue;
+        const rig::Control& control = *elements[i].control;
+        for (int axis = 0; axis < axis_count(control.kind); ++axis)
+            for (const bool maximum : {false, true}) {
+                const bool was = at_limit(control, before.state.controls[i], axis, maximum),
+                           is = at_limit(control, after.state.controls[i], axis, maximum);
+                if (was == is || ++count > max_of_a_kind) continue;
+                incidents.push_back({.kind = Incident::Kind::Limit,
+                                     .joint = i,
+                                     .name = elements[i].name,
+                                     .cause = "control " + elements[i].name +
+                                              (is ? " came to its limit: " : " left its limit: ") +
+                                              limit_text(control, axis, maximum)});
+            }
+    }
+}
+
+}  // namespace
+
+std::vector<Incident> rig_incidents(const RigPart& before, const RigPart& after) {
+    if (&before.rig.definition() != &after.rig.definition()) return {};
+    std::vector<Incident> incidents;
+    add_flips(before, after, incidents);
+    add_reports(before, after, incidents);
+    add_limits(before, after, incidents);
+    return incidents;
+}
+
+// Why is this bone here? What each unit added to the selected element, in order.
+
+namespace {
+
+/// "12.3 mm", "1.20 m": lengths of rigs are between the two.
+std::string length_text(double metres) {
+    return metres < 1.0 ? fixed_text(1000.0 * metres, 1) + " mm" : fixed_text(metres, 2) + " m";
+}
+
+std::string added_text(const rig::Contribution& step) {
+    std::string text =
+        length_text(step.metres) + "  " + fixed_text(glm::degrees(step.radians), 1) + "\xC2\xB0";
+    return step.before.scale == step.after.scale ? text : text + ", scale";
+}
+
+/// By more than what shows: rounding is no touch.
+bool touched(const rig::Contribution& step) {
+    constexpr double enough = 1e-7;
+    const glm::dvec3 scale = glm::abs(step.after.scale - step.before.scale);
+    return step.metres > enough || step.radians > enough || std::max({scale.x, scale.y, scale.z}) > enough;
+}
+
+void unit_line(const RigPanel& panel, const rig::Unit& unit, const rig::Contribution& step) {
+    ImGui::PushID(unit.name.c_str());
+    bool on = unit.enabled;
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(0.0f, 0.0f));
+    if (ImGui::Checkbox("##on", &on)) panel.edit("rig.unit.enable", {{"name", unit.name}, {"on", on}});
+    ImGui::PopStyleVar();
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip(on ? "Click to mute this unit" : "Muted; click to run it");
+    ImGui::SameLine(0.0f, 0.5f * ImGui::GetFontSize());
+    const std::string added = !on ? "muted" : touched(step) ? added_text(step) : "nothing";
+    const float room =
+        ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(added.c_str()).x - 0.6f * ImGui::GetFontSize();
+    text_elided(unit.name, std::max(room, 3.0f * ImGui::GetFontSize()), !on || !touched(step));
+    ImGui::SameLine();
+    text_flush_right(added, !on || !touched(step));
+    if (ImGui::IsItemHovered()) {
+        const std::string change = value_text(step.change);
+        ImGui::SetTooltip("Adds %s in its own space.\nThen it is at %s.", change.c_str(),
+                          value_text(step.after).c_str());
+    }
+    ImGui::PopID();
+}
+
+void place_line(const char* title, const rig::Transform& pose) {
+    ImGui::TextDisabled("%s", title);
+    ImGui::SameLine();
+    text_flush_right(vector_text(pose.translation, 3));
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", value_text(pose).c_str());
+}
+
+}  // namespace
+
+void why_rows(const RigPanel& panel) {
+    const auto element = panel.part.selected.elements.active();
+    if (!element) return;
+    const rig::Element& selected = panel.part.rig.definition().elements[*element];
+    const std::string title =
+        selected.kind == rig::ElementKind::Bone ? "Why is this bone here?" : "Why is it here?";
+    section(title.c_str());
+    ImGui::PushID("why");
+    const rig::Explanation& why = panel.runtime.explanation(panel.workspace, *element);
+    const std::vector<rig::Unit>& units = panel.part.rig.definition().units;
+    place_line("before any unit", why.input);
+    std::size_t untouched = 0;
+    bool& all = panel.runtime.panel.all_units;
+    for (std::size_t i = 0; i < why.units.size(); ++i) {
+        const bool idle = units[i].enabled && !touched(why.units[i]);
+        untouched += idle;
+        if (!idle || all) unit_line(panel, units[i], why.units[i]);
+    }
+    if (untouched > 0) {
+        const std::string count = count_text(untouched, "unit") + " did not touch it";
+        if (row_button((all ? "Hide what did nothing" : count).c_str(), 1, true,
+                       all ? "Lists only the units that touched it" : "Lists them too"))
+            all = !all;
+        end_row();
+    }
+    place_line("where it is", why.result);
+    ImGui::PopID();
 }
 
 }  // namespace tendril::app

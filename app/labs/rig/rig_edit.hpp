@@ -2,10 +2,14 @@
 // still of something taken over; refused as a whole too, by std::invalid_argument.
 #pragma once
 
+#include <optional>
+#include <set>
 #include <string>
 #include <tendril/rig/rig.hpp>
+#include <tendril/rig/unit.hpp>
 #include <vector>
 
+#include "app/document/json.hpp"
 #include "app/labs/rig/rig_part.hpp"
 
 namespace tendril::app {
@@ -45,5 +49,33 @@ std::size_t curve_named(const RigPart& part, const std::string& name);
 
 /// Something that a solve begins with was changed: a new take begins.
 void changed(RigPart& part);
+
+// Which units name something: an element, another unit, a curve. Nothing that is named can be removed.
+
+enum class Named { Element, Unit, Curve };
+
+struct Use {
+    std::string unit;    ///< that names one of them
+    std::string member;  ///< in which: "primary.target"
+    std::string name;    ///< of what it names
+};
+
+/// The first, in order, bodies included; none where nothing names any of them.
+std::optional<Use> first_use(const std::vector<rig::Unit>& units, Named kind,
+                             const std::set<std::string>& names);
+
+// What a menu adds: elements and units with no more than they need, taken from what is selected.
+
+/// "bone 3": the first of these that no element has.
+std::string free_element_name(const RigPart& part, const std::string& base);
+
+/// A unit as rig.unit.add takes it, and why there is none.
+struct UnitOffer {
+    std::optional<SharedJson> unit;
+    const char* needs = "";  ///< "two bones or more": where there is no unit
+};
+/// `operation` is the index in rig::Operation. Works on the active element, where it is one that works: the
+/// others that are selected it follows. A for-each goes over all that are selected.
+UnitOffer offered_unit(const RigPart& part, std::size_t operation);
 
 }  // namespace tendril::app

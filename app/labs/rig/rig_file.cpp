@@ -1,16 +1,22 @@
 // The Rig lab in a scene file: the definition, in the words of the commands, and beside it the state, the
 // take that it is in, and the clip.
+#include "app/labs/rig/rig_file.hpp"
+
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
+#include <tendril/rig/control.hpp>
 #include <utility>
 
 #include "app/document/json_complete.hpp"
 #include "app/document/json_place.hpp"
+#include "app/labs/rig/clip.hpp"
 #include "app/labs/rig/definition_json.hpp"
 #include "app/labs/rig/rig_edit.hpp"
 #include "app/labs/rig/rig_part.hpp"
 #include "app/labs/rig/state_json.hpp"
-#include "app/labs/rig/time_json.hpp"
-#include "app/labs/rig/value_json.hpp"
+#include "app/labs/rig/take.hpp"
+#include "app/labs/rig/values.hpp"
 
 namespace tendril::app {
 namespace {
@@ -104,6 +110,305 @@ std::shared_ptr<Part> RigPart::load(const Json& json, const std::string& where) 
         forget_missing_unit(*part);
     }
     return part;
+}
+
+namespace {
+
+constexpr std::uint64_t max_recording_tick = 1'000'000'000'000;  ///< ticks
+
+/// [tick, name, value], or [tick] where the rig was solved.
+Json keys_json(const RigPart& part) {
+    Json keys = Json::array();
+    for (const TakeKey& key : *part.take.keys) {
+        if (key.element == TakeKey::solve) {
+            keys.push_back(Json::array({key.tick}));
+            continue;
+        }
+        const rig::Element& element = part.rig.definition().elements[key.element];
+        keys.push_back({key.tick, element.name, control_value_json(element.control->kind, key.value)});
+    }
+    return keys;
+}
+
+TakeKey read_key(const JsonPlace& place, const RigPart& part) {
+    if (place.json().is_array() && place.json().size() == 1)
+        return {static_cast<std::uint32_t>(place.element(0).count(max_take_ticks)), TakeKey::solve};
+    place.check_size(3, "values: tick, control, value");
+    const auto at = part.rig.element(place.element(1).text());
+    if (!at || !part.rig.definition().elements[*at].control)
+        place.element(1).fail("there is no control " + json_summary(place.element(1).json()));
+    const rig::Control& control = *part.rig.definition().elements[*at].control;
+    const rig::Value value =
+        read_control_value(place.element(2), control.kind, part.state.controls[*at], max_reached);
+    check_unit(place.element(2), value);
+    return {static_cast<std::uint32_t>(place.element(0).count(max_take_ticks)),
+            static_cast<std::uint32_t>(*at), rig::clamped(control, value)};
+}
+
+Json take_json(const RigPart& part) {
+    const RigTake& take = part.take;
+    Json json{{"began", take.began}};
+    if (!take.start) return json;
+    json["tick"] = take.tick;
+    json["last"] = take.last;
+    json["start"] = rig_state_json(part.rig, *take.start);
+    if (take.keys) json["keys"] = keys_json(part);
+    return json;
+}
+
+RigTake read_take(const JsonPlace& place, const RigPart& part) {
+    check_members(place, {"began", "tick", "last", "start", "keys"});
+    RigTake take{.start = nullptr,
+                 .keys = nullptr,
+                 .tick = 0,
+                 .last = 0,
+                 .began = place["began"].count(max_recording_tick)};
+    if (!place.has("start")) return take;
+    check_members(place["start"], {"controls", "curves", "poses", "units"});
+    take.start = std::make_shared<const rig::State>(read_rig_state(place["start"], part.rig));
+    take.last = static_cast<std::uint32_t>(place["last"].count(max_take_ticks));
+    take.tick = static_cast<std::uint32_t>(place["tick"].count(take.last));
+    if (const auto stored = place.optional("keys")) {
+        std::vector<TakeKey> keys;
+        stored->for_each("keys", max_take_keys,
+                         [&](const JsonPlace& each) { keys.push_back(read_key(each, part)); });
+        if (!std::ranges::is_sorted(keys, {}, &TakeKey::tick))
+            stored->fail("expected the keys in the order of their ticks");
+        take.keys = std::make_shared<const std::vector<TakeKey>>(std::move(keys));
+    }
+    return take;
+}
+
+RigWalk read_walk(const JsonPlace& place, const std::string& control, const RigPart& part) {
+    check_members(place, {"path", "centre", "radius", "period", "ticks", "turn"});
+    const auto at = part.rig.element(control);
+    const rig::Element* element = at ? &part.rig.definition().elements[*at] : nullptr;
+    if (!element || !element->control || !can_walk(element->control->kind))
+        place.fail("there is no transform or position control of that name");
+    const RigWalk walk{control, load_motion(place), place["turn"].flag()};
+    if (walk.motion.path == Motion::Path::Still)
+        place["path"].fail("a control that stands still has no motion");
+    try {
+        check_path(walk.motion.centre, glm::vec3(walk.motion.radius), "the control's path");
+    } catch (const std::invalid_argument& error) {
+        place.fail(error.what());
+    }
+    return walk;
+}
+
+RateDifference read_rates(const JsonPlace& place) {
+    check_members(place, {"mm", "degrees", "scale", "bone", "between", "seconds", "ticks", "frames", "done",
+                          "running"});
+    const auto scale = place.optional("scale");
+    const std::size_t frames = place.has("frames") ? place["frames"].index(max_rate_frames) : 0;
+    return {.mm = place["mm"].real(0.0, max_reached),
+            .degrees = place["degrees"].real(0.0, 360.0),
+            .scale = scale ? scale->real(0.0, max_reached) : 0.0,
+            .bone = place["bone"].text(),
+            .between = place["between"].text(),
+            .seconds = place["seconds"].real(0.0, 1e9),
+            .ticks = place["ticks"].real(0.0, 1e9),
+            .frames = frames,
+            .done = place.has("done") ? place["done"].index(frames) : 0,
+            .running = place.has("running") && place["running"].flag()};
+}
+
+/// One that goes on can only be of so many frames as there are in its time.
+RateDifference read_rates(const JsonPlace& place, const RigPart& part) {
+    RateDifference rates = read_rates(place);
+    if (!rates.running) return rates;
+    RigPart begun = part;
+    const double max_ticks = max_rate_seconds / tick_seconds;
+    if (!(rates.ticks >= 1.0 && rates.ticks <= max_ticks && rates.ticks == std::floor(rates.ticks)))
+        place["ticks"].fail("expected 1 to " + std::to_string(std::lround(max_ticks)) + ", whole");
+    try {
+        start_rates(begun, static_cast<std::uint32_t>(rates.ticks));
+    } catch (const std::invalid_argument& refusal) {
+        place.fail(refusal.what());
+    }
+    if (rates.frames != begun.rates->frames || rates.done >= rates.frames)
+        place["frames"].fail("that is not how far such a comparison comes");
+    return rates;
+}
+
+}  // namespace
+
+Json walks_json(const RigPart& part) {
+    Json walks = Json::object();
+    for (const RigWalk& walk : part.walks) {
+        walks[walk.control] = save_motion(walk.motion);
+        walks[walk.control]["turn"] = walk.turn;
+    }
+    return walks;
+}
+
+Json rates_json(const RigPart& part) {
+    if (!part.rates) return nullptr;
+    const RateDifference& most = *part.rates;
+    return {{"mm", most.mm},          {"degrees", most.degrees}, {"scale", most.scale},
+            {"bone", most.bone},      {"between", most.between}, {"seconds", most.seconds},
+            {"ticks", most.ticks},    {"frames", most.frames},   {"done", most.done},
+            {"running", most.running}};
+}
+
+void save_time(const RigPart& part, Json& state) {
+    state["take"] = take_json(part);
+    if (!part.walks.empty()) state["motions"] = walks_json(part);
+    if (part.rates) state["rates"] = rates_json(part);
+    if (part.clip) state["clip"] = clip_json(part);
+}
+
+void load_time(const JsonPlace& state, RigPart& part) {
+    if (const auto take = state.optional("take")) part.take = read_take(*take, part);
+    if (const auto walks = state.optional("motions")) {
+        if (!walks->json().is_object())
+            walks->fail("expected an object, found " + json_summary(walks->json()));
+        for (const auto& [name, stored] : walks->json().items())
+            part.walks.push_back(read_walk((*walks)[name.c_str()], name, part));
+    }
+    if (const auto rates = state.optional("rates")) part.rates = read_rates(*rates, part);
+    if (const auto clip = state.optional("clip")) load_clip(*clip, part);
+}
+
+namespace {
+
+constexpr std::uint64_t max_clip_tick = 1'000'000'000'000;  ///< ticks
+
+using Numbers = std::vector<float>;
+
+/// One of the three of a bone over all frames, one after the other.
+template <class Of>
+Numbers track(const RigClip& clip, std::size_t bone, Of of) {
+    Numbers numbers;
+    for (std::size_t frame = 0; frame < clip.frames(); ++frame)
+        of(clip.poses[frame * clip.bones.size() + bone], numbers);
+    return numbers;
+}
+void translation_of(const ClipPose& pose, Numbers& to) {
+    to.insert(to.end(), {pose.translation.x, pose.translation.y, pose.translation.z});
+}
+void rotation_of(const ClipPose& pose, Numbers& to) {
+    to.insert(to.end(), {pose.rotation.x, pose.rotation.y, pose.rotation.z, pose.rotation.w});
+}
+void scale_of(const ClipPose& pose, Numbers& to) {
+    to.insert(to.end(), {pose.scale.x, pose.scale.y, pose.scale.z});
+}
+
+Json track_json(const Numbers& numbers, std::size_t size) {
+    bool still = true;
+    for (std::size_t i = size; i < numbers.size() && still; ++i) still = numbers[i] == numbers[i - size];
+    Json json = Json::array();
+    for (std::size_t i = 0; i < (still ? size : numbers.size()); ++i) json.push_back(number(numbers[i]));
+    return json;
+}
+
+/// `size` numbers a frame.
+Numbers read_track(const JsonPlace& place, std::size_t size, std::size_t frames) {
+    Numbers numbers;
+    place.for_each("numbers", size * frames,
+                   [&](const JsonPlace& each) { numbers.push_back(each.number()); });
+    if (numbers.size() == size)
+        for (std::size_t i = 0; i < size * (frames - 1); ++i) numbers.push_back(numbers[i]);
+    if (numbers.size() != size * frames)
+        place.fail("expected " + std::to_string(size) + " numbers, or as many a frame");
+    return numbers;
+}
+
+void read_bone(const JsonPlace& place, RigClip& clip, std::size_t bone, std::size_t frames) {
+    check_members(place, {"translation", "rotation", "scale"});
+    const Numbers move = read_track(place["translation"], 3, frames);
+    const Numbers turn = read_track(place["rotation"], 4, frames);
+    const auto stored = place.optional("scale");
+    const Numbers grow = stored ? read_track(*stored, 3, frames) : Numbers(3 * frames, 1.0f);
+    for (std::size_t i = 0; i < frames; ++i) {
+        const glm::quat rotation(turn[4 * i + 3], turn[4 * i], turn[4 * i + 1], turn[4 * i + 2]);
+        if (!(std::abs(glm::length(rotation) - 1.0f) < 1e-3f))
+            place["rotation"].fail("expected rotations of unit length");
+        clip.poses[i * clip.bones.size() + bone] = {{move[3 * i], move[3 * i + 1], move[3 * i + 2]},
+                                                    rotation,
+                                                    {grow[3 * i], grow[3 * i + 1], grow[3 * i + 2]}};
+    }
+}
+
+Json solve_json(const RigPart& part) {
+    const ClipSolve& solve = *part.clip_left;
+    Json left = Json::array(), controls = Json::object();
+    for (const FrameLeft& each : solve.left)
+        left.push_back({number(each.mm), number(each.degrees), each.bone, number(each.scale), each.stopped});
+    if (solve.running)
+        for (std::size_t i = 0; i < solve.controls.size(); ++i)
+            if (const rig::Element& element = part.rig.definition().elements[i]; element.control)
+                controls[element.name] = control_value_json(element.control->kind, solve.controls[i]);
+    return {{"running", solve.running}, {"left", std::move(left)}, {"controls", std::move(controls)}};
+}
+
+ClipSolve read_solve(const JsonPlace& place, const RigPart& part) {
+    check_members(place, {"running", "left", "controls"});
+    ClipSolve solve{.running = place["running"].flag(), .left = {}, .controls = {}};
+    place["left"].for_each("frames", part.clip->frames(), [&](const JsonPlace& each) {
+        const bool older = each.json().is_array() && each.json().size() == 3;  // it had no more
+        if (!older) each.check_size(5, "values: millimetres, degrees, bone, scale, stopped");
+        FrameLeft left{each.element(0).number(0.0f, 1e9f), each.element(1).number(0.0f, 360.0f),
+                       static_cast<std::uint32_t>(each.element(2).index(part.clip->bones.size() - 1))};
+        if (!older) {
+            left.scale = each.element(3).number(0.0f, 1e9f);
+            left.stopped = each.element(4).flag();
+        }
+        solve.left.push_back(left);
+    });
+    if (!solve.running) return solve;
+    try {
+        check_clip_solve(part);
+    } catch (const std::invalid_argument& error) {
+        place.fail(error.what());
+    }
+    if (solve.done() == part.clip->frames()) place["running"].fail("all frames are solved");
+    solve.controls = part.state.controls;
+    for (std::size_t i = 0; i < solve.controls.size(); ++i) {
+        const rig::Element& element = part.rig.definition().elements[i];
+        if (!element.control) continue;
+        const JsonPlace stored = place["controls"][element.name.c_str()];
+        const rig::Value value =
+            read_control_value(stored, element.control->kind, solve.controls[i], max_reached);
+        check_unit(stored, value);
+        solve.controls[i] = rig::clamped(*element.control, value);
+    }
+    return solve;
+}
+
+}  // namespace
+
+Json clip_json(const RigPart& part) {
+    const RigClip& clip = *part.clip;
+    Json bones = Json::object();
+    for (std::size_t i = 0; i < clip.bones.size(); ++i) {
+        Json& bone = bones[clip.bones[i]] = {{"translation", track_json(track(clip, i, translation_of), 3)},
+                                             {"rotation", track_json(track(clip, i, rotation_of), 4)}};
+        const Numbers scale = track(clip, i, scale_of);
+        if (std::ranges::any_of(scale, [](float each) { return each != 1.0f; }))
+            bone["scale"] = track_json(scale, 3);
+    }
+    Json json{{"began", clip.began}, {"frames", clip.frames()}, {"bones", std::move(bones)}};
+    if (part.clip_left) json["solve"] = solve_json(part);
+    return json;
+}
+
+void load_clip(const JsonPlace& place, RigPart& part) {
+    check_members(place, {"began", "frames", "bones", "solve"});
+    RigClip clip{.bones = {}, .poses = {}, .began = place["began"].count(max_clip_tick)};
+    const std::size_t frames = place["frames"].index(max_clip_frames + 1);
+    const JsonPlace bones = place["bones"];
+    if (!bones.json().is_object() || bones.json().empty()) bones.fail("expected an object of bones");
+    if (frames == 0) place["frames"].fail("expected a frame or more");
+    for (const auto& [name, stored] : bones.json().items()) clip.bones.push_back(name);
+    if (frames * clip.bones.size() > max_clip_poses)
+        place.fail("the clip has more poses than the most, " + std::to_string(max_clip_poses));
+    clip.poses.resize(frames * clip.bones.size());
+    for (std::size_t i = 0; i < clip.bones.size(); ++i)
+        read_bone(bones[clip.bones[i].c_str()], clip, i, frames);
+    part.clip = std::make_shared<const RigClip>(std::move(clip));
+    if (const auto solve = place.optional("solve"))
+        part.clip_left = std::make_shared<const ClipSolve>(read_solve(*solve, part));
 }
 
 }  // namespace tendril::app

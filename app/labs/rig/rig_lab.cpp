@@ -2,7 +2,7 @@
 
 #include "app/document/json_complete.hpp"
 #include "app/labs/rig/code.hpp"
-#include "app/labs/rig/panels.hpp"
+#include "app/labs/rig/panel.hpp"
 #include "app/labs/rig/presets.hpp"
 #include "app/labs/rig/rig_commands.hpp"
 

@@ -4,7 +4,7 @@
 #include <glm/trigonometric.hpp>
 #include <tendril/rig/workspace.hpp>
 
-#include "app/labs/kit/require.hpp"
+#include "app/labs/kit/arguments.hpp"
 #include "app/labs/rig/presets.hpp"
 #include "app/labs/rig/rig_edit.hpp"
 

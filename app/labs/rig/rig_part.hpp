@@ -6,6 +6,9 @@
 // which copies share.
 #pragma once
 
+#include <cstdint>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,12 +18,99 @@
 
 #include "app/document/document.hpp"
 #include "app/document/workspace.hpp"
-#include "app/labs/kit/flip_rule.hpp"
+#include "app/labs/kit/flips.hpp"
+#include "app/labs/kit/motion.hpp"
 #include "app/labs/kit/selection.hpp"
-#include "app/labs/rig/rig_clip.hpp"
-#include "app/labs/rig/rig_take.hpp"
 
 namespace tendril::app {
+
+// A clip: the poses of a rig's bones, sixty a second, as an animation that is imported has them. And what a
+// backward solve leaves of it: what the rig cannot express.
+
+inline constexpr std::size_t max_clip_frames = 3'600, max_clip_poses = 100'000;
+
+/// Within the nearest bone above, or within the world where there is none.
+struct ClipPose {
+    glm::vec3 translation{0.0f};
+    glm::quat rotation{1.0f, 0.0f, 0.0f, 0.0f};
+    glm::vec3 scale{1.0f};
+    bool operator==(const ClipPose&) const = default;
+};
+
+struct RigClip {
+    std::vector<std::string> bones;  ///< parents before their children
+    std::vector<ClipPose> poses;     ///< frame after frame, one a bone
+    std::uint64_t began = 0;         ///< the tick of the lab's time that the first frame is of
+
+    std::size_t frames() const { return bones.empty() ? 0 : poses.size() / bones.size(); }
+    bool operator==(const RigClip&) const = default;
+};
+
+/// What is left of a bone, and is less than that, nobody sees, and a clip's numbers do not tell.
+inline constexpr double min_shown_mm = 0.1, min_shown_degrees = 0.01, min_shown_scale = 0.001;
+
+/// Of the bone with the most left in a frame.
+struct FrameLeft {
+    float mm = 0.0f, degrees = 0.0f;
+    std::uint32_t bone = 0;  ///< its place in RigClip::bones
+    float scale = 0.0f;      ///< the largest difference of a component
+    bool stopped = false;    ///< by the work it took: there may be values that come nearer
+    bool expressed() const {
+        return static_cast<double>(mm) <= min_shown_mm && static_cast<double>(degrees) <= min_shown_degrees &&
+               static_cast<double>(scale) <= min_shown_scale;
+    }
+    bool operator==(const FrameLeft&) const = default;
+};
+
+/// A backward solve of the clip, frame by frame, each from the one before.
+struct ClipSolve {
+    bool running = true;
+    std::vector<FrameLeft> left;       ///< of the frames so far
+    std::vector<rig::Value> controls;  ///< of the last of them: where the next begins
+    std::size_t done() const { return left.size(); }
+    bool operator==(const ClipSolve&) const = default;
+};
+
+// The stretch of time that the Rig lab is in: a take. It begins with a state, and what comes after follows
+// from that alone, from the paths that controls follow and from what was set of controls since, and where the
+// rig was solved then. So any tick of it can be worked out anew, in any order, to the bit.
+//
+// A tick is tick_seconds long whatever the speed of the clock, which says how many of them pass: slow motion
+// shows the very poses that real time shows.
+
+/// Ten minutes. One that grows longer goes on as another.
+inline constexpr std::uint32_t max_take_ticks = 36'000;
+/// Likewise.
+inline constexpr std::size_t max_take_keys = 3'600;
+
+/// A control follows a path, which lies flat within the control's space: its y stays.
+struct RigWalk {
+    std::string control;  ///< a transform or position control
+    Motion motion;        ///< `ticks`: how far round it is where the take begins
+    bool turn = false;    ///< a transform control looks along the path, with its z axis
+    bool operator==(const RigWalk&) const = default;
+};
+
+/// What was done after a tick, before the next: a control was set; or the rig was solved without any time
+/// passing, as every drag does while the simulation is paused.
+struct TakeKey {
+    static constexpr std::uint32_t solve = ~0u;
+    std::uint32_t tick = 0;
+    std::uint32_t element = 0;  ///< its place in the definition, or solve
+    rig::Value value{};         ///< within its limits
+    bool operator==(const TakeKey&) const = default;
+};
+
+struct RigTake {
+    std::shared_ptr<const rig::State> start;           ///< null until a tick has passed
+    std::shared_ptr<const std::vector<TakeKey>> keys;  ///< by tick, in order; null where there are none
+    std::uint32_t tick = 0;                            ///< that it is at
+    std::uint32_t last = 0;                            ///< that it was played to
+    std::uint64_t began = 0;                           ///< the tick of the lab's time where it begins
+
+    std::uint64_t now() const { return began + tick; }
+    bool operator==(const RigTake& other) const;
+};
 
 inline constexpr const char* rig_lab = "rig";
 /// Units that a solve may run, those in bodies once an element.

@@ -1,5 +1,6 @@
 #include "app/labs/rig/rig_runtime.hpp"
 
+#include <algorithm>
 #include <chrono>
 
 namespace tendril::app {
@@ -65,6 +66,70 @@ const rig::Explanation& RigRuntime::explanation(const Workspace& workspace, std:
 
 std::vector<double> RigRuntime::microseconds(const rig::Rig& rig) const {
     return keeps(rig) ? kept_->microseconds : std::vector<double>();
+}
+
+namespace {
+
+constexpr std::size_t max_bytes = 32u << 20;
+constexpr std::uint32_t first_stride = 8;
+
+/// The first tick whose keys are not the same in both: what comes after it is not known any more.
+std::uint32_t first_difference(const std::vector<TakeKey>& a, const std::vector<TakeKey>& b) {
+    const auto [in_a, in_b] = std::mismatch(a.begin(), a.end(), b.begin(), b.end());
+    constexpr std::uint32_t never = ~0u;
+    return std::min(in_a == a.end() ? never : in_a->tick, in_b == b.end() ? never : in_b->tick);
+}
+
+}  // namespace
+
+void TakeSnapshots::follow(const RigPart& part) {
+    const bool same = start_ == part.take.start && walks_ == part.walks && rig_ &&
+                      &rig_->definition() == &part.rig.definition();
+    if (same && keys_ == part.take.keys) return;
+    static const std::vector<TakeKey> none;
+    if (!same) {
+        by_tick_.clear();
+        bytes_ = 0;
+        stride_ = first_stride;
+        start_ = part.take.start;
+        walks_ = part.walks;
+        rig_ = part.rig;
+    } else {
+        const std::uint32_t until =
+            first_difference(keys_ ? *keys_ : none, part.take.keys ? *part.take.keys : none);
+        while (!by_tick_.empty() && by_tick_.rbegin()->first > until) {
+            bytes_ -= state_bytes(by_tick_.rbegin()->second.state);
+            by_tick_.erase(std::prev(by_tick_.end()));
+        }
+    }
+    keys_ = part.take.keys;
+}
+
+void TakeSnapshots::offer(const RigPart& part) {
+    follow(part);
+    if (part.take.tick % stride_ == 0) keep(part);
+}
+
+void TakeSnapshots::keep(const RigPart& part) {
+    follow(part);
+    if (by_tick_.contains(part.take.tick)) return;
+    by_tick_.emplace(part.take.tick, Snapshot{part.state, part.moving});
+    bytes_ += state_bytes(part.state);
+    while (bytes_ > max_bytes && stride_ < max_take_ticks) {  // every other one goes
+        stride_ *= 2;
+        std::erase_if(by_tick_, [&](const auto& each) {
+            if (each.first % stride_ == 0) return false;
+            bytes_ -= state_bytes(each.second.state);
+            return true;
+        });
+    }
+}
+
+const std::pair<const std::uint32_t, TakeSnapshots::Snapshot>* TakeSnapshots::nearest(const RigPart& part,
+                                                                                      std::uint32_t tick) {
+    follow(part);
+    const auto after = by_tick_.upper_bound(tick);
+    return after == by_tick_.begin() ? nullptr : &*std::prev(after);
 }
 
 }  // namespace tendril::app

@@ -1,11 +1,15 @@
 #include "app/labs/rig/take.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
 #include <span>
 #include <stdexcept>
 #include <utility>
 
-#include "app/labs/rig/walk.hpp"
+#include "app/labs/rig/clip.hpp"
+#include "app/labs/rig/past.hpp"
+#include "app/labs/rig/rig_lab.hpp"
 
 namespace tendril::app {
 namespace {
@@ -259,6 +263,109 @@ void TakeRunner::tick() {
     const std::size_t solved = keys_at(part_.take, ticks_).solved.size();
     for (const std::size_t end = next_key_ + solved; next_key_ < end; ++next_key_)
         apply((*part_.take.keys)[next_key_]);
+}
+
+namespace {
+
+using Path = Motion::Path;
+
+/// Around the path, in radians. Rounds are whole ticks long, so that the angle never drifts.
+double angle_after(const Motion& motion, double ticks) {
+    const double rounds =
+        (static_cast<double>(motion.ticks) + ticks) / static_cast<double>(ticks_per_round(motion));
+    return glm::two_pi<double>() * (rounds - std::floor(rounds));
+}
+
+/// In a circle of radius 1, and which way it goes there.
+struct Step {
+    glm::dvec3 at{0.0}, along{0.0, 0.0, 1.0};
+};
+Step step_at(Path path, double angle) {
+    const double c = std::cos(angle), s = std::sin(angle);
+    switch (path) {
+        case Path::Still:
+            break;
+        case Path::Circle:
+            return {{c, 0.0, s}, {-s, 0.0, c}};
+        case Path::FigureEight:
+            return {{c, 0.0, s * c}, {-s, 0.0, c * c - s * s}};
+        case Path::Sweep:
+            return {{s, 0.0, 0.0}, {c < 0.0 ? -1.0 : 1.0, 0.0, 0.0}};
+    }
+    return {};
+}
+
+}  // namespace
+
+bool can_walk(rig::ControlKind kind) {
+    return kind == rig::ControlKind::Transform || kind == rig::ControlKind::Position;
+}
+
+glm::dvec3 walk_point(const Motion& motion, double ticks) {
+    return glm::dvec3(motion.centre) +
+           static_cast<double>(motion.radius) * step_at(motion.path, angle_after(motion, ticks)).at;
+}
+
+rig::Value walk_value(const RigWalk& walk, const rig::Value& now, double ticks) {
+    const glm::dvec3 at = walk_point(walk.motion, ticks);
+    const auto* pose = std::get_if<rig::Transform>(&now);
+    if (!pose) return at;
+    rig::Transform to{at, pose->rotation, pose->scale};
+    if (walk.turn) {
+        const glm::dvec3 along = step_at(walk.motion.path, angle_after(walk.motion, ticks)).along;
+        const double half = 0.5 * std::atan2(along.x, along.z);
+        to.rotation = glm::dquat(std::cos(half), 0.0, std::sin(half), 0.0);
+    }
+    return to;
+}
+
+// The Rig lab from tick to tick.
+
+namespace {
+
+RigRuntime& rig_runtime(const Workspace& workspace) {
+    return workspace.runtimes.of<RigRuntime>(rig_lab);
+}
+
+}  // namespace
+
+bool RigLab::moving(const Workspace& workspace) const {
+    return time_moves(rig_part(workspace));
+}
+
+void RigLab::step(Workspace& workspace) const {
+    const int due = workspace.clock.whole_ticks();
+    if (due == 0) return;
+    const bool modified = workspace.modified();
+    RigPart& part = workspace.document.edit<RigPart>(rig_lab);
+    for (int i = 0; i < due; ++i) pass_tick(part, rig_runtime(workspace), workspace.clock.measured);
+    if (!modified) workspace.saved = workspace.document;  // time does not mark the scene as modified
+}
+
+std::uint64_t RigLab::tick_work(const Workspace& workspace) const {
+    return rig_part(workspace).rig.work();
+}
+
+double RigLab::seconds(const Workspace& workspace) const {
+    return static_cast<double>(rig_part(workspace).take.now()) * tick_seconds;
+}
+
+std::vector<Incident> RigLab::review(const Workspace&, const Part& before, const Part& after) const {
+    return rig_incidents(dynamic_cast<const RigPart&>(before), dynamic_cast<const RigPart&>(after));
+}
+
+bool RigLab::working(const Workspace& workspace) const {
+    const RigPart& part = rig_part(workspace);
+    return (part.clip_left && part.clip_left->running) || (part.rates && part.rates->running);
+}
+
+void RigLab::work(Workspace& workspace) const {
+    const bool modified = workspace.modified();
+    RigPart& part = workspace.document.edit<RigPart>(rig_lab);
+    RigRuntime& runtime = rig_runtime(workspace);
+    continue_clip_solve(part, runtime.workspace(part.rig));
+    runtime.rates.advance(part);
+    if (!modified) workspace.saved = workspace.document;
 }
 
 }  // namespace tendril::app

@@ -1,6 +1,8 @@
 // How a take goes on: tick by tick, to any tick, and where another begins.
 #pragma once
 
+#include <tendril/rig/control.hpp>
+
 #include "app/labs/rig/rig_part.hpp"
 #include "app/labs/rig/rig_runtime.hpp"
 
@@ -42,5 +44,14 @@ class TakeRunner {
     std::uint32_t ticks_ = 0;
     std::size_t next_key_ = 0;
 };
+
+// Where a control that follows a path is.
+
+/// Whether a control of that kind can follow one.
+bool can_walk(rig::ControlKind kind);
+/// After so many ticks of the take, which need not be whole; within the control's space.
+glm::dvec3 walk_point(const Motion& motion, double ticks);
+/// The value of the control there: what the path does not say is as `now` has it.
+rig::Value walk_value(const RigWalk& walk, const rig::Value& now, double ticks);
 
 }  // namespace tendril::app

@@ -6,8 +6,8 @@
 
 #include "app/document/json_complete.hpp"
 #include "app/document/units.hpp"
-#include "app/labs/rig/unit_json.hpp"
-#include "app/labs/rig/value_text.hpp"
+#include "app/labs/rig/definition_json.hpp"
+#include "app/labs/rig/values.hpp"
 
 namespace tendril::app {
 namespace {
@@ -229,6 +229,336 @@ std::optional<UnitRow> unit_row(const RigPart& part, std::string_view name) {
     for (const UnitRow& row : unit_rows(part))
         if (row.unit->name == name) return row;
     return std::nullopt;
+}
+
+namespace {
+
+constexpr const char* of_words[] = {"transform", "translation", "rotation", "scale", "x", "y", "z", "value"};
+
+/// What Rig::make takes: an input of T also takes what it can be made from.
+bool converts(rig::Type from, rig::Type to) {
+    using enum rig::Type;
+    return from == to || (from == Bool && to == Number) ||
+           (from == Transform && (to == Vector || to == Rotation));
+}
+
+/// Parts of a pose, and those that differ between global and local.
+std::vector<rig::Of> parts_of(rig::Type type) {
+    using enum rig::Of;
+    switch (type) {
+        case rig::Type::Number:
+            return {X, Y, Z};
+        case rig::Type::Vector:
+            return {Translation, Scale};
+        case rig::Type::Rotation:
+            return {Rotation};
+        case rig::Type::Transform:
+            return {Transform};
+        default:
+            return {};
+    }
+}
+
+Json zero_of(rig::Type type) {
+    switch (type) {
+        case rig::Type::Bool:
+            return false;
+        case rig::Type::Number:
+            return 0.0;
+        case rig::Type::Vector:
+            return Json::array({0, 0, 0});
+        case rig::Type::Rotation:
+            return Json::array({0, 0, 0, 1});
+        default:
+            return Json::object();
+    }
+}
+
+class Offers {
+  public:
+    Offers(const RigPart& part, const UnitRow& row, const UnitInput& input)
+        : part_(part), row_(row), input_(input) {}
+
+    std::vector<InputOffer> list(std::size_t index) {
+        switch (input_.takes) {
+            case UnitInput::Takes::Value:
+                if (!input_.literal()) literal();
+                for (const rig::Type type : types()) values(type);
+                break;
+            case UnitInput::Takes::Element:
+                if (row_.inner) offer("each element", {{"item", "each"}});
+                elements(false);
+                break;
+            case UnitInput::Takes::Bone:
+                elements(true);
+                break;
+            case UnitInput::Takes::Roots:
+                roots(index);
+                break;
+            case UnitInput::Takes::Curve:
+                for (const rig::NamedCurve& curve : definition().curves) offer(curve.name, curve.name);
+                break;
+            default:
+                break;
+        }
+        return std::move(offers_);
+    }
+
+  private:
+    const rig::Definition& definition() const { return part_.rig.definition(); }
+
+    void offer(std::string title, Json value) {
+        const auto* names = std::get_if<InputNames>(&input_.value);
+        const bool now = title == input_.from || (names != nullptr && title == names->names.front());
+        offers_.push_back({std::move(title), SharedJson(std::move(value)), now});
+    }
+
+    /// The only type that it takes, or those that a spring takes: its force goes with its result.
+    std::vector<rig::Type> types() const {
+        if (input_.type) return {*input_.type};
+        if (input_.path == "/force") return {rig::type_of(part_.state.units[row_.at].outputs[1])};
+        return {rig::Type::Number, rig::Type::Vector, rig::Type::Rotation};
+    }
+
+    /// What it is now, from now on for itself.
+    void literal() {
+        const rig::Type type = types().front();
+        const auto* now = std::get_if<rig::Value>(&input_.value);
+        const bool fits = now != nullptr && (rig::type_of(*now) == type || !input_.type);
+        offer(type == rig::Type::Bool ? "a switch of its own" : "a value of its own",
+              fits ? value_json(within_range(*now)) : zero_of(type));
+    }
+
+    /// A literal weight is 0 to 1, one among parents and a speed are not negative.
+    rig::Value within_range(rig::Value value) const {
+        auto* number = std::get_if<double>(&value);
+        if (number == nullptr) return value;
+        const bool weight = input_.path.ends_with("weight"), relative = input_.path.starts_with("/parents");
+        if (weight || input_.path == "/max_speed") *number = std::max(*number, 0.0);
+        if (weight && !relative) *number = std::min(*number, 1.0);
+        return value;
+    }
+
+    void values(rig::Type type) {
+        if (row_.inner) from_each(type);
+        from_units(type);
+        for (const bool controls : {true, false})
+            for (const rig::Element& element : definition().elements)
+                if ((element.kind == rig::ElementKind::Control) == controls) from_element(element, type);
+    }
+
+    void from_each(rig::Type type) {
+        if (type == rig::Type::Number) {
+            offer("each ratio, 0 to 1", {{"each", "ratio"}});
+            offer("each index", {{"each", "index"}});
+            offer("count of elements", {{"each", "count"}});
+        }
+        from_pose("each element", {{"item", "each"}}, type);
+    }
+
+    /// Those that have run by then: not the for-each that it is in, nor what another's body did once an
+    /// element.
+    void from_units(rig::Type type) {
+        for (const UnitRow& each : unit_rows(part_)) {
+            if (each.at >= row_.at) break;
+            if (each.inner ? !(row_.inner && each.top == row_.top) : row_.inner && each.top == row_.top)
+                continue;
+            const std::vector<rig::Output> outputs = rig::outputs(each.unit->operation);
+            for (std::size_t i = 0; i < outputs.size(); ++i) {
+                if (!fits(rig::type_of(part_.state.units[each.at].outputs[i]), type)) continue;
+                std::string title = "unit " + each.unit->name;
+                if (std::string_view(outputs[i].name) != "result") title.append(", ").append(outputs[i].name);
+                offer(std::move(title), {{"unit", each.unit->name}, {"output", outputs[i].name}});
+            }
+        }
+    }
+
+    void from_element(const rig::Element& element, rig::Type type) {
+        const Json name{{"element", element.name}};
+        if (element.control && fits(rig::type_of(element.control->kind), type)) {
+            Json value = name;
+            value["of"] = "value";
+            offer(element.name + ", value", std::move(value));
+        }
+        from_pose(element.name, name, type);
+    }
+
+    void from_pose(const std::string& title, const Json& name, rig::Type type) {
+        for (const rig::Of of : parts_of(type)) {
+            for (const char* space : {"global", "local"}) {
+                Json value = name;
+                value["of"] = of_words[static_cast<std::size_t>(of)];
+                value["space"] = space;
+                std::string words = title;
+                words.append(", ").append(of_words[static_cast<std::size_t>(of)]);
+                if (space[0] == 'l') words += ", local";
+                offer(std::move(words), std::move(value));
+            }
+        }
+    }
+
+    /// One that takes any type takes it as it is.
+    bool fits(rig::Type from, rig::Type to) const { return input_.type ? converts(from, to) : from == to; }
+
+    void elements(bool bones) {
+        for (const rig::Element& each : definition().elements)
+            if (!bones || each.kind == rig::ElementKind::Bone) offer(each.name, each.name);
+    }
+
+    void roots(std::size_t index) {
+        const std::vector<std::string>& names = std::get<InputNames>(input_.value).names;
+        for (const rig::Element& each : definition().elements) {
+            if (std::ranges::count(names, each.name) > 0 &&
+                !(index < names.size() && names[index] == each.name))
+                continue;
+            Json all = names;
+            index < names.size() ? all[index] = each.name : all.emplace_back(each.name);
+            offers_.push_back(
+                {each.name, SharedJson(std::move(all)), index < names.size() && names[index] == each.name});
+        }
+        if (index >= names.size() || names.size() < 2) return;
+        Json fewer = names;
+        fewer.erase(index);
+        offers_.push_back({"none: no root any more", SharedJson(std::move(fewer)), false});
+    }
+
+    const RigPart& part_;
+    const UnitRow& row_;
+    const UnitInput& input_;
+    std::vector<InputOffer> offers_;
+};
+
+}  // namespace
+
+std::vector<InputOffer> input_offers(const RigPart& part, const UnitRow& row, const UnitInput& input,
+                                     std::size_t index) {
+    return Offers(part, row, input).list(index);
+}
+
+namespace {
+
+struct Help {
+    const char* operation;  ///< empty: whatever has an input of that name
+    const char* input;      ///< the last name of the path; "primary/axis" where that is not enough
+    const char* text;
+};
+
+constexpr Help helps[] = {
+    {"", "primary/weight", "How far the axis is brought to its target. 1 is all the way."},
+    {"", "secondary/weight", "How far the item is rolled towards the second target. 1 is all the way."},
+    {"", "primary/axis", "The axis of the item, in its own space, that points at the target."},
+    {"", "secondary/axis",
+     "The axis of the item that points as nearly at the second target as the first allows."},
+    {"", "primary/target", "What the axis points at: a point in the scene, or a direction."},
+    {"", "secondary/target",
+     "What the item is rolled towards: a point in the scene, or a direction. Often it says "
+     "where up is."},
+    {"", "secondary",
+     "A second axis with its target, which decides the roll about the first. None: it is not rolled."},
+    {"", "kind", "Whether the target is a point in the scene or a direction."},
+    {"", "max_speed", "How many degrees the item turns in a second at most. 0 is no limit."},
+    {"parent_constraint", "parents/weight",
+     "How much this parent counts, relative to the others. 0 leaves it out."},
+    {"", "weight", "How much the unit does: 0 leaves everything as it is, 1 does all of it."},
+    {"", "when", "The unit runs only where this is on."},
+    {"parent_constraint", "parents/item", "An element that the item follows."},
+    {"", "item", "The element that the unit moves."},
+    {"", "child", "The element whose place at rest is taken to another parent."},
+    {"", "old_parent", "The element to which the child was fastened at rest."},
+    {"", "new_parent", "The element to which the child is fastened now."},
+    {"", "maintain_offset",
+     "On, only what the parents have moved since they were added passes on. Off, the item goes to its "
+     "parents."},
+    {"", "filter",
+     "Which axes of translation, rotation and scale pass; the others stay as they are. In the space of "
+     "the item's parent."},
+    {"", "offset", "What is added to the item's transform, in the item's own space."},
+    {"", "propagate", "On, all elements below the item go with it. Off, they stay where they are."},
+    {"", "space", "Global: in the scene. Local: within the item's parent."},
+    {"set_transform", "transform", "The transform that the item gets."},
+    {"", "transform", "The transform that the unit works on."},
+    {"", "rotation", "The rotation that the item gets."},
+    {"", "from", "The direction that is turned. Its length does not matter."},
+    {"", "to", "The direction that it is turned to. Its length does not matter."},
+    {"", "location", "A point in the transform's own space. The result is that point in the scene."},
+    {"", "direction",
+     "A direction in the transform's own space. The result is turned with it, and as long as before."},
+    {"", "roots", "Where the for-each begins: its units run on each element from here down."},
+    {"", "include_parent", "On, the units run on the root itself too. Off, only on what is below it."},
+    {"", "recursive", "On, the units run on all that is below the root. Off, on its children alone."},
+    {"", "map_range", "First step: maps the in range to the out range, beyond its ends too."},
+    {"", "in_range", "The range that is mapped. Only with map range."},
+    {"", "out_range", "What the ends of the in range become. Only with map range."},
+    {"", "scale", "Second step: the value is multiplied by this, then the bias is added."},
+    {"", "bias", "Second step: added after the value is multiplied by scale."},
+    {"", "clamp", "Third step: keeps the value between clamp min and clamp max."},
+    {"", "clamp_min", "The minimum of the value. Only with clamp."},
+    {"", "clamp_max", "The maximum of the value. Only with clamp."},
+    {"", "interp", "Last step: eases towards the value instead of jumping."},
+    {"", "speed_increasing", "How fast it eases while the value rises. Only with interp."},
+    {"", "speed_decreasing", "How fast it eases while the value falls. Only with interp."},
+    {"spring_interpolate", "target", "What the spring pulls towards: a number, a vector or a rotation."},
+    {"", "strength", "How often a second the spring would swing without damping. More follows faster."},
+    {"", "critical_damping",
+     "How soon swinging stops: 0 swings for ever, 1 is the fastest that does not overshoot."},
+    {"", "force", "A push on what the spring moves: shifts where it comes to rest. None: there is none."},
+    {"", "target_velocity_amount",
+     "How much of the target's velocity the spring goes by, from 0 to 1: at 1 it follows steady motion "
+     "without lag."},
+    {"set_curve", "curve", "The named curve that is written: a morph weight, or a value of a material."},
+    {"set_curve", "value", "What is written into the curve."},
+    {"evaluate_curve", "value", "Where the curve is read."},
+    {"", "value", "The number that goes in."},
+    {"", "root", "The first bone of the chain."},
+    {"", "tip", "The last bone of the chain: it goes to the target."},
+    {"", "target", "Where the tip of the chain goes: a point in the scene."},
+    {"", "pole_target", "A point that the elbow or knee points at. None: the chain bends as it did."},
+};
+
+/// The path without the number of a parent: "/parents/0/weight" has "parents/weight".
+bool is_path_of(std::string_view path, std::string_view input) {
+    const std::size_t slash = input.find('/');
+    if (slash == input.npos) return path.ends_with(input) && path[path.size() - input.size() - 1] == '/';
+    const std::string_view group = input.substr(0, slash);
+    return path.starts_with('/') && path.substr(1).starts_with(group) && path.ends_with(input.substr(slash));
+}
+
+constexpr struct {
+    const char* operation;
+    const char* text;
+} operations[] = {
+    {"aim", "Turns an element so that one of its axes points at a target."},
+    {"aim_math", "As Aim, on a transform that it is given: hands out the result and moves nothing."},
+    {"parent_constraint", "Lets an element follow one or more others, by weight."},
+    {"offset_transform", "Moves, turns and scales an element in its own space."},
+    {"set_transform", "Gives an element a transform."},
+    {"set_rotation", "Gives an element a rotation; its place stays."},
+    {"project_to_parent", "Hands out where an element would be, were it fastened to another parent."},
+    {"from_two_vectors", "Hands out the shortest rotation from one direction to another."},
+    {"transform_location", "Hands out where a point of a transform's own space is in the scene."},
+    {"transform_direction", "Hands out a direction of a transform's own space, as it is in the scene."},
+    {"for_each", "Runs other units on each element of a chain or a tree."},
+    {"alpha_interpolate", "Maps, scales, clamps and eases a number."},
+    {"spring_interpolate", "Follows a number, a vector or a rotation with a spring."},
+    {"evaluate_curve", "Hands out a number read from a curve."},
+    {"set_curve", "Writes a number into a named curve."},
+    {"two_bone", "Turns two bones so that the tip reaches a target."},
+    {"fabrik", "Turns a chain of bones so that its tip reaches a target."},
+};
+
+}  // namespace
+
+const char* input_help(std::string_view operation, std::string_view path) {
+    for (const Help& help : helps)
+        if (is_path_of(path, help.input) && (*help.operation == '\0' || operation == help.operation))
+            return help.text;
+    return "";
+}
+
+const char* operation_help(std::string_view operation) {
+    for (const auto& each : operations)
+        if (operation == each.operation) return each.text;
+    return "";
 }
 
 }  // namespace tendril::app

@@ -77,4 +77,25 @@ std::vector<UnitRow> unit_rows(const RigPart& part);
 /// Of that name; none where there is no such unit.
 std::optional<UnitRow> unit_row(const RigPart& part, std::string_view name);
 
+// What an input of a unit may be instead of what it is: elements, outputs of units before it, what a for-each
+// says. For the inspector, which lists them; each is one that rig.unit.set takes.
+
+struct InputOffer {
+    std::string title;  ///< "dial, value", "unit late", "each ratio, 0 to 1"
+    SharedJson value;   ///< for with_input()
+    bool now = false;   ///< what the input is
+};
+/// Of one whose UnitInput::takes is not Nothing. An input of values can be a number of its own again, too.
+/// Of roots, what the one at `index` may be; another where `index` is their number.
+/// Cost: O(elements + units).
+std::vector<InputOffer> input_offers(const RigPart& part, const UnitRow& row, const UnitInput& input,
+                                     std::size_t index = 0);
+
+// What the inputs of units do, for tooltips.
+
+/// Of an operation, as scene files name it, and the path of an input (unit_inputs.hpp).
+const char* input_help(std::string_view operation, std::string_view path);
+/// What an operation does, in a sentence.
+const char* operation_help(std::string_view operation);
+
 }  // namespace tendril::app

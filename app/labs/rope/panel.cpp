@@ -1,22 +1,33 @@
-// What one chooses in the Rope lab: scene, tool, what there is, how it is simulated and shown.
-#include <imgui.h>
+#include "app/labs/rope/panel.hpp"
 
+#include <imgui.h>
 #include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/trigonometric.hpp>
 #include <string>
 #include <string_view>
 
+#include "app/document/json_complete.hpp"
 #include "app/fields/field_rows.hpp"
-#include "app/labs/kit/folding.hpp"
+#include "app/labs/kit/panel_rows.hpp"
 #include "app/labs/kit/past_strip.hpp"
-#include "app/labs/kit/preset_rows.hpp"
-#include "app/labs/rope/panels.hpp"
+#include "app/labs/rope/body_settings.hpp"
+#include "app/labs/rope/numbers.hpp"
 #include "app/labs/rope/past.hpp"
+#include "app/labs/rope/rope_edit.hpp"
 #include "app/labs/rope/rope_lab.hpp"
-#include "app/labs/rope/rope_names.hpp"
+#include "app/labs/rope/rope_part.hpp"
 #include "app/labs/rope/scenes.hpp"
 #include "app/widgets/fields.hpp"
+#include "app/widgets/plot.hpp"
 
 namespace tendril::app {
+
+// What one chooses in the Rope lab: scene, tool, what there is, how it is simulated and shown.
+
 namespace {
 
 void scene_rows(Emit& emit) {
@@ -120,6 +131,224 @@ float RopeLab::timeline_height(const Workspace& workspace) const {
 void RopeLab::timeline(const Workspace& workspace, Emit& emit) const {
     const StripLine strip = past_strip(workspace, emit);
     past_plot(workspace, rope_past(), rope_past_curve(workspace), strip, emit);
+}
+
+// What is selected in the Rope lab, and how the simulation goes.
+
+namespace {
+
+/// What the body is made of.
+void body_rows(const NamedWorld& world, const rope::Body& body, Emit& emit) {
+    section(world.name(body).c_str());
+    const BodySettings settings = settings_of(world, body);
+    const FieldRows rows(settings, "rope.set", emit, {{"rope", world.name(body)}});
+    rows.row("length", {.why_not = settings.length > 0.0f ? "" : "It has no length."});
+    rows.rows("mass", "radius", "stretch");
+    if (settings.shear) rows.row("shear");
+    if (settings.bend) rows.row("bend");
+    if (settings.tear) rows.row("tear");
+}
+
+void particle_rows(const RopePart& part, const rope::Body& body, std::size_t index, Emit& emit) {
+    const NamedWorld& world = *part.world;
+    const std::size_t particle = body.first + index;
+    const bool held = is_held(part, particle), pinned = world.pinned(particle) && !held;
+    const ArgumentList which{{"rope", world.name(body)}, {"particle", index}};
+    reading("body", "%s", world.name(body).c_str());
+    reading("particle", "%zu of %zu%s", index, body.count, pinned ? ", pinned" : held ? ", held" : "");
+    glm::vec3 at = world.position(particle);
+    if (pinned) {
+        if (point_field("at", at, 0.01f)) {
+            ArgumentList arguments = which;
+            arguments.push_back({"at", at});
+            emit.continuously("rope.pin", arguments);
+        }
+        explain("Where the particle is pinned.");
+    } else {
+        reading("at", "%.3f  %.3f  %.3f", static_cast<double>(at.x), static_cast<double>(at.y),
+                static_cast<double>(at.z));
+    }
+    reading("speed", "%.3f m/s", static_cast<double>(glm::length(world.velocity(particle))));
+    reading("tension", "%.2f N",
+            static_cast<double>(strongest_tension(world, measured_particles(world, part.selection))));
+    if (row_button(pinned ? "Unpin" : "Pin", 3, true,
+                   pinned ? "Lets the particle move again" : "Holds the particle where it is now"))
+        emit(pinned ? "rope.unpin" : "rope.pin", which);
+    const bool rope = body.kind == rope::Body::Kind::Rope;
+    if (row_button("Cut", 3, rope && body.count > 1, "Cuts the segment after this particle"))
+        emit("rope.cut", {{"rope", world.name(body)}, {"segment", std::min(index, body.count - 2)}});
+    if (row_button("Remove", 3, true, "Removes the whole body"))
+        emit("rope.remove", {{"name", world.name(body)}});
+    end_row();
+    body_rows(world, body, emit);
+}
+
+/// Of several particles.
+void several_rows(const RopePart& part, const rope::Body& body, const std::vector<std::size_t>& all,
+                  Emit& emit) {
+    const NamedWorld& world = *part.world;
+    const auto pinned = static_cast<std::size_t>(
+        std::count_if(all.begin(), all.end(), [&](std::size_t i) { return world.pinned(body.first + i); }));
+    reading("body", "%s", world.name(body).c_str());
+    reading("particles", "%zu of %zu", all.size(), body.count);
+    reading("pinned", "%zu", pinned);
+    const auto which = [&] {
+        return ArgumentList{{"rope", world.name(body)}, {"particles", SharedJson(Json(all))}};
+    };
+    if (row_button("Pin", 3, pinned < all.size(), "Holds all of them where they are now"))
+        emit("rope.pin", which());
+    if (row_button("Unpin", 3, pinned > 0, "Lets all of them move again")) emit("rope.unpin", which());
+    if (row_button("Remove", 3, true, "Removes the whole body"))
+        emit("rope.remove", {{"name", world.name(body)}});
+    end_row();
+    body_rows(world, body, emit);
+}
+
+/// What a kind of collider has beside its place.
+void shape_rows(const rope::Collider& collider, const std::string& name, Emit& emit) {
+    const auto set = [&](const char* key, ArgumentValue value) {
+        emit.continuously("rope.collider.set", {{"name", name}, {key, std::move(value)}});
+    };
+    const auto radius_row = [&](float radius) {
+        if (number_field("radius", radius, 0.002f, 0.0f, 1e3f, "%.3f m")) set("radius", radius);
+        explain("How thick the collider is, from its middle to its surface.");
+    };
+    if (const auto* sphere = std::get_if<rope::Sphere>(&collider.shape)) radius_row(sphere->radius);
+    if (const auto* capsule = std::get_if<rope::Capsule>(&collider.shape)) {
+        glm::vec3 a = capsule->a, b = capsule->b;
+        if (point_field("one end", a, 0.01f)) set("a", a);
+        explain("The middle of one of its round ends.");
+        if (point_field("other end", b, 0.01f)) set("b", b);
+        explain("The middle of its other round end.");
+        radius_row(capsule->radius);
+    }
+    if (const auto* plane = std::get_if<rope::Plane>(&collider.shape)) {
+        glm::vec3 normal = plane->normal;
+        if (point_field("normal", normal, 0.01f, 1.0f, "%.3f") && glm::length(normal) > 1e-3f)
+            set("normal", normal);
+        explain("The direction out of the plane: ropes stay on this side. Its length does not matter.");
+    }
+    if (const auto* box = std::get_if<rope::Box>(&collider.shape)) {
+        glm::vec3 half = box->half_extents;
+        if (point_field("half extents", half, 0.005f, 1e3f)) set("half_extents", glm::abs(half));
+        explain("From the middle of the box to its faces, along its own axes: half its size.");
+        // Turned on about its own axes: the angles that it is told by meet at a pole, a box does not.
+        const glm::vec3 was = glm::degrees(glm::eulerAngles(box->rotation)) + 0.0f;  // no -0
+        glm::vec3 turned = was;
+        if (point_field("rotation", turned, 0.5f, 360.0f, "%.1f\xC2\xB0")) {
+            const glm::quat q = box->rotation * glm::quat(glm::radians(turned - was));
+            set("rotation", q);
+        }
+        explain("Turns the box about its own axes.");
+    }
+}
+
+void collider_rows(const RopePart& part, const rope::Collider& collider, Emit& emit) {
+    const std::string& name = part.world->name(collider);
+    reading("collider", "%s", name.c_str());
+    reading("kind", "%s", rope::kind(collider.shape));
+    glm::vec3 at = rope::centre(collider.shape);
+    if (point_field("at", at, 0.01f)) emit.continuously("rope.collider.move", {{"name", name}, {"to", at}});
+    explain("Where the collider is. It can be dragged in the picture too.");
+    shape_rows(collider, name, emit);
+    const auto found = std::find_if(part.swings.begin(), part.swings.end(),
+                                    [&](const Swing& swing) { return swing.collider == name; });
+    const bool swings = found != part.swings.end();
+    glm::vec3 by = swings ? found->swing : glm::vec3(0.0f);
+    float period = swings ? found->period : 2.0f;
+    const auto swing = [&] {
+        emit.continuously("rope.collider.swing", {{"name", name}, {"by", by}, {"period", period}});
+    };
+    if (point_field("swings by", by, 0.01f)) swing();
+    explain("How far the collider swings to each side of where it is. With 0, 0, 0 it stands still.");
+    if (swings) {
+        if (number_field("period", period, 0.02f, min_period, max_period, "%.2f s")) swing();
+        explain("How long it takes to swing there and back.");
+    }
+    if (row_button("Remove", 3, true, "Removes the collider")) emit("rope.collider.remove", {{"name", name}});
+    end_row();
+}
+
+Curve curve(const char* name, glm::vec3 colour, const std::vector<RopeSample>& samples,
+            float RopeSample::*value, float scale) {
+    Curve drawn{name, colour, {}};
+    drawn.points.reserve(samples.size());
+    for (std::size_t i = 0; i < samples.size(); ++i)
+        drawn.points.push_back(
+            {static_cast<float>(i) * static_cast<float>(tick_seconds), scale * (samples[i].*value)});
+    return drawn;
+}
+
+/// While frame-time jitter is on, and as long as its frames are among the last ten seconds.
+void frame_times(const std::vector<RopeSample>& samples, const Palette& palette) {
+    constexpr float even = 1e3f * static_cast<float>(tick_seconds);
+    const auto uneven = [](const RopeSample& sample) { return std::abs(sample.frame - even) > 1e-3f; };
+    if (std::none_of(samples.begin(), samples.end(), uneven)) return;
+    const Curve times[] = {curve("frame time", palette.selection, samples, &RopeSample::frame, 1.0f)};
+    plot("frame time", times,
+         {.x = "time",
+          .x_unit = "s",
+          .y = "frame time",
+          .y_unit = "ms",
+          .min_y = 0.0f,
+          .high_y = 2.0f * even,
+          .level = even},
+         7.0f);
+    explain("How long each frame is that time is cut into. The dashed line is an even frame, 16.7 ms.");
+}
+
+}  // namespace
+
+void selection_rows(const Workspace& workspace, Emit& emit) {
+    section("Selection");
+    const RopePart& part = rope_part(workspace);
+    if (part.selection) {
+        if (const rope::Collider* collider = part.world->find_collider(part.selection->collider))
+            return collider_rows(part, *collider, emit);
+        const rope::Body* body = part.world->find(part.selection->body);
+        if (body != nullptr && part.selection->particles.several())
+            return several_rows(part, *body, part.selection->particles.all(), emit);
+        if (body != nullptr && part.selection->particle() < body->count)
+            return particle_rows(part, *body, part.selection->particle(), emit);
+    }
+    note("Nothing is selected. Click a rope or a collider.");
+}
+
+void number_rows(const Workspace& workspace, const Palette& palette) {
+    const RopePart& part = rope_part(workspace);
+    const rope::State& state = part.world->state();
+    section("Numbers");
+    reading("particles", "%zu", state.position.size());
+    const RopeSample last = part.samples.empty() ? RopeSample{} : part.samples.back();
+    reading("length error", "%.4f %%", 100.0 * static_cast<double>(last.error));
+    explain("How far the worst segment is from its length, as one sees it: after contact.");
+    reading("as solved", "%.4f %%", 100.0 * static_cast<double>(last.stretch));
+    explain("The length error as the solver left it: of hair, before colliders displaced anything.");
+    reading("energy", "%.3f J", static_cast<double>(last.energy));
+    reading("taken by contact", "%.3f J", static_cast<double>(last_second(part.samples).contact_loss));
+    explain("Energy lost to contact and friction in the last second, by bodies near colliders at rest.");
+    reading("substeps dropped", "%llu", static_cast<unsigned long long>(state.dropped));
+    explain(
+        "Substeps left out so as not to fall behind: of frames over the longest frame, and of more work than "
+        "a tick allows.");
+    if (workspace.clock.measured && part.cost > 0.0f)
+        reading("time a frame", "%.0f \xc2\xb5s", static_cast<double>(part.cost));
+    if (part.quiet_ticks > 0) note("At rest.");
+    if (part.samples.size() < 2) return;
+    section("Last ten seconds");
+    colour_mark(palette.ghost);
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextDisabled("length error");
+    ImGui::SameLine(0.0f, ImGui::GetFontSize());
+    colour_mark(palette.limit);
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextDisabled("as solved");
+    const Curve errors[] = {curve("length error", palette.ghost, part.samples, &RopeSample::error, 100.0f),
+                            curve("as solved", palette.limit, part.samples, &RopeSample::stretch, 100.0f)};
+    plot("length error", errors, {.x = "time", .x_unit = "s", .y = "", .y_unit = "%", .min_y = 1e-4f}, 9.0f);
+    const Curve energy[] = {curve("energy", palette.accent, part.samples, &RopeSample::energy, 1.0f)};
+    plot("energy", energy, {.x = "time", .x_unit = "s", .y = "energy", .y_unit = "J", .min_y = 0.0f}, 9.0f);
+    frame_times(part.samples, palette);
 }
 
 }  // namespace tendril::app

@@ -1,10 +1,9 @@
-#include "app/labs/rope/rope_commands.hpp"
+#include "app/labs/rope/body_commands.hpp"
 
 #include <algorithm>
 #include <stdexcept>
 
-#include "app/labs/kit/index_list.hpp"
-#include "app/labs/kit/part_command.hpp"
+#include "app/labs/kit/arguments.hpp"
 #include "app/labs/rope/numbers.hpp"
 #include "app/labs/rope/rope_time.hpp"
 

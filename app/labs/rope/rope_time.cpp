@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "app/labs/kit/motion.hpp"
-#include "app/labs/rope/rope_names.hpp"
+#include "app/labs/rope/rope_part.hpp"
 
 namespace tendril::app {
 namespace {

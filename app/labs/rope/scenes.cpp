@@ -1,10 +1,15 @@
 #include "app/labs/rope/scenes.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
 #include <glm/trigonometric.hpp>
+#include <tendril/rope/hair_roots.hpp>
+#include <utility>
 
 #include "app/document/names.hpp"
+#include "app/labs/kit/arguments.hpp"
 
 namespace tendril::app {
 namespace {
@@ -91,6 +96,268 @@ void weigh_down(NamedWorld& world, const std::string& rope, std::size_t count, d
     for (std::size_t i = 0; i < count; ++i)
         state.mass[body.first + body.count - 1 - i] = kilograms / static_cast<double>(count);
     world.put(std::move(state));
+}
+
+// Scenes of ropes.
+
+/// Two hands bring a rope down over a ball and a bar; shorter ones fall over the bar beside it.
+RopeScene drape_scene() {
+    RopeScene scene;
+    NamedWorld& world = scene.world;
+    add_ground(world);
+    world.add_collider("ball", rope::Sphere{{-0.65f, 0.95f, 0.0f}, 0.4f});
+    world.add_collider("bar", rope::Capsule{{0.8f, 1.1f, -0.7f}, {0.8f, 1.1f, 0.7f}, 0.14f});
+    // It begins taut above everything, so that it comes to lie on top.
+    const float height = 1.9f, hands = 1.55f, half = 2.1f;
+    world.add_rope("rope", {.from = {-half, height, 0},
+                            .to = {half, height, 0},
+                            .segments = 80,
+                            .pin_start = true,
+                            .pin_end = true});
+    world.pin(world.particle("rope", 0), {-hands, height, 0}, 1.2);
+    world.pin(world.particle("rope", 80), {hands, height, 0}, 1.2);
+    const float lengths[] = {1.8f, 1.4f, 2.0f};
+    const float places[] = {-0.5f, 0.28f, 0.55f};
+    for (int i = 0; i < 3; ++i) {
+        const float length = lengths[i], shift = 0.05f * static_cast<float>(i - 1);
+        world.add_rope("short " + std::to_string(i + 1),
+                       {.from = {0.8f + shift - 0.5f * length, 1.45f, places[i]},
+                        .to = {0.8f + shift + 0.5f * length, 1.45f, places[i]},
+                        .segments = 36,
+                        .radius = 0.016f});
+    }
+    rope::Settings settings = world.settings();
+    settings.damping = 0.8f;  // what dangles comes to rest within half a minute
+    world.set_settings(settings);
+    return scene;
+}
+
+/// A deck of ropes and two hand ropes between four posts; a ball rolls to and fro over it.
+RopeScene bridge_scene() {
+    RopeScene scene;
+    NamedWorld& world = scene.world;
+    const float end = 2.0f, side = 0.36f, deck = 0.95f, hand = 1.5f, thick = 0.06f;
+    add_ground(world);
+    for (const float x : {-end, end}) {
+        for (const float z : {-side, side}) {
+            const std::string name = std::string(x < 0 ? "left" : "right") + (z < 0 ? " far" : " near");
+            world.add_collider(name + " post", rope::Capsule{{x, 0, z}, {x, hand + 0.08f, z}, thick});
+        }
+    }
+    const float from = end - thick - 0.03f;
+    for (const float z : {-side, side}) {
+        world.add_rope(z < 0 ? "far hand rope" : "near hand rope", {.from = {-from, hand, z},
+                                                                    .to = {from, hand, z},
+                                                                    .segments = 64,
+                                                                    .length = 2.0f * from * 1.03f,
+                                                                    .pin_start = true,
+                                                                    .pin_end = true});
+    }
+    constexpr int strands = 6;
+    const float half = side - 0.1f;
+    for (int i = 0; i < strands; ++i) {
+        const float z = half * (2.0f * static_cast<float>(i) / (strands - 1) - 1.0f);
+        world.add_rope("deck " + std::to_string(i + 1), {.from = {-from, deck, z},
+                                                         .to = {from, deck, z},
+                                                         .segments = 64,
+                                                         .length = 2.0f * from * 1.01f,
+                                                         .radius = 0.025f,
+                                                         .density = 2.0f,
+                                                         .pin_start = true,
+                                                         .pin_end = true});
+    }
+    const glm::vec3 roll(0.0f, 0.92f, 0.0f);  // so low that it presses the deck down
+    world.add_collider("ball", rope::Sphere{roll, 0.22f});
+    scene.swings.push_back({"ball", roll, {1.1f, 0.0f, 0.0f}, 9.0f});
+    rope::Settings settings = world.settings();
+    settings.damping = 0.6f;
+    settings.friction = 0.2f;
+    world.set_settings(settings);
+    return scene;
+}
+
+/// Pendulums whose swings in half a minute are whole numbers, one more for each: side by side they make
+/// waves, fall apart, and find together again.
+RopeScene pendulum_scene() {
+    RopeScene scene;
+    NamedWorld& world = scene.world;
+    add_ground(world);
+    constexpr int count = 11, slowest_swings = 18;
+    constexpr float seconds = 30.0f, beam = 1.4f, apart = 0.17f, amplitude = 0.45f;
+    const float half = 0.5f * apart * (count - 1) + 0.18f;
+    world.add_collider("beam", rope::Capsule{{-half, beam + 0.05f, 0}, {half, beam + 0.05f, 0}, 0.04f});
+    for (const float x : {-half, half})
+        world.add_collider(x < 0 ? "left post" : "right post",
+                           rope::Capsule{{x, 0, 0}, {x, beam + 0.05f, 0}, 0.04f});
+    for (int i = 0; i < count; ++i) {
+        const float period = seconds / static_cast<float>(slowest_swings + i);
+        const float turn = period / glm::two_pi<float>();
+        const float length = 9.81f * turn * turn;
+        const glm::vec3 pivot(apart * (static_cast<float>(i) - 0.5f * (count - 1)), beam - 0.01f, 0.0f);
+        const std::string name = "pendulum " + std::to_string(i + 1);
+        world.add_rope(name, {.from = pivot,
+                              .to = pivot + length * glm::vec3(0, -std::cos(amplitude), std::sin(amplitude)),
+                              .segments = 6,
+                              .radius = 0.012f,
+                              .density = 0.02f,
+                              .pin_start = true});
+        weigh_down(world, name, 1, 0.5);
+    }
+    rope::Settings settings = world.settings();
+    settings.damping = 0.0f;
+    world.set_settings(settings);
+    return scene;
+}
+
+/// Ropes of few and of many segments fall on bars that get thinner. Nothing takes energy from them but what
+/// they meet: watch the curve.
+RopeScene bars_scene() {
+    RopeScene scene;
+    NamedWorld& world = scene.world;
+    add_ground(world);
+    const struct {
+        float x, bar;
+        int segments;
+    } pairs[] = {{-1.1f, 0.1f, 8}, {0.0f, 0.034f, 45}, {1.1f, 0.015f, 160}};
+    constexpr float height = 0.8f, fall = 0.6f, half = 0.5f;
+    for (const auto& [x, bar, segments] : pairs) {
+        const std::string size = std::to_string(segments);
+        world.add_collider("bar " + size, rope::Capsule{{x, height, -0.6f}, {x, height, 0.6f}, bar});
+        // A little off the middle, so that it slides down on one side.
+        const float middle = x + 0.06f;
+        world.add_rope("rope " + size, {.from = {middle - half, height + fall, 0},
+                                        .to = {middle + half, height + fall, 0},
+                                        .segments = segments});
+    }
+    rope::Settings settings = world.settings();
+    settings.damping = 0.0f;
+    settings.friction = 0.2f;
+    world.set_settings(settings);
+    return scene;
+}
+
+/// A rope over the drum of a well: a hand pulls at one end, a bucket hangs from the other.
+RopeScene well_scene() {
+    RopeScene scene;
+    NamedWorld& world = scene.world;
+    add_ground(world);
+    const float drum = 1.6f, radius = 0.16f, rope_radius = 0.018f, shaft = 0.5f;
+    const float out = radius + rope_radius + 0.002f;
+    for (const float z : {-0.62f, 0.62f})
+        world.add_collider(z < 0 ? "far post" : "near post", rope::Capsule{{0, 0, z}, {0, drum, z}, 0.05f});
+    world.add_collider("drum", rope::Capsule{{0, drum, -0.5f}, {0, drum, 0.5f}, radius});
+    constexpr int stones = 10;
+    for (int i = 0; i < stones; ++i) {
+        const float angle = glm::two_pi<float>() * static_cast<float>(i) / stones;
+        const glm::vec3 centre(out + shaft * std::cos(angle), 0.2f, shaft * std::sin(angle));
+        world.add_collider(
+            "stone " + std::to_string(i + 1),
+            rope::Box{centre, {0.05f, 0.2f, 0.155f}, glm::angleAxis(-angle, glm::vec3(0, 1, 0))});
+    }
+    const glm::vec3 hand(-1.15f, 0.75f, 0.0f);
+    constexpr float fist = 0.06f;
+    world.add_collider("hand", rope::Sphere{hand, fist});
+    // From the hand up to the drum, over it, and down into the shaft.
+    const glm::vec3 axis(0, drum, 0);
+    const float reach = glm::distance(hand, axis);
+    const float touch = std::atan2(hand.y - axis.y, hand.x - axis.x) - std::acos(out / reach);
+    const glm::vec3 tangent = axis + out * glm::vec3(std::cos(touch), std::sin(touch), 0);
+    const glm::vec3 pull = glm::normalize(tangent - hand);
+    std::vector<glm::vec3> line{hand + (fist + rope_radius + 0.005f) * pull};
+    constexpr int pieces = 24;
+    const float over = touch < 0.0f ? touch + glm::two_pi<float>() : touch;
+    for (int i = 0; i <= pieces; ++i) {
+        const float angle = over * (1.0f - static_cast<float>(i) / pieces);
+        line.push_back(axis + out * glm::vec3(std::cos(angle), std::sin(angle), 0));
+    }
+    line.push_back({out, 0.55f, 0.0f});
+    constexpr int segments = 96;
+    world.add_rope("rope", {.from = hand,
+                            .to = hand + glm::vec3(0, 1, 0),
+                            .segments = segments,
+                            .radius = rope_radius,
+                            .density = 0.4f});
+    lay(world, "rope", line);
+    weigh_down(world, "rope", 1, 0.6);
+    world.attach(world.particle("rope", 0), "hand");
+    scene.swings.push_back({"hand", hand, 0.24f * pull, 6.0f});
+    rope::Settings settings = world.settings();
+    settings.substep = 1.0 / 480.0;  // a weight over a drum wants finer steps
+    settings.damping = 0.4f;
+    settings.friction = 0.15f;
+    world.set_settings(settings);
+    return scene;
+}
+
+// Scenes of cloth and hair: the same particles and links as a rope.
+
+/// A cloth falls over a ball.
+RopeScene cloth_scene() {
+    RopeScene scene;
+    NamedWorld& world = scene.world;
+    add_ground(world);
+    world.add_collider("ball", rope::Sphere{{0.0f, 0.62f, 0.0f}, 0.45f});
+    world.add_cloth("cloth", {.corner = {-0.85f, 1.25f, -0.85f},
+                              .along = {1.7f, 0, 0},
+                              .down = {0, 0, 1.7f},
+                              .columns = 32,
+                              .rows = 32,
+                              .radius = 0.012f,
+                              .density = 0.3f,
+                              .tear = 0.3f});
+    rope::Settings settings = world.settings();
+    settings.damping = 0.6f;
+    world.set_settings(settings);
+    return scene;
+}
+
+/// A ball swings into a curtain that hangs by two corners. Pull it about by any point, and let go: it hangs
+/// again.
+RopeScene curtain_scene() {
+    RopeScene scene;
+    NamedWorld& world = scene.world;
+    add_ground(world);
+    constexpr int side = 28;
+    constexpr float rail = 1.85f, half = 0.65f, length = 1.3f;
+    for (const float x : {-half, half})
+        world.add_collider(x < 0 ? "left hook" : "right hook", rope::Sphere{{x, rail + 0.03f, 0}, 0.03f});
+    world.add_cloth("curtain", {.corner = {-half, rail - 0.02f, 0},
+                                .along = {2.0f * half, 0, 0},
+                                .down = {0, -length, 0},
+                                .columns = side,
+                                .rows = side,
+                                .density = 0.3f,
+                                .pins = rope::ClothShape::Pins::Corners});
+    const glm::vec3 middle(0.1f, 1.0f, 0.6f);
+    world.add_collider("ball", rope::Sphere{middle, 0.22f});
+    scene.swings.push_back({"ball", middle, {-0.15f, 0.0f, -0.75f}, 4.0f});
+    rope::Settings settings = world.settings();
+    settings.damping = 0.6f;
+    world.set_settings(settings);
+    return scene;
+}
+
+/// Hair on a head that turns to and fro, over shoulders that do not.
+RopeScene hair_scene() {
+    RopeScene scene;
+    NamedWorld& world = scene.world;
+    add_ground(world);
+    const glm::vec3 centre(0.0f, 1.45f, 0.0f);
+    const rope::Sphere head{centre, 0.2f};
+    world.add_collider("head", head);
+    world.add_collider("neck", rope::Capsule{{0, 1.05f, 0}, {0, 1.3f, 0}, 0.07f});
+    world.add_collider("shoulders", rope::Capsule{{-0.26f, 0.98f, 0}, {0.26f, 0.98f, 0}, 0.11f});
+    rope::HairShape hair{.length = 0.48f, .segments = 14, .radius = 0.004f, .density = 0.02f, .bend = 0.5f};
+    // Up and back, so that the face stays free.
+    const rope::HairPatch patch{.direction = glm::vec3(0, 0.8f, -0.6f), .strands = 140, .radius = 0.3f};
+    hair.roots = require_value(roots_on(head, patch, hair.radius));
+    world.add_hair("hair", std::move(hair), "head");
+    scene.swings.push_back({"head", centre, {0.16f, 0.0f, 0.0f}, 2.6f});
+    rope::Settings settings = world.settings();
+    settings.damping = 1.0f;
+    settings.friction = 0.3f;
+    world.set_settings(settings);
+    return scene;
 }
 
 }  // namespace tendril::app

@@ -5,11 +5,8 @@
 #include <numbers>
 #include <string_view>
 
-#include "app/labs/signal/fit_linear.hpp"
 #include "app/labs/signal/fit_space.hpp"
-#include "app/labs/signal/fit_starts.hpp"
 #include "app/labs/signal/search.hpp"
-#include "app/labs/signal/trial.hpp"
 
 namespace tendril::app {
 namespace {

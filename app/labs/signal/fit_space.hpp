@@ -51,4 +51,11 @@ std::vector<Dimension> fit_space(const signal::Kind& kind, const FitFacts& facts
 Dimension dimension(const signal::Kind& kind, const char* field, double low, double high,
                     Dimension::Scale scale, bool stepped = false);
 
+// Where the search for a filter's parameters begins: guesses that follow from the rows, for kinds of which a
+// search all over the range misses some.
+
+/// Filters of the kind to begin with; none for most kinds. Each can be checked by one run over the rows.
+std::vector<signal::Filter> first_guesses(const signal::Kind& kind, const FitProblem& problem,
+                                          const FitFacts& facts);
+
 }  // namespace tendril::app

@@ -1,8 +1,15 @@
 #include "app/labs/signal/fitting.hpp"
 
 #include <algorithm>
+#include <cmath>
 
+#include "app/document/json_complete.hpp"
 #include "app/document/refused.hpp"
+#include "app/io/samples.hpp"
+#include "app/labs/signal/analysis.hpp"
+#include "app/labs/signal/code.hpp"
+#include "app/labs/signal/signal_commands.hpp"
+#include "app/labs/signal/signal_part.hpp"
 
 namespace tendril::app {
 namespace {
@@ -66,6 +73,192 @@ void FitWork::advance(SignalPart& part) {
     part.fitting->shares = 0;
     if (part.fits.size() == signal::kinds().size()) part.fitting.reset();
     task_.reset();
+}
+
+// The response that is wanted: drawn, or given as numbers or a file; and filters fitted to it.
+
+namespace {
+
+/// A stroke over the response that is wanted, which begins as what the chain makes of the input.
+void draw(SignalPart& part, const Arguments& given) {
+    end_recording(part);
+    if (part.wanted.empty()) {
+        part.fit_input = rows_to_answer(part);
+        if (part.fit_input.size() < 2) throw Refused("there is no input yet to answer");
+        part.wanted = signal::run(enabled_filters(part), part.fit_input);
+        for (double& value : part.wanted) value = std::clamp(value, -max_amplitude, max_amplitude);
+    }
+    double from = given.real("from"), to = given.real("to");
+    double from_value = given.real("from_value"), to_value = given.real("to_value");
+    if (from > to) std::swap(from, to), std::swap(from_value, to_value);
+    const std::vector<double> times = signal::times_of(part.fit_input);
+    const double half = 0.5 / 60.0;
+    for (std::size_t i = 0; i < times.size(); ++i) {
+        if (times[i] < from - half || times[i] > to + half) continue;
+        const double share = to > from ? std::clamp((times[i] - from) / (to - from), 0.0, 1.0) : 1.0;
+        part.wanted[i] = from_value + share * (to_value - from_value);
+    }
+    part.fits.clear();
+    part.fitting.reset();
+    part.plot = SignalPlot::Fit;
+}
+
+void take_numbers(SignalPart& part, const Json& list) {
+    std::vector<double> wanted;
+    for (const Json& each : list) wanted.push_back(json_real(each, "to." + std::to_string(wanted.size())));
+    InputRows rows = rows_to_answer(part);
+    if (wanted.size() < 2 || wanted.size() > rows.size()) {
+        throw Refused("to must have 2 to " + std::to_string(rows.size()) +
+                      " samples, as the input has, got " + std::to_string(wanted.size()));
+    }
+    rows.resize(wanted.size());
+    part.fit_input = std::move(rows);
+    part.wanted = std::move(wanted);
+}
+
+/// A file that has its own input brings it; else there is a row for each of the lab's.
+void take_file(SignalPart& part, const std::string& path) {
+    const std::string text = read_text_file(path);
+    InputRows rows;
+    try {
+        rows = parse_samples(text, path);
+    } catch (const std::runtime_error&) {
+        rows = rows_to_answer(part);
+    }
+    std::vector<double> wanted = parse_response(text, path, rows.size());
+    if (wanted.size() < 2 || wanted.size() > max_wanted)
+        throw Refused(path + " has " + std::to_string(wanted.size()) + " rows, expected 2 to " +
+                      std::to_string(max_wanted));
+    part.fit_input = std::move(rows);
+    part.wanted = std::move(wanted);
+}
+
+void fit(SignalPart& part, const Arguments& given) {
+    end_recording(part);
+    if (given.has("to")) {
+        const Json& to = given.json("to");
+        to.is_string() ? take_file(part, to.get<std::string>()) : take_numbers(part, to);
+    }
+    start_fitting(part);
+}
+
+/// For who does not wait for ticks.
+void finish_fit(Workspace& workspace) {
+    SignalPart& part = workspace.document.edit<SignalPart>(signal_lab);
+    for (FitWork work; part.fitting;) work.advance(part);
+}
+
+void cancel(SignalPart& part, const Arguments&) {
+    cancel_fitting(part);
+}
+
+void use_fit(SignalPart& part, const Arguments& given) {
+    const auto rank = static_cast<std::size_t>(given.integer("rank"));
+    if (rank >= part.fits.size()) throw Refused("there is no fit of rank " + std::to_string(rank));
+    part.stages = {{part.fits[rank].filter}};
+    part.selected = 0;
+}
+
+void forget(SignalPart& part, const Arguments&) {
+    part.recording.reset();
+    part.wanted.clear();
+    part.fit_input.clear();
+    part.fits.clear();
+    part.fitting.reset();
+}
+
+/// Time has to pass for it.
+void begin(Workspace& workspace, const Arguments&) {
+    change_part<SignalPart>(workspace, signal_lab,
+                            [](SignalPart& part, const SignalPart&) { begin_recording(part); });
+    workspace.clock.playing = true;
+}
+
+void show(SignalPart& part, const Arguments& given) {
+    if (!part.recording) throw Refused("no response is being recorded: signal.fit.record begins");
+    part.recording->value = given.real("value");
+    part.recording->begun = true;
+}
+
+void stop(SignalPart& part, const Arguments&) {
+    if (!part.recording) throw Refused("no response is being recorded");
+    end_recording(part);
+}
+
+std::string csv_of(const SignalPart& part) {
+    std::string text = "time,input";
+    const std::vector<double> times = signal::times_of(part.past);
+    for (std::size_t i = 0; i < part.stages.size(); ++i)
+        text.append(",").append(std::to_string(i)).append("_").append(signal::kind(part.stages[i].filter));
+    text += '\n';
+    std::vector<signal::FilterState> states(part.stages.size());
+    for (std::size_t row = 0; row < part.past.size(); ++row) {
+        double value = part.past[row].input;
+        text.append(decimal(times[row])).append(",").append(decimal(value));
+        for (std::size_t i = 0; i < part.stages.size(); ++i) {
+            if (part.stages[i].enabled)
+                value = signal::step(part.stages[i].filter, states[i], value, part.past[row].dt);
+            text.append(",").append(decimal(value));
+        }
+        text += '\n';
+    }
+    return text;
+}
+
+void copy(Workspace& workspace, const Arguments& given) {
+    const SignalPart& part = signal_part(workspace);
+    const bool cpp = given.text("as") == "cpp";
+    workspace.ui.copied = cpp ? signal_code(part) : csv_of(part);
+    workspace.toast(cpp ? "The filters are on the clipboard as C++"
+                        : "The last ten seconds are on the clipboard as CSV");
+}
+
+Argument number(const char* name, const char* help, double most) {
+    return {.name = name, .help = help, .low = -most, .high = most};
+}
+
+}  // namespace
+
+void add_fit_commands(CommandTable& table) {
+    Command fitting = part_command<SignalPart>(
+        signal_lab, "signal.fit", "Fit filters to a response",
+        {{.name = "to",
+          .type = ArgumentType::ListOrText,
+          .required = false,
+          .help = "the response: samples at 60 Hz, or a CSV file; what was drawn when left out"}},
+        "Fits every kind of filter to a response, and ranks them", fit);
+    fitting.finish = finish_fit;
+    table.add(std::move(fitting));
+    table.add(part_command<SignalPart>(signal_lab, "signal.fit.cancel", "Stop the fit", {},
+                                       "Ends a fit that is running; what is fitted so far stays", cancel));
+    table.add(part_command<SignalPart>(
+        signal_lab, "signal.fit.draw", "Draw the wanted response",
+        {number("from", "seconds", 1e3), number("from_value", "the response there", max_amplitude),
+         number("to", "seconds", 1e3), number("to_value", "the response there", max_amplitude)},
+        "Draws a stroke of the response that is wanted", draw));
+    table.add({.name = "signal.fit.record",
+               .title = "Record the wanted response",
+               .arguments = {},
+               .help = "Plays the input from its start, once the output ball is dragged, and records that as "
+                       "the response that is wanted",
+               .apply = begin});
+    table.add(part_command<SignalPart>(signal_lab, "signal.fit.hand", "Move the recorded output",
+                                       {number("value", "where the output should be now", max_amplitude)},
+                                       "Shows the response that is being recorded", show));
+    table.add(part_command<SignalPart>(signal_lab, "signal.fit.stop", "Stop recording the response", {},
+                                       "Ends the recording of a response; what is there is kept", stop));
+    table.add(part_command<SignalPart>(
+        signal_lab, "signal.fit.use", "Use a fitted filter",
+        {{.name = "rank", .type = ArgumentType::Integer, .help = "0: the best", .low = 0, .high = 1000}},
+        "Puts a fitted filter in the place of the chain", use_fit));
+    table.add(part_command<SignalPart>(signal_lab, "signal.fit.clear", "Forget the wanted response", {},
+                                       "Forgets the response that is wanted", forget));
+    table.add({.name = "signal.copy",
+               .title = "Copy filters or the past",
+               .arguments = {choice_argument("as", true, "what", {"cpp", "csv"})},
+               .help = "Puts the filters on the clipboard as C++, or the last ten seconds as CSV",
+               .effect = Effect::Look,
+               .apply = copy});
 }
 
 }  // namespace tendril::app

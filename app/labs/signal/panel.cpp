@@ -1,19 +1,30 @@
-// What one chooses in the Signal lab: a preset, what goes in, the filters.
+#include "app/labs/signal/panel.hpp"
+
 #include <imgui.h>
-
 #include <algorithm>
+#include <cmath>
 
-#include "app/labs/kit/folding.hpp"
-#include "app/labs/kit/preset_rows.hpp"
-#include "app/labs/signal/panels.hpp"
+#include "app/document/json_complete.hpp"
+#include "app/document/units.hpp"
+#include "app/fields/field_rows.hpp"
+#include "app/labs/kit/panel_rows.hpp"
+#include "app/labs/signal/analysis.hpp"
+#include "app/labs/signal/draw.hpp"
+#include "app/labs/signal/filter_fields.hpp"
+#include "app/labs/signal/filter_json.hpp"
 #include "app/labs/signal/presets.hpp"
-#include "app/labs/signal/scene.hpp"
 #include "app/labs/signal/signal_lab.hpp"
+#include "app/labs/signal/signal_part.hpp"
+#include "app/widgets/curve_editor.hpp"
 #include "app/widgets/fields.hpp"
+#include "app/widgets/fonts.hpp"
 #include "app/widgets/plot.hpp"
 #include "app/widgets/text.hpp"
 
 namespace tendril::app {
+
+// What one chooses in the Signal lab: a preset, what goes in, the filters.
+
 namespace {
 
 void preset_section(Emit& emit) {
@@ -139,6 +150,244 @@ void SignalLab::panel(const Workspace& workspace, Emit& emit) const {
     if (open("Filters")) chain_rows(part, colours, emit);
     parameter_rows(part, colours, emit);
     if (open("Export")) export_section(emit);
+}
+
+// The parameters of the selected filter, from the library's table; a curve also has its editor, a spring its
+// other two descriptions.
+
+namespace {
+
+/// The same spring by half-life, and by duration and bounce: all three at once, any of them set.
+void spring_rows(const signal::Spring<>& spring, std::size_t at, Emit& emit) {
+    const signal::SpringFeel feel = signal::feel_of(spring.strength, spring.critical_damping);
+    const auto set = [&](const Expected<signal::SpringShape>& shape) {
+        if (!shape) return;
+        emit.continuously(
+            "signal.filter.set",
+            {{"at", at}, {"strength", shape->strength}, {"critical_damping", shape->critical_damping}});
+    };
+    if (std::isfinite(feel.half_life)) {
+        float half_life = static_cast<float>(feel.half_life);
+        if (number_field("half-life", half_life, 0.002f, 0.001f, 10.0f, "%.3f s"))
+            set(signal::of_half_life(static_cast<double>(half_life), spring.critical_damping));
+        explain("The same spring by the time until half of the way is left. Sets strength; damping stays.");
+    }
+    if (std::isfinite(feel.duration)) {
+        float duration = static_cast<float>(feel.duration), bounce = static_cast<float>(feel.bounce);
+        bool changed = number_field("duration", duration, 0.005f, 0.01f, 10.0f, "%.3f s");
+        explain("The same spring by the time of one swing without damping. Sets strength.");
+        changed |= number_field("bounce", bounce, 0.005f, -0.9f, 1.0f, "%.3f");
+        explain(
+            "How much the spring overshoots: 0 does not, 1 swings for ever, less than 0 is sluggish. Sets "
+            "the "
+            "damping.");
+        if (changed) set(signal::of_duration(static_cast<double>(duration), static_cast<double>(bounce)));
+    }
+}
+
+}  // namespace
+
+void parameter_rows(const SignalPart& part, const Palette& palette, Emit& emit) {
+    if (!part.selected || *part.selected >= part.stages.size()) return;
+    const std::size_t at = *part.selected;
+    const signal::Filter& filter = part.stages[at].filter;
+    section(kind_title(filter).c_str());
+    ImGui::PushID(static_cast<int>(at));
+    FieldRows(filter_fields(filter), filter_texts(signal::kind_of(filter)), "signal.filter.set", emit,
+              {{"at", at}})
+        .all();
+    if (const auto* spring = std::get_if<signal::Spring<>>(&filter)) spring_rows(*spring, at, emit);
+    if (const auto* curve = std::get_if<signal::Curve>(&filter)) {
+        signal::Curve edited = *curve;
+        const double before = at > 0 ? output_of(part, at - 1) : input_of(part);
+        const double range = curve->source_max - curve->source_min;
+        const double input = range != 0.0 ? (before - curve->source_min) / range : 0.0;
+        if (curve_editor("curve", edited, stage_colour(palette, part, at), 11.0f, input))
+            emit.continuously("signal.filter.set",
+                              {{"at", at}, {"keys", SharedJson(parameters_json(edited).at("keys"))}});
+        note("Drag a key. Double-click adds one, right-click removes it.");
+    }
+    ImGui::PopID();
+}
+
+// What the filters cost and gain, in numbers, and the ranking of a fit.
+
+namespace {
+
+std::string or_dash(const std::optional<double>& value, double factor, int decimals, const char* unit) {
+    if (!value) return "-";
+    return fixed_text(factor * *value, decimals) + " " + unit;
+}
+
+/// The same four digits or so, whatever the size; what grows without bound is said so.
+std::string difference_text(double value) {
+    if (value > 1e6) return "unbounded";
+    return fixed_text(value, value < 10.0 ? 3 : 0);
+}
+
+void response_rows(const StageMeasures& measures) {
+    if (measures.following == signal::Following::DoesNotFollow) {
+        reading("lag", "does not follow");
+        explain("No shift in time makes the input explain even a tenth of what the output does.");
+    } else {
+        reading("lag", "%s", or_dash(measures.lag, 1e3, 1, "ms").c_str());
+        explain("How far the output has to be shifted back in time to fit its input best.");
+    }
+    reading("overshoot", "%s", or_dash(measures.overshoot, 1e2, 1, "%").c_str());
+    explain("How far it goes beyond a jump of the input, as a part of the jump. Needs jumps: a square wave.");
+    reading("settling", "%s", or_dash(measures.settling_time, 1e3, 0, "ms").c_str());
+    explain("From a jump until it stays within 2 % of it. Needs jumps: a square wave.");
+    reading("jitter left", "%s", or_dash(measures.jitter, 1e2, 1, "%").c_str());
+    explain("Second differences of the output over those of the input.");
+}
+
+void measure_rows(const StageMeasures& measures) {
+    if (measures.following == signal::Following::Unstable) {
+        reading("response", "unstable");
+        explain(
+            "It runs away: more than ten times as far as its input spans, and ever farther. Lag, overshoot, "
+            "settling and jitter of that would mean nothing.");
+    } else {
+        response_rows(measures);
+    }
+    reading("rate difference", "%s", difference_text(measures.rate_difference).c_str());
+    explain(
+        "The maximum difference between 15, 30, 60, 144 Hz and uneven frames at one time, of what the chain "
+        "up "
+        "to here puts out.");
+}
+
+}  // namespace
+
+void fit_rows(const SignalPart& part, Emit& emit) {
+    if (part.plot != SignalPlot::Fit) return;
+    section("Fit");
+    if (part.recording) {
+        note(
+            "Drag the blue ball as the output should move. The input begins when you take hold of it; the "
+            "recording ends when you let go.");
+        if (row_button("Stop", 1, true, "Ends the recording; what is there is kept")) emit("signal.fit.stop");
+        return;
+    }
+    const char* const recording = "Plays the input from its start while you drag the output ball";
+    if (part.wanted.empty()) {
+        note("Draw the response that you want into the plot, record it by hand, or open a file of it.");
+        if (row_button("Draw from the output", 1, true, "Begins with what the filters make of the input now"))
+            emit("signal.fit.draw", {{"from", -1.0}, {"from_value", 0.0}, {"to", -1.0}, {"to_value", 0.0}});
+        if (row_button("Record by hand", 1, true, recording)) emit("signal.fit.record");
+    } else {
+        if (part.fitting) {
+            if (row_button("Cancel", 3, true, "What is fitted so far stays")) emit("signal.fit.cancel");
+        } else if (row_button("Fit", 3, true, "Finds the parameters of every kind of filter")) {
+            emit("signal.fit");
+        }
+        if (row_button("Record", 3, true, recording)) emit("signal.fit.record");
+        if (row_button("Forget", 3, true, "Forgets the response that is wanted")) emit("signal.fit.clear");
+        end_row();
+    }
+    std::string path;
+    if (text_field("response", path, "CSV file, Enter")) emit("signal.fit", {{"to", path}});
+    explain("A file of the response that is wanted. Enter reads it and fits every kind of filter to it.");
+    if (part.wanted.empty()) return;
+    if (part.fitting) {
+        const std::size_t done = part.fits.size(), all = signal::kinds().size();
+        ImGui::ProgressBar(static_cast<float>(done) / static_cast<float>(all), {-1.0f, 0.0f}, "");
+        note(std::to_string(done) + " of " + std::to_string(all) + " kinds of filter are fitted.");
+    }
+    for (std::size_t i = 0; i < part.fits.size(); ++i) {
+        const Fit& fit = part.fits[i];
+        ImGui::PushID(static_cast<int>(i));
+        const std::string left =
+            fit.residual < 1e-4 ? "< 0.01 %" : fixed_text(100.0 * std::min(fit.residual, 1e4), 2) + " %";
+        const float width = ImGui::GetContentRegionAvail().x;
+        const ImVec2 at = ImGui::GetCursorPos();
+        if (ImGui::Selectable("##use", false, 0, {width, ImGui::GetTextLineHeight()}))
+            emit("signal.fit.use", {{"rank", i}});
+        if (ImGui::IsItemHovered()) ImGui::SetTooltip("Puts it in the place of the chain");
+        ImGui::SetCursorPos(at);
+        ImGui::TextUnformatted(kind_title(fit.filter).c_str());
+        ImGui::SameLine();
+        text_flush_right(left, i > 0);
+        ImGui::PopID();
+    }
+    note("What is left, as a part of the response's range. Click one to put it in place.");
+}
+
+void SignalLab::inspector(const Workspace& workspace, Emit& emit) const {
+    const SignalPart& part = signal_part(workspace);
+    const Palette& colours = palette(workspace.settings.theme);
+    const ChainAnalysis& analysis = signal_runtime(workspace).chain(part);
+    show_verdict(signal_verdict(part, analysis.whole), colours);
+    section("Now");
+    reading("input", "%.3f", input_of(part));
+    const double output = output_of(part);
+    if (std::abs(output) < 1e6)
+        reading("output", "%.3f", output);
+    else
+        reading("output", "grows without bound");
+    fit_rows(part, emit);
+    if (part.stages.empty()) return;
+    section("Read-outs");
+    for (std::size_t i = 0; i < part.stages.size(); ++i) {
+        const SignalStage& stage = part.stages[i];
+        colour_mark(stage_colour(colours, part, i));
+        ImGui::AlignTextToFramePadding();
+        if (!stage.enabled) {
+            ImGui::TextDisabled("%s (off)", kind_title(stage.filter).c_str());
+            continue;
+        }
+        ImGui::TextUnformatted(kind_title(stage.filter).c_str());
+        measure_rows(analysis.stages[i]);
+    }
+    if (enabled_filters(part).size() > 1) {
+        section("The whole chain");
+        measure_rows(analysis.whole);
+    }
+}
+
+// The response that is wanted, drawn with the mouse over the input that it is to answer, and the best fits.
+
+glm::vec3 fit_colour(const Palette& palette, std::size_t rank) {
+    return rank == 0 ? palette.head : rank == 1 ? rgb(0xCC79A7) : palette.tail;
+}
+
+void fit_plot(const SignalPart& part, const Palette& palette, float height, Emit& emit) {
+    const bool drawn = !part.wanted.empty();
+    const InputRows rows = drawn ? part.fit_input : rows_to_answer(part);
+    const std::vector<double> time = signal::times_of(rows);
+    std::vector<double> input;
+    for (const signal::Sample& row : rows) input.push_back(row.input);
+    std::vector<Curve> curves{curve_of("input", input_colour(palette), time, input)};
+    curves.back().strength = 0.5f;
+    for (std::size_t i = 0; i < std::min(shown_fits, part.fits.size()); ++i) {
+        const std::vector<double> output = signal::run({&part.fits[i].filter, 1}, rows);
+        curves.push_back(curve_of(kind_title(part.fits[i].filter), fit_colour(palette, i), time, output));
+    }
+    if (drawn) {
+        curves.push_back(curve_of("wanted", palette.text, time, part.wanted));
+        curves.back().width = 1.4f;
+    }
+    // There is always room to draw beyond what there is.
+    Span span = span_of(part.input, input);
+    const double range = span.high - span.low, low = span.low - range, high = span.high + range;
+    for (const double value : part.wanted)
+        span.low = std::min(span.low, value), span.high = std::max(span.high, value);
+    if (!drawn) {  // a stroke begins with what the chain makes of the input
+        for (const double value : signal::run(enabled_filters(part), rows)) {
+            span.low = std::min(span.low, std::max(value, low));
+            span.high = std::max(span.high, std::min(value, high));
+        }
+    }
+    const double margin = 0.25 * (span.high - span.low), end = time.empty() ? 1.0 : time.back();
+    PlotAxes axes = time_axes({span.low - margin, span.high + margin}, 0.0, end);
+    axes.keeps_axes = true;
+    if (part.recording) axes.at_x = static_cast<float>(part.time);
+    const PlotStroke stroke = plot("fit", curves, axes, height);
+    if (!stroke.drawn) return;
+    emit.continuously("signal.fit.draw", {{"from", stroke.from.x},
+                                          {"from_value", stroke.from.y},
+                                          {"to", stroke.to.x},
+                                          {"to_value", stroke.to.y}});
 }
 
 }  // namespace tendril::app

@@ -3,7 +3,6 @@
 
 #include "app/document/command.hpp"
 #include "app/labs/kit/arguments.hpp"
-#include "app/labs/kit/part_command.hpp"
 #include "app/labs/signal/signal_part.hpp"
 
 namespace tendril::app {

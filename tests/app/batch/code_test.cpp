@@ -7,7 +7,6 @@
 #include <random>
 
 #include "app/document/scene_file.hpp"
-#include "app/labs/chain/code_numbers.hpp"
 #include "app/labs/labs.hpp"
 #include "tests/app/support/program.hpp"
 

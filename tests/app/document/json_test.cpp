@@ -154,8 +154,7 @@ TEST(Json, typed_reads_say_where_and_what) {
     EXPECT_TRUE(test::says(message([&] { json_member(json["n"], "x", "n"); }), "n object 1.5"));
     EXPECT_TRUE(test::says(message([&] { json_number(json["t"], "t"); }), "t number text"));
     EXPECT_TRUE(test::says(message([&] { json_number(json["big"], "big"); }), "big number 1e9 1100000000.0"));
-    EXPECT_TRUE(
-        test::says(message([&] { json_number(json["n"], "n", 2.0f, 3.0f); }), "n number 2 3 1.5"));
+    EXPECT_TRUE(test::says(message([&] { json_number(json["n"], "n", 2.0f, 3.0f); }), "n number 2 3 1.5"));
     EXPECT_EQ(json_real(json["big"], "big", 0.0, 1e12), 1.1e9) << "its ends say how large it may be";
     EXPECT_TRUE(test::says(message([&] { json_real(json["big"], "big"); }), "big number 1e9 1100000000.0"));
     EXPECT_TRUE(test::says(message([&] { json_real(json["big"], "big", 0.0, 1e9); }),

@@ -186,9 +186,7 @@ TEST(Undo, takes_back_a_whole_drag_at_once) {
 /// Ctrl, then Z, as a person presses them: Z is an axis key too, but not in a chord.
 TEST(Undo, in_mid_drag_stays_undone_until_the_mouse_moves) {
     const glm::vec2 at = target_pixel();
-    const auto dragging = [&] {
-        return ScriptText().move(at).down().move(at + glm::vec2(-50, -60)).wait(2);
-    };
+    const auto dragging = [&] { return ScriptText().move(at).down().move(at + glm::vec2(-50, -60)).wait(2); };
     const Json dragged = state_after(dragging());
     ASSERT_NE(dragged["target"], start()["target"]);
     const auto pressed = [&] { return dragging().hold("ctrl").wait(2).hold("z").wait(2); };

@@ -2,7 +2,7 @@
 #include <cstdio>
 #include <glm/geometric.hpp>
 
-#include "app/labs/chain/shown.hpp"
+#include "app/labs/chain/draw.hpp"
 #include "tests/app/labs/chain_support.hpp"
 #include "tests/app/support/panel_text.hpp"
 

@@ -2,8 +2,7 @@
 #include <glm/geometric.hpp>
 #include <map>
 
-#include "app/labs/chain/colours.hpp"
-#include "app/labs/chain/shown.hpp"
+#include "app/labs/chain/draw.hpp"
 #include "tests/app/labs/chain_support.hpp"
 
 namespace tendril::app {
@@ -57,7 +56,8 @@ TEST_F(RaceDrawingTest, EqualChainsRunAlongLikeStrands) {
             middles.push_back(seen(0.5f * (lines[bone].a + lines[bone].b)));
         }
         for (std::size_t i = 0; i < middles.size(); ++i) {
-            for (std::size_t j = 0; j < i; ++j) EXPECT_GT(glm::distance(middles[i], middles[j]), 3.0f) << bone;
+            for (std::size_t j = 0; j < i; ++j)
+                EXPECT_GT(glm::distance(middles[i], middles[j]), 3.0f) << bone;
         }
     }
 }
@@ -106,9 +106,9 @@ TEST_F(RaceDrawingTest, WhatStandsApartIsDrawnWhereItIs) {
             for (const Racer& other : race()->racers) {
                 if (other.method == racer.method) continue;
                 nearest_pixels = std::min(
-                    nearest_pixels, std::max(glm::distance(seen(other.joints[bone]), seen(racer.joints[bone])),
-                                             glm::distance(seen(other.joints[bone - 1]),
-                                                           seen(racer.joints[bone - 1]))));
+                    nearest_pixels,
+                    std::max(glm::distance(seen(other.joints[bone]), seen(racer.joints[bone])),
+                             glm::distance(seen(other.joints[bone - 1]), seen(racer.joints[bone - 1]))));
             }
             const float off = aside(lines[bone - 1], racer.joints[bone - 1], racer.joints[bone]);
             if (nearest_pixels > 3.1f) {

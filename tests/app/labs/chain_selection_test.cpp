@@ -1,5 +1,5 @@
 // Several joints at once: selected, limited, made longer, removed.
-#include "app/labs/chain/shown.hpp"
+#include "app/labs/chain/draw.hpp"
 #include "tests/app/labs/chain_support.hpp"
 
 namespace tendril::app {

@@ -11,7 +11,7 @@
 #include "app/labs/humanoid/ik/ik_settings.hpp"
 #include "app/labs/humanoid/springs/springs.hpp"
 #include "app/labs/rope/rope_lab.hpp"
-#include "app/labs/rope/rope_names.hpp"
+#include "app/labs/rope/rope_part.hpp"
 #include "app/labs/signal/filter_fields.hpp"
 #include "app/labs/signal/signal_part.hpp"
 #include "tests/app/labs/lab_support.hpp"

@@ -1,5 +1,5 @@
 // IK states in current and older scene files.
-#include "app/labs/kit/ik_state_json.hpp"
+#include "app/labs/kit/library_json.hpp"
 
 #include <gtest/gtest.h>
 

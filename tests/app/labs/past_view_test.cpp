@@ -8,7 +8,7 @@
 #include <glm/gtc/constants.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "app/labs/kit/joint_turn.hpp"
+#include "app/labs/kit/limit_shape.hpp"
 #include "app/labs/kit/part_cache.hpp"
 #include "tests/app/labs/lab_support.hpp"
 #include "tests/app/labs/spring/spring_lab.hpp"

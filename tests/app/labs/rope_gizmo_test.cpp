@@ -13,10 +13,14 @@ class RopeGizmo : public RopeTest {
   protected:
     RopeGizmo() {
         run("rope.clear");
-        run("rope.collider.add", {{"name", "ball"}, {"kind", "sphere"}, {"centre", {1, 1, 0}}, {"radius", 0.3}});
-        run("rope.collider.add", {{"name", "bar"}, {"kind", "capsule"}, {"a", {0, 1, 0}}, {"b", {0, 1, 2}}, {"radius", 0.1}});
-        run("rope.collider.add", {{"name", "crate"}, {"kind", "box"}, {"centre", {2, 1, 0}}, {"half_extents", {0.2, 0.3, 0.4}}});
-        run("rope.collider.add", {{"name", "wall"}, {"kind", "plane"}, {"point", {3, 0, 0}}, {"normal", {-1, 0, 0}}});
+        run("rope.collider.add",
+            {{"name", "ball"}, {"kind", "sphere"}, {"centre", {1, 1, 0}}, {"radius", 0.3}});
+        run("rope.collider.add",
+            {{"name", "bar"}, {"kind", "capsule"}, {"a", {0, 1, 0}}, {"b", {0, 1, 2}}, {"radius", 0.1}});
+        run("rope.collider.add",
+            {{"name", "crate"}, {"kind", "box"}, {"centre", {2, 1, 0}}, {"half_extents", {0.2, 0.3, 0.4}}});
+        run("rope.collider.add",
+            {{"name", "wall"}, {"kind", "plane"}, {"point", {3, 0, 0}}, {"normal", {-1, 0, 0}}});
     }
     std::optional<Handle> gizmo() const { return lab().gizmo(workspace); }
     void select(const char* name) { run("rope.select", {{"collider", name}}); }
@@ -62,7 +66,8 @@ TEST_F(RopeGizmo, TurnsGoOnFromWhereTheyAreWithoutDrift) {
 }
 
 TEST_F(RopeGizmo, OppositeAndEqualDirectionsTurnToo) {
-    for (const glm::vec3 direction : {glm::vec3(1, 0, 0), glm::vec3(-1, 0, 0), glm::vec3(0, 1, 0), glm::vec3(0, -1, 0)}) {
+    for (const glm::vec3 direction :
+         {glm::vec3(1, 0, 0), glm::vec3(-1, 0, 0), glm::vec3(0, 1, 0), glm::vec3(0, -1, 0)}) {
         run("rope.collider.set", {{"name", "bar"}, {"a", point(-direction)}, {"b", point(direction)}});
         select("bar");
         EXPECT_LT(glm::distance(gizmo()->frame.rotation * glm::vec3(1, 0, 0), direction), 1e-3f);

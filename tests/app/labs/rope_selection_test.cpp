@@ -7,9 +7,7 @@ namespace {
 class RopeSelectionTest : public RopeTest {
   protected:
     using Indices = std::vector<std::size_t>;
-    Indices selected() const {
-        return part().selection ? part().selection->particles.all() : Indices();
-    }
+    Indices selected() const { return part().selection ? part().selection->particles.all() : Indices(); }
     bool pinned(const char* body, std::size_t index) const {
         return world().pinned(world().find(body)->first + index);
     }

@@ -3,7 +3,6 @@
 
 #include "app/document/json_complete.hpp"
 #include "app/labs/signal/presets.hpp"
-#include "app/labs/signal/recording.hpp"
 #include "app/labs/signal/signal_part.hpp"
 #include "tests/app/labs/lab_support.hpp"
 #include "tests/app/support/temp_folder.hpp"

@@ -7,7 +7,7 @@
 
 #include "app/labs/signal/fit.hpp"
 #include "app/labs/signal/fit_space.hpp"
-#include "app/labs/signal/signal_input.hpp"
+#include "app/labs/signal/signal_part.hpp"
 #include "tests/app/labs/fit_support.hpp"
 #include "tests/core/random.hpp"
 

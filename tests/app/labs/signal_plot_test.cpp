@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "app/labs/signal/analysis.hpp"
-#include "app/labs/signal/span.hpp"
 #include "tests/app/labs/lab_support.hpp"
 
 namespace tendril::app {

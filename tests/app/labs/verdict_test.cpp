@@ -1,5 +1,5 @@
 // What each lab says first: in the inspector, and in the state.
-#include "app/labs/rope/panels.hpp"
+#include "app/labs/rope/panel.hpp"
 #include "tests/app/labs/lab_support.hpp"
 #include "tests/says.hpp"
 

@@ -1,8 +1,12 @@
 // The panel's rows of what hangs on the character.
-#include <imgui.h>
+#include "app/labs/humanoid/attachments/attachment_panel.hpp"
 
-#include "app/labs/humanoid/panels.hpp"
-#include "app/labs/kit/folding.hpp"
+#include <imgui.h>
+#include <algorithm>
+
+#include "app/labs/humanoid/panel.hpp"
+#include "app/labs/kit/panel_rows.hpp"
+#include "app/labs/kit/world_drawing.hpp"
 #include "app/widgets/fields.hpp"
 
 namespace tendril::app {
@@ -64,6 +68,28 @@ void attachment_rows(const HumanoidPanel& panel) {
     if (row_button("Add", 1, room, room ? "Hangs it on that bone" : "There are as many as there may be"))
         panel.emit("humanoid.attach", {{"bone", kept.attach_to}, {"kind", attachment_kinds.name(kind)}});
     end_row();
+}
+
+glm::vec3 attached_colour(const Palette& palette) {
+    return cloth_front(palette);
+}
+
+void draw_attachments(const View& view, DrawList& list, const Attachments& attachments) {
+    constexpr int sides = 16;
+    const NamedWorld& world = *attachments.world;
+    std::vector<glm::vec3> positions;
+    for (std::size_t i = 0; i < world.size(); ++i) positions.push_back(world.position(i));
+    std::vector<glm::vec3> colours = particle_colours(world, view.palette, false);
+    for (const rope::Body& body : world.state().bodies)
+        if (body.kind == rope::Body::Kind::Rope)  // a tail is no third leg
+            std::fill_n(colours.begin() + static_cast<std::ptrdiff_t>(body.first), body.count,
+                        attached_colour(view.palette));
+    for (const rope::Body& body : world.state().bodies) {
+        if (body.kind == rope::Body::Kind::Cloth)
+            draw_cloth(list, view.camera, world, body, positions, {}, view.palette);
+        else
+            draw_strands(list, view.camera, body, positions, colours, sides);
+    }
 }
 
 }  // namespace tendril::app

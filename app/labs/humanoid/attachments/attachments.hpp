@@ -13,7 +13,7 @@
 
 #include "app/fields/fields.hpp"
 #include "app/labs/humanoid/character/loaded_character.hpp"
-#include "app/labs/humanoid/ik/ground_setting.hpp"
+#include "app/labs/humanoid/ik/ground.hpp"
 #include "app/labs/kit/named_world.hpp"
 
 namespace tendril::app {
@@ -109,3 +109,21 @@ template <>
 std::span<const tendril::Field> tendril::fields<tendril::app::AttachmentShape>() noexcept;
 template <>
 std::span<const tendril::app::FieldText> tendril::app::field_texts<tendril::app::AttachmentShape>();
+
+namespace tendril::app {
+
+// Where attachments sit on a body, and how large they are.
+
+inline constexpr double flare = 0.7;  ///< by this part of its width a cloth is wider below
+
+std::size_t particles_of(AttachmentKind kind, const AttachmentShape& shape);
+
+/// Whether a ball at a point is in the body at rest, or touches it.
+bool is_in_body(const Wearer& wearer, const glm::dvec3& point, double radius);
+
+/// Points of a cloth's first row as the character rests: from side to side, so that its front is seen from
+/// behind the character; each brought backwards until it is off the body. `middle`: of the row.
+std::vector<glm::dvec3> cloth_row(const Wearer& wearer, const AttachmentShape& shape,
+                                  const glm::dvec3& middle);
+
+}  // namespace tendril::app

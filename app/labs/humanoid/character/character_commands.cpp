@@ -1,18 +1,155 @@
-// Which character it is, and which of its nodes are which bones.
+#include "app/labs/humanoid/character/character_commands.hpp"
+
+#include <algorithm>
 #include <glm/common.hpp>
 #include <stdexcept>
 
-#include "app/labs/humanoid/attachments/wearing.hpp"
-#include "app/labs/humanoid/character/kept_maps.hpp"
+#include "app/document/atomic_file.hpp"
+#include "app/io/character/bake.hpp"
+#include "app/io/character/export.hpp"
+#include "app/io/character/map_file.hpp"
+#include "app/labs/humanoid/attachments/attachment_motion.hpp"
+#include "app/labs/humanoid/clip/clip_lint.hpp"
 #include "app/labs/humanoid/humanoid_commands.hpp"
+#include "app/labs/humanoid/humanoid_part.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
-#include "app/labs/humanoid/node_selection.hpp"
 #include "app/labs/kit/arguments.hpp"
-#include "app/labs/kit/index_list.hpp"
-#include "app/labs/kit/name_list.hpp"
 #include "app/view/camera.hpp"
 
 namespace tendril::app {
+namespace {
+
+using humanoid::Bone;
+
+const std::filesystem::path& folder_of(const Workspace& workspace) {
+    if (workspace.config.empty()) throw std::invalid_argument("there is no folder that maps are kept in");
+    return workspace.config;
+}
+
+void keep(Workspace& workspace) {
+    const HumanoidPart& part = humanoid_part(workspace);
+    humanoid_runtime(workspace).kept_maps.forget();
+    keep_map(folder_of(workspace), saved_map(*part.map, part.skeleton()), part.skeleton());
+}
+
+void keep_told(Workspace& workspace, const Arguments&) {
+    keep(workspace);
+    workspace.toast("The bone map is kept for characters of these node names");
+}
+
+void use(Workspace& workspace, const Arguments&) {
+    KeptMaps& maps = humanoid_runtime(workspace).kept_maps;
+    if (const std::string& why = maps.refused(workspace); !why.empty()) throw std::invalid_argument(why);
+    const SavedMap* const kept = maps.kept(workspace);
+    if (kept == nullptr) throw std::invalid_argument("no map is kept for the character's node names");
+    change_part<HumanoidPart>(workspace, humanoid_lab, [&](HumanoidPart& part, const HumanoidPart&) {
+        take_map(part, applied(*kept, part.skeleton()));
+    });
+}
+
+void forget(Workspace& workspace, const Arguments&) {
+    humanoid_runtime(workspace).kept_maps.forget();
+    if (!forget_kept_map(folder_of(workspace), humanoid_part(workspace).skeleton()))
+        throw std::invalid_argument("no map is kept for the character's node names");
+}
+
+}  // namespace
+
+void KeptMaps::look(const Workspace& workspace) {
+    const HumanoidPart& part = humanoid_part(workspace);
+    if (of_ == part.loaded && folder_ == workspace.config) return;
+    of_ = part.loaded;
+    folder_ = workspace.config;
+    kept_.reset();
+    refused_.clear();
+    if (folder_.empty()) return;
+    try {
+        kept_ = find_kept_map(folder_, part.skeleton());
+    } catch (const std::exception& error) {
+        refused_ = std::string("the kept bone map is left out: ") + error.what();
+    }
+}
+
+const SavedMap* KeptMaps::kept(const Workspace& workspace) {
+    look(workspace);
+    return kept_ ? &*kept_ : nullptr;
+}
+
+const SavedMap* KeptMaps::offered(const Workspace& workspace) {
+    const SavedMap* const map = kept(workspace);
+    return map != nullptr && !bones_that_differ(*map, humanoid_part(workspace)).empty() ? map : nullptr;
+}
+
+const std::string& KeptMaps::refused(const Workspace& workspace) {
+    look(workspace);
+    return refused_;
+}
+
+std::vector<Bone> bones_that_differ(const SavedMap& map, const HumanoidPart& part) {
+    std::vector<Bone> bones;
+    const SavedMap now = saved_map(*part.map, part.skeleton());
+    for (std::size_t i = 0; i < humanoid::bone_count; ++i)
+        if (map.bones[i] != now.bones[i]) bones.push_back(static_cast<Bone>(i));
+    return bones;
+}
+
+/// Those that lose their node first: it is free then.
+void take_map(HumanoidPart& part, const humanoid::BoneMap& wanted) {
+    for (const bool picked : {false, true}) {
+        for (std::size_t i = 0; i < humanoid::bone_count; ++i) {
+            const std::int32_t node = wanted.bones[i].node;
+            if (node == part.map->bones[i].node || (picked && node < 0)) continue;
+            set_bone(part, static_cast<Bone>(i),
+                     picked ? std::optional(static_cast<std::size_t>(node)) : std::nullopt);
+        }
+    }
+}
+
+void keep_correction(Workspace& workspace) {
+    if (!workspace.keeps || workspace.config.empty()) return;
+    const HumanoidPart& part = humanoid_part(workspace);
+    try {
+        // As it was matched it needs no keeping.
+        const SavedMap matched = saved_map(part.loaded->matched, part.skeleton());
+        if (!bones_that_differ(matched, part).empty()) return keep(workspace);
+        humanoid_runtime(workspace).kept_maps.forget();
+        forget_kept_map(workspace.config, part.skeleton());
+    } catch (const std::exception& error) {
+        workspace.toast(std::string("The bone map is not kept: ") + error.what(), ToastKind::Refusal);
+    }
+}
+
+Command keeping(Command command) {
+    command.apply = [correct = command.apply](Workspace& workspace, const Arguments& given) {
+        correct(workspace, given);
+        keep_correction(workspace);
+    };
+    return command;
+}
+
+void add_kept_map_commands(CommandTable& table) {
+    table.add({.name = "humanoid.map.keep",
+               .title = "Keep the bone map",
+               .arguments = {},
+               .help = "Keeps the bone map, to be offered for characters of the same node names",
+               .effect = Effect::Look,
+               .apply = keep_told});
+    table.add({.name = "humanoid.map.use",
+               .title = "Use the kept bone map",
+               .arguments = {},
+               .help = "Takes the bone map that was kept for these node names",
+               .effect = Effect::Edit,
+               .apply = use});
+    table.add({.name = "humanoid.map.forget",
+               .title = "Forget the kept bone map",
+               .arguments = {},
+               .help = "Removes the bone map that was kept for these node names",
+               .effect = Effect::Look,
+               .apply = forget});
+}
+
+// Which character it is, and which of its nodes are which bones.
+
 namespace {
 
 /// The view that the lab has, or will have when it is opened, is on the whole of the character.
@@ -172,6 +309,121 @@ void add_character_commands(CommandTable& table) {
         humanoid_lab, "humanoid.t_pose", "Show the T-pose",
         {{.name = "on", .type = ArgumentType::Boolean, .help = "or off"}},
         "Shows the rest pose with its arms straight aside and its legs straight down", set_t_pose));
+}
+
+// What goes to files and comes from them besides characters: bone maps, and clips with all that IK did to
+// them; and the cures of clips.
+
+namespace {
+
+using humanoid::Clip;
+using humanoid::Fault;
+
+std::string given_text(const Arguments& given, const char* name) {
+    return given.has(name) ? given.text(name) : std::string();
+}
+
+void save_map(Workspace& workspace, const Arguments& given) {
+    const HumanoidPart& part = humanoid_part(workspace);
+    write_file_atomically(given.text("path"), map_text(saved_map(*part.map, part.skeleton())));
+    workspace.toast("Written: " + given.text("path"));
+}
+
+void load_map(HumanoidPart& part, const Arguments& given) {
+    take_map(part, applied(read_map(given.text("path")), part.skeleton()));
+}
+
+/// The clip that is named, or chosen, or the first.
+std::size_t clip_for(const HumanoidPart& part, const Arguments& given) {
+    const std::vector<Clip>& clips = part.loaded->clips();
+    if (clips.empty()) throw std::invalid_argument("the character has no clips");
+    const std::string name = given_text(given, "clip");
+    if (name.empty()) return part.playback.clip.value_or(0);
+    const auto found = std::ranges::find(clips, name, &Clip::name);
+    if (found == clips.end()) throw std::invalid_argument("the character has no clip \"" + name + "\"");
+    return static_cast<std::size_t>(found - clips.begin());
+}
+
+/// The clip as it would be seen, played once from its beginning.
+Clip as_shown(const Workspace& workspace, std::size_t clip, double rate) {
+    HumanoidPart part = humanoid_part(workspace);
+    part.playback = {.clip = clip, .loop = false};
+    IkState state;
+    Solvers& solvers = humanoid_runtime(workspace).solvers;
+    const Clip& before = part.loaded->clips()[clip];
+    return baked(part.skeleton(), before, rate, [&](std::span<rig::Transform> pose, double time, double dt) {
+        part.playback.time = time;
+        const ShownPose shown = solve_pose(part, solvers, dt, state);
+        std::ranges::copy(shown.local, pose.begin());
+    });
+}
+
+void export_shown(Workspace& workspace, const Arguments& given) {
+    const HumanoidPart& part = humanoid_part(workspace);
+    const std::size_t clip = clip_for(part, given);
+    const double rate = given.has("fps") ? given.real("fps") : 60.0;
+    const ExportReport report = export_clip({.character = part.loaded->character,
+                                             .file = part.loaded->path,
+                                             .original = part.loaded->clips()[clip],
+                                             .corrected = as_shown(workspace, clip, rate),
+                                             .rate = rate},
+                                            given.text("path"));
+    workspace.toast("Written: " + given.text("path") + ". " + report.text());
+}
+
+std::vector<std::string> fault_names() {
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < humanoid::fault_count; ++i)
+        names.emplace_back(humanoid::name(static_cast<Fault>(i)));
+    return names;
+}
+
+void cure_clip(HumanoidPart& part, const Arguments& given) {
+    ClipCure cure;
+    cure.clip =
+        part.loaded->clips().empty() ? std::string() : part.loaded->clips()[clip_for(part, given)].name;
+    cure.fault = *fault_named(given.text("kind"));
+    cure.node = given_text(given, "node");
+    if (!cure.node.empty()) node_named(part, cure.node);
+    if (given.has("frame")) cure.frame = static_cast<std::size_t>(given.integer("frame"));
+    part.loaded = cured(part, cure);
+}
+
+}  // namespace
+
+std::optional<Fault> fault_named(const std::string& name) {
+    for (std::size_t i = 0; i < humanoid::fault_count; ++i)
+        if (name == humanoid::name(static_cast<Fault>(i))) return static_cast<Fault>(i);
+    return std::nullopt;
+}
+
+void add_humanoid_file_commands(CommandTable& table) {
+    table.add({.name = "humanoid.map.save",
+               .title = "Save the bone map",
+               .arguments = {text_argument("path", true, "a JSON file to write")},
+               .help = "Writes which node is which bone",
+               .effect = Effect::Look,
+               .apply = save_map});
+    table.add(keeping(
+        part_command<HumanoidPart>(humanoid_lab, "humanoid.map.load", "Load a bone map",
+                                   {text_argument("path", true, "a JSON file that humanoid.map.save wrote")},
+                                   "Takes a bone map that was saved", load_map)));
+    add_kept_map_commands(table);
+    table.add({.name = "humanoid.export",
+               .title = "Export a clip",
+               .arguments = {text_argument("path", true, "a .gltf, .glb or .bvh file to write"),
+                             clip_argument("clip", "which one; the chosen one, or the first"),
+                             number_argument("fps", "frames a second; 60", min_rate, largest_rate)},
+               .help = "Writes a clip with all that IK does to it, and says how near the file comes",
+               .effect = Effect::Look,
+               .apply = export_shown});
+    table.add(part_command<HumanoidPart>(
+        humanoid_lab, "humanoid.cure", "Fix a fault in a clip",
+        {choice_argument("kind", true, "of fault", fault_names()),
+         node_argument("node", false, "of the skeleton; all when left out"),
+         integer_argument("frame", "of the clip's own; all when left out", 0, humanoid::max_lint_frames),
+         clip_argument("clip", "which one; the chosen one, or the first")},
+        "Mends what the motion lint has found in a clip", cure_clip));
 }
 
 }  // namespace tendril::app

@@ -2,12 +2,17 @@
 // changes, and copies of the document share it.
 #pragma once
 
+#include <atomic>
+#include <cstdint>
+#include <exception>
 #include <memory>
 #include <optional>
 #include <string>
 #include <tendril/humanoid/lint.hpp>
+#include <thread>
 #include <vector>
 
+#include "app/document/workspace.hpp"
 #include "app/io/character/character.hpp"
 #include "app/io/character/progress.hpp"
 
@@ -40,5 +45,42 @@ using SharedCharacter = std::shared_ptr<const LoadedCharacter>;
 SharedCharacter load_character(const std::string& file, LoadProgress* progress = nullptr);
 /// The same character with so many metres to a unit of its file.
 SharedCharacter rescaled(const LoadedCharacter& character, double metres);
+
+// A large character file that is read beside the running program: the figure that is there stays until the
+// other has come, and for good where it is refused or cancelled.
+
+class Loading {
+  public:
+    /// Smaller files are read before anybody could look away.
+    static constexpr std::uintmax_t large_file = 1u << 20;
+
+    Loading() = default;
+    /// Waits for the reader to heed its cancelling.
+    ~Loading() { cancel(); }
+    Loading(const Loading&) = delete;
+    Loading& operator=(const Loading&) = delete;
+
+    /// Begins to read; what was being read before is cancelled.
+    void begin(const std::string& file);
+    void cancel();
+    bool running() const { return thread_.joinable(); }
+    const std::string& file() const { return file_; }
+    float part() const { return progress_->part(); }
+    /// Whether take() has something to give at once.
+    bool done() const { return running() && done_; }
+    /// The character; waits for it. Throws what reading it threw. Then nothing is running.
+    SharedCharacter take();
+
+  private:
+    std::string file_;
+    std::unique_ptr<LoadProgress> progress_ = std::make_unique<LoadProgress>();
+    std::atomic<bool> done_{false};
+    SharedCharacter read_;
+    std::exception_ptr refused_;
+    std::thread thread_;
+};
+
+/// Whether it is worth it: in a window, where somebody waits, and a large file.
+bool loads_beside(const Workspace& workspace, const std::string& file);
 
 }  // namespace tendril::app

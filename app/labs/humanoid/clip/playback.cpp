@@ -1,9 +1,22 @@
 #include "app/labs/humanoid/clip/playback.hpp"
 
+#include <imgui.h>
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <glm/gtc/quaternion.hpp>
+#include <optional>
+#include <stdexcept>
+
+#include "app/labs/humanoid/humanoid_commands.hpp"
+#include "app/labs/humanoid/humanoid_lab.hpp"
+#include "app/labs/humanoid/humanoid_runtime.hpp"
+#include "app/labs/humanoid/panel.hpp"
+#include "app/labs/humanoid/past/past.hpp"
+#include "app/labs/kit/arguments.hpp"
+#include "app/labs/kit/past_strip.hpp"
+#include "app/widgets/icons.hpp"
+#include "app/widgets/timeline.hpp"
 
 namespace tendril::app {
 namespace {
@@ -116,6 +129,206 @@ glm::dvec3 missing_velocity(const Playback& playback, const LoadedCharacter& cha
     const auto at = [&](double time) { return hips_at(skeleton, sampled(clip, skeleton, time), *hips).at; };
     const Complex velocity = playback.speed * (at(to) - at(from)) / (to - from);
     return {velocity.imag(), 0.0, velocity.real()};
+}
+
+// The strip below the scene: the clip, with what plays and steps it, or the last ten seconds.
+
+namespace {
+
+/// Seconds since the clip began its first round.
+double since_begin(const Playback& playback, double duration, double time) {
+    return static_cast<double>(playback.rounds) * duration + time;
+}
+
+void step(const HumanoidPanel& panel, int ticks) {
+    const Playback& playback = panel.part.playback;
+    const double duration = panel.part.clip()->duration;
+    const double now = since_begin(playback, duration, playback.time),
+                 to = std::max(0.0, now + ticks * tick_seconds);
+    panel.emit("humanoid.clip", {{"time", playback.loop ? to : std::min(to, duration)}, {"play", false}});
+}
+
+void buttons(const HumanoidPanel& panel) {
+    const bool plays = panel.part.playback.playing && panel.workspace.clock.playing;
+    if (icon_button("back", Icon::ChevronLeft, "Back by a frame")) step(panel, -1);
+    ImGui::SameLine();
+    if (icon_button("play", plays ? Icon::Pause : Icon::Play, plays ? "Pauses the clip" : "Plays the clip")) {
+        panel.emit("humanoid.clip", {{"play", !plays}});
+        if (!plays && !panel.workspace.clock.playing) panel.emit("time.play");
+    }
+    ImGui::SameLine();
+    if (icon_button("forward", Icon::ChevronRight, "On by a frame")) step(panel, 1);
+    ImGui::SameLine();
+}
+
+/// Where the lint has found something: low while it lasts, high where it is worst.
+std::vector<TimeBar> lint_marks(const HumanoidPanel& panel, int ticks) {
+    const humanoid::LintReport* const report = panel.runtime.lint.report(panel.part);
+    if (!report || report->findings.empty()) return {};
+    std::vector<TimeBar> bars(static_cast<std::size_t>(ticks) + 1);
+    const auto tick_of = [&](std::size_t frame) {
+        const double tick = static_cast<double>(frame) / report->rate / tick_seconds;
+        return static_cast<std::size_t>(std::clamp(std::lround(tick), 0l, static_cast<long>(ticks)));
+    };
+    const auto mark = [&](std::size_t tick, float height) {
+        bars[tick] = {panel.colours.limit, std::max(bars[tick].height, height)};
+    };
+    for (const humanoid::Finding& each : report->findings) {
+        // What lasts for the whole clip says nothing about a moment of it.
+        const bool whole = each.first == 0 && each.last + 1 >= report->frames;
+        for (std::size_t i = tick_of(each.first); !whole && i <= tick_of(each.last); ++i) mark(i, 0.35f);
+        mark(tick_of(each.frame), 1.0f);
+    }
+    return bars;
+}
+
+void clip_strip(const HumanoidPanel& panel) {
+    const Playback& playback = panel.part.playback;
+    const double duration = panel.part.clip()->duration;
+    const int ticks = std::max(1, static_cast<int>(std::ceil(duration / tick_seconds - 1e-6)));
+    int tick = std::clamp(static_cast<int>(std::lround(playback.time / tick_seconds)), 0, ticks);
+    const TimeStrip strip{
+        .ticks = ticks, .seconds = tick_seconds, .known = ticks, .bars = lint_marks(panel, ticks)};
+    const TimeStripUse use = time_strip("clip", tick, strip);
+    if (use.hovered >= 0 && !ImGui::IsItemActive())
+        tell_strip("The clip. Drag shows it at that time; the marks are what Motion lint has found.");
+    if (use.moved) {
+        const double time = std::min(tick * tick_seconds, duration);
+        panel.emit.continuously("humanoid.clip",
+                                {{"time", since_begin(playback, duration, time)}, {"play", false}});
+    }
+}
+
+/// Where the strip is that of the last ten seconds, its line.
+std::optional<StripLine> strip(const HumanoidPanel& panel) {
+    if (panel.part.clip() == nullptr) return past_strip(panel.workspace, panel.emit);
+    bool& past = panel.runtime.panel.past;
+    buttons(panel);
+    if (other_strip_button(past, "clip")) past = !past;
+    if (past) return past_strip(panel.workspace, panel.emit);
+    clip_strip(panel);
+    return std::nullopt;
+}
+
+}  // namespace
+
+float HumanoidLab::timeline_height(const Workspace& workspace) const {
+    return strip_height + past_plot_height(workspace.settings, humanoid_past());
+}
+
+void HumanoidLab::timeline(const Workspace& workspace, Emit& emit) const {
+    const std::optional<StripLine> past = strip(humanoid_panel(workspace, emit));
+    past_plot(workspace, humanoid_past(), humanoid_past_curve(workspace), past, emit);
+    forget_past_poses(workspace);
+}
+
+}  // namespace tendril::app
+
+// Clips: which one, which moment of it, and how it plays.
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::app::Playback>() noexcept {
+    using app::Playback;
+    static constexpr Field rows[] = {field<&Playback::speed>("speed", {0.0, app::fastest_clip}),
+                                     field<&Playback::loop>("loop"), field<&Playback::in_place>("in_place")};
+    return rows;
+}
+
+namespace tendril::app {
+
+template <>
+std::span<const FieldText> field_texts<Playback>() {
+    static constexpr FieldText texts[] = {
+        {.name = "speed",
+         .label = "speed",
+         .help = "How fast the clip plays. At 1, or 100 %, it is as it was recorded.",
+         .step = 0.5f,
+         .decimals = 0,
+         .scale = 100.0,
+         .unit = "%"},
+        {.name = "loop",
+         .label = "Loop",
+         .help = "A walk goes on from where its last round ended. Else it stops at its end."},
+        {.name = "in_place",
+         .label = "In place",
+         .help = "The hips stay above the point where the clip begins."}};
+    return texts;
+}
+
+namespace {
+
+std::size_t chosen_clip(const LoadedCharacter& character, const Arguments& given) {
+    const std::vector<humanoid::Clip>& clips = character.clips();
+    if (clips.empty()) throw std::invalid_argument("the character has no clips");
+    if (given.has("index")) {
+        const auto index = static_cast<std::size_t>(given.integer("index"));
+        if (index < clips.size()) return index;
+        throw std::invalid_argument("index must be 0 to " + std::to_string(clips.size() - 1) + ", got " +
+                                    std::to_string(index));
+    }
+    const std::string name = given.text("name");
+    const auto found = std::ranges::find(clips, name, &humanoid::Clip::name);
+    if (found != clips.end()) return static_cast<std::size_t>(found - clips.begin());
+    throw std::invalid_argument("the character has no clip \"" + name + "\"");
+}
+
+glm::vec3 hips_at(const Workspace& workspace) {
+    return shown_pose(workspace).point(humanoid_part(workspace).node_of(humanoid::Bone::Hips).value_or(0));
+}
+
+void choose(Playback& playback, std::optional<std::size_t> clip) {
+    if (playback.clip == clip) return;
+    playback.clip = clip;
+    playback.time = 0.0;
+    playback.rounds = 0;
+    if (!clip) playback.playing = false;
+}
+
+void set_clip(HumanoidPart& part, const Arguments& given) {
+    Playback& playback = part.playback;
+    const Playback before = playback;
+    if (given.has("name") && given.has("index"))
+        throw std::invalid_argument("give either a name or an index");
+    const bool none = given.has("name") && given.text("name").empty();
+    if (none)
+        choose(playback, std::nullopt);
+    else if (given.has("name") || given.has("index"))
+        choose(playback, chosen_clip(*part.loaded, given));
+    set_fields(given, playback);
+    const bool play = given.has("play") && given.boolean("play");
+    if (!playback.clip && (play || given.has("time"))) throw std::invalid_argument("no clip is chosen");
+    if (given.has("time")) go_to(playback, *part.loaded, given.real("time"));
+    if (given.has("play")) playback.playing = play;
+    // Played again from its end, it begins anew.
+    if (play && !given.has("time") && !playback.loop && playback.time >= part.clip()->duration)
+        go_to(playback, *part.loaded, 0.0);
+    if (!(playback == before)) part.quiet_ticks = 0;
+}
+
+}  // namespace
+
+void add_clip_commands(CommandTable& table) {
+    std::vector<Argument> arguments{
+        clip_argument("name", "which clip; empty: the rest pose"),
+        integer_argument("index", "instead of the name, counted from 0", 0, 1e6),
+        switch_argument("play", "or pause"),
+        number_argument("time", "seconds from its beginning; over its duration, in a later round", 0.0, 1e6)};
+    for (Argument& each : field_arguments<Playback>()) arguments.push_back(std::move(each));
+    Command clip = part_command<HumanoidPart>(
+        humanoid_lab, "humanoid.clip", "Choose and play a clip", std::move(arguments),
+        "Chooses a clip, its moment and how it plays; what is left out stays", set_clip);
+    // Clips begin anywhere: the camera goes along with the character, as it does while one plays.
+    clip.apply = [set = clip.apply](Workspace& workspace, const Arguments& given) {
+        const glm::vec3 before = hips_at(workspace);
+        set(workspace, given);
+        if (workspace.lab != humanoid_lab || !humanoid_part(workspace).view.follow) return;
+        glm::vec3 way = hips_at(workspace) - before;
+        // A captured figure rests with its hips at the origin; one that crouches stays where it is in the
+        // picture.
+        if (std::abs(way.y) < 0.3f) way.y = 0.0f;
+        workspace.camera.target += way;
+    };
+    table.add(std::move(clip));
 }
 
 }  // namespace tendril::app

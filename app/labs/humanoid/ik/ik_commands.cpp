@@ -1,4 +1,5 @@
-// What IK does with the character: targets and limits.
+#include "app/labs/humanoid/ik/ik_commands.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <glm/trigonometric.hpp>
@@ -6,14 +7,65 @@
 
 #include "app/document/json_complete.hpp"
 #include "app/document/units.hpp"
-#include "app/labs/humanoid/ik/ik_command.hpp"
-#include "app/labs/humanoid/ik/release.hpp"
+#include "app/labs/humanoid/ik/shown_pose.hpp"
 #include "app/labs/humanoid/limits/limit_ranges.hpp"
 #include "app/labs/kit/arguments.hpp"
-#include "app/labs/kit/index_list.hpp"
-#include "app/labs/kit/name_list.hpp"
 
 namespace tendril::app {
+namespace {
+
+/// Where a target has been let go. `settings` and `pose` are of before. Hand IK that is switched has its
+/// curves and cone of view to ease by, and is at once what it is set to.
+void let_go(Workspace& workspace, const IkSettings& settings, const std::vector<rig::Transform>& pose) {
+    const HumanoidPart& part = humanoid_part(workspace);
+    const bool loses = std::ranges::any_of(all_effectors, [&](humanoid::Effector each) {
+        return settings.target(each) && !part.ik.target(each);
+    });
+    const bool plays = workspace.clock.playing && goes_on(part.playback, *part.loaded);
+    if (!loses || !(plays || part.ik.has_targets())) return;
+    const auto set = [&](Release release) {
+        workspace.document.edit<HumanoidPart>(humanoid_lab).ik_state.release = std::move(release);
+    };
+    set({.left = release_seconds});
+    if (plays)
+        set(release_between(pose, shown_pose(workspace).before_springs,
+                            humanoid_part(workspace).node_of(humanoid::Bone::Hips)));
+}
+
+}  // namespace
+
+Command ik_command(const char* name, const char* title, std::vector<Argument> arguments, const char* help,
+                   void (*change)(const IkNow&, HumanoidPart&, const Arguments&)) {
+    return {.name = name,
+            .title = title,
+            .arguments = std::move(arguments),
+            .help = help,
+            .effect = Effect::Edit,
+            .apply = [change](Workspace& workspace, const Arguments& given) {
+                const IkNow now{shown_pose(workspace), humanoid_runtime(workspace).solvers};
+                const IkSettings settings = humanoid_part(workspace).ik;
+                const std::vector<rig::Transform> pose = now.shown.before_springs;
+                change_part<HumanoidPart>(workspace, humanoid_lab,
+                                          [&](HumanoidPart& part, const HumanoidPart& old) {
+                                              change(now, part, given);
+                                              if (!(part == old)) part.quiet_ticks = 0;
+                                          });
+                solve_now(workspace);
+                let_go(workspace, settings, pose);
+            }};
+}
+
+glm::dvec3 exact_point(const Json& json) {
+    return {json[0].get<double>(), json[1].get<double>(), json[2].get<double>()};
+}
+
+void require_body(const IkNow& now, const HumanoidPart& part) {
+    const std::string& why = now.solvers.why_no_body(part);
+    if (!why.empty()) throw std::invalid_argument("the body solve is off: " + why);
+}
+
+// What IK does with the character: targets and limits.
+
 namespace {
 
 using humanoid::Effector;
@@ -181,6 +233,95 @@ void add_ik_commands(CommandTable& table) {
          choice_argument("bone", false, "of that joint alone; of all when both are left out", bone_names()),
          name_list_argument("bones", "bone")},
         "Says where the limits of the joints come from", set_limits));
+}
+
+// Hand IK, self-collision and look-at.
+
+namespace {
+
+/// The curve of one hand, or of both.
+void set_curve(HandIkSetting& setting, std::size_t hand, const Arguments& given) {
+    std::optional<HandCurve>& curve = setting.curves[hand];
+    if (given.has("curve") && !given.boolean("curve")) {
+        curve.reset();
+        return;
+    }
+    const bool times = given.has("begin") || given.has("full") || given.has("until") || given.has("end");
+    if (!times && !given.has("curve")) return;
+    HandCurve set = curve.value_or(HandCurve());
+    if (given.has("begin")) set.begin = given.real("begin");
+    if (given.has("full")) set.full = given.real("full");
+    if (given.has("until")) set.until = given.real("until");
+    if (given.has("end")) set.end = given.real("end");
+    if (!(set.begin <= set.full && set.full <= set.until && set.until <= set.end))
+        throw std::invalid_argument("begin, full, until and end must follow one another");
+    curve = set;
+}
+
+void set_hand_ik(const IkNow& now, HumanoidPart& part, const Arguments& given) {
+    HandIkSetting& setting = part.ik.hand_ik;
+    set_fields(given, setting);
+    if (setting.on) require_body(now, part);
+    const std::string hand = given.has("hand") ? given.text("hand") : "both";
+    if (hand != "right") set_curve(setting, 0, given);
+    if (hand != "left") set_curve(setting, 1, given);
+}
+
+/// Ahead of the head, where nothing was looked at yet.
+glm::dvec3 ahead_of_head(const IkNow& now, const HumanoidPart& part) {
+    const glm::dvec3 forward = humanoid::facing(part.skeleton(), *part.map).forward;
+    const std::size_t head = *part.node_of(humanoid::Bone::Head);
+    const std::size_t hips = *part.node_of(humanoid::Bone::Hips);
+    const auto& rest = part.loaded->rest;
+    return now.shown.placed[head].position +
+           2.5 * glm::distance(rest[head].position, rest[hips].position) * forward;
+}
+
+void set_look_at(const IkNow& now, HumanoidPart& part, const Arguments& given) {
+    LookAtSetting& setting = part.ik.look_at;
+    set_fields(given, setting);
+    if (setting.on) require_body(now, part);
+    if (setting.on && !setting.placed) {
+        setting.target = ahead_of_head(now, part);
+        setting.placed = true;
+    }
+    if (given.has("to")) {
+        setting.target = exact_point(given.json("to"));
+        setting.placed = true;
+    }
+}
+
+void set_self_collision(const IkNow& now, HumanoidPart& part, const Arguments& given) {
+    const bool on = given.boolean("on");
+    if (on) require_body(now, part);
+    part.ik.self_collision = on;
+    part.ik_state.body = {};
+}
+
+}  // namespace
+
+void add_hand_commands(CommandTable& table) {
+    const auto seconds = [](const char* name, const char* help) {
+        return number_argument(name, help, 0.0, max_curve);
+    };
+    std::vector<Argument> hands = field_arguments<HandIkSetting>();
+    for (Argument& each : std::vector<Argument>{
+             choice_argument("hand", false, "whose curve; both when left out", {"left", "right", "both"}),
+             switch_argument("curve", "the weight follows the clip's time"),
+             seconds("begin", "of the clip: 0 until then"), seconds("full", "1 from then"),
+             seconds("until", "1 until then"), seconds("end", "0 from then")})
+        hands.push_back(std::move(each));
+    table.add(ik_command("humanoid.hand_ik", "Set hand IK", std::move(hands),
+                         "Blends the hands from the clip to their targets; what is left out stays",
+                         set_hand_ik));
+    table.add(ik_command("humanoid.self_collision", "Keep hands out of the body",
+                         {{.name = "on", .type = ArgumentType::Boolean, .help = "or off"}},
+                         "Keeps hands and lower arms out of the body while it reaches", set_self_collision));
+    std::vector<Argument> gaze = field_arguments<LookAtSetting>();
+    gaze.push_back(point_argument("to", false, "metres; ahead of the head when it was never given"));
+    table.add(ik_command("humanoid.look_at", "Look at a point", std::move(gaze),
+                         "Turns spine, neck and head to look at a point; what is left out stays",
+                         set_look_at));
 }
 
 }  // namespace tendril::app

@@ -1,11 +1,14 @@
-// IK in a scene file: what is set, and what is remembered from tick to tick.
+#include "app/labs/humanoid/ik/ik_file.hpp"
+
 #include "app/document/json_complete.hpp"
 #include "app/document/json_place.hpp"
 #include "app/labs/humanoid/humanoid_part.hpp"
-#include "app/labs/humanoid/ik/quaternion_json.hpp"
-#include "app/labs/humanoid/ik/release.hpp"
+#include "app/labs/humanoid/ik/shown_pose.hpp"
 
 namespace tendril::app {
+
+// IK in a scene file: what is set, and what is remembered from tick to tick.
+
 namespace {
 
 Json targets_json(const IkSettings& ik) {

@@ -1,6 +1,7 @@
 #include "app/labs/humanoid/ik/ik_settings.hpp"
 
 #include <algorithm>
+#include <tendril/magnitude.hpp>
 
 namespace tendril::app {
 
@@ -25,3 +26,136 @@ std::string title(humanoid::Effector effector) {
 }
 
 }  // namespace tendril::app
+
+// What a person sets of ground, feet, hands and gaze: its fields, and what they are called.
+
+namespace tendril {
+
+template <>
+std::span<const Field> fields<app::GroundSetting>() noexcept {
+    using namespace app;
+    static constexpr auto kinds = ground_kinds.name_array();
+    static constexpr Field rows[] = {
+        field<&GroundSetting::kind>("kind", kinds),
+        field<&GroundSetting::angle_deg>("angle_deg", {-steepest_deg, steepest_deg}, "deg"),
+        field<&GroundSetting::step_height>("step_height", {-highest_step, highest_step}, "m"),
+        field<&GroundSetting::step_depth>("step_depth", {shortest_step, longest_step}, "m")};
+    return rows;
+}
+
+template <>
+std::span<const Field> fields<app::FootIkSetting>() noexcept {
+    using namespace app;
+    static constexpr Field rows[] = {
+        field<&FootIkSetting::on>("on"),
+        field<&FootIkSetting::enter_speed>("enter_speed", {0.0, fastest_foot}, "m/s"),
+        field<&FootIkSetting::leave_speed>("leave_speed", {0.0, fastest_foot}, "m/s"),
+        field<&FootIkSetting::max_angle_deg>("max_angle_deg", {0.0, max_foot_angle}, "deg")};
+    return rows;
+}
+
+template <>
+std::span<const Field> fields<app::HandIkSetting>() noexcept {
+    using namespace app;
+    static constexpr Field rows[] = {
+        field<&HandIkSetting::on>("on"),
+        field<&HandIkSetting::view_deg>("view_deg", {0.0, widest_view_deg}, "deg")};
+    return rows;
+}
+
+template <>
+std::span<const Field> fields<app::LookAtSetting>() noexcept {
+    using namespace app;
+    constexpr FieldRange anywhere{-max_magnitude, max_magnitude};
+    static constexpr Field rows[] = {
+        field<&LookAtSetting::on>("on"), field<&LookAtSetting::placed>("placed"),
+        field<&LookAtSetting::target>("target", anywhere, "m"), field<&LookAtSetting::weight>("weight"),
+        field<&LookAtSetting::view_deg>("view_deg", {0.0, widest_view_deg}, "deg")};
+    return rows;
+}
+
+namespace app {
+namespace {
+
+constexpr FieldText view_text(const char* label) {
+    return {.name = "view_deg",
+            .label = label,
+            .help = "Half the angle of the cone in which targets are followed.",
+            .step = 0.5f,
+            .decimals = 0};
+}
+
+}  // namespace
+
+template <>
+std::span<const FieldText> field_texts<GroundSetting>() {
+    static constexpr FieldText texts[] = {
+        {.name = "kind",
+         .label = "ground",
+         .help = "What the character walks on",
+         .choices = ground_kinds.rows},
+        {.name = "angle_deg",
+         .label = "angle",
+         .help = "Of the slope, which rises along +Z from 0 on.",
+         .step = 0.1f,
+         .decimals = 1},
+        {.name = "step_height",
+         .label = "step height",
+         .help = "How high each stair rises above the one before; stairs go down where it is negative.",
+         .step = 0.1f,
+         .decimals = 1,
+         .scale = 100.0,
+         .unit = "cm"},
+        {.name = "step_depth",
+         .label = "step depth",
+         .help = "How long each stair is, along +Z.",
+         .step = 0.1f,
+         .decimals = 1,
+         .scale = 100.0,
+         .unit = "cm"}};
+    return texts;
+}
+
+template <>
+std::span<const FieldText> field_texts<FootIkSetting>() {
+    static constexpr FieldText texts[] = {
+        {.name = "on",
+         .label = "Foot IK",
+         .help = "Feet are planted on the ground and turned by it, knees bend, hips ride its height."},
+        {.name = "enter_speed",
+         .label = "plant under",
+         .help = "A foot that is low and slower than this is planted."},
+        {.name = "leave_speed",
+         .label = "let go over",
+         .help = "A planted foot that the clip moves faster than this is let go."},
+        {.name = "max_angle_deg",
+         .label = "foot angle",
+         .help = "The largest angle by which the ground turns a foot.",
+         .step = 0.1f,
+         .decimals = 0}};
+    return texts;
+}
+
+template <>
+std::span<const FieldText> field_texts<HandIkSetting>() {
+    static constexpr FieldText texts[] = {
+        {.name = "on",
+         .label = "Hand IK",
+         .help = "Targets of hands move the arm alone, blended from the clip to the target by a weight."},
+        view_text("hand view")};
+    return texts;
+}
+
+template <>
+std::span<const FieldText> field_texts<LookAtSetting>() {
+    static constexpr FieldText texts[] = {
+        {.name = "on", .label = "Look at", .help = "Spine, neck and head turn to look at an orange ball."},
+        {.name = "weight",
+         .label = "gaze weight",
+         .help = "How far spine, neck and head turn to the orange ball. 0: as in the clip. 1: all the way."},
+        view_text("gaze view")};
+    return texts;
+}
+
+}  // namespace app
+}  // namespace tendril

@@ -13,7 +13,7 @@
 
 #include "app/document/names.hpp"
 #include "app/fields/fields.hpp"
-#include "app/labs/humanoid/ik/ground_setting.hpp"
+#include "app/labs/humanoid/ik/ground.hpp"
 
 namespace tendril::app {
 

@@ -5,9 +5,10 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "app/labs/humanoid/humanoid_part.hpp"
-#include "app/labs/humanoid/springs/swing.hpp"
+#include "app/labs/humanoid/springs/springs.hpp"
 
 namespace tendril::app {
 
@@ -70,5 +71,20 @@ class Solvers {
     humanoid::Ground ground_;
     std::unique_ptr<LimitRanges> ranges_;
 };
+
+// The chains of a body as they are solved: layer 0 the hips, layer 1 legs and spine, layer 2 arms, neck and
+// head.
+
+struct BodyChain {
+    int layer = 0;
+    std::vector<humanoid::Bone> bones;  ///< mapped ones, from the hips out
+    humanoid::Bone end = humanoid::Bone::Hips;
+};
+
+/// None where the map is not usable.
+std::vector<BodyChain> body_chains(const humanoid::BoneMap& map);
+
+/// Why nothing is solved for this map, in words; empty where it is. "LeftHand and RightHand are missing"
+std::string why_unusable(const humanoid::BoneMap& map);
 
 }  // namespace tendril::app

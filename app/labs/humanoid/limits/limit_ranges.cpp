@@ -1,5 +1,6 @@
 #include "app/labs/humanoid/limits/limit_ranges.hpp"
 
+#include <algorithm>
 #include <glm/gtc/quaternion.hpp>
 
 namespace tendril::app {
@@ -77,6 +78,27 @@ std::optional<JointNow> joint_now(const HumanoidPart& part, Solvers& solvers, co
 float excess_of(const ik::Limit& limit, ik::JointAngles angles) {
     if (limit.kind == ik::JointKind::Hinge) angles.left = angles.twist = 0.0f;
     return ik::excess(limit, angles);
+}
+
+using humanoid::Bone;
+
+bool SelectedJoints::has(Bone bone) const {
+    return std::find(all.begin(), all.end(), bone) != all.end();
+}
+
+SelectedJoints selected_joints(const HumanoidPart& part, Solvers& solvers) {
+    SelectedJoints joints;
+    if (part.selection.empty() || solvers.body(part) == nullptr) return joints;
+    const LimitRanges& ranges = solvers.limits(part);
+    for (std::size_t i = 0; i < humanoid::bone_count; ++i) {
+        const auto bone = static_cast<Bone>(i);
+        const auto node = part.node_of(bone);
+        if (!node || !part.selection.has(*node) || ranges.adult(bone) == nullptr) continue;
+        joints.all.push_back(bone);
+        if (part.selection.active() == *node) joints.shown = bone;
+    }
+    if (!joints.shown && !joints.all.empty()) joints.shown = joints.all.back();
+    return joints;
 }
 
 }  // namespace tendril::app

@@ -4,10 +4,13 @@
 
 #include <memory>
 #include <optional>
+#include <tendril/humanoid/bone_map.hpp>
 #include <tendril/humanoid/limits.hpp>
+#include <vector>
 
 #include "app/labs/humanoid/humanoid_part.hpp"
 #include "app/labs/humanoid/ik/shown_pose.hpp"
+#include "app/labs/humanoid/ik/solvers.hpp"
 #include "app/labs/kit/limit_shape.hpp"
 
 namespace tendril::app {
@@ -58,5 +61,17 @@ std::optional<JointNow> joint_now(const HumanoidPart& part, Solvers& solvers, co
 
 /// By how much angles exceed a limit of a body's joint; of a hinge only its own turn counts. Radians.
 float excess_of(const ik::Limit& limit, ik::JointAngles angles);
+
+// The joints with limits among what is selected, for picture, inspector and state.
+
+struct SelectedJoints {
+    std::vector<humanoid::Bone> all;      ///< by bone
+    std::optional<humanoid::Bone> shown;  ///< the active one, or where it has no limits the last of all
+
+    bool has(humanoid::Bone bone) const;
+};
+
+/// None where the body is not solved.
+SelectedJoints selected_joints(const HumanoidPart& part, Solvers& solvers);
 
 }  // namespace tendril::app

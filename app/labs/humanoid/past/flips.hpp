@@ -1,10 +1,15 @@
 // Which bones of a body jumped from one pose to the next, while what drives them hardly moved.
 #pragma once
 
+#include <array>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
 #include <string>
+#include <tendril/humanoid/body.hpp>
 #include <vector>
 
 #include "app/labs/humanoid/ik/shown_pose.hpp"
+#include "app/labs/kit/part_cache.hpp"
 
 namespace tendril::app {
 
@@ -34,5 +39,22 @@ std::vector<BodyFlip> body_flips(const HumanoidMoment& was, const HumanoidMoment
 
 /// Why it did, as far as the solves' reports and the poses show it; else "cause not known".
 std::string flip_cause(const HumanoidMoment& was, const HumanoidMoment& is, humanoid::Bone bone);
+
+// The character as it was shown at a moment of the last ten seconds. A part has no pose, it follows from it
+// by the whole of a solve: it is worked out once for each moment.
+
+struct PastPose {
+    struct Node {
+        glm::vec3 position{0.0f};
+        glm::quat rotation{1.0f, 0.0f, 0.0f, 0.0f};
+    };
+    std::vector<Node> nodes;
+    /// To the effectors' targets, metres; NaN of one that has none.
+    std::array<float, humanoid::effector_count> left{};
+};
+inline std::size_t bytes_beyond(const PastPose& pose) {
+    return pose.nodes.size() * sizeof(PastPose::Node);
+}
+using PastPoses = PartCache<PastPose>;
 
 }  // namespace tendril::app

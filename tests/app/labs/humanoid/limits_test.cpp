@@ -2,7 +2,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "app/labs/humanoid/humanoid_runtime.hpp"
-#include "app/labs/humanoid/limits/draw_limits.hpp"
+#include "app/labs/humanoid/limits/limit_panel.hpp"
 #include "app/labs/humanoid/limits/limit_ranges.hpp"
 #include "humanoid_support.hpp"
 #include "tests/app/support/temp_folder.hpp"

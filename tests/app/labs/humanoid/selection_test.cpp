@@ -5,9 +5,9 @@
 #include <random>
 #include <set>
 
+#include "app/labs/humanoid/humanoid_part.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "app/labs/humanoid/limits/limit_ranges.hpp"
-#include "app/labs/humanoid/node_selection.hpp"
 #include "humanoid_support.hpp"
 #include "tests/app/support/panel_text.hpp"
 #include "tests/app/support/temp_folder.hpp"

@@ -2,7 +2,7 @@
 // bit.
 #include <set>
 
-#include "app/labs/rig/unit_json.hpp"
+#include "app/labs/rig/definition_json.hpp"
 #include "rig_support.hpp"
 
 namespace tendril::app {

@@ -2,7 +2,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "app/labs/rig/presets.hpp"
-#include "app/labs/rig/value_json.hpp"
+#include "app/labs/rig/values.hpp"
 #include "tests/app/labs/rig/rig_support.hpp"
 #include "tests/app/support/random_numbers.hpp"
 #include "tests/says.hpp"

@@ -4,14 +4,13 @@
 #include <tendril/rig/fields.hpp>
 
 #include "app/document/refused.hpp"
-#include "app/labs/rig/adding.hpp"
-#include "app/labs/rig/input_offers.hpp"
-#include "app/labs/rig/panels.hpp"
+#include "app/labs/rig/definition_json.hpp"
+#include "app/labs/rig/panel.hpp"
 #include "app/labs/rig/presets.hpp"
+#include "app/labs/rig/rig_edit.hpp"
 #include "app/labs/rig/rig_runtime.hpp"
 #include "app/labs/rig/unit_inputs.hpp"
-#include "app/labs/rig/unit_json.hpp"
-#include "app/labs/rig/value_json.hpp"
+#include "app/labs/rig/values.hpp"
 #include "rig_support.hpp"
 #include "tests/app/support/panel_text.hpp"
 

@@ -3,7 +3,7 @@
 #include <random>
 #include <set>
 
-#include "app/labs/rig/adding.hpp"
+#include "app/labs/rig/rig_edit.hpp"
 #include "several_support.hpp"
 #include "tests/app/support/panel_text.hpp"
 

@@ -5,7 +5,7 @@
 
 #include "app/labs/rig/presets.hpp"
 #include "app/labs/rig/rig_runtime.hpp"
-#include "app/labs/rig/value_json.hpp"
+#include "app/labs/rig/values.hpp"
 #include "rig_support.hpp"
 #include "tests/app/support/panel_text.hpp"
 

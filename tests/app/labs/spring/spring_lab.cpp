@@ -1,7 +1,7 @@
 #include "tests/app/labs/spring/spring_lab.hpp"
 
 #include "app/document/json_complete.hpp"
-#include "app/labs/kit/part_command.hpp"
+#include "app/labs/kit/arguments.hpp"
 
 namespace tendril::test {
 namespace {

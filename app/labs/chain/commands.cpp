@@ -1,0 +1,232 @@
+#include "app/labs/chain/commands.hpp"
+
+#include <algorithm>
+
+#include "app/labs/chain/chain_runtime.hpp"
+#include "app/labs/chain/mouse.hpp"
+#include "app/labs/kit/arguments.hpp"
+
+namespace tendril::app {
+
+Command chain_command(const char* name, const char* title, std::vector<Argument> arguments, const char* help,
+                      ChainSolve change, Effect effect) {
+    return {.name = name,
+            .title = title,
+            .arguments = std::move(arguments),
+            .help = help,
+            .effect = effect,
+            .apply = [change, effect](Workspace& workspace, const Arguments& given) {
+                ChainRuntime& runtime = workspace.runtimes.of<ChainRuntime>(chain_lab);
+                change_part<ChainPart>(workspace, chain_lab, [&](ChainPart& part, const ChainPart&) {
+                    part.study.gesture_begins = workspace.gesture_begins;
+                    change(part, given, runtime);
+                    // What is studied is always the solve that the chain shows.
+                    if (part.study.open() && effect == Effect::Edit) reach_for(part, part.target, runtime);
+                    check_range(part);
+                    keep_step(part, runtime);
+                });
+            }};
+}
+
+Command chain_command(const char* name, const char* title, std::vector<Argument> arguments, const char* help,
+                      ChainChange change, Effect effect) {
+    return chain_command(
+        name, title, std::move(arguments), help,
+        ChainSolve([change](ChainPart& part, const Arguments& given, ChainRuntime&) { change(part, given); }),
+        effect);
+}
+
+Argument index_argument(bool required, const char* help) {
+    return offering(index_argument("index", required, help, max_segments), [](const Workspace& w) {
+        return places(w.document.get<ChainPart>(chain_lab).chain.size());
+    });
+}
+
+std::size_t index_of(const Arguments& given) {
+    return static_cast<std::size_t>(given.integer("index"));
+}
+
+void check_index(const ChainPart& part, std::size_t index) {
+    if (index >= part.chain.size()) {
+        throw Refused("index " + std::to_string(index) + " is out of range, the chain has " +
+                      std::to_string(part.chain.size()) + " segments");
+    }
+}
+
+Argument joints_argument() {
+    return index_list_argument("joints", "index");
+}
+
+std::vector<std::size_t> joints_of(const Arguments& given, const ChainPart& part) {
+    if (!gives_one(given, "index", "joints")) return index_list(given, "joints", part.chain.size());
+    const std::size_t index = index_of(given);
+    check_index(part, index);
+    return {index};
+}
+
+std::vector<std::size_t> joints_to_set(const Arguments& given, const ChainPart& part) {
+    std::vector<std::size_t> joints = joints_of(given, part);
+    if (joints.empty()) throw Refused("joints is empty");
+    std::sort(joints.begin(), joints.end());
+    joints.erase(std::unique(joints.begin(), joints.end()), joints.end());
+    return joints;
+}
+
+void add_chain_commands(CommandTable& table) {
+    add_shape_commands(table);
+    add_mode_commands(table);
+    add_reach_commands(table);
+    add_study_commands(table);
+    add_copy_commands(table);
+}
+
+// How the chain follows, and where to.
+
+namespace {
+
+void set_mode(ChainPart& part, const Arguments& given) {
+    part.mode = chain_modes.value(given.text("mode"));
+    if (part.mode != ChainMode::Reach) part.study.close();
+    if (part.mode != ChainMode::Reach && part.chosen_point == ChainPoint::Pole) part.chosen_point.reset();
+    if (given.has("index")) {
+        const std::size_t index = index_of(given);
+        check_index(part, index);
+        part.index = index;
+    }
+    if (given.has("iterations")) {
+        iterations_of(part, part.mode) = given.integer("iterations");
+    }
+    if (!given.has("tolerance")) return;
+    if (part.mode == ChainMode::Reach) {
+        part.reach.tolerance = given.number("tolerance");
+    } else {
+        part.tolerance = given.number("tolerance");
+    }
+}
+
+/// Ascending.
+std::vector<JointPull> pulls_of(const ChainPart& part, const Arguments& given) {
+    const std::vector<std::size_t> joints = joints_of(given, part);
+    if (given.has("index") != given.has("to"))
+        throw Refused(given.has("to") ? "to is for index; joints have points" : "index needs to");
+    if (given.has("index")) {
+        if (given.has("points")) throw Refused("points is for joints");
+        return {{joints.front(), given.point("to")}};
+    }
+    if (joints.empty()) throw Refused("joints is empty");
+    if (!given.has("points")) throw Refused("joints needs points");
+    const JsonPlace points = each_list(given, "points", "joints", joints.size());
+    std::vector<JointPull> pulls;
+    for (const std::size_t joint : joints) pulls.push_back({joint, points.element(pulls.size()).point()});
+    std::ranges::sort(pulls, {}, &JointPull::joint);
+    const auto twice = std::ranges::adjacent_find(pulls, {}, &JointPull::joint);
+    if (twice != pulls.end())
+        throw Refused("joints: " + std::to_string(twice->joint) + " stands there twice");
+    return pulls;
+}
+
+void pull(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
+    const std::vector<JointPull> pulls = pulls_of(part, given);
+    if (part.mode == ChainMode::Reach) {
+        drag_joints(part.chain, part.reach, pulls, part.target, runtime);
+    } else {
+        require_ok(trail_joints(part.chain, pulls));
+        part.target = pulls.front().to;
+    }
+    part.result.reset();
+    const Study::Kind kind = part.study.kind;
+    if (part.study.open()) part.study.begin(kind, Study::From::Here, part.chain, part.reach);
+}
+
+void select(ChainPart& part, const Arguments& given) {
+    const bool add = given.has("add") && given.boolean("add");
+    if (given.has("point")) {
+        if (given.has("index") || given.has("joints") || add)
+            throw Refused("point goes with no joints: it is selected instead of them");
+        const ChainPoint chosen = chain_points.value(given.text("point"));
+        if (chosen == ChainPoint::Pole && !(part.mode == ChainMode::Reach && part.reach.pole))
+            throw Refused("there is no pole target");
+        part.selection.clear();
+        part.chosen_point = chosen;
+        return;
+    }
+    if (given.has("index") || given.has("joints")) {
+        const std::vector<std::size_t> joints = joints_of(given, part);
+        if (given.has("index") && add) {
+            part.selection.toggle(joints.front());
+        } else {
+            part.selection.take(joints, add);
+        }
+    } else if (!add) {
+        part.selection.clear();
+    }
+    part.chosen_point.reset();
+}
+
+void set_target(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
+    reach_for(part, given.point("to"), runtime);
+}
+
+/// The path starts under the target, so setting it going never makes the target jump.
+void set_motion(ChainPart& part, const Arguments& given) {
+    Motion motion = part.motion;
+    motion.path = motion_paths.value(given.text("path"));
+    if (given.has("radius")) motion.radius = given.number("radius");
+    if (given.has("period")) motion.period = given.number("period");
+    motion.ticks = 0;
+    motion.centre = glm::vec3(0.0f);
+    motion.centre = part.target - motion_point(motion, 0);
+    part.motion = motion;
+}
+
+/// Time goes to a tick of the round: the target jumps there, and the mode is applied once.
+void seek_on_path(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
+    if (part.motion.path == Motion::Path::Still) throw Refused("the target follows no path");
+    part.motion.ticks = static_cast<std::uint32_t>(given.integer("tick")) % ticks_per_round(part.motion);
+    reach_for(part, motion_point(part.motion, part.motion.ticks), runtime);
+}
+
+void set_flips(ChainPart& part, const Arguments& given) {
+    set_flip_rule(part.flips, given);
+}
+
+}  // namespace
+
+void add_mode_commands(CommandTable& table) {
+    table.add(chain_command(
+        "chain.mode", "Choose how the chain follows",
+        {choice_argument("mode", true, "how the chain follows the target", chain_modes.names()),
+         index_argument(false, "which segment with_index pulls"),
+         integer_argument("iterations", "maximum, of fixed and reach", 1, max_iterations),
+         number_argument("tolerance", "metres from the target at which fixed or reach stops", 0, 1e9)},
+        "Sets how the chain follows the target, from the next move of the target on", set_mode));
+    table.add(chain_command("chain.target", "Move the target", {point_argument("to", true, "metres")},
+                            "Moves the target and applies the mode once", set_target));
+    table.add(chain_command("chain.pull", "Pull a joint",
+                            {index_argument(false, "which segment"), point_argument("to", false, "metres"),
+                             joints_argument(), each_argument("points", "joints")},
+                            "Pulls one segment or several, and the target with the first of them; the mode "
+                            "stays as it is. In mode reach: drags joints, the root and the target stay",
+                            pull));
+    table.add(chain_command(
+        "chain.select", "Select joints",
+        {index_argument(false, "which joint; nothing is selected when all are left out"), joints_argument(),
+         switch_argument("add", "true: adds to what is selected, or with index takes out what is"),
+         choice_argument("point", false, "what is selected instead of joints", chain_points.names())},
+        "Selects joints, or the target or pole target", select, Effect::Look));
+    table.add(chain_command("chain.motion", "Move the target along a path",
+                            {choice_argument("path", true, "the path", motion_paths.names()),
+                             number_argument("radius", "metres", 0, static_cast<double>(max_motion_radius)),
+                             number_argument("period", "seconds per round", shortest_decimal(min_period),
+                                             shortest_decimal(max_period))},
+                            "Moves the target along a path while the simulation runs", set_motion));
+    table.add(chain_command(
+        "chain.seek", "Place the target on its path",
+        {{.name = "tick", .type = ArgumentType::Integer, .help = "tick of the round", .low = 0}},
+        "Moves the target to a tick of its round", seek_on_path));
+    table.add(chain_command("chain.flips", "Set what counts as a flip", flip_arguments(chain_flip_words),
+                            "Sets what counts as a flip in mode reach, from the next move of the target on",
+                            set_flips));
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,91 @@
+#include "app/labs/humanoid/humanoid_commands.hpp"
+
+#include "app/labs/kit/arguments.hpp"
+
+// What is selected and how it is shown, which leaves no step to undo, and what counts as a flip.
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::app::HumanoidView>() noexcept {
+    using namespace app;
+    static constexpr auto skins = skin_looks.name_array();
+    static constexpr auto ways = skinnings.name_array();
+    static constexpr auto joints = limits_shown.name_array();
+    static constexpr Field rows[] = {
+        field<&HumanoidView::ghost>("ghost"), field<&HumanoidView::follow>("follow"),
+        field<&HumanoidView::skin>("skin", skins), field<&HumanoidView::skinning>("skinning", ways),
+        field<&HumanoidView::limits>("limits", joints)};
+    return rows;
+}
+
+namespace tendril::app {
+
+template <>
+std::span<const FieldText> field_texts<HumanoidView>() {
+    static constexpr FieldText texts[] = {
+        {.name = "ghost",
+         .label = "Ghost",
+         .help = "The pose as it was before anything changed it, in gray."},
+        {.name = "skin",
+         .label = "skin",
+         .help = "What the character wears: as it is, or so that its bones show through",
+         .listed = true,
+         .choices = skin_looks.rows},
+        {.name = "skinning",
+         .label = "skinning",
+         .help = "How the skin follows twisted arms. Linear blending shrinks it to a thread at wrist and "
+                 "shoulder; twist spread turns it evenly along forearm and upper arm. Bones with twist nodes "
+                 "of their own are left to those",
+         .listed = true,
+         .choices = skinnings.rows},
+        {.name = "limits",
+         .label = "limits of",
+         .help = "How far joints turn: an adult's range, and over it that of the clips",
+         .listed = true,
+         .choices = limits_shown.rows},
+        {.name = "follow",
+         .label = "Camera follows",
+         .help = "The camera goes along with a character that walks."}};
+    return texts;
+}
+
+namespace {
+
+void select(HumanoidPart& part, const Arguments& given) {
+    const bool add = given.has("add") && given.boolean("add");
+    if (!given.has("node") && !given.has("nodes")) {
+        if (!add) part.selection.clear();
+        return;
+    }
+    const std::vector<std::size_t> nodes = nodes_named(part, given);
+    if (given.has("node") && add)
+        part.selection.toggle(nodes.front());
+    else
+        part.selection.take(nodes, add);
+}
+
+void set_view(HumanoidPart& part, const Arguments& given) {
+    set_fields(given, part.view);
+}
+
+void set_flips(HumanoidPart& part, const Arguments& given) {
+    set_flip_rule(part.flips, given);
+}
+
+}  // namespace
+
+void add_humanoid_look_commands(CommandTable& table) {
+    table.add(part_command<HumanoidPart>(
+        humanoid_lab, "humanoid.select", "Select nodes",
+        {node_argument("node", false, "by name; nothing is selected when all are left out"),
+         name_list_argument("nodes", "node"),
+         switch_argument("add", "true: adds to what is selected, or with node takes out what is")},
+        "Selects nodes of the character", select, Effect::Look));
+    table.add(part_command<HumanoidPart>(
+        humanoid_lab, "humanoid.view", "Set how the character is shown", field_arguments<HumanoidView>(),
+        "Sets how the character is shown; what is left out stays", set_view, Effect::Look));
+    table.add(part_command<HumanoidPart>(
+        humanoid_lab, "humanoid.flips", "Set the rule for bone flips", flip_arguments(humanoid_flip_words),
+        "Sets what counts as a flip of a bone, from the next tick on", set_flips));
+}
+
+}  // namespace tendril::app

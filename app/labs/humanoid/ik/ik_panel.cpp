@@ -1,0 +1,181 @@
+// The panel's rows of what the body reaches for.
+#include <imgui.h>
+#include <array>
+
+#include "app/document/json_complete.hpp"
+#include "app/fields/field_rows.hpp"
+#include "app/labs/humanoid/panel.hpp"
+#include "app/labs/kit/panel_rows.hpp"
+#include "app/widgets/fields.hpp"
+
+namespace tendril::app {
+namespace {
+
+void effector_row(const HumanoidPanel& panel, humanoid::Effector effector) {
+    const auto& target = panel.part.ik.target(effector);
+    const std::string name = title(effector);
+    bool on = target.has_value();
+    if (!on) {
+        if (ImGui::Checkbox(name.c_str(), &on))
+            panel.emit("humanoid.target", {{"effector", humanoid::name(effector)}});
+        explain("Gives it a target where it is now. To drag its orange ball does so too.");
+        return;
+    }
+    const std::string id = "##" + name;
+    if (ImGui::Checkbox(id.c_str(), &on))
+        panel.emit("humanoid.target", {{"effector", humanoid::name(effector)}, {"weight", 0}});
+    explain("Lets it go.");
+    ImGui::SameLine();
+    auto weight = static_cast<float>(target->weight);
+    if (number_field(name.c_str(), weight, 0.01f, 0.01f, static_cast<float>(heaviest_target), "%.2f"))
+        panel.emit.continuously("humanoid.target",
+                                {{"effector", humanoid::name(effector)}, {"weight", weight}});
+    explain("Its weight against other targets: where they disagree, the heavier one is nearer.");
+}
+
+}  // namespace
+
+void target_rows(const HumanoidPanel& panel) {
+    if (!folding_section(panel.workspace, "Targets", panel.emit)) return;
+    const std::string& why = panel.runtime.solvers.why_no_body(panel.part);
+    if (!why.empty()) return note("The body solve is off: " + why + ".");
+    for (const humanoid::Effector effector : all_effectors) effector_row(panel, effector);
+    const IkSettings& ik = panel.part.ik;
+    if (row_button("Let all go", 1, ik.has_targets(), "No effector has a target then")) {
+        Json all = Json::array();
+        for (const humanoid::Effector effector : all_effectors)
+            if (ik.target(effector)) all.push_back(humanoid::name(effector));
+        panel.emit("humanoid.target", {{"effectors", SharedJson(std::move(all))}, {"weight", 0}});
+    }
+    end_row();
+    bool apart = ik.self_collision;
+    if (ImGui::Checkbox("Self-collision", &apart)) panel.emit("humanoid.self_collision", {{"on", apart}});
+    explain(
+        "Hands and lower arms do not pass through the body; its outlines show what they keep out of, fitted "
+        "to the "
+        "skin where the character has one.");
+    limit_rows(panel);
+}
+
+// The panel's rows of hands that a clip moves, and of what the head looks at.
+
+namespace {
+
+const char* hand_name(std::size_t hand) {
+    return hand == 0 ? "left" : "right";
+}
+
+void curve_fields(const HumanoidPanel& panel, std::size_t hand, const HandCurve& curve) {
+    const std::string side = hand_name(hand);
+    const auto set = [&](const char* argument, float value) {
+        panel.emit.continuously("humanoid.hand_ik", {{"hand", side}, {argument, value}});
+    };
+    constexpr auto far = static_cast<float>(max_curve);
+    auto begin = static_cast<float>(curve.begin), full = static_cast<float>(curve.full),
+         until = static_cast<float>(curve.until), end = static_cast<float>(curve.end);
+    if (number_field((side + " from").c_str(), begin, 0.005f, 0.0f, full, "%.2f s")) set("begin", begin);
+    explain("Until then the hand is the clip's.");
+    if (number_field((side + " full from").c_str(), full, 0.005f, begin, until, "%.2f s")) set("full", full);
+    explain("From then on the hand is on its target.");
+    if (number_field((side + " full to").c_str(), until, 0.005f, full, end, "%.2f s")) set("until", until);
+    explain("Until then the hand is on its target; afterwards it goes back to the clip.");
+    if (number_field((side + " to").c_str(), end, 0.005f, until, far, "%.2f s")) set("end", end);
+    explain("From then on the hand is the clip's.");
+}
+
+void hand_row(const HumanoidPanel& panel, std::size_t hand) {
+    const TargetSetting* const target = panel.part.ik.hand_target(hand);
+    if (target == nullptr) return;
+    const std::optional<HandCurve>& curve = panel.part.ik.hand_ik.curves[hand];
+    bool timed = curve.has_value();
+    const std::string side = hand_name(hand), title = "Weight over the clip, " + side;
+    if (ImGui::Checkbox(title.c_str(), &timed))
+        panel.emit("humanoid.hand_ik", {{"hand", side}, {"curve", timed}});
+    explain("The hand goes to its target and back over the clip's time.");
+    if (curve) curve_fields(panel, hand, *curve);
+    const ShownPose& shown = panel.runtime.shown(panel.workspace);
+    if (!shown.hands) return;
+    const humanoid::HandReport& report = shown.hands->hands[hand];
+    reading((side + " weight").c_str(), "%.2f%s", report.weight, report.in_view ? "" : ", out of view");
+}
+
+}  // namespace
+
+void hand_rows(const HumanoidPanel& panel) {
+    if (!folding_section(panel.workspace, "Hands and gaze", panel.emit)) return;
+    const IkSettings& ik = panel.part.ik;
+    const bool body = panel.runtime.solvers.body(panel.part) != nullptr;
+    const std::string no_body =
+        "The body solve is off: " + panel.runtime.solvers.why_no_body(panel.part) + ".";
+    const FieldRows hands(ik.hand_ik, "humanoid.hand_ik", panel.emit);
+    hands.row("on", {.why_not = ik.hand_ik.on || body ? std::string() : no_body});
+    if (ik.hand_ik.on) {
+        hands.row("view_deg");
+        for (std::size_t hand = 0; hand < 2; ++hand) hand_row(panel, hand);
+        if (ik.hand_target(0) == nullptr && ik.hand_target(1) == nullptr)
+            note("Drag the orange ball of a hand.");
+    }
+    const FieldRows gaze(ik.look_at, "humanoid.look_at", panel.emit);
+    gaze.row("on", {.why_not = ik.look_at.on || body ? std::string() : no_body});
+    if (!ik.look_at.on) return;
+    gaze.rows("weight", "view_deg");
+    const ShownPose& shown = panel.runtime.shown(panel.workspace);
+    if (shown.look && !shown.look->in_view) note("It is out of the cone of view.");
+}
+
+// The panel's rows of the ground, and of the feet on it.
+
+namespace {
+
+using humanoid::GroundKind;
+
+void shape_rows(const HumanoidPanel& panel) {
+    const GroundSetting& ground = panel.part.ik.ground;
+    const FieldRows rows(ground, "humanoid.ground", panel.emit);
+    if (ground.kind == GroundKind::Slope) rows.row("angle_deg");
+    if (ground.kind == GroundKind::Stairs) rows.rows("step_height", "step_depth");
+}
+
+/// What each foot does, or why it is left alone.
+void foot_row(const HumanoidPanel& panel, std::size_t side) {
+    const ShownPose& shown = panel.runtime.shown(panel.workspace);
+    if (!shown.feet) return;
+    const std::string alone = why_alone(panel.part, shown, side);
+    reading(side == 0 ? "left foot" : "right foot", "%s",
+            !alone.empty()                   ? "follows the clip"
+            : shown.feet->feet[side].planted ? "planted"
+                                             : "in the air");
+    if (!alone.empty()) note("Left alone: " + alone + ".");
+}
+
+}  // namespace
+
+void ground_rows(const HumanoidPanel& panel) {
+    if (!folding_section(panel.workspace, "Ground and feet", panel.emit)) return;
+    const IkSettings& ik = panel.part.ik;
+    int kind = static_cast<int>(ik.ground.kind);
+    const auto titles = ground_kinds.titles();
+    std::array<const char*, titles.size()> why_not{};
+    if (!ik.ground.mesh) why_not.back() = "type its path below";
+    if (choice_field("ground", kind, titles.data(), static_cast<int>(titles.size()), why_not.data()))
+        panel.emit("humanoid.ground", {{"kind", ground_kinds.name(static_cast<GroundKind>(kind))}});
+    explain(ground_kinds.help(ik.ground.kind));
+    std::string path = ik.ground.mesh ? ik.ground.mesh->path : std::string();
+    if (text_field("mesh file", path, "a .gltf or .glb file") && !path.empty())
+        panel.emit("humanoid.ground", {{"kind", "mesh"}, {"path", path}});
+    explain("A file whose triangles become the ground. Enter reads it.");
+    shape_rows(panel);
+    const FootIkSetting& feet = ik.foot_ik;
+    const FieldRows rows(feet, "humanoid.foot_ik", panel.emit);
+    const std::string& why = panel.runtime.solvers.why_no_feet(panel.part);
+    const bool none = !feet.on && !why.empty();
+    rows.row("on", {.why_not = none ? "The feet are left alone: " + why + "." : ""});
+    if (!why.empty()) return note("The feet are left alone: " + why + ".");
+    if (!feet.on) return;
+    rows.row("max_angle_deg");
+    rows.row("enter_speed", {.within = FieldRange{0.0, feet.leave_speed}});
+    rows.row("leave_speed", {.within = FieldRange{feet.enter_speed, fastest_foot}});
+    for (std::size_t side = 0; side < 2; ++side) foot_row(panel, side);
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,174 @@
+#include "app/labs/kit/library_json.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <string_view>
+
+#include "app/document/json_complete.hpp"
+#include "app/fields/fields.hpp"
+
+namespace tendril::app {
+namespace {
+
+constexpr std::size_t max_keys = 1'000;
+
+struct End {
+    const char* name;
+    double signal::Curve::*value;
+};
+constexpr End ends[] = {{"source_min", &signal::Curve::source_min},
+                        {"source_max", &signal::Curve::source_max},
+                        {"target_min", &signal::Curve::target_min},
+                        {"target_max", &signal::Curve::target_max}};
+
+signal::Piece read_piece(const JsonPlace& place) {
+    const std::string found = place.text();
+    for (const auto piece : {signal::Piece::Constant, signal::Piece::Linear, signal::Piece::Cubic})
+        if (found == signal::name(piece)) return piece;
+    place.fail("expected constant, linear or cubic, found " + json_summary(place.json()));
+}
+
+signal::CurveKey read_key(const JsonPlace& place) {
+    constexpr std::string_view known[] = {"time", "value", "arrive", "leave", "piece"};
+    signal::CurveKey key;
+    key.time = place["time"].real();
+    key.value = place["value"].real();
+    if (place.has("arrive")) key.arrive = place["arrive"].real();
+    if (place.has("leave")) key.leave = place["leave"].real();
+    if (place.has("piece")) key.piece = read_piece(place["piece"]);
+    for (const auto& [name, value] : place.json().items())
+        if (std::find(std::begin(known), std::end(known), name) == std::end(known))
+            place[name.c_str()].fail("a key has only time, value, arrive, leave and piece");
+    return key;
+}
+
+}  // namespace
+
+Json curve_keys_json(const signal::Curve& curve) {
+    Json keys = Json::array();
+    for (const signal::CurveKey& key : curve.keys) {
+        Json json{{"time", key.time}, {"value", key.value}, {"piece", signal::name(key.piece)}};
+        if (key.arrive != 0.0) json["arrive"] = key.arrive;
+        if (key.leave != 0.0) json["leave"] = key.leave;
+        keys.push_back(std::move(json));
+    }
+    return keys;
+}
+
+std::vector<signal::CurveKey> read_curve_keys(const JsonPlace& place) {
+    if (!place.json().is_array() || place.json().empty()) {
+        place.fail("expected a list of 1 to " + std::to_string(max_keys) + " keys, found " +
+                   json_summary(place.json()));
+    }
+    std::vector<signal::CurveKey> keys;
+    place.for_each("keys", max_keys, [&](const JsonPlace& each) { keys.push_back(read_key(each)); });
+    return keys;
+}
+
+Json curve_json(const signal::Curve& curve) {
+    Json json{{"keys", curve_keys_json(curve)}};
+    for (const End& end : ends) json[end.name] = curve.*end.value;
+    return json;
+}
+
+void add_curve_members(std::vector<std::string>& names) {
+    names.emplace_back("keys");
+    for (const End& end : ends) names.emplace_back(end.name);
+}
+
+void read_curve_members(const JsonPlace& place, signal::Curve& curve) {
+    if (place.has("keys")) curve.keys = read_curve_keys(place["keys"]);
+    for (const End& end : ends)
+        if (place.has(end.name)) curve.*end.value = place[end.name].real();
+}
+
+}  // namespace tendril::app
+
+namespace {
+
+/// Range of an offset from the root: two coordinates of at most 1e9 can be 2e9 apart.
+constexpr tendril::FieldRange offsets{-4e9, 4e9};
+
+}  // namespace
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::LimitMemory>() noexcept {
+    using ik::LimitMemory;
+    static constexpr Field rows[] = {field<&LimitMemory::limited>("limited"),
+                                     field<&LimitMemory::target>("target", offsets, "m"),
+                                     field<&LimitMemory::damping>("damping", {0.0, 100.0})};
+    return rows;
+}
+
+namespace tendril::app {
+namespace {
+
+constexpr std::size_t max_bones = 10'000;
+
+glm::vec3 offset_at(const JsonPlace& place) {
+    place.check_size(3, "numbers [x, y, z]");
+    glm::vec3 at;
+    for (int axis = 0; axis < 3; ++axis)
+        at[axis] =
+            static_cast<float>(place.element(static_cast<std::size_t>(axis)).real(offsets.low, offsets.high));
+    return at;
+}
+
+ik::PoleMemory load_pole(const JsonPlace& place, std::size_t joint_count,
+                         const std::vector<glm::vec3>& joints) {
+    ik::PoleMemory memory;
+    memory.valid = true;
+    // Older rigs have each_joint, and twist in radians.
+    if (place.has("each_joint"))
+        memory.turn = place["each_joint"].flag() ? ik::PoleTurn::EachJoint : ik::PoleTurn::WholeChain;
+    else
+        memory.turn = place["turn"].choice(pole_turns);
+    memory.pole = offset_at(place["pole"]);
+    memory.target = offset_at(place["target"]);
+    memory.twist = place.has("twist") ? place["twist"].number() : place["twist_deg"].degrees();
+    const auto list = place.optional("joints");
+    if (!list) {
+        memory.joints = joints;
+        return memory;
+    }
+    list->check_size(joint_count, "places, one a joint");
+    for (std::size_t i = 0; i < joint_count; ++i) memory.joints.push_back(offset_at(list->element(i)));
+    return memory;
+}
+
+}  // namespace
+
+Json save_ik_state(const ik::State& state) {
+    Json json{{"rotations", Json::array()}};
+    for (const glm::quat& q : state.rotations)
+        json["rotations"].push_back(Json::array({number(q.x), number(q.y), number(q.z), number(q.w)}));
+    if (state.limits.valid) json["limits"] = save_fields(state.limits);
+    if (state.pole.valid) {
+        Json& pole = json["pole"] = {{"turn", pole_turns.name(state.pole.turn)},
+                                     {"pole", point(state.pole.pole)},
+                                     {"target", point(state.pole.target)},
+                                     {"twist_deg", degrees(state.pole.twist)},
+                                     {"joints", Json::array()}};
+        for (const glm::vec3& joint : state.pole.joints) pole["joints"].push_back(point(joint));
+    }
+    return json;
+}
+
+ik::State load_ik_state(const JsonPlace& place, std::size_t bones, const std::vector<glm::vec3>& joints) {
+    ik::State state(bones);
+    if (const auto list = place.optional("rotations"); list && list->list_size("rotations", max_bones) > 0) {
+        list->check_size(bones, "values, one a bone");
+        for (std::size_t i = 0; i < bones; ++i) state.rotations[i] = list->element(i).rotation();
+    }
+    if (const auto limits = place.optional("limits")) {
+        for (const Field& field : fields<ik::LimitMemory>())
+            (*limits)[field.name];  // throws if one is missing
+        load_fields(*limits, state.limits);
+        state.limits.valid = true;
+    }
+    if (const auto pole = place.optional("pole")) state.pole = load_pole(*pole, bones + 1, joints);
+    if (const Result bad = ik::check(state, bones); !bad) place.fail(bad.message());
+    return state;
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,50 @@
+#include "app/labs/kit/panel_rows.hpp"
+
+#include <imgui.h>
+#include <algorithm>
+#include <utility>
+
+#include "app/widgets/fields.hpp"
+
+namespace tendril::app {
+
+bool folding_section(const Workspace& workspace, const char* title, Emit& emit, bool open_at_first) {
+    const std::string section = workspace.lab + ": " + title;
+    const auto& choices = workspace.settings.choices;
+    const auto chosen = choices.find(fold_key(section));
+    const bool open = chosen == choices.end() ? open_at_first : chosen->second != "folded";
+    if (section_button(title, open)) emit("view.fold", {{"section", section}, {"folded", open}});
+    return open;
+}
+
+bool preset_rows(const std::string& lab, const std::vector<PresetButton>& presets, const char* clears,
+                 Emit& emit, int of) {
+    bool opened = false;
+    int in_row = 0;
+    for (const PresetButton& preset : presets) {
+        const char* const tooltip = preset.tooltip.empty() ? nullptr : preset.tooltip.c_str();
+        const int wanted = preset.of > 0 ? preset.of : of;
+        if (std::exchange(in_row, wanted) != wanted) end_row();  // they are of another width
+        if (!row_button(preset.title.c_str(), wanted, true, tooltip)) continue;
+        emit(lab + ".preset", {{"name", preset.name}});
+        opened = true;
+    }
+    end_row();
+    if (row_button("Empty", 2, true, clears)) emit(lab + ".clear");
+    if (row_button("Reset", 2, true, "Resets this lab to its first state; undo restores it"))
+        emit(lab + ".reset");
+    end_row();
+    return opened;
+}
+
+void show_verdict(const Verdict& said, const Palette& palette) {
+    verdict(said.text, said.kind == Verdict::Kind::Bad ? palette.limit : palette.text);
+    if (said.why.empty()) return;
+    // As high for one line as for two, so that nothing below moves when the words change.
+    const float from = ImGui::GetCursorPosY();
+    note(said.why);
+    const float two = 2.0f * ImGui::GetTextLineHeight() + ImGui::GetStyle().ItemSpacing.y;
+    ImGui::SetCursorPosY(std::max(from + two, ImGui::GetCursorPosY()));
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,317 @@
+#include "app/labs/lab_commands.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/gtc/constants.hpp>
+#include <glm/trigonometric.hpp>
+#include <string>
+
+#include "app/document/atomic_file.hpp"
+#include "app/document/command.hpp"
+#include "app/document/units.hpp"
+#include "app/io/video_file.hpp"
+#include "app/labs/labs.hpp"
+
+namespace tendril::app {
+namespace {
+
+void set_pose(Workspace& workspace, const Arguments& given) {
+    CameraPose& pose = workspace.camera;
+    if (given.has("target")) {
+        pose.target = glm::clamp(given.point("target"), -camera_range::target, camera_range::target);
+    }
+    if (given.has("yaw_deg")) pose.yaw = glm::radians(given.number("yaw_deg"));
+    if (given.has("pitch_deg")) pose.pitch = glm::radians(given.number("pitch_deg"));
+    if (given.has("distance")) pose.distance = given.number("distance");
+    if (given.has("field_of_view_deg")) pose.field_of_view = glm::radians(given.number("field_of_view_deg"));
+    if (given.has("orthographic")) pose.orthographic = given.boolean("orthographic");
+}
+
+Argument angle(const char* name, double low, double high) {
+    return {.name = name, .required = false, .help = "degrees", .low = low, .high = high};
+}
+
+/// As one looks from one of six sides.
+void look_from(Workspace& workspace, const std::string& name) {
+    CameraPose& pose = workspace.camera;
+    const bool side = name == "side" || name == "left", high = name == "top" || name == "bottom";
+    pose = turned_to(pose, side ? FixedView::Side : high ? FixedView::Top : FixedView::Front);
+    if (name == "left") pose.yaw = -pose.yaw;
+    if (name == "bottom") pose.pitch = -pose.pitch;
+    if (name == "back") pose.yaw = glm::pi<float>();
+}
+
+}  // namespace
+
+LabSetting mouse_setting() {
+    return {.key = "mouse",
+            .command = "view.mouse",
+            .title = "Choose the mouse preset",
+            .argument = "like",
+            .help = "Turns and shifts the view with the mouse as this program does",
+            .choices = {{"tendril", "Tendril"}, {"blender", "Blender"}, {"maya", "Maya, Unreal"}}};
+}
+
+LabSetting scroll_setting() {
+    return {.key = "scroll",
+            .command = "view.scroll",
+            .title = "Choose what scrolling does",
+            .argument = "does",
+            .help =
+                "What the wheel, or two fingers on a touchpad, do in the view: zoom, or shift it. Where they "
+                "shift "
+                "it, they zoom while Ctrl is held; some systems send a pinch as just that",
+            .choices = {{"zoom", "zooms"}, {"pan", "shifts the view"}}};
+}
+
+void add_camera_commands(CommandTable& table, const Labs& labs) {
+    table.add({.name = "camera.set",
+               .title = "Place or turn the camera",
+               .arguments = {{.name = "target",
+                              .type = ArgumentType::Point,
+                              .required = false,
+                              .help = "what it turns about"},
+                             angle("yaw_deg", -1e6, 1e6),
+                             angle("pitch_deg", -90.0, 90.0),
+                             {.name = "distance",
+                              .required = false,
+                              .help = "metres",
+                              .low = camera_range::nearest,
+                              .high = camera_range::farthest},
+                             angle("field_of_view_deg", glm::degrees(camera_range::narrowest),
+                                   glm::degrees(camera_range::widest)),
+                             {.name = "orthographic",
+                              .type = ArgumentType::Boolean,
+                              .required = false,
+                              .help = "without perspective"}},
+               .help = "Places the camera; what is left out stays",
+               .effect = Effect::Look,
+               .apply = set_pose});
+    table.add({.name = "camera.frame",
+               .title = "Frame everything or the selection",
+               .arguments = {{.name = "what",
+                              .type = ArgumentType::Text,
+                              .help = "what to bring into view",
+                              .choices = {"all", "selection"}}},
+               .help = "Brings everything, or the selection, into view",
+               .effect = Effect::Look,
+               .apply = [&labs](Workspace& w, const Arguments& a) {
+                   const Bounds bounds = labs.find(w.lab)->bounds(w, a.text("what") == "selection");
+                   w.camera = framed(w.camera, {{0.0f, 0.0f}, w.ui.view_size}, bounds.centre, bounds.radius);
+               }});
+    table.add({.name = "camera.view",
+               .title = "Look from front, side or top",
+               .arguments = {{.name = "name",
+                              .type = ArgumentType::Text,
+                              .help = "where from",
+                              .choices = {"front", "side", "top", "back", "left", "bottom"}}},
+               .help = "Looks from the front, the side (right), the top, or from opposite one of them",
+               .effect = Effect::Look,
+               .apply = [](Workspace& w, const Arguments& a) { look_from(w, a.text("name")); }});
+    table.add(setting_command(mouse_setting()));
+    table.add(setting_command(scroll_setting()));
+    table.add(
+        {.name = "camera.orthographic",
+         .title = "Switch perspective off or on",
+         .arguments = {},
+         .help = "Turns perspective off, or on again",
+         .effect = Effect::Look,
+         .apply = [](Workspace& w, const Arguments&) { w.camera.orthographic = !w.camera.orthographic; }});
+}
+
+namespace {
+
+/// By the lab's own commands. They only look: none is a step of undo.
+void select_nothing(Workspace& workspace, const Lab& lab) {
+    Emit emit;
+    lab.deselect(workspace, emit);
+    CommandTable own;
+    lab.add_commands(own);
+    for (const Emitted& each : emit.take()) own.find(each.name)->apply(workspace, Arguments(*each.arguments));
+}
+
+}  // namespace
+
+void add_closing_command(CommandTable& table, const Labs& labs) {
+    table.add({.name = "view.close",
+               .title = "Close, cancel or select nothing",
+               .arguments = {},
+               .help = "Closes the palette, help, settings or dialog; where none is open, selects nothing",
+               .effect = Effect::Look,
+               .apply = [&labs](Workspace& w, const Arguments&) {
+                   if (!w.ui.covered()) select_nothing(w, *labs.find(w.lab));
+                   w.ui.help = w.ui.palette = w.ui.settings = false;
+                   w.ui.file_dialog = UiState::FileDialog::None;
+                   w.ui.asks_to_quit = false;
+                   w.ui.toasts.clear();
+               }});
+}
+
+// The view as a video of the last seconds, or as a picture on the clipboard. What is asked for is checked
+// here; the frame (app/app_video.cpp) draws it.
+
+namespace {
+
+constexpr double longest = static_cast<double>(Rewind::max_ticks) * tick_seconds;
+
+Argument pixels(const char* name, const char* help) {
+    return {.name = name,
+            .type = ArgumentType::Integer,
+            .required = false,
+            .help = help,
+            .low = min_picture,
+            .high = max_picture};
+}
+
+Argument seconds_back(const char* name, const char* help) {
+    return {.name = name, .required = false, .help = help, .low = 0.0, .high = longest};
+}
+
+std::string seconds_text(int ticks) {
+    return fixed_text(ticks * tick_seconds, 2) + " s";
+}
+
+/// From the oldest moment that is remembered to the last one, the present among them.
+int remembered_ticks(const Workspace& w) {
+    const Rewind& past = w.rewind;
+    if (past.empty()) return 0;
+    const std::uint64_t now = std::max(past.newest(), w.moment);
+    return static_cast<int>(std::min(now - past.oldest(), Rewind::max_ticks));
+}
+
+void set_range(VideoRequest& wanted, const Workspace& w, const Arguments& given) {
+    const int remembered = remembered_ticks(w);
+    if (remembered == 0) throw Refused("nothing has moved yet that a video could show");
+    const auto ticks = [&](const char* name, int otherwise) {
+        return given.has(name) ? static_cast<int>(std::lround(given.real(name) / tick_seconds)) : otherwise;
+    };
+    wanted.from = ticks("from", remembered);
+    wanted.to = ticks("to", 0);
+    if (wanted.from > remembered)
+        throw Refused("from must be at most " + seconds_text(remembered) + ", which is all that is " +
+                      "remembered, got " + seconds_text(wanted.from));
+    if (wanted.from <= wanted.to)
+        throw Refused("from must be further back than to, which is " + seconds_text(wanted.to) + ", got " +
+                      seconds_text(wanted.from));
+}
+
+VideoRequest video_request(const Workspace& w, const Arguments& given) {
+    VideoRequest wanted{.path = given.text("path")};
+    if (const std::string why = why_no_video(wanted.path); !why.empty()) throw Refused(why);
+    if (given.has("width")) wanted.size.x = given.integer("width");
+    if (given.has("height")) wanted.size.y = given.integer("height");
+    if (given.has("every")) wanted.every = given.integer("every");
+    if (given.has("speed")) wanted.speed = given.real("speed");
+    wanted.transparent = given.has("transparent") && given.boolean("transparent");
+    const bool mp4 = wanted.path.extension() == ".mp4";
+    if (mp4 && wanted.transparent) throw Refused("transparent: MP4 has no transparency, animated PNG has");
+    for (const char* side : {"width", "height"})
+        if (mp4 && given.has(side) && given.integer(side) % 2 != 0)
+            throw Refused(std::string(side) + " of an MP4 must be even, got " +
+                          std::to_string(given.integer(side)));
+    constexpr double max_per_second = 60.0;
+    if (!mp4 && wanted.speed * max_per_second > max_per_second * wanted.every + 1e-6)
+        throw Refused("speed of an animated PNG with every " + std::to_string(wanted.every) +
+                      " must be at most " + std::to_string(wanted.every) + ", got " +
+                      fixed_text(wanted.speed, 2) +
+                      ": programs that show it slow down over 60 frames a second");
+    set_range(wanted, w, given);
+    check_writable(wanted.path);
+    return wanted;
+}
+
+void require_view(const Workspace& w, const Labs& labs) {
+    if (labs.find(w.lab)->canvas_share(w) > 0.0f)
+        throw Refused("this lab's picture is more than a view of a scene");
+}
+
+void add_recording(CommandTable& table, const Labs& labs) {
+    table.add(
+        {.name = "view.video",
+         .title = "Write a video of the past",
+         .arguments =
+             {{.name = "path",
+               .type = ArgumentType::Text,
+               .help = "a .png file, which is animated, or .mp4 where ffmpeg is installed"},
+              pixels("width", "pixels, even for MP4; the view's when left out"),
+              pixels("height", "pixels, even for MP4; the view's when left out"),
+              seconds_back("from", "seconds back from the last moment; all that is remembered when left out"),
+              seconds_back("to", "seconds back from the last moment; 0 when left out"),
+              {.name = "every",
+               .type = ArgumentType::Integer,
+               .required = false,
+               .help = "ticks of 1/60 s from frame to frame; 2, which is 30 frames a second, when left out",
+               .low = 1,
+               .high = 60},
+              {.name = "speed",
+               .required = false,
+               .help = "1 is real time, also when left out; below 1 is slow motion",
+               .low = slowest,
+               .high = fastest},
+              {.name = "transparent",
+               .type = ArgumentType::Boolean,
+               .required = false,
+               .help = "with a transparent background; PNG only"}},
+         .help = "Writes a video of the last ten seconds as the view shows them now, without labels and "
+                 "panels",
+         .effect = Effect::Look,
+         .apply = [&labs](Workspace& w, const Arguments& a) {
+             if (w.ui.filming)
+                 throw Refused(w.ui.filming->name + " is still being written; view.end_video cancels it");
+             require_view(w, labs);
+             w.ui.video = video_request(w, a);
+         }});
+    table.add({.name = "view.end_video",
+               .title = "Stop recording the video",
+               .arguments = {},
+               .help = "Cancels the video that is being written; no file is left",
+               .effect = Effect::Look,
+               .apply = [](Workspace& w, const Arguments&) {
+                   if (!w.ui.filming) throw Refused("no video is being written");
+                   w.ui.ends_filming = true;
+               }});
+    table.add({.name = "view.video_dialog",
+               .title = "Record a video",
+               .arguments = {},
+               .help = "Pauses, and shows a dialog to record the last seconds as a video",
+               .effect = Effect::Look,
+               .apply = [&labs](Workspace& w, const Arguments&) {
+                   require_view(w, labs);
+                   if (remembered_ticks(w) == 0)
+                       throw Refused("nothing has moved yet that a video could show");
+                   // Or what one has just seen would slip out of the last ten seconds meanwhile.
+                   w.clock.playing = w.clock.replaying = false;
+                   w.ui.file_dialog = UiState::FileDialog::Video;
+               }});
+}
+
+void add_copying(CommandTable& table, const Labs& labs) {
+    table.add({.name = "view.copy_picture",
+               .title = "Copy the picture",
+               .arguments = {pixels("width", "pixels; the view's when left out"),
+                             pixels("height", "pixels; the view's when left out"),
+                             {.name = "transparent",
+                              .type = ArgumentType::Boolean,
+                              .required = false,
+                              .help = "with a transparent background"}},
+               .help = "Puts a picture of the scene in the view on the clipboard; needs xclip or wl-copy",
+               .effect = Effect::Look,
+               .apply = [&labs](Workspace& w, const Arguments& a) {
+                   require_view(w, labs);
+                   PictureRequest wanted;
+                   if (a.has("width")) wanted.size.x = a.integer("width");
+                   if (a.has("height")) wanted.size.y = a.integer("height");
+                   wanted.transparent = a.has("transparent") && a.boolean("transparent");
+                   w.ui.picture = std::move(wanted);
+               }});
+}
+
+}  // namespace
+
+void add_video_commands(CommandTable& table, const Labs& labs) {
+    add_recording(table, labs);
+    add_copying(table, labs);
+}
+
+}  // namespace tendril::app

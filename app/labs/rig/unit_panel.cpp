@@ -1,0 +1,430 @@
+// The units in the order in which they run, each with its switch, its time and its warning.
+#include <imgui.h>
+#include <algorithm>
+#include <cctype>
+#include <limits>
+#include <utility>
+
+#include "app/document/json_complete.hpp"
+#include "app/document/units.hpp"
+#include "app/labs/kit/library_json.hpp"
+#include "app/labs/rig/panel.hpp"
+#include "app/labs/rig/rig_edit.hpp"
+#include "app/labs/rig/unit_inputs.hpp"
+#include "app/labs/rig/values.hpp"
+#include "app/widgets/curve_editor.hpp"
+#include "app/widgets/fields.hpp"
+#include "app/widgets/text.hpp"
+
+namespace tendril::app {
+namespace {
+
+/// "parent_constraint" as "parent constraint".
+std::string operation_title(std::size_t index) {
+    std::string title = rig::operation_name(index);
+    std::replace(title.begin(), title.end(), '_', ' ');
+    return title;
+}
+
+void switch_box(const RigPanel& panel, const rig::Unit& unit) {
+    bool on = unit.enabled;
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(0.0f, 0.0f));
+    if (ImGui::Checkbox("##on", &on)) panel.edit("rig.unit.enable", {{"name", unit.name}, {"on", on}});
+    ImGui::PopStyleVar();
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip(on ? "Runs; click to skip it" : "Skipped; click to run it");
+}
+
+/// Switch, name, operation, time.
+void title_row(const RigPanel& panel, const UnitRow& row, const std::vector<double>& times) {
+    const rig::Unit& unit = *row.unit;
+    const float em = ImGui::GetFontSize(), line = ImGui::GetTextLineHeight();
+    if (row.inner) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + 1.2f * em);
+    switch_box(panel, unit);
+    ImGui::SameLine(0.0f, 0.5f * em);
+    const ImVec2 at = ImGui::GetCursorPos();
+    const float width = ImGui::GetContentRegionAvail().x;
+    const bool selected = panel.part.selected.unit == unit.name;
+    if (ImGui::Selectable("##row", selected, 0, {width, line})) select_unit(panel, selected ? "" : unit.name);
+    const std::string operation = operation_title(unit.operation.index());
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("%s: %s\n%s", unit.name.c_str(), operation.c_str(),
+                          operation_help(rig::operation_name(unit.operation.index())));
+    std::string time;
+    if (!row.inner && row.top < times.size()) time = fixed_text(times[row.top], 1) + " \xC2\xB5s";
+    const float time_width = time.empty() ? 0.0f : ImGui::CalcTextSize(time.c_str()).x + 0.5f * em;
+    const float room = width - time_width;
+    const std::string name = elided(unit.name, room);
+    ImGui::SetCursorPos(at);
+    ImGui::TextUnformatted(name.c_str());
+    const float left = room - ImGui::CalcTextSize(name.c_str()).x - 0.6f * em;
+    if (operation != unit.name && left > 2.5f * em) {
+        ImGui::SameLine(0.0f, 0.6f * em);
+        ImGui::TextDisabled("%s", elided(operation, left).c_str());
+    }
+    if (!time.empty()) {
+        ImGui::SameLine(at.x + width - time_width + 0.5f * em);
+        ImGui::TextDisabled("%s", time.c_str());
+    }
+}
+
+/// A line of a unit: what it reads or hands out, and what that is now; below it, where there is no room.
+void live_line(const std::string& title, const std::string& from, const std::string& value, float margin) {
+    const float gap = 0.6f * ImGui::GetFontSize(), width = ImGui::GetContentRegionAvail().x - margin;
+    const auto width_of = [](const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x; };
+    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + margin);
+    ImGui::TextDisabled("%s", elided(title, 0.6f * width).c_str());
+    ImGui::SameLine();
+    const std::string both = from.empty() || value.empty() ? from + value : from + ": " + value;
+    const float room = width - std::min(width_of(title), 0.6f * width) - gap;
+    if (from.empty() || width_of(both) <= room) return text_flush_right(elided(both, room));
+    text_flush_right(elided(from, room));
+    if (!value.empty()) text_flush_right(elided(value, ImGui::GetContentRegionAvail().x));
+}
+
+std::string live_text(const UnitInput& input) {
+    struct ToText {
+        const UnitInput& input;
+        std::string operator()(std::monostate) const { return {}; }
+        std::string operator()(const rig::Value& value) const { return input_text(input, value); }
+        std::string operator()(const InputChoice& choice) const { return choice.names[choice.chosen]; }
+        std::string operator()(const InputFilter& filter) const {
+            return filter.passes == rig::TransformFilter() ? "all pass" : "some do not pass";
+        }
+        std::string operator()(const InputRange& range) const {
+            return fixed_text(range.low, 2) + " to " + fixed_text(range.high, 2);
+        }
+        std::string operator()(const InputNames& names) const {
+            std::string text;
+            for (const std::string& each : names.names) text += (text.empty() ? "" : ", ") + each;
+            return text;
+        }
+        std::string operator()(const InputCurve& curve) const {
+            return count_text(curve.curve.keys.size(), "key");
+        }
+    };
+    return std::visit(ToText{input}, input.value);
+}
+
+void live_lines(const RigPanel& panel, const UnitRow& row) {
+    const float margin = (row.inner ? 2.6f : 1.4f) * ImGui::GetFontSize();
+    const rig::Unit usual;
+    for (const UnitInput& input : unit_inputs(panel.part, panel.now, *row.unit)) {
+        // Weight 1 and no condition are what one expects.
+        if (input.path == "/weight" && row.unit->weight == usual.weight) continue;
+        if (input.path == "/when" && row.unit->when == usual.when) continue;
+        live_line(input.title, input.from, live_text(input), margin);
+    }
+    const std::vector<rig::Output> outputs = rig::outputs(row.unit->operation);
+    const rig::UnitState& state = panel.part.state.units[row.at];
+    for (std::size_t i = 0; i < outputs.size(); ++i)
+        live_line(std::string("gives ") + outputs[i].name, "",
+                  output_text(row.unit->operation, state.outputs[i]), margin);
+}
+
+void add_unit_menu(const RigPanel& panel) {
+    if (row_button("Add a unit", 1, true, "A list of every kind of unit; the new one runs last"))
+        ImGui::OpenPopup("add unit");
+    if (!ImGui::BeginPopup("add unit")) return;
+    close_popup_on_escape();
+    for (std::size_t i = 0; i < std::variant_size_v<rig::Operation::Variant>; ++i) {
+        const UnitOffer offer = offered_unit(panel.part, i);
+        std::string title = operation_title(i);
+        title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(title[0])));
+        if (!offer.unit) title += std::string(": needs ") + offer.needs;
+        if (!ImGui::MenuItem(title.c_str(), nullptr, false, offer.unit.has_value())) continue;
+        ArgumentList arguments;
+        for (const auto& [key, value] : (*offer.unit)->items()) arguments.push_back({key, SharedJson(value)});
+        panel.edit("rig.unit.add", arguments);
+    }
+    ImGui::EndPopup();
+}
+
+/// Its place in the list that it is in, and how long that is.
+std::pair<int, int> place_of(const std::vector<UnitRow>& rows, const UnitRow& row) {
+    int at = 0, count = 0;
+    for (const UnitRow& each : rows) {
+        if (each.inner != row.inner || (row.inner && each.top != row.top)) continue;
+        if (each.at == row.at) at = count;
+        ++count;
+    }
+    return {at, count};
+}
+
+void order_buttons(const RigPanel& panel, const std::vector<UnitRow>& rows) {
+    const auto selected = unit_row(panel.part, panel.part.selected.unit);
+    const auto [at, count] = selected ? place_of(rows, *selected) : std::pair(0, 0);
+    const std::string& name = panel.part.selected.unit;
+    if (row_button("Up", 3, selected && at > 0, "Moves the selected unit up: it runs earlier"))
+        panel.edit("rig.unit.move", {{"name", name}, {"at", at - 1}});
+    if (row_button("Down", 3, selected && at + 1 < count, "Moves it down: it runs later"))
+        panel.edit("rig.unit.move", {{"name", name}, {"at", at + 1}});
+    if (row_button("Remove", 3, selected.has_value(), "Removes the selected unit"))
+        panel.edit("rig.unit.remove", {{"name", name}});
+    end_row();
+}
+
+}  // namespace
+
+void warning_line(const RigPanel& panel, rig::Warning warning, float margin) {
+    std::string text = rig::message(warning);
+    if (text.empty()) return;
+    text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+    const glm::vec3 c = panel.colours.limit;
+    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + margin);
+    ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(c.r, c.g, c.b, 1.0f));
+    ImGui::PushTextWrapPos(0.0f);
+    ImGui::TextUnformatted(("! " + text).c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::PopStyleColor();
+}
+
+void unit_list(const RigPanel& panel) {
+    const std::vector<UnitRow> rows = unit_rows(panel.part);
+    const std::vector<double> times =
+        panel.workspace.clock.measured ? panel.runtime.microseconds(panel.part.rig) : std::vector<double>();
+    const float line = ImGui::GetTextLineHeight() + ImGui::GetStyle().ItemSpacing.y;
+    constexpr float max_lines = 26.0f;
+    // As high as what is in it, as long as that is not too much: then it scrolls.
+    const bool many = rows.size() > 20;
+    if (many) ImGui::BeginChild("units", {0.0f, max_lines * line}, false);
+    for (const UnitRow& row : rows) {
+        const rig::Warning warning = panel.part.state.units[row.at].warning;
+        const bool selected = panel.part.selected.unit == row.unit->name;
+        if (many && !selected && warning == rig::Warning::None &&
+            !ImGui::IsRectVisible({ImGui::GetContentRegionAvail().x, line})) {
+            ImGui::Dummy({1.0f, ImGui::GetTextLineHeight()});  // as high as the row
+            continue;
+        }
+        ImGui::PushID(static_cast<int>(row.at));
+        title_row(panel, row, times);
+        if (many && selected && std::exchange(panel.runtime.panel.unit, row.unit->name) != row.unit->name &&
+            !ImGui::IsItemVisible())
+            ImGui::SetScrollHereY(0.3f);
+        if (row.unit->enabled) warning_line(panel, warning, (row.inner ? 2.6f : 1.4f) * ImGui::GetFontSize());
+        if (selected) live_lines(panel, row);
+        ImGui::PopID();
+    }
+    if (many) ImGui::EndChild();
+    if (rows.empty()) note("No units: bones stay where they are.");
+    order_buttons(panel, rows);
+    add_unit_menu(panel);
+}
+
+// The selected unit: what it reads, with a field for whatever is a literal, and what it hands out.
+
+namespace {
+
+constexpr float max_literal = 1e9f;
+
+bool is_weight(const UnitInput& input) {
+    // Weights among the parents of a constraint are relative, and may be over 1.
+    return input.path.ends_with("weight") && !input.path.starts_with("/parents");
+}
+
+class Fields {
+  public:
+    Fields(const RigPanel& panel, const UnitRow& row) : panel_(panel), row_(row) {}
+
+    void row(const UnitInput& input) {
+        input_ = &input;
+        if (!input.literal()) return source_row();
+        if (input.takes == UnitInput::Takes::Value) {
+            chooser(input.title, nullptr);
+            ImGui::SameLine(0.0f, ImGui::GetStyle().ItemInnerSpacing.x);
+        }
+        std::visit([&](const auto& value) { field(value); }, input.value);
+    }
+
+  private:
+    void set(Json value) const {
+        const Json arguments = with_input(*row_.unit, input_->path, std::move(value));
+        ArgumentList list;
+        for (const auto& [key, each] : arguments.items()) list.push_back({key, SharedJson(each)});
+        panel_.edit("rig.unit.set", list);
+    }
+
+    std::string help() const {
+        return input_help(rig::operation_name(row_.unit->operation.index()), input_->path);
+    }
+
+    /// Where it comes from, and what it is now below that.
+    void source_row() const {
+        chooser(input_->title, &input_->from);
+        if (const auto* value = std::get_if<rig::Value>(&input_->value))
+            text_flush_right(elided(input_text(*input_, *value), ImGui::GetContentRegionAvail().x), true);
+    }
+
+    /// What else it may be, in a field that shows what it is, or behind a button.
+    void chooser(const std::string& title, const std::string* shown, std::size_t index = 0) const {
+        SearchText& typed = panel_.runtime.panel.choice;
+        const bool open = begin_search(title.c_str(), shown, typed);
+        if (!open && ImGui::IsItemHovered()) {
+            if (shown != nullptr)
+                ImGui::SetTooltip("%s: %s. Click for what else it may be\n%s", title.c_str(), shown->c_str(),
+                                  help().c_str());
+            else
+                ImGui::SetTooltip("%s: takes it from an element or a unit", title.c_str());
+        }
+        if (!open) return;
+        const std::vector<InputOffer> offers = input_offers(panel_.part, row_, *input_, index);
+        if (offers.empty()) note("Nothing in this rig gives that.");
+        for (const InputOffer& offer : offers)
+            if (search_row(offer.title, offer.now, typed) && !offer.now) set(*offer.value);
+        end_search();
+    }
+
+    void field(std::monostate) const {}
+    void field(const rig::Value& value) {
+        std::visit([&](const auto& literal) { literal_field(literal); }, value);
+    }
+    void field(const InputChoice& choice) const {
+        int chosen = static_cast<int>(choice.chosen);
+        if (choice_field(input_->title.c_str(), chosen, choice.names.data(),
+                         static_cast<int>(choice.names.size())))
+            set(choice.names[static_cast<std::size_t>(chosen)]);
+        explain(help().c_str());
+    }
+    /// A box for each axis.
+    void field(const InputFilter& filter) const {
+        rig::TransformFilter passes = filter.passes;
+        bool changed = false;
+        ImGui::TextDisabled("%s", "passes on each axis");
+        const auto axes = [&](const char* name, std::array<bool, 3>& on) {
+            ImGui::AlignTextToFramePadding();
+            ImGui::TextDisabled("%s", name);
+            for (int i = 0; i < 3; ++i) {
+                ImGui::SameLine(ImGui::GetWindowContentRegionMin().x +
+                                (5.5f + 3.2f * static_cast<float>(i)) * ImGui::GetFontSize());
+                const std::string label = std::string(1, "xyz"[i]) + "##" + name;
+                changed |= ImGui::Checkbox(label.c_str(), &on[static_cast<std::size_t>(i)]);
+                explain(help().c_str());
+            }
+        };
+        axes("translation", passes.translation);
+        axes("rotation", passes.rotation);
+        axes("scale", passes.scale);
+        if (changed)
+            set({{"translation", passes.translation},
+                 {"rotation", passes.rotation},
+                 {"scale", passes.scale}});
+    }
+    void field(const InputRange& range) const {
+        float low = static_cast<float>(range.low), high = static_cast<float>(range.high);
+        const bool first =
+            number_field((input_->title + " low").c_str(), low, 0.01f, -max_literal, max_literal, "%.3f");
+        explain(help().c_str());
+        const bool second =
+            number_field((input_->title + " high").c_str(), high, 0.01f, -max_literal, max_literal, "%.3f");
+        explain(help().c_str());
+        if (first) set({number(low), range.high});
+        if (second) set({range.low, number(high)});
+    }
+    void field(const InputNames& names) const {
+        const std::string& title = input_->title;
+        if (input_->takes != UnitInput::Takes::Roots) return chooser(title, &names.names.front());
+        for (std::size_t i = 0; i < names.names.size(); ++i)
+            chooser(names.names.size() > 1 ? "root " + std::to_string(i + 1) : "root", &names.names[i], i);
+        const std::string another = "another";
+        chooser("add a root", &another, names.names.size());
+    }
+    void field(const InputCurve& curve) const {
+        signal::Curve edited = curve.curve;
+        const auto& evaluate = std::get<rig::EvaluateCurve>(row_.unit->operation);
+        const double width = edited.source_max - edited.source_min;
+        double at = -1.0;  // shown nowhere
+        if (const double* literal = evaluate.value.literal()) at = *literal;
+        for (const UnitInput& each : unit_inputs(panel_.part, panel_.now, *row_.unit))
+            if (const auto* value = std::get_if<rig::Value>(&each.value); value && each.path == "/value")
+                if (const auto* number = std::get_if<double>(value)) at = *number;
+        at = width != 0.0 ? (at - edited.source_min) / width : 0.0;
+        if (curve_editor("curve", edited, panel_.colours.accent, 11.0f, at)) set(curve_json(edited));
+        note("Drag a key. Double-click adds one, right-click removes it.");
+        const auto end = [&](const char* name, double& value, const char* what) {
+            float shown = static_cast<float>(value);
+            const bool changed = number_field(name, shown, 0.01f, -max_literal, max_literal, "%.3f");
+            explain(what);
+            if (!changed) return;
+            value = static_cast<double>(shown);
+            set(curve_json(edited));
+        };
+        end("from low", edited.source_min, "The value that is at the left end of the curve.");
+        end("from high", edited.source_max, "The value that is at the right end of the curve.");
+        end("to low", edited.target_min, "The result where the curve is at 0.");
+        end("to high", edited.target_max, "The result where the curve is at 1.");
+    }
+
+    void literal_field(bool on) const {
+        if (ImGui::Checkbox(input_->title.c_str(), &on)) set(on);
+        explain(help().c_str());
+    }
+    void literal_field(double value) const {
+        float shown = static_cast<float>(value);
+        const bool weight = is_weight(*input_);
+        const std::string unit = input_->unit;
+        const std::string format = is_speed_limit(*input_) ? "%.1f" + unit + (value > 0.0 ? "" : ", no limit")
+                                   : unit.empty()          ? "%.3f"
+                                                           : "%.3f " + unit;
+        if (number_field(input_->title.c_str(), shown, weight ? 0.005f : 0.01f,
+                         weight || *input_->unit != '\0' ? 0.0f : -max_literal, weight ? 1.0f : max_literal,
+                         format.c_str()))
+            set(number(shown));
+        explain(help().c_str());
+    }
+    void literal_field(const glm::dvec3& value) const {
+        const glm::vec3 shown(value);
+        glm::vec3 edited = shown;
+        if (vector_field(input_->title.c_str(), edited, 0.01f, glm::vec3(-max_literal),
+                         glm::vec3(max_literal), "%.3f"))
+            set(dpoint(edited_vector(value, shown, edited)));
+        explain((help() + (*input_->unit != '\0' ? std::string(" In ") + input_->unit + '.' : "")).c_str());
+    }
+    void literal_field(const glm::dquat& value) const {
+        glm::dquat rotation = value;
+        if (rotation_field(panel_, (input_->title + ", degrees").c_str(), rotation))
+            set(rotation_json(rotation));
+    }
+    void literal_field(const rig::Transform& value) const {
+        ImGui::TextDisabled("%s", input_->title.c_str());
+        if (const auto changed =
+                transform_fields(panel_, value, glm::vec3(-max_literal), glm::vec3(max_literal))) {
+            Json whole = transform_json(value);
+            whole.update(**changed);
+            set(whole);
+        }
+    }
+
+    const RigPanel& panel_;
+    const UnitRow& row_;
+    const UnitInput* input_ = nullptr;
+};
+
+}  // namespace
+
+void unit_inspector(const RigPanel& panel) {
+    const auto row = unit_row(panel.part, panel.part.selected.unit);
+    if (!row) return;
+    section(elided("Unit: " + row->unit->name, ImGui::GetContentRegionAvail().x).c_str());
+    ImGui::PushID("unit");
+    std::string operation = rig::operation_name(row->unit->operation.index());
+    std::replace(operation.begin(), operation.end(), '_', ' ');
+    note(operation + (row->inner ? ", run on each element of its for-each" : "") +
+         (row->unit->enabled ? "" : ", switched off"));
+    if (row->unit->enabled) warning_line(panel, panel.part.state.units[row->at].warning);
+    Fields fields(panel, *row);
+    for (const UnitInput& input : unit_inputs(panel.part, panel.now, *row->unit)) {
+        if (input.path == "/when" && row->unit->when == rig::Unit().when) continue;  // the switch does that
+        ImGui::PushID(input.path.c_str());
+        fields.row(input);
+        ImGui::PopID();
+    }
+    const std::vector<rig::Output> outputs = rig::outputs(row->unit->operation);
+    for (std::size_t i = 0; i < outputs.size(); ++i)
+        reading((std::string("gives ") + outputs[i].name).c_str(), "%s",
+                output_text(row->unit->operation, panel.part.state.units[row->at].outputs[i]).c_str());
+    if (row->inner) note("What it gives is of the last element of the for-each.");
+    if (row_button("Close", 2, true, "Selects no unit")) select_unit(panel, "");
+    end_row();
+    ImGui::PopID();
+}
+
+}  // namespace tendril::app

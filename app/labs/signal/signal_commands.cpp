@@ -1,0 +1,265 @@
+#include "app/labs/signal/signal_commands.hpp"
+
+#include <algorithm>
+
+#include "app/document/json_complete.hpp"
+#include "app/io/samples.hpp"
+#include "app/labs/signal/filter_fields.hpp"
+#include "app/labs/signal/filter_json.hpp"
+#include "app/labs/signal/presets.hpp"
+#include "app/labs/signal/signal_part.hpp"
+
+namespace tendril::app {
+
+// Filters: added, set, moved, switched, removed.
+
+namespace {
+
+std::vector<std::string> all_kind_names() {
+    return names(signal::kinds(), [](const signal::Kind& kind) { return kind.name; });
+}
+
+/// Of a filter that is there, by its place.
+Argument filter_argument(Argument place) {
+    return offering(std::move(place), [](const Workspace& w) {
+        return places(w.document.get<SignalPart>(signal_lab).stages.size());
+    });
+}
+
+/// The fields of all kinds, each name once, with a range that covers every kind that has it.
+std::vector<Argument> parameter_arguments() {
+    std::vector<Argument> arguments;
+    std::vector<std::string> owners;  // of each argument
+    const auto add = [&](Argument argument, const signal::Kind& kind) {
+        const auto known = std::ranges::find(arguments, argument.name, &Argument::name);
+        if (known == arguments.end()) {
+            arguments.push_back(std::move(argument));
+            owners.emplace_back(kind.name);
+            return;
+        }
+        known->low = std::min(known->low, argument.low);
+        known->high = std::max(known->high, argument.high);
+        owners[static_cast<std::size_t>(known - arguments.begin())] += std::string(", ") + kind.name;
+    };
+    for (const signal::Kind& kind : signal::kinds()) {
+        if (std::holds_alternative<signal::Curve>(kind.blank()))
+            add({.name = "keys",
+                 .type = ArgumentType::List,
+                 .required = false,
+                 .help = "time, value, arrive, leave and piece each"},
+                kind);
+        for (Argument& each : field_arguments(kind.fields, filter_texts(kind))) add(std::move(each), kind);
+    }
+    for (std::size_t i = 0; i < arguments.size(); ++i)
+        arguments[i].help = "Of " + owners[i] + ": " + arguments[i].help;
+    return arguments;
+}
+
+/// What is given for a filter must be one of its own.
+void check_names(const Arguments& given, const signal::Kind& kind) {
+    const std::vector<std::string> own = parameter_names(kind);
+    for (const Argument& argument : parameter_arguments()) {
+        if (!given.has(argument.name.c_str())) continue;
+        if (std::find(own.begin(), own.end(), argument.name) != own.end()) continue;
+        std::string list;
+        for (const std::string& name : own) list += (list.empty() ? "" : ", ") + name;
+        throw Refused(std::string(kind.name) + " has no " + argument.name + "; it has " + list);
+    }
+}
+
+/// The stage that `name` says; `past_end`: one behind the last is one too.
+std::size_t stage_index(const SignalPart& part, const Arguments& given, const char* name,
+                        bool past_end = false) {
+    const auto index = static_cast<std::size_t>(given.integer(name));
+    const std::size_t count = part.stages.size() + (past_end ? 1 : 0);
+    if (index < count) return index;
+    if (count == 0) throw Refused("there is no filter");
+    throw Refused(std::string(name) + " must be 0 to " + std::to_string(count - 1) + ", got " +
+                  std::to_string(index));
+}
+
+void add(SignalPart& part, const Arguments& given) {
+    const signal::Kind& kind = *signal::find_kind(given.text("kind"));
+    check_names(given, kind);
+    if (part.stages.size() >= max_stages)
+        throw Refused("there are " + std::to_string(max_stages) + " filters, as many as there can be");
+    SignalStage stage{kind.blank()};
+    set_parameters(stage.filter, given.json(), "");
+    const std::size_t at = given.has("at") ? stage_index(part, given, "at", true) : part.stages.size();
+    part.stages.insert(part.stages.begin() + static_cast<std::ptrdiff_t>(at), std::move(stage));
+    part.selected = at;
+}
+
+void set(SignalPart& part, const Arguments& given) {
+    signal::Filter& filter = part.stages[stage_index(part, given, "at")].filter;
+    check_names(given, signal::kind_of(filter));
+    set_parameters(filter, given.json(), "");
+}
+
+void remove(SignalPart& part, const Arguments& given) {
+    const std::size_t at = stage_index(part, given, "at");
+    part.stages.erase(part.stages.begin() + static_cast<std::ptrdiff_t>(at));
+    if (part.selected && *part.selected > at) --*part.selected;
+    if (part.selected && *part.selected >= part.stages.size())
+        part.selected = part.stages.empty() ? std::nullopt : std::optional(part.stages.size() - 1);
+}
+
+void move(SignalPart& part, const Arguments& given) {
+    const std::size_t at = stage_index(part, given, "at"), to = stage_index(part, given, "to");
+    const auto begin = part.stages.begin();
+    const auto from = begin + static_cast<std::ptrdiff_t>(at), goal = begin + static_cast<std::ptrdiff_t>(to);
+    if (from < goal)
+        std::rotate(from, from + 1, goal + 1);
+    else
+        std::rotate(goal, from, from + 1);
+    part.selected = to;
+}
+
+void enable(SignalPart& part, const Arguments& given) {
+    SignalStage& stage = part.stages[stage_index(part, given, "at")];
+    const bool on = given.has("on") ? given.boolean("on") : !stage.enabled;
+    if (on == stage.enabled) return;
+    stage.enabled = on;
+    stage.state = {};  // what it remembers is of another time
+}
+
+void select(SignalPart& part, const Arguments& given) {
+    part.selected = given.has("at") ? std::optional(stage_index(part, given, "at")) : std::nullopt;
+}
+
+void remove_selected(SignalPart& part, const Arguments&) {
+    if (!part.selected) throw Refused("no filter is selected");
+    const Json at{{"at", *part.selected}};
+    remove(part, Arguments(at));
+}
+
+}  // namespace
+
+void add_filter_commands(CommandTable& table) {
+    const Argument at = filter_argument(index_argument("at", true, "which filter, from 0", max_stages));
+    std::vector<Argument> adding{choice_argument("kind", true, "which kind", all_kind_names())};
+    std::vector<Argument> setting{at};
+    for (const Argument& parameter : parameter_arguments()) {
+        adding.push_back(parameter);
+        setting.push_back(parameter);
+    }
+    adding.push_back(
+        index_argument("at", false, "before which filter, from 0; at the end when left out", max_stages + 1));
+    table.add(part_command<SignalPart>(signal_lab, "signal.filter.add", "Add a filter", adding,
+                                       "Adds a filter to the chain; parameters left out have their defaults",
+                                       add));
+    table.add(part_command<SignalPart>(signal_lab, "signal.filter.set", "Set a filter's parameters", setting,
+                                       "Sets parameters of a filter; those left out stay", set));
+    table.add(part_command<SignalPart>(signal_lab, "signal.filter.remove", "Remove a filter", {at},
+                                       "Removes a filter", remove));
+    table.add(part_command<SignalPart>(signal_lab, "signal.filter.move", "Move a filter in the chain",
+                                       {at, index_argument("to", true, "its new place", max_stages)},
+                                       "Moves a filter to another place in the chain", move));
+    table.add(part_command<SignalPart>(signal_lab, "signal.filter.enable", "Switch a filter on or off",
+                                       {at, switch_argument("on", "the other way round when left out")},
+                                       "Switches a filter on or off; off, the input passes as it is",
+                                       enable));
+    table.add(part_command<SignalPart>(signal_lab, "signal.filter.remove_selected", "Delete selection", {},
+                                       "Removes the filter that is selected", remove_selected));
+    table.add(part_command<SignalPart>(
+        signal_lab, "signal.select", "Select a filter",
+        {filter_argument(index_argument("at", false, "which filter; none when left out", max_stages))},
+        "Selects a filter", select, Effect::Look));
+}
+
+// What goes in, and whole scenes.
+
+namespace {
+
+void clear(SignalPart& part, const Arguments&) {
+    part.stages.clear();
+    part.selected.reset();
+}
+
+void take(SignalPart& part, SignalPart fresh) {
+    fresh.input.recording = part.input.recording;  // a gesture that was recorded is not lost
+    part = std::move(fresh);
+}
+
+void preset(SignalPart& part, const Arguments& given) {
+    const SignalPreset& chosen = named(
+        signal_presets(), [](const SignalPreset& each) { return each.name; }, given.text("name"), "preset");
+    take(part, chosen.make());
+}
+
+void reset(SignalPart& part, const Arguments&) {
+    part = first_signal();
+}
+
+std::shared_ptr<const InputRows> read_rows(const std::string& path) {
+    InputRows rows = read_samples(path);
+    if (rows.size() > max_input_rows) {
+        throw Refused(path + " has " + std::to_string(rows.size()) + " rows; the most is " +
+                      std::to_string(max_input_rows));
+    }
+    if (length_of(&rows) <= 0.0) throw Refused(path + ": no time passes in its rows");
+    return std::make_shared<const InputRows>(std::move(rows));
+}
+
+void set_input(SignalPart& part, const Arguments& given) {
+    SignalInput wanted = part.input;
+    if (given.has("kind")) wanted.kind = input_kinds.value(given.text("kind"));
+    if (given.has("amplitude")) wanted.amplitude = given.real("amplitude");
+    if (given.has("period")) wanted.period = given.real("period");
+    if (given.has("path")) {
+        if (wanted.kind != InputKind::Csv) throw Refused("only csv has a path");
+        wanted.path = given.text("path");
+        wanted.file = read_rows(wanted.path);
+    }
+    if (wanted.kind == InputKind::Csv && !wanted.file) throw Refused("path is missing (a CSV file)");
+    if (wanted.kind == InputKind::Recorded) {
+        if (part.input.kind == InputKind::Hand)
+            if (auto gesture = gesture_of(part)) wanted.recording = std::move(gesture);
+        if (!wanted.recording)
+            throw Refused("nothing is recorded yet: drag the orange ball, then choose recorded");
+    }
+    if (wanted.kind == InputKind::Hand && part.input.kind != InputKind::Hand && !part.past.empty())
+        wanted.hand = part.past.back().input;  // the ball stays where it is
+    part.input = std::move(wanted);
+    end_recording(part);
+}
+
+void move_hand(SignalPart& part, const Arguments& given) {
+    end_recording(part);
+    part.input.kind = InputKind::Hand;
+    part.input.hand = given.real("value");
+}
+
+void choose_plot(SignalPart& part, const Arguments& given) {
+    part.plot = signal_plots.value(given.text("name"));
+}
+
+}  // namespace
+
+void add_input_commands(CommandTable& table) {
+    table.add(part_command<SignalPart>(signal_lab, "signal.clear", "Remove all filters", {},
+                                       "Removes every filter", clear));
+    table.add(part_command<SignalPart>(signal_lab, "signal.reset", "Reset the Signal lab", {},
+                                       "Resets this lab to its first state", reset));
+    table.add(part_command<SignalPart>(
+        signal_lab, "signal.preset", "Open a signal preset",
+        {choice_argument("name", true, "which",
+                         names(signal_presets(), [](const auto& each) { return each.name; }))},
+        "Opens a preset", preset));
+    table.add(part_command<SignalPart>(
+        signal_lab, "signal.input", "Set the input",
+        {choice_argument("kind", false, "what goes in", input_kinds.names()),
+         number_argument("amplitude", "of square, sine and noise", -max_amplitude, max_amplitude),
+         number_argument("period", "seconds, of square, sine and noise", min_input_period, max_input_period),
+         text_argument("path", false, "of csv: rows of dt,input")},
+        "Sets what goes into the first filter; what is left out stays", set_input));
+    table.add(part_command<SignalPart>(
+        signal_lab, "signal.hand", "Move the hand",
+        {{.name = "value", .help = "where the hand is", .low = -max_amplitude, .high = max_amplitude}},
+        "Moves the hand, which takes the input over", move_hand));
+    table.add(part_command<SignalPart>(signal_lab, "signal.plot", "Choose the lower plot",
+                                       {choice_argument("name", true, "which", signal_plots.names())},
+                                       "Chooses the lower plot", choose_plot, Effect::Look));
+}
+
+}  // namespace tendril::app
