@@ -20,8 +20,8 @@
 namespace tendril::app {
 namespace {
 
-constexpr int settling_ticks = 3;  ///< Dear ImGui sizes some windows from what they held a frame ago
-/// Time must go on after a click until a second one is no longer a double click.
+constexpr int settling_ticks = 3;  ///< Dear ImGui sizes some windows by their contents in the last frame
+/// Ticks must continue after a click until a second one is no longer a double click.
 constexpr int double_click_ticks = 20;
 
 Cursor wanted_cursor(const Ui& ui, const Pointer& pointer) {
@@ -52,7 +52,7 @@ App::App(Window& window, bool complain, Labs labs)
         static_cast<Window*>(data)->set_clipboard(text);
     };
     ImGui::GetIO().ClipboardUserData = &window_;
-    // Pasting is an event (the loop turns it into text), so that a recording holds what was pasted.
+    // Pasting is an event (the loop converts it to text), so that a recording includes it.
     ImGui::GetIO().GetClipboardTextFn = [](void*) { return ""; };
     size_ = window_.size();
     base_scale_ = window_.content_scale();
@@ -84,7 +84,8 @@ void App::settle() {
 }
 
 void App::start_recording(bool live) {
-    // Who plays it has no past to go back to, and of the open lab what a scene holds.
+    // A player has no past to rewind to, and only as much of the open lab as a scene saves: start from the
+    // same.
     const std::shared_ptr<const Part> part = workspace_.document.parts().at(workspace_.lab);
     if (part != workspace_.blank.parts().at(workspace_.lab)) {
         const bool modified = workspace_.modified();
@@ -108,8 +109,8 @@ void App::tick(const Event* event) {
     input_.take(event);
     compose(event, Pass::Tick);
     input_.end_tap();
-    // What an event opened takes a second pass before it can have the keyboard: so the next event finds it
-    // ready.
+    // A window that the event opened can only have the keyboard after a second pass; run it before the next
+    // event.
     if (event != nullptr && !std::holds_alternative<MouseMove>(*event)) compose(nullptr, Pass::Settle);
     const bool pressed = event != nullptr && std::holds_alternative<MousePress>(*event);
     settling_ = pressed ? double_click_ticks : std::max(event != nullptr ? settling_ticks : 0, settling_ - 1);
@@ -152,7 +153,7 @@ void App::compose(const Event* event, Pass pass) {
         refuse(why);
         note_refusal(why);
     }
-    // Each number that is typed is a change of its own, as each drag is.
+    // Each typed number is a change of its own, as each drag is.
     if (std::exchange(ui_.numbers().entered, false)) ++gesture_;
     if (pass == Pass::Picture) emit.take();
     run_emitted(emit);
@@ -184,7 +185,7 @@ void App::take_event(const Event& event, Emit& emit) {
     }
 }
 
-/// To the open lab, if it has a use for it. Where another has, it is no scene.
+/// Passes the file to the open lab if that reads such files. If only another lab does, it is no scene.
 void App::take_file(const std::string& path, Emit& emit) {
     if (lab().take_file(path, emit)) return;
     for (const auto& each : labs_.all()) {
@@ -207,22 +208,21 @@ void App::take_shortcut(Emit& emit) {
     if (chord.key == Key::Escape && (pointer_.dragged() != no_pick || pointer_.box())) {
         const Pane& pane = pane_at_hand();
         const Camera camera = pane.camera(workspace_.camera);
-        pointer_.release(pointed_at(pane, camera), emit);  // a drag that was let go leaves nothing behind
+        pointer_.release(pointed_at(pane, camera), emit);  // a cancelled drag leaves no trace
         if (workspace_.history.is_open(gesture_)) emit("undo");
         return;
     }
-    // Where nothing else is left that Esc could mean.
+    // Esc cancels the video only if it has no other use.
     const bool taken = workspace_.ui.covered() || ui_.wants_text() || ImGui::IsAnyItemActive() ||
                        ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopup);
     if (chord.key == Key::Escape && video_ && !taken) return emit("view.end_video");
-    // In a field, a menu or a hand it means that, and leaves the selection alone.
+    // In a field, a menu or a drag Esc only ends that and keeps the selection.
     if (chord.key == Key::Escape && !workspace_.ui.covered() && (taken || busy())) return;
     const Shortcut* shortcut = shortcuts_.find(chord, workspace_.lab);
-    // A key that is held repeats what goes on step by step, but turns nothing on and off again.
+    // A held key repeats stepwise commands, but no toggles.
     if (shortcut != nullptr && input_.repeated() && !shortcut->repeats) return;
     if (shortcut == nullptr || (ui_.wants_text() && !shortcut->while_typing)) return;
-    // A key does not change the scene under a hand that is moving it: Delete in mid-drag would remove what is
-    // dragged.
+    // Keys do not edit the scene during a drag: Delete would remove the dragged object.
     if (busy() && commands_->find(shortcut->command)->effect == Effect::Edit) return;
     emit(shortcut->command, shortcut->arguments);
 }
@@ -235,19 +235,19 @@ void App::run_emitted(Emit& emit) {
             if (command.continuous && pointer_.dragged() != no_pick) workspace_.settings.hint_seen = true;
         } catch (const Refused& refusal) {
             refuse(refusal.what());
-            // Of a file that is no scene the lab has nothing to show.
+            // Only the lab's own refusals become incidents, not those of other files.
             if (command.name.starts_with(workspace_.lab + ".")) note_refusal(refusal.what());
         }
     }
 }
 
-/// What came of a change is a matter for the last seconds too.
+/// Also notes the incidents of an edit.
 void App::run_command(const std::string& name, const Json& arguments, Gesture gesture) {
     const std::string open = workspace_.lab;
     const std::shared_ptr<const Part> before = workspace_.document.parts().at(open);
     const std::uint64_t beginnings = workspace_.beginnings;
     commands_->run(workspace_, name, arguments, gesture);
-    divide_view();  // what is asked for next, to frame all of it, goes by what there is now
+    divide_view();  // the next command, such as framing everything, uses the new panes
     const bool same_scene = workspace_.lab == open && workspace_.beginnings == beginnings;
     if (same_scene && commands_->find(name)->effect == Effect::Edit) review(before, workspace_.moment);
 }
@@ -269,7 +269,7 @@ void App::run(const RunCommand& command) {
     settling_ = settling_ticks;
     while (workspace_.clock.steps_due > 0) step_lab();
     for (int i = 0; i < 2; ++i)
-        compose(nullptr, Pass::Settle);  // the next event finds what is now there, and ready
+        compose(nullptr, Pass::Settle);  // the next event must find the new state ready
 }
 
 void App::update_window() {
@@ -296,7 +296,7 @@ void App::draw(bool dither) {
 }
 
 Image App::screenshot() {
-    // As off screen: nothing in it depends on how fast this machine is, and nothing is still to come.
+    // As off screen: independent of the machine's speed, with all panels settled.
     const bool measured = std::exchange(workspace_.clock.measured, false);
     for (int i = 0; i < settling_ticks; ++i) compose(nullptr, Pass::Picture);
     workspace_.clock.measured = measured;
@@ -330,7 +330,7 @@ Json App::lab_state() const {
         if (!incident.name.empty()) event["name"] = incident.name;
         state["events"].push_back(std::move(event));
     }
-    // Of changes by hand alone there is something to say once one looks back at them.
+    // Before the first tick the past is only reported while looking back.
     const bool looks_back = !workspace_.rewind.empty() && workspace_.moment < workspace_.rewind.newest();
     if (looks_back || (!workspace_.rewind.empty() && clock.tick > 0)) {
         const std::uint64_t newest = std::max(workspace_.rewind.newest(), workspace_.moment);

@@ -1,8 +1,8 @@
-// The frame: events in, commands out, document changed, lab stepped, picture drawn. The real window and the
-// one off screen run this very same code; only where events come from and where pixels go differs.
+// The frame: takes events, runs commands, steps the lab and draws the picture. Windows on and off screen run
+// the same code; only the source of events and the destination of pixels differ.
 //
-// Time passes in ticks of 1/60 s. A tick takes at most one event, so a recording, which is a list of events
-// and of empty ticks, plays back exactly.
+// Time passes in ticks of 1/60 s. A tick takes at most one event, so a recording, a list of events and empty
+// ticks, plays back exactly.
 #pragma once
 
 #include <memory>
@@ -29,8 +29,8 @@ class VideoTake;
 
 class App final : public Stage {
   public:
-    /// `window` must outlive the app, with its context current. Where `complain`, refusals also go to stderr.
-    /// `labs`: the program's, unless a test has more.
+    /// `window` must outlive the app, with its context current. With `complain`, refusals are also printed to
+    /// stderr. `labs`: the program's; tests may add more.
     explicit App(Window& window, bool complain = false, Labs labs = Labs());
     ~App() override;
 
@@ -38,12 +38,12 @@ class App final : public Stage {
     const CommandTable& commands() const { return *commands_; }
     const Labs& labs() const { return labs_; }
 
-    /// Lays out what was opened without a command, as a tick would: so that the state has handles where the
-    /// picture has them.
+    /// Updates the layout as a tick would, after opening something without a command, so that the state's
+    /// handles match the picture.
     void settle();
-    /// What a recording starts from: taken on from there, and written down from now on.
+    /// Takes over the state that a recording starts from.
     void start_from(const RecordingStart& start);
-    /// `live`: in a window.
+    /// Records from now on. `live`: in a window.
     void start_recording(bool live = false);
     /// The script so far; empty unless recording.
     std::string recording() const { return recorder_ ? recorder_->text() : std::string(); }
@@ -57,27 +57,26 @@ class App final : public Stage {
 
     /// Draws the last tick's picture into the window's framebuffer.
     void draw(bool dither = true);
-    /// The picture as it is when everything has come to rest, without dither, which a file would have to
-    /// hold.
+    /// The picture once the panels have settled, without dither, which would enlarge the file.
     Image screenshot();
-    /// Whether the next tick may look different from this one without any event.
+    /// Whether the next tick may change the picture without an event.
     bool needs_ticks() const;
     bool quit() const { return workspace_.ui.quit; }
-    /// It started from what was recorded in a window.
+    /// It replays a recording made in a window.
     bool replays() const { return replays_; }
     /// Whether it is time for a VideoEnd.
     bool video_ended() const;
-    /// A person is in the middle of a drag.
+    /// The user is dragging something.
     bool busy() const;
     int draw_calls() const { return renderer_.draw_calls(); }
 
   private:
     const Lab& lab() const { return *labs_.find(workspace_.lab); }
     float ui_scale() const { return base_scale_ * workspace_.settings.text_scale; }
-    /// A pass of the user interface. A tick takes an event and lets time pass. What an event opened settles
-    /// in a second pass. A picture is drawn of what is there, and changes nothing.
+    /// A pass of the user interface. Tick: takes an event and advances time. Settle: a second pass, for what
+    /// the event opened. Picture: draws the present state and changes nothing.
     enum class Pass { Tick, Settle, Picture };
-    /// Runs the user interface and builds the picture, once.
+    /// Runs the user interface once and builds the picture.
     void compose(const Event* event, Pass pass);
     void divide_view();
     const Pane& pane_at_hand();
@@ -92,29 +91,29 @@ class App final : public Stage {
     void run_command(const std::string& name, const Json& arguments, Gesture gesture);
     void note_refusal(const std::string& why);
     void review(const std::shared_ptr<const Part>& before, std::uint64_t moment);
-    /// Writes, copies or begins what was asked for of the view. Throws Refused where it cannot.
+    /// Executes requests for pictures and videos of the view. Throws Refused if it cannot.
     void take_pictures();
     void take_picture(const PictureRequest& wanted);
     void begin_video(const VideoRequest& wanted);
-    /// The next frames of the video. `ends`: waits for the file after the last one. Throws Refused where it
-    /// cannot be written: then there is none.
+    /// Writes the next frames of the video. `ends`: waits for the file after the last one. Throws Refused if
+    /// the video cannot be written, and drops it.
     void write_video(bool ends);
-    /// `ended`: what writes the file says that it is done.
+    /// `ended`: the program that writes the file has ended.
     void pass_video(bool ended = false);
     void drop_video();
-    /// How a picture of that many pixels, or with 0 as many as the view has, shows the view.
+    /// The view for a picture of that size in pixels; 0: the view's own.
     PictureView picture_view(glm::ivec2 size) const;
     void advance_time();
     void replay();
     void step_lab();
     void update_window();
-    /// The open lab's card, where it is shown.
+    /// The open lab's card, null unless shown.
     const Card* shown_card() const;
     void watch_shown_card();
-    /// Whether the next tick looks whether a step of it has happened.
+    /// Whether the next tick must check the card's steps.
     bool card_is_due() const;
     Json card_state() const;
-    /// What the lab says of itself, with camera and time.
+    /// The lab's state, with camera and time.
     Json lab_state() const;
 
     Window& window_;
@@ -129,16 +128,16 @@ class App final : public Stage {
     Shell shell_;
     Input input_;
     Pointer pointer_;
-    std::vector<Pane> panes_;  ///< of the last picture; one at least
-    std::size_t pane_ = 0;     ///< where the hand is, or was
+    std::vector<Pane> panes_;  ///< of the last picture; at least one
+    std::size_t pane_ = 0;     ///< index of the pane last used by the mouse
     Layout layout_;
     std::optional<Recorder> recorder_;
     bool replays_ = false;
-    std::unique_ptr<VideoTake> video_;  ///< the one that is being written
-    glm::ivec2 size_{0};  ///< the window's; changed by events alone, so that a recording has every change
-    float base_scale_ = 1.0f;  ///< the window's wish for the size of text and widgets
+    std::unique_ptr<VideoTake> video_;  ///< the video being written
+    glm::ivec2 size_{0};       ///< the window's; only changed by events, so that a recording has every change
+    float base_scale_ = 1.0f;  ///< the window's scale for text and widgets
     Gesture gesture_ = 1;
-    int settling_ = 0;  ///< ticks in which the panels may still change after the last event
+    int settling_ = 0;  ///< remaining ticks in which the panels may change after the last event
     std::string title_;
 };
 

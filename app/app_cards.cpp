@@ -1,4 +1,4 @@
-// The card of things to try that the open lab shows: which steps have happened by now.
+// The open lab's card of things to try: which of its steps are done.
 #include "app/app.hpp"
 #include "app/document/card_progress.hpp"
 #include "app/document/json_complete.hpp"
@@ -19,7 +19,7 @@ void App::watch_shown_card() {
         watch_card(workspace_.ui.cards[workspace_.lab], *card, workspace_.document.parts().at(workspace_.lab),
                    [this] {
                        Json state = lab_state();
-                       state["time"]["moment"] = workspace_.moment;  // as events count
+                       state["time"]["moment"] = workspace_.moment;  // in the events' time
                        return state;
                    });
 }
@@ -31,7 +31,7 @@ bool App::card_is_due() const {
            card_waits(progress->second, workspace_.document.parts().at(workspace_.lab));
 }
 
-/// Which steps have happened.
+/// The card's title and which steps are done.
 Json App::card_state() const {
     Json done = Json::array();
     const auto progress = workspace_.ui.cards.find(workspace_.lab);

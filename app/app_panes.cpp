@@ -1,4 +1,4 @@
-// The 3D view: nearly always one pane, and where a lab compares things several with one camera.
+// The 3D view: usually one pane; several with one camera if a lab compares things.
 #include <algorithm>
 #include <cmath>
 
@@ -11,7 +11,7 @@
 
 namespace tendril::app {
 
-/// What was drawn in a pane stays there until the next picture: it is what one sees, and picks.
+/// Keeps each pane's draw list until the next picture: it is what the user sees and picks.
 void App::divide_view() {
     const std::vector<Rect> rects =
         tiled(layout_.view, lab().panes(workspace_).size(), std::round(pane_gap * layout_.scale));
@@ -31,7 +31,7 @@ const Pane& App::pane_at_hand() {
     return panes_[pane_];
 }
 
-/// Titles, and where each pane is: its corners in window coordinates.
+/// Each pane's title and corners, in window coordinates.
 Json App::panes_state() const {
     Json state = Json::array();
     const std::vector<PaneTitle> titles = lab().panes(workspace_);

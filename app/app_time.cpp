@@ -1,4 +1,4 @@
-// How a tick passes: the simulation, a change by hand, or the last seconds once more.
+// How a tick passes: a simulation step, a change by hand, or a replay of the last seconds.
 #include <algorithm>
 #include <utility>
 
@@ -6,7 +6,7 @@
 
 namespace tendril::app {
 
-/// Notes what the open lab has to say about its change.
+/// Notes the open lab's incidents in a change or tick.
 void App::review(const std::shared_ptr<const Part>& before, std::uint64_t moment) {
     const auto& after = workspace_.document.parts().at(workspace_.lab);
     if (before == after) return;
@@ -16,7 +16,7 @@ void App::review(const std::shared_ptr<const Part>& before, std::uint64_t moment
     }
 }
 
-/// Of what a hand did: a script knows what it asked for.
+/// Only for the user's actions: a script knows what it requested.
 void App::note_refusal(const std::string& why) {
     workspace_.rewind.note({.tick = workspace_.moment, .cause = "refused: " + why});
 }
@@ -26,7 +26,7 @@ void App::step_lab() {
     if (!lab().moving(workspace_)) {
         workspace_.pass_change();
     } else {
-        // One moment a tick, as it was before a hand changed it too.
+        // One moment per tick: the part before any change by hand.
         if (workspace_.rewind.changed()) {
             workspace_.rewind.remember_change(workspace_.moment, clock.tick);
         } else {
@@ -42,7 +42,7 @@ void App::step_lab() {
     clock.steps_due = std::max(0, clock.steps_due - 1);
 }
 
-/// On to the moment that is remembered nearest, by speed.
+/// Advances by the clock's speed to the nearest remembered moment.
 void App::replay() {
     Clock& clock = workspace_.clock;
     const Rewind& rewind = workspace_.rewind;

@@ -1,4 +1,4 @@
-// Pictures and videos of the view, on their way out.
+// Writes pictures and videos of the view.
 #include <algorithm>
 #include <glm/common.hpp>
 #include <utility>
@@ -42,12 +42,12 @@ void App::take_picture(const PictureRequest& wanted) {
 
 void App::begin_video(const VideoRequest& wanted) {
     PictureView view = picture_view(wanted.size);
-    // MP4 has half as many colours each way: the view's own size is a pixel too large at times.
+    // MP4 stores colour at half resolution: round the size down to even numbers.
     if (const glm::ivec2 size = view.size; wanted.path.extension() == ".mp4" && size % 2 != glm::ivec2(0))
         view = picture_view(size - size % 2);
     try {
-        // By the size of the view in the window, which a recording has: so its frames are drawn at the same
-        // ticks again.
+        // Use the view's size in window coordinates, which a recording reproduces, so that frames are drawn
+        // at the same ticks.
         const glm::ivec2 counted =
             wanted.size.x > 0 && wanted.size.y > 0 ? wanted.size : glm::ivec2(layout_.view.size());
         video_ =
@@ -91,8 +91,8 @@ bool App::video_ended() const {
     return video_ && video_->has_all_frames() && !video_->waits();
 }
 
-/// When another program is done with it nobody can tell: in a window that is an event, and so it is where
-/// what was recorded in one is played. A script finds the file where it expects it.
+/// When an encoder ends is not deterministic: in a window, and when replaying a recording made in one, its
+/// end is an event. Other scripts wait for the file.
 void App::pass_video(bool ended) {
     if (!video_) return;
     const bool by_event = video_->by_another_program() && (workspace_.clock.measured || replays_);

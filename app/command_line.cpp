@@ -23,7 +23,7 @@
 namespace tendril::app {
 namespace {
 
-/// "1280x720"; throws CLI::ValidationError for what is no size or one that no window has.
+/// "1280x720"; throws CLI::ValidationError for anything else or a size out of range.
 glm::ivec2 read_size(const std::string& text) {
     int width = 0, height = 0, used = 0;
     const int read = std::sscanf(text.c_str(), "%5dx%5d%n", &width, &height, &used);
@@ -78,7 +78,7 @@ void list_labs() {
     for (const Labs labs; const auto& lab : labs.all()) std::printf("%s\n", lab->name().c_str());
 }
 
-/// What the program is asked to do with a window, or a picture in its stead.
+/// The command line of a session.
 struct SessionLine {
     SessionOptions options;
     std::string size;
@@ -163,7 +163,7 @@ CLI::App* SolveLine::add_to(CLI::App& line) {
 const SolveOptions& SolveLine::checked() {
     options.format = csv ? RowFormat::Csv : json ? RowFormat::Json : RowFormat::Table;
     options.methods = methods_named(solver);
-    // Range would let what is no number at all through.
+    // CLI::Range would accept NaN.
     if (const auto& t = options.tolerance; t && !(*t >= 0.0f && *t <= tendril::max_magnitude))
         throw CLI::ValidationError("--tolerance: must be 0 to 1e9 metres, got " + std::to_string(*t));
     return options;
@@ -216,7 +216,7 @@ void refuse_options_before(const CLI::App& line, const CLI::App& subcommand) {
     }
 }
 
-/// What needs no picture; each has its own help.
+/// The subcommands, which draw nothing; each has its own help.
 class BatchLine {
   public:
     explicit BatchLine(CLI::App& line)

@@ -10,9 +10,9 @@
 namespace tendril::app {
 namespace {
 
-constexpr double max_credit = 0.25;   ///< after a long stall time is dropped rather than raced through
+constexpr double max_credit = 0.25;   ///< after a long stall time is dropped instead of caught up
 constexpr double min_credit = -0.05;  ///< a burst of events may run this far ahead
-constexpr double max_sleep = 1.0;     ///< so that a signal or an autosave never waits longer
+constexpr double max_sleep = 1.0;     ///< limits the delay of signals and autosaves
 
 std::filesystem::path settings_file() {
     return config_folder() / "settings.json";
@@ -22,8 +22,7 @@ bool is_move(const Event& event) {
     return std::holds_alternative<MouseMove>(event);
 }
 
-/// As long as it lives, unsaved work is kept where something ends the process by exit(): Xlib does where the
-/// display goes away.
+/// While it exists, exit() keeps unsaved work: Xlib calls that when the display is lost.
 class KeptAtExit {
   public:
     KeptAtExit(Autosave& autosave, Workspace& workspace) {
@@ -78,7 +77,7 @@ void LiveLoop::run(Player& player, std::optional<int> frames) {
     std::vector<Event> events;
     while (!options_.ending && !app_.quit() && (!frames || ticks_ < *frames)) {
         events.clear();
-        // With a count of frames to run, time must pass whether or not anything moves.
+        // With a frame count, time must pass even if nothing moves.
         window_.poll(events, frames ? 0.0 : patience(player));
         const auto now = Time::now();
         turn(events, std::chrono::duration<double>(now - last).count(), player);
@@ -86,7 +85,7 @@ void LiveLoop::run(Player& player, std::optional<int> frames) {
         last = now;
         keep_house();
     }
-    // Who quits was asked what becomes of it; what was ended from outside is kept.
+    // A user who quits was asked about unsaved work; if the program was ended from outside, keep it.
     const bool keeps = options_.ending || (!app_.quit() && !app_.workspace().path.empty());
     if (autosave_) autosave_->end(app_.workspace(), keeps);
 }
@@ -99,15 +98,15 @@ double LiveLoop::patience(const Player& player) const {
 
 void LiveLoop::sample(std::vector<Event> events) {
     for (Event& event : events) {
-        if (std::holds_alternative<Focus>(event)) ctrl_ = false;  // its release may be told to another window
+        if (std::holds_alternative<Focus>(event)) ctrl_ = false;  // its release may go to another window
         if (const auto* key = std::get_if<KeyChange>(&event)) {
             if (key->key == Key::Ctrl) ctrl_ = key->down;
             if (key->key == Key::V && key->down && ctrl_) {
-                queue_.push_back(TextInput{window_.clipboard()});  // a recording must hold what was pasted
+                queue_.push_back(TextInput{window_.clipboard()});  // a recording must include the pasted text
                 continue;
             }
         }
-        // Of several moves between two ticks only the last is seen.
+        // Of several moves between two ticks only the last counts.
         if (is_move(event) && !queue_.empty() && is_move(queue_.back())) queue_.pop_back();
         queue_.push_back(std::move(event));
     }
@@ -119,7 +118,7 @@ void LiveLoop::tick(Player& player) {
     if (!queue_.empty()) {
         Event event = std::move(queue_.front());
         queue_.pop_front();
-        // The window has gone on being pulled since: what counts is the size it has now.
+        // The window may have been resized further since: use its current size.
         if (auto* resize = std::get_if<Resize>(&event)) resize->size = window_.size();
         app_.tick(&event);
     } else if (!player.done()) {
@@ -131,8 +130,7 @@ void LiveLoop::tick(Player& player) {
 
 bool LiveLoop::take_ticks(Player& player) {
     bool ticked = false;
-    // What was clicked and typed is taken at once; moves, which come a thousand a second, wait for their
-    // tick.
+    // Clicks and keys are handled at once; moves, up to a thousand per second, wait for a due tick.
     while (!queue_.empty() && !(is_move(queue_.front()) && queue_.size() == 1) && credit_ > min_credit) {
         tick(player);
         ticked = true;
@@ -145,11 +143,10 @@ bool LiveLoop::take_ticks(Player& player) {
 }
 
 void LiveLoop::turn(std::vector<Event> events, double elapsed, Player& player) {
-    // While nothing moves no time runs up, or the first event after a rest would be followed by a rush of
-    // ticks.
+    // Accumulate no time while idle, or the first event afterwards would trigger a burst of ticks.
     const bool resting = queue_.empty() && player.done() && !app_.needs_ticks();
     credit_ = resting ? tick_seconds : std::min(credit_ + elapsed, max_credit);
-    // Where a recording is played, it has that.
+    // A recording being replayed has its own VideoEnd.
     const auto is_end = [](const Event& event) { return std::holds_alternative<VideoEnd>(event); };
     if (app_.video_ended() && (player.done() || !app_.replays()) && std::ranges::none_of(queue_, is_end))
         events.push_back(VideoEnd{});

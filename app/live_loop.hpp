@@ -1,5 +1,5 @@
-// The loop of a real window: samples events, takes due ticks, draws only when something may have changed, and
-// looks after settings and autosave.
+// The loop of a real window: samples events, runs due ticks, draws only if something may have changed, and
+// saves settings and autosaves.
 #pragma once
 
 #include <atomic>
@@ -14,20 +14,20 @@ namespace tendril::app {
 class LiveLoop {
   public:
     struct Options {
-        bool config = true;  ///< read and write settings, autosave, offer what a crash left
+        bool config = true;  ///< read and write settings, autosave, offer autosaves left by a crash
         const std::atomic<bool>& ending;
     };
     LiveLoop(App& app, Window& window, const Options& options);
 
-    /// Runs until the person, the script's failure or `frames` ticks end it.
+    /// Runs until the user quits, the script fails or `frames` ticks have passed.
     void run(Player& player, std::optional<int> frames);
-    /// Pictures drawn so far: an idle window adds none.
+    /// Pictures drawn so far; an idle window draws none.
     int frames_drawn() const { return frames_drawn_; }
 
-    /// Takes what `events` brought and the ticks that are due `elapsed` seconds after the last call, and
-    /// draws if that changed anything. What run() does again and again, for tests that have no window system.
+    /// One iteration of run(): takes the events, runs the ticks due `elapsed` seconds after the last call,
+    /// and draws if anything changed. Public for tests without a window system.
     void turn(std::vector<Event> events, double elapsed, Player& player);
-    /// How long run() may sleep before something is due.
+    /// Seconds that run() may sleep before something is due.
     double patience(const Player& player) const;
 
   private:
@@ -40,7 +40,7 @@ class LiveLoop {
     Window& window_;
     Options options_;
     std::deque<Event> queue_;
-    double credit_ = 0.0;  ///< seconds of time that passed and was not yet ticked
+    double credit_ = 0.0;  ///< seconds that have passed but were not yet ticked
     int ticks_ = 0;
     int frames_drawn_ = 0;
     bool ctrl_ = false;

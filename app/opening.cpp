@@ -8,7 +8,7 @@
 namespace tendril::app {
 namespace {
 
-/// A setting of the lab's that the person has chosen already.
+/// Whether the user has already chosen the lab's setting that the command changes.
 bool is_chosen(const Lab& lab, const Settings& settings, const std::string& command) {
     const std::vector<LabSetting> all = lab.settings();
     return std::any_of(all.begin(), all.end(), [&](const LabSetting& each) {

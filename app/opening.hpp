@@ -1,4 +1,4 @@
-// What a window opens on where it was told nothing: a scene that is alive, and the cards of things to try.
+// What a window shows by default: a moving scene, and the cards of things to try.
 #pragma once
 
 #include "app/app.hpp"
@@ -6,11 +6,11 @@
 
 namespace tendril::app {
 
-/// Whether the session is for a person at a window who asked for no scene, no lab and no script.
+/// Whether the session has a window and was given no scene, lab or script.
 bool opens_alive(const SessionOptions& options);
-/// The first lab's opening scene, as new as the blank one: nothing to undo, nothing to save.
+/// Sets up the open lab's opening scene as a new scene: nothing to undo, nothing to save.
 void open_alive(App& app);
-/// Shows the card of each lab that was never shown nor put away.
+/// Shows each lab's card unless it was shown or hidden before.
 void offer_cards(App& app);
 
 }  // namespace tendril::app

@@ -16,7 +16,7 @@
 namespace tendril::app {
 namespace {
 
-std::atomic<bool> ending{false};  // what a signal handler may touch
+std::atomic<bool> ending{false};  // safe to set in a signal handler
 
 constexpr glm::ivec2 headless_size{1280, 720}, window_size{1440, 900};
 
@@ -32,7 +32,7 @@ std::unique_ptr<Window> make_window(const SessionOptions& options, glm::ivec2 si
     return options.backend ? open_window(*options.backend, size) : open_offscreen(size);
 }
 
-/// Refuses before anything runs what could not be written at the end.
+/// Fails before anything runs if an output could not be written at the end.
 void check_outputs(const SessionOptions& options) {
     for (const std::string& path : {options.screenshot, options.state, options.record}) {
         if (!path.empty()) check_writable(path);
@@ -56,7 +56,7 @@ void open_scene(App& app, const SessionOptions& options) {
             throw std::runtime_error("there is no lab \"" + options.lab + "\"; --list-labs names them");
         }
         app.workspace().open_lab(options.lab);
-        app.workspace().cameras.clear();  // a recording knows the camera of the open lab alone
+        app.workspace().cameras.clear();  // a recording only stores the open lab's camera
     }
     if (opens_alive(options)) open_alive(app);
     app.settle();
@@ -82,9 +82,9 @@ int run(const SessionOptions& options) {
 
     const auto window = make_window(options, size);
     App app(*window, options.headless);
-    // A recording brings its own settings; they are not this person's.
+    // A recording has its own settings, which must not replace the user's.
     const bool config = options.config && !options.headless && !script.start;
-    // Without a window it is read, and written only where a command says so.
+    // Off screen the config folder is only used by commands.
     if (options.config && !script.start) app.workspace().config = config_folder();
     LiveLoop live(app, *window, {.config = config, .ending = ending});
     if (!options.headless && options.script.empty()) offer_cards(app);
@@ -103,7 +103,7 @@ int run(const SessionOptions& options) {
     } catch (const ScriptFailure& failure) {
         complain(options.script + ": " + failure.what());
         exit_code = 1;
-    } catch (const std::runtime_error& error) {  // a screenshot or a state that could not be written
+    } catch (const std::runtime_error& error) {  // a screenshot or state could not be written
         complain(error.what());
         exit_code = 2;
     }
@@ -126,7 +126,7 @@ void end_session_on_signals() {
     const auto end = [](int) { ending = true; };
     std::signal(SIGINT, end);
     std::signal(SIGTERM, end);
-    std::signal(SIGHUP, end);  // its terminal, or the session, was closed
+    std::signal(SIGHUP, end);  // the terminal or login session was closed
 }
 
 const std::atomic<bool>& session_ending() {

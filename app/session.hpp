@@ -1,4 +1,4 @@
-// One run of the program, from its command line's wishes to its exit code.
+// One run of the program, from its options to its exit code.
 #pragma once
 
 #include <atomic>
@@ -24,13 +24,14 @@ struct SessionOptions {
     bool config = true;
 };
 
-/// 0 when it ran; 1 when a script's expectation failed or a command of it was refused; 2 when something could
-/// not be read, written, known or opened. What is wrong goes to stderr, in one line.
+/// Returns 0 on success; 1 if a script's expectation failed or one of its commands was refused; 2 if
+/// something could not be read, written or opened, or does not exist. Errors are printed to stderr, in one
+/// line.
 int run_session(const SessionOptions& options);
 
-/// Lets SIGINT and SIGTERM end the session as Ctrl+Q does: cleanly, and with everything written.
+/// Makes SIGINT, SIGTERM and SIGHUP end the session cleanly, with all outputs written.
 void end_session_on_signals();
-/// True from then on, for those who run something else than a session.
+/// True after such a signal, for code other than a session.
 const std::atomic<bool>& session_ending();
 
 }  // namespace tendril::app

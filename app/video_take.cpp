@@ -42,7 +42,7 @@ VideoTake::VideoTake(const VideoRequest& wanted, const Workspace& workspace, con
                                      .speed = wanted.speed,
                                      .transparent = wanted.transparent})),
       frames_a_tick_(frames_a_tick) {
-    workspace_.history.clear();  // of no use to it
+    workspace_.history.clear();  // unused here
     workspace_.ui.incident.reset();
     workspace_.clock.replaying = false;
     workspace_.pass_change();

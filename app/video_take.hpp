@@ -1,5 +1,5 @@
-// A video of the last seconds while it is being written. It has a copy of all that it shows: what goes on in
-// the window meanwhile is another matter.
+// A video of the last seconds while it is being written. It copies everything it shows, so work in the window
+// can continue.
 #pragma once
 
 #include <memory>
@@ -12,34 +12,35 @@
 
 namespace tendril::app {
 
-/// How a picture shows the view. Lines are as thick against what they show as they are in the window.
+/// The camera, size and scale of a picture. The scale keeps lines as thick relative to the scene as in the
+/// window.
 struct PictureView {
     CameraPose pose;
     glm::ivec2 size{0};  ///< pixels
     float scale = 1.0f;
 };
 
-/// What the view shows, without what the mouse is over, labels and panels. Throws std::runtime_error.
+/// Draws the view without hover highlights, labels and panels. Throws std::runtime_error.
 Image picture_of(const Workspace& workspace, const Lab& lab, Renderer& renderer, const PictureView& view,
                  bool transparent);
 
-/// How many frames of that size, in pixels, a tick has time for. A count and not a time, so that a recording
-/// of what a person did comes out the same.
+/// How many frames of that size, in pixels, fit in a tick. A count instead of a measured time, so that
+/// recordings replay identically.
 int frames_a_tick(glm::ivec2 size);
 
-/// What throws does so with std::runtime_error. Unless it is done when it is destroyed, no file is left.
+/// Errors are std::runtime_error. Leaves no file if destroyed before finish().
 class VideoTake {
   public:
-    /// `lab` and `renderer` must outlive it. The workspace must remember something.
+    /// `lab` and `renderer` must outlive it. The workspace's rewind must not be empty.
     VideoTake(const VideoRequest& wanted, const Workspace& workspace, const Lab& lab, Renderer& renderer,
               const PictureView& view, int frames_a_tick);
-    /// Writes the next frames, as many as a tick has time for.
+    /// Writes one tick's share of frames.
     void work();
     bool has_all_frames() const { return written_ == wanted_.frames(); }
     bool by_another_program() const { return file_->by_another_program(); }
-    /// After the last frame: whether that program still writes what it was given.
+    /// After the last frame: whether that program is still writing.
     bool waits() const { return file_->waits(); }
-    /// After the last frame. Waits for that program.
+    /// Call after the last frame. Waits for that program.
     void finish() { file_->finish(); }
     VideoProgress progress() const;
     const VideoRequest& wanted() const { return wanted_; }

@@ -1,5 +1,5 @@
-// Where things are on this machine. Compiled into one small source, so that all others are the same in every
-// clone and a compiler cache knows them again.
+// File locations, as configured. Compiled into one small source, so that all others are the same in every
+// clone and a compiler cache recognises them.
 #pragma once
 
 #include <filesystem>
@@ -7,13 +7,13 @@
 
 namespace tendril::test {
 
-/// From the top of the project: "tests/app/golden/body.glb".
+/// A path from the top of the project: "tests/app/golden/body.glb".
 std::string source_path(const std::string& name);
 
-/// Characters that others made; may be missing.
+/// Third-party characters; may be missing.
 std::filesystem::path characters_folder();
 
-/// Numeric cases of an independent implementation: $TENDRIL_REFERENCE_DIR, else as configured; may be
+/// Numeric cases of an independent implementation: $TENDRIL_REFERENCE_DIR, or else as configured; may be
 /// missing.
 std::filesystem::path reference_path(const std::string& name);
 

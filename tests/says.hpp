@@ -1,4 +1,4 @@
-// Holds a message to what it names, not to its wording: the place, the value, the range.
+// Checks that a message names the field, the value and the range, without fixing its wording.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 
 namespace tendril::test {
 
-/// Whether `word` stands at `at` whole: "1" does not stand in "-1", "10", "1.5" or "joint1".
+/// Whether `word` is a whole word at `at`: "1" is not in "-1", "10", "1.5" or "joint1".
 inline bool stands_whole(std::string_view message, std::string_view word, std::size_t at) {
     const auto in_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
     const std::string_view digits = word.substr(word.front() == '-' ? 1 : 0);
@@ -23,7 +23,7 @@ inline bool stands_whole(std::string_view message, std::string_view word, std::s
     return !in_word(after[0]) && !(number && after.size() > 1 && after[0] == '.' && in_word(after[1]));
 }
 
-/// The words of `names` stand in `message`, in this order, each of them whole; what is between them is free:
+/// `message` contains the words of `names` in this order, each as a whole word, with anything in between:
 ///   EXPECT_TRUE(says(refused("rope.pin", ...), "rope.pin particle 0 99999 -1"));
 inline testing::AssertionResult says(const std::string& message, const std::string& names) {
     std::istringstream words(names);

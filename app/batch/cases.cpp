@@ -15,7 +15,7 @@ std::string element(const std::string& where, std::size_t index) {
     return where + "." + std::to_string(index);
 }
 
-/// A list of `count` values, or of 1 to max_bones where that is 0.
+/// Requires a list of `count` values, or of 1 to max_bones if that is 0.
 const Json& check_list(const Json& json, std::size_t count, const char* what, const std::string& where) {
     const bool fits = count == 0 ? !json.empty() && json.size() <= max_bones : json.size() == count;
     if (json.is_array() && fits) return json;
@@ -53,7 +53,7 @@ std::vector<glm::vec3> along_x(const std::vector<float>& lengths) {
     return joints;
 }
 
-/// Where each bone points in a pose; along +X where its joints coincide.
+/// The direction of each bone in a pose; +X if its joints coincide.
 std::vector<glm::vec3> directions(const std::vector<glm::vec3>& joints) {
     std::vector<glm::vec3> found;
     found.reserve(joints.size() - 1);

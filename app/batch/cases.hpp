@@ -2,8 +2,8 @@
 //
 //   {"name": "arm", "lengths": [0.5, 0.4], "target": [0.3, 0.6, 0]}
 //
-// and optionally "start" and "rest" (a point for each joint), "pole" (a point), "limits" (one for each bone,
-// at the joint that it starts from, as solver_json.hpp has them; null is none). Other keys are not looked at.
+// and optionally "start" and "rest" (a point per joint), "pole" (a point), "limits" (one per bone, for the
+// joint it starts at, in the format of solver_json.hpp; null for none). Other keys are ignored.
 #pragma once
 
 #include <functional>
@@ -19,20 +19,20 @@
 namespace tendril::app {
 
 struct Case {
-    std::string name;            ///< its place in the list where it has none
-    std::vector<float> lengths;  ///< metres, one a bone
+    std::string name;            ///< its index in the list if it has none
+    std::vector<float> lengths;  ///< metres, one per bone
     std::vector<glm::vec3> rest_directions;
-    std::vector<glm::vec3> start;  ///< one more than bones; straight along +X from the origin if not given
+    std::vector<glm::vec3> start;  ///< one more than bones; default: straight along +X from the origin
     glm::vec3 target{0.0f};
     std::optional<glm::vec3> pole;
-    std::vector<ik::Limit> limits;  ///< one a bone, or none at all
+    std::vector<ik::Limit> limits;  ///< one per bone, or empty
 };
 
-/// Throws std::runtime_error that begins with the place of what is wrong there: "cases.3.lengths.0".
+/// Throws std::runtime_error that begins with the JSON path of the error: "cases.3.lengths.0".
 Case case_from_json(const Json& json, const std::string& where, std::size_t index);
 
-/// Calls `take` with one case after another, and how far into the text it is (0 to 1), until it returns
-/// false. Throws std::runtime_error that begins with the line of what is wrong.
+/// Calls `take` with each case and the fraction of the text read (0 to 1), until it returns false. Throws
+/// std::runtime_error that begins with the line of the error.
 void read_cases(std::string_view text, const std::function<bool(const Case&, double)>& take);
 
 }  // namespace tendril::app

@@ -12,7 +12,7 @@ std::size_t skip_space(std::string_view text, std::size_t at) {
     return std::min(text.find_first_not_of(" \t\r\n", at), text.size());
 }
 
-/// Where the value at `at` ends, by its brackets and quotes alone: whether it is one shows when it is parsed.
+/// The end of the value at `at`, by brackets and quotes alone; parsing it finds errors.
 std::size_t skip_value(std::string_view text, std::size_t at) {
     int depth = 0;
     while (at < text.size()) {

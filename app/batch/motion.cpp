@@ -22,7 +22,7 @@ using humanoid::Clip;
 using humanoid::Finding;
 using humanoid::LintReport;
 
-/// A file without clips is judged as it rests.
+/// A file without clips is checked in its rest pose.
 std::vector<Clip> clips_of(const Character& character) {
     if (!character.clips.empty()) return character.clips;
     return {Clip{.name = "rest", .duration = 0.0, .channels = {}}};
@@ -73,7 +73,7 @@ const Clip& clip_named(const Character& character, const BakeOptions& options) {
     throw std::runtime_error(file + ": has no clip \"" + options.clip + "\"; it has " + names);
 }
 
-/// Beside the file, of its kind where that can be written.
+/// The default output: beside the file, in its format if that can be written, else glTF.
 fs::path place_beside(const fs::path& file) {
     const std::string ending = ends_as_export(file) ? file.extension().string() : ".glb";
     return file.parent_path() / (file.stem().string() + "_baked" + ending);
@@ -113,7 +113,7 @@ std::vector<std::string> bake_grounds() {
 }
 
 void run_bake(const BakeOptions& options) {
-    // The command line's own check lets through what is no number at all.
+    // The command line's own check accepts NaN.
     if (!(options.fps >= min_rate && options.fps <= largest_rate))
         throw std::runtime_error("--fps: must be 1 to 1000, got " + std::to_string(options.fps));
     const Character character = read_character(options.file);

@@ -1,4 +1,4 @@
-// `tendril lint` and `tendril bake`: the clips of a character's file, judged, and written anew.
+// `tendril lint` and `tendril bake`: check the clips of a character file, and write them with corrections.
 #pragma once
 
 #include <optional>
@@ -11,8 +11,8 @@ struct LintOptions {
     std::string file;   ///< path of the character
     bool json = false;  ///< one JSON object instead of lines
 };
-/// Prints what is wrong with each of the file's clips. Returns the number of findings. Throws
-/// std::runtime_error where the file cannot be read or the output cannot be written.
+/// Prints the faults of each of the file's clips. Returns the number of findings. Throws std::runtime_error
+/// if the file cannot be read or the output cannot be written.
 std::size_t run_lint(const LintOptions& options);
 
 struct BakeOptions {
@@ -22,10 +22,10 @@ struct BakeOptions {
     double fps = 60.0;
     std::string out;  ///< path; empty: FILE_baked beside the file
 };
-/// The grounds that can be named.
+/// The names of the grounds.
 std::vector<std::string> bake_grounds();
-/// Writes the clip, reads it back and prints how far it is from what it was. Throws std::runtime_error where
-/// the file cannot be read, has no such clip or no legs that ground would need, or nothing can be written.
+/// Writes the clip, reads it back and prints the difference. Throws std::runtime_error if the file cannot be
+/// read, has no such clip, lacks the legs that a ground needs, or cannot be written.
 void run_bake(const BakeOptions& options);
 
 /// For --help.

@@ -15,7 +15,7 @@ bool begins_character(char c) {
     return (static_cast<unsigned char>(c) & 0xc0) != 0x80;
 }
 
-/// The first `count` characters.
+/// The first `count` UTF-8 characters.
 std::string_view head(std::string_view text, std::size_t count) {
     std::size_t at = 0;
     for (; at < text.size(); ++at)

@@ -1,4 +1,4 @@
-// Standard output, written in blocks but never long behind, and checked: a full disk is no success.
+// Standard output in blocks, flushed often, with error checks: a full disk must not look like success.
 #pragma once
 
 #include <chrono>
@@ -11,10 +11,10 @@ namespace tendril::app {
 
 class Output {
   public:
-    /// The progress is taken off the terminal before anything is written there.
+    /// Clears `progress` from the terminal before writing.
     explicit Output(Progress& progress) : progress_(&progress) {}
     void write(std::string_view text);
-    /// Throws std::runtime_error where anything did not get out.
+    /// Throws std::runtime_error if any write failed.
     void finish();
 
   private:
@@ -26,10 +26,10 @@ class Output {
     bool failed_ = false;
 };
 
-/// A field of a CSV file as RFC 4180 quotes it.
+/// A CSV field, quoted as in RFC 4180.
 std::string csv_field(std::string_view text);
 
-/// A text for a column: one line, at most `width` characters, filled up with blanks to exactly that many.
+/// A text for a table column: one line, cut or padded to `width` characters.
 std::string column(std::string_view text, std::size_t width);
 /// Characters (not bytes) of a UTF-8 text.
 std::size_t width_of(std::string_view text);

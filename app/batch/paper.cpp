@@ -17,9 +17,9 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t joint_count = paper_bones + 1;
 constexpr std::size_t rounds = 3;
-constexpr std::size_t block = 50;  // solves between two looks at the clock, which takes time itself
+constexpr std::size_t block = 50;  // solves per clock reading, since reading takes time too
 
-/// 0 to 1. The standard's distributions differ from library to library, its generator does not.
+/// 0 to 1. The standard library's distributions differ between implementations, its generator does not.
 float uniform(std::mt19937& random) {
     return static_cast<float>(random() >> 8) / static_cast<float>(1u << 24);
 }
@@ -53,7 +53,7 @@ double median(std::vector<int> values) {
     return 0.5 * (*middle + *std::max_element(values.begin(), middle));
 }
 
-/// Solves targets `from` to `to` out of `joints`; nanoseconds.
+/// Solves targets `from` to `to` from the poses in `joints`; returns nanoseconds.
 double solve_block(const PaperTargets& targets, const PaperSolve& solve, std::size_t from, std::size_t to,
                    std::vector<glm::vec3>& joints, std::vector<ik::Report>& reports) {
     const auto begin = Clock::now();
@@ -100,7 +100,7 @@ std::optional<PaperRow> measure(const PaperTargets& targets, const PaperSolve& s
     const std::size_t count = targets.targets.size();
     const std::size_t blocks = (count + block - 1) / block;
     std::vector<ik::Report> reports(count);
-    // The fastest of several rounds: other programs only ever add to what a block takes.
+    // The fastest of several rounds: other programs can only slow a block down.
     std::vector<double> fastest(blocks, 1e300);
     for (std::size_t round = 0; round < rounds; ++round) {
         std::vector<glm::vec3> joints = targets.starts;

@@ -5,11 +5,11 @@
 
 namespace tendril::app {
 
-/// For people, or as CSV. Stops once `ending` is set: the rows that are done stay. Throws std::runtime_error
-/// where the output cannot be written.
+/// Prints a readable table, or CSV. Stops once `ending` is set and keeps the finished rows. Throws
+/// std::runtime_error if the output cannot be written.
 void print_paper(bool csv, const std::atomic<bool>& ending);
 
-/// What is measured, and what is not, for --help.
+/// For --help.
 extern const char* const paper_help;
 
 }  // namespace tendril::app

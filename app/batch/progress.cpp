@@ -9,8 +9,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto patience = 1000ms;       // before the first word
-constexpr auto terminal_pause = 100ms;  // between two on a terminal
+constexpr auto patience = 1000ms;       // before the first report
+constexpr auto terminal_pause = 100ms;  // between two reports on a terminal
 constexpr auto line_pause = 5000ms;     // between two lines
 
 }  // namespace

@@ -1,5 +1,5 @@
-// How far a long run is, on stderr: rewritten in place on a terminal, a line every few seconds elsewhere, and
-// nothing at all for runs that are soon over.
+// The progress of a long run, on stderr: updated in place on a terminal, a line every few seconds elsewhere,
+// and nothing for short runs.
 #pragma once
 
 #include <chrono>
@@ -14,9 +14,9 @@ class Progress {
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
-    /// "solving", 0 to 1. Cheap enough to be called for every case.
+    /// "solving", 0 to 1. Cheap enough to call for every case.
     void show(const char* what, double done);
-    /// Takes the line off the terminal, before something else is written there.
+    /// Removes the line from the terminal, before something else is written there.
     void clear();
 
   private:

@@ -36,7 +36,7 @@ Filters read_filters(const std::string& path) {
     }
 }
 
-/// SampleRows go out until `ending` is set.
+/// Writes rows until `ending` is set.
 class SampleRows {
   public:
     SampleRows(const TimedSamples& rows, const std::atomic<bool>& ending)
@@ -88,7 +88,7 @@ void print_rates(const Filters& filters, const TimedSamples& rows, const std::at
                  decimal(comparison.difference).c_str(), decimal(comparison.at + begin).c_str());
 }
 
-/// FILTER.json says where the search of its kinds begins, too.
+/// The given filter of this kind, from which the fit starts; null if there is none.
 const signal::Filter* given_of(const Filters& filters, const signal::Kind& kind) {
     const auto found = std::find_if(filters.begin(), filters.end(), [&](const signal::Filter& filter) {
         return &signal::kind_of(filter) == &kind;

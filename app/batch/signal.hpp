@@ -1,4 +1,4 @@
-// `tendril signal`: filters run over the samples of a file.
+// `tendril signal`: runs filters over the samples of a file, or fits them.
 #pragma once
 
 #include <atomic>
@@ -13,14 +13,14 @@ struct SignalOptions {
     std::string fit;      ///< path of RESPONSE.csv; empty: nothing is fitted
 };
 
-/// Both files are read and checked before anything is written. Stops between two rows, or two kinds of filter
-/// that are fitted, once `ending` is set. Throws std::runtime_error where a file cannot be read or is not as
-/// signal_help has it, or the output cannot be written.
+/// Reads and checks all files before writing anything. Stops between two rows, or two fitted kinds of filter,
+/// once `ending` is set. Throws std::runtime_error if a file cannot be read or does not match signal_help, or
+/// the output cannot be written.
 void run_signal(const SignalOptions& options, const std::atomic<bool>& ending);
 
-/// What it is called on the command line.
+/// The subcommand's name.
 extern const char* const signal_subcommand;
-/// How the files are written, and which kinds of filter there are, for --help.
+/// Describes the file formats and the kinds of filter, for --help.
 std::string signal_help();
 
 }  // namespace tendril::app

@@ -27,12 +27,12 @@ struct Row {
     const std::vector<glm::vec3>& joints;
 };
 
-/// To the nanosecond: a clock tells no more.
+/// Rounds to nanoseconds, the clock's resolution.
 Json microseconds_json(double value) {
     return std::round(value * 1000.0) / 1000.0;
 }
 
-/// Writes rows; what a format needs before the first and after the last it writes too.
+/// Writes rows, and what a format needs before the first and after the last.
 class Rows {
   public:
     virtual ~Rows() = default;
@@ -46,7 +46,7 @@ class JsonRows final : public Rows {
     void add(Output& out, const Row& row) override {
         Json json{{"name", row.asked.name}};
         json.update(report_json(row.method, row.report, !row.asked.limits.empty()));
-        json.erase("ran");  // the keys are those that scripts rely on; the table has it
+        json.erase("ran");  // scripts rely on the existing keys; the table has it
         json["microseconds"] = microseconds_json(row.microseconds);
         Json positions = Json::array();
         for (const glm::vec3& joint : row.joints) positions.push_back(point(joint));
@@ -87,7 +87,7 @@ class TableRows final : public Rows {
                 "  solver              status          iterations    residual (m)   time (\xc2\xb5s)  ran\n");
             headed_ = true;
         }
-        char rest[256], residual[32] = "-";  // what was refused was not measured
+        char rest[256], residual[32] = "-";  // refused input has no residual
         if (row.report.status != ik::Status::InvalidInput) {
             std::snprintf(residual, sizeof residual, "%.6g", static_cast<double>(row.report.residual));
         }
@@ -107,7 +107,7 @@ struct Survey {
     std::size_t name_width = 4;  // of "name"
 };
 
-/// Reads all of it once, so that what is wrong anywhere is said before anything is done.
+/// Reads all cases once, so that errors are reported before anything is solved.
 Survey check(std::string_view text, Progress& progress, const std::atomic<bool>& ending) {
     constexpr std::size_t widest = 40;
     Survey survey;

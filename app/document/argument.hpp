@@ -35,9 +35,9 @@ struct Argument {
     std::string help{};
     double low = -1e9, high = 1e9;       ///< for numbers and integers
     std::vector<std::string> choices{};  ///< for texts; empty: any
-    /// For the palette: names (or numbers) that exist now. Others may be valid too.
+    /// Names or numbers that currently exist, for the palette. Others may be valid too.
     std::function<std::vector<std::string>(const Workspace&)> known{};
-    /// Of a list: the argument of the same command that takes one of its elements.
+    /// For a list: the argument of the same command that takes a single element.
     std::string list_of{};
     /// Its current value.
     std::function<std::string(const Workspace&)> present{};
@@ -57,7 +57,7 @@ class Arguments {
     bool is_point(const char* name) const;       ///< of a NumberOrPoint
     glm::quat rotation(const char* name) const;  ///< of unit length
     const Json& json(const char* name) const;    ///< of any type, as given
-    const Json& json() const { return json_; }   ///< all: an object, or null if there are none
+    const Json& json() const { return json_; }   ///< all arguments: an object, or null if there are none
 
   private:
     const Json& json_;

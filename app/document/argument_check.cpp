@@ -10,7 +10,7 @@
 namespace tendril::app {
 namespace {
 
-/// "2", "0.05": what a float held, as it was written there.
+/// "2", "0.05": a limit declared as a float, without its rounding digits.
 std::string plain(double value) {
     const auto single = static_cast<float>(value);
     std::string text = Json(static_cast<double>(single) == value ? shortest_decimal(single) : value).dump();
@@ -24,7 +24,7 @@ std::string joined(const std::vector<std::string>& words) {
     return text;
 }
 
-/// Is it a finite number of at most 1e9 in magnitude, as everything that comes in must be?
+/// A finite number of at most 1e9 in magnitude: required of all input.
 bool sane(const Json& value) {
     if (!value.is_number()) return false;
     const double number = value.get<double>();
@@ -38,7 +38,7 @@ void check_point(const Json& value, ArgumentType type, const auto& refuse) {
     }
 }
 
-/// Are these four the coordinates of a unit quaternion, but for the rounding of who wrote them down?
+/// Whether the coordinates have unit length, within the rounding of hand-written decimals.
 bool is_unit(const Json& value) {
     double squares = 0.0;
     for (const auto& coordinate : value) {
@@ -48,7 +48,7 @@ bool is_unit(const Json& value) {
     return std::abs(std::sqrt(squares) - 1.0) < 1e-3;
 }
 
-/// "0 to 1", "at least 3"; empty where any number will do.
+/// "0 to 1", "at least 3"; empty if any number is allowed.
 std::string range_text(const Argument& argument) {
     const auto bound = [&](double limit) {
         const bool whole = argument.type == ArgumentType::Integer;
@@ -99,7 +99,7 @@ void check_value(const Argument& argument, const Json& value, const std::string&
             return;
         case ArgumentType::Text:
             if (!value.is_string()) refuse(type_text(argument.type));
-            // A path may hold any bytes.
+            // Paths may hold any bytes.
             if (argument.name != "path" && !is_storable(value.get_ref<const std::string&>()))
                 refuse("text in UTF-8, without U+FFFD");
             if (!argument.choices.empty() && std::find(argument.choices.begin(), argument.choices.end(),

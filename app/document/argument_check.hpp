@@ -1,4 +1,4 @@
-// Whether a value fits its argument, and in words what would.
+// Checks a value against its argument, and describes in words what the argument accepts.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ std::string type_text(ArgumentType type);
 /// With range and choices: "a number, 0 to 1", "one of dark, light".
 std::string rule_text(const Argument& argument);
 
-/// Throws Refused where the value does not fit; `where` begins what it says: "chain.add: length".
+/// Throws Refused if the value does not fit. The message begins with `where`: "chain.add: length".
 void check_value(const Argument& argument, const Json& value, const std::string& where);
 
 }  // namespace tendril::app

@@ -13,9 +13,7 @@ struct ToJson {
     Json operator()(const SharedJson& json) const { return *json; }
     Json operator()(const std::string& value) const { return value; }
     Json operator()(glm::vec3 value) const { return point(value); }
-    Json operator()(const glm::quat& q) const {
-        return Json::array({number(q.x), number(q.y), number(q.z), number(q.w)});
-    }
+    Json operator()(const glm::quat& q) const { return quaternion(q); }
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Arguments as whoever emits a command gives them: names and plain values. A panel needs nothing of JSON to
-// write emit("chain.insert", {{"index", 3}, {"position", at}}).
+// Arguments of an emitted command: names and plain values, so that panels need no JSON to write
+// emit("chain.insert", {{"index", 3}, {"position", at}}).
 #pragma once
 
 #include <concepts>
@@ -15,7 +15,7 @@
 
 namespace tendril::app {
 
-/// A value of an argument. Floats become their shortest exact decimals, points lists of three, rotations
+/// A value of an argument. In JSON, floats become their shortest exact decimals, points [x, y, z], rotations
 /// [x, y, z, w].
 class ArgumentValue {
   public:
@@ -47,13 +47,13 @@ struct NamedArgument {
 
 using ArgumentList = std::vector<NamedArgument>;
 
-/// A command that is to be run.
+/// A command to run.
 struct CommandCall {
     std::string name;
     ArgumentList arguments{};
 };
 
-/// The object that commands take; of arguments with the same name the last one counts.
+/// The JSON object that commands take. If a name repeats, its last value wins.
 Json to_json(const ArgumentList& arguments);
 
 }  // namespace tendril::app

@@ -16,11 +16,11 @@ namespace fs = std::filesystem;
 namespace {
 
 [[noreturn]] void fail(const fs::path& path, const std::string& reason) {
-    // A name may hold a zero byte, but no message can.
+    // A name may hold a zero byte; a message cannot.
     throw std::runtime_error("cannot write " + std::string(path.string().c_str()) + ": " + reason);
 }
 
-/// The file that a chain of symbolic links ends at, which need not exist yet.
+/// Resolves a chain of symbolic links. The final file need not exist.
 fs::path follow_links(const fs::path& path) {
     constexpr int max_links = 40;
     fs::path file = path;
@@ -38,7 +38,7 @@ fs::path folder_of(const fs::path& file) {
     return file.has_parent_path() ? file.parent_path() : fs::path(".");
 }
 
-/// What stands at `path` now. Throws where no file can ever be put.
+/// The status of `path`. Throws if no file can be created there.
 fs::file_status check_place(const fs::path& path) {
     if (path.empty() || path.string().find('\0') != std::string::npos) fail(path, "not a file name");
     std::error_code error;
@@ -48,12 +48,12 @@ fs::file_status check_place(const fs::path& path) {
     return status;
 }
 
-/// A device or a pipe (/dev/stdout) is written to; a file renamed over it would take its place.
+/// A device or a pipe (/dev/stdout) must be written to directly: a rename would replace it.
 bool is_stream(const fs::file_status& status) {
     return fs::exists(status) && !fs::is_regular_file(status);
 }
 
-/// A name that no other writer in this program or another one uses now.
+/// A name that no other writer is using, in this program or another.
 fs::path temporary_name(const fs::path& folder) {
     static std::atomic<unsigned> counter{0};
     return folder / (".tendril-" + std::to_string(::getpid()) + "-" + std::to_string(counter++) + ".tmp");
@@ -63,7 +63,7 @@ std::string last_error() {
     return std::generic_category().message(errno);
 }
 
-/// A file that its owner made read-only stays as it is, though a rename would not ask.
+/// Refuses to replace a read-only file; rename() alone would not check.
 void check_permission(const fs::path& path) {
     if (::access(path.c_str(), W_OK) != 0 && errno != ENOENT) fail(path, last_error());
 }
@@ -95,11 +95,11 @@ void write_stream(const fs::path& path, std::string_view bytes) {
 
 }  // namespace
 
-/// A new file beside the one to be written, gone again unless it is moved over it.
+/// A temporary file in the target's folder, deleted unless it is moved over the target.
 class AtomicFile::Beside {
   public:
     Beside(const fs::path& target, const fs::path& folder) : target_(target) {
-        // A name is taken where a program of the same number was killed while it wrote.
+        // A killed program with the same process ID may have left a file of this name.
         constexpr int tries = 1000;
         for (int i = 0; i < tries && fd_ < 0; ++i) {
             name_ = temporary_name(folder);
@@ -117,7 +117,7 @@ class AtomicFile::Beside {
 
     const fs::path& name() const { return name_; }
     void append(std::string_view bytes) { require(write_all(fd_, bytes)); }
-    /// Returns when all of it is on the disk, with the permissions of `old` where that exists.
+    /// Returns once all data is on disk, with the permissions of `old` if that exists.
     void finish(const fs::path& old) {
         struct stat before {};
         if (::stat(old.c_str(), &before) == 0) require(::fchmod(fd_, before.st_mode & 07777) == 0);
@@ -127,7 +127,7 @@ class AtomicFile::Beside {
     void move_over(const fs::path& file) {
         require(::rename(name_.c_str(), file.c_str()) == 0);
         moved_ = true;
-        // The new name is in place; a file system that cannot sync a folder does not undo that.
+        // The rename has succeeded; a file system that cannot sync a folder is no error.
         const int folder = open_file(folder_of(file), O_RDONLY | O_DIRECTORY);
         if (folder < 0) return;
         ::fsync(folder);
@@ -175,7 +175,7 @@ void AtomicFile::commit() {
 void check_writable(const fs::path& path) {
     const bool stream = is_stream(check_place(path));
     check_permission(path);
-    // Only making a file tells: permissions do not know of read-only and virtual file systems.
+    // Creates a file to find out: permissions do not reveal read-only and virtual file systems.
     if (!stream) AtomicFile{path};
 }
 

@@ -1,5 +1,5 @@
-// Files that are either the old one or the new one, whatever happens in between: written beside, synced
-// to disk, and renamed over the old name. The one way this program writes a file.
+// Atomic file writes: a temporary file in the same folder is written, synced to disk and renamed over the old
+// one, so a crash leaves either the old file or the new one. The only way this program writes files.
 #pragma once
 
 #include <filesystem>
@@ -8,34 +8,35 @@
 
 namespace tendril::app {
 
-/// Throws std::runtime_error: "cannot write <path>: <reason>"; the old file is then as it was, and nothing is
-/// left beside it. Keeps the permissions of a file it replaces and writes through a symbolic link.
+/// Throws std::runtime_error: "cannot write <path>: <reason>"; the old file is then unchanged and no
+/// temporary file remains. Keeps the permissions of a file it replaces, follows symbolic links, and writes to
+/// devices and pipes directly.
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
 
-/// The same for what is written piece by piece, or by another program. Throws as above.
+/// The same for data written in pieces, or by another program. Throws as above.
 class AtomicFile {
   public:
-    /// Makes the file beside. What stands at `path` must be a regular file or nothing: no device, no pipe.
+    /// Creates the temporary file. `path` must be a regular file or not exist: no device, no pipe.
     explicit AtomicFile(const std::filesystem::path& path);
-    /// Unless it was committed, nothing is left of it.
+    /// Deletes the temporary file unless it was committed.
     ~AtomicFile();
     AtomicFile(const AtomicFile&) = delete;
     AtomicFile& operator=(const AtomicFile&) = delete;
 
     void append(std::string_view bytes);
-    /// The file beside, for a program that writes it in append()'s stead.
+    /// The temporary file, for a program that writes it instead of append().
     const std::filesystem::path& beside() const;
     /// Syncs it and renames it over the old one.
     void commit();
 
   private:
     class Beside;
-    std::filesystem::path path_, file_;  ///< as given, and where its links lead
+    std::filesystem::path path_, file_;  ///< as given, and with symbolic links resolved
     std::unique_ptr<Beside> beside_;
 };
 
-/// Throws, as above, where `path` could not be written later: its folder is missing or not writable, or it is
-/// a folder itself. Leaves nothing behind.
+/// Throws, as above, if `path` cannot be written: its folder is missing or not writable, or it is a folder
+/// itself. Leaves no file behind.
 void check_writable(const std::filesystem::path& path);
 
 }  // namespace tendril::app

@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::string_view name_start = "autosave-", name_end = ".json";
 
-/// Of the newest Autosave: what adopt() makes a file this program's by.
+/// The stem of the newest Autosave; adopt() renames files to it.
 std::string own_stem = std::to_string(::getpid());
 
 std::string name_for(const std::string& stem) {
@@ -32,8 +32,8 @@ fs::path lock_of(const fs::path& folder, const std::string& stem) {
     return folder / std::string(name_start).append(stem).append(".lock");
 }
 
-/// Whether the file is an autosave whose program is gone. One that was put aside ("autosave-12.1.json")
-/// always is.
+/// Whether the file is an autosave whose program has ended. Always true of one that the constructor renamed
+/// ("autosave-12.1.json").
 bool is_left_behind(const fs::path& file) {
     const std::string name = file.filename().string();
     if (!name.starts_with(name_start) || !name.ends_with(name_end)) return false;
@@ -48,7 +48,8 @@ bool is_left_behind(const fs::path& file) {
     return (more.empty() || more.starts_with('_')) && !FileLock::is_held(lock_of(file.parent_path(), stem));
 }
 
-/// What a program that was killed while it wrote has left of a file. One that is written now is younger.
+/// Removes temporary files of programs that were killed while writing. Files being written now are younger
+/// than the minute that this leaves.
 void remove_torn_files(const fs::path& folder) {
     std::error_code error;
     const auto old = fs::file_time_type::clock::now() - std::chrono::minutes(1);
@@ -74,7 +75,7 @@ Autosave::Autosave(fs::path folder, Clock::duration interval)
         lock_ = FileLock::take(lock_of(folder_, stem_));
     }
     own_stem = stem_;
-    // A file of that name is from a program that had it before us and crashed: we must not overwrite it.
+    // An existing file of that name is a crashed program's, which had the same process ID: keep it.
     for (int i = 1; fs::exists(file(), ignored) && i < 1000; ++i) {
         const fs::path aside = folder_ / name_for(stem_ + "." + std::to_string(i));
         if (!fs::exists(aside, ignored)) fs::rename(file(), aside, ignored);
@@ -100,7 +101,7 @@ void Autosave::remove() {
 
 void Autosave::update(Workspace& workspace, Clock::time_point now) {
     if (!workspace.modified()) {
-        // The file would offer what has been saved since.
+        // Otherwise the file would offer changes that have been saved since.
         if (std::exchange(has_file_, false)) remove();
         waiting_ = false;
         return;
@@ -153,7 +154,7 @@ std::string Autosave::title(const fs::path& file) {
         if (scene.is_object() && scene.contains("path"))
             name = fs::path(json_text(scene["path"], "path")).filename().string();
     } catch (const std::exception&) {
-        // What is wrong with it is said when it is opened.
+        // Errors are reported when the file is opened.
     }
     struct stat written {};
     char when[64] = "";

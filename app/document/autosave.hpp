@@ -1,6 +1,6 @@
-// A copy of unsaved work in the config folder, every 30 s of changes, and what a crash left there.
-// Each running program has its own file, autosave-<pid>.json, removed when it ends cleanly, and holds
-// autosave-<pid>.lock: an autosave whose lock nobody holds was left behind.
+// Copies unsaved work to the config folder after 30 s of changes, and recovers what a crash left there. Each
+// running program has its own file, autosave-<pid>.json, removed on a clean exit, and holds
+// autosave-<pid>.lock: an autosave whose lock is not held was left by a crash.
 #pragma once
 
 #include <chrono>
@@ -22,22 +22,21 @@ class Autosave {
     Autosave& operator=(const Autosave&) = delete;
 
     /// Writes the scene when it has unsaved changes that are not yet in the file, and `interval` has passed
-    /// since the first of them. A failure to write is told once, in a toast.
+    /// since the first of them. The first failure to write is reported in a toast.
     void update(Workspace& workspace, Clock::time_point now);
-    /// A clean end: removes this program's file, or, where unsaved work is to be kept, brings it up to date
-    /// and leaves it to be offered at the next start. A program that ends without this call leaves it too.
+    /// Call on a clean exit: removes this program's file or, with `keep_unsaved`, updates it so that the next
+    /// start offers it. A program that ends without this call leaves the file too.
     void end(Workspace& workspace, bool keep_unsaved);
     std::filesystem::path file() const;
 
-    /// Files of programs that no longer run, the newest first.
+    /// Files of programs that no longer run, newest first.
     static std::vector<std::filesystem::path> left_behind(const std::filesystem::path& folder);
-    /// Such a file for people: the name of the scene that was being worked on, and when it was written.
+    /// The title of such a file in the window: the scene's file name and the time of writing.
     static std::string title(const std::filesystem::path& file);
-    /// Opens such a file: the workspace then has unsaved changes to the file that was being worked on (the
-    /// member "path" beside the scene's own), or to none. Throws as load_scene_file does. The autosave itself
-    /// stays.
+    /// Opens such a file as unsaved changes to its original scene file (the extra member "path"), or to none.
+    /// Throws as load_scene_file does. Keeps the autosave.
     static void recover(Workspace& workspace, const std::filesystem::path& file);
-    /// Makes such a file this program's own, so that the work in it stays safe until it is saved.
+    /// Renames such a file to this program's own, so that the work in it stays safe until it is saved.
     static void adopt(const std::filesystem::path& file);
 
   private:
@@ -45,7 +44,7 @@ class Autosave {
     void remove();
 
     std::filesystem::path folder_;
-    std::string stem_;  ///< the process number, with more where another program has the same
+    std::string stem_;  ///< the process ID, with a suffix if another program holds that name
     std::unique_ptr<FileLock> lock_{};
     Clock::duration interval_;
     Document written_;

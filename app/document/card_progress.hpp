@@ -1,5 +1,5 @@
-// The cards of things to try: what a person has done of each lab's, in this session. Whether a card is shown
-// is a setting, so that one that was put away stays away, and a recording has the card where it was.
+// Cards of things to try: the user's progress on each lab's cards in this session. Whether a card is shown is
+// a setting, so that a hidden card stays hidden and a recording reproduces it.
 #pragma once
 
 #include <cstdint>
@@ -15,19 +15,18 @@
 namespace tendril::app {
 
 struct CardProgress {
-    std::size_t card = 0;      ///< which of the lab's cards
-    std::vector<bool> done{};  ///< of each step, once the card has been looked at
-    std::map<std::string, SharedJson>
-        start{};                         ///< by path: values of the state as they were when it was shown
-    std::shared_ptr<const Part> seen{};  ///< what was looked at last
-    std::uint64_t ticks_to_wait = 0;     ///< until it is looked at again, if it changes
+    std::size_t card = 0;                       ///< index among the lab's cards
+    std::vector<bool> done{};                   ///< for each step; empty until the first check
+    std::map<std::string, SharedJson> start{};  ///< by path: values of the state when the card was shown
+    std::shared_ptr<const Part> seen{};         ///< the part at the last check
+    std::uint64_t ticks_to_wait = 0;            ///< until the next check, if the part changes
 };
 
-/// Among the choices that settings keep.
+/// The card's key in Settings::choices.
 std::string card_key(const std::string& lab);
 bool card_shown(const Settings& settings, const std::string& lab);
 void show_card(Settings& settings, const std::string& lab, bool shown);
-/// Whether it was ever shown or put away.
+/// Whether it was ever shown or hidden.
 bool card_known(const Settings& settings, const std::string& lab);
 
 }  // namespace tendril::app

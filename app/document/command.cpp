@@ -8,8 +8,8 @@
 namespace tendril::app {
 namespace {
 
-/// "chain.remove: index 9 is out of range": the library's messages begin with its own name for the operation,
-/// which the command's name already says.
+/// "chain.remove: index 9 is out of range": omits the operation's name with which the library's messages
+/// begin if the command's name already contains it.
 std::string refusal_text(const std::string& command, std::string what) {
     const std::string operation = what.substr(0, what.find(": "));
     if (operation.find_first_not_of("abcdefghijklmnopqrstuvwxyz_") != std::string::npos ||
@@ -20,7 +20,7 @@ std::string refusal_text(const std::string& command, std::string what) {
     return command + ": " + what;
 }
 
-/// For undo, seen where it happened: in the lab of the part that changed, whichever is open.
+/// Pushes an undo entry that shows the lab whose part changed, even if another lab is open.
 void remember(Workspace& workspace, const Document& changed, const Command& command, Gesture gesture,
               Place from) {
     Place to = workspace.place();
@@ -82,7 +82,7 @@ void CommandTable::run(Workspace& workspace, std::string_view name, const Json& 
         workspace.document = before;
         throw Refused(refusal_text(command->name, error.what()));
     }
-    // Another file is a change too: undo leads back to the old one.
+    // A new file path counts as a change too: undo restores the old one.
     if (workspace.document == before && workspace.path == from.path) return;
     if (command->effect == Effect::Replace) return;
     if (command->effect == Effect::Edit) {

@@ -63,7 +63,7 @@ std::string usage(const Command& command);
 
 /// scene.*, view.picture, quit.
 void add_scene_commands(CommandTable& table);
-/// All commands that need no lab: the above, undo, redo, camera.set, time.*, view.*.
+/// All commands that need no lab: those of add_scene_commands(), undo, redo, camera.set, time.*, view.*.
 void add_workspace_commands(CommandTable& table);
 
 }  // namespace tendril::app

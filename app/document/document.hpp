@@ -1,4 +1,4 @@
-// What a person makes and saves: a value with one part per lab. It knows no lab by name.
+// What the user creates and saves: a value with one part per lab, independent of which labs exist.
 //
 // Copies share parts, which are never changed in place, so a copy costs a few pointers.
 #pragma once
@@ -18,8 +18,8 @@ class Part {
     virtual ~Part() = default;
     virtual std::shared_ptr<Part> clone() const = 0;
     virtual Json save() const = 0;
-    /// Reads what save() wrote, bit for bit. Throws std::runtime_error that begins with the place, under
-    /// `where`.
+    /// Restores what save() wrote, bit for bit. Throws std::runtime_error that begins with the JSON path,
+    /// under `where`.
     virtual std::shared_ptr<Part> load(const Json& json, const std::string& where) const = 0;
     /// Converts the part of a scene file of an older `version` to what save() writes now, before load(). The
     /// file may be broken: leave that for load() to refuse.
@@ -27,7 +27,7 @@ class Part {
     /// The part as undo and redo restore it, if that differs, else null: undo must not restore an active
     /// drag.
     virtual std::shared_ptr<const Part> after_undo() const { return nullptr; }
-    /// `then`, the part at another moment, with this one's selection and view, which do not go back in time.
+    /// `then`, the part at another moment, with this part's selection and view, which rewinding keeps.
     virtual std::shared_ptr<const Part> at_moment(std::shared_ptr<const Part> then) const { return then; }
     /// Rough size in memory, for the history's bound.
     virtual std::size_t bytes() const = 0;

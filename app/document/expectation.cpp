@@ -25,7 +25,7 @@ const Json* child(const Json& json, std::string_view name) {
     return whole && index < json.size() ? &json[index] : nullptr;
 }
 
-/// The program computes with floats: 0.1 in a script means the float that is nearest to it.
+/// The program computes with floats: 0.1 in a script means the nearest float.
 bool equal_numbers(const Json& a, const Json& b) {
     constexpr double largest = std::numeric_limits<float>::max();
     const bool floats = std::abs(a.get<double>()) <= largest && std::abs(b.get<double>()) <= largest;
@@ -47,7 +47,7 @@ bool equal(const Json& a, const Json& b) {
     return true;
 }
 
-/// Between two numbers, or two points of as many coordinates; not a number where they cannot be compared.
+/// Between two numbers, or two points of the same size; NaN if they cannot be compared.
 double distance(const Json& a, const Json& b) {
     if (a.is_number() && b.is_number()) return std::abs(a.get<double>() - b.get<double>());
     if (!a.is_array() || !b.is_array() || a.size() != b.size()) return std::nan("");

@@ -1,4 +1,4 @@
-// Expectations of the state that --state writes: of scripts, and of the cards of things to try.
+// Expectations about the state that --state writes, for scripts and for cards of things to try.
 #pragma once
 
 #include <initializer_list>
@@ -9,9 +9,9 @@
 
 namespace tendril::app {
 
-/// A value of the state, by its path ("segments.3.length"), held against exactly one measure.
-/// Equals: the same value throughout, numbers as 32-bit floats. Near: a number, or a list of them (a point),
-/// whose distance is at most `within`. Below and Above: a number strictly so.
+/// Compares a value of the state, by its path ("segments.3.length"), by exactly one measure.
+/// Equals: deep equality, with numbers compared as 32-bit floats. Near: a number, or a list of them (a
+/// point), at a distance of at most `within`. Below and Above: strict comparisons of numbers.
 struct Expect {
     enum class Measure { Equals, Near, Below, Above } measure = Measure::Equals;
     std::string path;
@@ -19,14 +19,13 @@ struct Expect {
     double within = 1e-4;  ///< for Near
 };
 
-/// From {"expect": "target.1", "above": 1}. Throws std::runtime_error for what is none.
+/// From {"expect": "target.1", "above": 1}. Throws std::runtime_error for anything else.
 Expect read_expectation(const Json& line);
 
-/// Finds "segments.3.length" in a state, a number being an index into a list; nothing where there is no such
-/// value.
+/// Finds "segments.3.length" in a state; numbers index lists. Null if there is no such value.
 const Json* find_in_state(const Json& state, std::string_view path);
 
-/// Empty when the state is as expected; else what was found, in one line.
+/// Empty if the state is as expected; else one line about the value found.
 std::string check_expectation(const Expect& expect, const Json& state);
 
 /// Throws std::runtime_error for a member of `line` that is not in the list.

@@ -16,7 +16,8 @@ std::unique_ptr<FileLock> FileLock::take(const std::filesystem::path& file) {
             ::close(fd);
             return nullptr;
         }
-        // Its last holder may have removed it since it was opened: then nobody else will find this one.
+        // The last holder may have removed the file since we opened it: then the lock is on a file that
+        // nobody else can find.
         struct stat locked {
         }, named{};
         if (::fstat(fd, &locked) == 0 && ::stat(file.c_str(), &named) == 0 && locked.st_ino == named.st_ino)

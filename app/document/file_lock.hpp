@@ -1,5 +1,5 @@
-// A lock that a running program holds and that is gone with it, however it ends: killed, crashed or switched
-// off. A process number says less: it is used again, and containers count from 1.
+// A lock that the operating system releases when its program ends, even if it is killed or crashes. A process
+// ID would not do: IDs are reused, and containers count from 1.
 #pragma once
 
 #include <filesystem>
@@ -9,9 +9,9 @@ namespace tendril::app {
 
 class FileLock {
   public:
-    /// Makes the file and locks it; null where another holds it or it cannot be made.
+    /// Creates and locks the file; null if another holder has it or it cannot be created.
     static std::unique_ptr<FileLock> take(const std::filesystem::path& file);
-    /// Whether a program, this one too, holds it.
+    /// Whether any program holds it, including this one.
     static bool is_held(const std::filesystem::path& file);
 
     FileLock(const FileLock&) = delete;

@@ -46,7 +46,7 @@ std::optional<Document> History::redo(const Document& current, Place* place) {
     return forward;
 }
 
-/// `current` with the entry's parts; the entry has what they were in `current`.
+/// Returns `current` with the entry's parts, and stores the parts they replace in the entry.
 Document History::exchange(Entry& entry, const Document& current) {
     Document result = current;
     Document instead;
@@ -59,7 +59,7 @@ Document History::exchange(Entry& entry, const Document& current) {
     return result;
 }
 
-/// To where the change is to be seen at its one end; its other end is where things are now.
+/// Moves to `target`, which shows the change, and records the present place in `origin` for the way back.
 void History::go(Place& target, Place& origin, Place* place) {
     if (place == nullptr) return;
     if (target.path) origin.path = place->path;
@@ -89,7 +89,7 @@ void History::append(Entries& entries, Entry entry, const Document* older) {
     entries.push_back(std::move(entry));
 }
 
-/// What `document` holds that the one before it in time does not.
+/// Bytes of the parts that `document` does not share with `older`.
 std::size_t History::own_bytes(const Document& document, const Document* older) {
     std::size_t bytes = sizeof(Entry);
     for (const auto& [lab, part] : document.parts()) {
@@ -108,7 +108,7 @@ void History::drop(Entries& entries) {
 void History::drop_oldest() {
     bytes_ -= past_.front().bytes;
     past_.pop_front();
-    // The next one now answers for what it shared with the one that went.
+    // The next entry now accounts for the parts it shared with the dropped one.
     Entry& oldest = past_.front();
     bytes_ -= oldest.bytes;
     oldest.bytes = own_bytes(oldest.document, nullptr);
@@ -120,7 +120,7 @@ void History::drop_last() {
     future_.pop_front();
 }
 
-/// Forgets what is farthest from now. The nearest step back (and forward) stays, however large it is.
+/// Drops the entries farthest from the present. The nearest undo (and redo) entry stays, however large it is.
 void History::trim() {
     const auto too_much = [this] {
         return past_.size() + future_.size() > max_entries_ || bytes_ > max_bytes_;

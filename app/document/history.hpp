@@ -1,6 +1,6 @@
 // Undo and redo. An entry keeps the parts that a command changed, as they were before it; other labs' parts
 // stay. One entry per gesture. Memory is bounded: the oldest entries are dropped first, and only the nearest
-// may exceed the bound alone.
+// entry may exceed the bound.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +23,7 @@ struct MomentId {
     std::uint64_t tick = 0, edition = 0;
 };
 
-/// Where to show a change: its lab, and what else of these the change moved.
+/// Where to show a change: its lab and, if the change affected them, the file, camera and moment.
 struct Place {
     std::string lab{};
     std::optional<std::filesystem::path> path{};  ///< the scene's file

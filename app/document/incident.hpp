@@ -1,4 +1,4 @@
-// Something that happened at a moment and that a person may ask about: why did the arm flip?
+// An event that the user may want explained: why did the arm flip?
 #pragma once
 
 #include <array>
@@ -13,19 +13,19 @@ inline constexpr auto no_joint = static_cast<std::size_t>(-1);
 struct Incident {
     enum class Kind {
         Flip,     ///< a joint or bone jumped
-        Limit,    ///< a joint's limit began to keep the chain back; a control came to its limit, or left it
-        Restart,  ///< a solver started again from another pose
-        Status    ///< a solve ended otherwise than the one before, or what was asked for was refused
+        Limit,    ///< a joint limit became active; a control reached its limit, or left it
+        Restart,  ///< a solver restarted from another pose
+        Status    ///< a solve's status differs from the previous one, or a request was refused
     };
     Kind kind = Kind::Status;
     std::uint64_t tick = 0;        ///< between the moment of this tick and the next
-    std::size_t joint = no_joint;  ///< none of what was refused
-    std::string name{};            ///< of what it happened to, where that has one: a bone, a control, a unit
-    float degrees = 0.0f;          ///< that a bone at it turned; where it stops, for a limit; else 0
-    std::string cause;             ///< for people: "the chain was straight (collinear)"
+    std::size_t joint = no_joint;  ///< no_joint for a refusal
+    std::string name{};            ///< of the affected bone, control or unit, if it has one
+    float degrees = 0.0f;          ///< a flip: how far a bone at the joint turned; a limit: its angle; else 0
+    std::string cause;             ///< for display: "the chain was straight (collinear)"
 };
 
-/// As --state has it.
+/// As written by --state.
 inline const char* name(Incident::Kind kind) {
     static constexpr std::array names{"flip", "limit", "restart", "status"};
     return names[static_cast<std::size_t>(kind)];

@@ -43,7 +43,7 @@ std::string dump(const Json& json) {
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-/// A row of a table: short in values, however many digits they have.
+/// A table row: few values, however many digits they have.
 bool is_row(const Json& json) {
     constexpr std::size_t max_row_size = 16;
     return json.is_array() && json.size() <= max_row_size &&
@@ -95,8 +95,7 @@ double shortest_decimal(float value) {
     const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
     double shortest = 0.0;
     std::from_chars(digits.data(), end, shortest);
-    // Readers round twice, to double and then to float. Where that would miss the float, all its digits are
-    // kept.
+    // Readers round twice, to double and then to float. Keep all digits if that would miss the float.
     return static_cast<float>(shortest) == value ? shortest : static_cast<double>(value);
 }
 
@@ -114,6 +113,14 @@ Json pixel(glm::vec2 p) {
 
 Json dpoint(const glm::dvec3& p) {
     return Json::array({p.x, p.y, p.z});
+}
+
+Json quaternion(const glm::quat& q) {
+    return Json::array({number(q.x), number(q.y), number(q.z), number(q.w)});
+}
+
+Json dquaternion(const glm::dquat& q) {
+    return Json::array({q.x, q.y, q.z, q.w});
 }
 
 Json degrees(float radians) {
@@ -147,7 +154,7 @@ std::string read_text_file(const std::filesystem::path& path) {
     std::error_code error;
     const auto status = std::filesystem::status(path, error);
     if (std::filesystem::is_directory(status)) fail(shown, "is a folder");
-    // A regular file is refused by its size before a byte is read; a pipe or a device has none to ask for.
+    // Refuse a regular file by its size before reading; a pipe or a device has no size.
     if (std::filesystem::is_regular_file(status) &&
         std::filesystem::file_size(path, error) > max_file_bytes && !error)
         fail(shown, too_large);
@@ -208,7 +215,7 @@ float json_degrees(const Json& value, const std::string& where) {
 
 int json_integer(const Json& value, const std::string& where, int low, int high) {
     const double x = value.is_number() ? value.get<double>() : std::nan("");
-    // 3.0 is a whole number too: not every writer of JSON keeps the difference.
+    // 3.0 is a whole number too: not every JSON writer preserves the distinction.
     if (!(x >= low && x <= high && x == std::floor(x)))
         expected("a whole number from " + std::to_string(low) + " to " + std::to_string(high), value, where);
     return static_cast<int>(x);

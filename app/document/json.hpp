@@ -1,13 +1,15 @@
-// JSON as the program reads and writes it: key order kept, floats by their shortest exact decimals, and
-// hostile files refused before they are read in.
+// JSON reading and writing: key order is kept, floats are written as their shortest exact decimals, and
+// hostile files are refused before they are parsed.
 //
-// The type is only declared here, so that headers which name it stay cheap to include. A source that looks
-// into a value, makes one or returns one includes json_complete.hpp.
+// The type is only declared here, so that headers which name it stay cheap to include. A source that
+// inspects, creates or returns a value includes json_complete.hpp.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <glm/ext/quaternion_double.hpp>
+#include <glm/ext/quaternion_float.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
@@ -20,7 +22,7 @@ namespace tendril::app {
 
 using Json = nlohmann::ordered_json;
 
-/// A value that never changes and that copies share: JSON as a member where the type is only declared.
+/// An immutable value that copies share, for members where the type is only declared.
 class SharedJson {
   public:
     SharedJson();  ///< an empty object
@@ -37,22 +39,24 @@ class SharedJson {
 inline constexpr std::size_t max_file_bytes = 64u << 20;
 inline constexpr int max_json_depth = 64;
 
-/// The number whose decimals are the fewest that read back as this very float: 0.1f gives 0.1.
-/// The value must be finite.
+/// The number with the fewest decimals that reads back as exactly this float: 0.1f gives 0.1. The value must
+/// be finite.
 double shortest_decimal(float value);
 Json number(float value);  ///< the same, as JSON
 Json point(glm::vec3 p);
 Json pixel(glm::vec2 p);
-/// An angle as files hold it, in degrees; json_degrees gives back the very same radians.
+/// An angle in degrees, for files; json_degrees restores exactly the same radians.
 Json degrees(float radians);
-Json dpoint(const glm::dvec3& p);  ///< of doubles, which JSON holds exactly as they are
+Json quaternion(const glm::quat& q);  ///< [x, y, z, w]
+Json dquaternion(const glm::dquat& q);
+Json dpoint(const glm::dvec3& p);  ///< doubles are exact in JSON
 
-/// JSON for people to read and compare: what fits a line stands on one. Ends with a newline.
+/// Readable, diffable JSON: a value that fits on one line is written on one. Ends with a newline.
 std::string json_to_text(const Json& json);
-/// A value as messages show it, cut short.
+/// A shortened value, for messages.
 std::string json_summary(const Json& json);
 
-/// Text that is not JSON, or too deep: what() is "line 3: <reason>".
+/// Text that is not JSON, or nested too deeply: what() is "line 3: <reason>".
 class ParseError : public std::runtime_error {
   public:
     ParseError(int at_line, const std::string& why)
@@ -61,24 +65,23 @@ class ParseError : public std::runtime_error {
     std::string reason;
 };
 
-/// Parses one JSON value; of members with the same name the last one counts. Throws ParseError. Depth is
-/// checked by a scan that allocates nothing, before the parser sees the text; the cost grows with the text,
-/// not with its square.
+/// Parses one JSON value; if a member's name repeats, its last value wins. Throws ParseError. A scan without
+/// allocation checks the depth before the parser sees the text. Takes linear time (n log n in an object's
+/// members).
 Json parse_json(std::string_view text);
 
-/// The line in a valid JSON text where the value "labs.chain.segments.3" stands, or the last part of that
-/// path that is there; 0 where there is none.
+/// The line, from 1, of the value "labs.chain.segments.3" in a valid JSON text, or of the longest prefix of
+/// that path that exists; 0 if none does.
 int json_line(std::string_view text, std::string_view path);
 
-/// Reads a whole file, at most max_file_bytes of it, from a pipe or device too. Throws std::runtime_error
-/// naming the path.
+/// Reads a whole file, pipe or device of at most max_file_bytes. Throws std::runtime_error naming the path.
 std::string read_text_file(const std::filesystem::path& path);
 /// read_text_file and parse_json; the message is "<path>: line 3: <reason>".
 Json read_json_file(const std::filesystem::path& path);
 
 /// Typed reads for files. Each throws std::runtime_error that begins with `where` (a path such as
-/// "labs.chain.target"; empty for the whole) and says what was found there; numbers must be finite and at
-/// most 1e9 in magnitude; a real number that is given its ends may be as large as those are.
+/// "labs.chain.target"; empty for the root) and says what was found there. Numbers must be finite and at most
+/// 1e9 in magnitude; reads with explicit bounds check only those.
 const Json& json_member(const Json& object, const char* key, const std::string& where);
 float json_number(const Json& value, const std::string& where);
 float json_number(const Json& value, const std::string& where, float low, float high);

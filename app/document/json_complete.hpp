@@ -1,5 +1,5 @@
-// json.hpp with the type complete, for sources that look into JSON. No other header includes this one: it
-// takes a compiler more than a second.
+// json.hpp with the complete type, for sources that inspect JSON. No other header includes this one: it takes
+// more than a second to compile.
 #pragma once
 
 #include <nlohmann/json.hpp>

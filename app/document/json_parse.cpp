@@ -1,5 +1,5 @@
-// Text to JSON, for files that may come from anywhere: bounded depth, time that grows with the text alone,
-// and errors by line.
+// Parses JSON from untrusted files: bounded depth, time that grows with the text's size alone, and errors
+// with line numbers.
 #include <algorithm>
 #include <numeric>
 #include <vector>
@@ -22,7 +22,7 @@ void check_depth(std::string_view text) {
     }
 }
 
-/// What the parser means, without its name, position and grammar, fit for one line of any terminal.
+/// The parser's message without its name, position and grammar, in one line of printable ASCII.
 std::string concise(std::string_view what) {
     constexpr std::size_t longest = 100;
     const auto skip_past = [&](std::string_view mark) {
@@ -42,8 +42,8 @@ std::string concise(std::string_view what) {
 
 using Members = std::vector<std::pair<std::string, Json>>;
 
-/// The object of these members. The library's own way looks through the members so far for each new one,
-/// which takes hours for a file of nothing but keys.
+/// Builds an object. The library searches all earlier members for each new one, which takes hours for a file
+/// of nothing but keys.
 Json object_of(Members& members) {
     std::vector<std::size_t> order(members.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -60,7 +60,7 @@ Json object_of(Members& members) {
     return object;
 }
 
-/// Takes the parser's events and builds the value.
+/// Builds the value from the parser's events.
 class Builder : public nlohmann::json_sax<Json> {
   public:
     explicit Builder(std::string_view text) : text_(text) {}
@@ -117,7 +117,7 @@ class Builder : public nlohmann::json_sax<Json> {
     Json result_;
 };
 
-// Finding a line: the text is known to be valid, so values are skipped by their brackets and quotes alone.
+// Finding a line: the text is valid, so brackets and quotes suffice to skip values.
 
 std::size_t skip_space(std::string_view text, std::size_t at) {
     return std::min(text.find_first_not_of(" \t\r\n", at), text.size());
@@ -135,7 +135,7 @@ std::size_t skip_value(std::string_view text, std::size_t at) {
     return at;
 }
 
-/// Where the child `name` (a key, or an index) of the container at `at` begins; npos where there is none.
+/// The offset of the child `name` (a key, or an index) of the container at `at`; npos if there is none.
 std::size_t find_child(std::string_view text, std::size_t at, std::string_view name) {
     if (at >= text.size() || (text[at] != '{' && text[at] != '[')) return text.npos;
     const bool object = text[at] == '{';

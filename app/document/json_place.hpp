@@ -1,5 +1,4 @@
-// A value in a scene file together with where it stands, so that whatever is wrong with it is told with its
-// place: "labs.chain.reach.damping: expected ...".
+// A JSON value together with its path, so that errors name it: "labs.chain.reach.damping: expected ...".
 #pragma once
 
 #include <cstdint>
@@ -14,8 +13,8 @@
 
 namespace tendril::app {
 
-/// Refers to the JSON. `where` is empty where all there is stands: the arguments of a command. Everything it
-/// reads is checked as json.hpp says; what does not fit throws std::runtime_error that begins with the place.
+/// Refers to the JSON. `where` is empty for the root, such as the arguments of a command. Reads check the
+/// value as json.hpp describes and throw std::runtime_error that begins with the path.
 class JsonPlace {
   public:
     JsonPlace(const Json& json, std::string where) : json_(&json), where_(std::move(where)) {}
@@ -25,19 +24,19 @@ class JsonPlace {
     [[noreturn]] void fail(const std::string& what) const;
 
     bool has(const char* key) const;
-    /// A member that has to be there.
+    /// A required member.
     JsonPlace operator[](const char* key) const;
-    /// One that may be missing, or null.
+    /// A member that may be missing or null.
     std::optional<JsonPlace> optional(const char* key) const;
     JsonPlace element(std::size_t index) const;
     /// Size of a list of at most `most` elements, which messages call `what`: "segments".
     std::size_t list_size(const char* what, std::size_t most) const;
-    /// Every element of such a list.
+    /// Calls `take` with every element of such a list.
     void for_each(const char* what, std::size_t most, auto take) const {
         const std::size_t size = list_size(what, most);
         for (std::size_t i = 0; i < size; ++i) take(element(i));
     }
-    /// A list of exactly so many: `of` says which, "positions, one a segment".
+    /// Requires a list of exactly `size` elements, which messages call `of`: "positions, one a segment".
     void check_size(std::size_t size, const char* of) const;
 
     float number() const { return json_number(*json_, where_); }
@@ -50,7 +49,7 @@ class JsonPlace {
     std::size_t index(std::size_t high) const { return static_cast<std::size_t>(count(high)); }
     bool flag() const { return json_bool(*json_, where_); }
     std::string text() const { return json_text(*json_, where_); }
-    /// The one of an enumeration that is named here: `names` are its EnumNames.
+    /// Reads an enumerator by name: `names` are the enumeration's EnumNames.
     auto choice(const auto& names) const {
         try {
             return names.value(text());
@@ -60,7 +59,8 @@ class JsonPlace {
     }
     glm::vec3 point() const { return json_point(*json_, where_); }
     glm::dvec3 dpoint() const { return json_dpoint(*json_, where_); }
-    glm::quat rotation() const;  ///< [x, y, z, w], of unit length within 1e-3
+    glm::quat rotation() const;    ///< [x, y, z, w], of unit length within 1e-3
+    glm::dquat drotation() const;  ///< within 1e-2
 
   private:
     const Json* json_;

@@ -9,28 +9,28 @@
 
 namespace tendril::app {
 
-/// The one of the list whose name it is. Throws std::invalid_argument: unknown mode "flying".
+/// The list's element of that name. Throws std::invalid_argument: unknown mode "flying".
 const auto& named(const auto& list, auto name_of, const std::string& name, const char* what) {
     for (const auto& each : list)
         if (name == name_of(each)) return each;
     throw std::invalid_argument(std::string("unknown ") + what + " \"" + name + "\"");
 }
 
-/// The names of all of a list, for the choices of an argument.
+/// The names of a list's elements, for the choices of an argument.
 std::vector<std::string> names(const auto& list, auto name_of) {
     std::vector<std::string> result;
     for (const auto& each : list) result.emplace_back(name_of(each));
     return result;
 }
 
-/// What an enumerator is called: in commands and files, in a panel, and in a sentence that says what it does.
+/// An enumerator's name in commands and files, its title in panels, and a sentence of help.
 struct EnumRow {
     const char* name;
     const char* title;
     const char* help = "";
 };
 
-/// The names of an enumeration: one row for each enumerator, in their order, which begins at 0.
+/// The names of an enumeration: one row for each enumerator, in order, from 0.
 template <class Enum, std::size_t count>
 struct EnumNames {
     const char* what;  ///< what messages call one of them: "mode"
@@ -54,7 +54,7 @@ struct EnumNames {
     std::vector<std::string> names() const {
         return app::names(rows, [](const EnumRow& row) { return row.name; });
     }
-    /// For the choices of a field: keep it, the table only refers to it.
+    /// For the choices of a field. Keep the array alive: the table refers to it.
     constexpr std::array<const char*, count> name_array() const {
         std::array<const char*, count> all{};
         for (std::size_t i = 0; i < count; ++i) all[i] = rows[i].name;

@@ -1,4 +1,4 @@
-// How a command says no.
+// Errors by which a command refuses to run.
 #pragma once
 
 #include <stdexcept>
@@ -8,12 +8,12 @@
 
 namespace tendril::app {
 
-/// A command said no: what() is one line that says why. The document is as it was.
+/// A command refused to run: what() is one line that says why. The document is unchanged.
 class Refused : public std::runtime_error {
   public:
     explicit Refused(const std::string& why) : std::runtime_error(message(why)) {}
 };
-/// The command itself is not known: a mistake in a script, not a refusal.
+/// There is no such command: a mistake in a script, not a refusal.
 class UnknownCommand : public Refused {
   public:
     using Refused::Refused;

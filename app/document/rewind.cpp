@@ -9,7 +9,7 @@ void Rewind::remember(std::uint64_t tick, std::uint64_t edition, std::shared_ptr
                       std::uint64_t clock) {
     forget_from(tick);
     change_.reset();
-    // Until now it was the newest, and kept as that alone.
+    // It was kept only as the newest.
     if (!moments_.empty() && moments_.back().tick % stride_ != 0) drop_last();
     while (!moments_.empty() && moments_.front().tick + max_ticks < tick) drop_oldest();
     while (!incidents_.empty() && incidents_.front().tick + max_ticks < tick) incidents_.pop_front();
@@ -20,7 +20,7 @@ void Rewind::remember(std::uint64_t tick, std::uint64_t edition, std::shared_ptr
 }
 
 void Rewind::forget_from(std::uint64_t tick) {
-    // Where there is nothing to forget, nobody went back in time: what has just happened at this tick stays.
+    // With no moments to forget, time was not rewound: keep the incidents of this tick.
     if (!moments_.empty() && newest() >= tick)
         std::erase_if(incidents_, [tick](const Incident& each) { return each.tick >= tick; });
     while (!moments_.empty() && moments_.back().tick >= tick) drop_last();
@@ -76,7 +76,7 @@ const Rewind::Moment* Rewind::find(const MomentId& id) const {
     return same ? &*found : nullptr;
 }
 
-/// Keeps within the bound by looking away every other time, and looks more closely again once there is room.
+/// Doubles the stride while over the memory bound; halves it again once a quarter of the bound suffices.
 void Rewind::thin() {
     if (stride_ > 1 && 4 * bytes_ < max_bytes_) stride_ /= 2;
     while (bytes_ > max_bytes_ && moments_.size() > 2 && stride_ < max_ticks) {

@@ -1,9 +1,9 @@
-// What a lab works with and nobody saves: solvers' scratch memory, plans, caches. Each lab has one runtime,
-// kept from tick to tick, so that a solver is made once per chain and not once per solve.
+// A lab's unsaved working data: solvers' scratch memory, plans, caches. Each lab has one runtime, kept from
+// tick to tick, so that a solver is created once per chain and not once per solve.
 //
-// A runtime follows from the document. It is in no file, no undo step and no recording, and it can be thrown
-// away between any two commands or ticks without changing a bit of what is seen: what a solver must remember
-// from one solve to the next is a value, and belongs in the lab's part of the document.
+// A runtime is derived from the document. It is in no file, undo entry or recording, and can be discarded
+// between any two commands or ticks without changing a bit of the result: state that a solver must keep from
+// one solve to the next is a value and belongs in the lab's part of the document.
 #pragma once
 
 #include <map>
@@ -12,13 +12,13 @@
 
 namespace tendril::app {
 
-/// One lab's runtime; a lab derives its own, which can be made without arguments.
+/// One lab's runtime; a lab derives its own, which must be default-constructible.
 class Runtime {
   public:
     virtual ~Runtime() = default;
 };
 
-/// Those of all labs. A copy of a workspace shares none of them: it makes its own.
+/// All labs' runtimes. A copied workspace starts without them and creates its own.
 class Runtimes {
   public:
     Runtimes() = default;
@@ -31,8 +31,8 @@ class Runtimes {
     Runtimes& operator=(Runtimes&&) noexcept = default;
     ~Runtimes() = default;
 
-    /// The lab's runtime, made when it is first asked for. Const, so that what only looks at a workspace can
-    /// use its caches too. Always ask for the same T; another throws std::bad_cast.
+    /// The lab's runtime, created on first use. Const, so that readers of a workspace can use its caches too.
+    /// Always use the same T for a lab; another throws std::bad_cast.
     template <class T>
     T& of(const std::string& lab) const {
         std::unique_ptr<Runtime>& runtime = by_lab_[lab];

@@ -1,4 +1,4 @@
-// Scenes and what becomes of them: new, opened, saved, recovered, a picture of one, and the way out.
+// Scene commands: new, open, save, recover, picture and quit.
 #include <algorithm>
 
 #include "app/document/autosave.hpp"
@@ -50,7 +50,7 @@ void add_file_commands(CommandTable& table) {
                }});
 }
 
-/// The path argument, if it is one of those that are offered.
+/// The path argument. Refuses a path that is not offered for recovery.
 std::filesystem::path offered(const Workspace& workspace, const Arguments& given) {
     const auto& offers = workspace.ui.recoverable;
     const std::filesystem::path path = given.text("path");
@@ -130,7 +130,7 @@ void add_dialog_commands(CommandTable& table) {
                }});
 }
 
-/// A new file beside the scene's own, or where the program was started: "arm-1.png".
+/// An unused name beside the scene's file, or in the working directory: "arm-1.png".
 std::filesystem::path picture_name(const Workspace& w) {
     if (!w.keeps) throw Refused("path is missing");
     const std::string stem = w.path.empty() ? "tendril" : w.path.stem().string();

@@ -15,7 +15,7 @@ const Json* optional_member(const Json& object, const char* key) {
     return found == object.end() ? nullptr : &*found;
 }
 
-/// The scene's version; one that this program cannot read is refused.
+/// The scene's version. Throws if this program cannot read it.
 int read_version(const Json& scene) {
     if (!scene.is_object() || !scene.contains("tendril_scene"))
         throw std::runtime_error("not a Tendril scene");
@@ -26,7 +26,7 @@ int read_version(const Json& scene) {
     return json_integer(version, "tendril_scene", 1, scene_version);
 }
 
-/// Whatever a part finds wrong becomes a reason to refuse the file.
+/// Converts any exception of the part to std::runtime_error.
 std::shared_ptr<const Part> load_part(const Part& blank, const Json& json, int version,
                                       const std::string& where) {
     try {
@@ -52,9 +52,9 @@ Document load_document(const Document& blank, const Json& labs, int version) {
     return document;
 }
 
-/// `document`, with the workspace's very own parts where they would be saved alike: what is read anew and is
-/// the same as before is no change, and leaves no step to undo. A recording, whose start is read from its
-/// first line, has to find the same as it was played on.
+/// `document`, but sharing the workspace's parts where both would be saved identically: reading the same part
+/// again is no change and creates no undo entry. A recording, which loads its start from its first line,
+/// depends on this.
 Document sharing_equal_parts(const Document& document, const Document& present) {
     Document result = document;
     for (const auto& [lab, part] : document.parts()) {
@@ -65,7 +65,7 @@ Document sharing_equal_parts(const Document& document, const Document& present) 
     return result;
 }
 
-/// "line 12: ", where the message begins with a place that the text has; else nothing.
+/// "line 12: " if the message begins with a path that the text contains; else empty.
 std::string line_prefix(std::string_view text, std::string_view message) {
     const int line = json_line(text, message.substr(0, message.find_first_of(": ")));
     return line > 0 ? "line " + std::to_string(line) + ": " : std::string();

@@ -2,8 +2,8 @@
 //
 //   {"tendril_scene": 2, "lab": "chain", "camera": {...}, "labs": {"chain": {...}}}
 //
-// Version 2 writes every rotation as [x, y, z, w]; version 1 wrote the chain's as [w, x, y, z]. Files of
-// older versions are read by way of Part::upgrade.
+// Version 2 writes every rotation as [x, y, z, w]; version 1 wrote the chain's as [w, x, y, z]. Part::upgrade
+// converts older versions.
 #pragma once
 
 #include <filesystem>
@@ -17,15 +17,15 @@ inline constexpr int scene_version = 2;
 Json save_camera(const CameraPose& pose);
 CameraPose load_camera(const Json& json, const std::string& where);
 
-/// The scene of a workspace, and a workspace changed to hold a scene. Loading throws std::runtime_error with
-/// the place and the reason (a newer version, an unknown lab, a value out of range) and then leaves it
-/// unchanged; a lab that the scene does not mention becomes blank. Loading clears the history and starts time
-/// anew.
+/// Converts a workspace's document, lab and camera to JSON and back. Loading resets time and makes blank any
+/// lab that the scene does not mention. It throws std::runtime_error with the path and the reason (a newer
+/// version, an unknown lab, a value out of range) and then leaves the workspace unchanged.
 Json save_scene(const Workspace& workspace);
 void load_scene(Workspace& workspace, const Json& scene);
 
 /// The same through a file; both keep `workspace.path` and `workspace.saved` up to date. Saving never
-/// overwrites a file with a scene that would not open again; under a new name it is saved, with a warning.
+/// overwrites a file with a scene that would not open again; under a new name it does save it, with a
+/// warning.
 void save_scene_file(Workspace& workspace, const std::filesystem::path& path);
 void load_scene_file(Workspace& workspace, const std::filesystem::path& path);
 

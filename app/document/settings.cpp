@@ -23,7 +23,7 @@ const char* name_of(T value, const Names<T, N>& names) {
     return names.front().second;
 }
 
-/// Reads values by name; one that does not fit is named and left as it was.
+/// Reads values by name. An invalid value is reported and leaves the default.
 class Reader {
   public:
     Reader(const Json& json, std::vector<std::string>& complaints) : json_(json), complaints_(complaints) {}
@@ -61,7 +61,7 @@ class Reader {
 std::filesystem::path folder_from(const char* variable, const char* below) {
     const char* value = std::getenv(variable);
     const std::filesystem::path folder = value ? value : "";
-    // What is not absolute would depend on where the program was started.
+    // A relative path would depend on the working directory.
     return folder.is_absolute() ? folder / below : std::filesystem::path();
 }
 

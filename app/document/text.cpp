@@ -8,14 +8,13 @@ namespace tendril::app {
 namespace {
 
 constexpr std::size_t max_message = 400;
-constexpr std::size_t message_end = 120;  ///< of a shortened message, what stays of its end
+constexpr std::size_t message_end = 120;  ///< bytes kept of a shortened message's end
 
 bool is_continuation(char byte) {
     return (static_cast<unsigned char>(byte) & 0xc0) == 0x80;
 }
 
-/// Bytes of the character of UTF-8 that begins there; 0: none does. Neither overlong forms nor surrogates are
-/// any.
+/// Size of the UTF-8 character at `at`; 0 if none begins there. Overlong forms and surrogates are invalid.
 std::size_t character_at(std::string_view bytes, std::size_t at) {
     const auto first = static_cast<unsigned char>(bytes[at]);
     if (first < 0x80) return 1;

@@ -56,7 +56,7 @@ std::string si_text(double value, const char* unit) {
     static constexpr const char* prefixes[] = {"p", "n", "\xc2\xb5", "m", "", "k", "M", "G"};
     constexpr int plain = 4, last = static_cast<int>(std::size(prefixes)) - 1;
     if (!std::isfinite(value)) return "-";
-    if (std::abs(value) < 5e-15) return std::string("0 ") + unit;  // less than any prefix shows
+    if (std::abs(value) < 5e-15) return std::string("0 ") + unit;  // smaller than the smallest prefix shows
     int prefix = plain;
     // 999.5 would be written 1000.
     while (std::abs(value) >= 999.5 && prefix < last) value /= 1000.0, ++prefix;

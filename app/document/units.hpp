@@ -1,4 +1,4 @@
-// Numbers for people, with their units.
+// Formats numbers with units for display.
 #pragma once
 
 #include <cstddef>
@@ -6,21 +6,21 @@
 
 namespace tendril::app {
 
-/// A number with so many decimals; zero never has a sign.
+/// A number with a fixed count of decimals; zero never has a sign.
 std::string fixed_text(double value, int decimals);
 
-/// The same text where it is a zero with a sign: "-0.00 m" as "0.00 m".
+/// Removes the sign of a negative zero: "-0.00 m" becomes "0.00 m".
 std::string without_signed_zero(std::string text);
 
 /// "1 joint", "8 joints": for nouns whose plural takes an s.
 std::string count_text(std::size_t count, const char* noun);
 
-/// Three digits and an SI prefix where one is needed: "2.30 m", "4.10 µs", "120 nm", "0 m". `unit` is the
-/// plain one ("m", "s"); what is not finite is "-".
+/// Three digits, with an SI prefix if needed: "2.30 m", "4.10 µs", "120 nm", "0 m". `unit` has no prefix
+/// ("m", "s"); a value that is not finite becomes "-".
 std::string si_text(double value, const char* unit);
 
-/// What a curve or a table says: like si_text without zeros at the end ("2 s", "1.5 mm") where the unit is
-/// one of the SI; else at most three digits behind the zeros and no prefix ("0.0012 %", "12").
+/// For curves and tables: SI units as si_text but without trailing zeros ("2 s", "1.5 mm"); others with three
+/// significant digits, at most nine decimals and no prefix ("0.0012 %", "12").
 std::string short_text(double value, const char* unit);
 
 }  // namespace tendril::app

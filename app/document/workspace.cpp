@@ -9,7 +9,7 @@
 namespace tendril::app {
 
 int Clock::whole_ticks() const {
-    constexpr double rounding = 1e-6;  // the speed is a float: ten tenths are a whole all the same
+    constexpr double rounding = 1e-6;  // the speed is a float: ten tenths must make a whole
     const double after = passed + static_cast<double>(speed);
     return static_cast<int>(std::floor(after + rounding) - std::floor(passed + rounding));
 }
@@ -55,7 +55,7 @@ void Workspace::pass_change() {
 Workspace::BeforeAndAfter Workspace::around(const Incident& incident) const {
     if (rewind.empty() || incident.tick < rewind.oldest() || incident.tick > rewind.newest()) return {};
     const std::uint64_t back = rewind.newest() - incident.tick;
-    // What came of the newest moment is what there is now.
+    // The newest moment's successor is the document itself.
     return {rewind.at(back).part, back > 0 ? rewind.at(back - 1).part : document.parts().at(lab)};
 }
 
@@ -74,7 +74,7 @@ void Workspace::go_to_moment(std::uint64_t ticks_back) {
         to.moment = MomentId{then.tick, then.edition};
         if (!history.leads_to(before)) history.push(before, "time.seek", 0, from, to);
     } else if (then.edition == newest.edition) {
-        // Back where one came from, there is nothing to undo of it.
+        // Back at the starting moment: the time.seek entry has nothing to undo.
         Document here;
         here.set(lab, newest.part);
         if (history.undo_label() == "time.seek" && history.leads_to(here)) history.forget_last();
@@ -99,7 +99,8 @@ void Workspace::toast(std::string text, ToastKind kind) {
     const int ticks =
         static_cast<int>((kind == ToastKind::Info ? info_seconds : refusal_seconds) / tick_seconds);
 
-    // The same text again moves to the end and lasts anew; a drag against a limit does not fill the window.
+    // A repeated text moves to the end and restarts its time, so that a drag against a limit does not fill
+    // the window.
     auto& toasts = ui.toasts;
     std::erase_if(toasts, [&](const Toast& toast) { return toast.text == text; });
     toasts.push_back({std::move(text), kind, ticks});

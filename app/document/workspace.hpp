@@ -28,11 +28,12 @@ struct Clock {
     int steps_due = 0;           ///< ticks to take even while paused
     float speed = 1.0f;          ///< seconds that pass in a lab per second
     double passed = 0.0;         ///< ticks that have passed in the labs, scaled by speed
-    bool replaying = false;      ///< the last seconds are playing again at this speed
+    bool replaying = false;      ///< the last seconds are replaying at this speed
     std::uint64_t replayed = 0;  ///< up to this moment
     bool measured = false;       ///< measure the cost of simulating: only in a live window
 
-    /// How many whole ticks pass in the next one, for a lab that cannot take part of a tick.
+    /// How many whole ticks of lab time the next tick completes, for a lab that cannot simulate part of a
+    /// tick.
     int whole_ticks() const;
 };
 
@@ -68,7 +69,7 @@ struct UiState {
     bool settings = false;
     enum class FileDialog { None, Open, SaveAs, SaveAndQuit, Video } file_dialog = FileDialog::None;
     std::vector<Toast> toasts;
-    std::vector<Recoverable> recoverable;  ///< until the person answers
+    std::vector<Recoverable> recoverable;  ///< until the user answers
     glm::vec2 view_size{1000.0f, 700.0f};  ///< the 3D view, or its first pane, in window coordinates
     glm::ivec2 picture_size{1000, 700};    ///< of a picture of the whole view, pixels
     std::optional<std::string> copied;     ///< text on its way to the clipboard
@@ -78,10 +79,10 @@ struct UiState {
     bool ends_filming = false;                  ///< stop writing it
     std::optional<Incident> incident;           ///< shown: the pose before it, over the pose after it
     std::map<std::string, CardProgress> cards;  ///< of things to try, by lab
-    bool asks_to_quit = false;                  ///< the question what to do with unsaved work is open
+    bool asks_to_quit = false;                  ///< the question about unsaved work is open
     bool quit = false;
 
-    /// Something lies over the scene that Esc closes.
+    /// Whether something that Esc closes covers the scene.
     bool covered() const {
         return help || palette || settings || asks_to_quit || file_dialog != FileDialog::None;
     }
@@ -112,8 +113,8 @@ struct Workspace {
     History history;
     bool gesture_begins = true;  ///< the running command is the first of its drag, or not part of one
     Settings settings;
-    std::filesystem::path config;  ///< folder of what is kept between sessions; empty: none
-    bool keeps = false;            ///< keep it automatically: only in a live window
+    std::filesystem::path config;  ///< folder for data kept between sessions; empty: none
+    bool keeps = false;            ///< save it automatically: only in a live window
     UiState ui;
     std::filesystem::path path;  ///< the scene's file; empty if it has none
     Document saved;              ///< as last saved or opened

@@ -70,7 +70,7 @@ void replay(Workspace& w) {
     w.clock.replayed = w.moment;
 }
 
-/// To the moment after an incident, with the one before it drawn over it.
+/// Seeks to the moment after an incident and shows the moment before it on top.
 void show_incident(Workspace& w, const Arguments& given) {
     if (!given.has("number")) return w.ui.incident.reset();
     w.pass_change();
@@ -94,7 +94,7 @@ std::vector<std::string> known_incidents(const Workspace& w) {
     return numbers;
 }
 
-/// Shortest, as it would be typed.
+/// The shortest decimals, as the user would type them.
 std::string plain(float value) {
     return number(value).dump();
 }
@@ -168,7 +168,7 @@ void add_time_commands(CommandTable& table) {
                .apply = show_incident});
 }
 
-/// A setting that is one of two: the one that is named, or the other one when none is.
+/// A command for a setting with two values: sets the given one, or toggles if none is given.
 template <class Choice>
 Command either(const char* name, const char* title, const char* argument, std::vector<std::string> choices,
                const char* help, Choice Settings::*setting) {
@@ -193,7 +193,7 @@ Command either(const char* name, const char* title, const char* argument, std::v
             }};
 }
 
-/// Those that a person has folded or unfolded before.
+/// Sections that the user has folded or unfolded before.
 std::vector<std::string> known_sections(const Workspace& w) {
     const std::string before = fold_key("");
     std::vector<std::string> names;

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/trigonometric.hpp>
 #include <stdexcept>
 
 #include "app/document/json_complete.hpp"
@@ -28,7 +31,7 @@ std::string format_of(const Field& field, const FieldText& text) {
     return "%." + std::to_string(text.decimals) + "f" + shown_unit(unit);
 }
 
-/// A number field over the usual range; what is beyond it can be typed. `value` as shown.
+/// A number field that drags within the usual range; values beyond it can be typed. `value` is the shown one.
 bool usual_number_field(const char* label, float& value, const Field& field, const FieldText& text) {
     const FieldRange range = field.slider();
     const auto low = static_cast<float>(text.scale * range.low),
@@ -60,6 +63,8 @@ void FieldRows::row(std::string_view name, const RowOptions& options) const {
         pair_row(*field, text);
     else if (field->type == FieldType::Point)
         point_row(*field, text);
+    else if (field->type == FieldType::Rotation)
+        rotation_row(*field, text);
     else if (field->type == FieldType::Choice)
         list_row(*field, text);
     else
@@ -114,12 +119,25 @@ void FieldRows::pair_row(const Field& field, const FieldText& text) const {
 void FieldRows::point_row(const Field& field, const FieldText& text) const {
     const FieldValue now = field.get(of_.object);
     glm::vec3 value(now[0], now[1], now[2]);
-    if (point_field(text.label, value, text.step, static_cast<float>(field.range.high),
+    if (point_field(text.label, value, text.step, static_cast<float>(field.slider().high),
                     format_of(field, text).c_str()))
-        emit_.continuously(command_, arguments(field, value));
+        emit_.continuously(command_, arguments(field, glm::max(value, static_cast<float>(field.range.low))));
 }
 
-/// Which of the text's choices it is.
+/// Euler angles, in degrees. A change rotates about the rotation's own axes: setting angles directly would
+/// lock at a pole.
+void FieldRows::rotation_row(const Field& field, const FieldText& text) const {
+    const FieldValue now = field.get(of_.object);
+    const glm::quat rotation(static_cast<float>(now[3]), static_cast<float>(now[0]),
+                             static_cast<float>(now[1]), static_cast<float>(now[2]));
+    const glm::vec3 was = glm::degrees(glm::eulerAngles(rotation)) + 0.0f;  // no -0
+    glm::vec3 turned = was;
+    const std::string format = "%." + std::to_string(text.decimals) + "f\u00b0";
+    if (point_field(text.label, turned, text.step, 360.0f, format.c_str()))
+        emit_.continuously(command_, arguments(field, rotation * glm::quat(glm::radians(turned - was))));
+}
+
+/// The index of the field's value in the text's choices.
 int FieldRows::chosen(const Field& field, const FieldText& text) const {
     const std::string_view name = field.choices[static_cast<std::size_t>(field.get(of_.object)[0])];
     const auto row = std::ranges::find(text.choices, name, &EnumRow::name);

@@ -1,5 +1,4 @@
-// A panel's rows for the fields of a struct: name, field, unit, range, tooltip and command follow from the
-// table.
+// A panel's rows for the fields of a struct, with name, unit, range, tooltip and command from the table.
 #pragma once
 
 #include <optional>
@@ -51,6 +50,7 @@ class FieldRows {
     void number_row(const Field& field, const FieldText& text, const RowOptions& options) const;
     void pair_row(const Field& field, const FieldText& text) const;
     void point_row(const Field& field, const FieldText& text) const;
+    void rotation_row(const Field& field, const FieldText& text) const;
     int chosen(const Field& field, const FieldText& text) const;
     void list_row(const Field& field, const FieldText& text) const;
     void button_rows(const Field& field, const FieldText& text) const;

@@ -13,6 +13,14 @@ double written(double end) {
     return static_cast<double>(single) == end ? shortest_decimal(single) : end;
 }
 
+glm::quat quaternion_of(const FieldValue& value) {
+    return glm::quat(static_cast<float>(value[3]), static_cast<float>(value[0]), static_cast<float>(value[1]),
+                     static_cast<float>(value[2]));
+}
+FieldValue value_of(const glm::quat& rotation) {
+    return {rotation.x, rotation.y, rotation.z, rotation.w};
+}
+
 Json saved(const Field& field, const FieldValue& value) {
     if (field.optional && std::isnan(value[0])) return nullptr;
     switch (field.type) {
@@ -28,6 +36,8 @@ Json saved(const Field& field, const FieldValue& value) {
             return field.exact
                        ? Json{value[0], value[1]}
                        : Json{number(static_cast<float>(value[0])), number(static_cast<float>(value[1]))};
+        case FieldType::Rotation:
+            return quaternion(quaternion_of(value));
         case FieldType::Point:
             break;
     }
@@ -64,6 +74,8 @@ FieldValue loaded(const JsonPlace& place, const Field& field) {
         case FieldType::Pair:
             place.check_size(2, "numbers");
             return {number_in_range(place.element(0), field), number_in_range(place.element(1), field)};
+        case FieldType::Rotation:
+            return value_of(place.rotation());
         case FieldType::Point:
             break;
     }
@@ -104,6 +116,9 @@ Argument argument(const Field& field, const FieldText& text) {
         case FieldType::Point:
             result.type = ArgumentType::Point;
             break;
+        case FieldType::Rotation:
+            result.type = ArgumentType::Rotation;
+            break;
         case FieldType::Choice:
             result.type = ArgumentType::Text;
             result.choices.assign(field.choices.begin(), field.choices.end());
@@ -118,6 +133,11 @@ Json save_fields(FieldsOf of) {
     Json json = Json::object();
     for (const Field& field : of.table) json[field.name] = saved(field, field.get(of.object));
     return json;
+}
+
+void load_all_fields(const JsonPlace& place, FieldsIn in) {
+    for (const Field& field : in.table) static_cast<void>(place[field.name]);
+    load_fields(place, in);
 }
 
 void load_fields(const JsonPlace& place, FieldsIn in) {
@@ -139,9 +159,12 @@ std::vector<Argument> field_arguments(std::span<const Field> table, std::span<co
 }
 
 void set_fields(const Arguments& given, FieldsIn in, std::string_view except) {
-    for (const Field& field : in.table)
-        if (given.has(field.name) && field.name != except)
-            field.set(in.object, loaded({given.json(field.name), field.name}, field));
+    for (const Field& field : in.table) {
+        if (!given.has(field.name) || field.name == except) continue;
+        field.set(in.object, field.type == FieldType::Rotation
+                                 ? value_of(given.rotation(field.name))  // or in degrees
+                                 : loaded({given.json(field.name), field.name}, field));
+    }
 }
 
 }  // namespace tendril::app

@@ -1,5 +1,5 @@
-// What the rows of a table of fields (tendril/fields.hpp) become in files and in commands. A lab says beside
-// the table what each field is called and what it is for; the rest follows from the row.
+// Converts tables of fields (tendril/fields.hpp) to files and command arguments. Beside its table a lab gives
+// each field a label and a help text; the rest follows from the table.
 #pragma once
 
 #include <concepts>
@@ -14,11 +14,11 @@
 
 namespace tendril::app {
 
-/// A field as users see it.
+/// A field's presentation.
 struct FieldText {
     const char* name;    ///< the field's
     const char* label;   ///< in a panel
-    const char* help;    ///< what it does, in a sentence or two: in a panel, and of the command's argument
+    const char* help;    ///< its effect, in a sentence or two: for the panel and the command's argument
     float step = 0.01f;  ///< change of the shown value per pixel of a drag
     int decimals = 2;
     double scale = 1.0;                  ///< shown value = value * scale
@@ -52,17 +52,19 @@ struct FieldsIn {
 };
 
 Json save_fields(FieldsOf of);
-/// What is missing stays as it is, so that older scenes open. Throws std::runtime_error that begins with the
-/// place of what is wrong.
+/// Missing fields keep their values, so that older scenes open. Throws std::runtime_error that begins with
+/// the JSON path of the error.
 void load_fields(const JsonPlace& place, FieldsIn in);
+/// The same, but a missing field is an error.
+void load_all_fields(const JsonPlace& place, FieldsIn in);
 
-/// An argument for each field that has a text; each may be left out.
+/// An optional argument for each field that has a text.
 std::vector<Argument> field_arguments(std::span<const Field> table, std::span<const FieldText> texts);
 template <class Struct>
 std::vector<Argument> field_arguments() {
     return field_arguments(fields<Struct>(), field_texts<Struct>());
 }
-/// Sets what was given, but for the field `except`.
+/// Sets the given fields, except for the field `except`.
 void set_fields(const Arguments& given, FieldsIn in, std::string_view except = {});
 
 }  // namespace tendril::app

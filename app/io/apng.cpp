@@ -13,7 +13,7 @@ namespace tendril::app {
 namespace {
 
 constexpr std::size_t source_channels = 4;
-constexpr std::size_t max_chunk_bytes = 1u << 16;  ///< so that no frame is packed as a whole
+constexpr std::size_t max_chunk_bytes = 1u << 16;  ///< frames are compressed in chunks of at most this size
 constexpr int filter_kinds = 5;
 
 void put_32(std::string& to, std::uint32_t value) {
@@ -44,7 +44,7 @@ int paeth(int left, int above, int corner) {
     return to_above <= to_corner ? above : corner;
 }
 
-/// A row after filter `kind` of the specification's section 9, with the kind before it.
+/// Applies filter `kind` of the specification's section 9 to a row; the result begins with the kind.
 void filter_row(int kind, const std::vector<std::uint8_t>& row, const std::vector<std::uint8_t>& above,
                 std::size_t step, std::vector<std::uint8_t>& result) {
     result[0] = static_cast<std::uint8_t>(kind);
@@ -59,14 +59,15 @@ void filter_row(int kind, const std::vector<std::uint8_t>& row, const std::vecto
     }
 }
 
-/// How well a filtered row will pack: the specification's rule of thumb, its bytes as signed numbers.
+/// Estimates how badly a filtered row compresses by the specification's heuristic: the sum of its bytes'
+/// magnitudes as signed numbers.
 long weight(const std::vector<std::uint8_t>& row) {
     long sum = 0;
     for (std::size_t i = 1; i < row.size(); ++i) sum += std::min<int>(row[i], 256 - row[i]);
     return sum;
 }
 
-/// zlib's state, freed whatever happens.
+/// RAII wrapper of zlib's state.
 class Deflate {
   public:
     Deflate() {
@@ -77,7 +78,7 @@ class Deflate {
     Deflate(const Deflate&) = delete;
     Deflate& operator=(const Deflate&) = delete;
 
-    /// Packs all of it, and gives `take` part after part.
+    /// Compresses all bytes, calling `take` with each part of the output.
     template <class Take>
     void run(std::vector<std::uint8_t>& bytes, const Take& take) {
         std::vector<std::uint8_t> out(max_chunk_bytes);
@@ -124,12 +125,12 @@ void ApngFile::write_head() {
     chunk("sRGB", std::string_view("\0", 1));
     std::string animation;
     put_32(animation, static_cast<std::uint32_t>(format_.frames));
-    put_32(animation, 0);  // for ever
+    put_32(animation, 0);  // loop forever
     chunk("acTL", animation);
 }
 
 void ApngFile::write_control(const Area& area) {
-    constexpr char leave = 0, replace = 0;  // the frame stays; its alpha is taken, not mixed
+    constexpr char leave = 0, replace = 0;  // keep the frame; replace alpha instead of blending
     const FrameTime time = frame_time(format_);
     std::string control;
     put_32(control, sequence_++);
@@ -178,7 +179,7 @@ void ApngFile::write_pixels(const Image& frame, const Area& area) {
     });
 }
 
-/// The smallest rectangle outside of which the frame is the one before it; a pixel where they are the same.
+/// The smallest rectangle that contains all changes from the last frame; one pixel if they are the same.
 ApngFile::Area ApngFile::changed(const Image& frame) const {
     if (frames_ == 0) return {{0, 0}, format_.size};
     const auto width = static_cast<std::size_t>(format_.size.x);

@@ -1,7 +1,7 @@
 // Animated PNG, which browsers and image viewers play: Portable Network Graphics (PNG) Specification, third
-// edition, W3C 2025, https://www.w3.org/TR/png-3/: chunks acTL, fcTL and fdAT. It loses nothing and has an
-// alpha channel. Of each frame after the first, only the rectangle that changed is written. In memory are two
-// frames at a time, and the changed part of one, filtered.
+// edition, W3C 2025, https://www.w3.org/TR/png-3/: chunks acTL, fcTL and fdAT. Lossless, with an alpha
+// channel. After the first frame only the rectangle that changed is written. Holds two frames in memory, and
+// the changed part of one, filtered.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace tendril::app {
 
-/// Plays again and again. A viewer that knows no animation shows the first frame.
+/// Loops forever. Viewers without animation support show the first frame.
 class ApngFile final : public VideoFile {
   public:
     ApngFile(const std::filesystem::path& path, const VideoFormat& format);
@@ -21,7 +21,7 @@ class ApngFile final : public VideoFile {
     void finish() override;
 
   private:
-    /// A part of the picture; never empty.
+    /// A part of the picture, at least one pixel.
     struct Area {
         glm::ivec2 low{0}, size{1};
     };
@@ -30,14 +30,14 @@ class ApngFile final : public VideoFile {
     void write_head();
     void write_control(const Area& area);
     void write_pixels(const Image& frame, const Area& area);
-    /// The frame's part as PNG has it: each row after the number of its filter.
+    /// The frame's part in PNG format: each row follows the number of its filter.
     std::vector<std::uint8_t> filtered(const Image& frame, const Area& area) const;
 
     AtomicFile file_;
     VideoFormat format_;
-    Image last_;  ///< the frame that was added before
+    Image last_;  ///< the last frame added
     int frames_ = 0;
-    std::uint32_t sequence_ = 0;  ///< counts fcTL and fdAT
+    std::uint32_t sequence_ = 0;  ///< number of fcTL and fdAT chunks
 };
 
 }  // namespace tendril::app

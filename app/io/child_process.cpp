@@ -29,8 +29,8 @@ std::string last_error() {
     return std::generic_category().message(errno);
 }
 
-/// A write to a program that has ended raises SIGPIPE, which would end this one. While this lives it is held
-/// back, and one that came meanwhile is taken.
+/// Blocks SIGPIPE while it lives and consumes one that was raised: writing to a program that has ended would
+/// otherwise end this one.
 class HeldSigpipe {
   public:
     HeldSigpipe() {
@@ -57,7 +57,7 @@ class HeldSigpipe {
     bool was_pending_ = false;
 };
 
-/// What a program starts with: its input, no output, its complaints in a file, and no signal held back.
+/// How a program starts: its input, no output, its errors in a file, and no blocked signals.
 class SpawnPlan {
   public:
     SpawnPlan(int input, int complaints) {
@@ -81,7 +81,7 @@ class SpawnPlan {
     SpawnPlan(const SpawnPlan&) = delete;
     SpawnPlan& operator=(const SpawnPlan&) = delete;
 
-    /// 0, or what errno has for the reason.
+    /// Returns 0 or an errno value.
     int start(pid_t& id, const std::vector<std::string>& command) const {
         std::vector<char*> words;
         for (const std::string& word : command) words.push_back(const_cast<char*>(word.c_str()));
@@ -160,7 +160,7 @@ std::string ChildProcess::last_line() const {
 
 void ChildProcess::fail(const std::string& otherwise) {
     close_input();
-    // It may have closed its end, and not yet have said why.
+    // It may have closed its input before reporting why: wait for up to a second.
     using Time = std::chrono::steady_clock;
     for (const auto end = Time::now() + std::chrono::seconds(1); !ended() && Time::now() < end;)
         std::this_thread::sleep_for(look_again);

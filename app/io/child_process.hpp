@@ -1,4 +1,4 @@
-// Another program, run without a shell: given bytes, and asked whether all went well.
+// Runs another program without a shell, writes to its input and checks its exit code.
 #pragma once
 
 #include <sys/types.h>
@@ -12,24 +12,24 @@
 
 namespace tendril::app {
 
-/// Where a program of this name is found on PATH; empty where it is not installed.
+/// The path of a program on PATH; empty if it is not installed.
 std::filesystem::path find_program(const std::string& name);
 
-/// All that throws does so with std::runtime_error: "<program> failed: <the last line it complained with>".
-/// The program still runs when this is destroyed: then it is killed.
+/// Errors are std::runtime_error: "<program> failed: <the last line of its stderr>". The destructor kills the
+/// program if it is still running.
 class ChildProcess {
   public:
-    /// Starts `command`, a program's path and its arguments. What it prints is dropped.
+    /// Starts `command`, a program's path and its arguments. Its standard output is discarded.
     explicit ChildProcess(const std::vector<std::string>& command);
     ~ChildProcess();
     ChildProcess(const ChildProcess&) = delete;
     ChildProcess& operator=(const ChildProcess&) = delete;
 
-    /// Gives it bytes to read. Throws where it ended before, or takes none for `seconds`.
+    /// Writes to its input. Throws if it has ended, or reads nothing for `seconds`.
     void write(std::string_view bytes, double seconds = 30.0);
-    /// No more bytes come: whether it has ended, well or not.
+    /// Closes its input and returns whether it has ended, successfully or not.
     bool ended_after_input();
-    /// The same, but waits `seconds` at most, and throws where it has not ended by then, or not well.
+    /// The same, but waits for at most `seconds`, and throws if it has not ended by then or has failed.
     void finish(double seconds);
 
   private:
@@ -42,7 +42,7 @@ class ChildProcess {
         void operator()(std::FILE* file) const { std::fclose(file); }
     };
     std::string name_;
-    std::unique_ptr<std::FILE, CloseFile> complaints_;  ///< a file, as a full pipe would stop the program
+    std::unique_ptr<std::FILE, CloseFile> complaints_;  ///< its stderr; a pipe could fill up and block it
     int input_ = -1;
     pid_t id_ = -1;  ///< -1 once it has ended
     int status_ = 0;

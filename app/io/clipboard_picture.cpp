@@ -10,7 +10,7 @@
 namespace tendril::app {
 namespace {
 
-constexpr double max_copy_end = 10.0;  ///< seconds: both go on in the background, and end at once otherwise
+constexpr double max_copy_end = 10.0;  ///< seconds; both programs fork and end at once
 
 std::vector<std::string> command() {
     const std::string wayland = find_program("wl-copy").string(), x11 = find_program("xclip").string();

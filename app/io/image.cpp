@@ -9,7 +9,7 @@
 #include "app/document/atomic_file.hpp"
 #include "app/window/gl.hpp"
 
-// Static, as some systems' Dear ImGui pulls in a whole library of stb with the same names.
+// Static, since some systems' Dear ImGui includes a whole stb library with the same names.
 #define STB_IMAGE_STATIC
 #define STB_IMAGE_IMPLEMENTATION
 #define STBI_ONLY_PNG

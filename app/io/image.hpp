@@ -23,7 +23,7 @@ Image read_framebuffer(unsigned framebuffer, glm::ivec2 size);
 void write_png(const std::filesystem::path& path, const Image& image);
 Image read_png(const std::filesystem::path& path);
 
-/// A PNG file's bytes; throws std::runtime_error saying why.
+/// A PNG file's bytes. Throws std::runtime_error with the reason.
 std::string encode_png(const Image& image);
 Image decode_png(std::string_view png);
 

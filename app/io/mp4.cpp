@@ -8,13 +8,13 @@
 namespace tendril::app {
 namespace {
 
-constexpr double max_encoder_end = 120.0;  ///< seconds that ffmpeg may take for what it still holds back
+constexpr double max_encoder_end = 120.0;  ///< seconds that ffmpeg may take to finish
 
 std::vector<std::string> command(const VideoFormat& format, const std::filesystem::path& file) {
     const FrameTime time = frame_time(format);
     const std::string size = std::to_string(format.size.x) + "x" + std::to_string(format.size.y);
     const std::string rate = std::to_string(time.denominator) + "/" + std::to_string(time.numerator);
-    // What players on every system accept. After file: a name may have a colon.
+    // A format that players on every system accept. With the prefix "file:" a name may contain colons.
     return {find_program("ffmpeg").string(),
             "-hide_banner",
             "-nostdin",
@@ -70,7 +70,7 @@ void Mp4File::add(const Image& frame) {
     ++frames_;
 }
 
-/// Until ffmpeg is no longer waited for.
+/// Seconds left to wait for ffmpeg.
 double Mp4File::seconds_left() {
     using Time = std::chrono::steady_clock;
     using Seconds = std::chrono::duration<double>;

@@ -1,5 +1,5 @@
-// MP4 with H.264 video, which everything plays, written by ffmpeg where that is installed: frames go through
-// a pipe to it. Colours are halved in resolution (4:2:0), and there is no alpha channel.
+// MP4 with H.264 video, which everything plays, written by ffmpeg if that is installed, through a pipe.
+// Colour has half the resolution (4:2:0), and there is no alpha channel.
 #pragma once
 
 #include <chrono>
@@ -11,10 +11,10 @@
 
 namespace tendril::app {
 
-/// "to write MP4, install ffmpeg", or empty where it is installed.
+/// "to write MP4, install ffmpeg", or empty if it is installed.
 std::string why_no_mp4();
 
-/// Its size must be even, each way.
+/// Width and height must be even.
 class Mp4File final : public VideoFile {
   public:
     Mp4File(const std::filesystem::path& path, const VideoFormat& format);
@@ -24,11 +24,11 @@ class Mp4File final : public VideoFile {
     void finish() override;
 
   private:
-    AtomicFile file_;  ///< outlives the process that writes it
+    AtomicFile file_;  ///< must outlive the process that writes it
     VideoFormat format_;
     ChildProcess ffmpeg_;
     int frames_ = 0;
-    std::optional<std::chrono::steady_clock::time_point> ends_by_;  ///< once it has all frames
+    std::optional<std::chrono::steady_clock::time_point> ends_by_;  ///< set once it has all frames
 
     double seconds_left();
 };

@@ -21,8 +21,8 @@ Palette before(Palette palette, float gray) {
     return palette;
 }
 
-/// What is behind shows through to the part by which both pictures differ: a colour c of opacity a over black
-/// is a c, over white a c + 1 - a (A. R. Smith, J. F. Blinn, "Blue Screen Matting", SIGGRAPH 1996).
+/// Recovers opacity from the difference of two pictures: a colour c of opacity a over black is a c, over
+/// white a c + 1 - a (A. R. Smith, J. F. Blinn, "Blue Screen Matting", SIGGRAPH 1996).
 Image matted(const Image& black, const Image& white) {
     Image result{black.size, std::vector<std::uint8_t>(black.rgba.size())};
     for (std::size_t i = 0; i < result.rgba.size(); i += 4) {
@@ -43,7 +43,7 @@ Image matted(const Image& black, const Image& white) {
 Image draw_picture(Renderer& renderer, const DrawScene& draw, const CameraPose& pose, glm::ivec2 size,
                    const Palette& palette, bool transparent) {
     if (!transparent) return drawn(renderer, draw, pose, size, palette, true);
-    // What fades into its background fades into either of these.
+    // Colours that fade into the background fade into either of these.
     return matted(drawn(renderer, draw, pose, size, before(palette, 0.0f), false),
                   drawn(renderer, draw, pose, size, before(palette, 1.0f), false));
 }

@@ -1,4 +1,4 @@
-// The view as a picture of its own: of any size, with what lies behind it or without.
+// Draws the view as a picture of any size, with or without the background.
 #pragma once
 
 #include <functional>
@@ -8,12 +8,12 @@
 
 namespace tendril::app {
 
-/// What a lab draws in its panes, in the colours of a palette.
+/// Draws a lab's panes in the colours of a palette.
 using DrawScene = std::function<std::vector<Pane>(const Palette&)>;
 
-/// Draws the scene as the camera sees it, in a picture of `size` pixels. With `transparent` there is
-/// nothing behind it, and what is see-through or a shadow is so in the file. Needs a current context; throws
-/// std::runtime_error where the driver has no memory for it.
+/// Draws the scene in a picture of `size` pixels. With `transparent` it has no background, and transparent
+/// surfaces and shadows have partial alpha. Needs a current context; throws std::runtime_error if the driver
+/// has not enough memory.
 Image draw_picture(Renderer& renderer, const DrawScene& draw, const CameraPose& pose, glm::ivec2 size,
                    const Palette& palette, bool transparent);
 

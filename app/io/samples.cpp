@@ -12,7 +12,7 @@
 namespace tendril::app {
 namespace {
 
-constexpr double most = 1e9;  // as of every number that the program reads
+constexpr double most = 1e9;  // the limit of all numbers that the program reads
 
 using Fields = std::vector<std::string_view>;
 
@@ -22,7 +22,7 @@ std::string_view trimmed(std::string_view text) {
     return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
-/// Where the first field of a line ends; a comma between quotes belongs to its field.
+/// The end of a line's first field; a comma between quotes is part of the field.
 std::size_t field_end(std::string_view line) {
     bool quoted = false;
     for (std::size_t i = 0; i < line.size(); ++i) {
@@ -45,7 +45,7 @@ std::optional<double> number_in(std::string_view field) {
     return value;
 }
 
-/// Rows of fields, and what is wrong with them told by row and column, both counted from 1.
+/// Reads rows of fields. Errors give the row and column, from 1.
 class Table {
   public:
     Table(std::string_view text, std::string name) : name_(std::move(name)) {
@@ -55,7 +55,7 @@ class Table {
         text_ = text.substr(0, last == text.npos ? 0 : last + 1);
     }
 
-    /// The next row's fields, without the blanks around them; false after the last.
+    /// The next row's fields without surrounding blanks; false after the last row.
     bool next(Fields& fields) {
         if (at_ >= text_.size()) return false;
         const auto end = std::min(text_.find('\n', at_), text_.size());
@@ -75,7 +75,7 @@ class Table {
         return true;
     }
 
-    /// What a row is made of, by the first one.
+    /// Detects a wrong separator in the first row.
     void check_separator(std::string_view field) const {
         const auto other = field.starts_with('"') ? field.npos : field.find_first_of(";\t");
         if (other == field.npos) return;
@@ -131,10 +131,10 @@ std::optional<std::size_t> column_named(const Fields& names, std::initializer_li
     return std::nullopt;
 }
 
-/// Where samples have what counts of them.
+/// The columns of samples.
 struct Columns {
     std::size_t time = 0, input = 1, width = 2;
-    bool absolute = false;  ///< time is that of the row, and not that since the one before
+    bool absolute = false;  ///< time is absolute, not the time since the previous row
 };
 
 Columns named_columns(const Table& table, const Fields& names) {
@@ -152,8 +152,8 @@ void check_order(const Table& table, const Columns& columns, double time, double
         table.fail(columns.time, "time", "at most 1e9 s after " + decimal(before), decimal(time));
 }
 
-/// Of samples that have times. Nobody knows how long before the first one its input came: it counts for as
-/// long as the next, wherever time begins.
+/// Computes dt from absolute times. The first sample's dt is unknown: it gets that of the next one, wherever
+/// time begins.
 void difference(TimedSamples& rows) {
     for (std::size_t i = 1; i < rows.times.size(); ++i) {
         rows.samples[i].dt = rows.times[i] - rows.times[i - 1];

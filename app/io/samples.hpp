@@ -1,10 +1,10 @@
-// Samples of a signal in a CSV file: for the subcommand and the lab alike.
+// Reads samples of a signal from CSV files, for the subcommand and the lab.
 //
-// Columns are separated by commas; what is between quotes is one field. A first row of names is optional.
-// Without one, samples have exactly two columns, dt and input; with one, the columns are found by name, and a
-// column `time`, which must not fall, may stand in for `dt`: the first row is then where filters start,
-// whatever its time is. Empty lines at the end do not count; anything else that is not a finite number of at
-// most 1e9 is refused, with its file, row and column.
+// Columns are separated by commas; quotes enclose a field. A first row of names is optional. Without one,
+// samples have exactly two columns, dt and input; with one, the columns are found by name, and a column
+// `time`, which must not decrease, may replace `dt`: filters then start at the first row, whatever its time.
+// Empty lines at the end are ignored; any other value that is not a finite number of at most 1e9 is refused,
+// with its file, row and column.
 #pragma once
 
 #include <cstddef>
@@ -18,25 +18,25 @@ namespace tendril::app {
 
 inline constexpr std::size_t max_samples = 1'000'000;
 
-/// Samples, and the time of each as the file has it: where it has dt, the time after that.
+/// Samples, and their times as in the file; if it has dt, the times at the end of each dt.
 struct TimedSamples {
     std::vector<signal::Sample> samples;
     std::vector<double> times;
 };
 
 /// `name` is the file's, for messages: "samples.csv: row 3, column 2 (input): expected a number, found "x"".
-/// Throws std::runtime_error. A file without a sample is refused too.
+/// Throws std::runtime_error. Refuses a file without samples.
 TimedSamples parse_timed_samples(std::string_view text, const std::string& name);
 TimedSamples read_timed_samples(const std::filesystem::path& path);
 std::vector<signal::Sample> parse_samples(std::string_view text, const std::string& name);
 std::vector<signal::Sample> read_samples(const std::filesystem::path& path);
 
-/// A response to `count` samples, one number a row: the column named output, response or value, or else the
-/// last one. So what `tendril signal` printed can be fitted to.
+/// A response to `count` samples, one number per row: the column named output, response or value, or else the
+/// last one. So the output of `tendril signal` can be fitted.
 std::vector<double> parse_response(std::string_view text, const std::string& name, std::size_t count);
 std::vector<double> read_response(const std::filesystem::path& path, std::size_t count);
 
-/// A number by the fewest digits that read back as this very double.
+/// The number with the fewest digits that reads back as exactly this double.
 std::string decimal(double value);
 
 }  // namespace tendril::app

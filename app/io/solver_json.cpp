@@ -12,7 +12,7 @@
 namespace tendril::app {
 namespace {
 
-/// An angle of a limit: its name in files, its place in ik::Limit, and in degrees the range it may have.
+/// An angle of a limit: its name in files, its member in ik::Limit, and its range in degrees.
 struct Field {
     const char* name;
     float ik::Limit::*angle;
@@ -108,7 +108,7 @@ Json report_json(ik::Method method, const ik::Report& report, bool within_limits
     return {{"solver", ik::name(method)},
             {"status", ik::name(report.status)},
             {"iterations", report.iterations},
-            // What was refused was not measured either.
+            // Refused input has no residual.
             {"residual",
              report.status == ik::Status::InvalidInput ? Json(nullptr) : finite_number(report.residual)},
             {"ran", ran_text(method, report, within_limits)}};

@@ -1,5 +1,4 @@
-// What goes into a solver and what comes out of it, as files, commands and --state hold it: angles in
-// degrees, names for kinds.
+// Input and output of solvers in files, commands and --state: angles in degrees, kinds by name.
 //
 //   {"kind": "hinge", "axis": [0, 0, 1], "min_deg": 0, "max_deg": 145}
 //   {"kind": "ball_and_socket", "axis": [0, 0, 1], "up_deg": 90, "down_deg": 40, "left_deg": 60,
@@ -16,23 +15,23 @@
 
 namespace tendril::app {
 
-/// With the fields that its kind has; limit_from_json gives back the very same angles.
+/// Writes the fields of the limit's kind; limit_from_json restores exactly the same angles.
 Json limit_json(const ik::Limit& limit);
 
-/// A limit of any kind. A field that is left out is as ik::Limit::of(kind) has it; one that its kind does not
-/// have is not looked at. Throws std::runtime_error in json.hpp's manner, beginning with the place
-/// ("limits.2" and what follows from there): a kind unknown, a value of the wrong type or out of its range, a
-/// minimum over the maximum, an axis without length.
+/// Reads a limit of any kind. A missing field has the value of ik::Limit::of(kind); a field that the kind
+/// lacks is ignored. Throws std::runtime_error that begins with the JSON path ("limits.2.min_deg") for an
+/// unknown kind, a value of the wrong type or out of range, a minimum above the maximum, or an axis without
+/// length.
 ik::Limit limit_from_json(const Json& json, const std::string& where);
 
-/// {"solver", "status", "iterations", "residual", "ran"}; a residual that is not finite is null. "ran" is
-/// ran_text's.
+/// {"solver", "status", "iterations", "residual", "ran"}; a residual that is not finite, or of refused input,
+/// is null. "ran" is ran_text().
 Json report_json(ik::Method method, const ik::Report& report, bool within_limits);
 
 /// {"joint", "kind", "bound", "limit_deg", "needed_deg", "enough"}
 Json active_limit_json(const ik::ActiveLimit& limit);
 
-/// Throws std::runtime_error that begins with `where` and lists the names there are.
+/// Throws std::runtime_error that begins with `where` and lists the names.
 ik::Method method_from_name(const std::string& name, const std::string& where);
 /// "fabrik, fabrik_plain, ccd, ..."
 std::string method_names();

@@ -1,5 +1,4 @@
-// A video on its way to a file, one frame after another. Each way to write one (apng.hpp, mp4.hpp) derives
-// from this.
+// Writes a video to a file, frame by frame. Each format (apng.hpp, mp4.hpp) derives from this.
 #pragma once
 
 #include <filesystem>
@@ -11,40 +10,39 @@
 namespace tendril::app {
 
 struct VideoFormat {
-    glm::ivec2 size{0};        ///< of every frame, in pixels
-    int frames = 0;            ///< how many there will be, 1 or more
+    glm::ivec2 size{0};        ///< of every frame, pixels
+    int frames = 0;            ///< total, 1 or more
     int every = 2;             ///< ticks of 1/60 s from one frame to the next: 1 to 60
-    double speed = 1.0;        ///< 0.05 to 2: in slow motion a frame stays longer
-    bool transparent = false;  ///< frames have an alpha channel; else it is ignored
+    double speed = 1.0;        ///< 0.05 to 2; in slow motion frames last longer
+    bool transparent = false;  ///< frames have an alpha channel; otherwise alpha is ignored
 };
 
-/// How long a frame is shown: `numerator` / `denominator` seconds, each below 65536.
+/// Duration of a frame: `numerator` / `denominator` seconds, each below 65536.
 struct FrameTime {
     unsigned numerator = 2, denominator = 60;
 };
 FrameTime frame_time(const VideoFormat& format);
 
-/// What throws does so with std::runtime_error, which says why. The file is there after finish();
-/// destroyed before that, it leaves nothing behind.
+/// Errors are std::runtime_error with the reason. The file exists after finish(); if destroyed before that,
+/// it leaves no file.
 class VideoFile {
   public:
     virtual ~VideoFile() = default;
-    /// Throws where the frame has another size than the video, or is one too many.
+    /// Throws if the frame's size differs from the video's, or there are too many frames.
     virtual void add(const Image& frame) = 0;
-    /// How long that takes for the last of the file is its own business.
+    /// Whether another program writes the file, so that the time it takes is unpredictable.
     virtual bool by_another_program() const { return false; }
-    /// After the last frame: whether finish() would still have to wait for it.
+    /// After the last frame: whether finish() would have to wait for that program.
     virtual bool waits() { return false; }
-    /// After the last frame. Waits for what is left to do; then the file is there. Throws where a frame is
-    /// missing.
+    /// Call after the last frame. Waits until the file is complete. Throws if a frame is missing.
     virtual void finish() = 0;
 };
 
-/// Why a video of this name can't be written; empty where it can. The ending decides: .png, or .mp4 where
+/// Why a video of this name cannot be written; empty if it can. The extension decides: .png, or .mp4 if
 /// ffmpeg is installed.
 std::string why_no_video(const std::filesystem::path& path);
 
-/// Throws where the file can't be made, or why_no_video() says so.
+/// Throws if the file cannot be created, or for the reason of why_no_video().
 std::unique_ptr<VideoFile> open_video(const std::filesystem::path& path, const VideoFormat& format);
 
 }  // namespace tendril::app

@@ -1,4 +1,4 @@
-// A lab's cards of things to try: data of the lab's folder (cards.json), read and checked once.
+// A lab's cards of things to try: data in the lab's folder (cards.json), read and checked once.
 //
 //     [{"title": "Five things to try",
 //       "scene": [{"command": "chain.preset", "name": "arm"}],
@@ -6,8 +6,8 @@
 //                  "when": [{"expect": "solve.report.status", "equals": "unreachable"}],
 //                  "script": [{"command": "chain.target", "to": [9, 1, 0]}]}]}]
 //
-// A step has happened when all of its conditions hold at once. `scene` sets up what the card is about.
-// `script` is for the tests, which play every step.
+// A step is done when all of its conditions hold at once. `scene` sets up the card's scene. `script` is for
+// the tests, which play every step.
 #pragma once
 
 #include <map>
@@ -24,8 +24,8 @@ namespace tendril::app {
 struct CardCondition {
     enum class Kind {
         Expected,  ///< the state is as expected: {"expect": PATH, ...} as in a script
-        Changed,   ///< a value is not what it was when the card was shown: {"changed": PATH}
-        Noted,     ///< something of that kind was noted: {"event": "flip"}
+        Changed,   ///< a value has changed since the card was shown: {"changed": PATH}
+        Noted,     ///< an incident of that kind was noted: {"event": "flip"}
     } kind = Kind::Expected;
     Expect expect{};
     std::string name{};  ///< the path, or the kind of event
@@ -49,7 +49,7 @@ struct Card {
     std::vector<CardStep> steps;
 };
 
-/// Throws std::runtime_error that says where and what is wrong.
+/// Throws std::runtime_error with the JSON path and the reason.
 std::vector<Card> read_cards(std::string_view text);
 
 /// The cards of every lab.

@@ -100,7 +100,7 @@ class Lab {
     virtual const char* invitation() const { return ""; }
 
     /// Commands that turn the blank document into the scene that a new window opens on. Those that change a
-    /// setting are skipped if the person has already chosen it.
+    /// setting are skipped if the user has already chosen it.
     virtual std::vector<CommandCall> opening() const { return {}; }
 
     // time
@@ -115,8 +115,8 @@ class Lab {
     virtual double seconds(const Workspace& workspace) const {
         return static_cast<double>(workspace.clock.tick) * tick_seconds;
     }
-    /// What in a change or a tick a person may ask about, such as a joint that jumped. `before` and `after`
-    /// are parts of this lab; the workspace gives access to its runtime. The caller sets the ticks.
+    /// Incidents in a change or a tick that the user may ask about, such as a joint that jumped. `before` and
+    /// `after` are parts of this lab; the workspace gives access to its runtime. The caller sets the ticks.
     virtual std::vector<Incident> review(const Workspace&, const Part& /*before*/,
                                          const Part& /*after*/) const {
         return {};
@@ -160,7 +160,7 @@ class Lab {
     }
     /// Whether Ctrl and a drag on empty space selects by a box.
     virtual bool selects_by_box() const { return false; }
-    /// What a box can select, by its middle.
+    /// Handles that a box can select, by their positions.
     virtual std::vector<Handle> selectable(const Workspace& workspace) const { return handles(workspace); }
     /// Selects the handles in the box; `add` keeps the selection there was. Some may be selected already.
     virtual void select(const Workspace&, const std::vector<PickId>&, bool /*add*/, Emit&) const {}

@@ -32,7 +32,7 @@ Argument angle(const char* name, double low, double high) {
     return {.name = name, .required = false, .help = "degrees", .low = low, .high = high};
 }
 
-/// As one looks from one of six sides.
+/// Turns the camera to look from one of six sides.
 void look_from(Workspace& workspace, const std::string& name) {
     CameraPose& pose = workspace.camera;
     const bool side = name == "side" || name == "left", high = name == "top" || name == "bottom";
@@ -122,7 +122,7 @@ void add_camera_commands(CommandTable& table, const Labs& labs) {
 
 namespace {
 
-/// By the lab's own commands. They only look: none is a step of undo.
+/// Clears the selection by the lab's own commands. They have Effect::Look, so none adds an undo entry.
 void select_nothing(Workspace& workspace, const Lab& lab) {
     Emit emit;
     lab.deselect(workspace, emit);
@@ -148,8 +148,8 @@ void add_closing_command(CommandTable& table, const Labs& labs) {
                }});
 }
 
-// The view as a video of the last seconds, or as a picture on the clipboard. What is asked for is checked
-// here; the frame (app/app_video.cpp) draws it.
+// The view as a video of the last seconds, or as a picture on the clipboard. Requests are checked here; the
+// frame (app/app_video.cpp) draws them.
 
 namespace {
 
@@ -172,7 +172,7 @@ std::string seconds_text(int ticks) {
     return fixed_text(ticks * tick_seconds, 2) + " s";
 }
 
-/// From the oldest moment that is remembered to the last one, the present among them.
+/// Ticks from the oldest remembered moment to the newest, including the present.
 int remembered_ticks(const Workspace& w) {
     const Rewind& past = w.rewind;
     if (past.empty()) return 0;
@@ -280,7 +280,7 @@ void add_recording(CommandTable& table, const Labs& labs) {
                    require_view(w, labs);
                    if (remembered_ticks(w) == 0)
                        throw Refused("nothing has moved yet that a video could show");
-                   // Or what one has just seen would slip out of the last ten seconds meanwhile.
+                   // Otherwise the moments just seen would drop out of the last ten seconds.
                    w.clock.playing = w.clock.replaying = false;
                    w.ui.file_dialog = UiState::FileDialog::Video;
                }});

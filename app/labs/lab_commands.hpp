@@ -1,11 +1,11 @@
-// Commands of the camera: camera.*. They frame what a lab shows, so they stand beside the labs.
+// Camera commands, camera.*: they frame what a lab shows, so they belong to the labs.
 #pragma once
 
 #include "app/labs/labs.hpp"
 
 namespace tendril::app {
 
-/// Whose way of turning and shifting the view with the mouse is followed.
+/// The mouse preset for turning and shifting the view.
 LabSetting mouse_setting();
 /// What the wheel, or two fingers on a touchpad, do in the view.
 LabSetting scroll_setting();
@@ -13,12 +13,11 @@ LabSetting scroll_setting();
 /// `labs` must outlive the table.
 void add_camera_commands(CommandTable& table, const Labs& labs);
 
-// What Esc does: closes what lies over the scene, or else selects nothing.
-
 class CommandTable;
 class Labs;
 
-/// The labs must outlive what it adds.
+/// view.close, for Esc: closes overlays or, if there are none, clears the selection. `labs` must outlive the
+/// table.
 void add_closing_command(CommandTable& table, const Labs& labs);
 
 class CommandTable;

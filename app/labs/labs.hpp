@@ -12,20 +12,20 @@ namespace tendril::app {
 class Labs {
   public:
     Labs();
-    /// One more, at the end of the table; of a name that is not in it yet.
+    /// Appends a lab; its name must be new. Throws std::logic_error otherwise.
     void add(std::unique_ptr<Lab> lab);
     const std::vector<std::unique_ptr<Lab>>& all() const { return labs_; }
-    /// Null where there is none of that name.
+    /// Null if there is none of that name.
     const Lab* find(std::string_view name) const;
 
   private:
     std::vector<std::unique_ptr<Lab>> labs_;
 };
 
-/// Every lab blank, the first one open, seen as it is first seen.
+/// A workspace with every lab blank and the first one open, in its first view.
 Workspace make_blank_workspace(const Labs& labs);
 
-/// The whole vocabulary: the workspace's, the camera's and every lab's.
+/// All commands: the workspace's, the camera's and every lab's.
 CommandTable make_command_table(const Labs& labs);
 
 }  // namespace tendril::app

@@ -12,7 +12,7 @@ std::string at_line(const ScriptLine& line, const std::string& text) {
     return "line " + std::to_string(line.number) + ": " + text;
 }
 
-/// Runs a command that is to be accepted, or one that is to be refused.
+/// Runs a command; throws ScriptFailure if it is unexpectedly refused or accepted.
 void run_command(const ScriptLine& line, const RunCommand& command, Stage& stage) {
     try {
         stage.run(command);
@@ -25,13 +25,13 @@ void run_command(const ScriptLine& line, const RunCommand& command, Stage& stage
     }
 }
 
-/// Where the state says that the handle is.
+/// The handle's pixel in the state, plus the offset.
 glm::vec2 pixel_of(const ScriptLine& line, const MoveToHandle& move, const Json& state) {
     if (const Json* handles = find_in_state(state, "handles"); handles && handles->is_array()) {
         for (const Json& each : *handles) {
             if (each.at("name") != move.handle || !each.at("pixel").is_array()) continue;
             const Json& at = each.at("pixel");
-            // A handle beside the camera can project beyond what a recording may hold.
+            // A handle beside the camera can project beyond the range of a recording.
             constexpr float farthest = 1e6f;
             return glm::clamp(glm::vec2(at[0].get<float>(), at[1].get<float>()) + move.offset, -farthest,
                               farthest);

@@ -1,4 +1,4 @@
-// Plays a script against whatever can take ticks and commands.
+// Plays a script on anything that takes ticks and commands.
 #pragma once
 
 #include <stdexcept>
@@ -8,22 +8,21 @@
 
 namespace tendril::app {
 
-/// What a script acts on: the program, or in a test something that looks like it.
+/// What a script acts on: the program, or a test's substitute.
 class Stage {
   public:
     virtual ~Stage() = default;
-    /// One tick that takes the event, or none.
+    /// Runs one tick with the event, which may be null.
     virtual void tick(const Event* event) = 0;
     /// Throws Refused.
     virtual void run(const RunCommand& command) = 0;
-    /// Throws std::runtime_error where the path cannot be written.
+    /// Throws std::runtime_error if the path cannot be written.
     virtual void write_screenshot(const std::string& path) = 0;
     virtual void write_state(const std::string& path) = 0;
     virtual Json state() = 0;
 };
 
-/// An expectation that failed, a refusal, or an acceptance where a refusal was expected: "line 7: <what was
-/// found>".
+/// A failed expectation, an unexpected refusal, or a missing expected one: "line 7: <what was found>".
 class ScriptFailure : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
@@ -33,13 +32,13 @@ class Player {
   public:
     explicit Player(Script script) : script_(std::move(script)) {}
 
-    /// Runs on until one tick has passed or the script has ended. Throws ScriptFailure, after which the
-    /// script is over, and what the stage throws where it cannot write.
+    /// Runs lines until one tick has passed or the script has ended. Throws ScriptFailure and the stage's
+    /// errors, after which the script is over.
     void advance(Stage& stage);
     bool done() const { return waiting_ == 0 && next_ >= script_.lines.size(); }
 
   private:
-    /// Whether the line took a tick.
+    /// Returns whether the line took a tick.
     bool play(const ScriptLine& line, Stage& stage);
     void end() { next_ = script_.lines.size(), waiting_ = 0; }
 

@@ -19,7 +19,7 @@ const char* button_name(MouseButton button) {
     return "left";
 }
 
-/// One overload per event, so that an event without a line does not compile.
+/// One overload per event type, so that a missing one does not compile.
 struct LineOf {
     Json operator()(const MouseMove& e) const { return {{"mouse", "move"}, {"at", pixel(e.at)}}; }
     Json operator()(const MousePress& e) const {
@@ -80,7 +80,7 @@ Recorder::Recorder(const RecordingStart& start) {
 
 void Recorder::event(const Event& event) {
     const Json json = event_line(event);
-    // It took its tick all the same.
+    // It still took a tick.
     if (json.is_null()) return idle_tick();
     line(json);
 }

@@ -1,7 +1,7 @@
-// Writes down what a person does, as a script: one line per event and command, `wait` for the ticks between.
+// Records the user's actions as a script: one line per event and command, `wait` for the ticks between.
 //
-// What parse_script reads back is the very same events, to the last bit. The end of the program is not
-// written: a script ends where its lines do.
+// parse_script restores exactly the same events, bit for bit. The end of the program is not recorded: a
+// script ends with its last line.
 #pragma once
 
 #include <string>
@@ -14,9 +14,9 @@ class Recorder {
   public:
     explicit Recorder(const RecordingStart& start);
 
-    void event(const Event& event);  ///< a tick that took this event
-    void idle_tick();                ///< a tick that took none
-    void command(const std::string& name, const Json& arguments, bool refused);  ///< one not born of an event
+    void event(const Event& event);                                              ///< a tick with this event
+    void idle_tick();                                                            ///< a tick without event
+    void command(const std::string& name, const Json& arguments, bool refused);  ///< one that no event caused
     /// The whole script so far.
     std::string text() const;
 
@@ -27,8 +27,8 @@ class Recorder {
     int waiting_ = 0;
 };
 
-/// The script line of an event; null for one that leaves none (a key without a name, the window's close
-/// button).
+/// The script line of an event; null for events that are not recorded (a key without a name, the window's
+/// close button).
 Json event_line(const Event& event);
 
 }  // namespace tendril::app

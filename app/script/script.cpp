@@ -164,7 +164,7 @@ RecordingStart recording_start(const Json& line) {
 }
 
 struct Form {
-    const char* member;  ///< tells the line's form
+    const char* member;  ///< identifies the line's form
     Action (*parse)(const Json& line);
 };
 constexpr std::array<Form, 11> forms{{{"expect", expect_line},

@@ -1,5 +1,5 @@
-// Scripts: JSON lines, one object to a line, parsed whole before anything runs. A recording is a script whose
-// first line says what it started from.
+// Scripts: JSON lines, one object per line, parsed completely before anything runs. A recording is a script
+// whose first line contains the initial state.
 #pragma once
 
 #include <optional>
@@ -21,7 +21,7 @@ struct RunCommand {
     SharedJson arguments{};
     bool expect_refusal = false;
 };
-/// The mouse goes to where a handle is seen, or so many pixels from there.
+/// Moves the mouse to a handle's pixel, plus an offset in pixels.
 struct MoveToHandle {
     std::string handle;
     glm::vec2 offset{0.0f};
@@ -35,7 +35,8 @@ struct TakeScreenshot {
 struct WriteState {
     std::string path;
 };
-/// Runs within the tick it takes; commands, screenshots, states and expectations take none.
+/// Events and moves take one tick, Wait as many as it says; commands, screenshots, states and expectations
+/// take none.
 using Action = std::variant<Event, MoveToHandle, RunCommand, Wait, TakeScreenshot, WriteState, Expect>;
 
 struct ScriptLine {
@@ -47,17 +48,17 @@ inline constexpr int recording_version = 1;
 inline constexpr int max_wait_ticks = 1'000'000;
 inline constexpr int max_window_side = 16384;
 
-/// A recording's first line: what it started from.
+/// A recording's first line: its initial state.
 struct RecordingStart {
     std::string version;  ///< of the program that wrote it
     glm::ivec2 size{0};
     std::string lab;
     SharedJson scene;
     SharedJson settings;
-    std::string path{};     ///< the scene's file, empty while it had none
-    bool modified = false;  ///< it had changes that were not saved
-    float scale = 1.0f;     ///< the window's own wish for the size of text and widgets
-    bool live = false;      ///< made in a window: of what another program does the end is an event
+    std::string path{};     ///< the scene's file, empty if none
+    bool modified = false;  ///< it had unsaved changes
+    float scale = 1.0f;     ///< the window's own scale for text and widgets
+    bool live = false;      ///< made in a window: the end of another program is an event
 };
 
 struct Script {
@@ -65,9 +66,9 @@ struct Script {
     std::vector<ScriptLine> lines;
 };
 
-/// Throws std::runtime_error, "line 7: <reason>", for a line that is not JSON, not one of the known forms, of
-/// a wrong type, has a member too many, or names a command that the table does not have. Blank lines are
-/// skipped. A command's own arguments are checked when it runs.
+/// Throws std::runtime_error, "line 7: <reason>", for a line that is not JSON, has an unknown form, a wrong
+/// type or an unknown member, or names an unknown command. Blank lines are skipped. A command's own arguments
+/// are checked when it runs.
 Script parse_script(std::string_view text, const CommandTable& commands);
 
 }  // namespace tendril::app

@@ -16,8 +16,8 @@ namespace {
 
 struct Axis {
     glm::vec3 direction;
-    const char* letter;  ///< none on the far sides
-    const char* view;    ///< as camera.view has it: what is seen from there
+    const char* letter;  ///< empty for negative axes
+    const char* view;    ///< argument of camera.view: the view from there
     const char* title;
 };
 
@@ -25,7 +25,7 @@ constexpr std::array axes{Axis{{1, 0, 0}, "X", "side", "Right"},    Axis{{0, 1, 
                           Axis{{0, 0, 1}, "Z", "front", "Front"},   Axis{{-1, 0, 0}, "", "left", "Left"},
                           Axis{{0, -1, 0}, "", "bottom", "Bottom"}, Axis{{0, 0, -1}, "", "back", "Back"}};
 
-/// One of the six ends: where it is on the screen, and how near.
+/// One of the six ends: its position on the screen, and its depth.
 struct End {
     std::size_t axis = 0;
     ImVec2 at{};
@@ -37,7 +37,7 @@ glm::vec3 colour_of_axis(const Palette& colours, std::size_t axis) {
     return all[axis % 3];
 }
 
-/// A small window of its own, so that all around it the mouse is the view's.
+/// A small window of its own, so that the mouse around it still reaches the view.
 bool end_button(const End& end, float radius, bool& hovered) {
     const Axis& axis = axes[end.axis];
     ImGui::SetNextWindowPos({end.at.x - radius, end.at.y - radius});
@@ -55,7 +55,7 @@ bool end_button(const End& end, float radius, bool& hovered) {
     return clicked;
 }
 
-/// "Front", where one looks straight along an axis.
+/// "Front" if the view is straight along an axis, else the projection's name.
 std::string view_name(const CameraPose& pose, const std::array<End, 6>& ends) {
     const char* const title = ends.back().depth > 0.99999f ? axes[ends.back().axis].title : nullptr;
     if (title != nullptr) return title;
@@ -90,7 +90,7 @@ Rect show_axis_gizmo(const ShellFrame& frame, Emit& emit) {
     for (const End& end : ends) {
         const Axis& axis = axes[end.axis];
         bool hovered = false;
-        // What is nearer takes the click.
+        // The nearer end takes the click.
         const bool hidden = std::any_of(ends.begin(), ends.end(), [&](const End& other) {
             return other.depth > end.depth &&
                    glm::distance(glm::vec2(other.at.x, other.at.y), glm::vec2(end.at.x, end.at.y)) < radius;
@@ -102,7 +102,7 @@ Rect show_axis_gizmo(const ShellFrame& frame, Emit& emit) {
             ImGui::SetTooltip("%s view", axis.title);
         }
         const bool positive = axis.letter[0] != '\0';
-        // What is behind stands back.
+        // Ends at the back are fainter.
         const glm::vec3 colour =
             glm::mix(colours.background_top, colour_of_axis(colours, end.axis), 0.75f + 0.25f * end.depth);
         if (positive) {

@@ -1,14 +1,13 @@
-// Which way one looks: the axes in the corner of the view. A click on one looks along it.
+// The axes in the corner of the view, which show the viewing direction. A click on one looks along it.
 #pragma once
 
 #include "app/shell/shell.hpp"
 
 namespace tendril::app {
 
-/// Pixels from the right edge of the view to the left edge of the gizmo; 0 where the view is too small for
-/// it.
+/// Pixels from the right edge of the view to the left edge of the gizmo; 0 if the view is too small for it.
 float axis_gizmo_width(glm::vec2 pane, float scale);
-/// Nothing where the view is too small for it. Where it is.
+/// Draws the gizmo and returns its rectangle, which is empty if the view is too small.
 Rect show_axis_gizmo(const ShellFrame& frame, Emit& emit);
 
 }  // namespace tendril::app

@@ -17,12 +17,12 @@ namespace tendril::app {
 namespace {
 
 constexpr float max_panel_share = 0.5f;
-/// The handles of a larger part are not searched for the one that lights up.
+/// The handles of larger parts are not searched for the one to highlight.
 constexpr std::size_t max_shown_bytes = 1u << 20;
 
 enum class Fold { Steps, Current, Title };
 
-/// What the card is laid out with, in pixels.
+/// The card's dimensions, in pixels.
 struct Measure {
     float scale, line, padding, indent, wrap, title, footer, gap;
 
@@ -139,7 +139,7 @@ void footer(const ShellFrame& frame, const Measure& m, Emit& emit) {
     if (ImGui::IsItemHovered()) tooltip("Sets up the scene that this card is about; undo restores yours");
 }
 
-/// By its pick, if that is known, since to list all handles takes long where there are many.
+/// Finds a handle, by its pick if that is known, since listing many handles is slow.
 std::optional<Handle> handle_named(const ShellFrame& frame, const std::string& name, PickId& known) {
     const Workspace& workspace = frame.workspace;
     if (known != no_pick) {
@@ -156,7 +156,7 @@ std::optional<Handle> handle_named(const ShellFrame& frame, const std::string& n
     return std::nullopt;
 }
 
-/// The current step of the card that is shown, null where there is none to do.
+/// The current step of the shown card; null if there is no card or all steps are done.
 const CardStep* step_to_do(const ShellFrame& frame) {
     if (frame.card == nullptr) return nullptr;
     const std::size_t current = current_step(progress_of(frame), *frame.card);

@@ -7,20 +7,20 @@
 namespace tendril::app {
 namespace {
 
-/// The state of a large part takes long to write: one byte of it in so many waits a tick.
+/// Writing the state of a large part is slow: checks wait one tick for so many of its bytes.
 constexpr std::size_t bytes_a_tick = 8192;
-/// And that of one that is larger still is not looked at.
+/// Larger parts are never checked.
 constexpr std::size_t max_watched_bytes = 1u << 20;
 
 constexpr const char* events_path = "events";
 
-/// What a path leads to, null where it leads to nothing.
+/// The value at a path, null if there is none.
 Json value_at(const Json& state, const std::string& path) {
     const Json* const found = find_in_state(state, path);
     return found == nullptr ? Json(nullptr) : *found;
 }
 
-/// Of the newest event that the state knows, -1 where it knows none.
+/// The tick of the newest event in the state, -1 if there is none.
 double newest_event(const Json& state) {
     double newest = -1.0;
     for (const Json& each : value_at(state, "events"))
@@ -28,11 +28,11 @@ double newest_event(const Json& state) {
     return newest;
 }
 
-/// Whether something of the kind was noted since the card was shown.
+/// Whether an event of the kind has occurred since the card was shown.
 bool has_event(const CardProgress& progress, const Json& state, const std::string& kind) {
     const Json now = value_at(state, "time.moment"), events = value_at(state, "events");
     double last = progress.start.at(events_path)->get<double>();
-    if (now.is_number() && now.get<double>() < last) last = -1.0;  // time began anew
+    if (now.is_number() && now.get<double>() < last) last = -1.0;  // time was reset
     return std::any_of(events.begin(), events.end(), [&](const Json& each) {
         return value_at(each, "kind") == kind && value_at(each, "tick").get<double>() > last;
     });

@@ -1,4 +1,4 @@
-// Sees when a step of a card has happened.
+// Detects when the steps of a card are done.
 #pragma once
 
 #include <functional>
@@ -8,14 +8,14 @@
 
 namespace tendril::app {
 
-/// Marks the steps that have happened by now. `state` is asked for only when the part is another than was
-/// seen last and there is a step to be done; of a large part not every tick.
+/// Marks the steps that are done. Calls `state` only if the part has changed since the last check and a step
+/// is left; for a large part not every tick.
 void watch_card(CardProgress& progress, const Card& card, const std::shared_ptr<const Part>& part,
                 const std::function<Json()>& state);
-/// Whether the next tick may find a step done without any event.
+/// Whether the next tick may find a step done even without an event.
 bool card_waits(const CardProgress& progress, const std::shared_ptr<const Part>& part);
 
-/// The first step that has not happened; as many as there are where all have.
+/// Index of the first step that is not done; the number of steps if all are.
 std::size_t current_step(const CardProgress& progress, const Card& card);
 
 }  // namespace tendril::app

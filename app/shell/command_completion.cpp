@@ -11,7 +11,7 @@
 namespace tendril::app {
 namespace {
 
-/// In that order: those that begin with what is typed, then those that have it elsewhere.
+/// Keeps rows that contain the typed text; those that begin with it come first.
 void sort_by(std::vector<CompletionRow>& rows, const std::string& typed) {
     const std::string wanted = lower_case(typed);
     const auto place = [&](const CompletionRow& row) { return lower_case(row.text).find(wanted); };
@@ -20,12 +20,12 @@ void sort_by(std::vector<CompletionRow>& rows, const std::string& typed) {
                           [&](const CompletionRow& row) { return place(row) == 0; });
 }
 
-/// What is typed of a value, without the quote that begins a text.
+/// The typed value without the opening quote of a text.
 std::string bare(const std::string& value) {
     return value.starts_with('"') ? value.substr(1) : value;
 }
 
-/// What of a value is being typed, behind what stands before it: all of it, or the last element of a list.
+/// The part of a value being typed, and the part before it: the whole value, or the last element of a list.
 struct TypedValue {
     std::string before{}, text{};
     bool element = false, closed = false;  ///< closed: a list that has its "]"
@@ -47,7 +47,7 @@ TypedValue typed_value(const Argument& argument, const std::string& value) {
     return {value.substr(0, from), value.substr(from), true};
 }
 
-/// A name or a number, as it stands in a list.
+/// A name or a number in the syntax of list elements.
 std::string as_element(const std::string& value, const Argument& of) {
     return of.type == ArgumentType::Text ? Json(value).dump() : value;
 }
@@ -61,7 +61,8 @@ std::vector<std::string> known_values(const Argument& argument, const Workspace&
     return values;
 }
 
-/// Those that have what is typed, and of half a million joints only the first.
+/// At most max_rows values that contain the typed text and as many that begin with it, since a chain may have
+/// half a million joints.
 std::vector<std::string> first_of(std::vector<std::string> values, const std::string& typed) {
     if (values.size() <= max_rows) return values;
     const std::string wanted = lower_case(typed);
@@ -75,13 +76,13 @@ std::vector<std::string> first_of(std::vector<std::string> values, const std::st
     return first;
 }
 
-/// How a list can go on behind an element.
+/// Offers the ways to continue a list after an element.
 void offer_ends(std::vector<CompletionRow>& rows, const std::string& line) {
     rows.insert(rows.begin(),
                 {{"]", "ends the list", "", line + "] "}, {",", "adds another", "", line + ","}});
 }
 
-/// The names or numbers of a list that is whole; of any other text none.
+/// The elements of a complete list; empty for any other text.
 std::vector<std::string> elements_of(const std::string& list) {
     const Json parsed = Json::parse(list, nullptr, false);
     std::vector<std::string> elements;
@@ -95,7 +96,7 @@ bool contains(const std::vector<std::string>& list, const std::string& value) {
     return std::find(list.begin(), list.end(), value) != list.end();
 }
 
-/// For the last element of a list: what the list has not yet.
+/// For the last element of a list: values that it does not contain yet.
 std::vector<CompletionRow> element_rows(const TypedLine& typed, const TypedValue& value, const Argument& list,
                                         const std::string& line, const Workspace& workspace) {
     const Argument* of = find_argument(*typed.command, list.list_of);
@@ -139,7 +140,7 @@ std::string detail_of(const Argument& argument, const Workspace& workspace) {
 
 std::vector<CompletionRow> argument_rows(const TypedLine& typed, const std::string& line,
                                          const Workspace& workspace) {
-    // The next argument goes behind what is typed, in the place of a name that is not finished.
+    // The next argument follows the typed text, or replaces an unfinished name.
     const bool behind = typed.last.assigned;
     const std::string before = behind ? line + " " : line.substr(0, typed.last_at);
     std::vector<CompletionRow> required, optional, given;
@@ -163,7 +164,7 @@ std::vector<CompletionRow> argument_rows(const TypedLine& typed, const std::stri
         sort_by(matching, typed.last.name);
         if (!matching.empty()) return matching;
     }
-    // What is being typed is what the list is about.
+    // The argument being typed comes first.
     const auto current = std::find_if(given.begin(), given.end(), [&](const CompletionRow& row) {
         return behind && row.text == typed.last.name + "=" + typed.last.value;
     });
@@ -184,7 +185,7 @@ std::string common_prefix(const std::vector<std::string>& texts) {
         const auto end = std::mismatch(prefix.begin(), prefix.end(), text.begin(), text.end()).first;
         prefix.erase(end, prefix.end());
     }
-    // Not in the middle of a character.
+    // Do not cut within a UTF-8 character.
     while (!prefix.empty() && texts.front().size() > prefix.size() &&
            (static_cast<unsigned char>(texts.front()[prefix.size()]) & 0xC0) == 0x80)
         prefix.pop_back();
@@ -217,7 +218,7 @@ std::string completed(const TypedLine& typed, const std::string& line, const std
         if (!row.given && !text.empty() && row.text.starts_with(text)) beginning.push_back(row.text);
     const std::string common = common_prefix(beginning);
     if (beginning.size() < 2 || common.size() <= text.size()) return rows[chosen].line;
-    // A name with a blank, or in a list, needs its quote, which ends once the name does.
+    // A name with a blank, or in a list, needs an opening quote; the closing one follows the complete name.
     const Argument* of = value.element ? find_argument(*typed.command, argument->list_of) : nullptr;
     std::string inserted = of ? as_element(common, *of) : typed.last.assigned ? quoted(common) : common;
     if (inserted != common) inserted.pop_back();

@@ -1,4 +1,4 @@
-// How a typed command may go on: its arguments, and the values that one of them can be given.
+// Completions of a typed command: its arguments, and the values of the argument being typed.
 #pragma once
 
 #include <cstddef>
@@ -11,30 +11,30 @@ namespace tendril::app {
 
 struct Workspace;
 
-/// A way to go on.
+/// One completion.
 struct CompletionRow {
     std::string text;    ///< "length=", "reach"
     std::string detail;  ///< "a number, 0 to 1", "now"
     std::string help;
-    std::string line;    ///< the whole line, once this is chosen
-    bool given = false;  ///< it stands in the line already
+    std::string line;    ///< the whole line after choosing this row
+    bool given = false;  ///< the line already contains it
 };
 
-/// More would not be read; typing narrows them down.
+/// Nobody would read more; typing narrows them down.
 inline constexpr std::size_t max_rows = 200;
 
-/// At most that many. Values that begin with what is typed come first, then those that have it in the middle;
-/// where an argument has none to offer, and before its "=", the arguments: required ones first, given ones
-/// last. What the document has to be named is asked of `workspace`. Of a line without a command: nothing.
+/// At most max_rows completions; none for a line without a command. Values that begin with the typed text
+/// come first, then those that contain it. If the argument has no values to offer, or before its "=", the
+/// arguments: required ones first, given ones last. Names of existing objects come from `workspace`.
 std::vector<CompletionRow> completions(const TypedLine& typed, const std::string& line,
                                        const Workspace& workspace);
 
-/// The line as Tab completes it: by what all rows that begin with what is typed have in common, or, where
-/// that is no more than is there, by the chosen row.
+/// The line after Tab: extended to the common prefix of all rows that begin with the typed text or, if that
+/// adds nothing, to the chosen row.
 std::string completed(const TypedLine& typed, const std::string& line, const std::vector<CompletionRow>& rows,
                       std::size_t chosen);
 
-/// What all of them begin with.
+/// The longest common prefix.
 std::string common_prefix(const std::vector<std::string>& texts);
 
 }  // namespace tendril::app

@@ -16,7 +16,7 @@ struct Piece {
     std::size_t begin = 0;
 };
 
-/// Splits at blanks, but not within brackets or quotes. The last piece is empty behind a blank.
+/// Splits at blanks outside brackets and quotes. The last piece is empty after a trailing blank.
 std::vector<Piece> pieces(const std::string& line) {
     std::vector<Piece> found{{}};
     int depth = 0;
@@ -48,7 +48,7 @@ Json value_of(const std::string& text) {
     return parsed.is_discarded() ? Json(text) : parsed;
 }
 
-/// Whether what is typed of a value may become one that fits.
+/// Whether more typing may turn the text into a valid value.
 bool may_become(const Argument& argument, const std::string& text) {
     if (text.empty()) return true;
     const auto begins = [&](const std::string& whole) { return whole.starts_with(text); };

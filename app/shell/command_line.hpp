@@ -1,5 +1,5 @@
-// A command as it is typed in the palette, `chain.add length=1.5 position=[0,1,0]`: a name, then arguments as
-// JSON, where a bare word is a text. What is there so far is read while it is typed.
+// Commands as typed in the palette, `chain.add length=1.5 position=[0,1,0]`: a name, then arguments as JSON,
+// where a bare word is a text. Unfinished lines are parsed too, while the user types.
 #pragma once
 
 #include <cstddef>
@@ -19,39 +19,39 @@ struct TypedCommand {
     std::string name;
     SharedJson arguments;
 };
-/// Throws std::runtime_error naming the piece that it cannot read.
+/// Throws std::runtime_error naming the piece that is not valid.
 TypedCommand read_typed_command(const std::string& line);
 
-/// "length=1.5", or "len" where no "=" has been typed yet.
+/// "length=1.5", or "len" before its "=" is typed.
 struct TypedArgument {
     std::string name;
     std::string value;
-    bool assigned = false;  ///< there is a "=" behind the name
+    bool assigned = false;  ///< the name is followed by "="
 };
 
-/// A line whose first word is a command's name, with a blank behind it.
+/// A line that begins with a command's name and a blank.
 struct TypedLine {
-    const Command* command = nullptr;    ///< of the table; null where the line is no more than a search
-    std::vector<TypedArgument> given{};  ///< those with a blank behind them
-    TypedArgument last{};                ///< the one that is being typed; empty behind a blank
-    std::size_t last_at = 0;             ///< where in the line it begins
+    const Command* command = nullptr;    ///< in the table; null if the line is only a search
+    std::vector<TypedArgument> given{};  ///< arguments followed by a blank
+    TypedArgument last{};                ///< the argument being typed; empty after a blank
+    std::size_t last_at = 0;             ///< its offset in the line
 
-    /// What stands for that argument, `last` included where it has its "="; null where it is not given.
+    /// The typed argument of that name, including `last` if it has its "="; null if not given.
     const TypedArgument* find(const std::string& name) const;
 };
 TypedLine read_typed_line(const CommandTable& table, const std::string& line);
 
-/// The argument of a command of that name; null where it has none.
+/// The command's argument of that name; null if it has none.
 const Argument* find_argument(const Command& command, const std::string& name);
 
-/// What is wrong with it already, in words; empty where going on typing may still make it right. What is only
-/// missing is not wrong yet.
+/// What is already wrong with the line; empty if more typing may still make it valid. Missing arguments are
+/// not mistakes.
 std::string mistake(const TypedLine& line);
-/// "length is missing (a number): metres", of the first required argument without a value; empty where there
-/// is none.
+/// "length is missing (a number): metres", for the first required argument without a value; empty if there is
+/// none.
 std::string missing(const TypedLine& line);
 
-/// A text as the line takes it: in quotes where it has blanks, or would be read as something else.
+/// A text in the line's syntax: quoted if it has blanks or would be parsed as something else.
 std::string quoted(const std::string& text);
 
 }  // namespace tendril::app

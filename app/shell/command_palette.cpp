@@ -17,11 +17,11 @@ namespace {
 
 constexpr std::size_t max_recent = 8;
 
-/// Below the list: the chosen row's help, and a line that says what is wrong or which keys there are.
+/// Height below the list: the chosen row's help, and a line with the mistake or the available keys.
 float height_below(const std::string& help) {
     const float line = ImGui::GetTextLineHeightWithSpacing(), width = ImGui::GetContentRegionAvail().x;
     const float wrapped = ImGui::CalcTextSize(help.c_str(), nullptr, false, width).y;
-    // Room for two lines keeps the list still; where few rows fit, they come first.
+    // Room for two lines of help keeps the list from moving; in a low window the rows need that room.
     const float fewest = ImGui::GetWindowHeight() < 18.0f * line ? 1.0f : 2.0f;
     return line +
            std::clamp(wrapped, fewest * ImGui::GetTextLineHeight(), 4.0f * ImGui::GetTextLineHeight()) +
@@ -31,7 +31,7 @@ float height_below(const std::string& help) {
 void begin_palette(const std::vector<PaletteRow>& rows, bool headed, glm::vec2 screen, float scale) {
     const float width = std::min(820.0f * scale, 0.9f * screen.x);
     const float line = ImGui::GetTextLineHeightWithSpacing();
-    const float others = (headed ? 7.0f : 6.0f) * line;  // the line, its command, its help
+    const float others = (headed ? 7.0f : 6.0f) * line;  // the input line, its command, its help
     const float wanted = palette_list_height(rows, width - 2.0f * ImGui::GetStyle().WindowPadding.x) + others;
     ImGui::SetNextWindowPos({0.5f * screen.x, 0.1f * screen.y}, ImGuiCond_Always, {0.5f, 0.0f});
     ImGui::SetNextWindowSize(
@@ -46,7 +46,7 @@ void begin_palette(const std::vector<PaletteRow>& rows, bool headed, glm::vec2 s
     ImGui::PopStyleVar(2);
 }
 
-/// The command whose arguments are typed.
+/// Shows the command whose arguments are being typed.
 void header(const Command& command) {
     const float room = ImGui::GetContentRegionAvail().x;
     ImGui::TextUnformatted(command.title.c_str());
@@ -55,7 +55,7 @@ void header(const Command& command) {
     ImGui::TextDisabled("%s", elided_at_word(command.help, left).c_str());
 }
 
-/// As Enter and Tab put it into the line, to go on with: "chain.add length=", "undo".
+/// The line that Enter and Tab begin for a command: "chain.add length=", "undo".
 std::string begun(const Command& command, bool optional_too) {
     const auto needed = std::find_if(command.arguments.begin(), command.arguments.end(),
                                      [](const Argument& a) { return a.required; });
@@ -109,7 +109,7 @@ std::string CommandPalette::tabbed(const ShellFrame& frame) const {
 }
 
 int CommandPalette::on_tab(const ShellFrame& frame, ImGuiInputTextCallbackData& data) {
-    // The field has its own copy while it has the keyboard: this is what is typed.
+    // While focused the field edits its own copy, which has the typed text.
     std::copy(data.Buf, data.Buf + data.BufTextLen + 1, line_.begin());
     const std::string line = tabbed(frame);
     if (line.size() >= line_.size() || line == data.Buf) return 0;
@@ -128,8 +128,7 @@ bool CommandPalette::line_field(const ShellFrame& frame, bool appearing) {
     const auto called = [](ImGuiInputTextCallbackData* data) {
         const auto& [palette, of] = *static_cast<Context*>(data->UserData);
         if (data->EventFlag == ImGuiInputTextFlags_CallbackCompletion) return palette.on_tab(of, *data);
-        // Dear ImGui selects the whole line when it hands over the keyboard: what is typed next would
-        // replace it.
+        // Dear ImGui selects the whole line when it gets the focus; typing would replace it.
         if (palette.take_caret_)
             data->CursorPos = data->SelectionStart = data->SelectionEnd = data->BufTextLen;
         palette.take_caret_ = false;
@@ -141,8 +140,7 @@ bool CommandPalette::line_field(const ShellFrame& frame, bool appearing) {
         ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CallbackAlways |
             ImGuiInputTextFlags_CallbackCompletion,
         called, &context);
-    if (entered)
-        ImGui::SetKeyboardFocusHere(-1);  // Enter lets go of the line; whatever comes of it, take it back
+    if (entered) ImGui::SetKeyboardFocusHere(-1);  // Enter drops the focus; take it back in any case
     if (ImGui::IsItemEdited()) {
         chosen_ = 0;
         moved_ = false;
@@ -210,7 +208,7 @@ void CommandPalette::choose(const ShellFrame& frame, const Offer& offer, std::si
     const bool needs = std::any_of(command.arguments.begin(), command.arguments.end(),
                                    [](const Argument& a) { return a.required; });
     if (needs) return put(begun(command, false));
-    // As the key does that stands beside it: Ctrl+Q asks before it quits.
+    // Use the arguments of the command's shortcut: Ctrl+Q asks before it quits.
     const auto& keys = frame.shortcuts.all();
     const auto key = std::find_if(keys.begin(), keys.end(), [&](const Shortcut& each) {
         return each.command == command.name && frame.works_here(each);
@@ -235,7 +233,7 @@ void CommandPalette::enter(const ShellFrame& frame, const Offer& offer, Emit& em
     take_caret_ = true;
     const std::string line = line_.data();
     const auto row = static_cast<std::size_t>(chosen_);
-    if (line.empty() && !moved_ && recent_.empty()) return;  // nothing was asked for
+    if (line.empty() && !moved_ && recent_.empty()) return;  // nothing was entered
     if (offer.typed.command == nullptr) {
         if (line.find('=') == std::string::npos && row < offer.found.size())
             return choose(frame, offer, row, emit);
@@ -244,7 +242,7 @@ void CommandPalette::enter(const ShellFrame& frame, const Offer& offer, Emit& em
     const bool goes_on = row < offer.ways.size() && offer.ways[row].line != line;
     if (goes_on && moved_) return choose(frame, offer, row, emit);
     run(frame, emit);
-    // Nothing is wrong, but it cannot be run yet: what is begun, or missing, is next.
+    // The line is valid but incomplete: continue with the unfinished or missing argument.
     if (!complaint_.empty() && goes_on && !offer.ways[row].given && mistake(offer.typed).empty())
         choose(frame, offer, row, emit);
 }

@@ -1,5 +1,5 @@
-// Ctrl+K: finds a command by what it does, shows what it takes and what that may be, and runs it as it would
-// stand in a script.
+// Ctrl+K: finds a command by what it does, completes its arguments and their values, and runs it as in a
+// script.
 #pragma once
 
 #include <array>
@@ -24,40 +24,40 @@ class CommandPalette {
     void frame(const ShellFrame& frame, Emit& emit);
 
   private:
-    /// What the line leads to.
+    /// What the list offers for the line.
     struct Offer {
         TypedLine typed{};
-        std::vector<const Command*> found{};  ///< where it is a search
-        std::vector<CompletionRow> ways{};    ///< where it is a command
+        std::vector<const Command*> found{};  ///< if the line is a search
+        std::vector<CompletionRow> ways{};    ///< if it is a command
         std::size_t size() const { return typed.command == nullptr ? found.size() : ways.size(); }
     };
     Offer offer(const ShellFrame& frame) const;
     void forget();
-    /// The line that is typed in; whether Enter ended it.
+    /// The input line; returns whether Enter was pressed.
     bool line_field(const ShellFrame& frame, bool appearing);
     int on_tab(const ShellFrame& frame, ImGuiInputTextCallbackData& data);
-    /// The line as Tab completes it.
+    /// The line after Tab.
     std::string tabbed(const ShellFrame& frame) const;
     void move_choice(int count);
-    /// What the list shows of the offer.
+    /// The offer as rows of the list.
     std::vector<PaletteRow> rows(const ShellFrame& frame, const Offer& offer) const;
-    /// The line below the list: what is wrong, what is missing, or which keys do what.
+    /// The line below the list: a mistake, a missing argument, or the available keys.
     void status(const Offer& offer) const;
     void enter(const ShellFrame& frame, const Offer& offer, Emit& emit);
     void choose(const ShellFrame& frame, const Offer& offer, std::size_t row, Emit& emit);
-    /// Runs the line as it stands; complains where it cannot be run, and lets it be mended.
+    /// Runs the line; if it is invalid, shows why and keeps it for editing.
     void run(const ShellFrame& frame, Emit& emit);
     void run(const std::string& name, SharedJson arguments, Emit& emit);
     void put(const std::string& line);
 
     std::array<char, 512> line_{};
     int chosen_ = 0;
-    int listed_choice_ = 0;  ///< as the list last showed it
-    bool moved_ = false;     ///< a row was chosen by hand since the line was last edited
+    int listed_choice_ = 0;  ///< when the list was last drawn
+    bool moved_ = false;     ///< the user moved the choice since last editing the line
     bool was_open_ = false;
-    bool take_caret_ = false;  ///< the line wants the keyboard, the caret after its last character
+    bool take_caret_ = false;  ///< give the line the focus, with the caret at its end
     std::string complaint_;
-    std::vector<std::string> recent_;  ///< commands that ran from here, the newest first
+    std::vector<std::string> recent_;  ///< commands run from the palette, newest first
 };
 
 }  // namespace tendril::app

@@ -13,14 +13,15 @@
 namespace tendril::app {
 namespace {
 
-/// Whether it begins a word of the text: at its start, or behind what is no letter and no digit.
+/// Whether a word of the text begins with `word`: at the start, or after a character that is not
+/// alphanumeric.
 bool begins_word(const std::string& text, const std::string& word) {
     for (std::size_t at = text.find(word); at != text.npos; at = text.find(word, at + 1))
         if (at == 0 || std::isalnum(static_cast<unsigned char>(text[at - 1])) == 0) return true;
     return false;
 }
 
-/// How far from what is meant, 0 the nearest; nothing where a word is not there at all.
+/// Distance of a command from the query, 0 the best match; none if a word does not occur.
 std::optional<int> distance(const Command& command, const std::vector<std::string>& words) {
     const std::string title = lower_case(command.title), name = lower_case(command.name),
                       help = lower_case(command.help);

@@ -41,7 +41,7 @@ void FileDialog::go_to(const fs::path& folder) {
     });
 }
 
-/// The command closes the dialog where it succeeds: a refused name stays, to be mended.
+/// The command closes the dialog if it succeeds: a refused name stays for editing.
 void FileDialog::send(const fs::path& path, Emit& emit) {
     if (filming()) return emit("view.video", video_.arguments(path));
     emit(saving() ? "scene.save" : "scene.open", {{"path", path.string()}});
@@ -60,7 +60,7 @@ void FileDialog::take(const Workspace& workspace, Emit& emit) {
         path = video_.with_ending(path);
     else if (saving() && path.extension().empty())
         path += ".json";
-    // The scene's own file is replaced unasked.
+    // The scene's own file is replaced without asking.
     const bool mine = !filming() && path == workspace.path;
     if (saving() && !mine && path != confirmed_ && fs::exists(path, error)) {
         confirmed_ = path;
@@ -130,7 +130,7 @@ void FileDialog::frame(const Workspace& workspace, glm::vec2 screen, float scale
     if (ImGui::InputTextWithHint("##name", "file name", name_.data(), name_.size(),
                                  ImGuiInputTextFlags_EnterReturnsTrue)) {
         done = true;
-        ImGui::SetKeyboardFocusHere(-1);  // a name that is refused can be mended at once
+        ImGui::SetKeyboardFocusHere(-1);  // keep the focus, to edit a refused name
     }
     explain("The name of the file. Enter takes it.");
     done |= ImGui::Button(action());

@@ -1,4 +1,4 @@
-// Asks for the path of a scene or of a video: the folders and files there are, and a field to type in.
+// Asks for the path of a scene or a video, with a list of folders and files and a text field.
 #pragma once
 
 #include <array>
@@ -25,7 +25,7 @@ class FileDialog {
     void start(const Workspace& workspace);
     void go_to(const std::filesystem::path& folder);
     bool lists(const std::filesystem::path& file) const;
-    /// The folders and files; true once a file is chosen for good.
+    /// The folders and files; true once a file is double-clicked.
     bool list();
     void take(const Workspace& workspace, Emit& emit);
     void send(const std::filesystem::path& path, Emit& emit);

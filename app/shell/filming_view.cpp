@@ -1,4 +1,4 @@
-// How far the video is that is being written, and a button to cancel it.
+// The progress of the video being written, and a button to cancel it.
 #include <imgui.h>
 
 #include <algorithm>

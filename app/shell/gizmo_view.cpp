@@ -6,18 +6,18 @@
 namespace tendril::app {
 namespace {
 
-/// The handle that is dragged, as it is now: the gizmo's, or one that the lab has drawn.
+/// The current state of the dragged handle: the gizmo's, or one that the lab has drawn.
 std::optional<Handle> dragged_handle(const Lab& lab, const Workspace& workspace, const Pointer& pointer) {
     return pointer.drags_gizmo() ? lab.gizmo(workspace) : lab.handle(workspace, pointer.dragged());
 }
 
-/// The lab says itself where a knob of its own is moved to; how far something was turned it does not know.
+/// The lab itself reports moves of its own handles, but not how far they are turned.
 bool tells(const Pointer& pointer) {
     const GizmoDrag* drag = pointer.dragged_part();
     return drag != nullptr && (pointer.drags_gizmo() || changed_by(drag->part()) == Drag::Rotation);
 }
 
-/// Of a part that the mouse is over, where several are selected.
+/// The hint for a hovered part when several handles are selected.
 std::string together_hint(const Together& together, Drag what) {
     if (together.handles.size() < 2) return together.staying;
     const std::string count = std::to_string(together.handles.size());
@@ -82,7 +82,7 @@ void show_constraint(DrawList& list, const View& view, const Pointer& pointer, c
     const std::string bound = pointer.constraint(input);
     if (bound.empty()) return;
     const glm::vec3 at = pointer.caught_position();
-    // Beyond the edges of the view.
+    // Far enough to extend beyond the view.
     const float far = 20.0f * view.camera.depth(at);
     const auto line = [&](glm::vec3 axis, glm::vec3 colour) {
         list.line(at - far * axis, at + far * axis, 1.5f * view.scale, glm::vec4(colour, 0.9f)).layer =

@@ -1,4 +1,4 @@
-// Every difference between the versions of Dear ImGui that Tendril builds with (1.86 to 1.92), in one place.
+// All differences between the versions of Dear ImGui that Tendril builds with (1.86 to 1.92).
 #pragma once
 
 #include <imgui.h>
@@ -38,16 +38,15 @@ inline constexpr ImGuiKeyPair imgui_keys[] = {
     {ImGuiKey_Z, Key::Z},
 };
 
-/// Once, after the context is made.
+/// Call once, after creating the context.
 inline void imgui_setup_keys() {
 #if IMGUI_VERSION_NUM < 18700
     for (const auto& pair : imgui_keys) ImGui::GetIO().KeyMap[pair.imgui] = static_cast<int>(pair.key);
 #endif
 }
 
-/// Tells ImGui what is held; to be called before every NewFrame, so that nothing but our own input counts.
-/// `typing`: this tick brings text, which ImGui would take for a shortcut while Ctrl is held (as it is when
-/// something is pasted).
+/// Sends the held keys and buttons to ImGui; call before every NewFrame, so that only our own input counts.
+/// `typing`: this tick has text, which ImGui would treat as a shortcut while Ctrl is held (as when pasting).
 inline void imgui_feed(const Input& input, bool typing) {
     ImGuiIO& io = ImGui::GetIO();
     const bool buttons[] = {input.button(MouseButton::Left), input.button(MouseButton::Right),
@@ -61,7 +60,7 @@ inline void imgui_feed(const Input& input, bool typing) {
     io.KeyAlt = input.alt();
     io.KeySuper = input.held(Key::Super);
 #else
-    io.ConfigInputTrickleEventQueue = false;  // a tick takes one event: there is nothing to spread
+    io.ConfigInputTrickleEventQueue = false;  // a tick has at most one event
     io.AddMousePosEvent(input.mouse().x, input.mouse().y);
     for (int i = 0; i < 3; ++i) io.AddMouseButtonEvent(i, buttons[i]);
     for (const auto& pair : imgui_keys) io.AddKeyEvent(pair.imgui, input.held(pair.key));
@@ -73,7 +72,7 @@ inline void imgui_feed(const Input& input, bool typing) {
 
 inline void imgui_feed_wheel(float by, float sideways) {
     by = std::clamp(by, -100.0f, 100.0f);
-    sideways = std::clamp(sideways, -100.0f, 100.0f);  // a list scrolled by more loses itself in rounding
+    sideways = std::clamp(sideways, -100.0f, 100.0f);  // scrolling by more loses precision
 #if IMGUI_VERSION_NUM < 18700
     ImGui::GetIO().MouseWheel += by;
     ImGui::GetIO().MouseWheelH += sideways;

@@ -23,7 +23,7 @@ void Input::take(const Event* event) {
         hold(key->key, key->down);
         if (key->down && !repeated_) in_chord_[static_cast<std::size_t>(key->key)] = ctrl() || alt();
         if (key->down) pressed_ = {key->key, ctrl(), shift(), alt()};
-        // "?" is known by what it writes, whatever is held to write it.
+        // "?" is identified by its text, whichever modifiers typed it.
         if (key->key == Key::Question) pressed_.shift = pressed_.alt = false;
     } else if (const auto* key_tap = std::get_if<KeyTap>(event)) {
         before_tap_ = keys_;
@@ -36,7 +36,7 @@ void Input::take(const Event* event) {
         hold(chord.key, true);
         pressed_ = {chord.key, ctrl(), shift(), alt()};
     } else if (const auto* focus = std::get_if<Focus>(event); focus != nullptr && !focus->focused) {
-        keys_.reset();  // whatever is let go elsewhere is not told here
+        keys_.reset();  // releases in other windows are not reported
         buttons_ = {};
     }
 }

@@ -1,4 +1,4 @@
-// What is held down right now, built up from events.
+// The keys and buttons held now, accumulated from events.
 #pragma once
 
 #include <array>
@@ -13,20 +13,20 @@ class Input {
   public:
     /// Takes one event, or none.
     void take(const Event* event);
-    /// Lets go what a KeyTap pressed; to be called within its tick, once it has been seen.
+    /// Releases the keys of a KeyTap; call within its tick, after handling it.
     void end_tap();
 
     glm::vec2 mouse() const { return mouse_; }
     bool button(MouseButton b) const { return buttons_[static_cast<std::size_t>(b)]; }
     bool held(Key key) const { return keys_[static_cast<std::size_t>(key)]; }
-    /// It is held and was not pressed as part of a chord, with Ctrl or Alt.
+    /// Whether it is held and was not pressed as part of a chord with Ctrl or Alt.
     bool held_alone(Key key) const { return held(key) && !in_chord_[static_cast<std::size_t>(key)]; }
     bool ctrl() const { return held(Key::Ctrl); }
     bool shift() const { return held(Key::Shift); }
     bool alt() const { return held(Key::Alt); }
     /// The chord that this tick's event pressed; Key::Unknown if none.
     Chord pressed() const { return pressed_; }
-    /// The key was down already: its owner holds it.
+    /// The key was already down: a repeat.
     bool repeated() const { return repeated_; }
     const std::bitset<static_cast<std::size_t>(Key::Count)>& keys() const { return keys_; }
 

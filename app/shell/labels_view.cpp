@@ -10,7 +10,7 @@ namespace tendril::app {
 
 namespace {
 
-/// The balls of a picture, as pixels: what a label had better not cover.
+/// The rectangles of the picture's balls, in pixels, which labels should avoid.
 std::vector<Rect> balls_of(const DrawList& drawn, const Camera& camera) {
     std::vector<Rect> boxes;
     for (const Stroke& stroke : drawn.strokes) {
@@ -47,7 +47,7 @@ void show_labels(const DrawList& drawn, const Camera& camera, const Palette& pal
     for (const PlacedLabel& placed : place_labels(requests, camera.viewport(), 2.0f, covers)) {
         const Label& label = *asked[placed.request];
         const Rect& box = placed.box;
-        // A plate keeps the text legible over whatever lies behind it.
+        // A background plate keeps the text legible.
         list->AddRectFilled({box.min.x, box.min.y}, {box.max.x, box.max.y}, imgui_u32(palette.bar, 0.62f),
                             3.0f * scale);
         list->AddText({box.min.x + padding.x, box.min.y + padding.y}, imgui_u32(label.colour),

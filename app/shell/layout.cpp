@@ -7,10 +7,10 @@ namespace tendril::app {
 
 Layout lay_out(glm::vec2 window, float scale, const Settings& settings, float timeline, float canvas) {
     constexpr float bar = 44.0f, status = 28.0f, folded = 12.0f;
-    constexpr float min_view = 0.34f;  // of the width: what the middle keeps, whatever the panels ask for
+    constexpr float min_view = 0.34f;  // fraction of the width that the middle always keeps
 
-    // There is room for one panel only in a narrow window, and where the text is so large that two would be
-    // narrower than their labels need. That one may then be as wide as both.
+    // Only one panel fits in a narrow window, or if the text is so large that two would be too narrow for
+    // their labels. That one may then be as wide as both.
     constexpr float narrow = 900.0f, usual_width = 272.0f;
     const float both = std::max(0.0f, (1.0f - min_view) * window.x);
     const bool one_panel = window.x < narrow || 2.0f * usual_width * scale > both;
@@ -23,7 +23,7 @@ Layout lay_out(glm::vec2 window, float scale, const Settings& settings, float ti
     const float right = side(right_open, settings.right_width);
     const float top = std::round(bar * scale);
     const float low = std::max(top, window.y - std::round(status * scale));
-    // The scene keeps half of the height, whatever is plotted below it.
+    // The scene always keeps half of the height.
     const float strip = std::min(std::round(timeline * scale), std::max(0.0f, 0.5f * (low - top)));
     const float middle = low - std::floor(strip);
 

@@ -1,4 +1,4 @@
-// Where everything is: the window divided into bars, panels and the 3D view.
+// Divides the window into bars, panels and the 3D view.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -12,13 +12,12 @@ struct Layout {
     Rect top, left, right, timeline, status, canvas, view;
     float scale = 1.0f;
     bool left_open = true, right_open = true;
-    bool one_panel = false;  ///< there is room for one side panel only
+    bool one_panel = false;  ///< only one side panel fits
 };
 
-/// Everything in window coordinates. `timeline`: how high the strip of time is, at scale 1. In a narrow
-/// window the panels give way before the middle does; of a folded panel a slim strip stays, to bring it back
-/// with. `canvas` is the part of the middle, from the left, that the lab's own picture takes from the 3D
-/// view: 0 to 1.
+/// Everything is in window coordinates. `timeline`: height of the time strip at scale 1. In a narrow window
+/// the panels shrink before the middle does; a folded panel leaves a slim strip to unfold it. `canvas`, 0 to
+/// 1, is the share of the middle, from the left, that the lab's own picture takes from the 3D view.
 Layout lay_out(glm::vec2 window, float scale, const Settings& settings, float timeline, float canvas = 0.0f);
 
 }  // namespace tendril::app

@@ -40,7 +40,7 @@ std::string gesture(const Binding& binding, const char* space) {
     return name;
 }
 
-/// The first that a preset has for it.
+/// The preset's first gesture for the action.
 std::string first_gesture(MousePreset preset, MouseAction action) {
     for (const Binding& binding : bindings)
         if (binding.preset == preset && binding.action == action) return gesture(binding, "-");

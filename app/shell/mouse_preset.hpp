@@ -1,5 +1,4 @@
-// What the mouse does in the empty view, or over anything: Tendril's own way, or that of a program which a
-// person is used to.
+// Mouse bindings for the camera: Tendril's own, or those of another program that the user is used to.
 #pragma once
 
 #include <optional>
@@ -14,8 +13,7 @@ namespace tendril::app {
 enum class MousePreset { Tendril, Blender, Maya };
 MousePreset mouse_preset(const Settings& settings);
 
-/// What the wheel does in the view, or two fingers on a touchpad. Where they pan, they zoom while Ctrl is
-/// held.
+/// What the wheel, or two fingers on a touchpad, do in the view. If they pan, they zoom while Ctrl is held.
 enum class Scroll { Zoom, Pan };
 Scroll scroll_action(const Settings& settings);
 
@@ -24,11 +22,11 @@ struct HeldKeys {
     bool shift = false, ctrl = false, alt = false;
     bool operator==(const HeldKeys&) const = default;
 };
-/// What a drag with that button does; nothing where it is for handles. A left drag that begins on nothing
+/// What a drag with that button does; none if it acts on handles. A left drag that begins on empty space
 /// orbits, in every preset.
 std::optional<MouseAction> mouse_action(MousePreset preset, MouseButton button, HeldKeys held);
 
-/// "Right drag, Alt+left drag"; empty where none does.
+/// "Right drag, Alt+left drag"; empty if there is none.
 std::string gestures_of(MousePreset preset, MouseAction action);
 /// "Right-drag turns the view, middle-drag shifts it, the wheel zooms."
 std::string view_hint(MousePreset preset, Scroll scroll = Scroll::Zoom);

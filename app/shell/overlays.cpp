@@ -1,4 +1,4 @@
-// What lies over the scene: help, settings, toasts and the first hint for a while, the legend always.
+// Overlays on the scene: help, settings, toasts, the first hint and the legend.
 #include <imgui.h>
 
 #include <algorithm>
@@ -38,7 +38,7 @@ void key_table(const char* title, float key_width, Rows rows) {
     ImGui::EndTable();
 }
 
-/// The keys of a section that work in the open lab; other keys for the same stand beside the first.
+/// The keys of a section that work in the open lab; alternative keys share a row.
 void keys_of(const ShellFrame& frame, std::string_view section) {
     std::vector<std::string_view> shown;
     for (const Shortcut& shortcut : frame.shortcuts.all()) {
@@ -86,7 +86,7 @@ void show_help(const ShellFrame& frame, Emit& emit) {
     if (!begin_sheet("Keys and mouse", frame.screen(), {860.0f * scale, 640.0f * scale})) {
         emit("view.help", {{"open", false}});
     }
-    // Side by side where there is room, else one below the other.
+    // Two columns if there is room, else one.
     const float room = ImGui::GetContentRegionAvail().x;
     const bool two = room > 720.0f * scale;
     const float mouse = std::min(190.0f * scale, 0.45f * room), keys = two ? 150.0f * scale : mouse;
@@ -111,7 +111,7 @@ void show_help(const ShellFrame& frame, Emit& emit) {
     ImGui::End();
 }
 
-/// What the mouse and the labs leave to choose.
+/// The settings of the mouse and the labs.
 static void lab_settings(const ShellFrame& frame, Emit& emit) {
     std::vector<LabSetting> settings{mouse_setting(), scroll_setting()};
     for (const auto& lab : frame.labs.all())
@@ -156,7 +156,7 @@ void show_settings(const ShellFrame& frame, Emit& emit) {
     ImGui::End();
 }
 
-/// Where the legend is; without size where there is none.
+/// The legend's rectangle; empty if there is none.
 static Rect legend_box(const ShellFrame& frame, const std::vector<LegendRow>& rows) {
     const Rect& view = frame.layout.view;
     const float scale = frame.layout.scale;
@@ -176,7 +176,7 @@ void show_toasts(const ShellFrame& frame) {
     const Palette& colours = frame.colours();
     const Rect& view = frame.layout.view;
     const Rect legend = legend_box(frame, frame.lab.legend(frame.workspace));
-    // As wide as the view; over the panels too where it is too narrow to be read in.
+    // As wide as the view, or wider, over the panels, if the view is too narrow for legible text.
     const float margin = 32.0f * scale, legible = std::min(380.0f * scale, frame.screen().x - margin);
     const float widest =
         std::max(120.0f, std::min(520.0f * scale, std::max(view.size().x - margin, legible)));
@@ -219,9 +219,9 @@ Rect show_first_hint(const ShellFrame& frame) {
     const Rect& view = frame.layout.view;
     const Rect none{view.min, view.min};
     if (frame.workspace.settings.hint_seen) return none;
-    if (!frame.lab.panes(frame.workspace).empty()) return none;  // there are titles
+    if (!frame.lab.panes(frame.workspace).empty()) return none;  // the panes have titles
     const Palette& colours = frame.colours();
-    // In the middle, or as near to it as the axis gizmo allows.
+    // Centred, or as far as the axis gizmo allows.
     constexpr float margin = 20.0f;
     const float end = view.max.x - std::max(margin, axis_gizmo_width(view.size(), frame.layout.scale));
     const float wrap = std::max(80.0f, end - view.min.x - margin);
@@ -232,7 +232,7 @@ Rect show_first_hint(const ShellFrame& frame) {
     const std::string rest = orbit_hint(mouse_preset(frame.workspace.settings)) + " ? shows every key.";
     std::string text = first + " " + rest;
     if (ImGui::CalcTextSize(text.c_str()).x > wrap) text = first + "\n" + rest;
-    if (size_of(text).y > 0.15f * view.size().y) text = first;  // large letters in a small view
+    if (size_of(text).y > 0.15f * view.size().y) text = first;  // large text in a small view
     if (size_of(text).y > 0.15f * view.size().y) return none;   // the picture comes first
     const float width = size_of(text).x;
     const ImVec2 at{std::min(view.centre().x - 0.5f * width, end - width),

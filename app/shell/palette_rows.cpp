@@ -11,14 +11,14 @@
 namespace tendril::app {
 namespace {
 
-/// Where the columns stand, in pixels from the left.
+/// Positions of the columns, in pixels from the left.
 struct Columns {
     float where = 0.0f, syntax = 0.0f, keys = 0.0f;
-    bool two_lines = false;  ///< the syntax stands below the title
+    bool two_lines = false;  ///< the syntax is below the title
     float height = 0.0f;     ///< of a row
 };
 
-/// Between columns, and before the first.
+/// Pixels between columns; margin() is before the first.
 float gap() {
     return 1.2f * ImGui::GetFontSize();
 }
@@ -67,7 +67,7 @@ void write_row(const PaletteRow& row, const Columns& c, ImVec2 from) {
     write_at(at(c.keys), row.keys, false);
 }
 
-/// Scrolls just as far as it takes to have the last item wholly in the window.
+/// Scrolls by the minimum that shows all of the last item.
 void scroll_to_item() {
     const float top = ImGui::GetWindowPos().y, bottom = top + ImGui::GetWindowSize().y;
     if (ImGui::GetItemRectMin().y < top) ImGui::SetScrollHereY(0.0f);

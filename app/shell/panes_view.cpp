@@ -22,7 +22,7 @@ void show_pane_titles(std::span<const Pane> panes, std::span<const PaneTitle> ti
         const PaneTitle& title = titles[i];
         list->AddRect({rect.min.x, rect.min.y}, {rect.max.x, rect.max.y}, imgui_u32(palette.bar), 0.0f, 0,
                       2.0f * scale);
-        // The axes are in the corner of the whole view.
+        // The axis gizmo is in the top right corner of the whole view.
         const bool corner = rect.min.y == panes.front().rect.min.y && rect.max.x == right;
         const float axes = corner ? axis_gizmo_width(rect.size(), scale) : 0.0f;
         const float room = rect.size().x - 2.0f * inset - axes;

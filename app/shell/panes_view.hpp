@@ -1,4 +1,4 @@
-// What is written and drawn flat over the panes of the view.
+// Text and boxes drawn over the view's panes.
 #pragma once
 
 #include <span>
@@ -8,11 +8,11 @@
 
 namespace tendril::app {
 
-/// Titles in the panes' top left corners, and lines between the panes. Nothing where there is one pane.
+/// Titles in the panes' top left corners, and lines between the panes. Nothing if there is only one pane.
 void show_pane_titles(std::span<const Pane> panes, std::span<const PaneTitle> titles, const Palette& palette,
                       float scale);
 
-/// The box that is drawn with the mouse, to select what is in it.
+/// The box that the user draws to select its contents.
 void show_selection_box(const Rect& box, const Palette& palette, float scale);
 
 }  // namespace tendril::app

@@ -14,9 +14,8 @@ namespace {
 constexpr float drag_threshold = 4.0f;  ///< pixels; less is a click
 constexpr float slack = 4.0f;           ///< pixels beyond a handle's edge that still catch it
 constexpr int double_click_ticks = 20;
-constexpr float pixels_per_notch = 20.0f;  ///< of a drag that zooms
-constexpr float pixels_per_scroll =
-    15.0f;  ///< by which the view shifts for a notch: about the fingers' own way
+constexpr float pixels_per_notch = 20.0f;   ///< of a drag that zooms
+constexpr float pixels_per_scroll = 15.0f;  ///< shift of the view per notch: about the fingers' own movement
 
 /// The axis of the first axis key held.
 std::optional<glm::vec3> held_axis(const Input& input) {
@@ -26,7 +25,7 @@ std::optional<glm::vec3> held_axis(const Input& input) {
     return std::nullopt;
 }
 
-/// The point of the line `through + t axis` nearest to a ray; nothing where they run side by side.
+/// The point of the line `through + t axis` nearest to a ray; none if they are parallel.
 std::optional<glm::vec3> on_line(const Ray& ray, glm::vec3 through, glm::vec3 axis) {
     const glm::vec3 between = through - ray.origin;
     const float b = glm::dot(axis, ray.direction);
@@ -36,7 +35,7 @@ std::optional<glm::vec3> on_line(const Ray& ray, glm::vec3 through, glm::vec3 ax
     return through + t * axis;
 }
 
-/// The command that puts the camera there.
+/// Emits the camera's change.
 void emit_camera(Emit& emit, const CameraPose& from, const CameraPose& to) {
     ArgumentList arguments;
     if (to.target != from.target) arguments.push_back({"target", to.target});
@@ -47,8 +46,8 @@ void emit_camera(Emit& emit, const CameraPose& from, const CameraPose& to) {
     if (!arguments.empty()) emit.continuously("camera.set", arguments);
 }
 
-/// Fingers that go up or down never go quite straight: only the larger of the two ways counts where they mean
-/// different things.
+/// Fingers never move exactly vertically: if the two directions have different effects, only the larger
+/// counts.
 CameraPose scrolled(const MouseWheel& wheel, const Input& input, const Pointer::Scene& scene) {
     const auto pan = [&](glm::vec2 notches) {
         return panned(scene.camera, pixels_per_scroll * glm::clamp(notches, -100.0f, 100.0f));
@@ -63,7 +62,7 @@ CameraPose scrolled(const MouseWheel& wheel, const Input& input, const Pointer::
 
 void Pointer::take(const Event* event, const Input& input, const Scene& scene, Emit& emit) {
     since_click_ = std::min(since_click_ + 1, 1000);
-    // What was caught in another lab means nothing in this one.
+    // An object caught in another lab is meaningless in this one.
     if (caught_ != no_pick && caught_in_ != &scene.lab) release(scene, emit);
     if (event != nullptr) {
         if (const auto* button = std::get_if<MousePress>(event)) {
@@ -72,13 +71,14 @@ void Pointer::take(const Event* event, const Input& input, const Scene& scene, E
         } else if (std::holds_alternative<MouseMove>(*event)) {
             move(input, scene, emit);
         } else if (const auto* wheel = std::get_if<MouseWheel>(event)) {
-            // What is caught of a gizmo was measured from where the eye was.
+            // A gizmo's drag is measured from the eye at its start, so the camera must not move.
             if (!scene.over_panel && !by_ && scene.camera.viewport().contains(input.mouse()))
                 emit_camera(emit, scene.workspace.camera, scrolled(*wheel, input, scene));
         } else if (const auto* focus = std::get_if<Focus>(event); focus != nullptr && !focus->focused) {
             release(scene, emit);
         } else if (std::holds_alternative<KeyChange>(*event) && doing_ == Doing::Drag) {
-            // An axis key takes hold at once; what any other does, as Ctrl+Z, stays until the mouse moves.
+            // An axis key applies at once; for any other key, such as Ctrl+Z, do not drag until the mouse
+            // moves.
             if (constraint(input) != constrained_) drag(input, scene, emit);
         }
     }
@@ -163,7 +163,7 @@ void Pointer::let_go(const Input& input, const Scene& scene, Emit& emit) {
         } else {
             scene.lab.click(scene.workspace, caught_, emit);
         }
-        clicked_ = twice ? no_pick : caught_;  // a third click is a first one again
+        clicked_ = twice ? no_pick : caught_;  // a third click counts as a first one
         clicked_at_ = input.mouse();
         since_click_ = 0;
     }
@@ -210,7 +210,7 @@ std::optional<Rect> Pointer::box() const {
     return Rect{glm::min(caught_at_, last_), glm::max(caught_at_, last_)};
 }
 
-/// What lies behind something else too: one cannot see through a coil, but one can select in it.
+/// Includes hidden handles: a box must also select within a coil.
 void Pointer::select_in_box(bool add, const Scene& scene, Emit& emit) const {
     const Rect inside = *box();
     std::vector<PickId> picks;
@@ -226,8 +226,7 @@ void Pointer::drag(const Input& input, const Scene& scene, Emit& emit) {
     const bool bound = !constrained_.empty();
     const auto handle =
         picked_part(caught_) ? scene.lab.gizmo(scene.workspace) : scene.lab.handle(scene.workspace, caught_);
-    // What carries the handle may have moved it since it was caught: only what is dragged follows the
-    // pointer.
+    // The handle's parent may have moved since the start: only the dragged property follows the pointer.
     HandleFrame frame = handle && together_.empty() ? handle->frame : caught_frame_;
     if (by_ && !(bound && changed_by(by_->part()) == Drag::Position)) {
         frame = by_->changed(frame, by_->to(scene.camera.ray(input.mouse())));
@@ -240,7 +239,7 @@ void Pointer::drag(const Input& input, const Scene& scene, Emit& emit) {
     scene.lab.drag(scene.workspace, caught_handle_, frame, emit);
 }
 
-/// From where all were caught: one that stops at a limit is in its place again when the others come back.
+/// Relative to where all were caught: a handle stopped by a limit is back in position when the others return.
 void Pointer::drag_together(const HandleFrame& to, const Scene& scene, Emit& emit) const {
     const HandleFrame& from = caught_frame_;
     const bool turns = changed_by(by_->part()) == Drag::Rotation;
@@ -258,18 +257,18 @@ void Pointer::drag_together(const HandleFrame& to, const Scene& scene, Emit& emi
 }
 
 std::optional<glm::vec3> Pointer::dragged_to(const Input& input, const Camera& camera) const {
-    const glm::vec2 pixel = input.mouse() + offset_;  // the pixel that the handle itself should have
+    const glm::vec2 pixel = input.mouse() + offset_;  // the handle's own target pixel
     std::optional<glm::vec3> to;
     if (const auto axis = held_axis(input)) {
         to = on_line(camera.ray(pixel), caught_frame_.position, *axis);
     } else if (input.held_alone(Key::Shift)) {
         to = camera.on_plane(pixel, caught_frame_.position, {0, 1, 0});
-        if (to) to->y = caught_frame_.position.y;  // in the plane exactly, not but for rounding
+        if (to) to->y = caught_frame_.position.y;  // exactly, without rounding
     } else {
         to = camera.on_plane(pixel, caught_frame_.position, camera.forward());
     }
-    // Near the horizon of a plane, or along an axis seen end on, a pixel means kilometres: stay where it
-    // makes sense.
+    // Near the horizon of a plane, or along an axis seen end-on, one pixel spans kilometres: ignore such
+    // moves.
     const float farthest =
         50.0f * (camera.pose().distance + glm::distance(caught_frame_.position, camera.eye()));
     if (to && glm::distance(*to, caught_frame_.position) > farthest) return std::nullopt;

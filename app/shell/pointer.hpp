@@ -1,5 +1,5 @@
-// The mouse in the 3D view: hover, click, drag a handle, select by a box, turn and shift the camera. It
-// changes nothing itself: it emits commands.
+// The mouse in the 3D view: hover, click, drag a handle, select by a box, turn and shift the camera. It only
+// emits commands.
 #pragma once
 
 #include <algorithm>
@@ -22,44 +22,44 @@ class Pointer {
         const Workspace& workspace;
         const Lab& lab;
         const Camera& camera;
-        const DrawList& drawn;    ///< the last picture: what one sees is what one picks
-        bool over_panel = false;  ///< the mouse is meant for a panel
-        float scale = 1.0f;       ///< of what is measured in pixels
+        const DrawList& drawn;    ///< the last picture: the user picks what is visible
+        bool over_panel = false;  ///< the mouse belongs to a panel
+        float scale = 1.0f;       ///< multiplies all sizes in pixels
     };
 
-    /// Takes this tick's event. Emits camera.set, the lab's drag and click commands, and a document is
-    /// changed by them afterwards.
+    /// Handles this tick's event. Emits camera.set and the lab's drag and click commands, which run
+    /// afterwards.
     void take(const Event* event, const Input& input, const Scene& scene, Emit& emit);
-    /// Before anything is drawn, or after what may have changed the scene: what is hovered, pressed or
-    /// dragged and is no longer there is forgotten, so that nothing is drawn, said or dragged of it.
+    /// Drops references to hovered, caught and dragged objects that no longer exist. Call before drawing and
+    /// after anything that may have changed the scene.
     void forget_missing(const Workspace& workspace, const Lab& lab);
-    /// Ends whatever is going on, without a click; what was dragged is dropped.
+    /// Ends any interaction, without a click; drops a dragged handle.
     void release(const Scene& scene, Emit& emit);
 
-    /// What the lab has drawn; nothing where it is a gizmo.
+    /// The hovered object of the lab; no_pick for a gizmo's part.
     PickId hovered() const { return hovered_part() ? no_pick : hovered_; }
-    /// The lab's handle, by its gizmo too.
+    /// The dragged handle of the lab, also if it is dragged by its gizmo.
     PickId dragged() const { return doing_ == Doing::Drag ? caught_handle_ : no_pick; }
     std::optional<GizmoPart> hovered_part() const { return picked_part(hovered_); }
-    /// The part that is dragged; null where the handle goes freely.
+    /// The dragged part; null if the handle moves freely.
     const GizmoDrag* dragged_part() const { return doing_ == Doing::Drag && by_ ? &*by_ : nullptr; }
-    /// Whether it is a gizmo's, and not one that the lab has drawn.
+    /// Whether that part is the gizmo's, not one that the lab has drawn.
     bool drags_gizmo() const { return dragged_part() != nullptr && picked_part(caught_).has_value(); }
-    /// How many handles are dragged; 0 where none is.
+    /// The number of dragged handles.
     std::size_t dragged_count() const {
         return doing_ == Doing::Drag ? std::max<std::size_t>(1, together_.size()) : 0;
     }
     bool busy() const { return doing_ != Doing::Nothing; }
-    /// The axis or plane that a held key binds the drag to; empty for the view plane.
+    /// The axis or plane that a held key constrains the drag to; empty for the view plane.
     std::string constraint(const Input& input) const;
-    /// The box that is being drawn to select what is in it, window coordinates.
+    /// The selection box being drawn, in window coordinates.
     std::optional<Rect> box() const;
-    /// Where the handle was when it was caught.
+    /// The handle's position when it was caught.
     glm::vec3 caught_position() const { return caught_frame_.position; }
     Cursor cursor() const;
 
   private:
-    /// Stray: a drag of what stays.
+    /// Stray: a drag that began on something that cannot be dragged.
     enum class Doing { Nothing, Press, Stray, Drag, Orbit, Pan, Zoom, Box };
 
     void press(const MousePress& press, const Input& input, const Scene& scene);
@@ -75,18 +75,18 @@ class Pointer {
     Doing doing_ = Doing::Nothing;
     MouseButton button_ = MouseButton::Left;
     PickId hovered_ = no_pick;
-    PickId caught_ = no_pick;         ///< what is drawn there
-    PickId caught_handle_ = no_pick;  ///< whose it is, where it is a part of a gizmo
-    const Lab* caught_in_ = nullptr;  ///< what it means there
+    PickId caught_ = no_pick;         ///< the picked object
+    PickId caught_handle_ = no_pick;  ///< its handle: for a gizmo's part, the handle that it moves
+    const Lab* caught_in_ = nullptr;  ///< the lab that defines its meaning
     glm::vec2 caught_at_{0.0f};       ///< where the button went down
-    glm::vec2 last_{0.0f};            ///< the mouse a tick ago
+    glm::vec2 last_{0.0f};            ///< the mouse at the last tick
     std::string constrained_;         ///< constraint() of the last drag()
     glm::vec2 offset_{0.0f};          ///< from the mouse to the handle's pixel when caught
-    Handle::Frame caught_frame_;      ///< the handle's when caught
-    bool draggable_ = false;          ///< what is caught can be dragged
-    bool boxing_ = false;             ///< nothing is caught, and a drag draws a box
-    std::optional<GizmoDrag> by_;     ///< by a part
-    std::vector<Handle> together_;    ///< what the gizmo takes along, as it was when caught
+    Handle::Frame caught_frame_;      ///< the handle's frame when caught
+    bool draggable_ = false;          ///< the caught object can be dragged
+    bool boxing_ = false;             ///< nothing was caught, and a drag draws a box
+    std::optional<GizmoDrag> by_;     ///< the part it is dragged by, if any
+    std::vector<Handle> together_;    ///< all handles that the gizmo moves, as they were when caught
     int since_click_ = 1000;          ///< ticks
     PickId clicked_ = no_pick;        ///< last
     glm::vec2 clicked_at_{0.0f};

@@ -15,12 +15,11 @@
 namespace tendril::app {
 namespace {
 
-constexpr ImGuiWindowFlags region_flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                                          ImGuiWindowFlags_NoSavedSettings |
-                                          ImGuiWindowFlags_NoBringToFrontOnFocus |
-                                          ImGuiWindowFlags_NoNavFocus;  // Tab still goes from field to field
+constexpr ImGuiWindowFlags region_flags =
+    ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+    ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNavFocus;  // Tab still moves between fields
 
-constexpr float folds_below = 90.0f;  ///< unscaled pixels: a panel that is dragged narrower folds away
+constexpr float folds_below = 90.0f;  ///< unscaled pixels: a panel dragged narrower than this folds
 
 /// "Play or pause (Space)": a title and its key, for a tooltip.
 std::string with_keys(const ShellFrame& frame, const char* title, std::string_view command) {
@@ -28,7 +27,7 @@ std::string with_keys(const ShellFrame& frame, const char* title, std::string_vi
     return keys.empty() ? title : std::string(title) + " (" + keys + ")";
 }
 
-/// The strip along a panel's inner edge that makes it wider or narrower, and folds it away.
+/// The strip along a panel's inner edge that resizes and folds it.
 void panel_edge(const Rect& rect, bool left, float scale, Emit& emit) {
     const float x = left ? rect.max.x : rect.min.x;
     const float grip = 5.0f * scale;
@@ -52,7 +51,7 @@ void panel_edge(const Rect& rect, bool left, float scale, Emit& emit) {
     }
 }
 
-/// What stays of a folded panel: a strip that brings it back.
+/// The strip that a folded panel leaves, to unfold it.
 void folded_strip(const ShellFrame& frame, const Rect& rect, bool left, Emit& emit) {
     begin_region(left ? "left strip" : "right strip", rect, frame.colours().panel, {0.0f, 0.0f});
     const bool pressed = ImGui::InvisibleButton("unfold", {rect.size().x, std::max(1.0f, rect.size().y)});
@@ -76,7 +75,7 @@ void folded_strip(const ShellFrame& frame, const Rect& rect, bool left, Emit& em
     ImGui::End();
 }
 
-/// A popup of the bar, which scrolls where the window is too low for all of it.
+/// Positions a popup of the bar, which scrolls if the window is too low for it.
 void place_below_bar(const ShellFrame& frame, float x) {
     const float y = frame.layout.top.max.y + 2.0f;
     ImGui::SetNextWindowPos({x, y});
@@ -89,7 +88,7 @@ void menu(const ShellFrame& frame, Emit& emit) {
     place_below_bar(frame, ImGui::GetItemRectMin().x);
     if (!ImGui::BeginPopup("menu popup")) return;
     close_popup_on_escape();
-    // Closer than rows of a panel: all of it in a window of 720 pixels.
+    // Tighter than a panel's rows, so that all of it fits a window 720 pixels high.
     const ImVec2 spacing = ImGui::GetStyle().ItemSpacing;
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(spacing.x, 0.65f * spacing.y));
     std::string_view open;
@@ -116,7 +115,7 @@ float button_width(const std::string& title) {
     return ImGui::CalcTextSize(title.c_str()).x + 2.0f * ImGui::GetStyle().FramePadding.x;
 }
 
-/// The labs as a list behind the name of the one that is open.
+/// The labs as a drop-down list with the name of the open one.
 void tab_list(const ShellFrame& frame, Emit& emit) {
     ImGui::SameLine();
     const std::string title = frame.lab.title() + " ...";
@@ -133,12 +132,12 @@ void tab_list(const ShellFrame& frame, Emit& emit) {
                 emit("lab.open", {{"name", lab->name()}});
         ImGui::EndPopup();
     }
-    // What comes next stands beside the button, not beside the last row of its list.
+    // The next item must follow the button, not the last row of its list.
     ImGui::SetCursorScreenPos(low);
     ImGui::Dummy({high.x - low.x, high.y - low.y});
 }
 
-/// The program's name, where there is room for it, and the labs.
+/// The program's name, if there is room for it, and the labs.
 void tabs(const ShellFrame& frame, float room, Emit& emit) {
     const float gap = ImGui::GetStyle().ItemSpacing.x;
     ImGui::PushFont(heading_font());
@@ -178,8 +177,7 @@ void play_button(const ShellFrame& frame, Emit& emit) {
     ImGui::SetTooltip("%s", with_keys(frame, effect, "time.toggle").c_str());
 }
 
-/// In the middle of the window, or wherever there is room between `from` and `to`; without the time if there
-/// is little.
+/// Centred in the window if possible, between `from` and `to`; without the time if there is little room.
 void time_controls(const ShellFrame& frame, float from, float to, Emit& emit) {
     const Clock& clock = frame.workspace.clock;
     const float gap = ImGui::GetStyle().ItemSpacing.x;
@@ -275,7 +273,8 @@ void Shell::side_panel(const ShellFrame& frame, bool left, Emit& emit) {
     begin_region(left ? "left" : "right", rect, frame.colours().panel, {0.0f, 0.0f});
     panel_edge(rect, left, scale, emit);
     ImGui::SetCursorPos({left ? 0.0f : 5.0f * scale, 0.0f});
-    // The bar's room is always kept, so that nothing shifts when it is needed; unneeded, it is not seen.
+    // The scroll bar always has its room, so that nothing shifts when it appears; it is transparent while
+    // unneeded.
     float& overflow = overflow_[left ? 0 : 1];
     const float grab = overflow > 0.0f ? 1.0f : 0.0f;
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding,

@@ -1,5 +1,4 @@
-// The window around the labs: bars, panels, and what lies over the scene for a while. It reads the workspace
-// and emits commands.
+// The window around the labs: bars, panels and overlays. It reads the workspace and emits commands.
 #pragma once
 
 #include <imgui.h>
@@ -16,7 +15,7 @@
 
 namespace tendril::app {
 
-/// What a frame of the shell shows beside the workspace.
+/// What a frame of the shell shows.
 struct ShellFrame {
     const Workspace& workspace;
     const Labs& labs;
@@ -24,8 +23,8 @@ struct ShellFrame {
     const CommandTable& commands;
     const Shortcuts& shortcuts;
     const Layout& layout;
-    std::string hint;               ///< what the mouse would do where it is
-    const Card* card = nullptr;     ///< of things to try, where one is shown
+    std::string hint;               ///< what the mouse would do at its position
+    const Card* card = nullptr;     ///< the shown card of things to try, if any
     std::span<const Card> cards{};  ///< all of the lab's
 
     glm::vec2 screen() const { return {layout.top.max.x, layout.status.max.y}; }
@@ -38,7 +37,7 @@ struct ShellFrame {
 class Shell {
   public:
     void frame(const ShellFrame& frame, Emit& emit);
-    /// What the last frame wrote on the scene: hint, legend and axis gizmo.
+    /// Rectangles that the last frame drew on the scene: hint, legend and axis gizmo.
     const std::vector<Rect>& overlays() const { return overlays_; }
 
   private:
@@ -46,28 +45,28 @@ class Shell {
 
     float overflow_[2] = {0.0f, 0.0f};  ///< how far each side panel can scroll
     std::vector<Rect> overlays_;
-    PickId lit_ = no_pick;  ///< of the handle that lights up; see show_card_halo()
+    PickId lit_ = no_pick;  ///< of the highlighted handle; see show_card_halo()
     CommandPalette palette_;
     FileDialog file_dialog_;
 };
 
-// What lies over the scene; each in a file of its own.
+// Overlays on the scene.
 void show_help(const ShellFrame& frame, Emit& emit);
 void show_settings(const ShellFrame& frame, Emit& emit);
 void show_recovery(const ShellFrame& frame, Emit& emit);
 void show_quit(const ShellFrame& frame, Emit& emit);
 void show_filming(const ShellFrame& frame, Emit& emit);
 void show_toasts(const ShellFrame& frame);
-// Those below say where they are; without size where they are not shown.
+// These return their rectangles, empty if not shown.
 Rect show_first_hint(const ShellFrame& frame);
 Rect show_legend(const ShellFrame& frame);
 
-/// A fixed window without decoration that fills `rect`; one that `scrolls` has a bar where there is more in
-/// it than room. Always ImGui::End() after it.
+/// Begins a fixed window without decoration that fills `rect`; with `scrolls` it has a scroll bar if its
+/// contents do not fit. Always call ImGui::End() after it.
 void begin_region(const char* name, const Rect& rect, glm::vec3 colour, ImVec2 padding, bool scrolls = false);
 
-/// A window of the given share of the screen in the middle of it, closed by Escape or the cross; false once
-/// closed.
+/// Begins a window in the middle of the screen, of the wanted size in pixels or nearly that of the screen if
+/// that is smaller. Returns false once it is closed by Escape or the cross.
 bool begin_sheet(const char* title, glm::vec2 screen, glm::vec2 wanted);
 
 }  // namespace tendril::app

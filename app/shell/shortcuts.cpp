@@ -11,7 +11,7 @@ namespace {
 
 constexpr const char* last_section = "Help";
 
-/// The rows of every lab.
+/// The rows common to all labs.
 std::vector<Shortcut> common_rows() {
     constexpr bool hidden = false, typing = true, shown = true, again = true;
     constexpr const char* own = "";  // the command's title
@@ -101,7 +101,7 @@ std::string Shortcuts::all_keys_for(const Shortcut& wanted) const {
     std::string keys;
     for (const Shortcut& row : rows_) {
         const std::string key = chord_label(row.chord);
-        if (row.title != wanted.title || keys == key) continue;  // the same key in another lab
+        if (row.title != wanted.title || keys == key) continue;  // or the same key in another lab
         keys += (keys.empty() ? "" : ", ") + key;
     }
     return keys;

@@ -1,5 +1,5 @@
-// The one table of keys and of what the mouse does: the shell's rows and those of every lab. The handlers,
-// the menu, the help overlay, the tooltips and the README's list all come from it.
+// The single table of keys and mouse gestures: the shell's rows and those of every lab. The handlers, the
+// menu, the help overlay, the tooltips and the README's list all come from it.
 #pragma once
 
 #include <optional>
@@ -18,22 +18,22 @@ class CommandTable;
 
 class Shortcuts {
   public:
-    /// Rows of a lab stand behind the others of their section, sections of its own before the last one,
-    /// *Help*. A row without a title has its command's.
+    /// Rows of a lab follow the others of their section; a lab's own sections come before the last one,
+    /// *Help*. A row without a title gets its command's.
     Shortcuts(const Labs& labs, const CommandTable& commands);
 
     /// A row with the same title as an earlier one is another key for it.
     const std::vector<Shortcut>& all() const { return rows_; }
-    /// Of that key in a lab; null where it has none.
+    /// The shortcut of that key in a lab; null if there is none.
     const Shortcut* find(const Chord& chord, std::string_view lab) const;
-    /// "Ctrl+Z", of the first row with that command; empty where it has no key.
+    /// "Ctrl+Z", of the first row with that command; empty if it has no key.
     std::string keys_for(std::string_view command) const;
     /// "Ctrl+Shift+Z, Ctrl+Y": every key that does the same.
     std::string all_keys_for(const Shortcut& wanted) const;
-    /// What the mouse does everywhere, then what it does in the lab of that name, or with none in any.
+    /// What the mouse does everywhere, then in the lab of that name; if that is empty, in all labs.
     std::vector<MouseHelp> mouse_help(std::string_view lab = {}, MousePreset preset = MousePreset::Tendril,
                                       Scroll scroll = Scroll::Zoom) const;
-    /// Both lists as Markdown tables, as they stand in the README.
+    /// Both lists as Markdown tables, for the README.
     std::string markdown() const;
 
   private:

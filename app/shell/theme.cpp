@@ -65,7 +65,7 @@ void apply_theme(Theme theme, float scale) {
     set(ImGuiCol_CheckMark, p.accent);
     set(ImGuiCol_SliderGrab, p.accent, 0.85f);
     set(ImGuiCol_SliderGrabActive, p.accent);
-    const float grab = theme == Theme::Light ? 0.22f : 0.08f;  // a field is white on light already
+    const float grab = theme == Theme::Light ? 0.22f : 0.08f;  // a field is already white in the light theme
     set(ImGuiCol_ScrollbarBg, p.panel, 0.0f);
     set(ImGuiCol_ScrollbarGrab, towards_text(p.field, grab));
     set(ImGuiCol_ScrollbarGrabHovered, towards_text(p.field, grab + 0.10f));

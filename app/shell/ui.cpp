@@ -16,7 +16,7 @@ namespace {
 
 constexpr float base_text = 15.0f;  ///< pixels at scale 1
 
-// Latin, Greek for maths, and the punctuation that the texts use.
+// Latin, Greek for maths, and the punctuation used in texts.
 constexpr ImWchar glyphs[] = {0x0020, 0x024F, 0x0370, 0x03FF, 0x2010, 0x205E, 0x20A0,
                               0x20BF, 0x2190, 0x2193, 0x2200, 0x2265, 0};
 
@@ -26,7 +26,8 @@ void add_font(std::span<const std::byte> file, float pixels) {
     config.OversampleH = 2;
     config.OversampleV = 2;
     config.GlyphRanges = glyphs;
-    // ImGui takes the pointer as its own to free, though told not to: it never writes there.
+    // ImGui's parameter is not const, but with FontDataOwnedByAtlas false it neither frees nor writes the
+    // data.
     void* bytes = const_cast<std::byte*>(file.data());
     ImGui::GetIO().Fonts->AddFontFromMemoryTTF(bytes, static_cast<int>(file.size()), pixels, &config);
 }
@@ -83,7 +84,7 @@ void Ui::begin(const Surface& surface, Theme theme, const Input& input, const Ev
     font_ratio_ = ratio.x;
     theme_ = theme;
 
-    io.DeltaTime = time_passes ? static_cast<float>(tick_seconds) : 1e-9f;  // zero is not allowed
+    io.DeltaTime = time_passes ? static_cast<float>(tick_seconds) : 1e-9f;  // ImGui does not allow zero
     imgui_feed(input, event != nullptr && std::holds_alternative<TextInput>(*event));
     if (event != nullptr) {
         if (const auto* wheel = std::get_if<MouseWheel>(event)) imgui_feed_wheel(wheel->by, wheel->sideways);

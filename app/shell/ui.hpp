@@ -1,5 +1,5 @@
-// Dear ImGui, set up once: context, fonts, backend, and our input as its only input. No ini file, a fixed
-// time step, no blinking cursor: so the same events give the same pixels.
+// Sets up Dear ImGui: context, fonts, backend, and our input as its only input. No ini file, a fixed time
+// step and no blinking cursor, so that the same events give the same pixels.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -24,16 +24,16 @@ class Ui {
         float scale = 1.0f;              ///< of text and widgets, in window coordinates
     };
 
-    /// Starts a frame that sees `event` (or none). Where no time passes, widgets do not notice it either.
+    /// Starts a frame with `event`, which may be null. If no time passes, widgets do not advance either.
     void begin(const Surface& surface, Theme theme, const Input& input, const Event* event, bool time_passes);
-    /// Ends it; draw() may follow, now or later.
+    /// Ends the frame; draw() may follow, now or later.
     void end();
     void draw();
 
-    /// Whether a panel, rather than the scene, is meant by the mouse (the keyboard).
+    /// Whether the mouse (the keyboard) belongs to a panel instead of the scene.
     bool wants_mouse() const;
     bool wants_text() const;
-    /// What of a number that is being typed the program has to see to.
+    /// The state of a number being typed, for the program to handle.
     NumberEditing& numbers() { return numbers_; }
 
   private:

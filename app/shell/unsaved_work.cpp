@@ -1,4 +1,4 @@
-// What is asked about unsaved work: on the way out, and after a crash.
+// Questions about unsaved work: before quitting, and after a crash.
 #include <imgui.h>
 
 #include "app/shell/shell.hpp"

@@ -10,7 +10,7 @@
 namespace tendril::app {
 namespace {
 
-/// `pixels` is 0 while it is the view's.
+/// `pixels` is 0 while the size is the view's.
 void size_field(const char* name, int& pixels, int view, const char* help) {
     int shown = pixels > 0 ? pixels : view;
     if (integer_field(name, shown, min_picture, max_picture)) pixels = shown == view ? 0 : shown;
@@ -58,7 +58,7 @@ void VideoOptions::frame() {
 
 std::filesystem::path VideoOptions::with_ending(std::filesystem::path path) const {
     const char* const ending = mp4() ? ".mp4" : ".png";
-    // What is chosen above the list counts, also where a file of the other kind was clicked in it.
+    // The chosen format wins, even if a file of the other kind was clicked in the list.
     if (path.extension() == ".mp4" || path.extension() == ".png") return path.replace_extension(ending);
     if (path.extension().empty()) path += ending;
     return path;

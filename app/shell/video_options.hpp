@@ -1,4 +1,4 @@
-// What the dialog asks about a video beside its name: format, size, which seconds, how smooth and how fast.
+// The dialog's options of a video: format, size, seconds, smoothness and speed.
 #pragma once
 
 #include <filesystem>
@@ -12,14 +12,14 @@ namespace tendril::app {
 
 class VideoOptions {
   public:
-    static constexpr float rows = 8.0f;  ///< that frame() writes
+    static constexpr float rows = 8.0f;  ///< rows that frame() writes
 
-    /// When the dialog opens. What was chosen before stays, but for the seconds.
+    /// Call when the dialog opens. Keeps earlier choices, except for the seconds.
     void start(const Workspace& workspace);
     void frame();
-    /// A name without an ending gets that of the format.
+    /// Gives a name without an extension that of the format.
     std::filesystem::path with_ending(std::filesystem::path path) const;
-    /// Of view.video.
+    /// The arguments of view.video.
     ArgumentList arguments(const std::filesystem::path& path) const;
 
   private:
@@ -28,12 +28,12 @@ class VideoOptions {
     int format_ = 0, smooth_ = 0;
     float remembered_ = 0.0f;  ///< seconds
     float from_ = 0.0f, to_ = 0.0f, speed_ = 1.0f;
-    glm::ivec2 view_{0}, size_{0};  ///< pixels; of size_ 0 where it is the view's
+    glm::ivec2 view_{0}, size_{0};  ///< pixels; 0 in size_: the view's
     bool transparent_ = false;
     std::string why_no_mp4_;
 };
 
-/// A name for a new video beside the scene, without an ending: "arm-1".
+/// A name for a new video in the folder, without an extension: "arm-1".
 std::string video_name(const Workspace& workspace, const std::filesystem::path& folder);
 
 }  // namespace tendril::app

@@ -1,5 +1,5 @@
-// The files that travel inside the program: the shaders, the fonts and the labs' cards of things to try.
-// third_party/assets.cmake embeds them.
+// The files embedded in the program by third_party/assets.cmake: shaders, fonts and the labs' cards of things
+// to try.
 #pragma once
 
 #include <cstddef>
@@ -8,8 +8,7 @@
 
 namespace tendril::app {
 
-/// The text of a file in shaders/, such as "stroke.vert". Throws std::out_of_range for a name it does not
-/// know.
+/// The text of a file in shaders/, such as "stroke.vert". Throws std::out_of_range for an unknown name.
 std::string_view shader_source(std::string_view name);
 
 /// The text of cards.json in a lab's folder; empty if the lab has no cards.

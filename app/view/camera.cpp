@@ -14,7 +14,7 @@ float bounded(float value, float low, float high, float otherwise) {
     return std::isfinite(value) ? std::clamp(value, low, high) : otherwise;
 }
 
-/// The nearest pose that can be looked from, so that no scene file and no gesture can break the picture.
+/// Clamps a pose to its valid range, so that no scene file or gesture can break the picture.
 CameraPose in_range(CameraPose pose) {
     for (int i = 0; i < 3; ++i)
         pose.target[i] = bounded(pose.target[i], -camera_range::target, camera_range::target, 0.0f);
@@ -36,8 +36,9 @@ Rect in_range(const Rect& viewport) {
     return {low, glm::max(pixels(viewport.max), low + 1.0f)};
 }
 
-/// Tangent of half the vertical field. In a view narrower than this the field's width is kept instead of its
-/// height, so that what fits a wide window still fits when panels or large text make the view narrow.
+/// Tangent of half the vertical field of view. In a view narrower than 5:4 the field's width is kept instead
+/// of its height, so that a scene that fits a wide window still fits when panels or large text make the view
+/// narrow.
 float half_field(const CameraPose& pose, float aspect) {
     constexpr float narrow = 1.25f, widest = 4.0f;
     return std::tan(0.5f * pose.field_of_view) * std::clamp(narrow / aspect, 1.0f, widest);
@@ -49,8 +50,8 @@ Camera::Camera(const CameraPose& pose, const Rect& viewport)
     : pose_(in_range(pose)), viewport_(in_range(viewport)) {
     const float sin_yaw = std::sin(pose_.yaw), cos_yaw = std::cos(pose_.yaw);
     const float sin_pitch = std::sin(pose_.pitch), cos_pitch = std::cos(pose_.pitch);
-    // Written out from the angles rather than crossed with world up, so that looking straight down is nothing
-    // special.
+    // Computed from the angles rather than by cross products with world up, so that looking straight down is
+    // no special case.
     forward_ = {-sin_yaw * cos_pitch, -sin_pitch, -cos_yaw * cos_pitch};
     right_ = {cos_yaw, 0.0f, -sin_yaw};
     up_ = {-sin_yaw * sin_pitch, cos_pitch, -cos_yaw * sin_pitch};
@@ -65,7 +66,7 @@ Camera::Camera(const CameraPose& pose, const Rect& viewport)
     const float field = half_field(pose_, aspect);
     metres_per_pixel_at_one_ = 2.0f * field / size.y;
     if (pose_.orthographic) {
-        // Nothing is cut off in front either: one sees a parallel picture from anywhere along the line.
+        // A parallel projection has no eye point, so nothing in front is clipped either.
         const float half = pose_.distance * field, reach = 100.0f * pose_.distance;
         near_ = -reach;
         projection_ = glm::ortho(-half * aspect, half * aspect, -half, half, -reach, reach);
@@ -105,7 +106,7 @@ Ray Camera::ray(glm::vec2 pixel) const {
 std::optional<glm::vec3> Camera::on_plane(glm::vec2 pixel, glm::vec3 through, glm::vec3 normal) const {
     const Ray sight = ray(pixel);
     const float slope = glm::dot(sight.direction, normal);
-    // Edge on, a pixel is worth kilometres, which is of use to nobody.
+    // Edge-on, one pixel would span kilometres.
     if (!(std::abs(slope) > 1e-4f * glm::length(normal))) return std::nullopt;
     const float along = glm::dot(through - sight.origin, normal) / slope;
     if (!std::isfinite(along) || (along <= 0.0f && !pose_.orthographic)) return std::nullopt;
@@ -131,8 +132,7 @@ CameraPose zoomed(const Camera& camera, glm::vec2 cursor, float notches) {
     const CameraPose& pose = camera.pose();
     CameraPose moved = pose;
     moved.distance = in_range(CameraPose{.distance = pose.distance * std::pow(1.15f, -notches)}).distance;
-    // The point under the cursor in the target's plane is to stay there, and all in that plane shrinks or
-    // grows alike.
+    // Everything in the target's plane scales uniformly: keep the point under the cursor fixed.
     const glm::vec2 offset = (cursor - camera.viewport().centre()) * camera.metres_per_pixel(pose.target);
     const float left = 1.0f - moved.distance / pose.distance;
     moved.target += left * (camera.right() * offset.x - camera.up() * offset.y);
@@ -146,8 +146,7 @@ CameraPose framed(const CameraPose& pose, const Rect& viewport, glm::vec3 centre
     const glm::vec2 size = in_range(viewport).size();
     const float aspect = size.x / size.y;
     const float tangent = half_field(moved, aspect) * std::min(1.0f, aspect);
-    // In perspective the outline of a ball is where the line of sight touches it: at the sine of the half
-    // angle.
+    // In perspective the line of sight is tangent to the ball's outline: use the sine of the half angle.
     const float sine = tangent / std::sqrt(1.0f + tangent * tangent);
     if (radius > 0.0f) moved.distance = margin * radius / (moved.orthographic ? tangent : sine);
     return in_range(moved);

@@ -1,5 +1,5 @@
-// The camera over one rectangle of the window: world to pixels and back, and the moves a person makes.
-// Pixels are window coordinates from the top left, the same as the mouse's and those in --state.
+// The camera of one rectangle of the window: world to pixels and back, and the user's camera moves. Pixels
+// are window coordinates from the top left, like the mouse's and those in --state.
 #pragma once
 
 #include <glm/mat4x4.hpp>
@@ -39,15 +39,15 @@ class Camera {
     glm::vec3 up() const { return up_; }
     float near_plane() const { return near_; }
 
-    /// The pixel of a point; nothing for one behind the eye.
+    /// The pixel of a point; none if it is behind the eye.
     std::optional<glm::vec2> project(glm::vec3 point) const;
     /// Distance along the viewing direction.
     float depth(glm::vec3 point) const;
     /// The line of sight through a pixel.
     Ray ray(glm::vec2 pixel) const;
-    /// How many metres one pixel is at that point's depth (above zero, even behind the eye).
+    /// Metres per pixel at the point's depth; positive even behind the eye.
     float metres_per_pixel(glm::vec3 point) const;
-    /// Where the pixel's ray meets the plane; nothing where it runs along it or meets it behind the eye.
+    /// Where the pixel's ray meets the plane; none if it is parallel to the plane or meets it behind the eye.
     std::optional<glm::vec3> on_plane(glm::vec2 pixel, glm::vec3 through, glm::vec3 normal) const;
 
   private:
@@ -57,16 +57,15 @@ class Camera {
     glm::mat4 projection_{1.0f};
     glm::vec3 eye_{0.0f}, forward_{0.0f}, right_{0.0f}, up_{0.0f};
     float near_ = 0.01f;
-    float metres_per_pixel_at_one_ = 0.0f;  ///< at a depth of 1 m; orthographic: times the distance
+    float metres_per_pixel_at_one_ = 0.0f;  ///< at a depth of 1 m; orthographic: multiply by the distance
 };
 
-/// The moves; each gives the new pose. Pixels are mouse movements; results stay in range.
+/// Camera moves; each returns the new pose, clamped to its valid range. Pixels are mouse movements.
 CameraPose orbited(const CameraPose& pose, glm::vec2 pixels);
 CameraPose panned(const Camera& camera, glm::vec2 pixels);
-/// One notch is a factor of 1.15; what lies under the cursor stays under it.
+/// One notch is a factor of 1.15; the point under the cursor in the target's plane stays there.
 CameraPose zoomed(const Camera& camera, glm::vec2 cursor, float notches);
-/// Keeps the direction, and fits a sphere of that centre and radius into the viewport. A radius of 0 only
-/// moves the target there.
+/// Fits the sphere into the viewport, keeping the direction. A radius of 0 only moves the target.
 CameraPose framed(const CameraPose& pose, const Rect& viewport, glm::vec3 centre, float radius);
 
 enum class FixedView { Front, Side, Top };

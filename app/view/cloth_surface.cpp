@@ -33,7 +33,7 @@ class ClothSurface {
   private:
     /// Half a cell.
     struct Half {
-        glm::vec3 normal{0.0f};  ///< as long as twice its area
+        glm::vec3 normal{0.0f};  ///< its length is twice the area
         glm::vec3 middle{0.0f};
         bool whole = false, front = false;
     };
@@ -65,7 +65,7 @@ class ClothSurface {
         if (!there) return {};
         const glm::vec3 normal = glm::cross(at(b) - at(a), at(c) - at(a));
         list_.mesh.triangle(a, b, c);
-        // Not made unit: so the larger triangle counts for more.
+        // Not normalised, so that larger triangles weigh more.
         for (const std::uint32_t i : {a, b, c}) vertex(i).normal += normal;
         return {normal, (at(a) + at(b) + at(c)) / 3.0f, true, edges_.front(normal, at(a))};
     }
@@ -83,9 +83,9 @@ class ClothSurface {
         }
     }
 
-    /// Half of a cell, or nothing beyond the cloth.
+    /// Half of a cell; empty outside the cloth.
     Half half_at(std::uint32_t column, std::uint32_t row, bool lower) const {
-        if (column >= columns_ - 1 || row >= rows_ - 1) return {};  // what is before the first is huge
+        if (column >= columns_ - 1 || row >= rows_ - 1) return {};  // an index of -1 wraps to a huge one
         return halves_[2 * (std::size_t{row} * (columns_ - 1) + column) + (lower ? 1 : 0)];
     }
 
@@ -102,12 +102,13 @@ class ClothSurface {
         }
     }
 
-    /// An edge is an outline where the cloth ends and where it turns its other side to the eye.
+    /// An edge is an outline at the cloth's border, and between triangles that show different sides to the
+    /// eye.
     void edge(std::uint32_t a, std::uint32_t b, const Half& one, const Half& other) {
         if (one.whole == other.whole && one.front == other.front) return;
         const Half* nearer = one.whole ? &one : &other;
         if (one.whole && other.whole) {
-            // Of the two the nearer one is on the eye's side of the other.
+            // The nearer triangle is on the eye's side of the other.
             const bool before = glm::dot(other.normal, one.middle - at(a)) > 0.0f;
             nearer = before == other.front ? &one : &other;
         }
@@ -120,8 +121,9 @@ class ClothSurface {
         }
     }
 
-    /// A few bars, as thick as they are apart, since many thin ones would let too much of the sky through;
-    /// but close to the ground no thicker than their height, as the shadow there ends where the cloth does.
+    /// Casts the shadow of a few bars that nearly touch, since many thin ones would let too much of the sky
+    /// through; close to the ground they are no thicker than their height, so that the shadow ends where the
+    /// cloth does.
     void shadows() {
         constexpr std::uint32_t bars = 7;
         const std::uint32_t step = std::max((std::max(columns_, rows_) + bars - 1) / bars, 1u);

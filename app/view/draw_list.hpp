@@ -1,11 +1,10 @@
-// What to draw, with no GL in it. Labs fill one each frame; the renderer draws it, picking reads it,
-// and tests look into it.
+// What to draw, free of GL. Labs fill a list each frame; the renderer draws it, picking reads it, and tests
+// inspect it.
 //
-// Nearly everything is one shape, a *stroke*: two balls and what lies between them. A sphere is a stroke
-// whose ends coincide, a line one of constant width, a bone a tapered one. So one instanced call draws
-// them all, whatever their number, and one distance function picks them. Surfaces of other shapes are
-// triangles of one mesh; app/view/surfaces.hpp builds them. They are not picked: whoever wants that lays
-// strokes over them that are seen through.
+// Nearly everything is one shape, a *stroke*: two balls and the hull between them. A sphere is a stroke whose
+// ends coincide, a line has constant width, a bone tapers. So one instanced call draws them all, and one
+// distance function picks them. Surfaces of other shapes are triangles of one mesh; app/view/surfaces.hpp
+// builds them. They cannot be picked: cover them with transparent strokes for that.
 #pragma once
 
 #include <cstdint>
@@ -20,22 +19,22 @@
 
 namespace tendril::app {
 
-/// Names what a stroke belongs to for picking; the lab gives it its meaning. Nothing: not pickable.
+/// Identifies a stroke for picking; the lab defines its meaning. no_pick: not pickable.
 using PickId = std::int32_t;
 inline constexpr PickId no_pick = -1;
 
 enum class Unit : std::uint8_t { Metres, Pixels };
-/// Ring: a flat circle outline facing the eye. Edge: a line along the edge of a surface, lit as that is.
+/// Ring: a flat circle outline facing the eye. Edge: a line along the edge of a surface, with the surface's
+/// light.
 enum class Shade : std::uint8_t { Lit, Flat, Ring, Edge };
-enum class Layer : std::uint8_t { Scene, Overlay };  ///< Overlay is drawn over the scene, whatever its depth
+enum class Layer : std::uint8_t { Scene, Overlay };  ///< Overlay is drawn over the scene, regardless of depth
 
 struct Stroke {
     glm::vec3 a{0.0f}, b{0.0f};
     float radius_a = 1.0f, radius_b = 1.0f;
-    glm::vec4 colour{1.0f};  ///< with an alpha of 0 it is not drawn, but still picked, and throws its shadow
-    glm::vec3 normal{0.0f};  ///< of the surface, unit, or the mean of several; only for Shade::Edge
-    /// How far the cuts at a and b lean over along the line, for each pixel across it to its left; only for
-    /// Shade::Edge.
+    glm::vec4 colour{1.0f};  ///< alpha 0: not drawn, but still picked and casting a shadow
+    glm::vec3 normal{0.0f};  ///< of the surface: unit, or the mean of several; only for Shade::Edge
+    /// How far the cuts at a and b shift along the line per pixel to its left; only for Shade::Edge.
     glm::vec2 mitre{0.0f};
     float ring_width = 0.0f;  ///< pixels; only for Shade::Ring
     Unit unit = Unit::Metres;
@@ -43,10 +42,10 @@ struct Stroke {
     Layer layer = Layer::Scene;
     bool shadow = false;  ///< darkens the ground beneath it
     PickId pick = no_pick;
-    std::int16_t rank = 0;  ///< where pickable things overlap the higher rank wins, then the nearer
+    std::int16_t rank = 0;  ///< where pickable strokes overlap the higher rank wins, then the nearer
 };
 
-/// Text beside a point. The higher `rank` stays where two would overlap.
+/// Text beside a point. Of two labels that would overlap, the higher `rank` is kept.
 struct Label {
     glm::vec3 at{0.0f};
     float clearance = 10.0f;  ///< pixels from the point to keep free
@@ -59,20 +58,20 @@ struct DrawList {
     std::vector<Stroke> strokes;
     std::vector<Label> labels;
     Mesh mesh{};
-    std::vector<SkinDraw> skins{};  ///< drawn with the mesh, or over the scene's strokes where seen through
-    Mesh veil{};                    ///< of the scene, and seen through: all that is behind it shows
-    Mesh overlay{};                 ///< over the scene, and under the strokes that are over it
+    std::vector<SkinDraw> skins{};  ///< drawn with the mesh, or over the scene's strokes if transparent
+    Mesh veil{};                    ///< of the scene, transparent: everything behind it shows
+    Mesh overlay{};                 ///< over the scene, under the overlay strokes
 
     void clear() {
         strokes.clear(), labels.clear(), mesh.clear(), skins.clear(), veil.clear(), overlay.clear();
     }
 
-    /// Each returns the stroke it appended, for the fields that are seldom set.
+    /// Each returns the appended stroke, for setting its rarer fields.
     Stroke& sphere(glm::vec3 centre, float radius, Unit unit, glm::vec4 colour);
-    /// Lines keep their width on the screen, and end behind the balls that they join.
+    /// Lines keep their width on the screen, and end behind the balls they join.
     Stroke& line(glm::vec3 a, glm::vec3 b, float width_pixels, glm::vec4 colour);
     Stroke& bone(glm::vec3 a, glm::vec3 b, float radius_a, float radius_b, glm::vec4 colour);
-    /// `radius_pixels` is that of the line's middle.
+    /// `radius_pixels` is the radius of the line's centre.
     Stroke& ring(glm::vec3 centre, float radius_pixels, float width_pixels, glm::vec4 colour);
 };
 

@@ -41,7 +41,7 @@ void Edges::meet(std::uint32_t vertex, std::uint32_t other) {
     std::uint32_t& slot = slots_[vertex - first_];
     if (slot == 0) {
         const glm::vec3 at = list_.mesh.vertices[vertex].position;
-        // What is behind the eye is not seen, nor is how it is cut.
+        // Points behind the eye are invisible, so their cuts do not matter.
         joints_.push_back({.pixel = camera_.project(at).value_or(glm::vec2(0.0f))});
         slot = static_cast<std::uint32_t>(joints_.size());
     }
@@ -57,7 +57,7 @@ float Edges::mitre_at(std::uint32_t vertex, std::uint32_t other) const {
     const glm::vec2 to = joint(other).pixel - here.pixel, from = here.pixel - joint(third).pixel;
     const float lengths = glm::length(to) * glm::length(from);
     if (!(lengths > 1e-6f)) return 0.0f;
-    // Half the angle between the two.
+    // The tangent of half the angle between the two.
     const float cosine = glm::dot(from, to) / lengths, sine = (from.x * to.y - from.y * to.x) / lengths;
     return cosine > -0.6f ? -sine / (1.0f + cosine) : 0.0f;
 }
@@ -70,14 +70,14 @@ void Edges::join() {
         meet(outline.b, outline.a);
     }
     for (const Joined& outline : joined_) {
-        // Seen from b, what is left is right and what is ahead is behind: the lean is the same.
+        // Seen from b, left and right swap and so do forwards and backwards: the lean has the same sign.
         list_.strokes[outline.stroke].mitre = {mitre_at(outline.a, outline.b),
                                                mitre_at(outline.b, outline.a)};
     }
     joined_.clear();
 }
 
-/// How a cut square to `tangent` leans in the picture of a line with that direction.
+/// The lean of a cut perpendicular to `tangent`, on the screen, for a line of that direction.
 float Edges::mitre(glm::vec3 point, glm::vec3 tangent, glm::vec3 direction) const {
     constexpr float most = 2.0f;
     const float pixel = camera_.metres_per_pixel(point);
@@ -86,7 +86,7 @@ float Edges::mitre(glm::vec3 point, glm::vec3 tangent, glm::vec3 direction) cons
     if (!at || !on || !turned) return 0.0f;
     const glm::vec2 line = *on - *at, curve = *turned - *at;
     const float along = glm::dot(line, curve);
-    // Pixels count downwards: to the left of a line is what would be its right.
+    // Pixels count downwards, which swaps left and right.
     const float lean = (line.x * curve.y - line.y * curve.x) / along;
     return along > 0.0f && std::abs(lean) < most ? lean : 0.0f;
 }
@@ -95,7 +95,7 @@ void Edges::thread(glm::vec3 a, glm::vec3 b, glm::vec3 tangent_a, glm::vec3 tang
                    glm::vec3 colour) {
     const glm::vec3 along = unit_or(b - a, glm::vec3(0.0f)), way = to_eye(0.5f * (a + b));
     const glm::vec3 across = unit_or(way - glm::dot(way, along) * along, glm::vec3(0.0f));
-    // The mean of the normals over the width of a round rod, which light takes as it takes a normal.
+    // The mean of the normals across a round rod. Lighting is linear in it as in a normal.
     Stroke& stroke = add(a, b, 0.25f * glm::pi<float>() * across, colour);
     stroke.radius_a = stroke.radius_b = radius;
     stroke.unit = Unit::Metres;

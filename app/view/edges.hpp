@@ -1,10 +1,10 @@
-// Clean edges for surfaces without multisampling: along each edge of a mesh that is an outline as seen from
-// the eye, a thin stroke that takes its colour and light from the surface.
+// Anti-aliased edges for surfaces without multisampling: along each mesh edge that is an outline as seen from
+// the eye, a thin stroke with the surface's colour and light.
 //
-// The rasteriser draws the pixels whose centres a triangle covers, all or nothing. The stroke, half a pixel
-// to each side of the outline, covers the pixels next to those in proportion, so that together they are the
-// surface made half a pixel larger with a soft edge. Strokes are drawn after the mesh, the far ones first, so
-// the edge is soft over whatever is behind. A closed surface is built that half pixel smaller beforehand.
+// The rasteriser fills exactly the pixels whose centres a triangle covers. The stroke, half a pixel to each
+// side of the outline, covers the adjacent pixels proportionally, so that together they show the surface half
+// a pixel larger with a soft edge. Strokes are drawn after the mesh, far ones first, so the edge blends with
+// whatever is behind it. Closed surfaces are built half a pixel smaller to compensate.
 #pragma once
 
 #include <cstdint>
@@ -23,27 +23,27 @@ class Edges {
 
     Edges(DrawList& list, const Camera& camera) : list_(list), camera_(camera), first_(list.mesh.next()) {}
 
-    /// From a point towards the eye, of any length.
+    /// The direction from a point towards the eye, not normalised.
     glm::vec3 to_eye(glm::vec3 point) const {
         return camera_.pose().orthographic ? -camera_.forward() : camera_.eye() - point;
     }
-    /// Whether a face with that normal and that point in its plane shows its front.
+    /// Whether a face with this normal, through this point, faces the eye.
     bool front(glm::vec3 normal, glm::vec3 point) const { return glm::dot(normal, to_eye(point)) > 0.0f; }
 
-    /// What `width` is at that point, in metres.
+    /// `width` in metres at a point.
     float metres(glm::vec3 point) const { return width * camera_.metres_per_pixel(point); }
 
-    /// `normal` points to the side that is seen.
+    /// `normal` points to the visible side.
     void outline(glm::vec3 a, glm::vec3 b, glm::vec3 normal, glm::vec3 colour);
     /// The same between two vertices of the mesh.
     void outline(std::uint32_t a, std::uint32_t b, glm::vec3 normal, glm::vec3 colour);
-    /// Cuts those where two meet in a vertex so that they fit together. Call it when all are there.
+    /// Mitres outlines where exactly two meet in a vertex. Call it after adding all of them.
     void join();
-    /// Between two faces that both are seen; lies a little before them, as it would drown in them.
+    /// An edge between two visible faces; slightly in front of them, to avoid z-fighting.
     void crease(glm::vec3 a, glm::vec3 b, glm::vec3 normal, glm::vec3 colour);
 
-    /// A round piece so thin that one shade is enough for all of it. Pieces that go on in one another, with
-    /// the same tangent where they meet, show no seams, also where they are so thin that they fade.
+    /// A round piece so thin that one shade suffices. Consecutive pieces with the same tangent where they
+    /// meet show no seams, even where they are so thin that they fade.
     void thread(glm::vec3 a, glm::vec3 b, glm::vec3 tangent_a, glm::vec3 tangent_b, float radius,
                 glm::vec3 colour);
 
@@ -53,7 +53,7 @@ class Edges {
         std::uint32_t a, b;
         std::size_t stroke;
     };
-    /// A vertex where outlines end: how many, and at which vertices the first two begin.
+    /// A vertex where outlines end: their count, and the other ends of the first two.
     struct Joint {
         std::uint32_t count = 0;
         std::uint32_t others[2]{};
@@ -68,10 +68,10 @@ class Edges {
 
     DrawList& list_;
     const Camera& camera_;
-    std::uint32_t first_;  ///< vertices before this one are not ours
+    std::uint32_t first_;  ///< earlier vertices belong to other surfaces
     std::vector<Joined> joined_;
     std::vector<Joint> joints_;
-    std::vector<std::uint32_t> slots_;  ///< of each vertex: its joint's number, from 1
+    std::vector<std::uint32_t> slots_;  ///< for each vertex: its joint's number, from 1; 0: none
 };
 
 }  // namespace tendril::app

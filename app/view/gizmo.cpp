@@ -13,7 +13,7 @@
 namespace tendril::app {
 namespace {
 
-// Pixels from the middle, which stays free for what stands there.
+// Pixels from the centre, which is left free for the object.
 constexpr float ring_radius = 78.0f;
 constexpr float middle_radius = 9.0f;
 constexpr float arrow_from = 16.0f, cone_length = 17.0f, cone_radius = 6.0f;
@@ -22,7 +22,7 @@ constexpr float box_half = 5.0f, box_alone = 82.0f, box_within = 56.0f;
 constexpr float plane_low = 22.0f, plane_high = 38.0f;
 constexpr std::int16_t gizmo_rank = 200;
 constexpr int ring_sides = 96;
-constexpr glm::vec4 unseen{0.0f};  ///< of strokes that can be caught, but are drawn otherwise
+constexpr glm::vec4 unseen{0.0f};  ///< of strokes that only serve picking
 
 constexpr std::array<const char*, gizmo_parts> names{"move_x",   "move_y",  "move_z",   "move_yz",
                                                      "move_zx",  "move_xy", "rotate_x", "rotate_y",
@@ -101,7 +101,7 @@ std::vector<glm::vec3> Gizmo::grips(GizmoPart part, const Camera& camera) const 
     if (changed_by(part) == Drag::Position)
         return {frame.position + (far - 0.6f * cone_length * pixel) * axis_of(frame, axis)};
     if (changed_by(part) == Drag::Scale) return {frame.position + far * axis_of(frame, axis)};
-    // Of a ring, its side that faces the eye, from its middle to its ends.
+    // For a ring, the half that faces the eye, from its middle to its ends.
     const glm::vec3 sight = sight_to(frame.position, camera);
     std::vector<glm::vec3> points;
     for (int i = 0; i < ring_sides; ++i) points.push_back(on_ring(frame, axis, far, ring_angle(i) + 0.02f));
@@ -175,7 +175,7 @@ class Drawing {
     void arrow(GizmoPart part) {
         const glm::vec3 along = axis(app::axis_of(part));
         const float tip = gizmo_.reach(Drag::Position, camera_), cone = tip - cone_length * pixel_;
-        // Where boxes stand on the same axis, each part is caught on its own side of the rings.
+        // If the axis also has a scale box, the box is picked inside the rings and the arrow outside.
         const float from = has(gizmo_.what, Drag::Scale) ? ring_radius : arrow_from;
         const glm::vec4 paint(colour(part), 1.0f);
         const float width = px(lit(part) ? 4.0f : 3.0f);
@@ -196,7 +196,7 @@ class Drawing {
         for (int i = 0; i < ring_sides; ++i) {
             const glm::vec3 a = on_ring(gizmo_.frame, about, radius, ring_angle(i));
             const glm::vec3 b = on_ring(gizmo_.frame, about, radius, ring_angle(i + 1));
-            // A ring that faces the eye is near all round.
+            // The tolerance makes a ring that faces the eye near all round.
             const bool hidden = glm::dot(0.5f * (a + b) - centre_, sight) > 0.02f * radius;
             Stroke& stroke = list_.line(a, b,
                                         px(hidden      ? 1.5f
@@ -218,7 +218,7 @@ class Drawing {
         over(list_.sphere(at, px(box_half + 3.0f), Unit::Pixels, unseen), part, 6);
     }
 
-    /// A cube over the scene, with the soft edges that it has within it.
+    /// A cube in the overlay, with the same soft edges as in the scene.
     void solid(glm::vec3 at, float half, glm::vec3 paint) {
         DrawList cube;
         box(cube, camera_, at, glm::vec3(half), gizmo_.frame.rotation, paint);
@@ -269,7 +269,7 @@ class Drawing {
         draw(part);
     }
 
-    /// The whole axis, through where the drag began.
+    /// A line along the whole axis, through the drag's start.
     void drawn_out(int of) {
         const std::array<glm::vec3, 3> axes{palette_.axis_x, palette_.axis_y, palette_.axis_z};
         const glm::vec3 along = 2000.0f * pixel_ * axis(of);
@@ -279,7 +279,7 @@ class Drawing {
         line.rank = gizmo_rank - 20;
     }
 
-    /// Two spokes, where the ring was caught and where that is now, and the arc between them.
+    /// Two spokes, where the ring was caught and where that point is now, and the arc between them.
     void swept(GizmoPart part) {
         const int about = app::axis_of(part);
         const float radius = gizmo_.reach(Drag::Rotation, camera_);

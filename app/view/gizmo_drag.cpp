@@ -10,8 +10,8 @@
 namespace tendril::app {
 namespace {
 
-constexpr float min_slant = 0.1f;   ///< sine below which an axis or a plane is dragged evenly
-constexpr float ring_slant = 0.3f;  ///< below which a ring is pulled like a rope
+constexpr float min_slant = 0.1f;   ///< sine of the slant below which an axis or plane drag is linear
+constexpr float ring_slant = 0.3f;  ///< sine of the slant below which a ring is pulled like a rope
 constexpr float min_factor = 0.01f;
 
 bool finite(glm::vec3 v) {
@@ -65,7 +65,7 @@ GizmoDrag::GizmoDrag(GizmoPart part, const HandleFrame& frame, const Ray& caught
     caught_at_ = edge_on_ ? std::atan2(glm::dot(nearest, v_), glm::dot(nearest, u_)) : caught_.x;
 }
 
-/// Where a line of sight meets the plane that faces the eye, from the middle.
+/// Where a line of sight meets the plane that faces the eye, relative to the centre.
 std::optional<glm::vec3> GizmoDrag::facing(const Ray& ray) const {
     if (!finite(ray.origin) || !finite(ray.direction)) return std::nullopt;
     glm::vec3 at;
@@ -80,8 +80,8 @@ std::optional<glm::vec3> GizmoDrag::facing(const Ray& ray) const {
     return finite(at) ? std::optional(at) : std::nullopt;
 }
 
-/// What is a distance t along an axis of slant p is seen at m = t p / (1 + t a / d) in the plane that faces
-/// the eye, a being how much of the axis leads away from it.
+/// A point at distance t along an axis of slant p appears at m = t p / (1 + t a / d) in the plane that faces
+/// the eye, where a is the axis's component away from the eye and d the distance to the eye. Solved for t.
 float GizmoDrag::along_axis(glm::vec3 at, glm::vec3 axis) const {
     const float away = glm::dot(axis, sight_);
     const glm::vec3 across = axis - away * sight_;
@@ -100,7 +100,7 @@ glm::vec2 GizmoDrag::in_plane(glm::vec3 at) const {
     return {glm::dot(met, u_), glm::dot(met, v_)};
 }
 
-/// Radians about the axis. A ring that is seen edge on turns as far as its near side is pulled.
+/// Radians about the axis. A ring that is edge-on turns by as much as its near side is pulled.
 float GizmoDrag::about_axis(glm::vec3 at) const {
     if (!edge_on_) {
         const glm::vec2 met = in_plane(at);

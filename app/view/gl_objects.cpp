@@ -8,7 +8,7 @@
 namespace tendril::app {
 namespace {
 
-/// A shader with the files that its lines `#include "..."` name in their place, since GLSL has no such line.
+/// A shader's source with its `#include "..."` lines replaced by those files; GLSL has no #include.
 std::string whole_source(const std::string& file) {
     constexpr std::string_view before = "\n#include \"", after = "\"\n";
     std::string text(shader_source(file));
@@ -48,7 +48,7 @@ class Shader {
     GLuint name_;
 };
 
-/// To the bound buffer, which grows with room to spare.
+/// Writes to the bound buffer, which grows by half again when it is too small.
 void send_to(GLenum target, std::size_t& capacity, const void* data, std::size_t bytes) {
     if (bytes > capacity) {
         capacity = bytes + bytes / 2;
@@ -101,7 +101,7 @@ void Instances::send(const void* data, std::size_t bytes) {
 void Instances::draw(std::size_t first, std::size_t count) const {
     glBindVertexArray(vertex_array_);
     glBindBuffer(GL_ARRAY_BUFFER, buffer_);
-    // GL 3.3 has no base instance: the first one is where the attributes begin.
+    // GL 3.3 has no base instance: offset the attributes instead.
     for (GLuint i = 0; i < attributes_.size(); ++i) {
         const Attribute& a = attributes_[i];
         const GLboolean normalised = a.type == GL_FLOAT ? GL_FALSE : GL_TRUE;

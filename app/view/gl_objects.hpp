@@ -1,4 +1,4 @@
-// GL's objects as values that clean up after themselves. Used inside the renderer only.
+// RAII wrappers of GL objects. Used inside the renderer only.
 #pragma once
 
 #include <array>
@@ -15,10 +15,10 @@
 
 namespace tendril::app {
 
-/// A shader program from two of the embedded files.
+/// A shader program from two embedded files.
 class Program {
   public:
-    /// Throws std::runtime_error with the driver's words.
+    /// Throws std::runtime_error with the driver's log.
     Program(const std::string& vertex, const std::string& fragment);
     ~Program() { glDeleteProgram(name_); }
     Program(const Program&) = delete;
@@ -42,14 +42,14 @@ class Program {
     GLuint name_ = 0;
 };
 
-/// One attribute of an instance: where it lies in the instance's struct.
+/// One attribute of an instance: its type, and its offset in the instance's struct.
 struct Attribute {
     GLint components = 4;
     GLenum type = GL_FLOAT;
     std::size_t offset = 0;
 };
 
-/// Instances of a four-cornered shape, sent anew each frame and drawn in one call.
+/// Instances of a quad, sent each frame and drawn in one call.
 class Instances {
   public:
     Instances(std::size_t stride, std::span<const Attribute> attributes);
@@ -69,7 +69,7 @@ class Instances {
     std::size_t capacity_ = 0;  ///< bytes
 };
 
-/// A mesh, sent anew each frame and drawn in one call. Attributes 0 to 3 are the members of Vertex.
+/// A mesh, sent each frame and drawn in one call. Attributes 0 to 3 are the members of Vertex.
 class Triangles {
   public:
     Triangles();

@@ -14,7 +14,7 @@
 namespace tendril::app {
 namespace {
 
-constexpr std::uint32_t rows = 38, columns = 64;  ///< of points, but for the two poles
+constexpr std::uint32_t rows = 38, columns = 64;  ///< of points, without the two poles
 
 using Triangle = std::array<std::uint32_t, 3>;
 
@@ -46,7 +46,7 @@ const std::vector<Triangle>& triangles() {
     return list;
 }
 
-/// The two triangles that meet in each edge: (a, b, one, other).
+/// Each edge with the two triangles that share it: (a, b, one, other).
 const std::vector<std::array<std::uint32_t, 4>>& edges_of_triangles() {
     static const std::vector<std::array<std::uint32_t, 4>> list = [] {
         std::vector<std::array<std::uint32_t, 3>> sides;  // low vertex, high vertex, triangle

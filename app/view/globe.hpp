@@ -1,6 +1,6 @@
 // A closed round surface of any shape, as triangles: a head, a blob. Like the builders in surfaces.hpp it
-// appends to the list's mesh, and to its strokes what makes its outline clean; it throws no shadow and cannot
-// be picked.
+// appends to the list's mesh, and strokes for an anti-aliased outline; it casts no shadow and cannot be
+// picked.
 #pragma once
 
 #include <functional>
@@ -11,9 +11,9 @@
 
 namespace tendril::app {
 
-/// `surface` says where the point of the unit ball that it is given lies, in metres; outside stays outside.
-/// Normals are those of the triangles around a point, weighted by their areas. Where any point is not finite
-/// or farther than 1e9 from the origin, nothing is appended. Some 2 500 points, each asked for once.
+/// `surface` maps points of the unit sphere to positions in metres and must keep the outside outside. A
+/// vertex normal is the area-weighted mean of its triangles' normals. Appends nothing if any point is not
+/// finite or has a coordinate beyond 1e9. Calls `surface` once for each of some 2 400 points.
 void globe(DrawList& list, const Camera& camera, const std::function<glm::vec3(glm::vec3)>& surface,
            glm::vec3 colour);
 

@@ -10,8 +10,8 @@
 namespace tendril::app {
 namespace {
 
-/// Which way from its point a label lies. Slantwise first, for what runs through a point mostly runs along or
-/// up; to the right before the left, as people read on from there, and above before below.
+/// Directions from a point to its label, best first. Diagonals come first because lines through a point are
+/// mostly horizontal or vertical; right before left, in reading direction; above before below.
 constexpr std::array<glm::vec2, 8> sides{{
     {0.7f, -0.7f},
     {0.7f, 0.7f},
@@ -24,7 +24,7 @@ constexpr std::array<glm::vec2, 8> sides{{
 }};
 
 Rect box_at(const LabelRequest& request, glm::vec2 side) {
-    // The label's nearest edge or corner touches the circle that is to stay free.
+    // The label's nearest edge or corner touches the clearance circle.
     const glm::vec2 away = glm::vec2((side.x > 0.0f) - (side.x < 0.0f), (side.y > 0.0f) - (side.y < 0.0f));
     const glm::vec2 centre = request.at + side * request.clearance + 0.5f * away * request.size;
     // Whole pixels keep text sharp.
@@ -47,7 +47,7 @@ bool usable(const LabelRequest& r, const Rect& viewport) {
     return finite && r.size.x > 0.0f && r.size.y > 0.0f && viewport.contains(r.at);
 }
 
-/// The boxes taken so far, by the cells of a grid that they touch.
+/// The boxes placed so far, by the grid cells they touch.
 class Taken {
   public:
     Taken(const Rect& viewport, glm::vec2 cell, float gap)
@@ -73,10 +73,10 @@ class Taken {
     }
 
   private:
-    /// Until the visitor says false.
+    /// Visits the cells that the box touches until the visitor returns false.
     template <typename Visit>
     void each_cell(const Rect& box, Visit visit) const {
-        // As whole numbers only once they are near: a ball may be kilometres out of the picture.
+        // Clamp before converting to integers: a box may be arbitrarily far off screen.
         const glm::vec2 last(count_ - 1);
         const glm::ivec2 low(glm::clamp((box.min - origin_) / cell_, glm::vec2(0.0f), last));
         const glm::ivec2 high(glm::clamp((box.max - origin_) / cell_, glm::vec2(0.0f), last));
@@ -96,7 +96,7 @@ class Taken {
     std::vector<Rect> boxes_;
 };
 
-/// About one label to a cell, and no more cells than are worth their memory.
+/// About one label per cell, and a bounded number of cells.
 glm::vec2 cell_size(std::span<const LabelRequest> requests, const Rect& viewport) {
     glm::vec2 sum(0.0f);
     float count = 0.0f;

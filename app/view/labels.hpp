@@ -1,11 +1,11 @@
-// Where labels go: beside their points, inside the viewport, never on top of one another. No drawing and no
-// fonts in it, only rectangles.
+// Places labels beside their points, inside the viewport, never overlapping. Works on rectangles, without
+// drawing or fonts.
 //
-// Each label tries the places around its point in a fixed order and takes the first that is free, those of
-// higher rank choosing first; one that finds none is left out. Deciding by rank alone, and by the order given
-// where ranks are equal, keeps a label from flickering while nothing moves. A grid of cells keeps the cost
-// near linear: 10 000 labels take a few milliseconds. (Greedy point-feature labelling; see Christensen, Marks
-// and Shieber, 1995, for better and slower ones.)
+// Each label tries the positions around its point in a fixed order and takes the first free one; higher ranks
+// choose first, and a label without a free position is omitted. Deciding by rank, then by the given order,
+// keeps labels from flickering while nothing moves. A grid keeps the cost near linear: 10 000 labels take a
+// few milliseconds. (Greedy point-feature labelling; see Christensen, Marks and Shieber, 1995, for better and
+// slower methods.)
 #pragma once
 
 #include <cstddef>
@@ -26,13 +26,12 @@ struct LabelRequest {
 
 struct PlacedLabel {
     std::size_t request = 0;  ///< index of the request
-    Rect box;                 ///< where the text goes
+    Rect box;                 ///< of the text
 };
 
-/// The labels that fit, in the order in which they were placed. `gap` pixels stay free between two labels. A
-/// place that covers none of the `obstacles` is preferred; where there is none, a label covers one rather
-/// than be left out. Requests that are not finite, are empty, or whose point lies outside the viewport are
-/// left out.
+/// The labels that fit, in the order of placement. `gap` pixels stay free between two labels. Positions that
+/// cover none of the `obstacles` are preferred, but a label covers one rather than be omitted. Omits requests
+/// that are not finite, have an empty size, or whose point is outside the viewport.
 std::vector<PlacedLabel> place_labels(std::span<const LabelRequest> requests, const Rect& viewport,
                                       float gap = 2.0f, std::span<const Rect> obstacles = {});
 

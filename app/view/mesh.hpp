@@ -1,8 +1,8 @@
-// Triangles to draw, with no GL in it: whatever is solid and not a stroke. A frame has one mesh, which all
-// its surfaces are appended to, so that one call draws them.
+// Triangles to draw, free of GL: all solids that are not strokes. All surfaces of a frame are appended to one
+// mesh, so that one call draws them.
 //
-// Triangles are opaque and have two sides. The front is the side from which their corners run
-// counter-clockwise, and the normals point to it.
+// Triangles are two-sided. Seen from the front, their corners run counter-clockwise; normals point to the
+// front.
 #pragma once
 
 #include <cstdint>

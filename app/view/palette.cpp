@@ -29,7 +29,7 @@ const Palette dark{
     .accent = rgb(0x4FA3C7),
 };
 
-// The same hues, darker where they would drown on white; yellow most of all.
+// The same hues, darker where they would be too faint on white, yellow most of all.
 const Palette light{
     .theme = Theme::Light,
     .target = rgb(0xDE9200),

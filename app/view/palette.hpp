@@ -1,5 +1,5 @@
-// Every colour of the picture, by what it means. The meanings are the same in all labs and both themes;
-// the hues are those of Okabe and Ito (2008), which colour-blind people tell apart.
+// The colours of the picture, named by meaning. The meanings are the same in all labs and both themes; the
+// hues are those of Okabe and Ito (2008), which colour-blind people can distinguish.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -9,16 +9,16 @@
 
 namespace tendril::app {
 
-/// sRGB, 0 to 1. What only one lab has to colour stands in that lab's folder.
+/// sRGB, 0 to 1. Colours that only one lab uses are defined in that lab's folder.
 struct Palette {
     Theme theme;
-    // what things are
+    // objects with a meaning
     glm::vec3 target, head, tail, selection, limit, ghost;
-    // what is not special: joints and the links between them
+    // ordinary joints and the links between them
     glm::vec3 joint, neutral;
     // axes
     glm::vec3 axis_x, axis_y, axis_z;
-    // the room
+    // the surroundings
     glm::vec3 background_top, background_bottom, grid;
     float shadow = 0.5f;  ///< how dark a contact shadow is, 0 to 1
     // the panels
@@ -27,14 +27,15 @@ struct Palette {
 
 const Palette& palette(Theme theme);
 
-/// 0xE69F00, as colours are written.
+/// From hexadecimal notation: 0xE69F00.
 constexpr glm::vec3 rgb(unsigned hex) {
     return glm::vec3(static_cast<float>((hex >> 16) & 255u), static_cast<float>((hex >> 8) & 255u),
                      static_cast<float>(hex & 255u)) /
            255.0f;
 }
 
-/// A colour that stands back by so much (1 is all of it), opaque: strokes that meet show no seam.
+/// Blends a colour towards the background (strength 1: the full colour). Opaque, so that strokes that meet
+/// show no seam.
 glm::vec4 faded(const Palette& palette, glm::vec3 colour, float strength);
 
 }  // namespace tendril::app

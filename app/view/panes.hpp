@@ -1,5 +1,5 @@
-// The 3D view divided into panes: what is compared stands side by side, each in a view of its own, all seen by
-// one camera. Nearly always there is one.
+// The 3D view divided into panes that show things side by side for comparison, all seen by one camera.
+// Usually there is one.
 #pragma once
 
 #include <cstddef>
@@ -11,10 +11,10 @@
 
 namespace tendril::app {
 
-/// What is written in a pane's corner.
+/// The text in a pane's corner.
 struct PaneTitle {
     std::string text;
-    std::string detail{};  ///< smaller, below it; left out where there is no room
+    std::string detail{};  ///< smaller, below it; omitted if there is no room
     glm::vec3 colour{1.0f};
 };
 
@@ -27,8 +27,8 @@ struct Pane {
 
 inline constexpr float pane_gap = 2.0f;  ///< pixels, at scale 1
 
-/// `count` equal rectangles in rows, from the top left, as nearly square as they come; the last row may have
-/// fewer. Between them `gap` pixels, and all on whole pixels. A single one is all of the view.
+/// `count` equal rectangles in rows, from the top left, as large in their smaller side as possible; the last
+/// row may have fewer. They are `gap` pixels apart and on whole pixels. A single one fills the view.
 std::vector<Rect> tiled(const Rect& view, std::size_t count, float gap);
 
 }  // namespace tendril::app

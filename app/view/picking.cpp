@@ -21,13 +21,13 @@ struct Hit {
     }
 };
 
-/// Depth of the stroke's axis; in perspective it is the inverse that changes evenly across the screen.
+/// Depth of the stroke's axis; in perspective the inverse depth is linear across the screen.
 float axis_depth(const ProjectedStroke& outline, float along, bool orthographic) {
     if (orthographic) return outline.depth_a + along * (outline.depth_b - outline.depth_a);
     return 1.0f / ((1.0f - along) / outline.depth_a + along / outline.depth_b);
 }
 
-/// How far the drawn surface stands out from the axis towards the eye, in pixels.
+/// How far the drawn surface bulges from the axis towards the eye, in pixels.
 float bulge(const ProjectedStroke& outline, const StrokeDistance& distance) {
     const float radius = outline.radius_a + distance.along * (outline.radius_b - outline.radius_a);
     const float off_axis = std::clamp(radius + distance.pixels, 0.0f, radius);

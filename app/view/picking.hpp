@@ -1,4 +1,4 @@
-// What lies under a pixel, judged by the same geometry that is drawn.
+// Finds the stroke under a pixel, using the same geometry as drawing.
 #pragma once
 
 #include "app/view/camera.hpp"
@@ -7,9 +7,9 @@
 namespace tendril::app {
 
 /// The pick id under the pixel, or no_pick. Shapes count up to `slack` pixels beyond their drawn edge; a ring
-/// counts along its line, not inside it. Where several do: the higher rank, then the overlay, then what is
-/// under the pixel itself before what is only within the slack, then the nearer. Linear in the number of
-/// strokes; 20 000 take less than a millisecond.
+/// counts along its line, not inside it. Among several hits the order is: the higher rank, then the overlay,
+/// then strokes under the pixel itself before those only within the slack, then the nearer. Linear in the
+/// number of strokes; 20 000 take less than a millisecond.
 PickId pick(const DrawList& list, const Camera& camera, glm::vec2 pixel, float slack = 3.0f);
 
 }  // namespace tendril::app

@@ -19,9 +19,9 @@ struct Renderer::Impl {
 
 namespace {
 
-constexpr float veil_opacity = 0.13f;  ///< of one layer; what is hollow has two
+constexpr float veil_opacity = 0.13f;  ///< of one layer; a hollow body has two
 
-/// Whatever was drawn before (the panels, too) may have left these as it liked.
+/// Earlier drawing, such as the panels', may have left these in any state.
 void reset_state() {
     glDisable(GL_CULL_FACE);
     glDisable(GL_STENCIL_TEST);
@@ -36,7 +36,7 @@ void reset_state() {
     glBindSampler(0, 0);
 }
 
-/// The panels' backend saves and restores what it finds; this leaves it something plain.
+/// The panels' backend saves and restores the state it finds; leave it a plain one.
 void leave_plain_state() {
     glDisable(GL_SCISSOR_TEST);
     glDisable(GL_DEPTH_TEST);
@@ -68,7 +68,7 @@ void Renderer::draw(std::span<const Pane> panes, const CameraPose& pose, const P
     leave_plain_state();
 }
 
-/// All but what lies behind it.
+/// Everything but the backdrop.
 void Renderer::draw_scene(const DrawList& list, const Camera& camera, const Palette& palette,
                           const Frame& frame) {
     const PixelRect viewport = pixel_rect(camera.viewport(), frame);
@@ -81,7 +81,7 @@ void Renderer::draw_scene(const DrawList& list, const Camera& camera, const Pale
     glDepthMask(GL_TRUE);
     glClearDepth(1.0);
     glClear(GL_DEPTH_BUFFER_BIT);
-    // The ground is drawn in the camera's clip space, all else in pixels of the framebuffer.
+    // The ground is drawn in the camera's clip space, everything else in framebuffer pixels.
     glViewport(viewport.min.x, viewport.min.y, viewport.size.x, viewport.size.y);
     calls += impl_->shadows.draw(camera);
     glViewport(0, 0, size.x, size.y);

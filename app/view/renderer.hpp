@@ -1,11 +1,11 @@
-// Draws a DrawList with GL 3.3 core: background, ground grid, contact shadows, meshes, skins, strokes.
-// Eight draw calls at the most in a pane, however much is in the list, and those of skins: one or two for
-// each material. Edges are anti-aliased by coverage, without multisampling, so that a software rasteriser is
-// fast and every backend gives the same picture. (Where two solids run through each other, the line between
-// them is not.)
+// Draws a DrawList with GL 3.3 core: background, ground grid, contact shadows, meshes, skins, strokes. Takes
+// one draw call for the background, at most eight per pane, however long the list, and one or two per
+// material of a skin. Edges are anti-aliased by coverage, without multisampling, so that a software
+// rasteriser is fast and every backend gives the same picture. (The line where two solids intersect is not
+// anti-aliased.)
 //
-// Cost, on two cores without a graphics card at 1280 x 720: 20 000 strokes about 20 ms; the background about
-// 5 ms, and next to nothing while the camera stands still.
+// Cost on two CPU cores without a graphics card at 1280 x 720: 20 000 strokes about 20 ms; the background
+// about 5 ms, and next to nothing while the camera is still.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -22,15 +22,14 @@ namespace tendril::app {
 struct Frame {
     unsigned framebuffer = 0;
     glm::ivec2 framebuffer_size{0};  ///< pixels
-    float pixel_ratio = 1.0f;        ///< framebuffer pixels to a window coordinate
+    float pixel_ratio = 1.0f;        ///< framebuffer pixels per window coordinate
     bool grid = true;
-    bool dither =
-        true;  ///< hides the bands of the background; without it pictures are a third of the size as PNG
+    bool dither = true;  ///< hides banding in the background; without it a PNG is a third of the size
 };
 
 class Renderer {
   public:
-    /// Needs a current context; throws std::runtime_error with the driver's words where a shader fails.
+    /// Needs a current context. Throws std::runtime_error with the driver's log if a shader fails.
     Renderer();
     ~Renderer();
     Renderer(const Renderer&) = delete;
@@ -38,7 +37,7 @@ class Renderer {
 
     /// Clears the whole framebuffer to the palette and draws the list in the camera's viewport.
     void draw(const DrawList& list, const Camera& camera, const Palette& palette, const Frame& frame);
-    /// The same with several panes, each in its rectangle as the camera sees it from there.
+    /// The same with several panes, each in its rectangle with the same camera pose.
     void draw(std::span<const Pane> panes, const CameraPose& pose, const Palette& palette,
               const Frame& frame);
     /// GL draw calls that the last draw() made.

@@ -1,9 +1,8 @@
-// What lies behind all strokes, the gradient and the grid, kept while the camera stands still.
+// The gradient and the grid behind all strokes, cached while the camera is still.
 //
-// On a software rasteriser these two take longer than anything else in a small scene, and while one drags a
-// chain or watches a rope swing they stay as they are. So once a second frame asks for the same backdrop it
-// is drawn into a picture of its own, and from then on copied from there. Copying gives the same bits as
-// drawing.
+// On a software rasteriser these two take longer than the rest of a small scene, and do not change while the
+// user drags a chain or watches a rope swing. When a second frame in a row asks for the same backdrop it is
+// drawn into a buffer, and copied from there from then on. Copying gives the same bits as drawing.
 #pragma once
 
 #include <array>
@@ -31,14 +30,14 @@ class Backdrop {
     Backdrop(const Backdrop&) = delete;
     Backdrop& operator=(const Backdrop&) = delete;
 
-    /// Fills frame.framebuffer, and leaves it bound; the grid is in each of the viewports. Returns the number
-    /// of draw calls; a copy counts as one for each that it saves, so that the number tells of the picture
-    /// and not of the frame before.
+    /// Fills frame.framebuffer, and leaves it bound; draws the grid in each viewport. Returns the number of
+    /// draw calls; a copy counts as many as it saves, so that the number does not depend on the previous
+    /// frame.
     int draw(const CameraPose& pose, std::span<const Rect> viewports, const Palette& palette,
              const Frame& frame);
 
   private:
-    /// All that the backdrop depends on.
+    /// Everything the backdrop depends on.
     struct Key {
         CameraPose pose;
         std::vector<Rect> viewports;
@@ -56,7 +55,7 @@ class Backdrop {
     GLuint framebuffer_ = 0, colour_ = 0;
     glm::ivec2 size_{0};
     std::optional<Key> last_, kept_;
-    int kept_calls_ = 0;  ///< that drawing it took
+    int kept_calls_ = 0;  ///< that drawing the cached backdrop took
 };
 
 }  // namespace tendril::app

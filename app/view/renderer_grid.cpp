@@ -7,14 +7,14 @@
 namespace tendril::app {
 namespace {
 
-/// A plane to draw a grid on: two axes of the world, by number.
+/// The plane of the grid: two world axes, by number.
 struct GridPlane {
     int u = 0, v = 2;
     float strength = 1.0f;
 };
 
-/// The ground; but looking level along an axis, in parallel projection, the ground is a line, and the grid
-/// stands up behind the scene instead.
+/// The ground plane. In parallel projection, looking horizontally along an axis, the ground is a line; then
+/// the grid is vertical, behind the scene.
 GridPlane grid_plane(const Camera& camera) {
     if (!camera.pose().orthographic) return {};
     const glm::vec3 f = glm::abs(camera.forward());
@@ -29,7 +29,7 @@ glm::vec3 axis_direction(int axis) {
     return result;
 }
 
-/// How strong the lines of the three sizes are when the finest have faded by this much.
+/// Strengths of the three line sizes once the finest have faded by `faded`, 0 to 1.
 glm::vec3 line_strengths(float faded, float all) {
     constexpr float minor = 0.34f, major = 0.62f;
     const float soft = faded * faded * (3.0f - 2.0f * faded);
@@ -53,12 +53,13 @@ int BackgroundPass::draw(const Palette& palette, const Frame& frame) const {
 int GridPass::draw(const Camera& camera, const Palette& palette, const Frame& frame) const {
     const GridPlane plane = grid_plane(camera);
     const glm::vec3 target = camera.pose().target;
-    // Ten metres away the lines are one metre apart; with every factor of ten both grow by ten.
+    // At ten metres the lines are one metre apart; every factor of ten in distance makes the spacing ten
+    // times larger.
     const float scale = std::max(camera.pose().distance, 0.5f * std::abs(camera.eye().y));
     const float decade = std::log10(scale / 10.0f), whole = std::floor(decade);
     const float spacing = std::pow(10.0f, whole);
-    // Counted from a crossing of the coarsest lines nearby, as coordinates far from the origin have lost
-    // their fine digits.
+    // Coordinates are relative to a nearby crossing of the coarsest lines, since those far from the origin
+    // lack precision.
     const float coarsest = 100.0f * spacing;
     const glm::vec2 looked_at(target[plane.u], target[plane.v]);
     const glm::vec2 crossing = coarsest * glm::round(looked_at / coarsest);

@@ -1,4 +1,4 @@
-// The gradient behind everything, and the grid on the ground.
+// The background gradient, and the grid on the ground.
 #pragma once
 
 #include "app/view/gl_objects.hpp"
@@ -18,8 +18,8 @@ class BackgroundPass {
 
 class GridPass {
   public:
-    /// Draws into the camera's viewport, which is the GL viewport. Knows no depth: what lies below the ground
-    /// is seen through it.
+    /// Draws into the camera's viewport, which is the GL viewport. Ignores depth: objects below the ground
+    /// show through it.
     int draw(const Camera& camera, const Palette& palette, const Frame& frame) const;
 
   private:

@@ -2,8 +2,8 @@
 
 namespace tendril::app {
 
-// Where a point is on the screen, and how deep, has to come out as StrokeProjector and StrokePass have it, or
-// strokes would not lie on the surfaces that they belong to.
+// Positions and depths must match those of StrokeProjector and StrokePass, or edges would not lie on their
+// surfaces.
 void set_surface_uniforms(const Program& program, const Camera& camera, const Frame& frame) {
     const glm::mat4& p = camera.projection();
     const glm::vec3 right = camera.right(), up = camera.up(), forward = camera.forward();
@@ -15,8 +15,8 @@ void set_surface_uniforms(const Program& program, const Camera& camera, const Fr
         glm::mat4(glm::vec4(right.x, up.x, forward.x, 0.0f), glm::vec4(right.y, up.y, forward.y, 0.0f),
                   glm::vec4(right.z, up.z, forward.z, 0.0f), glm::vec4(0.0f, 0.0f, 0.0f, 1.0f)));
     program.set("orthographic", orthographic ? 1.0f : 0.0f);
-    // Window pixels to a metre, at a depth of 1 m or everywhere; then from pixels to the framebuffer's -1
-    // to 1.
+    // Window pixels per metre, at a depth of 1 m (orthographic: everywhere); then pixels to -1 to 1 of the
+    // framebuffer.
     const float pixels = (orthographic ? 1.0f : camera.depth(target)) / camera.metres_per_pixel(target);
     const glm::vec2 unit = 2.0f * frame.pixel_ratio / glm::vec2(frame.framebuffer_size);
     const glm::vec2 centre = camera.viewport().centre() * unit;

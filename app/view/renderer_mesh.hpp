@@ -6,13 +6,13 @@
 
 namespace tendril::app {
 
-/// Of a program whose vertex shader includes surface.glsl, and whose fragment shader light.glsl.
+/// For programs whose vertex shader includes surface.glsl and whose fragment shader includes light.glsl.
 void set_surface_uniforms(const Program& program, const Camera& camera, const Frame& frame);
 
 class MeshPass {
   public:
-    /// Draws into the bound framebuffer, the GL viewport being all of it. Returns the number of draw calls:
-    /// none where there are no triangles, else one. Below an opacity of 1 nothing is hidden by what is drawn.
+    /// Draws into the bound framebuffer; the GL viewport must be all of it. Returns the number of draw calls:
+    /// 0 for an empty mesh, else 1. Below an opacity of 1 it does not write depth, so it hides nothing.
     int draw(const Mesh& mesh, const Camera& camera, const Frame& frame, float opacity = 1.0f);
 
   private:

@@ -8,15 +8,15 @@
 namespace tendril::app {
 namespace {
 
-/// The shadows' picture has one pixel for this many of the frame's, each way.
+/// Frame pixels per pixel of the shadows' buffer, each way.
 constexpr int coarseness = 4;
-/// More than this many window pixels of shadow are thinned out; see thin_out().
+/// Above this many window pixels of shadow in total, see thin_out().
 constexpr float max_pixels = 3e7f;
-/// A shadow paler than this part of the darkest is a faint one.
+/// Shadows with a strength below this are faint.
 constexpr float faint = 0.4f;
 
-/// How far from the axis's foot a shadow reaches, and how dark it is there; the same as in shadow.vert and
-/// shadow.frag.
+/// How far a shadow extends from the axis's projection on the ground, and how dark it is there; as in
+/// shadow.vert and shadow.frag.
 float reach(float radius, float clearance) {
     return 2.6f * radius + 0.8f * clearance;
 }
@@ -24,8 +24,8 @@ float strength(float radius, float clearance) {
     return radius / (radius + 0.35f * clearance);
 }
 
-/// What the patch of ground around the line from `a` to `b` covers, in window pixels; all of the viewport
-/// where part of it is beside or behind the eye.
+/// The window pixels covered by the patch of ground around the line from `a` to `b`; the whole viewport if
+/// part of it is beside or behind the eye.
 Rect patch_on_screen(const Camera& camera, glm::vec3 a, glm::vec3 b, float extent) {
     const glm::vec3 axis = b - a;
     const float length = glm::length(axis);
@@ -77,7 +77,7 @@ void ShadowPass::add(const Stroke& stroke, const Camera& camera, float darkness)
     if (std::max(height.x + radius.x, height.y + radius.y) <= 0.0f) return;  // all below the ground
     const glm::vec2 clearance = glm::max(height - radius, glm::vec2(0.0f));
     const float darkest = std::max(strength(radius.x, clearance.x), strength(radius.y, clearance.y));
-    if (!(darkness * darkest > 2.0f / 255.0f)) return;  // nobody would see it
+    if (!(darkness * darkest > 2.0f / 255.0f)) return;  // too faint to see
     const float extent = std::max(reach(radius.x, clearance.x), reach(radius.y, clearance.y));
     const glm::vec3 foot_a(stroke.a.x, 0.0f, stroke.a.z), foot_b(stroke.b.x, 0.0f, stroke.b.z);
     if (!std::isfinite(extent + foot_a.x + foot_a.z + foot_b.x + foot_b.z)) return;
@@ -103,8 +103,8 @@ void ShadowPass::collect(const DrawList& list, const Camera& camera, float darkn
     thin_out();
 }
 
-/// What thousands of strokes high above the ground hide of the sky covers all of it many times over, and with
-/// the darkest winning a few of them are as good as all. Those close to the ground are all kept.
+/// Thousands of strokes high above the ground shade it many times over, and since the darkest wins, a few of
+/// their shadows look the same as all. Keeps all shadows of strokes close to the ground.
 void ShadowPass::thin_out() {
     constexpr std::size_t few = 500;
     const auto step = static_cast<std::size_t>(area_ / max_pixels) + 1;

@@ -1,8 +1,8 @@
 // Contact shadows on the ground.
 //
-// They are collected in a picture of their own, smaller than the frame because they are soft, in which the
-// darker one wins where two meet: adding them up would turn a chain into a black worm. That picture is then
-// laid over the ground.
+// Shadows are drawn into a buffer of their own, smaller than the frame because they are soft, where the
+// darker one wins: adding them up would turn a chain's shadow solid black. That buffer is then drawn over the
+// ground.
 #pragma once
 
 #include <vector>
@@ -19,16 +19,17 @@ class ShadowPass {
     ShadowPass(const ShadowPass&) = delete;
     ShadowPass& operator=(const ShadowPass&) = delete;
 
-    /// Draws the shadows' own picture, and leaves that framebuffer bound where there are any.
+    /// Draws the shadows' buffer, and leaves it bound if there are any shadows. Returns the number of draw
+    /// calls.
     int prepare(const DrawList& list, const Camera& camera, float darkness, PixelRect viewport);
-    /// Lays it over the bound framebuffer, in the GL viewport, which is the camera.s.
+    /// Draws the shadows over the bound framebuffer, in the GL viewport, which must be the camera's.
     int draw(const Camera& camera) const;
 
   private:
     struct Shadow {
-        glm::vec4 ends;     ///< on the ground: a.x, a.z, b.x, b.z
+        glm::vec4 ends;     ///< projected on the ground: a.x, a.z, b.x, b.z
         glm::vec4 heights;  ///< of the axis at a, at b; radius at a, at b
-        float darkest;      ///< 0 to 1; not for the shader
+        float darkest;      ///< 0 to 1; unused by the shader
     };
     void collect(const DrawList& list, const Camera& camera, float darkness);
     void add(const Stroke& stroke, const Camera& camera, float darkness);

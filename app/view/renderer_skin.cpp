@@ -64,7 +64,7 @@ class SkinPass::Sent {
         return place < 0 ? otherwise : pictures_[static_cast<std::size_t>(place)];
     }
 
-    /// Sends corners again where other weights are wanted than last time.
+    /// Resends the vertices if the morph weights changed.
     void morph(const SkinDraw& draw) {
         const SkinnedMesh& mesh = *draw.mesh;
         if (mesh.morphs.empty()) return;
@@ -78,7 +78,7 @@ class SkinPass::Sent {
         send(Position, positions, GL_DYNAMIC_DRAW);
         send(Normal, normals, GL_DYNAMIC_DRAW);
     }
-    /// Sends weights again where others are wanted than last time.
+    /// Resends the joint weights if they changed.
     void follow(const SkinDraw& draw) {
         if (draw.weights == weights_) return;
         weights_ = draw.weights;
@@ -92,7 +92,7 @@ class SkinPass::Sent {
     }
 
   private:
-    /// Whether there is any; of what there is none, a constant takes its place.
+    /// Returns false if there are no values; bind() then sets a constant instead.
     template <class T>
     bool send(Slot slot, const std::vector<T>& values, GLenum use = GL_STATIC_DRAW) {
         if (values.empty()) return false;

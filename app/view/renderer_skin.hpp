@@ -1,7 +1,7 @@
-// Skins, on the GPU: what is in SkinnedMesh is sent once and kept as long as somebody holds the mesh, the
-// joints' matrices each frame. Solid ones are drawn with the other solids. Those that are seen through come
-// after all solids of the scene: first their depth alone, then the surface that is nearest to the eye, once,
-// over whatever is inside; so it has no inner walls, and no order of triangles shows.
+// Skins on the GPU. A SkinnedMesh is sent once and kept as long as the mesh lives; the joints' matrices are
+// sent each frame. Solid skins are drawn with the other solids. Transparent ones follow after all solids of
+// the scene: first depth alone, then only the nearest surface, blended over whatever is inside, so that
+// neither inner walls nor the order of triangles show.
 #pragma once
 
 #include <map>
@@ -19,13 +19,12 @@ class SkinPass {
     SkinPass(const SkinPass&) = delete;
     SkinPass& operator=(const SkinPass&) = delete;
 
-    /// Draws those that are solid, or those that are not, into the bound framebuffer, the GL viewport being
-    /// all of it. Returns the number of draw calls: one for each part of a mesh, two where it is seen
-    /// through.
+    /// Draws the solid skins, or the transparent ones, into the bound framebuffer; the GL viewport must be
+    /// all of it. Returns the number of draw calls: one for each part of a mesh, two if it is transparent.
     int draw(const std::vector<SkinDraw>& skins, bool solid, const Camera& camera, const Frame& frame);
 
   private:
-    class Sent;  // a mesh in GL's memory
+    class Sent;  // a mesh in GPU memory
 
     Sent& sent(const std::shared_ptr<const SkinnedMesh>& mesh);
     void send_matrices(const std::vector<AffineRows>& matrices);

@@ -9,7 +9,7 @@
 namespace tendril::app {
 namespace {
 
-/// Sorts as the float does, also below zero.
+/// Bits that sort like the float, including negative values.
 std::uint32_t ordered_bits(float value) {
     const auto bits = std::bit_cast<std::uint32_t>(value);
     return (bits & 0x80000000u) != 0 ? ~bits : bits | 0x80000000u;
@@ -17,8 +17,8 @@ std::uint32_t ordered_bits(float value) {
 
 constexpr std::uint64_t overlay_bit = 1ull << 63;
 
-/// The scene before the overlay; within the overlay the lower rank first, so that what picking prefers is on
-/// top; then the farther first.
+/// The scene before the overlay; within the overlay lower ranks first, so that the stroke that picking
+/// prefers is on top; then farther ones first.
 std::uint64_t drawing_key(const Stroke& stroke, float depth) {
     const std::uint64_t farther_first = ~ordered_bits(depth);
     if (stroke.layer == Layer::Scene) return farther_first;
@@ -30,8 +30,8 @@ std::uint8_t byte(float value) {
     return static_cast<std::uint8_t>(255.0f * std::clamp(value, 0.0f, 1.0f) + 0.5f);
 }
 
-/// The normal of an edge's surface for the light, as mesh.vert and mesh.frag have it: turned by what turns
-/// the line of sight into the middle one, and not away from the eye.
+/// The lighting normal of an edge's surface, as in mesh.vert and mesh.frag: rotated by the rotation that
+/// takes the line of sight to the view axis, and not facing away from the eye.
 std::array<std::int8_t, 4> facing(const Stroke& edge, const Camera& camera) {
     const glm::vec3 right = camera.right(), up = camera.up(), towards = -camera.forward();
     const auto seen = [&](glm::vec3 v) {
@@ -96,15 +96,15 @@ StrokePass::Instance StrokePass::instance(const Stroke& stroke, const ProjectedS
                  .facing = {},
                  .mitre = stroke.mitre};
     if (stroke.shade == Shade::Edge) out.facing = facing(stroke, camera);
-    // The shader wants the larger end first.
+    // The shader expects the larger end first.
     if (out.radius_a < out.radius_b) {
         std::swap(out.a, out.b);
         std::swap(out.radius_a, out.radius_b);
         std::swap(out.depth_a, out.depth_b);
         std::swap(out.mitre.x, out.mitre.y);
     }
-    // Nothing is drawn thinner than a pixel; it fades instead, which is what a sharper screen would average
-    // to.
+    // Strokes are at least a pixel wide and fade instead of getting thinner, like the average of a sharper
+    // screen.
     constexpr float thinnest = 0.5f;
     const float wanted = out.radius_a + out.radius_b;
     out.radius_a = std::max(out.radius_a, thinnest);
@@ -125,16 +125,16 @@ void StrokePass::set_uniforms(const Camera& camera, const Frame& frame) const {
     const bool orthographic = camera.pose().orthographic;
     program_.set("framebuffer_size", glm::vec2(frame.framebuffer_size));
     program_.set("orthographic", orthographic ? 1.0f : 0.0f);
-    // Depth in the buffer is a straight line in the interpolated one, orthographic or not.
+    // The depth buffer's value is linear in the interpolated depth, orthographic or not.
     const float slope = orthographic ? -p[2][2] : p[3][2], offset = orthographic ? p[3][2] : -p[2][2];
     program_.set("to_window_depth", glm::vec2(0.5f * slope, 0.5f + 0.5f * offset));
-    // Framebuffer pixels to a metre: at a depth of 1 m, or everywhere.
+    // Framebuffer pixels per metre: at a depth of 1 m; orthographic: everywhere.
     const glm::vec3 target = camera.pose().target;
     const float scale = frame.pixel_ratio / camera.metres_per_pixel(target);
     const float pixels_per_metre = orthographic ? scale : scale * camera.depth(target);
     program_.set("pixels_per_metre", pixels_per_metre);
     program_.set("metres_per_pixel", 1.0f / pixels_per_metre);
-    // World up, seen by the camera: where the sky's light comes from.
+    // World up in camera space: the direction of the sky's light.
     program_.set("sky", glm::vec3(camera.right().y, camera.up().y, -camera.forward().y));
 }
 

@@ -1,4 +1,4 @@
-// The strokes of a DrawList: one instanced draw for each layer.
+// Draws the strokes of a DrawList, with one instanced draw per layer.
 #pragma once
 
 #include <array>
@@ -15,24 +15,24 @@ class StrokePass {
   public:
     StrokePass();
 
-    /// Projects, sorts and sends the list, for draw() to draw a layer of it.
+    /// Projects, sorts and sends the list; then draw() draws one layer of it.
     void prepare(const DrawList& list, const Camera& camera, const Frame& frame);
-    /// How many draw calls that took: none for an empty layer, else one.
+    /// Returns the number of draw calls: 0 for an empty layer, else 1.
     int draw(Layer layer) const;
 
   private:
-    /// One stroke as the shader takes it: framebuffer pixels from the bottom left.
+    /// One stroke, as the shader reads it: framebuffer pixels from the bottom left.
     struct Instance {
         glm::vec2 a, b;
         float radius_a, radius_b;
-        float depth_a, depth_b;  ///< in the form that changes evenly across the screen
+        float depth_a, depth_b;  ///< in the form that is linear across the screen
         std::array<std::uint8_t, 4> colour;
-        float lit;                          ///< 1: a solid in the light, 0: flat
+        float lit;                          ///< 1: lit, 0: flat
         float ring;                         ///< half the ring's width; 0: not a ring
-        std::array<std::int8_t, 4> facing;  ///< of an edge: the surface's normal as it is lit, and 1
+        std::array<std::int8_t, 4> facing;  ///< of an edge: the lighting normal of its surface, and 1
         glm::vec2 mitre;
     };
-    /// What is drawn first comes first.
+    /// Sorts in drawing order.
     struct Place {
         std::uint64_t key;
         std::uint32_t stroke, outline;
@@ -48,7 +48,7 @@ class StrokePass {
 
     Program program_;
     Instances buffer_;
-    // Kept from frame to frame, so that their memory is.
+    // Members only to reuse their memory from frame to frame.
     std::vector<ProjectedStroke> outlines_;
     std::vector<Place> order_;
     std::vector<Instance> instances_;

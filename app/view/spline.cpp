@@ -18,7 +18,7 @@ float angle(glm::vec3 a, glm::vec3 b) {
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
-/// What `vector` becomes by the smallest turn that takes `from` to `to`; both unit, and not opposite.
+/// `vector` rotated by the smallest rotation that takes `from` to `to`; both unit, not opposite.
 glm::vec3 turned(glm::vec3 vector, glm::vec3 from, glm::vec3 to) {
     const glm::vec3 half_way = from + to;
     return vector - glm::dot(half_way, vector) / (1.0f + glm::dot(from, to)) * half_way +
@@ -26,14 +26,14 @@ glm::vec3 turned(glm::vec3 vector, glm::vec3 from, glm::vec3 to) {
 }
 
 glm::vec3 first_normal(glm::vec3 tangent) {
-    // No rule is steady for all tangents. This one fails at the tangent opposite to `pole` only, which is no
-    // direction that a rope is likely to set out in.
+    // No rule is continuous for all tangents. This one is discontinuous only opposite to `pole`, an unlikely
+    // direction for a rope.
     const glm::vec3 pole(0.60f, 0.64f, 0.48f), across(-0.80f, 0.48f, 0.36f);
     if (glm::dot(pole, tangent) < -0.9999f) return across;
     return turned(across, pole, tangent);
 }
 
-/// The unit vector across `tangent` that is nearest to `normal`.
+/// The unit vector perpendicular to `tangent` that is nearest to `normal`.
 glm::vec3 straightened(glm::vec3 normal, glm::vec3 tangent) {
     normal -= glm::dot(normal, tangent) * tangent;
     const float length = glm::length(normal);
@@ -63,7 +63,7 @@ CurveSpan curve_span(std::span<const glm::vec3> points, std::size_t i) {
     CurveSpan span{.a = a, .b = b, .slope_a = b - a, .slope_b = b - a};
     if (!first) span.slope_a = slope_between(points[i - 1], a, b);
     if (!last) span.slope_b = -slope_between(points[i + 2], b, a);
-    // Where the curve begins or ends it bends as little as one end's direction lets it: a parabola.
+    // The first and last spans are parabolas: minimum bending for one given end direction.
     if (first && !last) span.slope_a = 2.0f * (b - a) - span.slope_b;
     if (last && !first) span.slope_b = 2.0f * (b - a) - span.slope_a;
     return span;
@@ -76,8 +76,8 @@ void set_frames(std::span<CurvePoint> points) {
         const CurvePoint& from = points[i - 1];
         CurvePoint& to = points[i];
         glm::vec3 normal = from.normal, tangent = from.tangent;
-        // Mirrored in the plane half way between the two points, then in the one that makes the tangents
-        // meet.
+        // Reflected in the plane halfway between the two points, then in the one that maps the tangent to the
+        // next one.
         const glm::vec3 step = to.at - from.at;
         if (const float squared = glm::dot(step, step); squared > 0.0f) {
             normal -= 2.0f / squared * glm::dot(step, normal) * step;

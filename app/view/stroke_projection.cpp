@@ -55,14 +55,14 @@ bool StrokeProjector::project(const Stroke& stroke, ProjectedStroke& out, float 
         out.radius_a *= scale_a;
         out.radius_b *= scale_b;
     }
-    // A line lies a little deeper than it is, so that it ends behind the ball at its end, also where it comes
-    // out of that ball towards the eye.
+    // Lines are drawn slightly deeper, so that they end behind the balls at their ends, even where they leave
+    // a ball towards the eye.
     if (stroke.unit == Unit::Pixels && stroke.shade == Shade::Flat) {
         constexpr float pixels_deeper = 8.0f;
         out.depth_a += pixels_deeper / scale_a;
         out.depth_b += pixels_deeper / scale_b;
     }
-    // One sum finds any part that is not finite.
+    // The sum is not finite if any term is not.
     const float sum = out.a.x + out.a.y + out.b.x + out.b.y + out.radius_a + out.radius_b + a.z + b.z;
     if (!std::isfinite(sum) || out.radius_a < 0.0f || out.radius_b < 0.0f) return false;
 
@@ -75,7 +75,7 @@ bool StrokeProjector::project(const Stroke& stroke, ProjectedStroke& out, float 
 StrokeDistance distance_to(const ProjectedStroke& stroke, glm::vec2 pixel) {
     const glm::vec2 axis = stroke.b - stroke.a, from_a = pixel - stroke.a;
     const float length = glm::length(axis), narrowing = stroke.radius_a - stroke.radius_b;
-    // One circle within the other, or both the same: the larger one is the outline.
+    // One circle contains the other: the larger one is the outline.
     if (length <= std::abs(narrowing) + 1e-3f) {
         return narrowing >= 0.0f ? StrokeDistance{glm::length(from_a) - stroke.radius_a, 0.0f}
                                  : StrokeDistance{glm::length(pixel - stroke.b) - stroke.radius_b, 1.0f};
@@ -83,8 +83,8 @@ StrokeDistance distance_to(const ProjectedStroke& stroke, glm::vec2 pixel) {
     const glm::vec2 direction = axis / length;
     const float x = glm::dot(from_a, direction);
     const float y = std::abs(from_a.x * direction.y - from_a.y * direction.x);
-    // The flank's normal is (sine, cosine) in these coordinates; following it back from the pixel finds the
-    // centre of the circle that is nearest.
+    // The flank's normal is (sine, cosine) in these coordinates; following it back from the pixel gives the
+    // centre of the nearest circle.
     const float sine = narrowing / length, cosine = std::sqrt(1.0f - sine * sine);
     const float foot = x - y * sine / cosine;
     if (foot <= 0.0f) return {glm::length(from_a) - stroke.radius_a, 0.0f};

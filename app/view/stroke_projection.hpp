@@ -1,9 +1,9 @@
-// From a stroke in the world to its outline on the screen: the one place where that is worked out, used by
-// the renderer to draw and by picking to find, so that what is seen is what is caught.
+// Projects a stroke to its outline on the screen. The renderer and picking both use it, so that what is seen
+// is what is picked.
 //
-// A ball is drawn as a circle of its radius at the depth of its centre, wherever it stands in the picture.
-// (Perspective proper stretches it towards the corners, which reads as a flaw.) What lies between two balls
-// is bounded by the two lines that touch both circles.
+// A ball is drawn as a circle of its radius at the depth of its centre, anywhere in the picture. (True
+// perspective stretches it towards the corners, which looks like a flaw.) The hull of two balls is bounded by
+// the two lines tangent to both circles.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -27,9 +27,9 @@ class StrokeProjector {
   public:
     explicit StrokeProjector(const Camera& camera);
 
-    /// False where there is nothing to see: behind the near plane, outside the viewport, or not finite. A
-    /// stroke that runs through the near plane is cut there. `margin`: pixels around the viewport that still
-    /// count as inside.
+    /// False if the stroke is invisible: behind the near plane, outside the viewport, or not finite. A stroke
+    /// that crosses the near plane is cut there. `margin`: pixels around the viewport that still count as
+    /// inside.
     bool project(const Stroke& stroke, ProjectedStroke& out, float margin = 2.0f) const;
 
   private:
@@ -43,9 +43,9 @@ class StrokeProjector {
     bool orthographic_;
 };
 
-/// Where the nearest point of a stroke's outline is, seen from a pixel.
+/// The point of a stroke's outline nearest to a pixel.
 struct StrokeDistance {
-    float pixels = 0.0f;  ///< below zero inside
+    float pixels = 0.0f;  ///< negative inside
     float along = 0.0f;   ///< 0 at a, 1 at b
 };
 StrokeDistance distance_to(const ProjectedStroke& stroke, glm::vec2 pixel);

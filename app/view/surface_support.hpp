@@ -1,4 +1,4 @@
-// What the builders of surfaces share.
+// Shared helpers of the surface builders.
 #pragma once
 
 #include <cmath>
@@ -9,7 +9,7 @@
 
 namespace tendril::app {
 
-/// Nothing is built beyond this, metres from the origin: squares of squares of it are still finite.
+/// Limit of coordinates, metres: fourth powers are still finite.
 inline constexpr float farthest_built = 1e9f;
 
 inline bool can_be_built(glm::vec3 point) {
@@ -22,7 +22,7 @@ inline glm::vec3 unit_or(glm::vec3 vector, glm::vec3 otherwise) {
     return length > 1e-30f && std::isfinite(length) ? vector / length : otherwise;
 }
 
-/// Throws a shadow as a capsule would that is not there.
+/// Casts the shadow of an invisible capsule.
 inline void cast(DrawList& list, glm::vec3 a, glm::vec3 b, float radius) {
     list.bone(a, b, radius, radius, glm::vec4(0.0f)).shadow = true;
 }

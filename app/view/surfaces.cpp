@@ -11,10 +11,10 @@
 namespace tendril::app {
 namespace {
 
-/// A face of the box: the axis it stands across, and the side.
+/// A face of the box.
 struct Face {
     glm::vec3 centre{0.0f}, normal{0.0f}, u{0.0f},
-        v{0.0f};  ///< u and v: from the centre to its rims; u x v ~ normal
+        v{0.0f};  ///< u and v: from the centre to its edges; u x v ~ normal
     bool front = false;
 };
 
@@ -79,7 +79,7 @@ void box(DrawList& list, const Camera& camera, glm::vec3 centre, glm::vec3 half_
     for (std::size_t f = 0; f < faces.size(); ++f) {
         for (std::size_t g = f + 1; g < faces.size(); ++g) {
             if (f / 2 == g / 2 || (!faces[f].front && !faces[g].front)) continue;
-            // They meet along the third axis.
+            // The faces meet along the third axis.
             const glm::vec3 along = axes[3 - f / 2 - g / 2];
             const glm::vec3 middle = faces[f].centre + faces[g].centre - centre;
             const bool both = faces[f].front && faces[g].front;
@@ -95,12 +95,12 @@ void box(DrawList& list, const Camera& camera, glm::vec3 centre, glm::vec3 half_
 
 namespace {
 
-/// A disc, seen from whichever side: its rim, and lines across it.
+/// A two-sided disc: its rim, and lines across it.
 class Patch {
   public:
     Patch(DrawList& list, const Camera& camera, glm::vec3 point, glm::vec3 normal, float radius)
         : list_(list), edges_(list, camera), point_(point), normal_(normal), radius_(radius) {
-        // One axis level, as on a map of a slope.
+        // One horizontal axis, like a contour line.
         u_ = unit_or(glm::cross(glm::vec3(0.0f, 1.0f, 0.0f), normal), {1.0f, 0.0f, 0.0f});
         if (std::abs(normal.y) > 0.999f) u_ = glm::normalize(glm::vec3(1, 0, 0) - normal.x * normal);
         v_ = glm::cross(normal, u_);
@@ -156,7 +156,7 @@ void plane_patch(DrawList& list, const Camera& camera, glm::vec3 point, glm::vec
         patch.outline(colour);
         return;
     }
-    // Lines stand out a little, whichever theme the colour is from.
+    // Lines have some contrast in either theme.
     const float lightness = glm::dot(colour, glm::vec3(0.30f, 0.59f, 0.11f));
     const glm::vec3 line = glm::mix(colour, glm::vec3(lightness < 0.5f ? 1.0f : 0.0f), 0.16f);
     patch.fill(colour);

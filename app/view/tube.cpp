@@ -27,7 +27,7 @@ class Tube {
     }
 
   private:
-    /// The centres without those that are not finite or so near to the one before that they tell nothing new.
+    /// Keeps the centres that are finite and not too close to the previous one to matter.
     void keep(std::span<const glm::vec3> centres, std::span<const glm::vec3> colours) {
         for (std::size_t i = 0; i < centres.size(); ++i) {
             const glm::vec3 centre = centres[i];
@@ -40,19 +40,19 @@ class Tube {
                 points_.push_back(centre);
                 colours_.push_back(colour);
             } else if (points_.size() > 1 && i + 1 == centres.size()) {
-                points_.back() = centre;  // the tube ends where it ends
+                points_.back() = centre;  // keep the tube's exact end
             }
         }
     }
 
-    /// Pieces that a span needs so that nobody sees its corners.
+    /// Number of pieces that make a span look smooth.
     int pieces(const CurveSpan& span) const {
         constexpr float pixels_off = 0.1f, radians = 0.45f;
         constexpr int most = 24;
         const float turn = span.turn();
         const float per_metre = 1.0f / camera_.metres_per_pixel(0.5f * (span.a + span.b));
         const float length = per_metre * glm::distance(span.a, span.b), thick = per_metre * radius_;
-        // A chord of an arc is off it by an eighth of its length times its turn.
+        // A chord deviates from its arc by an eighth of its length times its turn.
         const float needed =
             std::max({std::sqrt(length * turn / (8.0f * pixels_off)),
                       turn * std::sqrt(thick / (8.0f * pixels_off)), thick > 1.0f ? turn / radians : 0.0f});
@@ -108,7 +108,7 @@ class Tube {
         return ring;
     }
 
-    /// Half a ball, from its pole to where the tube begins or back.
+    /// A hemisphere, from its pole to the tube's start, or from the tube's end to the pole.
     void cap(const Ring& end, float side, int sides) {
         const int count = std::clamp(sides / 4, 2, 12);
         for (int k = 0; k < count; ++k) {
@@ -122,19 +122,19 @@ class Tube {
         }
     }
 
-    /// As many sides as can be told from a circle, and no more than wanted.
+    /// The number of sides beyond which the tube looks round, but at most `wanted`.
     int sides(int wanted) const {
         constexpr float pixels_off = 0.08f;
         float widest = 0.0f;
         for (const Ring& ring : circles_)
             if (ring.outside == 0) widest = std::max(widest, ring.pixels);
-        // The middle of a side is off the circle by this much of the radius: 1 - cos(pi / n).
+        // The middle of a side deviates from the circle by 1 - cos(pi / n) of the radius.
         const float needed = glm::pi<float>() * std::sqrt(widest / (2.0f * pixels_off));
         return std::min(wanted, std::max(static_cast<int>(std::min(needed, 1000.0f)) + 1, 6));
     }
 
     void skin(int wanted) {
-        // Where the tube turns right back it ends and begins anew, as a circle can't follow.
+        // Where the tube reverses it ends and restarts, since a circle cannot follow.
         constexpr float right_back = -0.2f;
         for (const CurvePoint& point : curve_) circles_.push_back(ring(point));
         const int count = sides(wanted);
@@ -147,7 +147,7 @@ class Tube {
                 cap(circles_[i], 1.0f, count);
         }
         TubeSkin(list_, camera_, count).cover(rings_);
-        constexpr float thin = 1.0f;  // then a skin has no caps
+        constexpr float thin = 1.0f;  // pixels; below this the skin has no caps
         if (circles_.size() == 1 && circles_[0].pixels < thin)
             list_.sphere(circles_[0].centre, radius_, Unit::Metres, glm::vec4(circles_[0].colour, 1.0f));
     }
@@ -158,7 +158,7 @@ class Tube {
     float radius_;
     std::vector<glm::vec3> points_, colours_;
     std::vector<CurvePoint> curve_;
-    std::vector<Ring> circles_, rings_;  ///< along the curve; with caps
+    std::vector<Ring> circles_, rings_;  ///< along the curve; the same with caps
 };
 
 }  // namespace

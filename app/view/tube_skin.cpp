@@ -10,12 +10,12 @@ namespace tendril::app {
 
 namespace {
 
-/// The normal of a ball where one sees the point that has `normal` on a ball `part` as large inside it. The
-/// mesh is smaller than the tube by its outline, which is not to be seen in its shading.
+/// The normal of a ball at the point seen in line with the one that has `normal` on a concentric ball `part`
+/// times as large. The mesh is smaller than the tube by its outline, which the shading must not show.
 glm::vec3 within(glm::vec3 normal, glm::vec3 sight, float part) {
     const float towards = glm::dot(normal, sight);
     const glm::vec3 across = part * (normal - towards * sight);
-    // Where flat sides stand for a round one, corners a little behind the outline count as on it.
+    // Since sides are flat, corners slightly behind the outline count as on it.
     constexpr float behind = -0.3f;
     const float raised =
         std::sqrt(std::max(1.0f - glm::dot(across, across), 0.0f)) + 2.0f * std::min(towards - behind, 0.0f);
@@ -34,8 +34,7 @@ TubeSkin::TubeSkin(DrawList& list, const Camera& camera, int sides)
 
 void TubeSkin::cover(std::span<const Ring> rings) {
     constexpr float thin = 1.0f;
-    bool joined =
-        false;  // the band before this one is there, and with it the corners that this one begins at
+    bool joined = false;  // the previous band exists, with the corners at which this one begins
     std::uint32_t from = 0;
     for (std::size_t i = 0; i + 1 < rings.size(); ++i) {
         const Ring &a = rings[i], &b = rings[i + 1];
@@ -57,14 +56,14 @@ void TubeSkin::cover(std::span<const Ring> rings) {
     edges_.join();
 }
 
-/// Appends a ring's corners, and tells where they begin.
+/// Appends a ring's corners, and returns the index of the first.
 std::uint32_t TubeSkin::corners(const Ring& ring) {
     const std::uint32_t first = list_.mesh.next();
     const float up = std::sin(ring.lean), out = std::cos(ring.lean);
     const glm::vec3 sight = unit_or(edges_.to_eye(ring.centre), ring.u);
     const float pixels = std::max(ring.pixels, 2.0f * Edges::width);
     const float part = 1.0f - Edges::width / pixels;
-    // Where the outline is on the mean, most of it within the tube and its paler part beyond.
+    // The outline's mean position: most of it is within the tube, its paler part beyond.
     outwards_ = (1.0f - 0.3f * Edges::width / pixels) / part;
     for (std::uint32_t j = 0; j < sides_; ++j) {
         const glm::vec3 away = circle_[j].x * ring.u + circle_[j].y * ring.v;
@@ -76,7 +75,7 @@ std::uint32_t TubeSkin::corners(const Ring& ring) {
     return first;
 }
 
-/// Of the quadrangle a b d c.
+/// The facing of the quadrilateral a b d c.
 TubeSkin::Facing TubeSkin::facing(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const {
     const glm::vec3 normal = glm::cross(at(d) - at(a), at(c) - at(b));
     const std::vector<Vertex>& vertices = list_.mesh.vertices;
@@ -84,8 +83,8 @@ TubeSkin::Facing TubeSkin::facing(std::uint32_t a, std::uint32_t b, std::uint32_
     return edges_.front(normal, at(a)) ? Facing::Front : Facing::Away;
 }
 
-/// With its front to the eye where its normals point there. In a bend too sharp for the tube some triangles
-/// are inside out; of those a pixel may show where the others meet.
+/// Appends a triangle whose front is on the side of its normals. In a bend too sharp for the tube some
+/// triangles are inside out, and a pixel of them may show between the others.
 void TubeSkin::triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     const std::vector<Vertex>& v = list_.mesh.vertices;
     const bool front = edges_.front(glm::cross(at(b) - at(a), at(c) - at(a)), at(a));

@@ -1,5 +1,5 @@
-// The surface of a tube from the circles that it runs through: bands of triangles from each to the next, the
-// outline as this camera sees it, and threads where the tube is thin.
+// The surface of a tube, built from its circles: bands of triangles from each to the next, the outline for
+// this camera, and threads where the tube is thin.
 #pragma once
 
 #include <array>
@@ -12,16 +12,16 @@
 
 namespace tendril::app {
 
-/// One circle of a tube. The half balls at its ends are circles too, which lean towards their poles.
+/// One circle of a tube. The hemispheres at its ends consist of circles whose normals lean towards the poles.
 struct Ring {
     glm::vec3 centre{0.0f};
     glm::vec3 axis{0.0f}, u{0.0f}, v{0.0f};  ///< unit; the circle runs from u to v
     float radius = 0.0f;                     ///< of the circle, metres
     float lean = 0.0f;                       ///< radians that the surface's normal leans towards the axis
     float tube_radius = 0.0f;                ///< metres
-    float pixels = 0.0f;                     ///< the same
-    unsigned outside = 0;                    ///< which borders of the view it is beyond, one bit each
-    bool first = false;                      ///< nothing leads here from the ring before
+    float pixels = 0.0f;                     ///< the tube's radius in pixels
+    unsigned outside = 0;                    ///< which borders of the view it is beyond, one bit per border
+    bool first = false;                      ///< no band connects it to the previous ring
     glm::vec3 colour{1.0f};
 };
 
@@ -31,11 +31,11 @@ class TubeSkin {
 
     TubeSkin(DrawList& list, const Camera& camera, int sides);
 
-    /// What is turned away from the eye is left out: the tube is closed, so nobody can see it.
+    /// Omits sides that face away from the eye: the tube is closed, so they are invisible.
     void cover(std::span<const Ring> rings);
 
   private:
-    /// Where the tube bends more sharply than it is thick, the inner side of the bend lies inside the tube.
+    /// Inside: in bends sharper than the tube's radius the inner side lies inside the tube.
     enum class Facing : std::uint8_t { Away, Front, Inside };
     using PerSide = std::array<Facing, max_sides>;
 
@@ -52,7 +52,7 @@ class TubeSkin {
     std::uint32_t sides_;
     std::array<glm::vec2, max_sides> circle_{};
     PerSide last_{};         ///< of the last band
-    float outwards_ = 1.0f;  ///< how much farther out than the last ring the middle of its outline is
+    float outwards_ = 1.0f;  ///< radius of the outline's centre line, relative to the last ring's
 };
 
 }  // namespace tendril::app

@@ -11,7 +11,7 @@
 namespace tendril::app {
 namespace {
 
-constexpr double closest = 1e-3;  ///< keys, in time
+constexpr double closest = 1e-3;  ///< minimum distance of keys in time
 constexpr int no_key = -1;
 
 enum class Grip { None, Key, Arrive, Leave };
@@ -31,8 +31,8 @@ class Editor {
         left_ -= side, right_ += side;
     }
 
-    /// What of time and value is in sight. It follows from the keys, but in the middle of a drag: there it
-    /// has to stay what it was, else a place would mean another value in every frame.
+    /// The visible range of time and value. It follows from the keys, except during a drag: there it must not
+    /// change, else a position would mean a different value in every frame.
     struct View {
         double left = 0.0, right = 1.0, low = 0.0, high = 1.0;
     };
@@ -73,7 +73,7 @@ class Editor {
         int key = no_key;
         Grip grip = Grip::None;
     };
-    /// What is under the mouse; tangents only of the active key.
+    /// The grip under the mouse. Only the active key has tangents.
     Hit hit(ImVec2 mouse, int active) const {
         const auto near = [&](ImVec2 p) { return std::hypot(p.x - mouse.x, p.y - mouse.y) < 0.6f * unit(); };
         for (int i = 0; i < count(); ++i)
@@ -100,7 +100,7 @@ class Editor {
         (hit.grip == Grip::Leave ? key.leave : key.arrive) = slope;
     }
 
-    /// Gives its number.
+    /// Returns the new key's index, or no_key if another key is too close.
     int add(ImVec2 mouse) {
         const double time = time_at(mouse.x);
         auto at = curve_.keys.begin();
@@ -129,7 +129,7 @@ class Editor {
     ImVec2 key_place(int i) const { return place(key_at(i).time, key_at(i).value); }
     bool leaves(int i) const { return key_at(i).piece == signal::Piece::Cubic && i + 1 < count(); }
     bool arrives(int i) const { return i > 0 && key_at(i - 1).piece == signal::Piece::Cubic; }
-    /// A fixed length from its key, however steep.
+    /// At a fixed distance from its key, regardless of the slope.
     ImVec2 tangent_end(int i, double side) const {
         const signal::CurveKey& key = key_at(i);
         const double slope = side > 0.0 ? key.leave : key.arrive;
@@ -155,7 +155,7 @@ class Editor {
     double left_ = 0.0, right_ = 1.0, low_ = 0.0, high_ = 1.0;
 };
 
-/// The view of the frame in which the mouse button went down on the last item, while it is down.
+/// While the mouse button is held on the last item: the view of the frame in which it went down.
 Editor::View view_of_drag(Editor::View view) {
     const bool held = ImGui::IsItemActive() && !ImGui::IsItemActivated();
     ImGuiStorage& kept = *ImGui::GetStateStorage();
@@ -185,7 +185,7 @@ const char* piece_help(signal::Piece piece) {
     return "The curve goes smoothly to the next key, by the slopes of both.";
 }
 
-/// How the active key's piece goes on.
+/// The interpolation after the active key.
 bool piece_row(signal::CurveKey& key) {
     bool changed = false;
     for (const signal::Piece piece : {signal::Piece::Constant, signal::Piece::Linear, signal::Piece::Cubic}) {
@@ -204,7 +204,7 @@ bool curve_editor(const char* id, signal::Curve& curve, glm::vec3 colour, float 
     ImGui::InvisibleButton(id, size, ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight);
     ImGui::PushID(id);
     ImGuiStorage& kept = *ImGui::GetStateStorage();
-    // Values: what the storage has moves whenever something is added to it.
+    // Copies: pointers into the storage are invalidated whenever something is added to it.
     int active = kept.GetInt(ImGui::GetID("active"), no_key);
     int grip = kept.GetInt(ImGui::GetID("grip"), static_cast<int>(Grip::None));
     const int count = static_cast<int>(curve.keys.size());

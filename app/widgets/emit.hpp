@@ -1,4 +1,4 @@
-// How a panel or a handle changes the document: it does not, it emits a command.
+// Panels and handles do not change the document; they emit commands.
 #pragma once
 
 #include <string>
@@ -12,14 +12,14 @@ namespace tendril::app {
 struct Emitted {
     std::string name;
     SharedJson arguments;
-    bool continuous = false;  ///< one of many in a drag: shares the drag's undo entry
+    bool continuous = false;  ///< part of a drag: shares the drag's undo entry
 };
 
 class Emit {
   public:
     void operator()(std::string name, const ArgumentList& arguments = {});
     void continuously(std::string name, const ArgumentList& arguments = {});
-    /// A command that a person typed, its arguments as they stand in a script.
+    /// A command as typed by the user, with arguments in script form.
     void typed(std::string name, SharedJson arguments);
     std::vector<Emitted> take() { return std::exchange(commands_, {}); }
 

@@ -1,5 +1,4 @@
-// What a row of a panel means, while the mouse rests on it: its text, and the range and the unit of its
-// field.
+// The tooltip of a panel's row: its text, and the range and the unit of its field.
 #include <imgui.h>
 #include <imgui_internal.h>  // GetItemID() is not public in every version
 
@@ -16,9 +15,9 @@
 namespace tendril::app {
 namespace {
 
-constexpr double endless = 1e6;  ///< a range that ends here or beyond only keeps numbers finite
+constexpr double endless = 1e6;  ///< a limit this large only keeps numbers finite and is not shown
 
-/// "0.25", "1000": no zeros at the end.
+/// "0.25", "1000": no trailing zeros.
 std::string plain_number(double value) {
     std::string text = fixed_text(value, 6);
     text.erase(text.find_last_not_of('0') + 1);
@@ -26,14 +25,14 @@ std::string plain_number(double value) {
     return text;
 }
 
-/// " m", "°": as it stands behind a number.
+/// " m", "°": the unit with its leading space, if any.
 std::string behind(std::string unit) {
     unit = unit.substr(0, unit.find(','));  // "°/s, no limit"
     if (unit == "deg") unit = "degrees";
     return unit.empty() || unit.starts_with("\xC2\xB0") ? unit : ' ' + unit;
 }
 
-/// " 0 to 10 m."; nothing where any number is allowed.
+/// " 0 to 10 m."; just the unit if any number is allowed.
 std::string range_text(const RowAbove& row) {
     const std::string unit = behind(unit_of(row.format.data()));
     const bool low = row.low > -endless, high = row.high < endless;
@@ -44,7 +43,7 @@ std::string range_text(const RowAbove& row) {
     return unit == " m" ? " In metres." : " In " + unit.substr(unit.find_first_not_of(' ')) + '.';
 }
 
-/// Whether the last item is a field of that row, or stands in it behind the field.
+/// Whether the last item is a field of that row, or follows the field in it.
 bool in_row(const RowAbove& row) {
     const ImVec2 at = ImGui::GetItemRectMin();
     return row.frame == ImGui::GetFrameCount() && at.x > row.field.x - 0.5f &&
@@ -58,13 +57,13 @@ void explain(const char* text) {
     const RowAbove& row = numbers.row;
     const bool of_row = in_row(row);
     ImVec2 low = ImGui::GetItemRectMin();
-    // A text that is only read has its name to the left of it; a box has its name in it.
+    // A read-only text has its name to its left; a checkbox includes its name.
     if (of_row)
         low = {row.from.x, row.from.y};
     else if (ImGui::GetItemID() == 0)
         low.x = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMin().x;
     if (!ImGui::IsWindowHovered() || !ImGui::IsMouseHoveringRect(low, ImGui::GetItemRectMax())) return;
-    // Whoever drags or types looks at what comes of it.
+    // While dragging or typing, a tooltip would cover the result.
     if (ImGui::IsMouseDown(ImGuiMouseButton_Left) || numbers.id != 0) return;
     std::string whole = text;
     if (whole.empty()) return;

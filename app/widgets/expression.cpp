@@ -13,7 +13,7 @@ enum class Kind { Length, Angle, Time, Speed, Turning, Frequency, Share };
 struct Unit {
     std::string_view name;
     Kind kind;
-    double size;  ///< of one, in the first of its kind
+    double size;  ///< of one, in the first unit of its kind
 };
 constexpr double degrees = 180.0 / std::numbers::pi;
 constexpr std::array units{Unit{"m", Kind::Length, 1.0},         Unit{"km", Kind::Length, 1e3},
@@ -38,7 +38,7 @@ std::string quoted(std::string_view text) {
     return '"' + std::string(text) + '"';
 }
 
-/// Reads from left to right; what it cannot read is left, and said.
+/// Reads from left to right; left() is the unread rest.
 class Reader {
   public:
     explicit Reader(std::string_view text) : left_(text) { skip(); }

@@ -1,4 +1,4 @@
-// What a person types into a number's field: a number, a sum of such, with or without a unit.
+// Parses text typed into a number field: a number or an arithmetic expression, with or without a unit.
 //
 //     read_number("1/3", "").value            // 0.333...
 //     read_number("30 cm", "m").value         // 0.3
@@ -13,15 +13,16 @@
 namespace tendril::app {
 
 struct TypedNumber {
-    std::optional<double> value;  ///< in the field's unit; finite, or an infinity where it is too large
-    std::string error;            ///< a sentence for people; empty where there is a value
+    std::optional<double> value;  ///< in the field's unit; finite, or infinite on overflow
+    std::string error;            ///< a sentence to display; empty if there is a value
 };
 
-/// Numbers as C++ writes them, +, -, *, /, ^, parentheses, `pi`; then a unit, which counts for the whole:
-/// one of the same kind as the field's `unit` (lengths, angles, times, speeds, frequencies, shares), or none.
+/// Accepts numbers in C++ syntax, +, -, *, /, ^, parentheses and `pi`, then optionally a unit of the whole:
+/// one of the same kind as the field's `unit` (lengths, angles, times, speeds, angular speeds, frequencies,
+/// percentages).
 TypedNumber read_number(std::string_view text, std::string_view unit);
 
-/// The unit behind the number of a printf format: "m" of "%.3f m", "%" of "%.0f %%".
+/// The unit that follows the number in a printf format: "m" of "%.3f m", "%" of "%.0f %%".
 std::string unit_of(std::string_view format);
 
 }  // namespace tendril::app

@@ -19,9 +19,9 @@
 namespace tendril::app {
 namespace {
 
-constexpr float name_share = 0.38f;  ///< of the row, where name and field stand beside each other
+constexpr float name_share = 0.38f;  ///< of the row's width, if name and field are side by side
 
-/// Too narrow for a name and a field side by side, at the size that the text has.
+/// Too narrow for a name and a field side by side at the current text size.
 bool narrow() {
     return ImGui::GetWindowContentRegionMax().x - ImGui::GetWindowContentRegionMin().x <
            9.0f * ImGui::GetFontSize();
@@ -39,13 +39,13 @@ void note_row(ImVec2 from, ImVec2 field) {
     row.has_range = false;
 }
 
-/// Writes the row's name and leaves the cursor where its field goes, beside it or, if need be, below; gives
-/// the field's id.
+/// Writes the row's name and leaves the cursor at its field, beside the name or, if there is no room, below
+/// it. Returns the field's id.
 std::string begin_row(const char* name) {
     const float from = ImGui::GetWindowContentRegionMin().x;
     const float field = name_share * ImGui::GetWindowContentRegionMax().x;
     const ImVec2 begin = ImGui::GetCursorScreenPos();
-    if (name[0] == '#') {  // an id, and no name to be read
+    if (name[0] == '#') {  // an id without a visible name
         ImGui::SetNextItemWidth(-1.0f);
         note_row(begin, begin);
         return name;
@@ -77,7 +77,7 @@ bool drag_number(const char* id, float& value, float speed, float low, float hig
 
 namespace {
 
-/// Of the last item, wrapped, though it may be disabled.
+/// A wrapped tooltip for the last item, even if it is disabled.
 void tooltip_of_button(const std::string& text) {
     if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) tooltip(text);
 }
@@ -111,7 +111,7 @@ bool section_button(const char* title, bool open) {
     ImGui::SetCursorScreenPos(at);
     ImGui::TextUnformatted(title);
     ImGui::SetCursorScreenPos(below);
-    // At the right end, where it is in nobody's way.
+    // The fold mark, at the right end.
     const float half = 0.18f * line;
     const ImVec2 mark{at.x + width - 2.0f * half, at.y + 0.5f * line};
     const float stroke = std::max(1.0f, 0.1f * line);
@@ -171,7 +171,7 @@ bool integer_field(const char* name, int& value, int low, int high) {
 
 bool integer_slider(const char* name, int& value, int low, int high) {
     const std::string id = begin_row(name);
-    // The number stands beside the slider, where its knob does not hide it.
+    // The number is beside the slider, where the knob does not hide it.
     const float room =
         ImGui::CalcTextSize(std::to_string(high).c_str()).x + ImGui::GetStyle().ItemInnerSpacing.x;
     ImGui::SetNextItemWidth(-room);
@@ -204,7 +204,7 @@ bool point_field(const char* name, glm::vec3& value, float speed, float most, co
         const std::string id = begin_row(row.c_str());
         changed |= drag_number(id.c_str(), value[i], speed, -most, most, format);
     }
-    row_above().from = {from.x, from.y};  // all three are one row to whoever explains it
+    row_above().from = {from.x, from.y};  // explain() treats all three as one row
     return changed;
 }
 
@@ -259,7 +259,7 @@ bool contains_text(std::string_view text, std::string_view part) {
     return std::search(text.begin(), text.end(), part.begin(), part.end(), same) != text.end();
 }
 
-/// The line stays above its rows, which scroll.
+/// The search line stays above its rows, which scroll.
 bool begin_search(const char* name, const std::string* shown, SearchText& typed) {
     std::string id = std::string("##") + name, preview;
     if (shown != nullptr) {
@@ -332,12 +332,12 @@ void reading(const char* name, const char* format, ...) {
 bool row_button(const char* title, int of, bool enabled, const char* tooltip) {
     const float gap = ImGui::GetStyle().ItemSpacing.x;
     const float whole = ImGui::GetWindowContentRegionMax().x - ImGui::GetWindowContentRegionMin().x;
-    // Fewer to a row where they would be smaller than this; four or more are marks rather than words.
+    // Fewer per row if they would be narrower than this; four or more are symbols rather than words.
     const float min_width = (of > 3 ? 2.2f : 4.5f) * ImGui::GetFontSize();
     of = std::clamp(static_cast<int>((whole + gap) / (min_width + gap)), 1, of);
     const auto share = [&] { return (whole - gap * static_cast<float>(of - 1)) / static_cast<float>(of); };
     const float needed = ImGui::CalcTextSize(title).x + ImGui::GetStyle().FramePadding.x;
-    while (of > 1 && share() < needed) --of;  // its words come first
+    while (of > 1 && share() < needed) --of;  // the title must fit
     const float width = share();
     const bool begun = ImGui::GetCursorPosX() > ImGui::GetWindowContentRegionMin().x + 1.0f;
     if (begun && ImGui::GetCursorPosX() + width > ImGui::GetWindowContentRegionMax().x + 1.0f)
@@ -347,7 +347,7 @@ bool row_button(const char* title, int of, bool enabled, const char* tooltip) {
     const bool pressed = ImGui::Button((shown + "###" + title).c_str(), {width, 0.0f});
     ImGui::EndDisabled();
     if (tooltip != nullptr) tooltip_of_button(tooltip);
-    ImGui::SameLine();  // the next one beside it, unless the row is full
+    ImGui::SameLine();  // the next button continues the row, unless it is full
     if (ImGui::GetCursorPosX() + width > ImGui::GetWindowContentRegionMax().x + 1.0f) ImGui::NewLine();
     return pressed;
 }

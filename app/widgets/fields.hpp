@@ -1,7 +1,7 @@
-// The rows of a panel: a dim name on the left, a field on the right (below, where there is no room beside
-// it); numbers of fixed width, with their units. Each field returns true in a frame in which a person changed
-// its value. The names are ids too: unique in a panel. A name that begins with ## is only an id, and its
-// field takes the whole row.
+// The rows of a panel: a dim name on the left, a field on the right (below, if there is no room); numbers
+// have fixed width and units. Each field returns true in a frame in which the user changed its value. Names
+// are also ids and must be unique in a panel. A name that begins with ## is only an id, and its field fills
+// the row.
 #pragma once
 
 #include <array>
@@ -12,63 +12,63 @@
 
 namespace tendril::app {
 
-/// A heading over a group of rows, with some air above it.
+/// A heading over a group of rows, with space above it.
 void section(const char* title);
-/// One with a mark that says whether what follows is shown; true in a frame in which it is clicked.
+/// A heading with a mark that shows whether its section is open; true in a frame in which it is clicked.
 bool section_button(const char* title, bool open);
-/// What the panel is about, in one short line, or wrapped: the largest text of all.
+/// The panel's main message, wrapped, in the largest text.
 void verdict(const std::string& text, glm::vec3 colour);
 /// Dim text, wrapped.
 void note(const std::string& text);
 
-/// One of several texts, with room for the longest: what comes below keeps still when another is shown.
+/// One of several texts, with room for the longest, so that rows below do not move when another is shown.
 void note_of(const std::vector<std::string>& all, std::size_t shown);
 
-// A drag ends at the range. What is typed counts when the person is done (number_entry.hpp). Beyond the range
-// it is passed on: the command that takes it refuses it, and says the value and the range.
+// Drags are clamped to the range. Typed values take effect when the user finishes (number_entry.hpp). They
+// are passed on even if out of range: the command refuses them with a message that gives the value and the
+// range.
 bool number_field(const char* name, float& value, float speed, float low, float high, const char* format);
 bool integer_field(const char* name, int& value, int low, int high);
 bool integer_slider(const char* name, int& value, int low, int high);
-/// A line of text. What is typed counts with Enter only; `hint` stands there while it is empty.
+/// A line of text. Typing takes effect on Enter only; `hint` is shown while it is empty.
 bool text_field(const char* name, std::string& value, const char* hint);
 bool point_field(const char* name, glm::vec3& value, float speed, float most = 1e9f,
                  const char* format = "%.3f m");
-/// Its name on a line of its own, and below it three fields side by side.
+/// The name on its own line, with three fields side by side below it.
 bool vector_field(const char* name, glm::vec3& value, float speed, glm::vec3 low, glm::vec3 high,
                   const char* format);
-/// `why_not`, where given: one for each choice, null for one that can be chosen; else it is grey and the
-/// reason stands beside it.
+/// `why_not`, if given, has one entry per choice: null if it can be chosen, else the reason shown beside the
+/// greyed title.
 bool choice_field(const char* name, int& chosen, const char* const* titles, int count,
                   const char* const* why_not = nullptr);
-/// A choice among many, which a person finds by typing a part of it; `typed` is kept from frame to frame. Its
-/// rows come between both calls, where the first says true; a row says true when it is chosen. With `shown`
-/// the field stands in the row of its name, without it is a small button beside what follows.
+/// A choice among many with a search line; keep `typed` from frame to frame. If begin_search() returns true,
+/// add rows and call end_search(); a row returns true when it is chosen. With `shown` the field is a row with
+/// a name, otherwise a small button beside the next item.
 using SearchText = std::array<char, 64>;
 bool begin_search(const char* name, const std::string* shown, SearchText& typed);
 bool search_row(const std::string& title, bool chosen, const SearchText& typed);
 void end_search();
-/// Whether `part` is in `text`, in whatever case.
+/// Whether `text` contains `part`, ignoring case.
 bool contains_text(std::string_view text, std::string_view part);
 
-/// One of several that exclude each other.
+/// A radio button: one of several exclusive options.
 bool option_button(const char* title, bool chosen, const char* tooltip = nullptr);
 
-/// A row that is only read.
+/// A read-only row.
 void reading(const char* name, const char* format, ...)
 #if defined(__GNUC__)
     __attribute__((format(printf, 2, 3)))
 #endif
     ;
 
-/// What the row above means, while the mouse rests on it. A number's unit and range follow by themselves.
-/// After point_field() or vector_field() it is about all three.
+/// A tooltip for the row above. A number's unit and range are appended automatically. After point_field() or
+/// vector_field() it covers all three fields.
 void explain(const char* text);
 
-/// A button as wide as its share of the row: `of` buttons to a row, or fewer where they would be too small. A
-/// long tooltip is wrapped.
+/// A button in a row of `of` equal buttons, or fewer if they would be too small. A long tooltip is wrapped.
 bool row_button(const char* title, int of, bool enabled = true, const char* tooltip = nullptr);
 
-/// What comes next begins below, though the row of buttons is not full.
+/// Ends a row of buttons that is not full.
 void end_row();
 
 }  // namespace tendril::app

@@ -1,4 +1,4 @@
-// The fonts that the shell loads, by their use. They are in the atlas in this order.
+// The fonts that the shell loads, by use, in their order in the atlas.
 #pragma once
 
 #include <imgui.h>

@@ -27,7 +27,7 @@ struct Pen {
     void triangle(ImVec2 a, ImVec2 b, ImVec2 c) const { list->AddTriangleFilled(a, b, c, colour); }
 };
 
-/// A hooked arrow; `side` is -1 for one that turns back to the left.
+/// A hooked arrow; `side` is -1 for one that points back to the left.
 void hooked_arrow(const Pen& pen, float side) {
     constexpr float pi = 3.14159265f;
     pen.line(side * 0.75f, -0.25f, -side * 0.2f, -0.25f);

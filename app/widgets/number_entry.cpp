@@ -1,7 +1,7 @@
 #include "app/widgets/number_entry.hpp"
 
 #include <imgui.h>
-#include <imgui_internal.h>  // whether what comes next is disabled has no other way to be asked
+#include <imgui_internal.h>  // the only way to ask whether the next item is disabled
 
 #include <cmath>
 #include <cstdio>
@@ -31,7 +31,7 @@ void note_range(double low, double high, const char* format) {
 }
 
 bool is_edited(ImGuiID id) {
-    // One that was not drawn in the frame before has vanished, and its text with it.
+    // A field that was not drawn in the last frame has vanished, with its text.
     return editing().id == id && editing().frame >= ImGui::GetFrameCount() - 1;
 }
 
@@ -50,7 +50,7 @@ ImVec4 reddened(const ImVec4& colour) {
     return {mixed(colour.x, 0.9f), mixed(colour.y, 0.15f), mixed(colour.z, 0.1f), 1.0f};
 }
 
-/// Below the field, over what is there: nothing moves away because of it.
+/// Shows the reason below the field, as an overlay, so that the layout does not move.
 void say_below(const std::string& why) {
     ImGui::SetNextWindowPos(
         {ImGui::GetItemRectMin().x, ImGui::GetItemRectMax().y + ImGui::GetStyle().ItemInnerSpacing.y});
@@ -77,7 +77,7 @@ std::optional<double> edited_text(const char* id, const std::string& unit, bool 
     if (was_wrong)
         ImGui::PushStyleColor(ImGuiCol_FrameBg, reddened(ImGui::GetStyleColorVec4(ImGuiCol_FrameBg)));
     const std::string text_id = std::string(id) + " text";
-    // ImGui itself would go to the next text with Tab, and a number is none until it is clicked.
+    // ImGui's own Tab goes to the next text field, and a number is not one until it is clicked.
     bool tabbed = false;
     const auto take_tab = [](ImGuiInputTextCallbackData* data) {
         *static_cast<bool*>(data->UserData) = true;
@@ -97,7 +97,7 @@ std::optional<double> edited_text(const char* id, const std::string& unit, bool 
         return std::nullopt;
     }
     const bool same = now.text == now.before;
-    if (wrong && entered) {  // Enter leaves a person where the mistake is
+    if (wrong && entered) {  // Enter keeps the invalid text in edit
         now.begins = true;
         return std::nullopt;
     }
@@ -122,7 +122,7 @@ std::optional<double> number_entry(const char* id, double value, double speed, d
     std::snprintf(text, sizeof text, format, value);
     double shown = without_signed_zero(text) == text ? value : 0.0;
     const ImGuiIO& io = ImGui::GetIO();
-    // ImGui makes a drag ten times as coarse with Shift.
+    // ImGui makes a drag ten times coarser with Shift; this makes it ten times finer.
     const auto pace = static_cast<float>(io.KeyShift ? 0.01 * speed : speed);
     const bool changed = ImGui::DragScalar(id, ImGuiDataType_Double, &shown, pace, &low, &high, format,
                                            ImGuiSliderFlags_NoInput);

@@ -1,9 +1,9 @@
-// A number that is dragged sideways, or typed after a click.
+// A number field that is dragged sideways, or typed into after a click.
 //
-// A click selects the number's text; typing changes nothing until Enter, Tab or a click elsewhere, Escape
-// takes it back. What may be typed is in expression.hpp: "1/3", "30 cm". Invalid input turns red, with the
-// reason below it. Tab goes on to the next number that can be changed. A drag ends at the range; Shift makes
-// it ten times finer.
+// A click selects the number's text; typing takes effect on Enter, Tab or a click elsewhere, and Escape
+// cancels it. expression.hpp defines the syntax: "1/3", "30 cm". Invalid input turns red, with the reason
+// below it. Tab moves to the next enabled number. A drag is clamped to the range; Shift makes it ten times
+// finer.
 #pragma once
 
 #include <array>
@@ -13,30 +13,30 @@
 
 namespace tendril::app {
 
-/// The last row that has a field: where it is, and what its number may be, for the text that explains it.
+/// The last row that has a field: its position, and its number's range, for explain().
 struct RowAbove {
     int frame = -1;         ///< in which it was drawn
-    glm::vec2 from{0.0f};   ///< where its name begins
-    glm::vec2 field{0.0f};  ///< and its last field
+    glm::vec2 from{0.0f};   ///< start of its name
+    glm::vec2 field{0.0f};  ///< start of its last field
     bool has_range = false;
     double low = 0.0, high = 0.0;
     std::array<char, 48> format{};  ///< for the unit
 };
 
-/// What of numbers is the interface's own: which one's text is edited. ImGui's UserData points at it.
+/// The interface's state of number fields: which one's text is being edited. ImGui's UserData points to it.
 struct NumberEditing {
     unsigned id = 0;     ///< of the field; 0: none
-    int frame = 0;       ///< in which it was drawn last
-    bool begins = true;  ///< the text takes the keyboard
+    int frame = 0;       ///< in which it was last drawn
+    bool begins = true;  ///< the text must take the keyboard focus
     std::array<char, 128> text{}, before{};
-    int tabbed_in = -1;     ///< the frame in which Tab left a number: the next one is edited
-    bool entered = false;   ///< a typed number has counted, since this was last asked
-    std::string refused{};  ///< what was typed and left though it is invalid, with the reason; empty: nothing
+    int tabbed_in = -1;     ///< the frame in which Tab left a number: edit the next one
+    bool entered = false;   ///< a typed number took effect since this was last read and reset
+    std::string refused{};  ///< invalid text that the user left, with the reason; empty: none
     RowAbove row;
 };
 
-/// The new number, in a frame in which a person has changed it. `format` as of printf; behind the number its
-/// unit. `whole`: others are invalid.
+/// Returns the new number in a frame in which the user changed it. `format` is a printf format with the unit
+/// after the number. `whole`: only whole numbers are valid.
 std::optional<double> number_entry(const char* id, double value, double speed, double low, double high,
                                    const char* format, bool whole = false);
 

@@ -16,7 +16,7 @@ ImU32 colour_of(glm::vec3 c, float alpha = 1.0f) {
     return ImGui::ColorConvertFloat4ToU32({c.r, c.g, c.b, alpha});
 }
 
-/// The smallest of 1, 2, 5, 10, ... that makes at most `most` steps of `range`.
+/// The smallest of ..., 1, 2, 5, 10, ... that divides `range` into at most `most` steps.
 float tick_step(float range, int most) {
     float step = std::pow(10.0f, std::floor(std::log10(std::max(range / static_cast<float>(most), 1e-12f))));
     for (const float factor : {1.0f, 2.0f, 5.0f, 10.0f}) {
@@ -25,7 +25,7 @@ float tick_step(float range, int most) {
     return step * 10.0f;
 }
 
-constexpr float far_away = 4000.0f;  ///< pixels beyond the plot: farther off, what leaves it looks the same
+constexpr float far_away = 4000.0f;  ///< pixels beyond the plot at which points are clamped
 
 class Plot {
   public:
@@ -47,7 +47,7 @@ class Plot {
             low_ = axes.fixed_y ? axes.low_y : std::min(axes.low_y, min_y);
             high_ = axes.fixed_y ? axes.high_y : std::max(axes.high_y, max_y);
         } else if (min_y <= max_y) {
-            // A curve that is all but level is shown so.
+            // A nearly constant curve is shown as such.
             const float room = std::max(0.05f * (max_y - min_y), 1e-3f * std::max(std::abs(max_y), 1e-3f));
             low_ = min_y - room;
             high_ = max_y + room;
@@ -70,7 +70,7 @@ class Plot {
         if (axes_.at_x >= 0.0f) {
             list_->AddLine({x(axes_.at_x), from_.y}, {x(axes_.at_x), to_.y}, dim(), 1.5f);
         }
-        // What stays within is drawn over what leaves, which may cover everything.
+        // Curves that stay inside are drawn over those that leave, which may cover everything.
         for (const Curve& curve : curves_)
             if (leaves(curve)) line(curve);
         for (const Curve& curve : curves_)
@@ -78,11 +78,11 @@ class Plot {
         for (const Curve& curve : curves_) exits(curve);
         list_->PopClipRect();
         for (const Curve& curve : curves_)
-            if (curve.points.size() == 1) line(curve);  // a single point is whole at the edge too
+            if (curve.points.size() == 1) line(curve);  // a single point is not clipped at the edge
         if (axes_.named) names();
     }
 
-    /// What the mouse says: all curves at its place, or the nearest point.
+    /// The tooltip: all curves at the mouse's x, or the nearest point.
     void tell(ImVec2 mouse) const {
         if (axes_.reads_all)
             tell_all(mouse);
@@ -90,7 +90,8 @@ class Plot {
             tell_nearest(mouse);
     }
 
-    /// Within the plot; of a logarithmic axis the value, not its power.
+    /// Values of both axes at a pixel, clamped to the plot; on a logarithmic axis the value, not its
+    /// exponent.
     glm::vec2 values_at(ImVec2 at) const {
         const float share_x = std::clamp((at.x - from_.x) / std::max(to_.x - from_.x, 1.0f), 0.0f, 1.0f);
         const float share_y = std::clamp((to_.y - at.y) / std::max(to_.y - from_.y, 1.0f), 0.0f, 1.0f);
@@ -110,7 +111,7 @@ class Plot {
         const float at = axes_.from_x + (most_x_ - axes_.from_x) * (mouse.x - from_.x) / (to_.x - from_.x);
         list_->AddLine({mouse.x, from_.y}, {mouse.x, to_.y}, dim());
         ImGui::BeginTooltip();
-        // "time, s" over the marks is "time 1.5 s" here.
+        // The axis title "time, s" becomes "time 1.5 s" here.
         const std::string title = axes_.x;
         const std::size_t comma = std::min(title.find(", "), title.size());
         const std::string unit = comma < title.size() ? title.substr(comma + 1) : "";
@@ -144,7 +145,7 @@ class Plot {
         }
         if (nearest == nullptr) return;
         list_->AddCircle({x(point.x), y(point.y)}, 0.3f * ImGui::GetFontSize(), colour_of(nearest->colour));
-        // A curve that is named as its axis is not named twice.
+        // Omit a curve's name if it equals the axis title.
         const std::string title = nearest->name == axes_.y ? std::string() : nearest->name + "\n";
         ImGui::SetTooltip("%s%s %s\n%s %s", title.c_str(), axes_.x,
                           short_text(static_cast<double>(point.x), axes_.x_unit).c_str(), axes_.y,
@@ -160,7 +161,7 @@ class Plot {
         const float at = along_y(logarithmic() ? std::log10(std::max(value, axes_.min_y)) : value);
         return std::clamp(at, from_.y - far_away, to_.y + far_away);
     }
-    /// Of a value, or on a logarithmic axis of its power of ten.
+    /// The y pixel of a value, or of its base-10 logarithm on a logarithmic axis.
     float along_y(float power) const { return to_.y + (from_.y - to_.y) * (power - low_) / (high_ - low_); }
     static ImU32 dim() { return ImGui::GetColorU32(ImGuiCol_TextDisabled); }
 
@@ -173,7 +174,7 @@ class Plot {
         const float first = logarithmic() ? low_ : std::ceil(low_ / step_y) * step_y;
         for (int i = 0; first + static_cast<float>(i) * step_y <= high_ + 1e-3f * step_y; ++i) {
             const float power = first + static_cast<float>(i) * step_y;
-            // As many digits as tell one mark from the next.
+            // Enough digits to distinguish the marks.
             const int digits = std::clamp(static_cast<int>(std::ceil(-std::log10(step_y) - 1e-4f)), 0, 6);
             marks.push_back(
                 {along_y(power), logarithmic()
@@ -185,7 +186,7 @@ class Plot {
 
     void grid() {
         const ImU32 line = ImGui::GetColorU32(ImGuiCol_Border, 0.7f);
-        float lowest = from_.y;  // of the texts beside the y axis
+        float lowest = from_.y;  // bottom of the texts beside the y axis
         for (const auto& [at, text] : y_marks()) {
             list_->AddLine({from_.x, at}, {to_.x, at}, line);
             const ImVec2 size = ImGui::CalcTextSize(text.c_str());
@@ -213,7 +214,7 @@ class Plot {
         list_->AddText({to_.x - width, to_.y + 2.0f + 1.1f * text_height}, dim(), axes_.x);
     }
 
-    /// With the unit, where the marks do not have it.
+    /// Includes the unit if the marks do not show it.
     std::string y_title() const {
         return logarithmic() || *axes_.y_unit == '\0' ? axes_.y : std::string(axes_.y) + ", " + axes_.y_unit;
     }
@@ -231,7 +232,7 @@ class Plot {
                            [&](glm::vec2 p) { return outside(p.y); });
     }
 
-    /// A mark wherever the curve leaves the axis, but none on top of another.
+    /// Marks where the curve leaves the axis range, without overlapping marks.
     void exits(const Curve& curve) {
         const float size = 0.45f * ImGui::GetFontSize();
         float last[2] = {-1e9f, -1e9f};  // below and above
@@ -254,14 +255,14 @@ class Plot {
         std::vector<ImVec2> points;
         for (const glm::vec2 p : curve.points) points.push_back({x(p.x), y(p.y)});
         polyline(points, colour, 0.13f * curve.width * ImGui::GetFontSize());
-        // So many marks would make one thick line.
+        // Too many marks would merge into one thick line.
         if (points.size() > 60 || (!curve.marks && !points.empty())) points = {points.back()};
         for (const ImVec2 p : points)
             list_->AddCircleFilled(p, 0.17f * curve.width * ImGui::GetFontSize(), colour);
     }
 
-    /// In pieces, cut where it turns back on itself: there Dear ImGui's joints would be of no width, and a
-    /// fast swing a cloud of dots.
+    /// Draws pieces that end where the line reverses: there Dear ImGui's joints would have no width, and a
+    /// fast swing would be a cloud of dots.
     void polyline(const std::vector<ImVec2>& points, ImU32 colour, float width) {
         std::size_t begin = 0;
         for (std::size_t i = 1; i < points.size(); ++i) {
@@ -283,7 +284,7 @@ class Plot {
         }
     };
 
-    /// Beside their points, wherever there is room, the first ones first; none over another or over a point.
+    /// Names beside single points where there is room, in order, covering neither each other nor a point.
     void names() {
         std::vector<Box> taken;
         const float unit = ImGui::GetFontSize();
@@ -339,7 +340,7 @@ float value_at(const Curve& curve, float x) {
 
 namespace {
 
-/// The axes of the frame in which the mouse button went down on the last item, while it is down.
+/// While the mouse button is held on the last item: the axes of the frame in which it went down.
 PlotAxes axes_of_stroke(const char* id, PlotAxes axes) {
     const bool held = ImGui::IsItemActive() && !ImGui::IsItemActivated();
     ImGuiStorage& kept = *ImGui::GetStateStorage();

@@ -7,14 +7,14 @@
 namespace tendril::app {
 namespace {
 
-/// Of the window's storage; the id stack does not count, for whoever asks stands elsewhere in it.
+/// A key in the window's storage, independent of the id stack, which differs for the caller.
 ImGuiID key_of(std::string_view title, char what) {
     ImGuiID hash = 2166136261u ^ static_cast<unsigned char>(what);
     for (const char each : title) hash = (hash ^ static_cast<unsigned char>(each)) * 16777619u;
     return hash;
 }
 
-/// An arrow in the middle of the window, at that height: one has to scroll, down (1) or up (-1).
+/// An arrow in the middle of the window at height y: scroll down (1) or up (-1).
 void point_there(float y, float down, const ImVec4& colour) {
     const float size = 0.55f * ImGui::GetTextLineHeight();
     const float x = ImGui::GetWindowPos().x + 0.5f * ImGui::GetWindowWidth();

@@ -1,14 +1,14 @@
-// Lights up the heading of a section in a panel, for whoever is told to look there.
+// Highlights the heading of a panel's section that the user is told to look at.
 #pragma once
 
 namespace tendril::app {
 
-/// Where a section begins, in the window that is being filled; section() says so.
+/// Records that a section begins at the cursor of the current window; section() calls it.
 void note_section(const char* title);
-/// Whether the window that is being filled has had such a section in this frame.
+/// Whether the current window has had such a section in this frame.
 bool has_section(const char* title);
-/// A frame around the heading, if there is such a section, or an arrow that points where it is scrolled to.
-/// After its rows, in the same window.
+/// Draws a frame around the heading, if there is such a section, or an arrow in its direction if it is
+/// scrolled out of view. Call it after the section's rows, in the same window.
 void light_section(const char* title);
 
 }  // namespace tendril::app

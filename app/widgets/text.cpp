@@ -18,7 +18,7 @@ void write(const std::string& text, bool dim) {
     if (dim) ImGui::PopStyleColor();
 }
 
-/// Where the character that byte `at` belongs to begins, in UTF-8.
+/// The start of the UTF-8 character that contains byte `at`.
 std::size_t character_begin(const std::string& text, std::size_t at) {
     while (at > 0 && at < text.size() && (static_cast<unsigned char>(text[at]) & 0xC0) == 0x80) --at;
     return at;

@@ -1,22 +1,22 @@
-// Text that is made to fit: cut short with "...", or set flush right.
+// Fits text into a width: shortened with "...", or aligned right.
 #pragma once
 
 #include <string>
 
 namespace tendril::app {
 
-/// The text as it is if it fits into `width` pixels, else as much of it as does and "...".
+/// The text if it fits into `width` pixels, else as much of it as fits and "...".
 std::string elided(const std::string& text, float width);
-/// Cut behind a whole word instead; empty where not even the first one fits.
+/// Cuts after a whole word instead; empty if not even the first word fits.
 std::string elided_at_word(const std::string& text, float width);
-/// Writes it on one line within `width`, dim or not; what was cut is told when the mouse rests on it.
+/// Writes one line within `width`; a tooltip shows the full text if it was cut.
 void text_elided(const std::string& text, float width, bool dim = false);
-/// A tooltip beside the mouse, wrapped: so that a long one is whole in a small window with large text.
+/// A tooltip beside the mouse, wrapped so that a long one fits a small window with large text.
 void tooltip(const std::string& text);
-/// Writes it at the right end of the room that is left, so that digits stay under digits.
+/// Writes the text right-aligned in the remaining width, so that digits line up.
 void text_flush_right(const std::string& text, bool dim = false);
 
-/// Whether Escape went down in this frame. Within a popup: closes it then.
+/// Whether Escape was pressed in this frame.
 bool escape_pressed();
 void close_popup_on_escape();
 

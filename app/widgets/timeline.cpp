@@ -12,8 +12,7 @@
 namespace tendril::app {
 namespace {
 
-/// The smallest of 0.1, 0.2, 0.5, 1, 2, 5, ... seconds whose marks lie at min_step `apart` pixels from each
-/// other.
+/// The smallest of ..., 0.1, 0.2, 0.5, 1, 2, 5, ... seconds whose marks are at least `apart` pixels apart.
 double mark_seconds(double seconds_per_pixel, double apart) {
     const double min_step = seconds_per_pixel * apart;
     double step = std::pow(10.0, std::floor(std::log10(std::max(min_step, 1e-3))));
@@ -23,7 +22,7 @@ double mark_seconds(double seconds_per_pixel, double apart) {
     return step * 10.0;
 }
 
-/// The strip itself: where its line runs, and what the head says while it is dragged.
+/// The strip: its line, its head, and their use by the mouse.
 class Strip {
   public:
     explicit Strip(const char* id) : list_(ImGui::GetWindowDrawList()) {
@@ -41,14 +40,14 @@ class Strip {
 
     float left() const { return from_; }
     float span() const { return span_; }
-    static float unit() { return ImGui::GetFontSize() / 15.0f; }  ///< a pixel at the size that the text has
+    static float unit() { return ImGui::GetFontSize() / 15.0f; }  ///< a pixel at the current text size
 
-    /// The share of the strip that a person dragged the head to; negative while nobody does.
+    /// The position, 0 to 1, that the head is dragged to; negative if it is not dragged.
     float dragged() const {
         if (!ImGui::IsItemActive()) return -1.0f;
         return std::clamp((ImGui::GetIO().MousePos.x - from_) / span_, 0.0f, 1.0f);
     }
-    /// Leaves the text out where it would run into the one before.
+    /// Omits the text if it would overlap the previous one.
     void mark(float share, const char* text) {
         const float x = from_ + span_ * share;
         const ImU32 dim = ImGui::GetColorU32(ImGuiCol_TextDisabled);
@@ -61,7 +60,7 @@ class Strip {
         free_from_ = left + wide + 6.0f * unit();
     }
     void head(float share) { played(0.0f, share, share); }
-    /// From where it began to the head, which is there, and on to what is known.
+    /// Draws the line from `begin` to the head at `share`, and faintly on to `known`.
     void played(float begin, float share, float known) {
         const float x = from_ + span_ * share;
         const ImU32 accent = ImGui::GetColorU32(ImGuiCol_CheckMark);
@@ -73,7 +72,7 @@ class Strip {
         list_->AddCircleFilled({x, base_ - unit()}, radius * unit(), accent, 20);
     }
 
-    /// The share of the strip that the mouse is on; negative where it is not.
+    /// The mouse's position on the strip, 0 to 1; negative if it is elsewhere.
     float hovered() const {
         if (!ImGui::IsItemHovered()) return -1.0f;
         return std::clamp((ImGui::GetIO().MousePos.x - from_) / span_, 0.0f, 1.0f);
@@ -85,7 +84,7 @@ class Strip {
         list_->AddLine({x, y}, {x, base_}, colour, unit());
         list_->AddQuadFilled({x, y - radius}, {x + radius, y}, {x, y + radius}, {x - radius, y}, colour);
     }
-    /// Pixels from a place to where the mouse is.
+    /// Pixels from a position to the mouse.
     float from_mouse(float share) const {
         return std::abs(ImGui::GetIO().MousePos.x - (from_ + span_ * share));
     }
@@ -95,7 +94,7 @@ class Strip {
         list_->AddRectFilled({left, base_ - high}, {right, base_},
                              ImGui::GetColorU32({bar.colour.r, bar.colour.g, bar.colour.b, 1.0f}));
     }
-    /// Where time begins that one can go back to.
+    /// A flag at the earliest time that the head can go back to.
     void flag(float share) {
         const float x = from_ + span_ * share, top = base_ - 11.0f * unit();
         const ImU32 colour = ImGui::GetColorU32(ImGuiCol_Text);
@@ -108,10 +107,10 @@ class Strip {
     ImDrawList* list_;
     ImVec2 at_{};
     float height_, width_, from_, span_, base_;
-    float free_from_ = -1e9f;  ///< where the next text may begin
+    float free_from_ = -1e9f;  ///< the next text may begin here
 };
 
-/// The one under the mouse: a large one before others, then the nearest. -1 where there is none.
+/// The mark under the mouse: a large one before others, then the nearest; -1 if there is none.
 int mark_under(const Strip& strip, const std::vector<TimeMark>& marks, float whole) {
     const float close = 7.0f * Strip::unit();
     int found = -1;
@@ -137,7 +136,7 @@ bool step_timeline(const char* id, int& step, const std::vector<int>& ends) {
         step = static_cast<int>(std::lround(share * static_cast<float>(last)));
         if (ends.empty() || ends.back() == 0) step = 0;
     }
-    // A mark where each iteration ends, as many with their numbers as there is room for.
+    // A mark at each iteration's end, numbered where there is room.
     for (std::size_t i = 0; i < ends.size(); ++i) {
         const float share = static_cast<float>(ends[i]) / static_cast<float>(last);
         char text[32];
@@ -150,7 +149,7 @@ bool step_timeline(const char* id, int& step, const std::vector<int>& ends) {
 }
 
 void tell_strip(const char* text) {
-    // Above the strip, which it would hide.
+    // Above the strip, which it would otherwise hide.
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     ImGui::SetNextWindowPos({mouse.x, ImGui::GetItemRectMin().y - 0.5f * ImGui::GetTextLineHeight()},
                             ImGuiCond_Always, {mouse.x / std::max(1.0f, ImGui::GetIO().DisplaySize.x), 1.0f});
@@ -164,7 +163,7 @@ TimeStripUse time_strip(const char* id, int& tick, const TimeStrip& content) {
     const auto tick_at = [&](float part) { return static_cast<int>(std::lround(part * whole)); };
     const int before = tick;
     TimeStripUse use{.left = strip.left(), .right = strip.left() + strip.span()};
-    // A click on a mark is a click on that, and moves nothing.
+    // A click on a mark does not move the head.
     const ImGuiID held = ImGui::GetID((std::string(id) + " mark").c_str());
     ImGuiStorage& kept = *ImGui::GetStateStorage();
     if (strip.hovered() >= 0.0f) use.on_mark = mark_under(strip, content.marks, whole);

@@ -19,7 +19,7 @@ namespace tendril::app {
 #ifdef TENDRIL_HAS_EGL
 namespace {
 
-/// The functions of EGL that are used here, found when it is opened.
+/// The EGL functions used here, loaded at run time.
 struct Egl {
     SharedLibrary library{"libEGL.so.1"};
     decltype(&eglGetProcAddress) get_proc_address =
@@ -33,10 +33,10 @@ struct Egl {
     decltype(&eglReleaseThread) release_thread = library.get<decltype(&eglReleaseThread)>("eglReleaseThread");
 };
 
-/// As in osmesa_window.cpp: glad's loader takes no argument of its own.
+/// Global as in osmesa_window.cpp: glad's loader takes no user argument.
 decltype(&eglGetProcAddress) egl_loading = nullptr;
 
-/// The display and the context; one object, so that whatever step fails, the steps before it are undone.
+/// The display and the context in one object, so that a failing step undoes the earlier ones.
 class EglContext {
   public:
     EglContext() {
@@ -77,8 +77,8 @@ class EglContext {
         egl_loading = egl_.get_proc_address;
         load_gl([](const char* name) { return reinterpret_cast<GLADapiproc>(egl_loading(name)); }, "EGL");
     }
-    /// The display stays initialised for whoever opens it next: terminating it unloads the driver, which does
-    /// not free all it has allocated.
+    /// Keeps the display initialised for the next window: terminating it unloads the driver, which leaks
+    /// memory.
     void close() {
         egl_.make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
         if (context_ != EGL_NO_CONTEXT) egl_.destroy_context(display_, context_);

@@ -1,5 +1,5 @@
-// Off screen through EGL with no surface at all (EGL_MESA_platform_surfaceless), drawing into a framebuffer
-// object. Mesa 25.1 removed OSMesa; this is what is left there.
+// Off screen through EGL without a surface (EGL_MESA_platform_surfaceless), drawing into a framebuffer
+// object. Needed since Mesa 25.1, which removed OSMesa.
 #pragma once
 
 #include <memory>

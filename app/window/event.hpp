@@ -1,7 +1,7 @@
-// What can happen to a window: the one form in which input is sampled, recorded and applied.
+// Window events: the single form in which input is sampled, recorded and applied.
 //
-// The program takes exactly one event a tick (see app.hpp), so an event carries no time of its own:
-// a recording is a list of events and of empty ticks between them, and that makes a replay exact.
+// The program handles exactly one event per tick (see app.hpp), so events need no timestamp:
+// a recording is a list of events and the empty ticks between them, which makes replays exact.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -15,7 +15,7 @@ namespace tendril::app {
 
 enum class MouseButton { Left, Right, Middle };
 
-/// The pointer went to `at`: window coordinates, from the top left.
+/// The pointer moved to `at`: window coordinates, from the top left.
 struct MouseMove {
     glm::vec2 at{0.0f};
 };
@@ -23,27 +23,26 @@ struct MousePress {
     MouseButton button = MouseButton::Left;
     bool down = true;
 };
-/// Notches of the wheel, positive away from the person; a touchpad's two fingers send parts of one. Of a
-/// wheel that tilts, or two fingers, sideways too: positive to the left.
+/// Notches of the wheel, positive away from the user; a touchpad sends fractions. A tilting wheel or a
+/// touchpad also scrolls sideways: positive to the left.
 struct MouseWheel {
     float by = 0.0f;
     float sideways = 0.0f;
 };
-/// A key went down (repeats come as further downs) or up. Keys are named by what the keyboard's layout writes
-/// on them. Question comes down and up at once, wherever it is typed, after the key (with Shift or without)
-/// that typed it.
+/// A key went down (repeats send further downs) or up. Keys are named by their labels in the keyboard's
+/// layout. Question goes down and up at once, after the key that typed it, with or without Shift.
 struct KeyChange {
     Key key = Key::Unknown;
     bool down = true;
 };
-/// A chord pressed and let go within one tick; only scripts make these.
+/// A chord pressed and released within one tick; only scripts create these.
 struct KeyTap {
     Chord chord;
 };
 struct TextInput {
     std::string utf8;
 };
-/// The same size again means that the picture was lost and is to be drawn anew.
+/// An unchanged size means that the picture was lost and must be redrawn.
 struct Resize {
     glm::ivec2 size{0};
 };
@@ -54,8 +53,8 @@ struct Focus {
     bool focused = true;
 };
 struct CloseRequest {};
-/// The program that writes a video has come to its end, well or not. How long that takes is its own business:
-/// so that a recording has it, it is an event.
+/// The program that encodes a video has ended, successfully or not. Its timing is not deterministic, so it is
+/// an event for the recording.
 struct VideoEnd {};
 
 using Event = std::variant<MouseMove, MousePress, MouseWheel, KeyChange, KeyTap, TextInput, Resize, Drop,

@@ -1,5 +1,4 @@
-// The GL entry points, and how a window fills them in. They are global variables inside glad: one window at a
-// time.
+// Loads the GL entry points. They are global variables inside glad: one window at a time.
 #pragma once
 
 #include <glad/gl.h>
@@ -9,8 +8,8 @@
 
 namespace tendril::app {
 
-/// Loads GL through `load` and checks that the current context is 3.3 or newer; `backend` goes into the
-/// message of the std::runtime_error where it is not.
+/// Loads GL through `load` and checks that the current context is 3.3 or newer; otherwise throws
+/// std::runtime_error that names `backend`.
 void load_gl(GLADloadfunc load, const std::string& backend);
 
 /// Throws std::runtime_error unless both sides are between 1 and 16384 pixels.

@@ -6,8 +6,8 @@
 namespace tendril::app {
 namespace {
 
-/// `first` plus how far `code` lies after `first_code`: for runs that both enumerations have in the same
-/// order.
+/// `first` plus the offset of `code` from `first_code`: for runs of keys that both enumerations have in the
+/// same order.
 Key run(Key first, int code, int first_code) {
     return static_cast<Key>(static_cast<int>(first) + code - first_code);
 }
@@ -70,7 +70,7 @@ Key from_place(int code) {
         case GLFW_KEY_RIGHT_CONTROL:
             return Key::Ctrl;
         case GLFW_KEY_LEFT_ALT:
-            return Key::Alt;  // the right one is AltGr, which types
+            return Key::Alt;  // the right one is AltGr, which types characters
         case GLFW_KEY_LEFT_SUPER:
         case GLFW_KEY_RIGHT_SUPER:
             return Key::Super;

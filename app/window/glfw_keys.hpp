@@ -1,4 +1,4 @@
-// From GLFW's key codes, which name places on the keyboard, to what is written on the keys.
+// Converts GLFW's key codes, which are positions on the keyboard, to the keys' labels.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace tendril::app {
 
-/// The key as the current layout labels it: Ctrl+Z is where Z is written. Keys of other scripts (Cyrillic,
-/// Greek) keep the name of their place on a US keyboard. The number pad counts as digits.
+/// The key as labelled by the current layout: Ctrl+Z is at the key labelled Z. Keys of other scripts
+/// (Cyrillic, Greek) are named by their position on a US keyboard. The number pad counts as digits.
 Key translated_key(int glfw_key, int scancode);
 
 std::string utf8(unsigned codepoint);

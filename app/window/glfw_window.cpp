@@ -1,6 +1,6 @@
 #include "app/window/glfw_window.hpp"
 
-// Our GL declarations first, so that GLFW brings none along.
+// Our GL declarations come first, so that GLFW includes none.
 #include "app/window/gl.hpp"
 // then
 #include <GLFW/glfw3.h>
@@ -15,7 +15,7 @@
 namespace tendril::app {
 namespace {
 
-/// GLFW reports errors to a plain function without an argument of its own: the last one is kept here.
+/// The last error: GLFW reports errors to a callback without user data.
 std::string& last_error() {
     static std::string text;
     return text;
@@ -27,7 +27,7 @@ std::string take_error() {
     return text.empty() ? "GLFW gives no reason" : text;
 }
 
-/// Started with the window and stopped with it.
+/// GLFW, initialised and terminated with the window.
 struct Library {
     Library() {
         glfwSetErrorCallback([](int, const char* text) { last_error() = text; });
@@ -70,7 +70,7 @@ class GlfwWindow final : public Window {
     float content_scale() const override {
         glm::vec2 scale{1.0f};
         glfwGetWindowContentScale(window_, &scale.x, &scale.y);
-        // Where window coordinates are scaled already (Wayland), that part is not wished for once more.
+        // Divide by the scale that window coordinates already include (Wayland).
         const float done = static_cast<float>(framebuffer_size().x) / static_cast<float>(size().x);
         return std::clamp(scale.x / std::max(done, 0.1f), 0.5f, 4.0f);
     }
@@ -98,14 +98,14 @@ class GlfwWindow final : public Window {
     void listen_to_input();
     void on_key(int key, int scancode, int action);
     void on_text(unsigned codepoint);
-    /// Says the size, even an unchanged one: that makes the program draw what the system has lost.
+    /// Reports the size even if it is unchanged, to make the program redraw a lost picture.
     void report_size() { pending_.emplace_back(Resize{size()}); }
 
     Library library_;
     GLFWwindow* window_ = nullptr;
     std::vector<Event> pending_;
-    std::array<Key, GLFW_KEY_LAST + 1> held_{};  ///< what each held key was called when it went down
-    std::array<GLFWcursor*, 5> cursors_{};       ///< made when first shown; GLFW frees them at the end
+    std::array<Key, GLFW_KEY_LAST + 1> held_{};  ///< name of each held key when it was pressed
+    std::array<GLFWcursor*, 5> cursors_{};       ///< created on first use; glfwTerminate() frees them
     Cursor cursor_ = Cursor::Arrow;
     bool shown_ = false;
 };
@@ -173,11 +173,11 @@ void GlfwWindow::listen_to_input() {
 void GlfwWindow::on_key(int key, int scancode, int action) {
     if (key < 0 || key > GLFW_KEY_LAST) return;
     Key& held = held_[static_cast<std::size_t>(key)];
-    // Let go under the name it was pressed by, whatever the layout has become in between.
+    // Release a key by the name of its press, even if the layout has changed in between.
     const Key name = action == GLFW_PRESS ? translated_key(key, scancode) : held;
     if (name == Key::Unknown) return;
     const bool down = action != GLFW_RELEASE;
-    // The left and the right one of a modifier are one key: down with the first, up with the last.
+    // Left and right modifiers are one key: down with the first, up with the last.
     const auto others = std::count(held_.begin(), held_.end(), name) - (held == name ? 1 : 0);
     held = down ? name : Key::Unknown;
     const bool modifier = name == Key::Shift || name == Key::Ctrl || name == Key::Alt || name == Key::Super;
@@ -187,14 +187,14 @@ void GlfwWindow::on_key(int key, int scancode, int action) {
 
 void GlfwWindow::on_text(unsigned codepoint) {
     pending_.emplace_back(TextInput{utf8(codepoint)});
-    // Where the question mark sits differs from layout to layout, and so does what it is typed with.
+    // The question mark's position and modifiers depend on the layout, so take it from the text.
     if (codepoint == U'?') {
         pending_.emplace_back(KeyChange{Key::Question, true});
         pending_.emplace_back(KeyChange{Key::Question, false});
     }
 }
 
-/// Appends, joining what came in several pieces only because nobody asked for it in between.
+/// Appends an event, merging consecutive moves, resizes and wheel turns.
 void append(std::vector<Event>& events, Event&& event) {
     if (!events.empty()) {
         Event& last = events.back();
@@ -216,7 +216,7 @@ void append(std::vector<Event>& events, Event&& event) {
 }
 
 void GlfwWindow::poll(std::vector<Event>& events, double seconds) {
-    // Something may have come while a frame was shown; that must not wait.
+    // Events that arrived while a frame was shown must not wait.
     if (pending_.empty() && seconds > 0.0) {
         glfwWaitEventsTimeout(seconds);
     } else {
@@ -231,7 +231,7 @@ void GlfwWindow::present() {
     if (!shown_) {
         glfwShowWindow(window_);
         shown_ = true;
-        report_size();  // what was drawn while it was hidden may not be on the screen
+        report_size();  // the picture drawn while hidden may not be on the screen
     }
 }
 

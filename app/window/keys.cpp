@@ -10,8 +10,8 @@ namespace tendril::app {
 namespace {
 
 struct KeyText {
-    std::string_view name;   ///< in scripts: lower_case case
-    std::string_view label;  ///< for people
+    std::string_view name;   ///< in scripts: lower case
+    std::string_view label;  ///< for display
 };
 
 // In the order of Key.
@@ -49,7 +49,7 @@ std::string joined(const Chord& chord, Text text) {
     return result.append(text(chord.key));
 }
 
-/// Notes the modifier; false where the name is none, or was given before.
+/// Sets the modifier; false if the name is not a modifier or a repeated one.
 bool add_modifier(Chord& chord, std::string_view name) {
     bool* const modifier = name == "ctrl"    ? &chord.ctrl
                            : name == "shift" ? &chord.shift

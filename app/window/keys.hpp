@@ -96,14 +96,14 @@ struct Chord {
 
 /// "a", "escape", "page_up", "."; empty for Unknown.
 std::string_view key_name(Key key);
-/// The inverse of key_name, any case; nothing for a name it does not know.
+/// The inverse of key_name, ignoring case; none for an unknown name.
 std::optional<Key> key_from_name(std::string_view name);
 
 /// "ctrl+shift+z": modifiers in that order, lower case.
 std::string chord_name(const Chord& chord);
-/// "Ctrl+Shift+Z", as people write it.
+/// "Ctrl+Shift+Z", for display.
 std::string chord_label(const Chord& chord);
-/// Reads chord_name's form, modifiers in any order and any case.
+/// Parses chord_name's form, with modifiers in any order and any case.
 std::optional<Chord> chord_from_name(std::string_view name);
 
 }  // namespace tendril::app

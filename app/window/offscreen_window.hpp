@@ -1,5 +1,5 @@
-// What the windows without a screen share: nothing ever happens to them, the clipboard is a string, and they
-// draw into a framebuffer object, so that the ways to get a context don't differ in anything that is drawn.
+// The common part of windows without a screen: they have no events, the clipboard is a string, and they draw
+// into a framebuffer object, so that the picture does not depend on how the context is created.
 #pragma once
 
 #include <string>
@@ -19,7 +19,7 @@ class OffscreenFramebuffer {
 
     unsigned name() const { return framebuffer_; }
     glm::ivec2 size() const { return size_; }
-    /// Throws std::runtime_error where the driver has no memory for it.
+    /// Throws std::runtime_error if the driver has not enough memory.
     void resize(glm::ivec2 size);
 
   private:
@@ -29,7 +29,7 @@ class OffscreenFramebuffer {
     glm::ivec2 size_{0};
 };
 
-/// `Context` makes a GL context current and loads GL when it is made, and ends it when it goes.
+/// `Context` makes a GL context current and loads GL in its constructor, and destroys it in its destructor.
 template <typename Context>
 class OffscreenWindow final : public Window {
   public:

@@ -18,7 +18,7 @@ namespace tendril::app {
 #ifdef TENDRIL_HAS_OSMESA
 namespace {
 
-/// The functions of OSMesa that are used here, found when it is opened.
+/// The OSMesa functions used here, loaded at run time.
 struct OsMesa {
     SharedLibrary library{"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"};
     decltype(&OSMesaCreateContextAttribs) create_context =
@@ -31,14 +31,13 @@ struct OsMesa {
         library.get<decltype(&OSMesaGetProcAddress)>("OSMesaGetProcAddress");
 };
 
-/// glad's loader is a plain function without an argument of its own, so what it calls has to be reachable
-/// from one. Set only while osmesa_loading.
+/// Global because glad's loader takes no user argument. Valid only while GL is loaded.
 decltype(&OSMesaGetProcAddress) osmesa_loading = nullptr;
 
 class OsMesaContext {
   public:
     OsMesaContext() {
-        // A forward-compatible context is refused, so it is not asked for.
+        // OSMesa refuses a forward-compatible context, so do not request one.
         const std::array<int, 13> attributes{OSMESA_FORMAT,
                                              OSMESA_RGBA,
                                              OSMESA_DEPTH_BITS,
@@ -75,7 +74,7 @@ class OsMesaContext {
 
     OsMesa osmesa_;
     OSMesaContext context_ = nullptr;
-    std::array<std::uint8_t, 4> pixel_{};  ///< OSMesa wants a picture of its own, which is never drawn in
+    std::array<std::uint8_t, 4> pixel_{};  ///< OSMesa requires a buffer, which is never drawn to
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Off screen, drawn by the software rasteriser in Mesa's OSMesa: needs no display and no graphics card.
+// Off screen with OSMesa, Mesa's software rasteriser: needs no display and no graphics card.
 #pragma once
 
 #include <memory>

@@ -9,7 +9,7 @@ namespace tendril::app {
 SharedLibrary::SharedLibrary(std::initializer_list<const char*> names) {
     std::string tried;
     for (const char* name : names) {
-        // Local: several Mesa libraries define the same GL names, and must not see one another's.
+        // Local: several Mesa libraries define the same GL names and must not share them.
         handle_ = dlopen(name, RTLD_NOW | RTLD_LOCAL);
         if (handle_ != nullptr) {
             name_ = name;

@@ -1,4 +1,4 @@
-// A library opened while the program runs, so that the program starts where that library is not installed.
+// A library loaded at run time, so that the program starts without it installed.
 #pragma once
 
 #include <initializer_list>
@@ -8,13 +8,13 @@ namespace tendril::app {
 
 class SharedLibrary {
   public:
-    /// Opens the first of the names that is there; throws std::runtime_error naming them where none is.
+    /// Opens the first of the names that exists; throws std::runtime_error naming them all if none does.
     explicit SharedLibrary(std::initializer_list<const char*> names);
     ~SharedLibrary();
     SharedLibrary(const SharedLibrary&) = delete;
     SharedLibrary& operator=(const SharedLibrary&) = delete;
 
-    /// The function of that name; throws std::runtime_error where the library has none.
+    /// The function of that name; throws std::runtime_error if the library has none.
     template <typename Function>
     Function get(const char* name) const {
         return reinterpret_cast<Function>(find(name));

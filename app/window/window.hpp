@@ -1,5 +1,5 @@
-// A place with a GL 3.3 core context to draw in and events to read: a real window, or one off screen.
-// The frame (app.cpp) runs the same code over each.
+// A window with a GL 3.3 core context and events, on or off screen. The frame loop (app.cpp) runs the same
+// code on each.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -17,22 +17,22 @@ class Window {
   public:
     virtual ~Window() = default;
 
-    /// Size in window coordinates, those of the mouse.
+    /// Size in window coordinates, like the mouse's.
     virtual glm::ivec2 size() const = 0;
-    /// Size in pixels: what glViewport wants.
+    /// Size in pixels, as for glViewport.
     virtual glm::ivec2 framebuffer_size() const = 0;
-    /// The system's wish for the size of text and widgets, in window coordinates: 1 on a plain screen, 2 on a
-    /// dense one. (Where window coordinates are scaled already, as under Wayland, it is 1 there too.)
+    /// The system's scale for text and widgets, in window coordinates: 1 on a standard screen, 2 on a dense
+    /// one. (1 on both if window coordinates are already scaled, as under Wayland.)
     virtual float content_scale() const { return 1.0f; }
     /// The GL name of the framebuffer to draw in.
     virtual unsigned framebuffer() const { return 0; }
 
-    /// Appends what has happened since the last call, in order, after waiting at most `seconds` for
-    /// something to happen. Off screen nothing ever happens, and it does not wait.
+    /// Appends the events since the last call, in order, after waiting for one for at most `seconds`. Off
+    /// screen there are no events, and it does not wait.
     virtual void poll(std::vector<Event>& events, double seconds) = 0;
     /// Shows what was drawn.
     virtual void present() = 0;
-    /// Changes the size; a real window may refuse or be late.
+    /// Changes the size; a real window may refuse or delay it.
     virtual void resize(glm::ivec2 size) = 0;
 
     virtual void set_cursor(Cursor) {}
@@ -44,10 +44,10 @@ class Window {
 enum class Backend { Glfw, OsMesa, Egl };
 
 /// Opens a window of that kind with its context current and GL loaded. Throws std::runtime_error with a
-/// single clear line where that cannot be ("no display: ..."). `Glfw` needs a display; the others do not.
+/// one-line reason if that fails ("no display: ..."). `Glfw` needs a display; the others do not.
 std::unique_ptr<Window> open_window(Backend backend, glm::ivec2 size);
 
-/// Opens off screen with whatever this machine has: OSMesa first, then EGL without a surface.
+/// Opens an off-screen window with OSMesa or, if that fails, with EGL without a surface.
 std::unique_ptr<Window> open_offscreen(glm::ivec2 size);
 
 }  // namespace tendril::app

@@ -32,7 +32,7 @@ class Requirement {
         size_ += fits;
         return *this;
     }
-    /// 1e+09 as people write it: 1e9.
+    /// Shortens 1e+09 to 1e9.
     Requirement& add_plain(std::string_view text) noexcept {
         for (const char& c : text) {
             const bool after_e =
@@ -42,7 +42,7 @@ class Requirement {
         }
         return *this;
     }
-    /// Ranges are often floats: their shortest decimals, 0.1 and not 0.10000000149.
+    /// Range bounds are often floats: shows the shortest decimals, 0.1 and not 0.10000000149.
     Requirement& add(double number) noexcept {
         const auto single = static_cast<float>(number);
         return add_plain(static_cast<double>(single) == number ? detail::Shown(single).text()
@@ -53,20 +53,21 @@ class Requirement {
     std::size_t size_ = 0;
 };
 
-/// False for NaN, unless the field is optional.
+/// False for NaN.
 bool in_range(const Field& field, double value) noexcept {
-    if (field.optional && std::isnan(value)) return true;
     const bool inside = value >= field.range.low && value <= field.range.high;
     return inside && (!field.whole() || value == std::floor(value));
 }
 
 Result refuse(const char* operation, const Field& field, int axis, double value) noexcept {
-    constexpr std::string_view axes[] = {"x", "y", "z"};
+    constexpr std::string_view axes[] = {"x", "y", "z", "w"};
     const auto at = static_cast<std::size_t>(axis);
-    const bool pair = field.type == FieldType::Pair, point = field.type == FieldType::Point;
+    const bool pair = field.type == FieldType::Pair, axis_named = !pair && field.size() > 1;
     const detail::Argument argument(field.name, pair ? at : detail::no_index,
-                                    point ? axes[at] : std::string_view());
+                                    axis_named ? axes[at] : std::string_view());
     const Requirement requirement(field);
+    if (field.whole() && value == std::floor(value) && std::abs(value) <= 2147483647.0)
+        return detail::refused(operation, argument, requirement.text(), static_cast<int>(value));
     if (field.exact || field.whole()) return detail::refused(operation, argument, requirement.text(), value);
     return detail::refused(operation, argument, requirement.text(), static_cast<float>(value));
 }
@@ -81,6 +82,7 @@ const Field* find_field(std::span<const Field> table, std::string_view name) noe
 
 Result check_fields(const char* operation, std::span<const Field> table, const void* object) noexcept {
     for (const Field& field : table) {
+        if (field.optional && field.empty(object)) continue;
         const FieldValue value = field.get(object);
         for (int axis = 0; axis < field.size(); ++axis) {
             const double each = value[static_cast<std::size_t>(axis)];

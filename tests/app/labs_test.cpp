@@ -1,4 +1,4 @@
-// A lab is one folder and one line in the table: nothing outside the folder knows it by name.
+// A lab is one folder and one line in the table: nothing outside the folder may know its name.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The texts of a source's string literals, and of its includes.
+/// The string literals of a source, and its includes.
 std::vector<std::string> literals_in(const std::string& source) {
     static const std::regex comment("//[^\n]*"), literal("\"((?:[^\"\\\\\n]|\\\\.)*)\"");
     const std::string code = std::regex_replace(source, comment, "");
@@ -47,20 +47,20 @@ std::vector<LabNames> names_of_labs() {
     return all;
 }
 
-/// Whether a literal is the lab's name, one of its commands, or a file of its folder.
+/// Whether a literal is the lab's name, one of its commands, or a file in its folder.
 bool names(const std::string& literal, const LabNames& lab) {
     return literal == lab.lab || literal.starts_with(lab.lab + ".") || lab.commands.contains(literal) ||
            literal.starts_with("app/labs/" + lab.lab + "/");
 }
 
-/// "rope" is also what a body of a rope world is, and "rig" a step of what a character does in a tick.
+/// "rope" is also a kind of body in a rope world, and "rig" a step in a character's tick.
 bool is_word_of_its_own(const std::string& path, const std::string& literal) {
     const bool hangs = path.starts_with("app/labs/kit/") || path.starts_with("app/labs/humanoid/");
     return (literal == "rope" && hangs) || (literal == "rig" && path == "app/labs/humanoid/state.cpp");
 }
 
-/// The table itself, the subcommands of the solvers, which are no part of any lab, and the reader of VRM
-/// files, which have a member of a lab's name.
+/// The table itself; the subcommands of the solvers, which belong to no lab; and the reader of VRM files,
+/// which have a member with a lab's name.
 bool may_name(const std::string& path, const std::string& lab) {
     return path == "app/labs/labs.cpp" || path.starts_with("app/labs/" + lab + "/") ||
            path.starts_with("app/batch/") || path == "app/io/character/gltf_vrm.cpp";

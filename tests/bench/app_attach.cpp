@@ -1,5 +1,5 @@
-// What a tick of the Humanoid lab costs while the figure walks, alone and with what hangs on it: a cape of
-// default size, and with it a ponytail and a tail. Counters: particles.
+// Cost of a tick of the Humanoid lab while the figure walks, alone and with attachments: a cape of default
+// size, and also a ponytail and a tail. Counters: particles.
 #include <benchmark/benchmark.h>
 
 #include "app/document/command.hpp"

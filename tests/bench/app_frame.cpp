@@ -1,8 +1,8 @@
-// What a frame of the Chain lab costs off screen, and how long the program takes to its first picture.
+// Cost of a frame of the Chain lab offscreen, and the time to the first picture.
 //
-// A frame is what the window does when the mouse moves in mid-drag: one tick (input, commands, chain, panels,
-// draw list) and one picture, at 1280x720. Counters: frames a second, GL draw calls, and the cost relative to
-// ten segments, which is measured in the same run.
+// A frame is what the window does for a mouse move in mid-drag: one tick (input, commands, chain, panels,
+// draw list) and one picture, at 1280x720. Counters: frames per second, GL draw calls, and the cost relative
+// to ten segments, measured in the same run.
 #include <benchmark/benchmark.h>
 #include <glad/gl.h>
 
@@ -17,7 +17,7 @@ namespace {
 
 constexpr glm::ivec2 size{1280, 720};
 
-/// The program with a coil of that many segments, its target caught by the mouse.
+/// The program with a coil of that many segments, with the mouse dragging its target.
 struct DraggedCoil {
     std::unique_ptr<Window> window = open_offscreen(size);
     App app{*window};
@@ -38,7 +38,7 @@ struct DraggedCoil {
         const float way = static_cast<float>(++step % 40);
         tick(MouseMove{from + glm::vec2(way - 60.0f, way)});
         app.draw();
-        glFinish();  // the rasteriser's threads work on after the call
+        glFinish();  // the rasteriser's threads continue after the call
     }
 };
 
@@ -60,7 +60,7 @@ void drag_frame(benchmark::State& state) {
     state.counters["fps"] =
         benchmark::Counter(static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
     state.counters["draw_calls"] = coil.app.draw_calls();
-    // an inverted rate of seconds a frame over the baseline's: times as long as a frame of ten segments
+    // inverted rate of seconds per frame over the baseline's: the cost relative to a frame of ten segments
     state.counters["times_ten"] =
         benchmark::Counter(static_cast<double>(state.iterations()) * baseline,
                            benchmark::Counter::kIsRate | benchmark::Counter::kInvert);

@@ -1,4 +1,4 @@
-// What it takes to read a character: a long motion capture in BVH, and a skinned GLB. Counter: megabytes a
+// Cost of reading a character: a long motion capture in BVH, and a skinned GLB. Counter: megabytes per
 // second.
 #include <benchmark/benchmark.h>
 
@@ -11,7 +11,7 @@
 namespace tendril::app {
 namespace {
 
-/// A minute at 120 frames a second of 60 joints, some 11 MB.
+/// 60 joints for a minute at 120 frames/s, about 11 MB.
 std::string long_capture() {
     constexpr int joints = 60, frames = 7200;
     std::string text = "HIERARCHY\nROOT Hips\n{\nOFFSET 0 0 0\nCHANNELS 3 Zrotation Xrotation Yrotation\n";

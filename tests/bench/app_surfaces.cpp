@@ -1,5 +1,5 @@
-// What ropes, cloth and boxes cost in the view: building their surfaces for a camera, and a frame of the
-// renderer with them, at 1280x720. Counters: triangles, strokes (outlines and shadows), GL draw calls.
+// Cost of ropes, cloth and boxes in the view: building their surfaces for a camera, and rendering a frame, at
+// 1280x720. Counters: triangles, strokes (outlines and shadows), GL draw calls.
 #include <benchmark/benchmark.h>
 #include <glad/gl.h>
 
@@ -18,7 +18,7 @@ constexpr glm::ivec2 size{1280, 720};
 const Camera camera({.target = {0.0f, 0.9f, 0.0f}, .yaw = 0.3f, .pitch = 0.3f, .distance = 6.0f},
                     {{0.0f, 0.0f}, glm::vec2(size)});
 
-/// Ropes of 64 links that hang in rows.
+/// Ropes of 64 links hanging in rows.
 void ropes(DrawList& list, int count) {
     std::vector<glm::vec3> centres(65);
     for (int k = 0; k < count; ++k) {
@@ -32,7 +32,7 @@ void ropes(DrawList& list, int count) {
     }
 }
 
-/// A cloth of that many points each way, in waves.
+/// A wavy cloth of `side` points along each side.
 void cloth(DrawList& list, int side) {
     std::vector<glm::vec3> positions;
     for (int row = 0; row < side; ++row) {

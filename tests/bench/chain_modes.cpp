@@ -1,12 +1,11 @@
-// What the four modes cost per segment, from ten segments to a million, each against the same pull as a plain
-// loop.
+// Cost of the four modes per segment, from ten segments to a million, against a plain loop for each pull.
 //
 //     tendril_bench_chain            the table and one line per claim
-//     tendril_bench_chain --check    the same, and exit code 1 when a claim does not hold
+//     tendril_bench_chain --check    the same, and exit code 1 if a claim does not hold
 //
-// Claims: Forward, Backward and WithIndex take at most 1.3 times their plain loop at every size, and their
-// cost grows with an exponent of at most 1.05 from a hundred segments on. Google Benchmark's own options work
-// too.
+// Claims: Forward, Backward and WithIndex take at most 1.3 times as long as their plain loop at every size,
+// and their cost grows with an exponent of at most 1.05 from a hundred segments on. Google Benchmark's
+// options work too.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -32,7 +31,7 @@ constexpr int repetitions = 7;
 constexpr double max_ratio = 1.3;
 constexpr double max_exponent = 1.05;
 
-/// Two targets in turn, so that every pull has something to do.
+/// Two alternating targets, so that every pull has work to do.
 glm::vec3 target(std::size_t turn) {
     return turn % 2 == 0 ? glm::vec3(3, 7, -2) : glm::vec3(-5, 1, 4);
 }
@@ -47,8 +46,7 @@ Chain make_chain(std::size_t count) {
     return chain;
 }
 
-/// What one would write by hand, and write well: two arrays, one loop, one division; no checks, no degenerate
-/// cases.
+/// A good hand-written version: two arrays, one loop, one division; no checks, no degenerate cases.
 struct Plain {
     std::vector<glm::vec3> positions;
     std::vector<float> lengths;
@@ -148,10 +146,10 @@ std::string plain_name_of(const std::string& mode, std::size_t count) {
 struct Result {
     std::vector<double> seconds, ratios;  // one per size
     double worst_ratio = 0.0;
-    double exponent = 0.0;  // the slope of log(time) over log(size), from 100 segments on: 1 is linear
+    double exponent = 0.0;  // the slope of log(time) over log(size) from 100 segments on: 1 is linear
 };
 
-/// Empty when a filter left one of the sizes out.
+/// Empty if a filter omitted one of the sizes.
 Result result_of(const std::string& mode, const std::map<std::string, double>& seconds) {
     Result result;
     double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
@@ -162,7 +160,7 @@ Result result_of(const std::string& mode, const std::map<std::string, double>& s
         result.seconds.push_back(here->second);
         result.ratios.push_back(here->second / plain->second);
         if (count < 100)
-            continue;  // a processor overlaps pulls that short, so they cost less than their share
+            continue;  // a processor overlaps pulls this short, so they cost less than their share
         const double x = std::log(static_cast<double>(count)), y = std::log(here->second);
         n += 1, sx += x, sy += y, sxx += x * x, sxy += x * y;
     }
@@ -177,7 +175,7 @@ bool claim(const char* mode, const char* what, double value, double most) {
     return holds;
 }
 
-/// The table and the claims; false unless all of them hold.
+/// Prints the table and the claims; false unless all of them hold.
 bool report(const std::map<std::string, double>& seconds) {
     std::printf("\nns per segment (and times the same pull as a plain loop), medians of %d\n%-11s",
                 repetitions, "");

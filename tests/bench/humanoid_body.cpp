@@ -1,14 +1,14 @@
-// What a whole body that reaches costs a frame, by its bones, limits and what its five targets do.
+// Cost of whole-body reaching per frame, by bones, limits and the motion of its five targets.
 //
 //     tendril_bench_humanoid_body            the table and one line per claim
-//     tendril_bench_humanoid_body --check    the same, and exit code 1 when a claim does not hold
+//     tendril_bench_humanoid_body --check    the same, and exit code 1 if a claim does not hold
 //
-// Claims, each of the worst row in which the targets can be reached:
-//  - a frame takes under 50 microseconds without limits, under 100 within them, and under 200 where
-//    the body's capsules are kept apart as well.
+// Claims, for the worst row with reachable targets:
+//  - a frame takes under 50 microseconds without limits, under 100 within them, and under 200 with
+//    self-collision of the body's capsules as well.
 //
 // Targets that jump anywhere in every frame, most of them out of reach, have a row and a claim of their own:
-// under 300 microseconds a frame.
+// under 300 microseconds per frame.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -29,7 +29,7 @@ using namespace tendril::humanoid;
 constexpr Effector five[]{Effector::LeftHand, Effector::RightHand, Effector::Head, Effector::LeftFoot,
                           Effector::RightFoot};
 
-/// The fifteen bones that a body needs; all 22; those and 38 fingers' nodes, which turn with the hands.
+/// The fifteen bones that a body requires; all 22; those and 38 finger nodes, which rotate with the hands.
 enum class Figure { Fifteen, All, Sixty };
 constexpr const char* figure_names[]{"15 bones", "22 bones", "22 of 60 nodes"};
 
@@ -60,10 +60,10 @@ Skeleton make(Figure figure) {
     return *Skeleton::make(std::move(nodes));
 }
 
-/// By nothing, by its limits, or by those and by capsules that are kept apart.
+/// Nothing, limits, or limits and self-collision.
 enum class Held { Free, Limits, Apart };
 
-/// What the targets do.
+/// The motion of the targets.
 enum class Play { Still, Drag, Activated, Anywhere };
 constexpr const char* play_names[]{"still", "drag, 5 mm a frame", "set at once", "anywhere"};
 

@@ -1,11 +1,10 @@
-// What foot IK costs a character and frame, by what it walks on, and 1 000 characters on two cores.
+// Cost of foot IK per character and frame, by ground, and of 1 000 characters on two cores.
 //
 //     tendril_bench_humanoid_feet            the table and one line per claim
-//     tendril_bench_humanoid_feet --check    the same, and exit code 1 when a claim does not hold
+//     tendril_bench_humanoid_feet --check    the same, and exit code 1 if a claim does not hold
 //
-// Claims, each of the worst row: 1 000 characters take under 16 ms a frame on two cores (twice that of
-// processor time); a character on a mesh of 200 000 triangles costs at most three times what one on flat
-// ground does.
+// Claims, for the worst row: 1 000 characters take under 16 ms per frame on two cores (twice that in
+// processor time); a mesh of 200 000 triangles costs at most three times as much as flat ground.
 #include <cmath>
 #include <random>
 #include <string>
@@ -24,7 +23,7 @@ using tendril::test::make_figure;
 constexpr std::size_t characters = 1000;
 constexpr int frames = 66;  // of a loop of the walk
 
-/// Hills that a mesh and its grid have to be asked for.
+/// Hills that need a mesh and its grid.
 Ground hills(int side) {
     std::vector<glm::dvec3> points;
     std::vector<std::uint32_t> triangles;
@@ -74,7 +73,7 @@ class Crowd {
                                                      0.01 * static_cast<double>(i)};
         }
     }
-    /// The poses of the clips, each character a frame further.
+    /// Sets the poses of the clips, each character's at another frame.
     void prepare() {
         ++frame_;
         for (std::size_t i = 0; i < characters; ++i)
@@ -92,7 +91,7 @@ class Crowd {
     int frame_ = 0;
 };
 
-/// Milliseconds that all characters take.
+/// Milliseconds for all characters.
 double milliseconds(Crowd& crowd, int threads, double (*now)()) {
     return race({[&] { crowd.step(threads); }}, 3 * frames, now, [&] { crowd.prepare(); })[0] * 1e3;
 }

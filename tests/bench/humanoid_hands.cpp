@@ -1,9 +1,9 @@
-// What hand IK and look-at cost a character and frame.
+// Cost of hand IK and look-at per character and frame.
 //
 //     tendril_bench_humanoid_hands            the table and one line per claim
-//     tendril_bench_humanoid_hands --check    the same, and exit code 1 when a claim does not hold
+//     tendril_bench_humanoid_hands --check    the same, and exit code 1 if a claim does not hold
 //
-// Claim: both hands and the gaze of 1 000 characters take under 40 ms of processor time a frame.
+// Claim: both hands and the gaze of 1 000 characters take under 40 ms of processor time per frame.
 #include "../core/humanoid_figure.hpp"
 #include "measure.hpp"
 #include "tendril/humanoid/hands.hpp"

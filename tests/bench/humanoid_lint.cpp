@@ -1,11 +1,11 @@
-// What the motion lint costs a frame of a clip, by nodes and length, and the cure of a foot.
+// Cost of motion lint per frame of a clip, by nodes and length, and of fixing a foot.
 //
 //     tendril_bench_humanoid_lint            the table and one line per claim
-//     tendril_bench_humanoid_lint --check    the same, and exit code 1 when a claim does not hold
+//     tendril_bench_humanoid_lint --check    the same, and exit code 1 if a claim does not hold
 //
-// Claims, each of the worst row:
-//  - judging takes under 1.2 microseconds a frame and node, at any length;
-//  - mending one foot takes less than judging the clip twice.
+// Claims, for the worst row:
+//  - checking takes under 1.2 microseconds per frame and node, at any length;
+//  - fixing one foot takes less than checking the clip twice.
 #include <string>
 
 #include "../core/humanoid_walk.hpp"
@@ -18,7 +18,7 @@ using namespace tendril;
 using namespace tendril::bench;
 using namespace tendril::humanoid;
 
-/// The figure, with fingers up to so many nodes; at least its own.
+/// The figure, with fingers to make up `nodes` nodes; at least its own.
 Skeleton figure_of(std::size_t nodes) {
     std::vector<Node> all = test::make_figure({}).nodes();
     const auto hand = [&](const char* name) {
@@ -35,7 +35,7 @@ Skeleton figure_of(std::size_t nodes) {
     return *Skeleton::make(std::move(all));
 }
 
-/// It walks for so many frames of 60 a second, every node with keys; one foot slides now and then.
+/// Walks for `frames` frames at 60 frames/s, with keys on every node; one foot slides now and then.
 Clip walk_of(const Skeleton& skeleton, std::size_t frames) {
     const Clip cycle = test::FigureWalk(skeleton).clip();
     Clip clip{.name = "long", .duration = static_cast<double>(frames - 1) / 60.0, .channels = {}};

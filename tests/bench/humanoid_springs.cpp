@@ -1,14 +1,14 @@
-// What spring bones cost a bone and frame, over chains from one bone to many, swinging, at rest and held at
-// the edge of their cone, against VRM's way of stepping them.
+// Cost of spring bones per bone and frame, in chains from one bone to many, swinging, at rest and held at the
+// edge of their cone, against VRM's method.
 //
 //     tendril_bench_humanoid_springs            the table and one line per claim
-//     tendril_bench_humanoid_springs --check    the same, and exit code 1 when a claim does not hold
+//     tendril_bench_humanoid_springs --check    the same, and exit code 1 if a claim does not hold
 //
-// The baseline is VRM's rule as its specification states it (VRM Consortium, "VRMC_springBone-1.0"): bone
-// after bone, inertia, stiffness and drag by Verlet's rule, the length restored, no colliders; here on the
-// same skeleton code. It knows no frame rate but its own, no damping ratio and no cone.
+// The baseline is VRM's method as specified (VRM Consortium, "VRMC_springBone-1.0"): bone after bone, Verlet
+// integration with inertia, stiffness and drag, restoring the length, without colliders; here on the same
+// skeleton code. It has a fixed frame rate, no damping ratio and no cone.
 //
-// Claims: in the worst row under 1.2 us a bone, and under three and a half times VRM's.
+// Claims: in the worst row under 1.2 us per bone, and under three and a half times VRM's.
 #define GLM_ENABLE_EXPERIMENTAL
 #include <glm/geometric.hpp>
 #include <glm/gtx/quaternion.hpp>
@@ -25,7 +25,7 @@ using glm::dvec3;
 
 constexpr int frames = 200;
 
-/// A head on a body of four nodes, and so many joints on it, 0.5 m together.
+/// A head on a body of four nodes, with `joints` joints on it, 0.5 m in total.
 Skeleton make_skeleton(int joints) {
     std::vector<Node> nodes{{"a", -1, {}}, {"b", 0, {}}, {"c", 1, {}}, {"head", 2, {}}};
     for (std::size_t i = 1; i < 4; ++i) nodes[i].rest.translation = {0.0, 0.4, 0.0};
@@ -59,7 +59,7 @@ struct Chain {
             chain.step(pose, {}, 1.0 / 60, state);
         }
     }
-    /// What both have to do: the clip's own placements.
+    /// The work that both share: the clip's own placements.
     void vrm(Motion motion) {
         for (int i = 0; i < frames; ++i) {
             move(motion);

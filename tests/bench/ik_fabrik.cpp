@@ -1,13 +1,13 @@
-// What FABRIK costs: plain and accelerated, against the same pulls as a bare loop, and how many iterations
-// and how much time each needs to reach.
+// Cost of FABRIK: FABRIK (2011) and accelerated, against the same passes as a bare loop, and the iterations
+// and time that each needs to reach.
 //
 //     tendril_bench_ik_fabrik            the tables and one line per claim
-//     tendril_bench_ik_fabrik --check    the same, and exit code 1 when a claim does not hold
+//     tendril_bench_ik_fabrik --check    the same, and exit code 1 if a claim does not hold
 //
-// Claims: 20 forced iterations of 10 bones take under 25 ns a bone and pass, at most 1.5 times a bare loop
-// measured beside it; the cost grows linearly; an accelerated iteration costs at most twice a plain one; it
-// needs at most 12 iterations (20 for 3 bones) in 99.9 % of all targets, wherever they lie, and moves the
-// joints at most 1.05 times as far. Google Benchmark's own options work too.
+// Claims: 20 forced iterations of 10 bones take under 25 ns per bone and pass, at most 1.5 times a bare loop
+// measured in the same run; the cost grows linearly; an accelerated iteration costs at most twice a plain
+// one; it needs at most 12 iterations (20 for 3 bones) for 99.9 % of all targets, wherever they are, and
+// moves the joints at most 1.05 times as far. Google Benchmark's options work too.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -38,7 +38,7 @@ constexpr int forced = 20;
 
 // ---- Cost of an iteration
 
-/// Well inside, and two in turn, so that every iteration has something to do.
+/// Two alternating targets well inside, so that every iteration has work to do.
 glm::vec3 target(std::size_t bones, std::size_t turn) {
     const float reach = static_cast<float>(bones);
     return turn % 2 == 0 ? glm::vec3(0.5f, 0.4f, -0.2f) * reach : glm::vec3(-0.3f, 0.1f, 0.5f) * reach;
@@ -53,7 +53,7 @@ std::vector<glm::vec3> bent(std::size_t bones) {
     return joints;
 }
 
-/// What one would write by hand: the numbers in a row, two loops, no checks and no degenerate cases.
+/// A hand-written version: the numbers in a row, two loops, no checks and no degenerate cases.
 struct Bare {
     std::vector<float> xyz, lengths;
 
@@ -97,7 +97,7 @@ void run_bare(benchmark::State& state, std::size_t bones) {
     count_passes(state, bones);
 }
 
-/// Without tolerance the accelerated one takes its extra step in every iteration.
+/// With a tolerance of 0 the accelerated one takes its extra step in every iteration.
 void run_solver(benchmark::State& state, Method method, std::size_t bones) {
     std::vector<glm::vec3> joints = bent(bones);
     Solver solver(std::vector<float>(bones, 1.0f));
@@ -172,7 +172,7 @@ bool report_cost(const std::map<std::string, double>& seconds) {
     bool all = claim("10 bones: ns per bone and pass", plain * 1e9 / (2.0 * forced * 10.0), 25.0);
     all &= claim("10 bones: times the bare loop", plain / seconds.at("bare/10"), 1.5);
     all &= claim("plain: exponent of growth", exponent_of("fabrik_plain", seconds), 1.05);
-    // The longer the chain, the more rounding is left for the extra step.
+    // Longer chains leave more rounding to the extra step.
     all &= claim("accelerated: exponent of growth", exponent_of("fabrik", seconds), 1.1);
     all &= claim("accelerated iteration, times a plain one, worst size", most, 2.0);
     return all;
@@ -182,7 +182,7 @@ bool report_cost(const std::map<std::string, double>& seconds) {
 
 struct Tally {
     std::vector<int> iterations;
-    double travel = 0.0;  // metres, of all joints of all solves
+    double travel = 0.0;  // metres, of all joints in all solves
     double seconds = 0.0;
 
     int percentile(double part) {

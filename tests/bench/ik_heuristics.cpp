@@ -1,10 +1,10 @@
-// What the numbers in core/src/ik/tunables.hpp buy: change one, build, run again, compare the rows.
+// The effect of the constants in core/src/ik/tunables.hpp: change one, build, run again, compare the rows.
 //
-//     tendril_bench_ik_heuristics [solves a row, 1000] [rows that begin so]
+//     tendril_bench_ik_heuristics [solves per row, 1000] [prefix of rows]
 //
-// Every row solves the same random cases by one method: how many arrive (to 1e-3 of the reach, within 500
-// iterations, 200 with limits and for trees), end Limited or otherwise, mean iterations and residual (in
-// reaches), mean time, and a hash of all joints, which tells whether anything changed at all.
+// Every row solves the same random cases by one method: how many arrive (within 1e-3 of the reach and 500
+// iterations, or 200 with limits and for trees), end as Limited or otherwise, mean iterations and residual
+// (in reaches), mean time, and a hash of all joints, which shows whether anything changed at all.
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
@@ -185,7 +185,7 @@ void limited_rows(const char* name, Kind kind, Target target, int count) {
     }
 }
 
-/// Limbs on a short back: targets where another pose has their tips, straight ahead, or in conflict.
+/// Limbs on a short spine: targets from another pose's tips, straight ahead, or in conflict.
 enum class Goals { Reached, Ahead, Conflict };
 
 Points tree_pose(const std::vector<TreeJoint>& joints, std::size_t base, bool straight, Random& random) {

@@ -1,15 +1,15 @@
 // The default solver against the Levenberg-Marquardt solver of Orocos KDL (ChainIkSolverPos_LMA): ten links
-// on ball joints, the same poses to start from, the same targets, the same tolerance, one run. KDL knows no
-// ball joints: each is three revolute ones. Only the tip's place counts; KDL's weights on its turn are 0.
+// with ball joints, the same initial poses, targets and tolerance, in one run. KDL has no ball joints: each
+// is three revolute ones. Only the tip's position counts; KDL's weights of its rotation are 0.
 //
 //     tendril_bench_ik_kdl            the table and one line per claim
-//     tendril_bench_ik_kdl --check    the same, and exit code 1 when a claim does not hold
+//     tendril_bench_ik_kdl --check    the same, and exit code 1 if a claim does not hold
 //
 // Claim: KDL takes at least 30 times as long as Method::Fabrik, which reaches at least as many targets.
 //
-// Both are called as their users call them, with all that is theirs: for KDL that is the Jacobian's singular
-// values in double, for Tendril the check of the input. Whether a target was reached is measured here, from
-// the joints that each solver left.
+// Both are called as users call them, with everything that they compute: for KDL the Jacobian's singular
+// values in double, for Tendril the input checks. Whether a target was reached is measured here, from the
+// joints that each solver left.
 #include <cmath>
 #include <kdl/chain.hpp>
 #include <kdl/chainfksolverpos_recursive.hpp>
@@ -60,7 +60,7 @@ class Cases {
         for (unsigned i = 0; i < angles.rows(); ++i) angles(i) = angle_(random_);
         return angles;
     }
-    /// Of every third KDL segment: the ends of the links.
+    /// The end of a link: every third KDL segment.
     KDL::Vector end(const KDL::JntArray& angles, int link) {
         KDL::Frame frame;
         forward_.JntToCart(angles, frame, 3 * link);
@@ -73,7 +73,7 @@ class Cases {
         each.target = target;
         return each;
     }
-    /// Anywhere in the ball that the tip can get to, evenly: half of it lies beyond 0.79 of the reach.
+    /// Uniformly distributed in the ball that the tip can reach: half are beyond 0.79 of the reach.
     KDL::Vector in_ball() {
         const KDL::Vector p(normal_(random_), normal_(random_), normal_(random_));
         return p * (0.999 * links * std::cbrt(part_(random_)) / p.Norm());
@@ -90,7 +90,7 @@ struct Contestant {
     const char* name;
     double seconds = 0.0;  ///< for all cases
     std::size_t reached = 0;
-    double iterations = 0.0;  ///< mean; KDL's are counted by itself
+    double iterations = 0.0;  ///< mean; KDL counts its own
 };
 
 Contestant run_kdl(KDL::ChainIkSolverPos_LMA& solver, Cases& cases_of, const std::vector<Case>& all,

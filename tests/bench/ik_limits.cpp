@@ -1,10 +1,10 @@
-// What joint limits cost: an iteration with them against one without, for every method, in the same run; how
-// often each method arrives from rest where some pose within the limits made the target; a solve and an
-// explanation where they hold the tip back. Then whole solves by the default method over sizes and kinds of
-// joints: limits far off, met, and dragged along; and a target that the limits forbid.
+// Cost of joint limits: an iteration with limits against one without, for every method, in the same run; how
+// often each method arrives from rest at targets from poses within the limits; a solve and an explanation of
+// an active limit. Then whole solves by the default method over sizes and kinds of joints: limits far off,
+// met, and dragged along; and a target that the limits forbid.
 //
 //     tendril_bench_ik_limits            the tables
-//     tendril_bench_ik_limits --check    the same, and exit code 1 when a claim does not hold
+//     tendril_bench_ik_limits --check    the same, and exit code 1 if a claim does not hold
 #include <array>
 #include <cmath>
 #include <optional>
@@ -90,8 +90,7 @@ void iterations_table() {
 
 // ---- From rest
 
-/// Where a solver that is told to reach anywhere ends is a pose within the limits: a target that can be
-/// reached.
+/// Tips of poses within the limits, from solves for arbitrary targets: reachable targets.
 std::vector<glm::vec3> reachable(const Arm& arm, int count) {
     std::mt19937 random(1);
     const auto around = [&] { return static_cast<float>(random()) / 2147483648.0f - 1.0f; };
@@ -110,7 +109,7 @@ std::vector<glm::vec3> reachable(const Arm& arm, int count) {
     return targets;
 }
 
-/// The smaller share of the default method, percent.
+/// The smaller arrival rate of the default method, percent.
 double arrivals_table() {
     double least = 100.0;
     std::printf(
@@ -145,7 +144,7 @@ double arrivals_table() {
     return least;
 }
 
-// ---- Held back
+// ---- Active limits
 
 void held_table() {
     Arm arm = arm_of(5, true);
@@ -187,24 +186,24 @@ Arm arm_of(std::size_t bones, Kind kind) {
     return arm;
 }
 
-/// The same with bounds that no solve comes near.
+/// The same arm with limits that no solve comes near.
 Arm unreached(Arm arm) {
     for (Limit& limit : arm.limits) limit = cone(175, 175);
     return arm;
 }
 
-/// Nanoseconds a bone and iteration, and microseconds a solve.
+/// Nanoseconds per bone and iteration, and microseconds per solve.
 struct Cost {
     double iteration = 0.0, solve = 0.0;
 };
 
-/// A solver, where it has left the chain, and what it took in a lap.
+/// A solver, its chain after the last solve, and the cost of a lap.
 struct Lap {
     KeptSolver solver;
     Joints joints;
     int iterations = 0;
 
-    /// Through all targets in turn: each from rest, or from where the last solve left the chain.
+    /// Solves for all targets in turn: each from rest, or from the pose after the last solve.
     void run(const Arm& arm, const std::vector<glm::vec3>& targets, const Options& options, bool dragged) {
         iterations = 0;
         for (const glm::vec3 target : targets) {
@@ -253,12 +252,12 @@ std::vector<glm::vec3> path(const Arm& arm) {
     return targets;
 }
 
-/// The worst ratios to the same without limits: of an iteration, in solves from rest; of a frame, where the
-/// chain follows. Of all kinds of joints half have no freedom about some axis, so they stand at a bound in
+/// The worst ratios to the same without limits: of an iteration, in solves from rest; of a frame, while the
+/// chain is dragged. Half of the mixed joints have no freedom about some axis, so they are at a bound in
 /// every pose.
 struct Ratios {
-    double far = 0.0, met = 0.0, mixed = 0.0;  ///< an iteration: limits not reached, met, of all kinds
-    double dragged = 0.0;                      ///< a frame: limits met, all kinds among them
+    double far = 0.0, met = 0.0, mixed = 0.0;  ///< an iteration: limits not reached, met, mixed
+    double dragged = 0.0;                      ///< a frame: limits met, including mixed
 };
 
 Ratios met_limits_table() {
@@ -290,7 +289,7 @@ Ratios met_limits_table() {
     return worst;
 }
 
-/// Some target that the limits keep the tip away from by a tenth of the reach or more.
+/// A target that the limits keep the tip away from by a tenth of the reach or more.
 std::optional<glm::vec3> forbidden_target(const Arm& arm) {
     std::mt19937 random(2);
     const auto around = [&] { return static_cast<float>(random()) / 2147483648.0f - 1.0f; };
@@ -307,11 +306,11 @@ std::optional<glm::vec3> forbidden_target(const Arm& arm) {
 
 struct Worst {
     double us = 0.0, us_of_100 = 0.0;  ///< up to 30 bones; 100
-    double residual = 0.0;  ///< by how much it is worse than after a search in every frame, of the reach
-    double gain = 1e9;      ///< against a search in every frame
+    double residual = 0.0;             ///< excess over a search in every frame, relative to the reach
+    double gain = 1e9;                 ///< over a search in every frame
 };
 
-/// A target out of the limits that moves by 2 mm a frame.
+/// A forbidden target that moves by 2 mm per frame.
 Worst forbidden_table() {
     Worst worst;
     std::printf(

@@ -1,16 +1,15 @@
-// What solve_many gains over a plain loop over one Solver with Method::Fabrik: to tolerance, from the same
-// fresh poses, with all joints read from the caller's memory and written there.
+// Gain of solve_many over a plain loop over one Solver with Method::Fabrik: to tolerance, from the same
+// initial poses, with all joints read from and written to the caller's memory.
 //
 //     tendril_bench_ik_many            the tables and one line per claim
-//     tendril_bench_ik_many --check    the same, and exit code 1 when a claim does not hold
+//     tendril_bench_ik_many --check    the same, and exit code 1 if a claim does not hold
 //
-// Claims: the smallest gain over the scalar solver in any band of distance, for 4, 11 and 31 joints and 1 000
-// chains, free and within limits; and that of two threads over one, where there are two cores. The aim is 15
-// times with 16 lanes (AVX3) and 7 times with 8 (AVX2), and half of that within limits: how many rows reach
-// it is printed. What stands against 15: on the processor that these claims were made on, the divider takes a
-// register of 16 lanes as two of 8, which binds the accelerated step; and a fourth of the time is transfers,
-// which no width makes faster. Times are processor time but for the threads, whose gain needs a quiet machine
-// to be seen.
+// Claims: the minimum gain over the scalar solver in any band of distance, for 4, 11 and 31 joints and 1 000
+// chains, free and within limits; and that of two threads over one, if there are two cores. The goal is 15
+// times with 16 lanes (AVX3) and 7 times with 8 (AVX2), and half of that within limits; prints how many rows
+// reach it. What limits it to less than 15: on the processor of these claims, the divider splits a register
+// of 16 lanes in two, which bounds the accelerated step; and a quarter of the time is transfers, which no
+// width accelerates. Times are processor time, except for threads, whose gain needs an idle machine.
 #include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
@@ -39,7 +38,7 @@ using Solver = tendril::test::KeptSolver;
 
 constexpr int repetitions = 41, limited_repetitions = 5;
 
-/// Chains of bones of one metre in random poses, and targets between `least` and `most` of the reach.
+/// Chains of bones of 1 m in random poses, and targets between `least` and `most` of the reach.
 struct Crowd {
     std::size_t chains, bones;
     std::vector<float> lengths;
@@ -64,7 +63,7 @@ struct Crowd {
     }
     /// Within limits: at rest, straight along +X.
     Crowd(std::size_t chain_count, const std::vector<Limit>& within, float least, float most);
-    /// The first bone so long that a target near the root is too close.
+    /// Makes the first bone so long that targets near the root are too close.
     void lengthen_first(float to) {
         lengths.front() = to;
         for (std::size_t i = 0; i < chains; ++i) {
@@ -79,7 +78,7 @@ float draw(std::mt19937& random, float least, float most) {
     return std::uniform_real_distribution<float>(least, most)(random);
 }
 
-/// Some rotation within a limit of a joint that rests along +X, `part` of the way to its bounds at most.
+/// A random rotation within the limit of a joint that rests along +X, up to `part` of the way to its bounds.
 glm::quat some_turn(const Limit& limit, float part, std::mt19937& random) {
     const glm::vec3 bone(1, 0, 0), side = glm::cross(limit.axis, bone);
     if (limit.kind == JointKind::Hinge) {
@@ -130,7 +129,7 @@ class Contest {
         if (!batch_.set_lengths(of.lengths) || !batch_.set_limits(of.limits)) std::abort();
     }
 
-    /// The poses are set apart from what is timed, so the two take the same from the caches.
+    /// Poses are reset outside of the timed part, so that both use the caches equally.
     void reset() { joints_ = crowd_.joints; }
     void scalar() {
         for (std::size_t i = 0; i < crowd_.chains; ++i) {
@@ -139,7 +138,7 @@ class Contest {
             reports_[i] = solver_.solve(Method::Fabrik, joints, crowd_.targets[i], {.limits = crowd_.limits});
         }
     }
-    /// From the same joints to the same joints; the rotations go in and out of the batch.
+    /// From the same joints to the same joints; the rotations are copied into and out of the batch.
     void many(std::string_view unit) {
         const bool limited = !crowd_.limits.empty();
         if (limited && !batch_.set_rotations(rest_)) std::abort();
@@ -197,7 +196,7 @@ void note(Gains& gains, const std::vector<double>& seconds) {
     for (std::size_t i = 0; i < gains.size(); ++i) gains[i].push_back(seconds[0] / seconds[i + 1]);
 }
 
-/// Prints the smallest and how many reach the aim.
+/// Prints the minimum and how many reach the goal.
 bool claim_gains(const std::string& what, const std::vector<double>& gains, double least, double aim) {
     const auto reach = std::count_if(gains.begin(), gains.end(), [&](double gain) { return gain >= aim; });
     std::printf("      %s: %zu of %zu rows reach %.1f\n", what.c_str(), static_cast<std::size_t>(reach),
@@ -253,7 +252,7 @@ Gains limits_table() {
             std::vector<Limit> limits;
             for (std::size_t i = 0; i < bones; ++i) {
                 const bool is_cone = *kind == 'c' || (*kind == 'b' && i % 2 == 0);
-                const bool turned = i % 4 < 2;  // or all hinges would have one axis
+                const bool turned = i % 4 < 2;  // or all hinges would have the same axis
                 const glm::vec3 axis(0.0f, turned ? 1.0f : 0.0f, turned ? 0.0f : 1.0f);
                 limits.push_back(is_cone ? cone : Limit::hinge(axis, -2.0f, 2.0f));
             }
@@ -272,7 +271,7 @@ Gains limits_table() {
     return gains;
 }
 
-/// Where it pays, and what mixed targets cost.
+/// The break-even point, and the cost of mixed targets.
 void company_table() {
     std::printf("\nthe same, 11 joints, 0.05-0.9 R, by the number of chains\n");
     print_units("");
@@ -291,14 +290,14 @@ void company_table() {
         print_row(row_name(11, band.name, contest), seconds, crowd.chains);
     }
     Crowd crowd(1000, 10, 0.0f, 1.2f);
-    crowd.lengthen_first(20.0f);  // with 10 m a bone as the unit of the targets: 11 m of 29 are too close
+    crowd.lengthen_first(20.0f);  // with 10 m per bone as the unit of the targets: 11 m of 29 are too close
     for (glm::vec3& target : crowd.targets) target *= 2.4f;
     Contest contest(crowd);
     const std::vector<double> seconds = contest.race();
     print_row(row_name(11, "some too close", contest), seconds, crowd.chains);
 }
 
-/// How much faster two threads are than one, by the clock on the wall.
+/// The speed-up of two threads over one, in wall time.
 double thread_table() {
     const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
     std::printf(

@@ -1,11 +1,11 @@
-// The table of Aristidou and Lasenby 2011, measured as `tendril paper` does, and where Orocos KDL is
-// installed a row for its Levenberg-Marquardt solver.
+// The table of Aristidou and Lasenby 2011, measured as in `tendril paper`, with a row for the
+// Levenberg-Marquardt solver of Orocos KDL if that is installed.
 //
 //     tendril_bench_ik_paper            the tables and one line per claim
-//     tendril_bench_ik_paper --check    the same, and exit code 1 when a claim does not hold
+//     tendril_bench_ik_paper --check    the same, and exit code 1 if a claim does not hold
 //
-// Claims, as the paper found it: FABRIK solves every target, in reach and out of it, and does so in fewer
-// iterations and less time than CCD, the Jacobian transpose and damped least squares with and without SVD.
+// Claims of the paper: FABRIK solves every target, in and out of reach, in fewer iterations and less time
+// than CCD, the Jacobian transpose and damped least squares with and without SVD.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -28,8 +28,7 @@ using tendril::bench::claim;
 
 #ifdef TENDRIL_HAS_KDL
 
-/// KDL knows no ball joints: each is three revolute ones. Turning poses into its angles is timed with it, and
-/// is nothing beside a solve.
+/// KDL has no ball joints: each is three revolute ones. Converting poses to its angles takes negligible time.
 class Kdl {
   public:
     ik::Report operator()(std::span<glm::vec3> joints, glm::vec3 target) {
@@ -38,7 +37,7 @@ class Kdl {
         KDL::Frame tip;
         forward_.JntToCart(answer_, tip);
         const double residual = (tip.p - goal).Norm();
-        // Out of reach it is solved where the tip came as near as it can.
+        // An unreachable target is solved once the tip is as near as possible.
         const double reach = static_cast<double>(app::paper_bone_length) * app::paper_bones;
         const bool straight = goal.Norm() > reach && residual <= goal.Norm() - reach + tolerance;
         const ik::Status status = straight    ? ik::Status::Stretched
@@ -67,7 +66,7 @@ class Kdl {
         return weights;
     }
 
-    /// The turns about Y, then Z that point each bone from one joint to the next.
+    /// The rotations about Y, then Z that point each bone from one joint to the next.
     const KDL::JntArray& angles(std::span<const glm::vec3> joints) {
         KDL::Rotation frame;
         for (std::size_t i = 0; i + 1 < joints.size(); ++i) {
@@ -125,7 +124,7 @@ bool is_fabrik(const Row& row) {
     return row.name == ik::name(ik::Method::Fabrik) || row.name == ik::name(ik::Method::FabrikPlain);
 }
 
-/// The least of what the other families need, over what FABRIK needs.
+/// The minimum ratio of the other families to FABRIK.
 double least_ratio(const std::vector<Row>& rows, double app::PaperRow::*what) {
     double least = 1e9;
     for (const Row& row : rows) {

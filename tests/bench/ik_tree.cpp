@@ -1,12 +1,12 @@
-// Trees of chains: what an iteration costs per joint, by the number of joints and of effectors, beside that
-// of a single chain's solver. The tolerance is 0, so that the Newton step is never left out.
+// Trees of chains: cost of an iteration per joint, by the number of joints and effectors, beside a single
+// chain's solver. The tolerance is 0, so that the Newton step always runs.
 //
 //     tendril_bench_ik_tree            the tables and one line per claim
-//     tendril_bench_ik_tree --check    the same, and exit code 1 when a claim does not hold
+//     tendril_bench_ik_tree --check    the same, and exit code 1 if a claim does not hold
 //
-// Claims, each the worst of all sizes: an iteration is O(joints), however many effectors there are; the two
-// passes alone cost at most 1.6 times those of a chain's solver; an iteration with the Newton step at
-// most 2.5 times as much as they. Times are medians; only their ratios within one run mean anything.
+// Claims, for the worst size: an iteration is O(joints), however many effectors there are; the two passes
+// alone cost at most 1.6 times those of a chain's solver; an iteration with the Newton step at most 2.5 times
+// as much. Times are medians; only ratios within one run are meaningful.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -28,7 +28,7 @@ constexpr int iterations = 20, repetitions = 15;
 constexpr std::size_t sizes[] = {10, 30, 100, 300, 1'000, 3'000};
 using Places = std::vector<glm::vec3>;
 
-/// A gentle bow, so that nothing is straight and nothing coincides.
+/// A gentle curve, so that nothing is straight and nothing coincides.
 Places bow(const std::vector<TreeJoint>& joints) {
     Places places(joints.size(), glm::vec3(0.0f));
     for (std::size_t k = 1; k < joints.size(); ++k) {
@@ -50,7 +50,7 @@ std::vector<TreeJoint> chain(std::size_t bones) {
     return joints;
 }
 
-/// Effectors on the tips of branches that share a trunk of 20 bones; about 6 times as many bones in all,
+/// Effectors at the tips of branches that share a trunk of 20 bones; about 6 times as many bones in all,
 /// whatever the number of tips.
 struct Figure {
     std::vector<TreeJoint> joints = chain(20);
@@ -68,12 +68,12 @@ struct Figure {
     }
 };
 
-/// As many solves as make 20 000 bones.
+/// Enough solves for 20 000 bones.
 std::size_t solves_for(std::size_t bones) {
     return std::max<std::size_t>(1, 20'000 / bones);
 }
 
-/// Solves for a target that goes round.
+/// Solves for a target that circles.
 class ChainRun {
   public:
     explicit ChainRun(std::size_t bones)
@@ -118,15 +118,15 @@ class TreeRun {
     std::size_t turn_ = 0;
 };
 
-/// Nanoseconds a bone and iteration.
+/// Nanoseconds per bone and iteration.
 double each(double seconds, std::size_t bones) {
     return seconds * 1e9 / static_cast<double>(solves_for(bones) * bones * iterations);
 }
 
 struct Worst {
-    double plain = 0.0;   ///< the tree's passes over the chain solver's
-    double newton = 0.0;  ///< with the Newton step over the passes alone
-    double growth = 0.0;  ///< ns a bone over those of the smallest size
+    double plain = 0.0;   ///< passes of the tree over those of the chain solver
+    double newton = 0.0;  ///< with the Newton step over passes alone
+    double growth = 0.0;  ///< ns per bone over those of the smallest size
 };
 
 Worst chain_table() {
@@ -153,7 +153,7 @@ Worst chain_table() {
     return worst;
 }
 
-/// The dearest number of effectors over one effector.
+/// The cost of the most expensive number of effectors over that of one.
 double branches_table() {
     constexpr std::size_t counts[] = {1, 2, 5, 10, 20, 50};
     std::vector<TreeRun> runs;

@@ -1,4 +1,4 @@
-// What the benchmarks with a main of their own share: times that stand next to each other, and claims.
+// Shared by benchmarks with a main of their own: interleaved timing, and claims.
 #pragma once
 
 #include <algorithm>
@@ -14,14 +14,14 @@
 
 namespace tendril::bench {
 
-/// A benchmark whose calls are refused measures nothing.
+/// Refused calls would measure nothing.
 inline void require(const Result& result) {
     if (result) return;
     std::fprintf(stderr, "%s\n", result.message());
     std::abort();
 }
 
-/// Of this process, all its threads together: what else runs on the machine does not count.
+/// Of this process with all its threads, independent of other processes.
 inline double cpu_seconds() {
     return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
@@ -35,8 +35,8 @@ inline double median(std::vector<double> values) {
     return *middle;
 }
 
-/// Runs all of them in turn, as often as `repetitions`, so that what disturbs one disturbs the others too;
-/// before each, `prepare`, which does not count. Median seconds of each.
+/// Runs all of them in turn `repetitions` times, so that disturbances affect all alike; `prepare` runs before
+/// each and is not timed. Returns the median seconds of each.
 inline std::vector<double> race(
     const std::vector<std::function<void()>>& runs, int repetitions, double (*now)() = cpu_seconds,
     const std::function<void()>& prepare = [] {}) {
@@ -60,7 +60,7 @@ inline bool claim(const char* what, double value, double least) {
     return holds;
 }
 
-/// Whether the flag is there; takes it out, for what reads the others.
+/// Whether the flag is present; removes it for the parser of the other arguments.
 inline bool take_flag(int& count, char** arguments, const char* flag) {
     char** const end = arguments + count;
     char** const kept = std::remove_if(

@@ -1,15 +1,15 @@
-// What a rig's hierarchy costs against the size, depth and breadth of its tree.
+// Cost of a rig's hierarchy by the size, depth and breadth of its tree.
 //
 //     tendril_bench_rig_hierarchy            the tables and one line per claim
-//     tendril_bench_rig_hierarchy --check    the same, and exit code 1 when a claim does not hold
+//     tendril_bench_rig_hierarchy --check    the same, and exit code 1 if a claim does not hold
 //
-// Claims, each of the worst row of its table:
-//  - reading an element of a tree in which nothing was written since takes the same time among 100 elements
-//    and among a million;
-//  - setting the root and reading a leaf is linear in the leaf's depth from 10 to 100 000 levels, up to what
-//    the machine's caches make of it, and does not depend on how many other elements there are;
-//  - setting and reading a leaf among 100 000 elements costs what it does among 1 000;
-//  - a set that does not propagate, with the children's locals read after it, is linear in the number of
+// Claims, for the worst row of each table:
+//  - reading an element of a tree that was not written since takes the same time among 100 elements and
+//    among a million;
+//  - setting the root and reading a leaf is linear in the leaf's depth from 10 to 100 000 levels, up to
+//    cache effects, and does not depend on the number of other elements;
+//  - setting and reading a leaf costs the same among 100 000 elements as among 1 000;
+//  - a set without propagation, followed by reading the children's locals, is linear in the number of
 //    children, and does not depend on what is below them.
 #include <algorithm>
 #include <string>
@@ -29,7 +29,7 @@ ElementId add(Hierarchy& tree, ElementId parent) {
     return *tree.add(ElementKind::Bone, parent, step(0.1));
 }
 
-/// Every element but the last level's has ten children.
+/// Every element above the last level has ten children.
 struct Bush {
     Hierarchy tree;
     std::vector<ElementId> elements;
@@ -40,7 +40,7 @@ struct Bush {
     }
 };
 
-/// A line of that depth; beside each of its elements but the first, `beside` siblings.
+/// A line of that depth, with `beside` siblings beside each element but the first.
 struct Line {
     Hierarchy tree;
     ElementId root, leaf;
@@ -80,11 +80,11 @@ struct Fan {
 
 struct Row {
     std::string title;
-    std::size_t parts;  ///< that the time is divided by
+    std::size_t parts;  ///< the time is divided by this
     double nanoseconds = 0.0;
 };
 
-/// Measures all rows of a table in turn, each call of `run` so often that a measurement takes a millisecond.
+/// Measures all rows of a table in turn, repeating `run` until a measurement takes a millisecond.
 template <class Subject, class Call>
 void measure(const char* title, std::vector<Row>& rows, std::vector<Subject>& subjects, Call run) {
     std::vector<std::function<void()>> runs;
@@ -107,7 +107,7 @@ void measure(const char* title, std::vector<Row>& rows, std::vector<Subject>& su
     }
 }
 
-/// How near to each other the cheapest and the dearest row are; 1: the same.
+/// The ratio of the cheapest row to the most expensive; 1: equal.
 double evenness(const std::vector<Row>& rows) {
     const auto [least, most] = std::minmax_element(
         rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.nanoseconds < b.nanoseconds; });

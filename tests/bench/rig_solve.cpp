@@ -1,10 +1,10 @@
-// What a forward solve costs, by the number of units and what they are.
+// Cost of a forward solve, by number and kind of units.
 //
 //     tendril_bench_rig_solve            the table and one line per claim
-//     tendril_bench_rig_solve --check    the same, and exit code 1 when a claim does not hold
+//     tendril_bench_rig_solve --check    the same, and exit code 1 if a claim does not hold
 //
-// Claims, each of the worst row:
-//  - a rig of 1 000 units, of any kind but those that solve chains of bones, takes under 0.5 ms a frame;
+// Claims, for the worst row:
+//  - a rig of 1 000 units of any kind except those that solve chains of bones takes under 0.5 ms per frame;
 //  - a unit costs the same among 10 and among 10 000 of its kind, to a factor of 2.
 #include <algorithm>
 #include <string>
@@ -64,7 +64,7 @@ constexpr Kind kinds[] = {
      }},
 };
 
-/// `count` bones in lines of ten, a unit each, and a target that moves.
+/// `count` bones in lines of ten, one unit each, and a moving target.
 struct Subject {
     Rig rig;
     State state;
@@ -98,7 +98,7 @@ struct Subject {
     }
 };
 
-/// Microseconds a frame, the median of many.
+/// Microseconds per frame, the median of many.
 double microseconds(const Kind& kind, std::size_t count) {
     Subject subject(kind, count);
     const std::size_t times = std::max<std::size_t>(1, 2000 / count);

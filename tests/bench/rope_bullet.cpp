@@ -1,19 +1,18 @@
-// The default solver against the soft bodies of Bullet: ropes of 16 to 4096 segments and cloths of 16 x 16 to
-// 128 x 128 particles, the same shape to start from, the same masses and gravity, one simulated second, one
-// thread. Each is asked for the cheapest settings with which no stretch link is ever longer or shorter than
-// its rest by more than 1 %; the times of those are compared.
+// The default solver against Bullet's soft bodies: ropes of 16 to 4096 segments and cloth of 16 x 16 to 128 x
+// 128 particles, with the same initial shape, masses and gravity, one simulated second, one thread. Compares
+// the times of the cheapest settings with which no stretch link ever deviates by more than 1 %.
 //
 //     tendril_bench_rope_bullet            the table and one line per claim
-//     tendril_bench_rope_bullet --check    the same, and exit code 1 when a claim does not hold
+//     tendril_bench_rope_bullet --check    the same, and exit code 1 if a claim does not hold
 //
-// Claims, each at the size that flatters least: Bullet takes at least 3 times as long for a rope of 16
-// segments, 12 times for one of 64 or more, 3 times for a cloth.
+// Claims, for the least favourable size: Bullet takes at least 3 times as long for a rope of 16 segments, 12
+// times for one of 64 or more, 3 times for a cloth.
 //
-// Bullet's body is stepped by itself, without the world around it, which would only cost more: position
-// solver, stiffness 1, no collisions, no damping; of a cloth it has the stretch links alone, ours those for
-// shear and bend too. Its settings are the substeps of a frame and the solver's iterations; more of either is
-// less stretch, and which of them is cheapest is looked for. Where it takes over `longest` seconds with all
-// of them, that is what the table says, and is a lower bound. Distributions compile it with -O2.
+// Bullet's body is stepped alone, without its world, which would only add cost: position solver, stiffness 1,
+// no collisions, no damping; of a cloth it has the stretch links only, ours also those for shear and bending.
+// Its settings are substeps per frame and solver iterations; more of either reduces stretch, and the
+// benchmark searches for the cheapest combination. If all take over `longest` seconds, the table shows that
+// as a lower bound. Distributions compile it with -O2.
 #include <BulletSoftBody/btSoftBody.h>
 
 #include <cmath>
@@ -90,7 +89,7 @@ class BulletBody {
     std::unique_ptr<btSoftBody> body_;
 };
 
-/// Ends early where it already stretched too far or took too long: it is out of the race then.
+/// Stops once it has stretched too far or taken too long: it is out of the race then.
 Outcome run_bullet(const rope::State& state, int substeps, int iterations, double most_seconds) {
     BulletBody body(state);
     Outcome result{0.0, 0.0, substeps, iterations};
@@ -103,7 +102,7 @@ Outcome run_bullet(const rope::State& state, int substeps, int iterations, doubl
     return result;
 }
 
-/// The fewest substeps that do, to a seventh, for each number of iterations; the cheapest of all.
+/// The minimum number of sufficient substeps, to a seventh, per number of iterations; the cheapest of all.
 Outcome cheapest_bullet(int size, const rope::State& state) {
     Outcome best{longest};
     for (const int iterations : {4, 2, 8, 1, 16}) {
@@ -117,7 +116,7 @@ Outcome cheapest_bullet(int size, const rope::State& state) {
             }
         }
     }
-    // Short ones are timed once more, as ours are.
+    // Short runs are repeated, like ours.
     if (best.seconds > 0.5) return best;
     std::vector<double> times;
     for (int i = 0; i < 5; ++i)

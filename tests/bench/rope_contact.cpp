@@ -1,20 +1,20 @@
-// What ropes and cloth that touch something cost, and how true they stay to their length, over sizes and
-// states: falling, at rest, taut, pressed, freed.
+// Cost of ropes and cloth in contact, and how well they keep their length, over sizes and states: falling, at
+// rest, taut, pressed, freed.
 //
 //     tendril_bench_rope_contact            the tables and one line per claim
-//     tendril_bench_rope_contact --check    the same, and exit code 1 when a claim does not hold
+//     tendril_bench_rope_contact --check    the same, and exit code 1 if a claim does not hold
 //
 // Claims: a rope of 4 m over 4 balls keeps each link within 1 % of its length with 64 to 4096 segments, a
 // segment of 4096 costs at most twice one of 1024, and all are back within 0.1 % a second after the balls are
-// gone; taut over a thin bar, with any friction, 0.1 %; a pendulum 8 mm from a beam keeps 90 % of the swing
-// that it has without one; 1024 segments with 256 balls pressed into them take 0.5 ms a substep; a cloth of
-// 16 x 16 to 128 x 128 that is let go flat, held by two corners, keeps each link within 1.25 % of its length.
+// removed; taut over a thin bar, with any friction, 0.1 %; a pendulum 8 mm from a beam keeps 90 % of its
+// swing without the beam; 1024 segments with 256 balls pressed into them take 0.5 ms per substep; a cloth of
+// 16 x 16 to 128 x 128, released flat and held by two corners, keeps each link within 1.25 % of its length.
 //
-// Not claimed, because it does not hold: 1024 segments that fall on 15 balls and a floor in 1 ms a frame at
-// the 99th percentile; a cloth of 64 x 64 in 8 ms a frame, which takes 9 by two corners and 25 on a ball; 33
-// ms with 128 x 128 on two threads, which take nearly twice that.
+// Not claimed, because it does not hold: 1024 segments falling on 15 balls and a floor in 1 ms per frame at
+// the 99th percentile; a cloth of 64 x 64 in 8 ms per frame (9 by two corners, 25 on a ball); 128 x 128 in 33
+// ms on two threads (nearly twice that).
 //
-// Times are processor time; where threads share a cloth, time on the clock.
+// Times are processor time; wall time if threads share a cloth.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -31,7 +31,7 @@ namespace rope = tendril::rope;
 
 constexpr double frame = 1.0 / 60.0;
 
-/// The worst link's relative length error.
+/// The maximum relative length error of a link.
 double stretch(const rope::State& state) {
     double worst = 0.0;
     for (const rope::Link& link : state.links) {
@@ -43,7 +43,7 @@ double stretch(const rope::State& state) {
     return worst;
 }
 
-/// Microseconds of single frames.
+/// Microseconds of individual frames.
 struct Frames {
     std::vector<double> times;
     double worst_stretch = 0.0;
@@ -80,7 +80,7 @@ rope::ColliderId ball(rope::World& world, glm::vec3 at, float radius) {
     return *added;
 }
 
-/// Four metres between two points three metres apart.
+/// Four metres between points three metres apart.
 Stage hung(int segments) {
     Stage stage;
     require(stage.world
@@ -96,7 +96,7 @@ Stage hung(int segments) {
 }
 
 struct OverBalls {
-    double cost = 0.0;  ///< nanoseconds a segment and substep, the dearer of moving and resting
+    double cost = 0.0;  ///< nanoseconds per segment and substep, moving or at rest, whichever is more
     double stretch = 0.0, freed = 0.0;
 };
 
@@ -105,7 +105,7 @@ OverBalls over_balls(int segments) {
     std::vector<rope::ColliderId> balls;
     for (int i = 0; i < 4; ++i)
         balls.push_back(ball(stage.world, {0.6f + 0.6f * static_cast<float>(i), 0.1f, 0.0f}, 0.2f));
-    // They begin inside of it: what that takes to make good is not timed.
+    // They begin inside it: the time until that is resolved is not measured.
     stage.run(1.0);
     Frames moving = stage.run(2.0), resting;
     stage.run(2.0);
@@ -121,7 +121,7 @@ OverBalls over_balls(int segments) {
     return found;
 }
 
-/// Lets a rope fall on 15 balls and a floor.
+/// Drops a rope on 15 balls and a floor.
 void falling(int segments) {
     Stage stage;
     require(stage.world
@@ -141,8 +141,7 @@ void falling(int segments) {
                 static_cast<unsigned long long>(stage.unconverged));
 }
 
-/// Balls that appear inside of a rope, half of each, all along it. Microseconds a substep once that is made
-/// good.
+/// Balls that appear half inside a rope, all along it. Microseconds per substep once that is resolved.
 double pressed(int segments) {
     constexpr int balls = 256;
     Stage stage = hung(segments);
@@ -150,7 +149,7 @@ double pressed(int segments) {
     for (int i = 0; i < balls; ++i) {
         const auto along = static_cast<std::size_t>((i + 0.5) / balls * segments);
         const glm::vec3 at = glm::vec3(stage.world.position(along));
-        if (at.x < 0.05f || at.x > 2.95f) continue;  // what is pinned cannot get out
+        if (at.x < 0.05f || at.x > 2.95f) continue;  // pinned particles cannot get out
         ball(stage.world, at - glm::vec3(0, i % 2 == 0 ? 0.05f : 0.03f, 0), 0.05f);
     }
     Frames first = stage.run(1.0), later = stage.run(2.0);
@@ -160,7 +159,7 @@ double pressed(int segments) {
     return later.at(0.5) / 4.0;
 }
 
-/// Over a bar that comes up under it until it is all but straight on both sides.
+/// Over a bar that rises below it until it is nearly straight on both sides.
 double taut(int segments, float friction) {
     Stage stage;
     rope::Settings settings;
@@ -190,7 +189,7 @@ struct Cloth {
     double p50 = 0.0, stretch = 0.0;
 };
 
-/// A metre each way, let go flat: held by two corners, or over a ball and a floor.
+/// One metre along each side, released flat: held by two corners, or above a ball and a floor.
 Cloth cloth(int side, bool held, int threads = 1) {
     Stage stage;
     require(stage.workspace.use_threads(threads));
@@ -214,7 +213,7 @@ Cloth cloth(int side, bool held, int threads = 1) {
     return found;
 }
 
-/// How far a pendulum still swings after 28 s, metres, beside a beam or alone.
+/// The swing of a pendulum after 28 s, metres, beside a beam or alone.
 double swing(bool beam) {
     Stage stage;
     rope::Settings settings;

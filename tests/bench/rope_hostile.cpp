@@ -1,11 +1,11 @@
-// The worst that one call of World::advance can cost: random worlds of 149 particles or so among a few
-// colliders, with hostile numbers in every edit.
+// The worst case of one call of World::advance: random worlds of about 149 particles among a few colliders,
+// with hostile numbers in every edit.
 //
-//     tendril_bench_rope_hostile [worlds]    the costliest calls, and one line per claim; 300 worlds
-//     tendril_bench_rope_hostile --check     the same, and exit code 1 when a claim does not hold
+//     tendril_bench_rope_hostile [worlds]    the most expensive calls, and one line per claim; 300 worlds
+//     tendril_bench_rope_hostile --check     the same, and exit code 1 if a claim does not hold
 //
-// A call simulates 16 substeps at most. Work is counted in links solved and distances to colliders taken, and
-// is the same on every machine; times are processor time, the minimum of five runs of the same call.
+// A call simulates at most 16 substeps. Work counts solved links and collider distances, and is the same on
+// every machine; times are processor time, the minimum of five runs of the same call.
 //
 // Claims: no substep takes more than twice the work that max_pass_work allows its passes, and no call more
 // than 100 ms (worst of 1500 worlds: 53 ms, 0.56 of the work).
@@ -44,10 +44,10 @@ struct Call {
     rope::Advance done;
     double seconds = 0.0;    ///< simulated
     double taken = 0.0;      ///< processor time, milliseconds
-    double work_part = 0.0;  ///< of a substep, over what max_pass_work and the fixed costs allow
+    double work_part = 0.0;  ///< of a substep, relative to what max_pass_work and fixed costs allow
 };
 
-/// Work that a substep may take: two times the passes' bound, or the passes that are never left out.
+/// The allowed work of a substep: twice the bound of the passes, or the passes that always run.
 double allowed_work(const rope::World& world) {
     const auto particles = static_cast<double>(world.size()),
                links = static_cast<double>(world.state().links.size());
@@ -57,7 +57,7 @@ double allowed_work(const rope::World& world) {
     return 2.0 * passes + 256.0 * particles * colliders;
 }
 
-/// Milliseconds of the same call again.
+/// Milliseconds of repeating the same call.
 double time_again(const Call& call) {
     rope::Workspace workspace;
     double minimum = 1e300;
@@ -101,7 +101,7 @@ void play(std::uint64_t seed, Worst& worst) {
         if (call.taken > 5.0) ++worst.over_5_ms;
         if (call.work_part > worst.work.work_part) worst.work = call;
         if (call.taken > worst.time.taken) {
-            call.taken = time_again(call);  // whatever else ran at that moment does not count
+            call.taken = time_again(call);  // ignores disturbances by other processes
             if (call.taken > worst.time.taken) worst.time = call;
         }
     }

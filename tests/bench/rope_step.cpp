@@ -1,12 +1,12 @@
-// What a substep of ropes costs: by particles, by colliders far and near, for many ropes with and without
-// vector units, and with two threads.
+// Cost of a rope substep: by particles, by colliders far and near, for many ropes with and without vector
+// units, and with two threads.
 //
 //     tendril_bench_rope_step            the tables and one line per claim
-//     tendril_bench_rope_step --check    the same, and exit code 1 when a claim does not hold
+//     tendril_bench_rope_step --check    the same, and exit code 1 if a claim does not hold
 //
-// Claims: a rope of 1024 segments among 16 colliders takes under 1 ms a frame of 1/60 s; with 256 colliders
-// that are far off it takes at most half as long again as with none; vector units pay off for 200 ropes of 32
-// segments. Times are processor time but for the threads, whose gain needs a quiet machine to be seen.
+// Claims: a rope of 1024 segments among 16 colliders takes under 1 ms per frame of 1/60 s; with 256 distant
+// colliders it takes at most 1.5 times as long as with none; vector units pay off for 200 ropes of 32
+// segments. Times are processor time, except for threads, whose gain needs an idle machine.
 #include <cmath>
 #include <string>
 
@@ -19,7 +19,7 @@ namespace {
 using namespace tendril::bench;
 namespace rope = tendril::rope;
 
-/// A world and what it is advanced with.
+/// A world and its workspace.
 struct Stage {
     rope::World world;
     rope::Workspace workspace;
@@ -30,7 +30,7 @@ struct Stage {
 constexpr int repetitions = 9;
 constexpr double frame = 1.0 / 60.0;
 
-/// Hung between two points, four metres of it for each three that they are apart.
+/// Hung between two points, with four metres of rope for every three metres of distance.
 Stage hung(int segments) {
     Stage stage;
     const float span = 3.0f;
@@ -41,11 +41,11 @@ Stage hung(int segments) {
                                             .radius = 0.01f,
                                             .pin_start = true,
                                             .pin_end = true}));
-    stage.advance(0.1);  // sizes what it works with
+    stage.advance(0.1);  // sizes its buffers
     return stage;
 }
 
-/// Balls on a grid far below, or all along the rope, half of them touching it.
+/// Balls on a grid far below, or all along the rope with half of them touching it.
 void add_colliders(Stage& stage, int count, bool near) {
     const std::size_t particles = stage.world.size();
     for (int i = 0; i < count; ++i) {
@@ -60,7 +60,7 @@ void add_colliders(Stage& stage, int count, bool near) {
     stage.advance(0.1);
 }
 
-/// As many frames as take some milliseconds.
+/// Enough frames for a few milliseconds.
 int frames_for(int segments) {
     return std::max(1, 16384 / segments);
 }
@@ -69,7 +69,7 @@ void run_frames(Stage& stage, int frames) {
     for (int i = 0; i < frames; ++i) stage.advance(frame);
 }
 
-/// Microseconds a substep: of no collider, 16 and 256 far off, 16 and 256 near.
+/// Microseconds per substep: without colliders, with 16 and 256 far away, with 16 and 256 near.
 std::vector<double> cost(int segments) {
     std::vector<Stage> worlds;
     for (const auto& [count, near] :
@@ -148,7 +148,7 @@ rope::World hung_cloths(int cloths, int cells) {
     return world;
 }
 
-/// By the clock on the wall; the threads are the library's own, which begin anew in each substep.
+/// Wall time; the library's own threads, which start anew in each substep.
 void thread_table() {
     std::printf("\nus a substep by threads (and times one)\n");
     const auto row = [](const char* what, const rope::World& start) {
@@ -168,7 +168,7 @@ void thread_table() {
     row("8 cloths of 24 x 24 cells", hung_cloths(8, 24));
 }
 
-/// How many times as fast the widest unit is as none.
+/// The speed-up of the widest unit over none.
 double crowd_table() {
     constexpr int ropes = 200, segments = 32;
     const rope::World start = hung_ropes(ropes, segments);

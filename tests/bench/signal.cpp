@@ -1,12 +1,12 @@
-// What batch.hpp gains over a plain loop of `step` and `interp_to`, one thread, each value with its own
+// Gain of batch.hpp over a plain loop of `step` and `interp_to`, one thread, each value with its own
 // parameters.
 //
 //     tendril_bench_signal            the table and one line per claim
-//     tendril_bench_signal --check    the same, and exit code 1 when a claim does not hold
+//     tendril_bench_signal --check    the same, and exit code 1 if a claim does not hold
 //
-// Claims: the smallest gain in any row, over all kinds of damping, with and without force and target
-// velocity, for 1e3, 1e5 and 1e6 values. The plain loop goes over an array of parameters and one of states,
-// as a game would keep them. Times are processor time.
+// Claims: the minimum gain in any row, over all kinds of damping, with and without force and target velocity,
+// for 1e3, 1e5 and 1e6 values. The plain loop uses an array of parameters and one of states, as a game would.
+// Times are processor time.
 #include <cmath>
 #include <random>
 #include <string>
@@ -53,7 +53,7 @@ class Values {
         require(start_springs(arrays()));
         one_by_one();
     }
-    /// Another target, so that all are always in motion; not timed.
+    /// Changes the target, so that all are always in motion; not timed.
     void move_targets() {
         for (float& to : target_) to = -0.99f * to;
     }
@@ -99,7 +99,7 @@ class Values {
 using Plain = void (Values::*)();
 using Batch = void (Values::*)(std::string_view);
 
-/// The same work, often enough to be measured.
+/// The same work, repeated often enough to be measured.
 Seconds compete(Values& values, std::size_t count, Plain plain, Batch batch) {
     const int often = static_cast<int>(std::max<std::size_t>(1, 300'000 / count));
     std::vector<std::function<void()>> runs{[&] {

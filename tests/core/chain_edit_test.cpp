@@ -1,4 +1,4 @@
-// Editing, row by row of the chain's page, with cases worked out by hand.
+// Editing: each row of the table on the chain's page, with cases computed by hand.
 #include <cstdint>
 
 #include "chain_support.hpp"
@@ -61,9 +61,9 @@ TEST(ChainEdit, SegmentsAtOnePointMakeAStraightChain) {
 
 TEST(ChainEdit, ASegmentGivenAtAnyPointOfTheChainCarriesNoDirection) {
     Chain chain = straight(4);
-    expect_ok(chain.add(Segment{{1, 0, 0}, 2}));  // where segment 1 is: straight on, not back
+    expect_ok(chain.add(Segment{{1, 0, 0}, 2}));  // where segment 1 is: continues straight, no fold
     expect_positions(chain, {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {5, 0, 0}});
-    expect_ok(chain.add(Segment{{1, 0.001f, 0}, 1}));  // a millimetre off is somewhere else
+    expect_ok(chain.add(Segment{{1, 0.001f, 0}, 1}));  // a millimetre off is another position
     EXPECT_LT(chain.position(5).x, chain.position(4).x);
 }
 
@@ -124,8 +124,7 @@ TEST(ChainEdit, InsertLengthAsHeadMovesNothingElse) {
 }
 
 TEST(ChainEdit, InsertLengthDoesNotPileUpRounding) {
-    Chain chain;  // on both sides of 512 m, where the spacing of floats doubles, so its points round
-                  // differently
+    Chain chain;  // spans 512 m, where the spacing of floats doubles
     for (int i = 0; i < 8; ++i) expect_ok(chain.add(Segment{{505 + 2 * i, 3 * (i % 2), 126 + i}, 2.0f}));
     for (int i = 0; i < 2000; ++i) expect_ok(chain.insert(1, 0.0005f * static_cast<float>(1 + i % 7)));
     EXPECT_TRUE(lies_within(chain, 1e3));
@@ -153,7 +152,7 @@ TEST(ChainEdit, RemoveReLaysFromTheHead) {
 TEST(ChainEdit, SetLengthReLays) {
     Chain chain = straight(4);
     expect_ok(chain.set_length(2, 3.0f));
-    expect_positions(chain, {{0, 0, 0}, {1, 0, 0}, {4, 0, 0}, {3, 0, 0}});  // towards its old place, so back
+    expect_positions(chain, {{0, 0, 0}, {1, 0, 0}, {4, 0, 0}, {3, 0, 0}});  // towards its old point, so back
     expect_ok(chain.set_length(0, 8.0f));
     expect_positions(chain, {{0, 0, 0}, {1, 0, 0}, {4, 0, 0}, {3, 0, 0}});
     EXPECT_EQ(chain.length(0), 8.0f);
@@ -164,7 +163,7 @@ TEST(ChainEdit, LengthZeroIsLegal) {
     Chain chain = straight(3);
     expect_ok(chain.set_length(1, 0.0f));
     expect_positions(chain, {{0, 0, 0}, {0, 0, 0}, {1, 0, 0}});
-    expect_ok(chain.set_length(1, 2.0f));  // the two coincide: along the default direction
+    expect_ok(chain.set_length(1, 2.0f));  // the two coincide: use the default direction
     expect_positions(chain, {{0, 0, 0}, {2, 0, 0}, {1, 0, 0}});
 }
 
@@ -200,7 +199,7 @@ TEST(ChainEdit, DefaultDirectionMayBeAlmostAUnitVector) {
 }
 
 TEST(ChainEdit, ADefaultDirectionThatIsAUnitVectorStaysBitForBit) {
-    Random random(5);  // so that a saved one comes back the same
+    Random random(5);  // so that a saved direction loads unchanged
     for (int i = 0; i < 1000; ++i) {
         const glm::vec3 any = random.point(1.0f);
         const Chain chain = along(any / static_cast<float>(distance(any, glm::vec3(0))));

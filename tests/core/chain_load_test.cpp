@@ -1,4 +1,4 @@
-// Chain::from_segments: a saved chain comes back as it was, any other is made whole.
+// Chain::from_segments: loads a saved chain unchanged, and repairs any other.
 #include "chain_support.hpp"
 #include "random.hpp"
 

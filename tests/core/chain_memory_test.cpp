@@ -1,4 +1,4 @@
-// Running out of memory in the middle of an edit leaves the chain as it was; a pull needs no memory at all.
+// An edit that runs out of memory leaves the chain unchanged; a pull needs no memory.
 #include <cstdlib>
 #include <new>
 
@@ -9,15 +9,14 @@ namespace tendril::test {
 bool memory_is_out = false;
 }
 
-// The whole test program allocates through these; they fail only inside without_memory.
+// These replace allocation in the whole test program; they fail only inside without_memory.
 void* operator new(std::size_t size) {
     if (!tendril::test::memory_is_out) {
         if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
     }
     throw std::bad_alloc();
 }
-// What the standard library asks for with nothrow, as stable_sort does, is freed by the operator below as
-// well.
+// For the nothrow allocations of the standard library (stable_sort), which the operator below frees.
 void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
     return tendril::test::memory_is_out ? nullptr : std::malloc(size == 0 ? 1 : size);
 }
@@ -33,7 +32,7 @@ namespace {
 
 TEST(ChainMemory, AFailedEditChangesNothing) {
     Chain chain =
-        *Chain::from_segments({{{0, 0, 0}, 1}, {{1, 0, 0}, 1}, {{2, 0, 0}, 1}});  // no room to spare
+        *Chain::from_segments({{{0, 0, 0}, 1}, {{1, 0, 0}, 1}, {{2, 0, 0}, 1}});  // no spare capacity
     const Chain before = chain;
     EXPECT_THROW(without_memory([&] { static_cast<void>(chain.add(1.0f)); }), std::bad_alloc);
     EXPECT_THROW(without_memory([&] {

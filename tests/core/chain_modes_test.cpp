@@ -1,4 +1,4 @@
-// The four modes: what moves, what stays, and what happens where nothing points anywhere.
+// The four modes: what moves, what stays, and degenerate directions.
 #include "chain_support.hpp"
 
 namespace tendril::test {

@@ -1,5 +1,5 @@
-// Whatever is thrown at a chain: it holds after every operation, it is bitwise unchanged after every refusal,
-// and the pinned point is bitwise where it was pinned to. The seed is printed; TENDRIL_SEED=<number> sets it.
+// Random operations: the invariant holds after every operation, a refusal leaves the chain bitwise unchanged,
+// and a pinned point is bitwise at its pin. Prints the seed; TENDRIL_SEED=<number> sets it.
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -41,13 +41,13 @@ glm::vec3 some_point(const Chain& chain, Random& random) {
 std::size_t some_index(const Chain& chain, Random& random) {
     constexpr std::size_t hostile[] = {SIZE_MAX, SIZE_MAX - 1, SIZE_MAX / 2, SIZE_MAX / 16, 1u << 31};
     if (random.chance(25)) return hostile[random.below(std::size(hostile))];
-    return random.below(chain.size() + 1);  // now and then one too many
+    return random.below(chain.size() + 1);  // sometimes one too many
 }
 
-/// Where a pull must have left a point, to the bit.
+/// The exact position that a pull must give a point.
 struct Pin {
     bool set = false;
-    Result outcome{};  ///< of the call; where it was refused, nothing has moved
+    Result outcome{};  ///< of the call; if refused, nothing has moved
     std::size_t index = 0;
     glm::vec3 position{0.0f};
 };
@@ -103,7 +103,7 @@ Pin operate(Chain& chain, Random& random) {
     return {};
 }
 
-/// Saved and loaded it is the same to the bit, unless it lies where nothing may be loaded from.
+/// Saving and loading keeps every bit, unless the chain is outside the range that can be loaded.
 bool comes_back(const Chain& chain) {
     const auto segments = chain.segments();
     for (const Segment& segment : segments) {
@@ -121,7 +121,7 @@ TEST(ChainProperty, AHundredThousandHostileOperations) {
     std::size_t longest = 0;
     int refused = 0, near = 0, pinned = 0;
     for (int i = 0; i < 100'000; ++i) {
-        if (random.chance(250)) chain = Chain();  // otherwise a length of 1e9 would keep it far out for good
+        if (random.chance(250)) chain = Chain();  // a length of 1e9 would otherwise keep it far out
         before = chain;
         const Pin pin = operate(chain, random);
         if (!pin.outcome) {
@@ -138,7 +138,7 @@ TEST(ChainProperty, AHundredThousandHostileOperations) {
     }
     std::printf("%d refused, %d pulled, %d ended within 1e3 m, at most %zu segments\n", refused, pinned, near,
                 longest);
-    EXPECT_GT(refused, 5'000);  // or this would not test what it says
+    EXPECT_GT(refused, 5'000);  // enough of each to be a test
     EXPECT_GT(pinned, 20'000);
     EXPECT_GT(near, 30'000);
 }

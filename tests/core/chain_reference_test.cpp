@@ -1,5 +1,5 @@
-// Numeric cases of an independent implementation in double precision. Skipped where they are not at hand; the
-// other files here hold without them.
+// Numeric cases from an independent implementation in double precision. Skipped if the files are missing; the
+// other tests do not need them.
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>

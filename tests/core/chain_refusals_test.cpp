@@ -1,4 +1,4 @@
-// What is refused, in which words, and that nothing has changed afterwards.
+// What is refused, with which message, and that a refusal changes nothing.
 #include <cstdint>
 #include <stdexcept>
 
@@ -11,7 +11,7 @@ namespace {
 const float bad_lengths[] = {-1.0f, -1e-30f, nan, infinity, -infinity, 1e10f, 1000000064.0f};
 const float bad_coordinates[] = {nan, infinity, -infinity, 1e10f, -1e10f, 1000000064.0f};
 
-/// Calls and expects `code`, and that the chain is bit for bit what it was.
+/// Expects `call` to fail with `code` and to leave the chain bitwise unchanged.
 template <class Call>
 void expect_refused(ErrorCode code, Chain& chain, Call call) {
     const Chain before = chain;
@@ -64,7 +64,7 @@ TEST(ChainRefusals, BadCoordinates) {
             EXPECT_EQ(Chain::from_segments({{}, {point, 1}}).code(), ErrorCode::InvalidArgument);
         }
     }
-    Chain empty;  // an empty chain does nothing, but does not take nonsense either
+    Chain empty;  // an empty chain does nothing, but still refuses invalid input
     EXPECT_EQ(empty.forward(glm::vec3(nan)).code(), ErrorCode::InvalidArgument);
     EXPECT_EQ(empty.with_index(0, glm::vec3(nan)).code(), ErrorCode::InvalidArgument);
 }

@@ -1,4 +1,4 @@
-// What the chain's tests share: the invariant as chain.hpp states it, and equality down to the bit.
+// Shared by the chain's tests: the invariant as chain.hpp states it, and bitwise equality.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -52,8 +52,8 @@ inline bool lies_within(const Chain& chain, double range) {
     });
 }
 
-/// Empty when the invariant holds, otherwise what is wrong. Links are checked at any distance from the
-/// origin: to the letter within 1e3 m, and further out to the spacing of floats there.
+/// Empty if the invariant holds, otherwise the fault. Bone lengths are checked exactly within 1e3 m of the
+/// origin, and to the spacing of floats beyond.
 inline std::string broken(const Chain& chain) {
     const auto segments = chain.segments();
     const bool near = lies_within(chain, 1e3);
@@ -98,7 +98,7 @@ inline void expect_positions(const Chain& chain, const std::vector<glm::vec3>& e
     EXPECT_TRUE(Holds(chain));
 }
 
-/// An empty chain with that default direction.
+/// An empty chain with this default direction.
 inline Chain along(glm::vec3 default_direction) {
     return *Chain::from_segments({}, default_direction);
 }
@@ -110,7 +110,7 @@ inline Chain straight(std::size_t count, float length = 1.0f) {
     return chain;
 }
 
-/// The message with which `call` throws `Error`; a failure when it does not. For rooms that throw.
+/// The message with which `call` throws `Error`; fails if it does not. For code that throws.
 template <class Error, class Call>
 std::string message_of(Call call) {
     try {

@@ -11,7 +11,7 @@
 
 namespace tendril::test {
 
-/// Nothing here is refused; were it, the session would not be the same.
+/// Sessions make no refused calls; a refusal would change the session.
 inline void require(const Result& result) {
     if (result) return;
     std::fprintf(stderr, "%s\n", result.message());

@@ -1,5 +1,4 @@
-// Prints the numbers that the fixed sessions end in; with --check it fails unless those are the committed
-// ones.
+// Prints the hashes of the fixed sessions; with --check, fails unless they equal the committed ones.
 #include <cinttypes>
 #include <cstdio>
 #include <string_view>

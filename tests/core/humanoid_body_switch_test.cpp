@@ -1,4 +1,4 @@
-// A body whose targets are let go, or get other weights, while its state goes on.
+// A body whose targets are released or reweighted while its state goes on.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ class HumanoidBodySwitch : public testing::Test {
         if (made) report = *made;
         return positions_of(skeleton, pose);
     }
-    /// Until nothing moves any more.
+    /// Solves until nothing moves any more.
     std::vector<glm::dvec3> settled(const std::vector<BodyTarget>& targets) {
         std::vector<glm::dvec3> at;
         for (int i = 0; i < 40; ++i) at = solve(targets);

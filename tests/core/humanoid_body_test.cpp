@@ -1,4 +1,4 @@
-// A whole body that reaches, on the figure of 1.8 m.
+// Whole-body reaching, on the figure of 1.8 m.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -39,7 +39,7 @@ class HumanoidBody : public testing::TestWithParam<bool> {
   protected:
     HumanoidBody() { place(skeleton, rest, placements); }
     std::size_t node(Bone bone) const { return static_cast<std::size_t>(map[bone].node); }
-    /// Within the default limits; `amount` is about how far limbs turn, radians.
+    /// Within the default limits; limbs turn by about `amount` radians.
     std::vector<rig::Transform> random_pose(RandomPoses& random, double amount) {
         std::vector<rig::Transform> pose;
         do {
@@ -137,7 +137,7 @@ TEST_P(HumanoidBody, is_finite_keeps_lengths_and_limits_for_any_targets) {
         ASSERT_TRUE(report) << report.message();
         for (const glm::dvec3& each : positions_of(skeleton, pose))
             ASSERT_TRUE(std::isfinite(each.x + each.y + each.z)) << i;
-        // A place 1e9 m away is known to a tenth of a micrometre.
+        // At 1e9 m, doubles resolve a tenth of a micrometre.
         ASSERT_LT(worst_length_change(pose), sizes[i % 5] > 1e6 ? 1e-6 : 1e-12) << i;
         if (GetParam()) {
             ASSERT_LT(worst_excess(pose), 0.1 * 3.14159 / 180.0) << i;
@@ -227,7 +227,7 @@ TEST_P(HumanoidBody, conflicting_targets_are_shared_by_weight_and_still) {
         }
         before = now;
         if (frame < 59) continue;
-        // A force balance: weight times residual is the same on both sides.
+        // Force balance: weight times residual is the same on both sides.
         const double left = report->residuals[static_cast<std::size_t>(Effector::LeftHand)];
         const double right = report->residuals[static_cast<std::size_t>(Effector::RightHand)];
         EXPECT_NEAR(left / right, 3.0, 0.15);
@@ -288,7 +288,7 @@ TEST_P(HumanoidBody, hips_that_sink_bend_the_knees_forward) {
 }
 
 TEST_P(HumanoidBody, a_hand_takes_its_targets_rotation_and_shares_the_twist) {
-    const glm::dquat half = glm::angleAxis(1.2, glm::dvec3(1, 0, 0));  // about the forearm, as it rests
+    const glm::dquat half = glm::angleAxis(1.2, glm::dvec3(1, 0, 0));  // about the forearm's rest direction
     auto pose = rest;
     BodyState state;
     const auto at = positions_of(skeleton, rest)[node(Bone::LeftHand)];
@@ -307,7 +307,7 @@ TEST_P(HumanoidBody, a_hand_takes_its_targets_rotation_and_shares_the_twist) {
 }
 
 TEST_P(HumanoidBody, nodes_between_bones_and_above_them_turn_along) {
-    // The same figure below a root that is turned, moved and twice as large, with a node in the middle of a
+    // The same figure below a root that is rotated, moved and twice as large, with a node in the middle of a
     // forearm.
     std::vector<Node> nodes{
         {"root", -1, {{1.0, 0.5, -2.0}, glm::angleAxis(0.7, glm::dvec3(0, 1, 0)), {2.0, 2.0, 2.0}}}};

@@ -1,4 +1,4 @@
-// Which node is which bone: by the names that people give, by shape alone, and honestly incomplete.
+// Matching nodes to bones: by common names, by shape alone, and incomplete where bones are missing.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -10,7 +10,7 @@ namespace {
 
 using Naming = std::map<std::string, std::string>;
 
-/// Names of the left side with L for the side's word, and of the middle.
+/// Node names for both sides and the middle: `pattern` with $ replaced by the word for the side.
 Naming naming(const std::string& left, const std::string& right, const Naming& pattern) {
     Naming names;
     for (const auto& [key, value] : pattern) {
@@ -180,7 +180,7 @@ std::vector<Habit> habits() {
                                       {"LeftToes end", "$toes_end"}})}};
 }
 
-/// What each bone is called by the node that was found for it.
+/// Checks that every bone's node has the expected name.
 void expect_all_right(const Skeleton& skeleton, const BoneMap& map, const Naming& names, double confidence) {
     for (std::size_t i = 0; i < bone_count; ++i) {
         const std::string bone = name(static_cast<Bone>(i));
@@ -256,7 +256,7 @@ TEST(BoneMap, AHandAloneIsNoBody) {
     EXPECT_GE(map.missing.size(), 14u);
 }
 
-/// A figure on all fours, its spine level: even where every bone has a human name.
+/// A figure on all fours with a level spine, although every bone has a human name.
 TEST(BoneMap, WhatGoesOnAllFoursIsNotSolvedAsABody) {
     Skeleton figure = make_figure({});
     std::vector<Node> nodes = figure.nodes();

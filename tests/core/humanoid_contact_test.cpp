@@ -1,4 +1,4 @@
-// A body whose hands do not pass through it.
+// Hands must not pass through their own body.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 class HumanoidContact : public testing::TestWithParam<bool> {
   protected:
     std::size_t node(Bone bone) const { return static_cast<std::size_t>(map[bone].node); }
-    /// Worked out anew, from the pose: hands and lower arms in trunk, head and legs, metres.
+    /// The penetration of hands and lower arms into trunk, head and legs, recomputed from the pose, metres.
     double penetration(const std::vector<rig::Transform>& pose) {
         place(skeleton, pose, placements);
         double deepest = 0.0;
@@ -87,8 +87,7 @@ TEST_P(HumanoidContact, an_animation_that_passes_its_fist_through_the_waist_does
     double deepest = 0.0, clip_deepest = 0.0;
     std::vector<glm::dvec3> before, clip_before;
     for (int frame = 0; frame <= 120; ++frame) {
-        // The right arm swings down and across, bent at the elbow: its hand goes through the belly and comes
-        // back.
+        // The right arm swings down and across, bent at the elbow: the hand passes through the belly.
         const double part = 0.5 - 0.5 * std::cos(2.0 * 3.14159265358979 * frame / 120.0);
         auto pose = rest;
         pose[node(Bone::RightUpperArm)].rotation = glm::angleAxis(part * 1.2, glm::dvec3(0, 0, 1));
@@ -105,7 +104,7 @@ TEST_P(HumanoidContact, an_animation_that_passes_its_fist_through_the_waist_does
         }
         before = now, clip_before = clip;
     }
-    EXPECT_GT(clip_deepest, 0.05);  // it does go through it
+    EXPECT_GT(clip_deepest, 0.05);  // the clip does pass through it
     EXPECT_LT(deepest, 5e-3);
 }
 

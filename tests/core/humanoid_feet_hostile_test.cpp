@@ -1,5 +1,4 @@
-// Feet under input that nobody should give them: nothing but finite numbers comes out, bones keep their
-// lengths, and the same state gives the same bits.
+// Feet with hostile input: output is finite, bones keep their lengths, equal states give equal bits.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -41,7 +40,7 @@ class FeetHostile : public ::testing::Test {
                 return {};
         }
     }
-    /// Legs anyhow, hips anywhere near.
+    /// Random legs, hips near the rest position.
     std::vector<rig::Transform> pose() {
         std::vector<rig::Transform> made = rest_pose(skeleton);
         for (rig::Transform& each : made)
@@ -178,7 +177,7 @@ TEST_F(FeetHostile, LegsThatAreNotOnTheHipsAreRefused) {
     EXPECT_FALSE(Feet::make(skeleton, BoneMap()));
 }
 
-/// Axes turned and scaled anyhow, joints where they were.
+/// The same joint positions with random bone axes and scales.
 Skeleton redressed(const Skeleton& plain) {
     std::vector<Placement> placements(plain.size());
     place(plain, rest_pose(plain), placements);
@@ -187,7 +186,7 @@ Skeleton redressed(const Skeleton& plain) {
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         const double angle = 1.7 * static_cast<double>(i);
         global[i].rotation = glm::angleAxis(angle, glm::normalize(glm::dvec3(1, 2, 3)));
-        global[i].scale = glm::dvec3(i % 3 == 0 ? -0.7 : 1.6);  // mirrored, too
+        global[i].scale = glm::dvec3(i % 3 == 0 ? -0.7 : 1.6);  // including mirrored
         global[i].translation = placements[i].position;
         const std::int32_t parent = nodes[i].parent;
         nodes[i].rest =

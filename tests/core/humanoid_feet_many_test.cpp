@@ -1,4 +1,4 @@
-// Many characters at once are what each is alone, on any number of threads.
+// Many characters at once give the same results as each alone, on any number of threads.
 #include <gtest/gtest.h>
 
 #include <tendril/humanoid/feet_many.hpp>

@@ -1,4 +1,4 @@
-// Where the feet are when the clip puts them down on stairs, before they count as planted.
+// Where the clip puts the feet down on stairs, before they count as planted.
 #include <gtest/gtest.h>
 
 #include "humanoid_feet_support.hpp"

@@ -1,4 +1,4 @@
-// Plays a walk over a ground and measures what spec/humanoid.md promises of it.
+// Plays a walk over a ground and measures the promises of spec/humanoid.md.
 #pragma once
 
 #include <algorithm>
@@ -12,17 +12,17 @@ namespace tendril::test {
 
 /// How a walk is played.
 struct Stroll {
-    double rate = 60.0, speed = 1.0;  // frames a second, of the clip's own speed
+    double rate = 60.0, speed = 1.0;  // frames per second; relative to the clip's own speed
     double start = 0.0, seconds = 8.0;
     double heading = 0.0;  // about Y
     glm::dvec3 from{0.0};
     FeetOptions options{};
 };
 
-/// The worst of all frames: metres, but `stretch` is a part of the leg's length.
+/// The maximum over all frames: metres; `stretch` is a fraction of the leg's length.
 struct Measured {
     double sink = 0.0, floating = 0.0, skate = 0.0;  // of planted feet
-    double beyond = 0.0;  // what a joint moves a frame against its motion in the clip, at 60 frames a second
+    double beyond = 0.0;  // a joint's motion per frame relative to the clip, at 60 frames/s
     double stretch = 0.0;
     int planted = 0, alone = 0, feet = 0;  // frames of a foot
     double climbed = 0.0;
@@ -86,7 +86,7 @@ class Walker {
         return worst;
     }
 
-    /// One frame; the corrected pose is in pose() then.
+    /// Plays one frame and leaves the corrected pose in pose().
     FeetReport step(const Ground& ground, const Stroll& stroll, int frame, FeetState& state) {
         const double dt = 1.0 / stroll.rate, time = stroll.start + frame * dt * stroll.speed;
         const double loops = std::floor(time / clip_.duration);

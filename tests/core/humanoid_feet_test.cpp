@@ -1,4 +1,4 @@
-// Feet on the ground: the promises of spec/humanoid.md for whole walks, and each rule of planting by itself.
+// Feet on the ground: the promises of spec/humanoid.md for whole walks, and each rule of planting alone.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,7 +14,7 @@ namespace {
 
 const double pi = std::acos(-1.0);
 
-/// Stairs as triangles, risers and all.
+/// Stairs as triangles, with risers.
 Ground mesh_stairs() {
     std::vector<glm::dvec3> points;
     std::vector<std::uint32_t> triangles;
@@ -44,7 +44,7 @@ Ground hills() {
 struct NamedGround {
     const char* name;
     Ground ground;
-    double climb;  // at least so high
+    double climb;  // minimum climb
 };
 std::vector<NamedGround> grounds() {
     return {{"flat", *Ground::flat(), 0.0},
@@ -66,7 +66,7 @@ TEST_F(FeetWalk, StandsWhereItIsPlantedAndNothingJumps) {
     for (const NamedGround& each : grounds()) {
         Measured all;
         Walker walker(skeleton, clip);
-        // Up, down, along and across, over the seams of loops.
+        // Up, down, along and across, through the loop seams of the clip.
         const std::pair<double, double> ways[]{
             {0.0, -1.0}, {pi, 8.0}, {0.5 * pi, 3.1}, {0.25 * pi, 0.0}, {2.4, 8.0}};
         for (const auto& [heading, z] : ways)
@@ -97,7 +97,7 @@ TEST_F(FeetWalk, OnTheVeryEdgeOfAStepItDoesNotSayThatItStandsWhereItSticksInTheS
         for (const double speed : {0.5, 1.0}) {
             Stroll stroll{.speed = speed, .start = start, .heading = pi};
             stroll.from.z = 8.0;
-            stroll.options.edge = 0.0;  // feet are left where they come down
+            stroll.options.edge = 0.0;  // feet stay where they come down
             for (const Ground& ground : {*Ground::stairs(0.1, 0.35), *Ground::stairs(0.18, 0.28)})
                 all.add(walker.walk(ground, stroll));
         }
@@ -135,7 +135,7 @@ TEST_F(FeetWalk, WhereThereIsNothingToStandOnTheClipIsLeftAlone) {
                 EXPECT_EQ(foot.alone, why);
                 EXPECT_FALSE(foot.planted);
             }
-            if (walker.now_clip(Bone::Hips).position.z < z + 1.8) continue;  // what was before eases
+            if (walker.now_clip(Bone::Hips).position.z < z + 1.8) continue;  // still easing out
             EXPECT_EQ(walker.pose(), walker.clip_pose()) << frame;
         }
     };
@@ -271,7 +271,7 @@ TEST_F(FeetWalk, AClipInPlaceGoesByTheRootsSpeed) {
     }
 }
 
-// The figure stands, and slides: its feet have the speed that the test gives them.
+// A standing figure that slides: its feet have the speed that the test sets.
 class FeetSlide : public ::testing::Test {
   protected:
     void slide(double speed, double seconds) {

@@ -1,4 +1,4 @@
-// A figure of 1.8 m in T-pose, arms along X, facing +Z, whose nodes are called as one likes.
+// A figure of 1.8 m in T-pose, arms along X, facing +Z, with configurable node names.
 #pragma once
 
 #include <map>
@@ -11,7 +11,7 @@ namespace tendril::test {
 using namespace humanoid;
 
 struct FigureNode {
-    const char* key;     // the bone's name, or another one for what is none of the body's
+    const char* key;     // the bone's name, or another key for other nodes
     const char* parent;  // "" for the root
     glm::dvec3 at;       // in the figure's space
 };
@@ -47,8 +47,8 @@ inline const std::vector<FigureNode>& figure_nodes() {
     return nodes;
 }
 
-/// The figure with the nodes that `named` names, in `order` (places in figure_nodes()); one that it gives ""
-/// is left out, and what hangs on it hangs on its parent. `turn` is about Y.
+/// The figure with the nodes in `named`, in the order of figure_nodes(). A node without a name is omitted,
+/// and its children are attached to its parent. `turn` is about Y.
 inline Skeleton make_figure(const std::map<std::string, std::string>& named, double turn = 0.0) {
     std::vector<Node> nodes;
     std::map<std::string, std::pair<std::int32_t, glm::dvec3>> placed{{"", {-1, glm::dvec3(0.0)}}};
@@ -69,7 +69,7 @@ inline Skeleton make_figure(const std::map<std::string, std::string>& named, dou
     return *Skeleton::make(std::move(nodes));
 }
 
-/// Of all nodes, metres.
+/// Positions of all nodes, metres.
 inline std::vector<glm::dvec3> positions_of(const Skeleton& skeleton,
                                             const std::vector<rig::Transform>& pose) {
     std::vector<Placement> placements(skeleton.size());

@@ -1,4 +1,4 @@
-// Capsules fitted to a mesh: of a body whose radii are known, with points that belong to none of it.
+// Fitting capsules to a mesh: a body with known radii, and outliers.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace tendril::test {
 namespace {
 
-/// The figure in tubes around its bones, each with its own radius and beside its bone by a part of it.
+/// The figure as tubes around its bones, each with a radius of its own and offset from its bone.
 class FittedCapsules : public testing::Test {
   protected:
     struct Tube {
@@ -35,7 +35,7 @@ class FittedCapsules : public testing::Test {
     double between(double low, double high) {
         return std::uniform_real_distribution<double>(low, high)(engine);
     }
-    /// On the tubes; of each 100 points so many `stray` to three times as far out.
+    /// Points on the tubes; `stray` of each 100 are up to three times as far out.
     std::vector<SkinPoint> points(int stray) {
         std::vector<SkinPoint> result;
         for (std::size_t i = 0; i < tubes.size(); ++i) {
@@ -43,7 +43,7 @@ class FittedCapsules : public testing::Test {
             const glm::dvec3 way = glm::normalize(tube.to - tube.from);
             const glm::dvec3 u = glm::normalize(glm::cross(way, glm::dvec3(0.3, 0.2, 0.9)));
             const glm::dvec3 v = glm::cross(way, u);
-            // What ends in nothing is a capsule itself: its ends are a radius beyond the line's.
+            // A free end is a capsule's: it extends a radius beyond the line.
             const double over = ends_free(usual[i].bone) ? tube.radius : 0.0;
             for (int k = 0; k < 800; ++k) {
                 double place = between(-over, glm::length(tube.to - tube.from) + over);
@@ -62,7 +62,7 @@ class FittedCapsules : public testing::Test {
     static bool ends_free(Bone bone) {
         return bone == Bone::Head || bone == Bone::LeftHand || bone == Bone::RightHand;
     }
-    /// Radii within 5 %, and lines as far beside the tubes' as that.
+    /// Expects radii within 5 %, and lines within `line` radii of those of the tubes.
     void expect_tubes(const std::vector<BodyCapsule>& fitted, double line) {
         std::vector<Placement> rest(skeleton.size());
         place(skeleton, rest_pose(skeleton), rest);
@@ -101,7 +101,7 @@ TEST_F(FittedCapsules, are_the_same_whatever_turns_and_scales_the_nodes_have) {
     const std::vector<SkinPoint> cloud = points(0);
     const auto plain = fitted_capsules(skeleton, map, cloud);
     std::vector<Node> nodes = skeleton.nodes();
-    // Every node gets a turn of its own that its children take back, and the root is half as large in itself.
+    // Give every node a rotation that its children undo, and scale the root by a half.
     const glm::dquat turn = glm::angleAxis(0.8, glm::normalize(glm::dvec3(0.2, 1.0, -0.5)));
     for (Node& node : nodes) {
         node.rest.rotation = node.parent < 0 ? turn : glm::dquat(1.0, 0.0, 0.0, 0.0);

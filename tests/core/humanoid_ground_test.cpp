@@ -1,4 +1,4 @@
-// Grounds are as high as their definitions say, meshes as high as their triangles, however many there are.
+// Grounds have the heights of their definitions, meshes those of their triangles, however many there are.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -84,7 +84,7 @@ struct Triangles {
         }
     }
     Ground ground() const { return *Ground::mesh(points, places); }
-    /// By every triangle.
+    /// The height by testing every triangle.
     double height(double x, double z, double from) const {
         double best = std::numeric_limits<double>::quiet_NaN();
         for (std::size_t i = 0; i < places.size(); i += 3) {
@@ -105,7 +105,7 @@ TEST(Ground, AMeshIsAsHighAsItsHighestTriangleBelowTheRay) {
     std::uniform_real_distribution<double> number(-4.0, 4.0);
     for (int round = 0; round < 30; ++round) {
         Triangles mesh;
-        const double size = round % 3 == 0 ? 4.0 : 0.5;  // many that overlap, or few
+        const double size = round % 3 == 0 ? 4.0 : 0.5;  // many overlaps, or few
         for (int i = 0; i < 1 + round * 7; ++i) {
             const glm::dvec3 middle(number(random), number(random), number(random));
             glm::dvec3 corners[3];

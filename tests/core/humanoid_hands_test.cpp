@@ -1,5 +1,5 @@
-// Hands on their targets: where the arm reaches within a millimetre, at weight 0 nothing to the bit, and
-// nothing but their own arm.
+// Hands on their targets: within a millimetre if the arm reaches; at weight 0 bitwise unchanged; no other
+// bone than the arm's changes.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,7 +22,7 @@ class HandIk : public ::testing::Test {
         for (int i = 0; i < 4; ++i) q[i] = number(-1.0, 1.0);
         return rig::normalised(q);
     }
-    /// Arms anyhow, the rest as it stands.
+    /// Random arms, the rest unchanged.
     std::vector<rig::Transform> pose() {
         std::vector<rig::Transform> made = rest_pose(skeleton);
         for (const Bone bone : {Bone::LeftUpperArm, Bone::LeftLowerArm, Bone::LeftHand, Bone::RightUpperArm,
@@ -39,7 +39,7 @@ class HandIk : public ::testing::Test {
     glm::dvec3 at(const std::vector<rig::Transform>& of, Bone bone) const {
         return placed(of)[node(bone)].position;
     }
-    /// Within the reach of the left arm, in front.
+    /// In front of the left arm, within its reach.
     glm::dvec3 near_left() {
         for (;;) {
             const glm::dvec3 from(number(-0.5, 0.5), number(-0.5, 0.5), number(-0.2, 0.5));
@@ -108,7 +108,7 @@ TEST_F(HandIk, BetweenTheTwoItIsSmooth) {
             const glm::dvec3 now = at(made, Bone::LeftHand), bent = at(made, Bone::LeftLowerArm);
             worst = std::max(worst, glm::distance(now, before));
             const glm::dvec3 shoulder = at(made, Bone::LeftUpperArm);
-            // Next to the shoulder itself an arm has no direction.
+            // Close to the shoulder, the arm's direction is undefined.
             if (glm::distance(now, shoulder) > 0.1) {
                 EXPECT_LT(glm::distance(bent, elbow), 0.02) << i;
             }
@@ -151,7 +151,7 @@ TEST_F(HandIk, ThePunchGoesToThePostAndBack) {
 TEST_F(HandIk, AShoulderHelpsAsFarAsItMay) {
     const std::vector<rig::Transform> clip = rest_pose(skeleton);
     HandTargets targets;
-    targets[0] = {.position = {0.05, 1.5, 0.57}, .weight = 1.0};  // 59 cm from the arm's root, which has 54
+    targets[0] = {.position = {0.05, 1.5, 0.57}, .weight = 1.0};  // 59 cm from the arm's root; it reaches 54
     const auto residual = [&](double shoulder) {
         HandsState state;
         std::vector<rig::Transform> made = clip;

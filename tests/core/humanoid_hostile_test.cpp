@@ -1,7 +1,6 @@
-// Every function of the library that takes a skeleton, a map or a pose, under input that fits nothing: maps
-// of another character, with one node twice, with a bone above its parent; poses that are not finite, or
-// enormous. It is refused and nothing has changed, or what comes out is finite and passes the check of what
-// goes in.
+// Every library function that takes a skeleton, map or pose, with unsuitable input: maps of another
+// character, with duplicate nodes, with a bone above its parent; poses that are not finite, or enormous.
+// Either it is refused and nothing changes, or the output is finite and passes the input checks.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -24,7 +23,7 @@
 namespace tendril::test {
 namespace {
 
-/// So many characters are tried; TENDRIL_HOSTILE_ROUNDS sets another number.
+/// Number of characters to try; TENDRIL_HOSTILE_ROUNDS overrides it.
 int rounds(int usual) {
     const char* const given = std::getenv("TENDRIL_HOSTILE_ROUNDS");
     return given ? std::atoi(given) : usual;
@@ -52,7 +51,7 @@ class HostileHumanoid : public testing::Test {
   protected:
     double unit() { return static_cast<double>(random.bits() >> 11) * 0x1p-53; }
     double between(double from, double to) { return from + (to - from) * unit(); }
-    /// Anything that a double may be.
+    /// Any double.
     double any() {
         constexpr double numbers[]{0.0,
                                    -0.0,
@@ -72,7 +71,7 @@ class HostileHumanoid : public testing::Test {
                                    std::numeric_limits<double>::quiet_NaN()};
         return numbers[random.below(std::size(numbers))];
     }
-    /// Mostly as one would write it, and now and then anything.
+    /// Usually a plausible value, sometimes any double.
     double number(double from, double to, std::size_t odd = 60) {
         return random.chance(odd) ? any() : between(from, to);
     }
@@ -87,7 +86,7 @@ class HostileHumanoid : public testing::Test {
     Skeleton skeleton() {
         if (random.chance(8)) return {};
         std::vector<Node> nodes = make_figure({}, between(0.0, 7.0)).nodes();
-        if (random.chance(3)) {  // the figure in another order of trees, or only some of it
+        if (random.chance(3)) {  // shuffled parents, or only part of the figure
             nodes.resize(1 + random.below(nodes.size()));
             for (std::size_t i = 0; i < nodes.size(); ++i)
                 if (random.chance(4)) nodes[i].parent = static_cast<std::int32_t>(random.below(i + 1)) - 1;
@@ -185,7 +184,7 @@ TEST_F(HostileHumanoid, APoseThatIsNotSaneIsRefusedByAllAndAlwaysLeavesTheStateS
                 if (report) {
                     EXPECT_TRUE(is_fine(report->residual) && is_fine(report->penetration));
                     for (const double residual : report->residuals) EXPECT_TRUE(is_fine(residual));
-                    // What came out goes in again, unless the rest pose is no pose.
+                    // The output is valid input again, unless the rest pose is invalid.
                     std::vector<rig::Transform> rest = rest_pose(body);
                     BodyState copy = body_state;
                     const Expected<BodyReport> again = solver->solve(rest, {}, copy, {});
@@ -278,6 +277,12 @@ TEST_F(HostileHumanoid, WhatCannotRefuseTakesAMapThatDoesNotFitForOneWithoutBone
         const LintReport report = lint(body, map, clip);
         for (const Finding& each : report.findings) static_cast<void>(cure(body, map, clip, each));
         static_cast<void>(cure(body, map, clip, {.node = 9999, .has_cure = true}));
+        // A finding of another clip, on a single frame.
+        Clip still = clip;
+        still.duration = 0.0;
+        for (const Fault fault : {Fault::Skating, Fault::Floating, Fault::Sinking})
+            EXPECT_FALSE(
+                cure(body, map, still, {.fault = fault, .node = map[Bone::LeftFoot].node, .has_cure = true}));
         static_cast<void>(learned_limits(body, map, {&clip, 1}, default_limits(body, map)));
         if (soles) {
             EXPECT_TRUE(is_fine(clip_floor(body, *soles, clip)));

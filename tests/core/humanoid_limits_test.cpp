@@ -1,4 +1,4 @@
-// Limits of a body's joints: the T-pose that they are measured from, the defaults, those learned from clips.
+// Joint limits of a body: the T-pose that they are relative to, the defaults, and limits learned from clips.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -59,8 +59,8 @@ TEST_F(HumanoidLimits, an_a_pose_is_brought_into_a_t_pose) {
     EXPECT_NEAR(at(Bone::RightHand).y, at(Bone::RightUpperArm).y, 1e-9);
     EXPECT_NEAR(at(Bone::LeftFoot).x, at(Bone::LeftUpperLeg).x, 1e-9);
     const glm::dquat foot = placements[node(Bone::LeftFoot)].rotation();
-    EXPECT_NEAR(2.0 * std::asin(foot.y), 10.0 * degree, 1e-9);  // as it rests
-    // Its joints are measured from there: at rest its arms are 40 degrees down.
+    EXPECT_NEAR(2.0 * std::asin(foot.y), 10.0 * degree, 1e-9);  // as at rest
+    // Angles are relative to the T-pose: at rest the arms are 40 degrees down.
     const BodyJoints its = *BodyJoints::make(resting, mapped, default_limits(resting, mapped));
     place(resting, rest_pose(resting), placements);
     EXPECT_NEAR(its.measure(Bone::LeftUpperArm, placements).up, -40.0 * degree, 1e-5);
@@ -77,7 +77,7 @@ TEST_F(HumanoidLimits, both_sides_turn_alike) {
         for (int n = 0; n < 50; ++n) {
             const double x = any(engine), y = any(engine), z = any(engine);
             const glm::dquat turn = glm::normalize(glm::dquat(1.0, x, y, z));
-            const glm::dquat other(turn.w, turn.x, -turn.y, -turn.z);  // in a mirror at x = 0
+            const glm::dquat other(turn.w, turn.x, -turn.y, -turn.z);  // mirrored at x = 0
             const auto measured = [&](Bone each, const glm::dquat& by) {
                 auto pose = rest_pose(skeleton);
                 pose[node(each)].rotation = by;
@@ -89,7 +89,7 @@ TEST_F(HumanoidLimits, both_sides_turn_alike) {
     }
 }
 
-/// A map that has the sides exchanged says nothing about where knees, thighs and the back go.
+/// Knees, thighs and spine bend the same way if the map has left and right exchanged.
 TEST_F(HumanoidLimits, exchanged_sides_bend_the_same_way) {
     BoneMap exchanged = map;
     for (std::size_t i = 0; i < bone_count; ++i) exchanged.bones[i] = map[mirrored(static_cast<Bone>(i))];
@@ -102,12 +102,12 @@ TEST_F(HumanoidLimits, exchanged_sides_bend_the_same_way) {
 }
 
 TEST_F(HumanoidLimits, joints_bend_the_way_they_do_in_people) {
-    EXPECT_EQ(excess(Bone::LeftLowerArm, 100.0, {0, -1, 0}), 0.0f);  // the hand to the front
+    EXPECT_EQ(excess(Bone::LeftLowerArm, 100.0, {0, -1, 0}), 0.0f);  // the hand forward
     EXPECT_NEAR(excess(Bone::LeftLowerArm, 20.0, {0, 1, 0}), 20.0f, 1e-2);
     EXPECT_NEAR(excess(Bone::LeftLowerArm, 160.0, {0, -1, 0}), 10.0f, 1e-2);
     EXPECT_EQ(excess(Bone::RightLowerArm, 100.0, {0, 1, 0}), 0.0f);
-    EXPECT_EQ(excess(Bone::LeftLowerLeg, 100.0, {1, 0, 0}), 0.0f);           // the heel to the back
-    EXPECT_NEAR(excess(Bone::LeftLowerLeg, 20.0, {-1, 0, 0}), 17.3f, 0.1f);  // its knees rest bent by 2.7
+    EXPECT_EQ(excess(Bone::LeftLowerLeg, 100.0, {1, 0, 0}), 0.0f);           // the heel back
+    EXPECT_NEAR(excess(Bone::LeftLowerLeg, 20.0, {-1, 0, 0}), 17.3f, 0.1f);  // the knees rest bent by 2.7
     EXPECT_EQ(excess(Bone::LeftUpperLeg, 100.0, {-1, 0, 0}), 0.0f);          // the knee up
     EXPECT_NEAR(excess(Bone::LeftUpperLeg, 60.0, {1, 0, 0}), 28.6f, 0.1f);
     EXPECT_EQ(excess(Bone::LeftUpperArm, 90.0, {0, 0, 1}), 0.0f);           // the arm up
@@ -162,7 +162,7 @@ TEST_F(HumanoidLimits, learned_ones_hold_the_clip_and_little_more) {
     EXPECT_NEAR(of_arm.up, 0.5, 0.06);
     EXPECT_NEAR(of_arm.left, 0.3, 0.05);
     EXPECT_LT(of_arm.twist_max - of_arm.twist_min, 0.1);
-    // What no clip turns keeps its limit.
+    // A joint that no clip turns keeps its limit.
     EXPECT_EQ(learned[static_cast<std::size_t>(Bone::Neck)], limits[static_cast<std::size_t>(Bone::Neck)]);
 }
 

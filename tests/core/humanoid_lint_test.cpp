@@ -1,4 +1,4 @@
-// The lint of what needs no feet: keys, jumps and sizes, on skeletons of no particular creature.
+// Lint checks that need no feet: keys, jumps and scales, on skeletons of no particular creature.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,7 +11,7 @@ namespace {
 
 using namespace humanoid;
 
-/// A snake of five nodes, each half a metre from the one before.
+/// A snake of five nodes, 0.5 m apart.
 Skeleton snake() {
     std::vector<Node> nodes;
     for (int i = 0; i < 5; ++i) {
@@ -22,7 +22,7 @@ Skeleton snake() {
     return *Skeleton::make(std::move(nodes));
 }
 
-/// It winds: every joint swings on a sine of its own, and the first one goes along.
+/// It winds: every joint swings on its own sine, and the first one also moves forward.
 Clip winding(double rate, int frames, double phase = 0.0) {
     Clip clip{.name = "wind", .duration = (frames - 1) / rate, .channels = {}};
     for (std::size_t node = 0; node < 5; ++node) {
@@ -74,8 +74,8 @@ TEST(Lint, says_the_frame_rate_that_keys_have) {
     EXPECT_EQ(frame_rate(winding(30.0, 40)), 30.0);
     EXPECT_NEAR(frame_rate(winding(29.97, 400)), 29.97, 1e-9);
     EXPECT_EQ(frame_rate({}), 60.0);
-    EXPECT_EQ(frame_rate(winding(2.0, 40)), 60.0);  // those are no frames
-    Clip rounded = winding(30.0, 100);              // as a file of three decimals has it
+    EXPECT_EQ(frame_rate(winding(2.0, 40)), 60.0);  // too slow to be a frame rate
+    Clip rounded = winding(30.0, 100);              // as a file with three decimals stores it
     for (Channel& channel : rounded.channels)
         for (double& time : channel.rotation.times) time = std::floor(time * 1000.0) / 1000.0;
     EXPECT_NEAR(frame_rate(rounded), 30.0, 0.01);
@@ -108,7 +108,7 @@ TEST(Lint, a_stretch_of_flipped_keys_is_one_finding) {
     ASSERT_EQ(report.findings.size(), 1u) << texts(report);
     EXPECT_EQ(report.findings[0].first, 20u);
     EXPECT_EQ(report.findings[0].last, 30u);
-    clip.channels[3].rotation.interpolation = Interpolation::Step;  // nothing is between its keys
+    clip.channels[3].rotation.interpolation = Interpolation::Step;  // no interpolation between its keys
     EXPECT_TRUE(lint_of(clip).findings.empty());
 }
 

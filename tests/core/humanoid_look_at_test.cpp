@@ -1,4 +1,4 @@
-// The head looks where it is told to, within its bones' limits, and gives the clip back where it is not.
+// The head looks at its target within the limits of its bones, and returns to the clip if it cannot.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,7 +17,7 @@ class HeadLook : public ::testing::Test {
   protected:
     double number(double from, double to) { return std::uniform_real_distribution<double>(from, to)(random); }
     std::size_t node(Bone bone) const { return static_cast<std::size_t>(map[bone].node); }
-    /// The angle that a bone was turned by against the rest pose.
+    /// The rotation of a bone from its rest pose, radians.
     double turned(const std::vector<rig::Transform>& made, Bone bone) const {
         return 2.0 * std::acos(std::min(1.0, std::abs(made[node(bone)].rotation.w)));
     }
@@ -95,7 +95,7 @@ TEST_F(HeadLook, ATargetThatGoesAroundNeverMakesTheHeadLeap) {
     double worst = 0.0;
     bool was_lost = false;
     for (int frame = 0; frame < 1200; ++frame) {
-        const double angle = frame / 60.0 * 2.0 * (frame < 900 ? 1.0 : -7.0);  // then it leaps about
+        const double angle = frame / 60.0 * 2.0 * (frame < 900 ? 1.0 : -7.0);  // then it jumps about
         std::vector<rig::Transform> made = rest_pose(skeleton);
         const LookAtReport report =
             look.step(made, {.target = {3.0 * std::sin(angle), 1.6, 3.0 * std::cos(angle)}}, 1.0 / 60, state);

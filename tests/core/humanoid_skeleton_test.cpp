@@ -1,4 +1,4 @@
-// Skeletons in any order, where their nodes are, and clips as glTF defines them.
+// Skeletons in any node order, positions of nodes, and clips as glTF defines them.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -26,7 +26,7 @@ std::vector<Node> line(std::size_t count) {
 }
 
 TEST(Skeleton, StandsInTheFilesOrderAndIsWorkedOutFromTheRootsDown) {
-    // 2 is the root; 0 hangs on 1, which hangs on 2.
+    // 2 is the root; 0 is a child of 1, which is a child of 2.
     const auto skeleton =
         Skeleton::make({{"hand", 1, {}}, {"arm", 2, {}}, {"root", -1, {}}, {"other", -1, {}}});
     ASSERT_TRUE(skeleton);
@@ -43,6 +43,8 @@ TEST(Skeleton, RefusesWhatIsNoTreeAndSaysWhere) {
         return std::string(Skeleton::make(std::move(nodes)).message());
     };
     EXPECT_TRUE(test::says(message({{"a", 1, {}}, {"b", 0, {}}}), "Skeleton nodes[0].parent below 1"));
+    EXPECT_TRUE(test::says(message({{"below", 1, {}}, {"a", 2, {}}, {"b", 1, {}}}),
+                           "Skeleton nodes[1].parent below 2"));
     EXPECT_TRUE(test::says(message({{"a", -1, {}}, {"a", 0, {}}}), "Skeleton nodes[1].name nodes[0] a"));
     EXPECT_TRUE(test::says(message({{"", -1, {}}}), "Skeleton nodes[0].name empty"));
     EXPECT_TRUE(test::says(message({{"a", 1, {}}}), "Skeleton nodes[0].parent -1 1"));

@@ -1,4 +1,4 @@
-// Heels and toes from skeleton and map, whichever way bones are turned and wherever the origin is.
+// Heels and toes from skeleton and map, for any bone axes and origin.
 #include <gtest/gtest.h>
 
 #include <tendril/humanoid/soles.hpp>
@@ -82,7 +82,7 @@ TEST(Soles, FindTheFloorOfAFigureWhoseHipsAreTheOrigin) {
 }
 
 TEST(Soles, AreInTheBonesOwnSpaces) {
-    // Every bone turned and scaled: the joints stay, the points too.
+    // Rotating and scaling every bone must not move joints or sole points.
     const Skeleton plain = make_figure({});
     std::vector<Placement> placements(plain.size());
     place(plain, rest_pose(plain), placements);

@@ -1,5 +1,4 @@
-// Spring bones swing as their springs do by the book, at any frame rate; they keep their lengths and their
-// cone, and stand anything.
+// Spring bones follow the analytic solution at any frame rate, keep lengths and cone, and survive any input.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -40,7 +39,7 @@ struct Antenna {
           root(*skeleton.find("antenna 1")),
           chain(*SpringChain::make(skeleton, map, root)) {}
 
-    /// The pose after a step in which the hips stand at `at`, turned by `turn`.
+    /// The pose after a step with the hips at `at`, rotated by `turn`.
     std::vector<rig::Transform> step(const glm::dvec3& at, const glm::dquat& turn,
                                      const SpringOptions& options, double dt) {
         std::vector<rig::Transform> pose = rest_pose(skeleton);
@@ -64,7 +63,7 @@ struct Antenna {
     SpringReport report;
 };
 
-/// How far the tip's mass is from its target, along X.
+/// Offset of the tip's mass from its target along X.
 double aside(const Antenna& antenna) {
     return antenna.state.masses.back().position.x - antenna.state.masses.back().target.x;
 }
@@ -117,7 +116,7 @@ TEST(SpringChain, BendsLikeABeamWhereItsBaseSpeedsUp) {
     }
 }
 
-/// Where the tip of an antenna of six joints is twice a second for 4 s of a dance, in steps of about `dt`.
+/// Tip positions of an antenna of six joints, twice a second for 4 s of a dance, in steps of about `dt`.
 std::vector<glm::dvec3> danced(double dt, std::mt19937* jitter) {
     Antenna antenna(6);
     std::vector<glm::dvec3> tips;
@@ -147,7 +146,7 @@ TEST(SpringChain, FrameRatesMakeLittleDifference) {
         RecordProperty("mm_at_" + std::to_string(static_cast<int>(rate)), std::to_string(1e3 * far));
         return far;
     };
-    // Metres, of an antenna of 0.6 m that swings out by some 0.2 m.
+    // Metres, for an antenna of 0.6 m that swings out by about 0.2 m.
     EXPECT_LT(worst(240.0, nullptr), 0.002);
     EXPECT_LT(worst(144.0, nullptr), 0.003);
     EXPECT_LT(worst(60.0, nullptr), 0.01);
@@ -187,7 +186,7 @@ TEST(SpringChain, KeepsLengthsAndConeAndAllElse) {
         }
     }
     EXPECT_NEAR(farthest, 0.5, 1e-9);
-    // Let go, it comes back to rest.
+    // Released, it returns to rest.
     for (int frame = 0; frame < 1200; ++frame) antenna.step({0.0, 1.0, 0.0}, {}, 1.0 / 60);
     EXPECT_LT(antenna.report.angle, 1e-4);
     EXPECT_LT(antenna.report.speed, 1e-4);
@@ -283,7 +282,7 @@ TEST(SpringChain, TeleportedNowhereItKeepsItsVelocity) {
     EXPECT_GT(other.report.angle, 0.01);
 }
 
-/// A character that is drawn a hundred times as large swings by the same angles.
+/// A character a hundred times as large swings by the same angles.
 TEST(SpringChain, SizeMakesNoDifference) {
     Antenna small(4), large(4);
     for (int frame = 0; frame < 60; ++frame) {

@@ -1,4 +1,4 @@
-// Twist that is spread along the arms: what counts as twist, and the nodes that take a share of it.
+// Twist distribution along the arms: what counts as twist, and the nodes that share it.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,8 +15,8 @@ namespace {
 constexpr double one_degree = 3.14159265358979323846 / 180.0;
 const glm::dvec3 along{1.0, 0.0, 0.0};
 
-/// The figure with nodes added to its left arm: half way along the lower arm and at its end, the second on
-/// the first, at a quarter of the upper arm, and one that is there for something else.
+/// The figure with extra nodes on its left arm: at half of the lower arm and, below that, at its end; at a
+/// quarter of the upper arm; and one for something else.
 Skeleton with_twist_nodes() {
     std::vector<Node> nodes = make_figure({}).nodes();
     const auto add = [&](const char* name, const char* parent, glm::dvec3 at) {
@@ -30,7 +30,7 @@ Skeleton with_twist_nodes() {
     add("lowerarm_twist_02_l", "lowerarm_twist_01_l", {0.13, 0.0, 0.0});
     add("upperarm_twist_01_l", "LeftUpperArm", {0.07, 0.0, 0.0});
     add("elbow_pad_l", "LeftLowerArm", {0.05, 0.0, -0.05});
-    // A rotation of its own at rest, about another axis than the bone's.
+    // A rest rotation about another axis than the bone's.
     nodes.back().rest.rotation = nodes[nodes.size() - 2].rest.rotation =
         glm::angleAxis(0.7, glm::normalize(glm::dvec3(0.3, 1.0, 0.2)));
     return *Skeleton::make(nodes);
@@ -39,7 +39,7 @@ Skeleton with_twist_nodes() {
 class HumanoidTwist : public testing::Test {
   protected:
     std::size_t node(const char* name) const { return *skeleton.find(name); }
-    /// Degrees that a node is turned about the arm, from rest, in the character's space.
+    /// Rotation of a node about the arm from rest, in the character's space, degrees.
     double turned(const std::vector<rig::Transform>& pose, const char* name) const {
         std::vector<Placement> before(skeleton.size()), now(skeleton.size());
         place(skeleton, rest, before);

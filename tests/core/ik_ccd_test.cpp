@@ -1,4 +1,4 @@
-// Cyclic coordinate descent against the textbook: O(n^2), in double, each joint's turn carried out at once.
+// Cyclic coordinate descent against the textbook: O(n^2), in double, applying each joint's rotation at once.
 #include "ik_hostile.hpp"
 
 namespace tendril::test::ik_ccd_test {
@@ -54,7 +54,7 @@ TEST(IkCcd, GoesWhereTheTextbookGoes) {
         Wide wide(joints.begin(), joints.end());
         const double before = distance(joints.back(), target);
         textbook_iteration(wide, target);
-        // What a solve leaves is the nearest that it saw; here that is what the iteration found.
+        // A solve returns its best pose; here that must be the one after the iteration.
         if (size(wide.back() - glm::dvec3(target)) > 0.99 * before) continue;
         KeptSolver(lengths).solve(Method::Ccd, joints, target, iterations(1));
         for (std::size_t i = 0; i < joints.size(); ++i) {
@@ -71,7 +71,7 @@ TEST(IkCcd, TurnsEveryJointOnceFromTheTipOn) {
     Joints joints = some_pose(lengths, random);
     Recorder recorder;
     KeptSolver(lengths).solve(Method::Ccd, joints, {1.0f, 1.0f, 0.5f}, iterations(1), &recorder);
-    std::vector<std::pair<std::size_t, std::size_t>> seen;  // about which joint, which one moved
+    std::vector<std::pair<std::size_t, std::size_t>> seen;  // the pivot joint, and the joint that moved
     int order = -1;
     for (const ik::Step& step : recorder.steps) {
         if (step.phase != ik::Phase::Rotate) continue;

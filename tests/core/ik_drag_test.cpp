@@ -1,5 +1,4 @@
-// A target that is dragged where limits forbid it: the chain follows without a jump and without searching,
-// and what it remembers for that is part of the state.
+// Dragging a target where limits forbid it: the chain follows from its state, without jumps or searches.
 #include "ik_hostile.hpp"
 #include "ik_limited_support.hpp"
 
@@ -9,7 +8,7 @@ namespace {
 using ik::Method;
 using ik::Status;
 
-/// A target out of an arm's limits, and the arm as a solve from rest leaves it.
+/// A target beyond an arm's limits, and the arm after a solve from rest.
 struct Forbidden {
     Arm arm;
     glm::vec3 target{0.0f};
@@ -48,7 +47,7 @@ TEST(IkDrag, NoJointGoesFurtherThanTwentyTimesTheTargetAndTheTolerance) {
             const ik::Report report = it.solver.solve(Method::Fabrik, it.joints, it.target, options);
             EXPECT_EQ(report.restarts, 0);
             EXPECT_TRUE(WithinLimits(it.arm, it.joints, it.solver.rotations()));
-            bent += report.perturbations > 0;  // a singular pose cannot be left by a little
+            bent += report.perturbations > 0;  // a singular pose cannot be left in a small step
             if (report.perturbations > 0) continue;
             const double moved = furthest_moved(before, it.joints);
             EXPECT_LE(moved, 20.0 * (step + 1e-3 * it.arm.reach()) * 1.001) << k << " " << i;
@@ -75,8 +74,7 @@ TEST(IkDrag, ATargetThatStandsStillMovesNothing) {
     EXPECT_GE(limited, 190);
 }
 
-/// A fresh search in each frame finds the better pose where there is one, and jumps there. On the whole that
-/// must gain little.
+/// A fresh search in each frame would find better poses, and jump to them. On average that must gain little.
 TEST(IkDrag, FollowsAboutAsNearAsASearchInEveryFrame) {
     Random random(given_seed() + 2);
     double followed = 0.0, searched = 0.0;
@@ -101,7 +99,7 @@ TEST(IkDrag, FollowsAboutAsNearAsASearchInEveryFrame) {
     EXPECT_LE(followed, 1.15 * searched);
 }
 
-/// What the last solve found is not looked for again: not its verdict, nor where FABRIK's passes lead.
+/// The last solve's results are not searched again: neither its verdict, nor where FABRIK's passes lead.
 TEST(IkDrag, AFrameOfAForbiddenTargetIsOneIteration) {
     Random random(given_seed() + 3);
     int frames = 0, iterations = 0, limited = 0;
@@ -124,7 +122,7 @@ TEST(IkDrag, AFrameOfAForbiddenTargetIsOneIteration) {
     EXPECT_GE(limited, 0.95 * frames);
 }
 
-/// From where the last solve arrived a least-squares step does at once what FABRIK's passes take several for.
+/// From the last solution, one least-squares step replaces several FABRIK passes.
 TEST(IkDrag, AFrameOfATargetWithinTheLimitsIsOneIterationOrLess) {
     Random random(given_seed() + 4);
     int frames = 0, arrived = 0, iterations = 0;

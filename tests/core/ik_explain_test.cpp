@@ -1,4 +1,4 @@
-// Which limit holds the tip back, where it stops and what the target needs.
+// Which limit keeps the tip from the target, where it stops, and the angle that the target needs.
 #include "ik_hostile.hpp"
 #include "ik_limited_support.hpp"
 
@@ -39,7 +39,7 @@ Explained explained(const Arm& arm, glm::vec3 target, Method method = Method::Fa
     return {report, solver.explain(joints, target, options)};
 }
 
-/// How far from its start two bones of these lengths hold the tip where the second is turned by so much.
+/// Distance from root to tip of two bones with the second turned by `angle` degrees.
 float span(float a, float b, double angle) {
     return static_cast<float>(std::sqrt(a * a + b * b + 2 * a * b * std::cos(angle * degree)));
 }
@@ -53,7 +53,7 @@ TEST(IkExplain, AnElbowJustOutOfItsRangeIsNamedWithTheAngleOfTheLawOfCosines) {
                 for (const Method method : ik::all_methods) {
                     SCOPED_TRACE(std::string(name(method)) + " " + std::to_string(needed));
                     const auto [report, hold] = explained(arm, direction * span(1.0f, 0.8f, needed), method);
-                    // Plain FABRIK may still be crawling on when its iterations are used up.
+                    // FABRIK (2011) may still be crawling when it runs out of iterations.
                     if (method != Method::FabrikPlain) {
                         EXPECT_EQ(report.status, Status::Limited);
                     }
@@ -106,7 +106,7 @@ TEST(IkExplain, ASwingIsNamedByItsSide) {
 }
 
 TEST(IkExplain, TwistIsNamedToo) {
-    // The elbow bends about +Z only; to bring the tip to +Z the shoulder has to twist by a quarter.
+    // The elbow bends about +Z only; to reach +Z the shoulder has to twist by 90 degrees.
     const Arm arm = arm_of({1, 1}, {wide_ball(0, 30), Limit::hinge({0, 0, 1}, radians(90), radians(90))});
     const auto [report, hold] = explained(arm, {1, 0, 1});
     EXPECT_EQ(report.status, Status::Limited);
@@ -118,7 +118,7 @@ TEST(IkExplain, TwistIsNamedToo) {
 }
 
 TEST(IkExplain, OfSeveralThatHoldTheOneThatHelpsMostIsNamed) {
-    // All three stand at their limits, but only the first, next to the root, can bring the tip there alone.
+    // All three are at their limits, but only the first, next to the root, can bring the tip there alone.
     const Limit stiff = Limit::hinge({0, 0, 1}, radians(-10), radians(10));
     const Arm arm = arm_of({0.2f, 0.2f, 2.0f}, {stiff, stiff, stiff});
     Joints bent{{0, 0, 0}};
@@ -134,7 +134,7 @@ TEST(IkExplain, OfSeveralThatHoldTheOneThatHelpsMostIsNamed) {
     ASSERT_TRUE(hold.has_value());
     EXPECT_TRUE(hold->enough);
     EXPECT_GT(hold->needed, hold->limit + radians(10));
-    // What is named really is enough: with just that much more room the tip arrives, with less it does not.
+    // The named angle is sufficient: with that much more range the tip arrives, with less it does not.
     for (const double part : {0.8, 1.02}) {
         Arm freed = arm;
         freed.limits[hold->joint].max += (hold->needed - hold->limit) * static_cast<float>(part);
@@ -154,7 +154,7 @@ TEST(IkExplain, WhereNothingHoldsNothingIsNamed) {
     EXPECT_FALSE(solver.explain({joints.data(), 2}, {1, 1, 0}, options).has_value());
 }
 
-/// With arms of all kinds: what is named leaves its limit, helps, and asking changes nothing.
+/// For arms of all kinds: the named joint is at its limit, raising it helps, explaining changes nothing.
 TEST(IkExplain, WhatIsNamedHelps) {
     Random random(given_seed());
     int limited = 0, named = 0;

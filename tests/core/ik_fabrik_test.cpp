@@ -1,5 +1,5 @@
-// FABRIK and the loop around every method: the two pulls by hand, reachability, the line trap, snapping back,
-// soft reach, and what is kept when nothing helps.
+// FABRIK and the loop around every method: the two passes by hand, reachability, collinear singularities,
+// snap-back, the soft zone, and what is kept if nothing helps.
 #include <algorithm>
 #include <array>
 
@@ -24,8 +24,8 @@ void expect_near(const Joints& joints, const Joints& expected, double tolerance 
 TEST(IkFabrik, OneIterationIsTwoPulls) {
     KeptSolver solver(Lengths{5.0f, 5.0f});
     Joints joints{{0, 0, 0}, {5, 0, 0}, {5, 5, 0}};
-    // From the tip, which goes to (2, 4): joint 1 at 5 from it towards (5, 0), so (5, 0) itself; the root at
-    // 5 from there, where it was. From the root nothing changes but the tip.
+    // Forward reaching: the tip goes to (2, 4); joint 1 to 5 from it towards (5, 0), which is (5, 0) itself;
+    // the root to 5 from there, its old position. Backward reaching then changes only the tip.
     const Report report = solver.solve(Method::FabrikPlain, joints, {2, 4, 0}, {.max_iterations = 1});
     expect_near(joints, {{0, 0, 0}, {5, 0, 0}, {2, 4, 0}});
     EXPECT_EQ(report, (Report{Status::Converged, 1, report.residual}));
@@ -110,7 +110,7 @@ TEST(IkFabrik, OnTheRootAFoldedChainStaysWhereItLies) {
     }
 }
 
-/// Straight or folded on the line through its target, in any direction, from any root.
+/// Straight or folded on the line through the target, in any direction, from any root.
 TEST(IkFabrik, EveryStartOnTheLineConverges) {
     Random random(4);
     for (int i = 0; i < 2000; ++i) {
@@ -128,7 +128,7 @@ TEST(IkFabrik, EveryStartOnTheLineConverges) {
         }
         const float off = random.chance(4) ? between(random, 0.0f, 0.01f) : part(random);
         const float far = (nearest + (reach - nearest) * off) * (random.chance(2) ? -1.0f : 1.0f);
-        // Not quite on the line is as bad: a thousandth of the reach beside it, or a millionth.
+        // Slightly off the line is as hard: by a thousandth of the reach, or a millionth.
         const float beside = random.chance(2) ? 0.0f : (random.chance(2) ? 1e-3f : 1e-6f) * reach;
         const glm::vec3 target = root + along * far + some_direction(random) * beside;
         KeptSolver solver(lengths);
@@ -158,10 +158,10 @@ TEST(IkFabrik, SnapBackStartsNearerToRest) {
     KeptSolver solver(lengths, rest);
     const Joints start{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}};
     Joints joints = start;
-    // All the way: rest, from where the target is already reached.
+    // All the way: the rest pose, which already reaches the target.
     EXPECT_EQ(solver.solve(Method::Fabrik, joints, {0, 3, 0}, {.snap_back = 1.0f}).iterations, 0);
     expect_near(joints, straight_joints(lengths, {0, 1, 0}));
-    // Half the way for the first joint: (0.5, 0.5) from the root, laid to its length.
+    // Half way for the first joint: (0.5, 0.5) from the root, scaled to its length.
     Recorder recorder;
     joints = start;
     solver.solve(Method::FabrikPlain, joints, {1, 1, 1}, {.snap_back = 0.5f}, &recorder);
@@ -183,7 +183,7 @@ TEST(IkFabrik, EveryIterationGoesOnAndTellsEach) {
     EXPECT_EQ(residuals[5], report.residual);
     EXPECT_EQ(residuals[6], -1.0f);
     for (int i = 0; i < 6; ++i) EXPECT_GE(residuals[static_cast<std::size_t>(i)], 0.0f);
-    // Room for fewer is filled as far as it goes.
+    // A shorter buffer is filled as far as it goes.
     residuals.fill(-1.0f);
     options.residuals = std::span(residuals).first(2);
     solver.solve(Method::FabrikPlain, joints, {-2, 1, 1}, options);
@@ -198,7 +198,7 @@ TEST(IkFabrik, WhatIsNotAtItsLengthIsLaidFirst) {
     const Report report = solver.solve(Method::Fabrik, torn, {1.5f, 1, 0});
     EXPECT_EQ(report.status, Status::Converged);
     EXPECT_TRUE(Holds(torn, lengths));
-    // All in one point: laid along the rest directions, and off the line again.
+    // All joints in one point: placed along the rest directions, then off the line.
     Joints heap(5, glm::vec3(2, 2, 2));
     EXPECT_EQ(solver.solve(Method::Fabrik, heap, {4, 2, 2}).status, Status::Converged);
     EXPECT_TRUE(Holds(heap, lengths));

@@ -1,4 +1,4 @@
-// Targets far away: a tree and the two bones keep their lengths, or refuse the target and move nothing.
+// Distant targets: a tree and the two-bone solver keep their lengths, or refuse the target and move nothing.
 #include <limits>
 
 #include "ik_tree_support.hpp"
@@ -14,7 +14,7 @@ std::vector<glm::vec3> directions() {
     return {{1, 0, 0}, {0, -1, 0}, {0.6f, 0, 0.8f}, {-0.48f, 0.6f, 0.64f}};
 }
 
-/// The spec's tolerance of a bone near the origin.
+/// The spec's tolerance of a bone's length near the origin.
 void expect_length(const glm::vec3& a, const glm::vec3& b, float length, float target) {
     EXPECT_NEAR(glm::length(glm::dvec3(b) - glm::dvec3(a)), static_cast<double>(length),
                 1e-4 * std::max(1.0, static_cast<double>(length)))

@@ -1,4 +1,4 @@
-// Whatever comes out is a number, with every option at the ends of its documented range.
+// All output is finite, with every option at the ends of its documented range.
 #include "ik_hostile.hpp"
 #include "ik_limited_support.hpp"
 
@@ -13,7 +13,7 @@ float one_of(Random& random, T... values) {
     return all[random.below(sizeof...(values))];
 }
 
-/// Half of the options stay as they are; the others are at an end of their range, or near it.
+/// Half of the options keep their defaults; the others are at or near an end of their range.
 ik::Options extreme_options(const Arm& arm, Random& random) {
     ik::Options options;
     options.max_iterations = 1 + static_cast<int>(random.below(40));
@@ -73,7 +73,7 @@ TEST(IkFinite, WithOptionsAtTheEndsOfTheirRanges) {
     }
 }
 
-/// What was seen: damped least squares within limits, with hardly any damping.
+/// A case that has failed: damped least squares within limits, with hardly any damping.
 TEST(IkFinite, DampingOfNearlyNothingWithinLimits) {
     Random random(77);
     for (int number = 0; number < 2000; ++number) {
@@ -94,7 +94,7 @@ TEST(IkFinite, DampingOfNearlyNothingWithinLimits) {
     }
 }
 
-/// A target at the end of the range, seen from near the origin: lengths are kept. Beyond it nothing moves.
+/// A target at the end of the range from near the origin: lengths are kept. Beyond it nothing moves.
 TEST(IkFinite, FarTargetsKeepLengths) {
     Random random(78);
     for (int number = 0; number < 500; ++number) {

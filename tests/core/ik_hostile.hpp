@@ -1,4 +1,4 @@
-// What every method has to bear: any chain, any pose, any target.
+// What every method must withstand: any chain, any pose, any target.
 #pragma once
 
 #include <cstdint>
@@ -23,14 +23,14 @@ inline std::uint64_t given_seed() {
     return value;
 }
 
-/// A distance between two parts of the reach, if need be further out, where a long bone leaves a hole.
+/// A distance between two fractions of the reach; longer if a long bone makes nearer targets unreachable.
 inline float some_span(std::span<const float> lengths, float least, float most, Random& random) {
     const auto reach = static_cast<float>(reach_of(lengths));
     const float hole = 2.0f * *std::max_element(lengths.begin(), lengths.end()) - reach;
     return std::max(reach * between(random, least, most), hole + 0.02f * reach);
 }
 
-/// 1 mm to 1 km, and now and then nothing.
+/// 1 mm to 1 km, sometimes 0.
 inline Lengths hostile_lengths(Random& random) {
     Lengths lengths(1 + random.below(random.chance(4) ? 40 : 8));
     const float scales[] = {1e-3f, 0.1f, 1.0f, 1.0f, 30.0f, 1e3f};
@@ -43,7 +43,7 @@ inline Lengths hostile_lengths(Random& random) {
     return lengths;
 }
 
-/// Straight, folded upon itself, or anything.
+/// Straight, folded, or random.
 inline Joints hostile_pose(std::span<const float> lengths, Random& random) {
     const glm::vec3 root = random.chance(3) ? random.point(100.0f) : glm::vec3(0.0f);
     const glm::vec3 along = random.chance(2) ? glm::vec3(1, 0, 0) : some_direction(random);
@@ -78,7 +78,7 @@ inline glm::vec3 hostile_target(const Joints& joints, std::span<const float> len
     }
 }
 
-/// Lengths kept, nothing that is no number, the tip no further off than it was, and the same bits again.
+/// Expects kept lengths, finite output, a tip no further off than before, and repeatable bits.
 inline void expect_bears(ik::Method method, std::span<const float> lengths, const Joints& start,
                          glm::vec3 target, const ik::Options& options) {
     KeptSolver solver(lengths), again(lengths);
@@ -111,7 +111,7 @@ inline void expect_bears_anything(ik::Method method, int solves) {
         options.max_iterations = 1 + static_cast<int>(random.below(40));
         options.every_iteration = random.chance(5);
         if (random.chance(4)) options.damping = 1e-6f;
-        // Further out the spacing of floats alone is more than bones may be off by.
+        // Further out, the spacing of floats exceeds the tolerance of bone lengths.
         const bool near = reach_of(lengths) < 500.0;
         if (random.chance(3) && near) options.pole = hostile_target(start, lengths, random);
         if (random.chance(2)) options.pole_turn = ik::PoleTurn::EachJoint;

@@ -1,5 +1,4 @@
-// Bad input is refused and nothing is moved, not by a bit; hostile input never makes anything that is no
-// number.
+// Bad input is refused without moving a bit; hostile input never produces NaN.
 #include <functional>
 
 #include "ik_support.hpp"
@@ -14,7 +13,7 @@ using ik::Options;
 using ik::Report;
 using ik::Status;
 
-const Lengths lengths{1.0f, 0.5f};  // two bones, so that every method takes them
+const Lengths lengths{1.0f, 0.5f};  // two bones, so that every method accepts them
 constexpr Report refused{Status::InvalidInput, 0, 0.0f};
 
 void expect_refused(const Options& options, glm::vec3 target = {0.5f, 0.5f, 0.5f},

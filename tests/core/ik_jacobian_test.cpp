@@ -1,5 +1,4 @@
-// The Jacobian solvers against the Jacobian itself: all 3 x 3n of it, and systems solved by elimination, in
-// double. The library builds neither.
+// The Jacobian solvers against the explicit 3 x 3n Jacobian and elimination in double, unused by the library.
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -16,7 +15,7 @@ using Json = nlohmann::json;
 using Vector = std::vector<double>;
 using Matrix = std::vector<Vector>;
 
-/// Gauss and Jordan, with pivots.
+/// Gauss-Jordan elimination with pivoting.
 Vector solved(Matrix a, Vector b) {
     const std::size_t n = b.size();
     for (std::size_t i = 0; i < n; ++i) {
@@ -35,7 +34,7 @@ Vector solved(Matrix a, Vector b) {
     return b;
 }
 
-/// Row by row; column 3 i + k is axis k x (tip - joint i).
+/// By rows; column 3 i + k is axis k x (tip - joint i).
 Matrix jacobian(const Joints& joints) {
     Matrix j(3);
     for (std::size_t i = 0; i + 1 < joints.size(); ++i) {
@@ -67,7 +66,7 @@ Matrix squared(const Matrix& j, double damping) {
     return result;
 }
 
-/// Where the tip goes to first order if the joints turn so.
+/// The tip after the joints turn, to first order.
 glm::dvec3 moved_tip(const Joints& joints, const Matrix& j, const Vector& turns) {
     glm::dvec3 tip(joints.back());
     for (std::size_t c = 0; c < turns.size(); ++c) tip += glm::dvec3(j[0][c], j[1][c], j[2][c]) * turns[c];
@@ -90,7 +89,7 @@ Vector expected_turns(Method method, const Matrix& j, const Vector& e, double la
     return transposed_times(j, solved(squared(j, lambda_squared), e));
 }
 
-/// A chain of many bones, with every singular value well above the point where the SVD begins to damp.
+/// A chain of many bones with every singular value well above the SVD's damping threshold.
 Joints open_pose(std::span<const float> lengths, Random& random) {
     for (;;) {
         Joints joints{{0, 0, 0}};
@@ -107,11 +106,11 @@ Joints open_pose(std::span<const float> lengths, Random& random) {
                            m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
                            m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
         const double trace = m[0][0] + m[1][1] + m[2][2];
-        if (det / (0.25 * trace * trace) > least) return joints;  // a lower bound of the least eigenvalue
+        if (det / (0.25 * trace * trace) > least) return joints;  // a lower bound of the minimum eigenvalue
     }
 }
 
-/// One iteration towards a target so near that turns are small against their squares.
+/// One iteration towards a target so near that squares of the turns are negligible.
 void expect_first_order(Method method, float damping, bool damped) {
     Random random(11);
     for (int k = 0; k < 100; ++k) {

@@ -1,5 +1,5 @@
-// Limits measured independently of the library: in double, with matrices instead of quaternions, from the
-// joints and rotations that a solve leaves. Who solves for an arm includes ik_limited_support.hpp.
+// An independent measurement of limits: in double, with matrices instead of quaternions, from the joints and
+// rotations that a solve leaves. Tests that solve include ik_limited_support.hpp.
 #pragma once
 
 #include <glm/gtc/quaternion.hpp>
@@ -22,7 +22,7 @@ inline double degrees(double radians) {
     return radians / degree;
 }
 
-/// An arm with limits; what its rest pose looks like is part of it.
+/// An arm with limits and a rest pose.
 struct Arm {
     Lengths lengths;
     Joints rest;  ///< directions
@@ -65,7 +65,7 @@ inline glm::dvec3 turned(glm::dvec3 v, glm::dvec3 axis, double angle) {
            axis * (glm::dot(axis, v) * (1.0 - std::cos(angle)));
 }
 
-/// By how much an angle is out of a range, round the circle.
+/// By how much an angle is outside a range, modulo a full turn.
 inline double out_of_range(double angle, double min, double max) {
     if (angle >= min && angle <= max) return 0.0;
     const double turn = 360.0 * degree;
@@ -73,7 +73,7 @@ inline double out_of_range(double angle, double min, double max) {
     return std::min(apart(angle, min), apart(angle, max));
 }
 
-/// Distance to a quarter of an ellipse, by trying: it falls to one minimum and rises again.
+/// Distance to a quarter of an ellipse by search: it falls to one minimum and rises again.
 inline double to_ellipse(double a, double b, double x, double y) {
     x = std::abs(x), y = std::abs(y);
     if (a > 0.0 && b > 0.0 && (x / a) * (x / a) + (y / b) * (y / b) <= 1.0) return 0.0;
@@ -93,7 +93,7 @@ inline double to_ellipse(double a, double b, double x, double y) {
     return std::min(best, far(low));
 }
 
-/// Radians over the limit for a turn given as a matrix.
+/// Radians over the limit for a rotation matrix.
 inline double over_limit(const ik::Limit& limit, glm::vec3 rest, const glm::dmat3& turn) {
     if (limit.kind == ik::JointKind::Free) return 0.0;
     const Frame frame = frame_of(limit, rest);
@@ -119,7 +119,7 @@ inline glm::dmat3 local_turn(std::span<const glm::quat> rotations, std::size_t b
     return bone == 0 ? own : glm::transpose(matrix_of(rotations[bone - 1])) * own;
 }
 
-/// No joint over its limit by more than a tenth of a degree, and the joints where the rotations say.
+/// No joint is more than 0.1 degrees over its limit, and the rotations match the joints.
 inline ::testing::AssertionResult WithinLimits(const Arm& arm, std::span<const glm::vec3> joints,
                                                std::span<const glm::quat> rotations) {
     for (std::size_t i = 0; i < arm.lengths.size(); ++i) {
@@ -131,7 +131,7 @@ inline ::testing::AssertionResult WithinLimits(const Arm& arm, std::span<const g
         const double length = arm.lengths[i];
         const glm::dvec3 from(joints[i]), bone = glm::dvec3(joints[i + 1]) - from;
         const glm::dvec3 said = matrix_of(rotations[i]) * glm::normalize(glm::dvec3(arm.rest[i])) * length;
-        // What floats can tell of a direction that far out.
+        // The resolution of directions in floats that far out.
         const double rounding = 1e-6 * (glm::length(from) + static_cast<double>(arm.reach()));
         if (!(glm::length(bone - said) <= 1e-3 * length + rounding)) {
             return ::testing::AssertionFailure() << "bone " << i << " does not lie as its rotation says";
@@ -159,7 +159,7 @@ inline ik::Limit some_cone(Random& random, glm::vec3 axis) {
     return limit;
 }
 
-/// From somewhere down to `below` to somewhere up to `above`, radians.
+/// From a minimum down to -`below` to a maximum up to `above`, radians.
 inline ik::Limit some_hinge(Random& random, glm::vec3 bone, float below, float above) {
     const glm::vec3 axis = some_axis(random, bone);
     const float min_angle = -below * part(random);
@@ -223,7 +223,7 @@ inline Arm some_arm(Random& random, std::size_t bones) {
     return some_arm(random, arm_kinds[random.below(arm_kinds.size())], bones);
 }
 
-/// Where the tip of some pose within the limits is: drawn from angles, with matrices in double.
+/// The tip of a random pose within the limits, from angles, with matrices in double.
 inline glm::vec3 some_tip(const Arm& arm, Random& random) {
     glm::dmat3 all(1.0);
     glm::dvec3 tip(0.0);

@@ -1,4 +1,4 @@
-// A limit by itself: presets, what is wrong with one, angles, excess.
+// A single limit: presets, validation, angles, excess.
 #include "ik_limit_support.hpp"
 #include "tests/says.hpp"
 
@@ -86,7 +86,7 @@ TEST(IkLimit, AnglesAreNamedAsTheHeaderSays) {
     EXPECT_NEAR(degrees(both.up), 50, 1e-3);
     EXPECT_NEAR(degrees(both.left), 0, 1e-3);
     EXPECT_NEAR(degrees(both.twist), 25, 1e-3);
-    ball.axis = {0.7f, 0, 7};  // what lies along the bone is taken away
+    ball.axis = {0.7f, 0, 7};  // the component along the bone is removed
     EXPECT_NEAR(degrees(measure(ball, x, about(z, 30)).up), 30, 1e-3);
     for (double angle : {-179.0, -91.0, 0.0, 30.0, 145.0, 179.9}) {
         EXPECT_NEAR(degrees(measure(Limit::hinge(z, -3, 3), x, about(z, angle)).up), angle, 1e-2);
@@ -102,7 +102,7 @@ TEST(IkLimit, ExcessIsTheWayBack) {
     EXPECT_EQ(over(hinge, about(z, 100)), 0);
     EXPECT_NEAR(over(hinge, about(z, 162)), 17, 1e-2);
     EXPECT_NEAR(over(hinge, about(z, -10)), 10, 1e-2);
-    EXPECT_NEAR(over(hinge, about(z, -170)), 45, 1e-2);  // round the back it is nearer to 145
+    EXPECT_NEAR(over(hinge, about(z, -170)), 45, 1e-2);  // past the back it is nearer to 145
     EXPECT_NEAR(over(hinge, about(y, 10)), 10, 1e-2);
     EXPECT_NEAR(over(hinge, about(x, 10)), 10, 1e-2);
     const Limit ball = Limit::of(JointKind::BallAndSocket);

@@ -1,4 +1,4 @@
-// Solves with limits: held whatever comes, arriving from rest, the better kept, steps that replay.
+// Solves with limits: limits hold, targets are reached from rest, the better pose is kept, steps replay.
 #include "ik_hostile.hpp"
 #include "ik_limited_support.hpp"
 #include "memory.hpp"
@@ -64,8 +64,7 @@ TEST(IkLimited, HoldsWhateverTheTargetHundredThousandTimes) {
     }
 }
 
-/// How many of a hundred come to a hundredth of the reach from rest, where a pose within the limits made the
-/// target.
+/// Percentage of targets, made from poses within the limits, that solves from rest reach to 1 %.
 double arrived(Method method, ArmKind kind, std::size_t bones, int count, std::uint64_t seed) {
     Random random(seed);
     int there = 0;
@@ -96,7 +95,7 @@ TEST(IkLimited, FromRestItArrivesWhereSomePoseDoes) {
     }
 }
 
-/// The others have no second try; so many arrive, and no fewer.
+/// The other methods do not restart; they reach as many targets as before.
 TEST(IkLimited, TheOtherMethodsArriveAsOftenAsTheyDid) {
     const auto all = [](Method method) {
         double sum = 0;
@@ -213,7 +212,7 @@ TEST(IkLimited, SolvedAgainNothingMoves) {
     }
 }
 
-/// A target that goes in small steps along a line, with the arm following from where it is.
+/// A target that moves along a line in small steps, with the arm following.
 TEST(IkLimited, AnArmThatFollowsSeldomJumps) {
     Random random(21);
     int steps = 0, jumps = 0;
@@ -235,7 +234,7 @@ TEST(IkLimited, AnArmThatFollowsSeldomJumps) {
             jumps += furthest > 0.05 * static_cast<double>(arm.reach());
         }
     }
-    // Where the line leaves what the arm can reach it must now and then change its mind.
+    // Where the line leaves the arm's workspace, the arm must sometimes switch poses.
     EXPECT_LE(jumps, steps / 300) << "of " << steps;
 }
 
@@ -291,7 +290,7 @@ TEST(IkLimited, APoleIsFacedAsFarAsTheRootLetsIt) {
     ik::Limit root = ik::Limit::of(ik::JointKind::BallAndSocket);
     root.up = root.down = root.left = root.right = radians(90);
     root.twist_min = radians(-60), root.twist_max = radians(60);
-    const glm::vec3 held = elbow(root, {0, 5, 0});  // at rest it bends to -Y; it may turn by 60 degrees or so
+    const glm::vec3 held = elbow(root, {0, 5, 0});  // at rest it bends to -Y; it may turn by about 60 degrees
     EXPECT_GT(held.y, -0.7f);
     EXPECT_LT(held.y, 0.5f);
 }

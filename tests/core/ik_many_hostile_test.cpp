@@ -1,4 +1,4 @@
-// solve_many with what is loose, on the move, hostile or out of range; and the batch that it works on.
+// solve_many with torn, moving, hostile and out-of-range input; and the class Batch.
 #include "ik_many_scalar.hpp"
 #include "tests/says.hpp"
 
@@ -125,7 +125,7 @@ TEST(SolveMany, HostileNumbersNeverMakeWhatIsNotANumber) {
 
 TEST(SolveMany, JointsLeftTooFarOutAreInvalidNextTime) {
     Crowd crowd;
-    // Straight towards a target that is out of reach, and over the ceiling of what is accepted.
+    // Straight towards a target that is out of reach, exceeding the range of coordinates.
     crowd.add({1e9f, 1e9f}, {{0, 5e8f, 0}, {5e8f, 9.9e8f, 1}, {1e9f, 1e8f, 0}}, {1, 1e9f, 0});
     crowd.add({1, 1}, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}, {0, 1.5f, 0});
     Batch batch = batch_of(crowd);

@@ -1,11 +1,11 @@
-// solve_many over joints that the caller keeps: as the batch's own, to the bit, and those stay as they were.
+// solve_many over the caller's joints: bitwise the same as over the batch's own, which stay unchanged.
 #include "ik_limit_support.hpp"
 #include "ik_many_support.hpp"
 
 namespace tendril::test::ik_many_joints_test {
 namespace {
 
-/// Of all chains, one after the other.
+/// The joints of all chains, one chain after the other.
 Joints all_joints(const std::vector<Joints>& of) {
     Joints all;
     for (const Joints& each : of) all.insert(all.end(), each.begin(), each.end());
@@ -32,7 +32,7 @@ Batch batch_of_lengths(const Crowd& crowd, int threads = 1) {
 TEST(SolveManyJoints, AreSolvedAsTheBatchsOwnToTheBit) {
     Random random(61);
     for (const std::size_t bones : {1u, 2u, 3u, 4u, 10u, 31u}) {
-        // Some out of reach, some near full reach: those go from block to block.
+        // Some out of reach, some near full reach: those move between blocks.
         const Crowd crowd = some_crowd(501, bones, random, 0.0f, 1.05f);
         for (const int threads : {1, 3}) {
             Batch batch = batch_of_lengths(crowd, threads);

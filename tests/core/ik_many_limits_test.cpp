@@ -1,5 +1,5 @@
-// solve_many within limits: every joint stays within its limit, every tip that the scalar solver brings to
-// its target arrives here too, and what the vector units cannot do is the scalar solver's own answer.
+// solve_many within limits: joints stay within their limits, every target that the scalar solver reaches is
+// reached, and what the vector units cannot do is bitwise the scalar solver's answer.
 #include "ik_limited_support.hpp"
 #include "ik_many_scalar.hpp"
 
@@ -9,7 +9,7 @@ namespace {
 using ik::Limit;
 using Rotations = std::vector<glm::quat>;
 
-/// One arm for a whole crowd, each at a place of its own, at rest.
+/// One arm for a whole crowd, each at rest at a position of its own.
 struct LimitedCrowd {
     Arm arm;
     Crowd crowd;
@@ -171,7 +171,7 @@ TEST(SolveManyWithinLimits, WhatVectorsCannotDoIsTheScalarSolversAnswer) {
     for (std::size_t i = 1; i < all.crowd.size(); i += 9) expect_fallback_is_scalar(all, flat, i);
 }
 
-/// Two chains whose fallbacks could pass for one that is dragged: the scalar solver must not take them so.
+/// Two chains whose fallbacks look like one dragged chain: the scalar solver must not treat them as such.
 TEST(SolveManyWithinLimits, AFallbackRemembersNothingOfTheChainBeforeIt) {
     Random random(59);
     for (int round = 0; round < 20; ++round) {

@@ -1,4 +1,4 @@
-// A crowd solved one by one by the scalar solver, to compare with.
+// Solves a crowd one by one with the scalar solver, for comparison.
 #pragma once
 
 #include <utility>

@@ -1,4 +1,4 @@
-// What the tests of solve_many share: a crowd of chains, solved at once. One by one: ik_many_scalar.hpp.
+// Shared by the tests of solve_many: a crowd of chains, solved at once. One by one: ik_many_scalar.hpp.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ using ik::ManyOptions;
 using ik::ManyReport;
 using ik::Status;
 
-/// Chains as they are before a solve, and what to solve them for.
+/// Chains before a solve, and their targets.
 struct Crowd {
     std::vector<Lengths> lengths;
     std::vector<Joints> joints;
@@ -27,7 +27,7 @@ struct Crowd {
     }
 };
 
-/// Each chain with its own lengths, root and pose; targets between `least` and `most` of the reach.
+/// Each chain has its own lengths, root and pose; targets are between `least` and `most` of the reach.
 inline Crowd some_crowd(std::size_t chains, std::size_t bones, Random& random, float least = 0.05f,
                         float most = 0.9f) {
     Crowd crowd;
@@ -55,7 +55,7 @@ struct Answer {
     std::vector<ManyReport> reports;
 };
 
-/// Nothing where they are equal to the bit; else the first chain that is not.
+/// Empty if bitwise equal; otherwise the first chain that differs.
 inline std::string difference(const Answer& a, const Answer& b) {
     for (std::size_t i = 0; i < std::min(a.joints.size(), b.joints.size()); ++i) {
         if (!same_bits(a.joints[i], b.joints[i])) return "joints of chain " + std::to_string(i);
@@ -87,7 +87,7 @@ inline double furthest(std::span<const glm::vec3> a, std::span<const glm::vec3> 
     return most;
 }
 
-/// Equal to `part` of the reach, and in the reports.
+/// Expects joints equal to `part` of the reach, and equal reports.
 inline void expect_same(const Crowd& crowd, const Answer& many, const Answer& each, double part) {
     for (std::size_t i = 0; i < crowd.size(); ++i) {
         const double reach = reach_of(crowd.lengths[i]);
@@ -97,7 +97,7 @@ inline void expect_same(const Crowd& crowd, const Answer& many, const Answer& ea
         EXPECT_NEAR(many.reports[i].residual, each.reports[i].residual, part * reach) << "chain " << i;
         EXPECT_TRUE(Holds(many.joints[i], crowd.lengths[i])) << "chain " << i;
         EXPECT_TRUE(same_bits(many.joints[i].front(), crowd.joints[i].front())) << "chain " << i;
-        if (::testing::Test::HasFailure()) return;  // one tells enough
+        if (::testing::Test::HasFailure()) return;  // one is enough
     }
 }
 

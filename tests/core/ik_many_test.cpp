@@ -1,5 +1,4 @@
-// solve_many against the scalar solver: the same bits, whatever the vector unit, the number of threads, and
-// the company that a chain is in.
+// solve_many against the scalar solver: the same bits for any vector unit, threads and neighbours.
 #include "ik_many_scalar.hpp"
 
 namespace tendril::test::ik_many_test {
@@ -104,7 +103,7 @@ TEST(SolveMany, EveryNumberOfChainsGivesTheSameBits) {
 
 TEST(SolveMany, EveryNumberOfThreadsGivesTheSameBits) {
     Random random(6);
-    // Near the rim some take hundreds of iterations: those are solved apart from their blocks.
+    // Near the rim some take hundreds of iterations: those are solved outside their blocks.
     const Crowd crowd = some_crowd(5000, 10, random, 0.05f, 0.999f);
     const ManyOptions options{.max_iterations = 1000};
     const Answer one = solve_many(crowd, options);
@@ -116,8 +115,8 @@ TEST(SolveMany, EveryNumberOfThreadsGivesTheSameBits) {
     }
 }
 
-/// Chains with their peculiarities: bones of no length, one bone that outweighs the others, joints that
-/// coincide, poses that are straight or folded nearly on the target's line.
+/// Degenerate chains: bones of no length, one dominant bone, coincident joints, poses straight or folded
+/// nearly on the line to the target.
 Crowd hostile_crowd(std::size_t chains, std::size_t bones, Random& random) {
     Crowd crowd;
     for (std::size_t i = 0; i < chains; ++i) {
@@ -149,7 +148,7 @@ TEST(SolveMany, HostileChainsAreSolvedAsTheScalarSolverSolvesThem) {
             std::size_t iterated = 0, equal = 0;
             for (std::size_t i = 0; i < crowd.size(); ++i) {
                 const Status status = many.reports[i].status;
-                // What lies straight or folded was worked out in float.
+                // Straight and folded poses are computed in float.
                 if (status == Status::Stretched || status == Status::TooClose) continue;
                 ++iterated;
                 equal += same_bits(many.joints[i], each.joints[i]) ? 1 : 0;
@@ -186,7 +185,7 @@ TEST(SolveMany, JointsThatArePutBackGoOnWithTheSameBits) {
         for (std::size_t i = 0; i < crowd.size(); ++i)
             path[tick][i] = path[tick - 1][i] + random.point(0.05f);
     }
-    ik::solve_many(batch, crowd.targets);  // some pose from the middle of a life
+    ik::solve_many(batch, crowd.targets);  // a pose in mid-simulation
     Joints before(crowd.size() * 8), first(before.size()), second(before.size());
     ASSERT_TRUE(batch.copy_joints(before));
     for (const auto& targets : path) ik::solve_many(batch, targets);

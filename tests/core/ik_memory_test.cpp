@@ -1,4 +1,4 @@
-// Solving needs no memory: every method, with every option, with the chain class and without.
+// Solving allocates nothing: every method, with every option, with and without class Chain.
 #include "ik_support.hpp"
 #include "memory.hpp"
 

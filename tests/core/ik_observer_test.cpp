@@ -1,4 +1,4 @@
-// The observer sees everything: its steps, taken again from the start, lead to the same bits; and it changes
+// The observer sees everything: replaying its steps from the start gives the same bits. And it changes
 // nothing.
 #include <map>
 
@@ -14,7 +14,7 @@ using ik::Phase;
 using ik::Report;
 using ik::Status;
 
-/// Solves with and without an observer; the recorder of the first.
+/// Solves with and without an observer, expects the same result, and returns the recording.
 Recorder expect_faithful(Method method, const Lengths& lengths, const Joints& start, glm::vec3 target,
                          const Options& options) {
     KeptSolver watched(lengths), alone(lengths);
@@ -80,7 +80,7 @@ TEST(IkObserver, OneIterationOfFourBonesIsEightPulls) {
     const Joints start{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {2, 1, 0}, {2, 1, 1}};
     const Recorder recorder =
         expect_faithful(Method::FabrikPlain, lengths, start, {1, 2, 0}, {.max_iterations = 1});
-    std::vector<std::pair<std::size_t, std::size_t>> pulls;  // which joint, to whose distance
+    std::vector<std::pair<std::size_t, std::size_t>> pulls;  // which joint, and whose distance it takes
     for (const ik::Step& step : recorder.steps) {
         EXPECT_EQ(step.iteration, 1);
         if (step.neighbour != ik::no_joint) pulls.emplace_back(step.joint, step.neighbour);
@@ -88,7 +88,7 @@ TEST(IkObserver, OneIterationOfFourBonesIsEightPulls) {
     const std::vector<std::pair<std::size_t, std::size_t>> expected{{3, 4}, {2, 3}, {1, 2}, {0, 1},
                                                                     {1, 0}, {2, 1}, {3, 2}, {4, 3}};
     EXPECT_EQ(pulls, expected);
-    EXPECT_EQ(recorder.steps.size(), 10u);  // and the tip goes to the target, the root to its place
+    EXPECT_EQ(recorder.steps.size(), 10u);  // plus the tip to the target and the root to its position
     EXPECT_EQ(recorder.iterations, (std::vector<int>{0, 1}));
 }
 

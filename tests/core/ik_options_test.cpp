@@ -1,5 +1,5 @@
-// The table of method.hpp, walked: an option that a method honours changes what comes out in some case, one
-// that it does not honour changes nothing in any.
+// The table in method.hpp: an option that a method honours changes the result in some case; one that it does
+// not honour never changes anything.
 #include <cstring>
 
 #include "ik_limited_support.hpp"
@@ -16,7 +16,7 @@ struct Case {
     Joints start;
     glm::vec3 target{0.0f};
     bool limited = false;
-    ik::Options base;  ///< its limits are set in solve()
+    ik::Options base;  ///< limits are set in solve()
 };
 
 struct Outcome {
@@ -27,7 +27,7 @@ struct Outcome {
     bool operator==(const Outcome&) const = default;
 };
 
-/// Solves with `change` made to the options; -1 in the residuals is what a solve did not write.
+/// Solves with options modified by `change`; -1 in the residuals marks entries that were not written.
 template <class Change>
 Outcome solve(Method method, const Case& each, Change change) {
     KeptSolver solver = each.arm.solver();
@@ -40,7 +40,7 @@ Outcome solve(Method method, const Case& each, Change change) {
     return outcome;
 }
 
-/// The base options, with one set to something else than it has as a rule.
+/// Sets one option to a value other than its default.
 void set(Option option, ik::Options& options, std::span<float> residuals, const Case& each) {
     const float reach = each.arm.reach();
     switch (option) {
@@ -219,7 +219,7 @@ TEST(IkWeight, AStretchIsBlendedToo) {
     EXPECT_NEAR(distance(joints[1], joints[2]), 1.3, 1e-5);
 }
 
-// ---- What really ran
+// ---- What actually ran
 
 TEST(IkReport, SaysWhatRan) {
     Random random(34);

@@ -1,4 +1,4 @@
-// A target that crosses the line to the pole: the chain must not leap to the other side at once.
+// A target that crosses the line to the pole: the chain must not flip to the other side at once.
 #include <algorithm>
 
 #include "ik_support.hpp"
@@ -13,7 +13,7 @@ struct Sweep {
     double step = 0.0;  ///< of the target, metres
     PoleTurn turn = PoleTurn::WholeChain;
     glm::dvec3 normal{0.0};  ///< of the plane of the arc
-    bool forgets = false;    ///< a new state for every solve, as a program has it that makes its solver anew
+    bool forgets = false;    ///< a new state for every solve
 };
 
 glm::dvec3 turned_about(const glm::dvec3& v, const glm::dvec3& axis, double angle) {
@@ -21,8 +21,8 @@ glm::dvec3 turned_about(const glm::dvec3& v, const glm::dvec3& axis, double angl
            axis * (glm::dot(axis, v) * (1.0 - std::cos(angle)));
 }
 
-/// The chain follows a target on an arc of radius 3 m, from a radian before the pole's direction to one after
-/// it. How many times as far as the target any joint has moved in a tick, at most.
+/// The chain follows a target on an arc of radius 3 m, from one radian before the pole's direction to one
+/// after. Returns the maximum ratio of any joint's motion to the target's in a tick.
 double worst_ratio(Method method, const Lengths& lengths, const Sweep& sweep) {
     constexpr double radius = 3.0;
     const glm::vec3 pole{2, 1, 0};

@@ -1,4 +1,4 @@
-// The bend faces its pole, moves neither root nor tip, and never jumps.
+// The bend faces its pole, root and tip do not move, and nothing jumps.
 #include "ik_hostile.hpp"
 
 namespace tendril::test::ik_pole_test {
@@ -13,7 +13,7 @@ double size(glm::dvec3 v) {
     return std::sqrt(dot(v, v));
 }
 
-/// What of `v` is at right angles to the line, of any length.
+/// The component of `v` at right angles to the line.
 glm::dvec3 off(glm::dvec3 v, glm::dvec3 line) {
     return v - line * (dot(v, line) / dot(line, line));
 }
@@ -22,7 +22,7 @@ double angle_between(glm::dvec3 a, glm::dvec3 b) {
     return std::atan2(size(cross(a, b)), dot(a, b));
 }
 
-/// Between the pole and the weighted sum of the offsets, about the line from root to tip; 0 for what is
+/// The angle between the pole and the weighted sum of the offsets, about the line from root to tip; 0 if
 /// straight.
 double off_its_pole(const Joints& joints, std::span<const float> lengths, glm::vec3 pole) {
     const glm::dvec3 root(joints.front()), line = glm::dvec3(joints.back()) - root;
@@ -69,7 +69,7 @@ TEST(IkPole, TheTurnMovesNeitherRootNorTip) {
             Recorder recorder;
             KeptSolver(lengths).solve(Method::Fabrik, joints, target, facing(random.point(3.0f), turn),
                                       &recorder);
-            // From the last step that is no turn to the pole on: that is the turn at the end.
+            // The trailing pole steps are the final turn.
             auto step = recorder.steps.rbegin();
             for (; step != recorder.steps.rend() && step->phase == ik::Phase::Pole; ++step) {
                 if (step->iteration == 0) break;
@@ -116,7 +116,7 @@ TEST(IkPole, SolvedAgainAndAgainItComesToRest) {
         KeptSolver solver(lengths);
         solver.solve(Method::Fabrik, joints, target, facing(pole));
         Joints settled = joints;
-        // The tip was within tolerance of the target; now it comes onto the line to it, and the pole with it.
+        // The tip was within tolerance of the target; now it moves onto the line to it.
         for (int again = 0; again < 10; ++again) solver.solve(Method::Fabrik, joints, target, facing(pole));
         for (std::size_t i = 0; i < joints.size(); ++i) {
             EXPECT_LT(distance(joints[i], settled[i]), 0.02 * reach);
@@ -141,7 +141,7 @@ TEST(IkPole, OnTheLineItLeavesThePlaneAsItIs) {
     }
 }
 
-/// Facing it at once would be half a turn in a few steps. The chain takes its time, and gets there.
+/// Facing the pole at once would be half a turn in a few steps. The chain turns at a limited rate.
 TEST(IkPole, ThroughTheLineItTurnsNoFasterThanItMay) {
     const Lengths lengths(4, 0.25f);
     for (const PoleTurn turn : {PoleTurn::WholeChain, PoleTurn::EachJoint}) {
@@ -162,8 +162,7 @@ TEST(IkPole, ThroughTheLineItTurnsNoFasterThanItMay) {
         EXPECT_GT(worst, 1e-4) << "it goes with it";
         EXPECT_LT(worst, 1e-3) << "5e-4, and 20 times 1e-5";
         for (int k = 0; k < 3000; ++k) solve(-0.01f);
-        if (turn == PoleTurn::EachJoint)
-            continue;  // from so near each joint sees the pole on a side of its own
+        if (turn == PoleTurn::EachJoint) continue;  // from so near, joints see the pole on different sides
         EXPECT_LT(off_its_pole(joints, lengths, {0.3f, -0.01f, 0.0003f}), 1e-3) << "it has caught up";
     }
 }
@@ -184,7 +183,7 @@ TEST(IkPole, APoleThatIsNewOrJumpsIsFacedAtOnce) {
 }
 
 /// A smooth walk in steps of 0.0001: distances in [least, most] of the reach, the pole at least `clear` off
-/// the line, which it is steered away from.
+/// the line.
 class Walk {
   public:
     Walk(glm::vec3 pole, double least, double most, Random& random)
@@ -218,7 +217,7 @@ struct Jumps {
     int steps = 0, unfaced = 0;
 };
 
-/// Chains of 1 m, solved once to the walk's start and then along it, each from the pose before.
+/// Chains of 1 m, solved for the walk's start and then along it, each from the pose before.
 Jumps walk(Method method, PoleTurn turn, std::size_t bones, int paths, int steps, Random& random) {
     Jumps jumps;
     for (int path = 0; path < paths; ++path) {
@@ -227,8 +226,7 @@ Jumps walk(Method method, PoleTurn turn, std::size_t bones, int paths, int steps
         for (float& length : lengths) length /= reach;
         const double longest = *std::max_element(lengths.begin(), lengths.end());
         const glm::vec3 pole = some_offset(random, 0.15f, 1.5f);
-        // Where a long bone leaves a hole its edge is as steep as full reach, so it is kept away from as
-        // well.
+        // A long bone leaves an inner hole whose edge is as steep as full reach: keep clear of it, too.
         const double least = std::max(0.05, 2.0 * longest - 1.0 + (bones == 2 ? 0.06 : 0.02));
         if (least > 0.9) continue;
         Walk walk(pole, least, 0.99, random);
@@ -265,7 +263,7 @@ TEST(IkPole, TheDefaultNeverJumpsAlongARandomPath) {
 
 TEST(IkPole, NeitherDoesEachJointByItself) {
     Random random(given_seed());
-    // Not three: turned into one plane they can come to lie folded on a line, from which no way is smooth.
+    // Not three: turned into one plane, they can end up folded on a line, which no smooth motion can leave.
     for (const std::size_t bones : {2u, 5u, 6u, 10u}) {
         const Jumps jumps = walk(Method::Fabrik, PoleTurn::EachJoint, bones, 10, 4000, random);
         std::printf("%2zu bones: %.2f mm\n", bones, 1e3 * jumps.worst);

@@ -1,5 +1,5 @@
-// How each solve must end, from an independent source (skipped where that is not at hand), and a few such
-// cases that are always here. Every chain starts straight along +X.
+// Expected results from an independent source (skipped if missing), and a few cases that are always present.
+// Every chain starts straight along +X.
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -62,13 +62,13 @@ std::vector<Case> read_cases(std::istream& file) {
     return cases;
 }
 
-/// 1e-4 m, of a fold a hundredth; what counts as converged is within tolerance.
+/// 1e-4 m if stretched, 1 % of a fold's residual, otherwise the tolerance.
 double allowed(const Case& example, double tolerance) {
     if (example.status == Status::Stretched) return 1e-4;
     return example.status == Status::TooClose ? 0.01 * example.residual : tolerance;
 }
 
-/// Whatever the method made of it: nothing is broken, and what the report says is so.
+/// Whatever the method did: the chain holds, and the report is true.
 void expect_honest(const Case& example, const Report& report, const Joints& joints, double tolerance) {
     EXPECT_TRUE(Holds(joints, example.lengths));
     EXPECT_TRUE(same_bits(joints.front(), glm::vec3(0.0f)));
@@ -85,7 +85,7 @@ void expect_honest(const Case& example, const Report& report, const Joints& join
     EXPECT_NE(report.status, Status::InvalidInput);
 }
 
-/// Returns whether it ended as it should.
+/// Returns whether it ended as expected.
 bool check(Method method, const Case& example, bool must_end_well) {
     KeptSolver solver(example.lengths);
     Joints joints = straight_joints(example.lengths);

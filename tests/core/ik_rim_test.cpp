@@ -1,5 +1,4 @@
-// The fast FABRIK near full reach, where the plain one crawls: how many iterations it needs, that they are
-// worth it, and that it moves no joint further than the plain one would.
+// FABRIK near full reach, where FABRIK (2011) crawls: its iterations, and that it moves joints no further.
 #include <algorithm>
 
 #include "ik_support.hpp"
@@ -15,7 +14,7 @@ constexpr std::size_t targets = 1000;
 constexpr float bands[][2] = {{0.05f, 0.9f}, {0.9f, 0.95f}, {0.95f, 0.99f}, {0.99f, 0.999f}};
 
 struct Tally {
-    std::size_t over = 0;  ///< solves that took more iterations than they may
+    std::size_t over = 0;  ///< solves with too many iterations
     int most = 0;
     double travel = 0.0, plain_travel = 0.0;
 };
@@ -26,7 +25,7 @@ double travel(const Joints& from, const Joints& to) {
     return sum;
 }
 
-/// What no pose can reach is not asked for.
+/// Skips distances that no pose can reach.
 float some_distance(const Lengths& lengths, const float (&band)[2], Random& random) {
     const auto reach = static_cast<float>(reach_of(lengths));
     const float nearest = 2.0f * *std::max_element(lengths.begin(), lengths.end()) - reach;
@@ -55,7 +54,7 @@ Tally solve_band(std::size_t bones, const float (&band)[2], int may_take, bool e
 }
 
 void check_band(std::size_t bones, const float (&band)[2], bool equal, bool from_straight) {
-    const int may_take = 12;  // even for 3 bones, which are allowed 20
+    const int may_take = 12;  // also for 3 bones, which may take 20
     const Tally tally = solve_band(bones, band, may_take, equal, from_straight);
     SCOPED_TRACE(std::to_string(bones) + " bones, up to " + std::to_string(band[1]) + ", most " +
                  std::to_string(tally.most));
@@ -81,7 +80,7 @@ TEST(IkRim, BonesOfManyLengthsToo) {
     }
 }
 
-/// The other rim: a bone longer than all others together, and a target that only a folded chain reaches.
+/// The inner rim: a bone longer than all others together, and a target that only a folded chain reaches.
 TEST(IkRim, ATargetThatIsJustNotTooClose) {
     Random random(11);
     for (int i = 0; i < 1000; ++i) {

@@ -1,5 +1,5 @@
-// Chains that lie on a line with their target, within limits: every method that descends leaves the line
-// where the limits let it, and no limit is blamed where none holds the tip.
+// Chains on a line with their target, within limits: every descent method leaves the line if the limits allow
+// it, and no limit is blamed unless it keeps the tip from the target.
 #include "ik_hostile.hpp"
 #include "ik_limited_support.hpp"
 
@@ -42,7 +42,7 @@ TEST(IkSingular, ATargetBehindAHingeThatBendsToOneSideOnly) {
                 for (const Method method : iterating_methods) {
                     SCOPED_TRACE(std::string(name(method)) + (positive ? " +" : " -"));
                     const ik::Report report = solved(arm, method, target).report;
-                    if (method == Method::FabrikPlain) {  // the line trap, on show
+                    if (method == Method::FabrikPlain) {  // the collinear singularity
                         EXPECT_NE(report.status, Status::Limited);
                         continue;
                     }
@@ -66,7 +66,7 @@ TEST(IkSingular, AJointWithoutAnyRoomLeavesItToTheOthers) {
 }
 
 TEST(IkSingular, AHingesPlaneDecidesWhereTheTargetIsOutOfIt) {
-    // The tip has to come back within the plane, and only the limits forbid the rest of the way.
+    // The tip has to come back within the plane; only the limits forbid the rest.
     const Arm arm =
         straight_arm({1, 1, 1}, std::vector<Limit>(3, Limit::hinge({0, 0, 1}, radians(-90), radians(90))));
     for (const Method method : numerical_methods) {
@@ -78,7 +78,7 @@ TEST(IkSingular, AHingesPlaneDecidesWhereTheTargetIsOutOfIt) {
 
 TEST(IkSingular, WhereTheLimitsDoHoldTheTipItSaysSo) {
     const Limit stiff = Limit::of(ik::JointKind::Suture);
-    // Points at the target, but cannot fold; no first derivative shows that the limit is to blame.
+    // It points at the target but cannot fold; no first derivative shows that the limit is to blame.
     const Arm arm = straight_arm({1, 1}, {Limit(), stiff});
     for (const Method method : iterating_methods) {
         for (const float at : {-0.8f, 0.8f}) {
@@ -130,11 +130,11 @@ TEST(IkSingular, OutOfReachTheLimitsOfAStraightArmAreNotBlamed) {
     EXPECT_LE(blaming, stretched / 20);
 }
 
-/// Of the solves whose target the default method reaches, what another method makes of them.
+/// The result of another method for targets that the default method reaches.
 struct Count {
     int there = 0;
     int blaming = 0;  ///< Limited
-    int unjust = 0;   ///< of these, least squares from where it ended go on to the target
+    int unjust = 0;   ///< of these, least squares continues to the target
 };
 
 struct Counts {
@@ -166,7 +166,7 @@ Counts count_on_the_line(bool ahead, int arms, std::uint64_t seed) {
             if (one.report.status != Status::Limited) continue;
             ++counts.by[m].blaming;
             counts.by[m].unjust += goes_on(Method::Dls, arm, one, target, arm.limits);
-            EXPECT_TRUE(goes_on(Method::Fabrik, arm, one, target, {}));  // lifted, they hold nothing
+            EXPECT_TRUE(goes_on(Method::Fabrik, arm, one, target, {}));  // without limits nothing holds it
         }
     }
     return counts;
@@ -186,7 +186,7 @@ TEST(IkSingular, OnTheLineOfRandomArms) {
             }
             const bool plain = method == Method::FabrikPlain;
             EXPECT_GE(by.there, counts.reached * (plain ? 20 : 80) / 100) << "of " << counts.reached;
-            // The limits led these into another place, where they do hold the tip.
+            // The limits led these into another pose, in which they do keep the tip from the target.
             EXPECT_LE(by.blaming, counts.reached * (plain ? 20 : 12) / 100) << "of " << counts.reached;
             EXPECT_LE(by.unjust, counts.reached * 3 / 100) << "of " << counts.reached;
         }

@@ -1,4 +1,4 @@
-// Soft reach: the chain eases off before it is straight, without a jump and without pretending.
+// The soft zone: the chain slows before it is straight, without jumps, and reports the true residual.
 #include "ik_support.hpp"
 
 namespace tendril::test::ik_soft_test {
@@ -12,7 +12,7 @@ const Lengths lengths(4, 1.0f);
 
 struct Result {
     Report report;
-    double out;  ///< how far the tip got
+    double out;  ///< distance of the tip from the root
 };
 
 Result reach_for(float distance_from_root, float zone) {
@@ -40,7 +40,7 @@ TEST(IkSoftReach, InTheZoneItStaysShortAndSaysSo) {
         EXPECT_EQ(result.report.status, Status::Stretched) << far;
         EXPECT_LT(result.out, 4.0);
         EXPECT_NEAR(result.report.residual, static_cast<double>(far) - result.out, 1e-4);
-        // The curve of the header, with a = 3.2 and z = 0.8.
+        // The curve in the header, with a = 3.2 and z = 0.8.
         const double x = (static_cast<double>(far) - 3.2) / 0.8;
         EXPECT_NEAR(result.out, 3.2 + 0.8 * x / std::sqrt(1.0 + x * x), 1e-4);
     }
@@ -51,11 +51,11 @@ TEST(IkSoftReach, IsContinuousAndNeverSnaps) {
     for (int i = 1; i <= 300; ++i) {
         const double out = reach_for(2.7f + 0.01f * static_cast<float>(i), 0.3f).out;
         const double step = out - before;
-        if (out < 3.99) {  // beyond, the steps are those of rounding
+        if (out < 3.99) {  // beyond, the steps are rounding errors
             EXPECT_GT(step, 0.0) << i;
         }
         EXPECT_LE(step, 0.0101) << i;
-        EXPECT_NEAR(step, step_before, 3e-4) << i;  // the slope has no jump either
+        EXPECT_NEAR(step, step_before, 3e-4) << i;  // the slope is continuous, too
         before = out, step_before = step;
     }
     EXPECT_LT(before, 4.0);

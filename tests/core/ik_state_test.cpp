@@ -1,4 +1,4 @@
-// What a solver remembers is a value: copied and put back, the same solves give the same bits.
+// A solver's state is a value: restored from a copy, the same solves give the same bits.
 #include <cstring>
 
 #include "ik_limited_support.hpp"
@@ -11,7 +11,7 @@ using ik::Method;
 using ik::PoleTurn;
 using ik::State;
 
-/// An arm in the middle of its work: joints, state and a target that moves.
+/// A simulation in progress: joints, state and a moving target.
 struct Scene {
     Arm arm;
     Method method = Method::Fabrik;
@@ -37,7 +37,7 @@ Scene some_scene(Random& random, int number) {
     return scene;
 }
 
-/// A frame: the target moves on, at times far, and the chain follows. All that comes out is written to `out`.
+/// A frame: the target moves, sometimes far, and the chain follows. All results are appended to `out`.
 void frame(ik::Solver& solver, Scene& scene, Random& random, std::vector<float>& out) {
     const float reach = scene.arm.reach();
     scene.target =
@@ -83,7 +83,7 @@ TEST(IkState, RollbackGivesTheSameBits) {
         scene.joints = saved.joints, scene.state = saved.state, scene.target = saved.target;
         EXPECT_TRUE(same_bits(play(solver, scene, 2, 100), first)) << number;
         EXPECT_EQ(scene.state, end) << number;
-        // Nor does it matter which solver goes on.
+        // Any solver can continue.
         Scene elsewhere = saved;
         EXPECT_TRUE(same_bits(play(other, elsewhere, 2, 100), first)) << number;
     }
@@ -151,6 +151,13 @@ TEST(IkState, ABadOneIsRefused) {
     expect_refused([](State& s) { s.pole.pole.x = nan; }, "ik::State: pole.pole must be finite, got nan");
     expect_refused([](State& s) { s.pole.turn = static_cast<PoleTurn>(7); },
                    "ik::State: pole.turn must be 0 or 1, got 7");
+    expect_refused(
+        [](State& s) {
+            s.pole.valid = false;
+            s.limits.valid = true;
+            s.limits.damping = nan;
+        },
+        "ik::State: limits.damping must be from 0 to 100, got nan");
     std::vector<glm::quat> small(1);
     EXPECT_FALSE(local_rotations(good, small));
 }

@@ -1,4 +1,4 @@
-// What the solvers' tests share: poses, a solver with its state, and an observer that can replay.
+// Shared by solver tests: poses, a solver with its state, and an observer that can replay.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ inline constexpr std::array iterating_methods{ik::Method::Fabrik, ik::Method::Fa
                                               ik::Method::Ccd,    ik::Method::JacobianTranspose,
                                               ik::Method::Dls,    ik::Method::SvdDls};
 
-/// Keeps every step, and can take them again.
+/// Records every step, and can replay them.
 class Recorder : public ik::Observer {
   public:
     void step(const ik::Step& step) noexcept override { steps.push_back(step); }
@@ -24,7 +24,7 @@ class Recorder : public ik::Observer {
         residuals.push_back(residual);
     }
 
-    /// Where the steps lead from `joints`; a failure where one does not start where its joint is.
+    /// The joints after replaying from `joints`; fails if a step does not start where its joint is.
     Joints replay(Joints joints) const {
         for (const ik::Step& step : steps) {
             EXPECT_LT(step.joint, joints.size());

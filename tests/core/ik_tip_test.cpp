@@ -1,4 +1,4 @@
-// The last bone turned as asked, with and without limits.
+// The tip's orientation as requested, with and without limits.
 #include "ik_hostile.hpp"
 #include "ik_limited_support.hpp"
 #include "memory.hpp"
@@ -38,7 +38,7 @@ TEST(IkTip, EveryMethodLaysTheLastBoneAsAsked) {
             EXPECT_LE(distance(last, asked * rest.back() * lengths.back()), 1e-4);
             EXPECT_LE(angle_between(solver.rotations().back(), asked), 1e-5);
             EXPECT_NEAR(report.residual, distance(joints.back(), target), 1e-5);
-            // What the chain without its last bone can do decides.
+            // What the chain without its last bone can reach decides.
             const Lengths others(lengths.begin(), lengths.end() - 1);
             const double away = distance(target - asked * rest.back() * lengths.back(), {});
             const double reach = reach_of(others), longest = *std::max_element(others.begin(), others.end());
@@ -100,7 +100,7 @@ TEST(IkTip, OneBoneIsJustLaid) {
     EXPECT_NEAR(off.residual, std::sqrt(8.0f), 1e-5f);
 }
 
-/// The pose that made the target made the orientation too.
+/// The pose that made the target also made the orientation.
 TEST(IkTip, WithinLimitsMostArrive) {
     Random random(6);
     int there = 0, turned_so = 0;

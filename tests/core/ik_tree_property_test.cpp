@@ -1,5 +1,5 @@
-// A tree of chains under random and hostile input: how often it converges, that it always holds, that the
-// order of the effectors is nothing to it, and that solving needs no memory.
+// A tree of chains with random and hostile input: how often it converges, that it always holds, that the
+// order of effectors does not matter, and that solving allocates nothing.
 #include <cstdio>
 #include <map>
 
@@ -27,7 +27,7 @@ struct Tally {
 
 enum class Which { Body, Spider, Random };
 
-/// Targets from one random pose, so that they can be had; the start is another.
+/// Targets from one random pose, so that they are reachable; the start is another.
 Tally converge(Which which, float straight, int solves) {
     Random random(21 + static_cast<std::uint64_t>(which));
     Tally tally;
@@ -49,7 +49,7 @@ TEST(IkTreeProperty, ConvergesWhereItCan) {
         Which which;
         const char* name;
         int solves;
-        double least;  // percent; 95 is asked for
+        double least;  // percent; 95 is required
         int median;
     } cases[] = {{Which::Body, "body", 500, 99.0, 10},
                  {Which::Spider, "spider", 500, 99.0, 10},
@@ -91,7 +91,7 @@ TEST(IkTreeProperty, TheOrderOfTheEffectorsIsNothingToIt) {
     for (int i = 0; i < 300; ++i) {
         Figure figure = random_figure(random);
         Tree tree = tree_of(figure.joints), other = tree_of(figure.joints);
-        // Half of the cases disagree, so that the means matter.
+        // Half of the cases conflict, so that the means matter.
         aim(figure.effectors, random_pose(figure.joints, random, 0.5f));
         if (random.chance(2)) {
             for (Effector& effector : figure.effectors) effector.target = random.point(float(tree.reach()));
@@ -139,7 +139,7 @@ TEST(IkTreeProperty, NeverEndsWorseThanItBegan) {
                 }
                 return distance(effector.target, glm::vec3(0.0f)) <= way;
             });
-        if (!reachable) continue;  // those count as the nearest that can be reached, which is another loss
+        if (!reachable) continue;  // solved for the nearest reachable targets instead: another loss
         const double before = loss();
         tree.solve(places, figure.effectors, {.max_iterations = 1 + static_cast<int>(random.below(20))});
         ASSERT_LE(loss(), before * (1.0 + 1e-5) + 1e-9) << i;
@@ -203,7 +203,7 @@ TEST(IkTreeProperty, ThirtyThousandHostileSolves) {
         for (const float residual : residuals) ASSERT_TRUE(std::isfinite(residual)) << i;
     }
     std::printf("%d refused, %d solved\n", refused, solved);
-    EXPECT_GT(refused, 3'000);  // or this would not test what it says
+    EXPECT_GT(refused, 3'000);  // enough of each to be a test
     EXPECT_GT(solved, 10'000);
 }
 
@@ -254,7 +254,7 @@ TEST(IkTreeProperty, ThousandsOfEffectorsAndALongChain) {
     std::vector<float> residuals(100);
     const TreeReport report = tree.solve(places, effectors, {.residuals = residuals});
     EXPECT_TRUE(Holds(joints, places));
-    EXPECT_LT(report.residual, 0.1f * residuals[0]);  // far from there yet: it is a long way for this many
+    EXPECT_LT(report.residual, 0.1f * residuals[0]);  // not there yet: too far for so few iterations
 }
 
 }  // namespace

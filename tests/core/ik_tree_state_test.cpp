@@ -1,4 +1,4 @@
-// A tree keeps nothing from solve to solve: what goes on are the caller's joints and rotations.
+// A tree keeps nothing between solves: the state is in the caller's joints and rotations.
 #include "ik_tree_support.hpp"
 
 namespace tendril::test::ik_tree_state_test {
@@ -10,7 +10,7 @@ struct Posture {
     bool operator==(const Posture&) const = default;
 };
 
-/// A hundred solves towards targets that move.
+/// A hundred solves towards moving targets.
 Posture play(Tree& tree, const Figure& figure, Posture posture) {
     Random random(7);
     std::vector<Effector> effectors = figure.effectors;
@@ -35,7 +35,7 @@ TEST(IkTreeState, RollbackGivesTheSameBits) {
         const Posture end = play(tree, figure, start);
         EXPECT_EQ(play(tree, figure, start), end);
         EXPECT_EQ(play(other, figure, start), end);
-        // The rotations take each bone from where it lay at the start to where it is.
+        // The rotations turn each bone from its start direction to its present one.
         for (std::size_t k = 1; k < figure.joints.size(); ++k) {
             const std::size_t parent = figure.joints[k].parent;
             const glm::vec3 rest = start.places[k] - start.places[parent];

@@ -1,4 +1,4 @@
-// Trees for the tests: a body, a spider, random ones; poses for them; and what must hold whatever happens.
+// Trees for tests: a body, a spider, random ones; poses for them; and their invariant.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -27,12 +27,12 @@ using ik::TreeReport;
 using TreeJointList = std::vector<TreeJoint>;
 using Places = std::vector<glm::vec3>;
 
-/// The joints must be good: a bad one ends the program.
+/// The joints must be valid: an invalid one ends the program.
 inline Tree tree_of(std::span<const ik::TreeJoint> joints) {
     return Tree::make(joints).value();
 }
 
-/// Appends a chain of bones that hangs on `parent`; gives its last joint.
+/// Appends a chain of bones below `parent`; returns its last joint.
 inline std::size_t grow(TreeJointList& joints, std::size_t parent, const std::vector<float>& lengths) {
     for (const float length : lengths) {
         joints.push_back({parent, length});
@@ -50,7 +50,7 @@ struct Figure {
     std::vector<Effector> effectors;  ///< targets are set later
 };
 
-/// A back with a head and two arms; metres as people have them.
+/// A spine with a head and two arms; human proportions in metres.
 inline Figure body() {
     Figure figure;
     const std::size_t shoulders = grow(figure.joints, 0, {0.15f, 0.15f, 0.15f, 0.15f});
@@ -60,7 +60,7 @@ inline Figure body() {
     return figure;
 }
 
-/// A back of four bones, two legs on each.
+/// A spine of four bones with two legs on each.
 inline Figure spider() {
     Figure figure;
     std::size_t back = 0;
@@ -73,7 +73,7 @@ inline Figure spider() {
     return figure;
 }
 
-/// 5 to 200 joints, bushy or of long chains; effectors on any joints, few or up to a third.
+/// 5 to 200 joints, bushy or in long chains; effectors on any joints, from few to a third.
 inline Figure random_figure(Random& random) {
     Figure figure;
     const std::size_t count = 5 + random.below(196);
@@ -102,7 +102,7 @@ inline glm::vec3 random_direction(Random& random) {
     }
 }
 
-/// `straight`: 0 every bone somewhere, towards 1 more and more along its parent's bone.
+/// `straight`: 0 for random directions; towards 1, increasingly along the parent's bone.
 inline Places random_pose(const TreeJointList& joints, Random& random, float straight) {
     Places places(joints.size(), glm::vec3(0.0f)), along(joints.size(), random_direction(random));
     for (std::size_t k = 1; k < joints.size(); ++k) {
@@ -129,7 +129,7 @@ inline void aim(std::vector<Effector>& effectors, const Places& at) {
     for (Effector& effector : effectors) effector.target = at[effector.joint];
 }
 
-/// Every coordinate is finite, every bone at its length; further out than 1e3 m, to the spacing of floats.
+/// Every coordinate is finite and every bone has its length; beyond 1e3 m, to the spacing of floats.
 inline testing::AssertionResult Holds(const TreeJointList& joints, const Places& places) {
     for (std::size_t k = 0; k < joints.size(); ++k) {
         double furthest = 0.0;

@@ -1,4 +1,4 @@
-// A tree of chains and its effectors: what it does where one can say beforehand what is right.
+// A tree of chains and its effectors in cases with a known answer.
 #include <stdexcept>
 
 #include "ik_tree_support.hpp"
@@ -63,7 +63,7 @@ TEST(IkTree, OneChainComesWhereTheChainSolverComes) {
         const glm::vec3 target = direction * (0.05f + 0.47f * std::abs(random.around(2.0f)));
         const TreeReport report = tree.solve(places, std::vector<Effector>{{10, target}});
         ASSERT_EQ(report.status, Status::Converged) << i;
-        ASSERT_LE(report.iterations, 15) << i;  // plain pulls take up to 312 so near the rim
+        ASSERT_LE(report.iterations, 15) << i;  // FABRIK (2011) takes up to 312 so near the rim
         ASSERT_LE(distance(places[10], target), 1e-3);
         ASSERT_TRUE(Holds(joints, places));
     }
@@ -102,7 +102,7 @@ TEST(IkTree, OneOutOfReachDoesNotKeepTheOthers) {
     Random random(6);
     int others = 0;
     for (int i = 0; i < 200; ++i) {
-        // The left hand's way is straight from the root; the others' targets can be had with that.
+        // The left hand's path is straight from the root; the other targets remain reachable.
         const glm::vec3 away = random_direction(random);
         aim(figure.effectors, straight_pose(figure.joints, away));
         figure.effectors[0].target += random_direction(random) * 0.05f;
@@ -138,7 +138,7 @@ TEST(IkTree, HowFarOffATargetLiesAddsNothingToItsWeight) {
     }
 }
 
-/// Root, one bone, two arms of two; both hands want to be further apart than the arms reach.
+/// Root, one bone, two arms of two; the hands' targets are further apart than the arms reach.
 Figure torn() {
     Figure figure;
     const std::size_t chest = grow(figure.joints, 0, {1.0f});
@@ -158,7 +158,7 @@ TEST(IkTree, EqualWeightsShareTheLossEqually) {
 }
 
 TEST(IkTree, TheHeavierComesNearer) {
-    // Within reach each, but not both: the loss goes over from one to the other as the weight grows.
+    // Each is within reach, but not both: as one's weight grows, the loss moves to the other.
     Figure figure = torn();
     figure.effectors[0].target = {1.2f, 0.9f, 0.0f};
     figure.effectors[1].target = {-1.2f, 0.9f, 0.0f};
@@ -208,7 +208,7 @@ TEST(IkTree, AnInnerJointMovesTheWayToItAndTheRestGoesAlong) {
         const TreeReport report = tree.solve(places, std::vector<Effector>{{3, target}});
         EXPECT_EQ(report.status, Status::Converged);
         EXPECT_TRUE(Holds(joints, places));
-        // TreeJointList 2 to 6 are one rigid piece: all distances among them are as they were.
+        // Joints 2 to 6 are rigid: all distances among them are unchanged.
         for (std::size_t a = 2; a <= 6; ++a) {
             for (std::size_t b = a + 1; b <= 6; ++b) {
                 ASSERT_NEAR(distance(places[a], places[b]), distance(before[a], before[b]), 1e-5);
@@ -334,8 +334,7 @@ TEST(IkTree, EveryBranchLeavesItsLine) {
     Figure figure = spider();
     Tree tree = tree_of(figure.joints);
     for (const float part : {0.9f, 0.6f, 0.2f, -0.3f}) {
-        // The back lies straight, all legs straight at right angles to it; feet are drawn in along their
-        // legs.
+        // The spine is straight, all legs straight at right angles to it; feet are drawn in along their legs.
         Places places(figure.joints.size(), glm::vec3(0.0f));
         for (std::size_t k = 1; k < places.size(); ++k) {
             const bool of_back =

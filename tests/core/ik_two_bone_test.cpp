@@ -1,4 +1,4 @@
-// Two bones in closed form, against angles and cosines in double.
+// The two-bone solver against trigonometry in double.
 #include "ik_hostile.hpp"
 #include "tendril/ik/two_bone.hpp"
 
@@ -26,15 +26,15 @@ glm::vec3 reachable(const TwoBone& limb, Random& random) {
     return limb.root + some_offset(random, least, most);
 }
 
-/// What of a point lies at right angles to the line from the root to the target, of length 1.
+/// The component of a point at right angles to the line from root to target, normalised.
 glm::dvec3 side(const TwoBone& limb, glm::vec3 target, glm::dvec3 point) {
     const glm::dvec3 line = unit(glm::dvec3(target) - glm::dvec3(limb.root));
     const glm::dvec3 arm = point - glm::dvec3(limb.root);
     return unit(arm - line * dot(arm, line));
 }
 
-/// Where the middle joint belongs: the angle at the root by the law of cosines, in the plane of the pole, and
-/// turned by the twist (Rodrigues).
+/// Where the middle joint belongs: the law of cosines gives the angle at the root, in the plane of the pole,
+/// rotated by the twist (Rodrigues).
 glm::dvec3 expected_mid(const TwoBone& limb, glm::vec3 target, glm::dvec3 towards, double scale,
                         double twist) {
     const glm::dvec3 root(limb.root), arm = glm::dvec3(target) - root, line = unit(arm);
@@ -73,7 +73,7 @@ TEST(IkTwoBone, WithoutAPoleItKeepsTheSideThatItBendsTo) {
         const TwoBone limb = some_limb(random);
         const glm::vec3 target = reachable(limb, random);
         const TwoBoneResult result = ik::two_bone(limb, target);
-        // The least rotation of the line, by Rodrigues, takes the old side to the new one.
+        // The shortest rotation of the line (Rodrigues) takes the old side to the new one.
         const glm::dvec3 from = unit(glm::dvec3(limb.tip) - glm::dvec3(limb.root));
         const glm::dvec3 to = unit(glm::dvec3(target) - glm::dvec3(limb.root)), normal = cross(from, to);
         if (std::sqrt(dot(normal, normal)) < 1e-3) continue;
@@ -85,7 +85,7 @@ TEST(IkTwoBone, WithoutAPoleItKeepsTheSideThatItBendsTo) {
         const glm::dvec3 old_side = mid - from * dot(mid, from);
         if (dot(old_side, old_side) < 1e-3) continue;
         EXPECT_LT(distance(result.mid, glm::vec3(expected)), 2e-5);
-        // And again: nothing moves.
+        // A second solve moves nothing.
         const TwoBone there{limb.root, result.mid, result.tip, limb.upper, limb.lower};
         EXPECT_LT(distance(ik::two_bone(there, target).mid, result.mid), 2e-4);
     }
@@ -150,7 +150,7 @@ TEST(IkTwoBone, StretchesAsItIsTold) {
     EXPECT_EQ(at(2.9f).status, Status::Converged);
     EXPECT_EQ(at(3.2f).status, Status::Stretched);
     EXPECT_FLOAT_EQ(at(3.2f).residual, 0.2f);
-    // The elbow keeps its angle while the bones grow: the shape only gets larger.
+    // The elbow keeps its angle while the bones grow: only the size changes.
     EXPECT_NEAR(at(2.4f).mid.y / at(1.6f).mid.y, 1.5f, 1e-5f);
     // With a ratio of 1 it is straight before it stretches.
     const TwoBoneResult full = ik::two_bone(limb, {2.5f, 0, 0}, {.max_stretch_scale = 2.0f});
@@ -174,7 +174,7 @@ TEST(IkTwoBone, StretchesAsItIsTold) {
     }
 }
 
-/// Paths without jumps give joints without jumps, also where the bones begin to stretch, cease to, and turn.
+/// Smooth paths give smooth joints, including where the bones start or stop stretching, and where they turn.
 TEST(IkTwoBone, FollowsWithoutJumps) {
     Random random(4);
     for (int path = 0; path < 40; ++path) {

@@ -1,4 +1,4 @@
-// Stands for an engine's job system, in tests of the task callback.
+// A mock job system for tests of the task callback.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@ namespace tendril::test {
 
 struct Jobs {
     std::uint64_t calls = 0, pieces = 0;
-    bool backwards = false, aside = false;  ///< aside: a thread for each piece
+    bool backwards = false, aside = false;  ///< aside: one thread per piece
 };
 
 inline void run_on_jobs(void* user, TaskFunction task, void* context, std::uint32_t count) {

@@ -1,4 +1,4 @@
-// A solver with its chain's state beside it, as a program keeps them from frame to frame.
+// A solver with its chain's state, as programs keep them between frames.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace tendril::test {
 
 class KeptSolver {
   public:
-    /// The bones must be good: a bad one ends the program.
+    /// The bones must be valid: an invalid one ends the program.
     explicit KeptSolver(std::span<const float> lengths, std::span<const glm::vec3> rest_directions = {})
         : KeptSolver(ik::Solver::make(lengths, rest_directions).value()) {}
     explicit KeptSolver(const Chain& chain) : KeptSolver(ik::Solver(chain)) {}

@@ -1,4 +1,4 @@
-// Calls that must do without memory: while one runs, every `new` of the test program throws std::bad_alloc.
+// Runs code without memory: meanwhile, every `new` in the test program throws std::bad_alloc.
 #pragma once
 
 namespace tendril::test {

@@ -1,4 +1,4 @@
-// Pseudo-random numbers that are the same everywhere: the standard's distributions are not.
+// Pseudo-random numbers that are the same on every platform, unlike the standard library's distributions.
 #pragma once
 
 #include <cmath>
@@ -8,7 +8,7 @@
 
 namespace tendril::test {
 
-/// SplitMix64 (Steele, Lea, Flood 2014): any seed will do.
+/// SplitMix64 (Steele, Lea, Flood 2014): any seed works.
 class Random {
   public:
     explicit Random(std::uint64_t seed) : state_(seed) {}

@@ -1,4 +1,4 @@
-// How calls are refused: the types that say so, and their words.
+// Result and Expected: how calls are refused, and their messages.
 #include "tendril/result.hpp"
 
 #include <gtest/gtest.h>
@@ -39,7 +39,7 @@ TEST(Result, is_copied_with_its_message) {
 
 TEST(Result, cuts_a_long_message_between_characters) {
     std::string text(Result::max_message - 1, 'a');
-    text += "\xc3\xa9 and more";  // a character of two bytes across the end
+    text += "\xc3\xa9 and more";  // a two-byte character across the end
     const Result bad(ErrorCode::InvalidArgument, text);
     EXPECT_EQ(std::string(bad.message()), std::string(Result::max_message - 1, 'a'));
     const std::string whole(Result::max_message, 'b');

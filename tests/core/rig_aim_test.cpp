@@ -1,4 +1,4 @@
-// What aiming promises, degenerate targets included.
+// The promises of aim(), including degenerate targets.
 #include "rig_support.hpp"
 #include "tendril/rig/aim.hpp"
 #include "tests/says.hpp"
@@ -64,7 +64,7 @@ TEST(RigAim, AWeightBlendsTheAxisTowardsTheTarget) {
     AimOptions options{.primary = {{1, 0, 0}, {0, 1, 0}, AimTarget::Direction, 0.5}};
     const auto axis = [&](const glm::dvec3& local) { return aim({}, options).transform.rotation * local; };
     EXPECT_LE(distance(axis({1, 0, 0}), unit({1, 1, 0})), 1e-15);
-    options.weight = 0.5;  // a quarter in all
+    options.weight = 0.5;  // a quarter in total
     EXPECT_LE(distance(axis({1, 0, 0}), unit({3, 1, 0})), 1e-15);
     options.primary.weight = 0.0;
     options.secondary = {{0, 1, 0}, {0, 0, 1}, AimTarget::Direction, 1.0};
@@ -106,7 +106,7 @@ TEST(RigAim, TheOppositeDirectionIsHalfATurn) {
                     pi / 2, 1e-6)
             << "half way to the opposite";
 
-        // The secondary axis at right angles to the primary one, and its target opposite.
+        // The secondary axis perpendicular to the primary one, with its target opposite.
         options.primary.weight = 1.0;
         options.primary.target = item.rotation * options.primary.axis;
         options.secondary = {
@@ -155,7 +155,7 @@ TEST(RigAim, APartWithNothingToGoByIsSkippedWithAWarning) {
     second.axis = {0, 0, 0};
     EXPECT_TRUE(same_bits(expect(good, second, None, ZeroAxis), alone));
     second = {{0, 1, 0}, {1, 2, 3}, AimTarget::Direction, 1.0};
-    expect(here, second, TargetAtItem, None);  // the second part still takes place
+    expect(here, second, TargetAtItem, None);  // the secondary aim still applies
     for (const AimWarning each : {ZeroAxis, TargetAtItem, TargetOnAxis, AxesParallel})
         EXPECT_STRNE(name(each), "");
 }

@@ -1,4 +1,4 @@
-// Backward solves, and why an element is where it is.
+// Backward solves, and explanations of an element's pose.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,8 +20,8 @@ glm::dquat any_rotation(test::Random& random, double max_degrees) {
     return turned(angle, glm::dvec3(x, y, z) + glm::dvec3(1e-3)).rotation;
 }
 
-/// Sets every control to something random, solves, keeps the pose of the bones, puts the controls back to
-/// rest, and solves backward: how much is left.
+/// Sets random controls, solves, keeps the bones' pose, resets the controls, solves backward and returns the
+/// residuals.
 BackwardReport there_and_back(const Definition& definition, std::uint64_t seed, double max_degrees) {
     test::Random random(seed);
     Held rig(definition);
@@ -41,7 +41,7 @@ BackwardReport there_and_back(const Definition& definition, std::uint64_t seed, 
         if (!definition.elements[i].control) continue;
         EXPECT_TRUE(rig.rig.set_control(rig.state, i, rest[i]));
     }
-    // Only the bones stand as they did.
+    // Only the bones keep their pose.
     return solve_backward(rig.rig, rig.state, rig.workspace);
 }
 
@@ -65,7 +65,7 @@ TEST(RigBackward, GivesThePoseBackWhereverTheRigCanExpressIt) {
 
 TEST(RigBackward, SaysWhatARigCannotExpressAndAtWhichBone) {
     Held rig(fk_rig(4));
-    // A bone that is longer than any control can make it.
+    // A bone longer than any control can make it.
     ASSERT_TRUE(rig.rig.set_element(rig.state, rig.element("b3"), Space::Local, at(0, 1.5, 0)));
     ASSERT_TRUE(rig.rig.set_element(rig.state, rig.element("b3"), Space::Local, at(0, 1.0, 0)));
     rig.solve();
@@ -81,7 +81,7 @@ TEST(RigBackward, KeepsToTheLimitsOfControls) {
     Held rig(aim_rig());
     ASSERT_TRUE(rig.control("look", glm::dvec3(1, 1, 0)));
     rig.solve();
-    // Beyond what the control can reach.
+    // Beyond the control's reach.
     Transform head = rig.local("head");
     head.rotation = turned(80, {0, 1, 0}).rotation;
     rig.state.elements.put(rig.rig.id(rig.element("head")), Space::Local, head);
@@ -93,7 +93,7 @@ TEST(RigBackward, KeepsToTheLimitsOfControls) {
     EXPECT_EQ(*report.worst, rig.element("head"));
 }
 
-/// Two bones that one control moves, wanted on either side of where it can have both.
+/// Two bones on one control, with targets that it cannot satisfy both.
 TEST(RigBackward, SharesWhatIsLeftByLeastSquares) {
     Definition definition;
     definition.elements = {
@@ -122,8 +122,8 @@ TEST(RigBackward, SharesWhatIsLeftByLeastSquares) {
     }
 }
 
-/// A bone a metre from the control that turns it, whose place is wanted unturned and whose rotation is wanted
-/// at a right angle: at the least of d^2 + r^2 a^2 its derivative is zero.
+/// A bone 1 m from the control that rotates it, with a position target at rest and a rotation target at a
+/// right angle: at the minimum of d^2 + r^2 a^2 the derivative is zero.
 TEST(RigBackward, MetresPerRadianSaysWhatARotationCounts) {
     Definition definition;
     definition.elements = {
@@ -143,7 +143,7 @@ TEST(RigBackward, MetresPerRadianSaysWhatARotationCounts) {
         solve_backward(rig.rig, rig.state, rig.workspace, {.metres_per_radian = radius});
         const glm::dvec3 tip = rig.global("bone").translation;
         const double angle = std::atan2(tip.y, tip.x), r = radius > 0.0 ? radius : 1.0;
-        // The root's rotation is wanted at rest.
+        // The root's rotation has a target too, at rest.
         EXPECT_NEAR(std::sin(angle) - r * r * (right - angle) + r * r * angle, 0.0, 1e-4) << radius;
         EXPECT_NEAR(tip.z, 0.0, 1e-6);
     }
@@ -175,7 +175,7 @@ TEST(RigBackward, TriesSwitchesBothWays) {
     expect_nothing_left(report, 0);
 }
 
-/// Fourteen rotation controls, all of them turned, with as much work as a solve may do.
+/// Fourteen rotation controls, all turned, with a bound on the work.
 BackwardReport bounded(const BackwardOptions& options, State& state) {
     Held rig(fk_rig(14));
     const State rest = rig.state;
@@ -212,7 +212,7 @@ TEST(RigBackward, StopsWhereItsWorkEndsAndSaysSo) {
         } else {
             EXPECT_EQ(state, whole_state);
         }
-        // A forward solve counts as Rig::work at least, so that the bound is one on solves too.
+        // A forward solve counts as at least Rig::work, so this bounds solves too.
         const std::uint64_t one = Held(fk_rig(14)).rig.work();
         EXPECT_LE(static_cast<std::uint64_t>(report.solves) * one, work + 2 * one);
     }

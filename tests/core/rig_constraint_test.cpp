@@ -1,4 +1,4 @@
-// The parent constraint, and the collection of a for-each.
+// The parent constraint, and the collections of a for-each.
 #include "rig_support.hpp"
 #include "tendril/rig/collect.hpp"
 #include "tendril/rig/euler.hpp"
@@ -178,13 +178,12 @@ TEST(RigParentConstraint, RotationsAreAveragedOnTheFirstParentsHemisphere) {
     EXPECT_LE(distance(parent_constraint(child, parents, options).rotation, about({0, 0, 1}, 40)), 1e-15);
     parents[1].global.rotation = -parents[1].global.rotation;
     EXPECT_LE(distance(parent_constraint(child, parents, options).rotation, about({0, 0, 1}, 40)), 1e-15);
-    // What counts is where the first parent wants the child, not how that parent itself is turned.
+    // What counts is the child's pose under the first parent, not that parent's own rotation.
     ConstraintChild turned;
     turned.initial_global.rotation = about({0, 0, 1}, 179);
     const Parents offset{{}, {.global = {.rotation = about({0, 0, 1}, 4)}}};
     EXPECT_LE(distance(parent_constraint(turned, offset).rotation, about({0, 0, 1}, 181)), 1e-15);
-    // Half a turn either way from a first parent that counts for nothing: they cancel, and the heavier one
-    // wins.
+    // Half a turn either way from a first parent of weight 0: they cancel, and the heavier one wins.
     parents = {{.weight = 0.0},
                {.global = {.rotation = {0, 1, 0, 0}}, .weight = 1.0},
                {.global = {.rotation = {0, -1, 0, 0}}, .weight = 1.0}};
@@ -197,7 +196,7 @@ TEST(RigCollect, DepthFirstFromTheRootInTheOrderOfAdding) {
     const ElementId root = add({}), a = add(root), b = add(root), a1 = add(a), b1 = add(b), a2 = add(a),
                     other = add({});
     const auto collected = [&](bool include_parent, bool recursive) {
-        std::vector<ElementId> list{other};  // appended to what is there
+        std::vector<ElementId> list{other};  // appends to the list
         EXPECT_TRUE(collect_children(tree, root, {include_parent, recursive}, list).ok());
         return list;
     };

@@ -1,4 +1,4 @@
-// The tree itself: order, handles, other parents, and what is refused.
+// The tree itself: order, handles, reparenting, and refusals.
 #include "rig_line.hpp"
 #include "tests/says.hpp"
 

@@ -1,4 +1,4 @@
-// What each write leaves pending, what reading costs, and what is read.
+// What each write leaves pending, the cost of reading, and the values read.
 #include "memory.hpp"
 #include "rig_line.hpp"
 
@@ -177,7 +177,7 @@ TEST(RigHierarchy, RotationsStayUnitLengthAndNumbersFinite) {
     ElementId at;
     for (int i = 0; i < 400; ++i) {
         Transform local = some_transform(random);
-        local.scale = {1e9, -1e9, 1e-9};  // 1e3600 at the end, were there no bound
+        local.scale = {1e9, -1e9, 1e-9};  // 1e3600 at the end if it were unbounded
         at = *tree.add(ElementKind::Null, at, local);
     }
     EXPECT_TRUE(is_finite(tree.get(at, Global)));

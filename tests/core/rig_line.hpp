@@ -7,7 +7,7 @@
 
 namespace tendril::test {
 
-/// Three in a line, one metre apart along Y, and a fourth beside the last; all read.
+/// Three elements in a line, 1 m apart along Y, and a fourth beside the last; all have been read.
 struct RigLine {
     rig::Hierarchy tree;
     rig::ElementId root = *tree.add(rig::ElementKind::Bone, {}, moved(0, 1, 0));

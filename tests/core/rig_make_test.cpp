@@ -1,4 +1,4 @@
-// What Rig::make refuses, and how it says so.
+// What Rig::make refuses, and its messages.
 #include <gtest/gtest.h>
 
 #include <limits>

@@ -1,4 +1,4 @@
-// Random rigs, most of them nonsense; Rig::make takes them all.
+// Random rigs, most of them meaningless; Rig::make accepts them all.
 #pragma once
 
 #include "random.hpp"
@@ -6,7 +6,7 @@
 
 namespace tendril::rig {
 
-/// `sane`: no numbers that are huge or at the edge of what is taken.
+/// `sane`: no numbers that are huge or at the edge of the accepted range.
 class Maker {
   public:
     explicit Maker(std::uint64_t seed, bool sane = false) : random_(seed), sane_(sane) {}

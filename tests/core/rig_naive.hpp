@@ -1,5 +1,5 @@
-// A rig's solve as the specification has it, word by word: names looked up each time, nothing prepared. What
-// single operations compute, the library's functions say; they have tests of their own.
+// A literal implementation of a rig's solve as specified: looks names up each time and prepares nothing.
+// Single operations use the library's functions, which have tests of their own.
 #pragma once
 
 #include <map>
@@ -11,7 +11,7 @@
 
 namespace tendril::rig {
 
-/// Of everything but chains of bones and aims of limited speed.
+/// Covers everything but bone chains and aims with a speed limit.
 class NaiveRig {
   public:
     explicit NaiveRig(Definition definition) : definition_(std::move(definition)) {
@@ -114,7 +114,7 @@ class NaiveRig {
         if constexpr (std::is_same_v<T, Value>) {
             return value;
         } else {
-            // A whole pose is taken for the part of it that is asked for.
+            // A whole pose can stand for the part of it that is needed.
             const auto* pose = std::get_if<Transform>(&value);
             if constexpr (std::is_same_v<T, glm::dvec3>)
                 if (pose) return pose->translation;

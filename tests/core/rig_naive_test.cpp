@@ -1,4 +1,4 @@
-// Random rigs solved by the library and word by word.
+// Random rigs, solved by the library and by the literal implementation.
 #include <gtest/gtest.h>
 
 #include "rig_maker.hpp"
@@ -26,7 +26,7 @@ double apart(const Value& a, const Value& b) {
         a);
 }
 
-/// Neither a chain of bones nor an aim of limited speed.
+/// Neither bone chains nor aims with a speed limit.
 bool is_plain(const std::vector<Unit>& units) {
     return std::ranges::all_of(units, [](const Unit& unit) {
         const Operation& what = unit.operation;
@@ -56,7 +56,7 @@ TEST(RigNaive, ASolveIsWhatTheSpecificationSaysWordByWord) {
             const double dt = random.chance(3) ? 0.0 : 1.0 / 30;
             rig.solve(dt);
             naive.solve(dt);
-            bool warned = false;  // of what is out of range, and left out
+            bool warned = false;  // something is out of range, and left out
             for (const UnitState& unit : rig.state.units) warned |= unit.warning == Warning::OutOfRange;
             if (warned) break;
             for (const Element& element : definition.elements)

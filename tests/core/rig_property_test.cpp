@@ -7,8 +7,7 @@ namespace {
 
 using namespace rig;
 
-/// The specification, word by word and without laziness: everything is there at all times, worked out with
-/// GLM.
+/// A literal implementation without laziness: every transform is always up to date, computed with GLM.
 class Naive {
   public:
     struct Element {
@@ -81,7 +80,7 @@ class Naive {
     }
 };
 
-/// The same edits on two hierarchies and the naive one; `ids` tells which element of those is which of this.
+/// The same edits on two hierarchies and the naive one; `ids` maps its elements to theirs.
 struct Trio {
     Hierarchy tree, also;
     Naive naive;
@@ -139,7 +138,7 @@ struct Trio {
         if (random.chance(50)) return copy_pose(random);
         set(random);
     }
-    /// How far one answer is from what it should be.
+    /// The deviation of one answer.
     double read(int at, Space space, int pose) {
         const Naive::Element& wanted = naive.elements[std::size_t(at)];
         const Transform& got = tree.get(id(at), space, pose_of(pose));
@@ -178,7 +177,7 @@ TEST(RigHierarchyProperty, AgreesWithANaiveImplementationOverManyEdits) {
 
 TEST(RigHierarchyProperty, ReadingChangesNoAnswer) {
     Random edits(77), reads(78);
-    Trio trio;  // of which only `also` is read
+    Trio trio;  // only `also` is read
     for (int i = 0; i < 20'000; ++i) {
         trio.edit(edits);
         for (std::size_t j = reads.below(4); j > 0; --j) {

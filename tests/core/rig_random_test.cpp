@@ -1,5 +1,5 @@
-// Random rigs, most of them nonsense: whatever make() takes, nothing that is not finite comes out of it,
-// solving twice gives what solving once gives, and a copy goes on as the original does.
+// Random rigs, most of them meaningless: results are finite, solving twice equals solving once, and a copy
+// continues like the original.
 #include <gtest/gtest.h>
 
 #include "rig_maker.hpp"

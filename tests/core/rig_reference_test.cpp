@@ -1,5 +1,5 @@
-// Numeric cases of an independent implementation in double precision. Skipped where they are not at hand; the
-// other files here hold without them.
+// Numeric cases from an independent implementation in double precision. Skipped if the files are missing; the
+// other tests do not need them.
 #include <filesystem>
 #include <fstream>
 
@@ -10,7 +10,7 @@
 namespace tendril::test {
 namespace {
 
-/// The cases of a file; none where it is not at hand.
+/// The cases in a file; none if it is missing.
 Json cases_of(const char* name) {
     std::ifstream file(reference_path(name));
     return file ? Json::parse(file) : Json::array();

@@ -22,7 +22,7 @@ inline Transform turned(double degrees, const glm::dvec3& axis) {
     return {.rotation = glm::angleAxis(glm::radians(degrees), glm::normalize(axis))};
 }
 
-/// A rig with its state, as a game holds it.
+/// A rig with its state and workspace, as a game holds them.
 struct Held {
     Rig rig;
     State state;
@@ -49,7 +49,7 @@ struct Held {
     }
 };
 
-/// A head that aims at a 2D control in front of it, rolled by a second control in the first one's space.
+/// A head that aims at a 2D control in front of it, with roll from a second control in the first one's space.
 inline Definition aim_rig() {
     Definition rig;
     rig.elements = {
@@ -74,8 +74,8 @@ inline Definition aim_rig() {
     return rig;
 }
 
-/// A tentacle of `count` bones along y, each below the one before and constrained to a rotation control of
-/// its own.
+/// A tentacle of `count` bones along y, each below the one before and constrained to its own rotation
+/// control.
 inline Definition fk_rig(int count = 4, bool maintain_offset = true) {
     Definition rig;
     for (int i = 0; i < count; ++i) {
@@ -98,7 +98,7 @@ inline Definition fk_rig(int count = 4, bool maintain_offset = true) {
     return rig;
 }
 
-/// An arm of `count` bones along x that curls by one dial: each bone is turned on by its ratio of the dial.
+/// An arm of `count` bones along x that one dial curls: each bone turns by its ratio of the dial.
 inline Definition loop_rig(int count = 5, bool propagate = true) {
     Definition rig;
     for (int i = 0; i < count; ++i)

@@ -1,5 +1,5 @@
-// A small interpreter of the Rig lab's commands, as far as reference files use them: elements, sets, and
-// three units that a solve runs in order.
+// A small interpreter of the Rig lab's commands, as far as the reference files use them: elements, sets, and
+// three units that run in order.
 #pragma once
 
 #include <map>
@@ -65,7 +65,7 @@ class RigScript {
                          local ? rig::Space::Local : rig::Space::Global, transform_of(json.at("transform")),
                          propagate ? rig::Propagate::Yes : rig::Propagate::No);
     }
-    /// Solving twice gives what solving once gives: the first solve saves the input pose.
+    /// Solving twice equals solving once: the first solve saves the input pose.
     void put_back() {
         if (!input_) input_ = tree_;
         tree_ = *input_;

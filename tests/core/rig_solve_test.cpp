@@ -1,4 +1,4 @@
-// Forward solves: each unit on a small rig, and what holds for all of them.
+// Forward solves: each unit on a small rig, and properties of all units.
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -21,7 +21,7 @@ TEST(RigSolve, AimsTheHeadAtItsControl) {
     const Transform head = rig.global("head"), look = rig.global("look"), tilt = rig.global("tilt");
     expect_near(look.translation, {0.8, 0.8, 2});
     expect_near(head.rotation * glm::dvec3(0, 0, 1), glm::normalize(look.translation - head.translation));
-    // The control above tells what is up, as nearly as looking at the other allows.
+    // The control above sets the up direction as far as the aim allows.
     const glm::dvec3 side =
         glm::cross(head.rotation * glm::dvec3(0, 0, 1), tilt.translation - head.translation);
     EXPECT_NEAR(glm::dot(head.rotation * glm::dvec3(0, 1, 0), glm::normalize(side)), 0.0, 1e-12);
@@ -77,11 +77,11 @@ TEST(RigSolve, ForEachCurlsAnArmAndPropagationMattersToItsShape) {
         ASSERT_TRUE(rig->control("dial", 1.0));
         rig->solve();
     }
-    // Propagating, every bone is turned by 30 degrees more than the one before it.
+    // With propagation, every bone turns 30 degrees more than the one before.
     glm::dvec3 end(0.0);
     for (int i = 0; i < 4; ++i) end += turned(30.0 * (i + 1), {0, 0, 1}).rotation * glm::dvec3(1, 0, 0);
     expect_near(curled.global("b4").translation, end);
-    // Not propagating, joints turn where they are.
+    // Without propagation, joints turn in place.
     expect_near(turned_in_place.global("b4").translation, {4, 0, 0});
     expect_near(turned_in_place.global("b4").rotation * glm::dvec3(1, 0, 0),
                 turned(30, {0, 0, 1}).rotation * glm::dvec3(1, 0, 0));
@@ -113,7 +113,7 @@ TEST(RigSolve, EachElementKnowsItsPlaceAmongThoseOfItsRoot) {
                            {.name = "b"},
                            {.name = "b1", .parent = "b"}};
     definition.curves = {{.name = "sum"}};
-    // Each moves by (ratio, index, count) of its own.
+    // Each moves by its own (ratio, index, count).
     const auto along = [](const char* name, Each each, glm::dvec3 axis) {
         return Unit{.name = name,
                     .operation = SetTransform{.item = ThisElement(),
@@ -129,7 +129,7 @@ TEST(RigSolve, EachElementKnowsItsPlaceAmongThoseOfItsRoot) {
     rig.solve();
     expect_near(rig.local("a1").translation, {0, 0, 0});  // the first of two
     expect_near(rig.local("a2").translation, {1, 0, 0});  // the last of two
-    expect_near(rig.local("b1").translation, {0, 0, 0});  // one alone
+    expect_near(rig.local("b1").translation, {0, 0, 0});  // a single one
 }
 
 TEST(RigSolve, AWeightOfZeroLeavesEverythingToTheBit) {
@@ -155,7 +155,7 @@ TEST(RigSolve, AWeightOfZeroLeavesEverythingToTheBit) {
                 EXPECT_EQ(rig.state.elements.get(id, space), original.elements.get(id, space))
                     << operation_name(operation.index());
             }
-        // Switched off, or where `when` is false, neither.
+        // If disabled, or if `when` is false: neither.
         definition.units[0].weight = 1.0;
         definition.units[0].enabled = false;
         Held off(definition);
@@ -203,7 +203,7 @@ TEST(RigSolve, ChainsReachTheirTargets) {
             EXPECT_NEAR(glm::length(rig.global("b").translation), 1.0, 1e-6);
             EXPECT_LT(rig.global("b").translation.z, 0.0) << "the elbow points at its pole";
         }
-        // Ten kilometres out as well.
+        // The same 10 km out.
         ASSERT_TRUE(rig.rig.set_element(rig.state, 0, Space::Global, at(1e4, 0, 1e4)));
         ASSERT_TRUE(rig.control("target", glm::dvec3(1e4 + 1, 0.8, 1e4 + 0.3)));
         rig.solve();
@@ -304,7 +304,7 @@ TEST(RigSolve, WarnsOfWhatItLeavesOutAndKeepsThePose) {
     EXPECT_EQ(out_of_range.unit("turn").warning, Warning::None) << "a warning lasts as long as its reason";
 }
 
-/// Of one element: the first round is the last.
+/// One element: the first round is also the last.
 TEST(RigSolve, AWarningInABodyLastsAsLongAsItsReason) {
     Definition definition;
     definition.elements = {

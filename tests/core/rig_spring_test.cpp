@@ -1,4 +1,4 @@
-// Springs as units: parameters out of their range, and when they move.
+// Springs as units: parameters out of range, and when springs move.
 #include <gtest/gtest.h>
 
 #include "rig_rigs.hpp"
@@ -6,7 +6,7 @@
 namespace tendril::rig {
 namespace {
 
-/// Parameters that a control gives may be anything.
+/// Parameters from controls may have any value.
 TEST(RigSpring, ASpringsParametersAreClampedWithAWarning) {
     Definition definition;
     definition.elements = {
@@ -58,7 +58,7 @@ TEST(RigSpring, ASpringThatTurnsRoundMovesOn) {
     Held rig(definition);
     rig.solve(0.25);
     ASSERT_TRUE(rig.control("dial", 1.0));
-    // A quarter of a swing each: every second step ends where it turns round, at rest.
+    // Each step is a quarter of a swing: every second one ends at a turning point, at rest.
     for (int i = 0; i < 12; ++i) EXPECT_TRUE(rig.solve(0.25)) << i;
 }
 

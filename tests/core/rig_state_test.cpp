@@ -1,4 +1,4 @@
-// What a person sets, what a rig remembers, and how both outlive edits and rollbacks.
+// User-set values and a rig's memory, and how both survive edits and rollbacks.
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -30,7 +30,7 @@ TEST(RigState, SpringsTrailAndComeToRest) {
     const double soon = std::get<glm::dvec3>(rig.unit("trail").outputs[0]).x;
     EXPECT_GT(soon, 0.0);
     EXPECT_LT(soon, 0.2);
-    // Without time nothing that remembers moves.
+    // Without time, nothing with memory moves.
     const State before = rig.state;
     rig.solve(0.0);
     EXPECT_EQ(before, rig.state);
@@ -96,12 +96,12 @@ TEST(RigState, AControlWhoseLimitsLeaveOutItsRestBeginsAtTheNearestEnd) {
         expect_near(rig.global("place").translation, {0, 2, 3});
         rig.solve();
     }
-    // It rests elsewhere from now on, and its value is from there.
+    // This moves its rest position, and its value is relative to that.
     ASSERT_TRUE(rig.rig.set_element(rig.state, 0, Space::Global, at(4, 4, 4)));
     expect_near(rig.global("square").translation, {4, 4, 4});
     ASSERT_TRUE(rig.control("square", glm::dvec3(0)));
     expect_near(rig.global("square").translation, {4, 4, 4});
-    // One end is enough, and no solve has to come first.
+    // One end is enough, and no solve is needed first.
     ASSERT_TRUE(rig.rig.set_element(rig.state, 1, Space::Global, at(5, 5, 5)));
     expect_near(rig.global("place").translation, {0, 5, 5});
 }
@@ -185,7 +185,7 @@ TEST(RigState, AChainThatIsGivenOtherEndsIsSolved) {
         reach.tip = tip;
         const Rig edited = Rig::make(definition).value();
         Workspace workspace(edited);
-        // Adopted, and as an older file may have it.
+        // Adopted, and as an older file may contain it.
         for (State state : {edited.adopted(rig.rig, rig.state), rig.state}) {
             edited.solve(state, 0.0, workspace);
             EXPECT_EQ(state.units[0].warning, Warning::None) << root << ' ' << tip;
@@ -211,7 +211,7 @@ TEST(RigState, WhatIsRememberedOfAnElementStaysWithIt) {
     rig.solve(0.1);
     const std::vector<UnitMemory> before = rig.state.units[1].memory;
     ASSERT_NE(before[0], before[1]);
-    // The other way round, with a third between them, and one gone.
+    // In reverse order, with a third between them, and one removed.
     definition.elements.push_back({.name = "new", .parent = "right"});
     std::get<ForEach>(definition.units[0].operation).roots = {"right", "left"};
     const Rig edited = Rig::make(definition).value();
@@ -282,7 +282,7 @@ TEST(RigState, StatesCanBePutBack) {
     EXPECT_TRUE(first == second);
 }
 
-/// A switch that a unit turns round works while time stands still; what eases waits for time.
+/// A switch that a unit inverts works without time; easing waits for time.
 TEST(RigState, WhatDoesNotEaseFollowsWithoutTime) {
     Definition definition;
     definition.elements = {
@@ -302,8 +302,7 @@ TEST(RigState, WhatDoesNotEaseFollowsWithoutTime) {
     EXPECT_LT(std::get<double>(rig.unit("eased").outputs[0]), 0.5);
 }
 
-/// Nothing in a workspace is remembered: not which lengths a solver was made for either, while a scale
-/// creeps.
+/// A workspace keeps no state, not even the lengths that a solver was made for while a scale changes slowly.
 TEST(RigState, WorkspacesCanBeThrownAwayWhileBonesGrow) {
     Definition definition;
     definition.elements = {{.name = "size", .kind = ElementKind::Control, .control = Control{}},
@@ -330,8 +329,8 @@ TEST(RigState, WorkspacesCanBeThrownAwayWhileBonesGrow) {
     }
 }
 
-/// Children that stay where they are while their parent is set stay there when it is solved, controls too,
-/// whose values are then others.
+/// Children that stay in place when their parent is set without propagation also stay after a solve. So do
+/// controls, whose values change.
 TEST(RigState, WithoutPropagationChildrenStayAfterTheSolve) {
     Definition definition;
     const auto control = [](const char* name, ControlKind kind) {

@@ -1,4 +1,4 @@
-// What the rig's tests share: pseudo-random transforms, and how far two of them are apart.
+// Shared by rig tests: pseudo-random transforms, and distances between them.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -35,7 +35,7 @@ inline double some_factor(Random& random) {
     const double size = std::exp2(some_double(random, 1.0));
     return random.chance(6) ? -size : size;
 }
-/// Every other one is scaled, some evenly, some not.
+/// Half are scaled, some uniformly, some not.
 inline rig::Transform some_transform(Random& random, double range = 2.0) {
     rig::Transform made;
     made.translation = some_vector(random, range);
@@ -59,13 +59,13 @@ inline double norm(const glm::dquat& q) {
 inline double distance(const glm::dvec3& a, const glm::dvec3& b) {
     return norm(glm::dvec3{a.x - b.x, a.y - b.y, a.z - b.z});
 }
-/// Of the rotations, not of the quaternions: q and -q are 0 apart.
+/// Between rotations, not quaternions: q and -q have distance 0.
 inline double distance(const glm::dquat& a, const glm::dquat& b) {
     const double minus = norm(glm::dquat{a.w - b.w, a.x - b.x, a.y - b.y, a.z - b.z});
     const double plus = norm(glm::dquat{a.w + b.w, a.x + b.x, a.y + b.y, a.z + b.z});
     return std::min(minus, plus);
 }
-/// The largest of three, of which those of translation and scale are relative where they are over 1.
+/// The maximum over translation, rotation and scale; translation and scale are relative if greater than 1.
 inline double distance(const rig::Transform& a, const rig::Transform& b) {
     return std::max({distance(a.translation, b.translation) / std::max(1.0, norm(b.translation)),
                      distance(a.rotation, b.rotation),

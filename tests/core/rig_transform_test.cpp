@@ -1,4 +1,4 @@
-// Transforms, Euler angles and the small operations on them.
+// Transforms, Euler angles and simple operations on them.
 #include "rig_support.hpp"
 #include "tendril/rig/euler.hpp"
 #include "tendril/rig/transform_units.hpp"

@@ -1,4 +1,4 @@
-// The same bits with every vector unit and with none, and no memory taken while time passes.
+// The same bits with every vector unit and without; no allocation in advance().
 #include "memory.hpp"
 #include "rope_support.hpp"
 #include "tendril/ik/many.hpp"
@@ -8,8 +8,7 @@ namespace {
 
 using rope::Solver;
 
-/// Ropes of equal length side by side, so that registers are full, half full and alone; whips, contacts, a
-/// cloth.
+/// Equal ropes side by side, so that registers are full, half full and single; whips, contacts, a cloth.
 World wild_scene(const rope::Settings& settings) {
     World world = world_with(settings);
     Random random(101);
@@ -38,7 +37,7 @@ World wild_scene(const rope::Settings& settings) {
     return world;
 }
 
-/// Pins jerked to and fro: what they hold cracks like a whip.
+/// Jerks pins to and fro, so that ropes crack like whips.
 void stir(World& world, Random& random) {
     for (int i = 0; i < 3; ++i) {
         const std::size_t which = random.below(world.state().pins.size());
@@ -70,7 +69,7 @@ TEST(RopeBits, EveryVectorUnitHasTheSame) {
     }
 }
 
-/// All of a rope in one point: its system is singular, and what the direct solver makes of it no number.
+/// A rope in one point: its system is singular, and the direct solver gets NaN.
 TEST(RopeBits, ARopeInOnePointIsFiniteInEveryUnit) {
     for (const int segments : {7, 18, 31}) {
         World first;
@@ -88,7 +87,7 @@ TEST(RopeBits, ARopeInOnePointIsFiniteInEveryUnit) {
     }
 }
 
-/// Whether a rope has company in its register or not.
+/// A rope's neighbours in its register must not matter.
 TEST(RopeBits, CompanyDoesNotMatter) {
     for (const int others : {0, 1, 3, 7, 12}) {
         World alone, together;
@@ -122,7 +121,7 @@ TEST(RopeBits, AUnitOutlivesACopy) {
     EXPECT_TRUE(same_bits(world.state(), copy.state()));
 }
 
-/// Once it has its shape; near colliders and far from them.
+/// Once buffers have their size; near colliders and far from them.
 TEST(RopeBits, TimePassesWithoutMemory) {
     for (const Solver solver : all_solvers) {
         World world = wild_scene({.solver = solver});

@@ -1,4 +1,4 @@
-// Capsules whose two ends move on lines of their own.
+// Capsules whose ends move along separate lines.
 #include <tendril/rope/world.hpp>
 
 #include "rope_support.hpp"
@@ -50,13 +50,13 @@ TEST(RopeCapsule, OneThatOnlyMovesDoesWhatMovingAColliderDoes) {
         EXPECT_LE(glm::length(moved.position(i) - turned.position(i)), 1e-6) << i;
 }
 
-/// A bar that swings round a fast quarter turn takes a rope along that hangs in its way, however thin it is.
+/// A bar that swings through a fast quarter turn pushes a rope in its path, however thin it is.
 TEST(RopeCapsule, PushesWhatItMeetsWhileItTurns) {
     rope::World world;
     rope::Workspace workspace;
     const Capsule from{{0, 0, 0}, {1, 0, 0}, 0.02f}, to{{0, 0, 0}, {0, 0, 1}, 0.02f};
     const rope::ColliderId id = *world.add_collider(from);
-    // Its end moves on a line: half way round it reaches 0.71 m, and the rope hangs at 0.57 m.
+    // Its end moves along a line: half way it reaches 0.71 m, and the rope hangs at 0.57 m.
     const rope::BodyId line = *world.add_rope({.from = {0.4f, 1, 0.4f},
                                                .to = {0.4f, -0.5f, 0.4f},
                                                .segments = 30,
@@ -72,14 +72,14 @@ TEST(RopeCapsule, PushesWhatItMeetsWhileItTurns) {
                 std::max(deepest, 0.01 - surface_distance(world.find(id)->shape, world.position(p)).distance);
     }
     EXPECT_LT(deepest, 1e-4);
-    // On the side that the bar went to: nothing of the rope near the bar's height is behind it.
+    // The bar pushed the rope along: near the bar's height, none of it is behind the bar.
     for (std::size_t p = first; p < first + count; ++p)
         if (std::abs(world.position(p).y) < 0.05) {
             EXPECT_LT(world.position(p).x, 0.1) << p;
         }
 }
 
-/// What lies on it is taken along by friction where its surface moves, and left where it does not.
+/// Friction moves what lies on it with the surface below, and not where the surface is still.
 TEST(RopeCapsule, TakesAlongWhatLiesOnItAsFarAsThatPointMoves) {
     rope::World world;
     rope::Workspace workspace;
@@ -93,7 +93,7 @@ TEST(RopeCapsule, TakesAlongWhatLiesOnItAsFarAsThatPointMoves) {
         lying[i] = *world.add_rope(
             {.from = {x - 0.05f, 0.11f, 0}, .to = {x + 0.05f, 0.11f, 0}, .segments = 2, .radius = 0.01f});
     }
-    // Its end b goes aside, its end a stays.
+    // End b moves sideways, end a stays.
     ASSERT_TRUE(world.move_capsule(id, {{0, 0, 0}, {2, 0, 0.3f}, 0.1f}, 0.5));
     world.advance(0.25, workspace);
     world.advance(0.25, workspace);

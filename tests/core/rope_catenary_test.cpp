@@ -1,5 +1,4 @@
-// A rope that hangs from both ends comes to rest as a catenary; plain relaxation does not quite, and by how
-// much is known.
+// A rope that hangs from both ends comes to rest as a catenary. Relaxation misses it by a known amount.
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -17,7 +16,7 @@ using rope::Solver;
 struct Hung {
     float span, length;
     int segments;
-    double sag;  ///< that a catenary has
+    double sag;  ///< of the catenary
 };
 
 std::vector<Hung> own_cases() {
@@ -27,19 +26,19 @@ std::vector<Hung> own_cases() {
     return cases;
 }
 
-/// The relative error of the sag now.
+/// The present relative error of the sag.
 double sag_error(const World& world, const Hung& hung) {
     return -lowest(world) / hung.sag - 1.0;
 }
 
-/// The default damping, 0.1 per second, halves a swing in 14 s: what is let go on its parabola swings by two
-/// percent of its sag for a while, is within 1 % after 25 s and within 0.2 % after a minute.
+/// The default damping, 0.1 per second, halves a swing in 14 s: released on its parabola, a rope swings by 2
+/// % of its sag for a while, is within 1 % after 25 s and within 0.2 % after a minute.
 void check_defaults(const std::vector<Hung>& cases) {
     for (const Hung& hung : cases) {
         SCOPED_TRACE(std::to_string(hung.span) + " m, " + std::to_string(hung.length) + " m of rope");
         World world;
         hang_between(world, hung.span, hung.length, hung.segments);
-        EXPECT_LE(std::abs(sag_error(world, hung)), 0.03);  // a parabola is close already
+        EXPECT_LE(std::abs(sag_error(world, hung)), 0.03);  // a parabola is already close
         double worst_stretch = 0.0, worst_late = 0.0;
         for (int second = 1; second <= 60; ++second) {
             run(world, 1.0);
@@ -66,7 +65,7 @@ TEST(RopeCatenary, OfAnIndependentSource) {
     for (const auto& json : reference.at("catenary")) {
         const Hung hung{json.at("span").get<float>(), json.at("length").get<float>(),
                         json.at("segments").get<int>(), json.at("sag").get<double>()};
-        EXPECT_NEAR(hung.sag, catenary_sag(hung.span, hung.length), 1e-6);  // of theory there is only one
+        EXPECT_NEAR(hung.sag, catenary_sag(hung.span, hung.length), 1e-6);  // the theory is the same
         const auto same = [&](const Hung& own) { return own.span == hung.span && own.length == hung.length; };
         const std::vector<Hung> own = own_cases();
         if (std::none_of(own.begin(), own.end(), same))
@@ -84,14 +83,14 @@ TEST(RopeCatenary, OfAnySpanAndLength) {
         World world = world_with({.damping = 1.0f});
         hang_between(world, span, length, segments);
         run(world, 20.0);
-        // A polygon of so many sides hangs a little less deep than a curve of its length.
+        // A polygon hangs slightly less deep than a curve of its length.
         const Hung hung{span, length, segments, catenary_sag(span, length)};
         EXPECT_LE(std::abs(sag_error(world, hung)), 0.005) << span << ' ' << length << ' ' << segments;
         EXPECT_LE(stretch(world), 1e-5);
     }
 }
 
-/// One above the other, and both at one point: no curve at all.
+/// Pins above one another, and both in one point: no curve at all.
 TEST(RopeCatenary, WithoutWidthHangsStraightDown) {
     for (const float lower : {0.0f, 0.5f}) {
         World world = world_with({.damping = 1.0f});
@@ -107,7 +106,7 @@ TEST(RopeCatenary, WithoutWidthHangsStraightDown) {
     }
 }
 
-/// What plain relaxation was measured to sag too much: it must stay the plain method.
+/// The measured excess sag of relaxation: it must remain the plain method.
 TEST(RopeCatenary, PlainRelaxationSagsByWhatItAlwaysDid) {
     struct Measured {
         int iterations;
@@ -123,11 +122,11 @@ TEST(RopeCatenary, PlainRelaxationSagsByWhatItAlwaysDid) {
         hang_between(world, hung.span, hung.length, hung.segments);
         run(world, 15.0);
         EXPECT_NEAR(sag_error(world, hung), each.too_much, 0.0006) << each.iterations << ' ' << each.substep;
-        EXPECT_GT(stretch(world), 1e-3);  // and says how much it stretches
+        EXPECT_GT(stretch(world), 1e-3);  // and reports how much it stretches
     }
 }
 
-/// Far from the origin a float has no digit left for how a rope moves: doubles have.
+/// Far from the origin, floats cannot resolve a rope's motion; doubles can.
 TEST(RopeCatenary, AThousandKilometresOut) {
     World world = world_with({.damping = 1.0f});
     const float far = 1e6f - 8.0f;

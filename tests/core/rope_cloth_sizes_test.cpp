@@ -1,5 +1,4 @@
-// Cloth of any resolution: it does not stretch, rests on what it touches, and comes back from what is done to
-// it.
+// Cloth at any resolution: does not stretch, rests on what it touches, and recovers from disturbances.
 #include "rope_support.hpp"
 #include "tendril/ik/many.hpp"
 
@@ -8,7 +7,7 @@ namespace {
 
 using rope::ClothShape;
 
-/// Flat at the height of the origin, a metre each way.
+/// Horizontal at the height of the origin, 1 m along each side.
 ClothShape flat(int side, ClothShape::Pins pins) {
     return {.corner = {0, 0, 0},
             .along = {1, 0, 0},
@@ -18,7 +17,7 @@ ClothShape flat(int side, ClothShape::Pins pins) {
             .pins = pins};
 }
 
-/// The worst of all frames.
+/// The maximum over all frames.
 double worst_stretch(World& world, double seconds) {
     double worst = 0.0;
     for (int i = 0; i < static_cast<int>(seconds * 60.0); ++i) {
@@ -28,7 +27,7 @@ double worst_stretch(World& world, double seconds) {
     return worst;
 }
 
-/// At 128 x 128 a fold that runs through it takes 1.2 %.
+/// At 128 x 128, a fold that travels through it takes 1.2 %.
 TEST(RopeClothSizes, HangsByTwoCornersWithinOnePercent) {
     const struct {
         int side;
@@ -41,7 +40,7 @@ TEST(RopeClothSizes, HangsByTwoCornersWithinOnePercent) {
     }
 }
 
-/// Falls as freely as anything: the middle of its free edge is where a swinging door's would be.
+/// It falls freely: the middle of its free edge is where that of a swinging door would be.
 TEST(RopeClothSizes, FallsAsFastAtAnyResolution) {
     for (const int side : {4, 12, 24, 48}) {
         World world;
@@ -52,8 +51,7 @@ TEST(RopeClothSizes, FallsAsFastAtAnyResolution) {
     }
 }
 
-/// A corner is torn away by a metre in a fifth of a second and let go: nothing tears, and soon all is as
-/// before.
+/// A corner is pulled away by 1 m in 0.2 s and released: nothing tears, and it soon hangs as before.
 TEST(RopeClothSizes, ACornerThatIsPulledFastComesBack) {
     for (const int side : {12, 24, 40}) {
         World world = world_with({.damping = 1.0f});
@@ -75,7 +73,7 @@ TEST(RopeClothSizes, ACornerThatIsPulledFastComesBack) {
     }
 }
 
-/// It slides down a slope as a body would, and where friction holds it creeps by some millimetres a second.
+/// It slides down a slope like a rigid body; if friction holds it, it creeps by a few mm/s.
 TEST(RopeClothSizes, SlidesWhereFrictionDoesNotHoldIt) {
     const double angle = 20.0 * pi / 180.0;
     const glm::vec3 normal(static_cast<float>(std::sin(angle)), static_cast<float>(std::cos(angle)), 0.0f);
@@ -99,7 +97,7 @@ TEST(RopeClothSizes, SlidesWhereFrictionDoesNotHoldIt) {
         }
 }
 
-/// A ball much smaller than a cell holds the link that lies on it.
+/// A ball much smaller than a cell supports the link that lies on it.
 TEST(RopeClothSizes, LinksDoNotPassASmallBall) {
     World world;
     world.add_collider("ball", rope::Sphere{{0.5f, -0.1f, 0.375f}, 0.05f});
@@ -117,7 +115,7 @@ TEST(RopeClothSizes, LinksDoNotPassASmallBall) {
         }
     });
     EXPECT_GE(nearest, 0.01 - 2e-3);
-    EXPECT_GT(world.position(12).y, -0.6f);  // it still hangs over it
+    EXPECT_GT(world.position(12).y, -0.6f);  // still hanging over it
 }
 
 TEST(RopeClothSizes, HasTheSameBitsInEveryUnit) {
@@ -136,7 +134,7 @@ TEST(RopeClothSizes, HasTheSameBitsInEveryUnit) {
     }
 }
 
-/// Whatever its particles weigh, and wherever they are.
+/// With particles of any mass at any position.
 TEST(RopeClothSizes, StaysFiniteFromAnyState) {
     Random random(7);
     for (int i = 0; i < 60; ++i) {

@@ -1,5 +1,4 @@
-// Cloth and hair are scenes on the same solver: cloths that tear where they are pulled, locks that follow a
-// head.
+// Cloth and hair on the same solver: cloth tears where it is pulled, hair follows a head.
 #include <glm/gtc/quaternion.hpp>
 
 #include "rope_support.hpp"
@@ -28,7 +27,7 @@ TEST(RopeCloth, IsAGridWithShearAndBendLinks) {
     EXPECT_NEAR(world.length(*world.find("cloth")), 1.0, 1e-6);
     double mass = 0.0;
     for (const double each : world.state().mass) mass += each;
-    EXPECT_NEAR(mass, 0.2, 1e-6);  // a square metre
+    EXPECT_NEAR(mass, 0.2, 1e-6);  // one square metre
 }
 
 TEST(RopeCloth, HangsAndComesToRest) {
@@ -43,7 +42,7 @@ TEST(RopeCloth, HangsAndComesToRest) {
     }
 }
 
-/// Let go with nothing to take it away: what a cloth has of energy does not grow either.
+/// Released without damping, a cloth must not gain energy.
 TEST(RopeCloth, ItsEnergyDoesNotGrow) {
     for (const Solver solver : all_solvers) {
         World world = world_with({.solver = solver, .damping = 0.0f});
@@ -71,12 +70,12 @@ TEST(RopeCloth, LiesOnABall) {
         highest = std::max(highest, p.y);
         nearest = std::min(nearest, surface_distance(world.find_collider("ball")->shape, p).distance);
     }
-    EXPECT_NEAR(highest, -0.19, 0.02);  // on top, at its radius; the rest hangs down around
+    EXPECT_NEAR(highest, -0.19, 0.02);  // on top, at its radius; the rest hangs down around it
     EXPECT_GE(nearest, 0.01 - 1e-4);
     EXPECT_LT(lowest(world), -0.4);
 }
 
-/// Pulled at one corner harder than it bears: it tears there and not elsewhere.
+/// Pulled at one corner beyond its strength: it tears there and nowhere else.
 TEST(RopeCloth, TearsWhereItIsPulled) {
     World world;
     world.add_cloth("cloth", {.columns = 8, .rows = 8, .tear = 0.2f, .pins = ClothShape::Pins::Row});
@@ -90,7 +89,7 @@ TEST(RopeCloth, TearsWhereItIsPulled) {
     EXPECT_LT(world.state().links.size(), whole);
     EXPECT_GT(world.state().links.size(), whole / 2);
     EXPECT_TRUE(all_finite(world));
-    // What is torn off hangs on the corner; the far upper corner holds on.
+    // The torn-off part hangs on the corner; the far upper corner holds.
     const auto touches = [&](std::size_t particle) {
         return std::count_if(world.state().links.begin(), world.state().links.end(),
                              [&](const Link& link) { return link.a == particle || link.b == particle; });
@@ -100,7 +99,7 @@ TEST(RopeCloth, TearsWhereItIsPulled) {
     EXPECT_NO_THROW(World{world.state()});
 }
 
-/// What does not bear anything tears at once, and never what is not to.
+/// Cloth of minimal strength tears at once; cloth that must not tear never does.
 TEST(RopeCloth, TearsOnlyWhereItMay) {
     for (const float tear : {0.0f, 0.01f}) {
         World world;
@@ -130,8 +129,8 @@ TEST(RopeCloth, MayHaveHoles) {
     world = World(state);
     run(world, 1.0);
     EXPECT_TRUE(all_finite(world));
-    EXPECT_LT(world.position(40).y, -4.0f);        // what is cut out falls
-    EXPECT_NEAR(world.position(76).y, -1.0, 0.1);  // the rim below the hole hangs on
+    EXPECT_LT(world.position(40).y, -4.0f);        // the cut-out part falls
+    EXPECT_NEAR(world.position(76).y, -1.0, 0.1);  // the rim below the hole still hangs
     EXPECT_LE(glm::length(world.state().position[49] - world.state().position[76]), 40.0);
 }
 
@@ -169,7 +168,7 @@ TEST(RopeHair, FollowsItsCollider) {
     }
 }
 
-/// Bend links keep hair off straight down: the stiffer, the farther out it stands.
+/// Bend links keep hair from hanging straight down: stiffer hair stands out further.
 TEST(RopeHair, StandsOutTheStifferItIs) {
     double reach[2];
     const float bends[] = {1e-3f, 10.0f};

@@ -1,4 +1,4 @@
-// The four kinds of collider as shapes: how far off a point is, where out is, and never a NaN.
+// The four shapes of colliders: distances, normals, and never a NaN.
 #include <glm/gtc/quaternion.hpp>
 
 #include "rope_support.hpp"
@@ -32,13 +32,13 @@ TEST(RopeCollider, KnowsItsSurface) {
     expect_surface(box, {0.9, 0, 0}, -0.1, {1, 0, 0});
     expect_surface(box, {0, -1.9, 0}, -0.1, {0, -1, 0});
     expect_surface(box, {4, 6, 0}, 5.0, {0.6, 0.8, 0});  // 3, 4, 5 from an edge
-    // A quarter turn about z: x is y now.
+    // A quarter turn about z: x and y are swapped.
     const Box turned{{0, 0, 0}, {1, 2, 3}, glm::angleAxis(static_cast<float>(pi) / 2, glm::vec3(0, 0, 1))};
     expect_surface(turned, {3, 0, 0}, 1.0, {1, 0, 0});
     expect_surface(turned, {0, 2, 0}, 1.0, {0, 1, 0});
 }
 
-/// Every kind with nothing to it: no size, no length, no rotation of length 1.
+/// Degenerate shapes of every kind: no size, no length, no unit rotation.
 std::vector<Shape> thin_shapes() {
     return {Sphere{{1, 2, 3}, 0.0f},
             Capsule{{1, 2, 3}, {1, 2, 3}, 0.0f},
@@ -61,7 +61,7 @@ TEST(RopeCollider, HasAWayOutWhereThereIsNoTelling) {
     }
 }
 
-/// On the centre, the axis, an edge, a corner: the normal leads out, by the distance that it says.
+/// From the centre, the axis, an edge, a corner: moving along the normal by the distance ends on the surface.
 TEST(RopeCollider, TheWayOutEndsOnTheSurface) {
     const Shape shapes[] = {Sphere{{0, 0, 0}, 0.5f}, Capsule{{-1, 0, 0}, {1, 0.5f, 0}, 0.3f},
                             Box{{0, 0, 0}, {0.5f, 0.5f, 0.5f}, glm::quat(0.9f, 0.1f, 0.2f, 0.3f)},
@@ -74,7 +74,7 @@ TEST(RopeCollider, TheWayOutEndsOnTheSurface) {
             const SurfaceDistance surface = surface_distance(shape, point);
             const dvec3 on = point - surface.distance * surface.normal;
             EXPECT_NEAR(surface_distance(shape, on).distance, 0.0, 1e-7) << kind(shape);
-            // Nothing nearer in any direction.
+            // Nothing is nearer in any direction.
             const dvec3 aside = point + dvec3(random.point(1.0f)) * (0.5 * std::abs(surface.distance));
             EXPECT_LE(std::abs(surface_distance(shape, aside).distance - surface.distance),
                       glm::length(aside - point) + 1e-9)

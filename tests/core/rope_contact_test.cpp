@@ -1,4 +1,4 @@
-// Ropes and colliders, one at a time: laid on, started inside, carried along, and kept whole.
+// Ropes and single colliders: resting on them, starting inside, moved by them, and keeping their lengths.
 #include <array>
 #include <glm/gtc/quaternion.hpp>
 
@@ -15,7 +15,7 @@ using rope::Shape;
 using rope::Solver;
 using rope::Sphere;
 
-/// By how much the worst free particle of any body is inside any collider, metres.
+/// The depth of the deepest free particle of any body inside any collider, metres.
 double deepest(const World& world) {
     double most = 0.0;
     for (const rope::Body& body : world.state().bodies)
@@ -29,7 +29,7 @@ double deepest(const World& world) {
     return most;
 }
 
-/// How near the axis of a rope comes to a point, metres.
+/// The distance of a point from the axis of a rope, metres.
 double nearest_segment(const World& world, const dvec3& point) {
     double least = 1e9;
     for (const rope::Link& link : world.state().links) {
@@ -56,8 +56,8 @@ const Still still_shapes[] = {
     {"box of no thickness", Box{{0, 0, 0}, {0.5f, 0, 0.5f}, glm::quat(1, 0, 0, 0)}},
 };
 
-/// Dropped on it and started with its middle in it, particles on the centre, the axis and the edges; with a
-/// radius and without.
+/// Dropped onto it, or started with the middle inside it, with particles on the centre, the axis and the
+/// edges; with and without a radius.
 TEST(RopeContact, NothingStaysInsideAnyKind) {
     for (const Solver solver : all_solvers)
         for (const Still& still : still_shapes)
@@ -97,9 +97,7 @@ TEST(RopeContact, NorAnyKindThatMoves) {
         }
 }
 
-/// It lies still on what it lies on, at its radius, and its links keep their lengths.
-/// A free end whose pinned neighbour draws it under the ground comes out a metre away from where colliders
-/// were near it, under a ball.
+/// A free end that its pinned neighbour pulls below the ground comes out 1 m away, under a ball.
 TEST(RopeContact, WhatComesOutOfOneDoesNotEndInAnother) {
     for (const Solver solver : all_solvers) {
         World world = world_with({.solver = solver});
@@ -121,7 +119,7 @@ TEST(RopeContact, LiesOnTheGround) {
             EXPECT_NEAR(world.position(i).y, 0.03, 1e-3) << name(solver);
             EXPECT_LE(glm::length(glm::dvec3(world.velocity(i))), 5e-3) << name(solver);
         }
-        // The solver leaves no error; what pushing out and friction add afterwards is little.
+        // The solver leaves no error; depenetration and friction add little.
         EXPECT_LE(world.find("rope")->stretch, 1e-3) << name(solver);
         EXPECT_LE(stretch(world), 5e-3) << name(solver);
     }
@@ -140,7 +138,7 @@ TEST(RopeContact, DrapesOverASphere) {
     EXPECT_NEAR(std::abs(world.position(64).x), 0.42, 0.05);
 }
 
-/// Half its radius a substep: the fastest at which the spec asks a taut rope to be carried.
+/// Half its radius per substep: the fastest speed at which the spec requires a taut rope to be carried.
 TEST(RopeContact, AFastSphereCarriesATautRope) {
     const float radius = 0.3f;
     for (const Solver solver : all_solvers)
@@ -166,18 +164,18 @@ TEST(RopeContact, AFastSphereCarriesATautRope) {
         }
 }
 
-/// And one that lies loose is taken along with it.
+/// A loose rope is also carried along.
 TEST(RopeContact, AFastSphereCarriesALooseRope) {
     World world = world_with({.gravity = {0, 0, 0}});
     world.add_rope("rope", {.from = {-0.5f, 0, 0}, .to = {0.5f, 0, 0}, .segments = 32});
     world.add_collider("ball", Sphere{{0, 0, 1.0f}, 0.2f});
-    world.move_collider("ball", {0, 0, -3.0f}, 40.0 / 240.0);  // 0.1 m a substep
+    world.move_collider("ball", {0, 0, -3.0f}, 40.0 / 240.0);  // 0.1 m per substep
     run_substeps(world, 40, [] {});
     EXPECT_LE(world.position(16).z, -3.2f + 1e-3f);
     EXPECT_LE(deepest(world), 2e-4);
 }
 
-/// Smaller than a segment is long: the segment is kept out, not only its two particles.
+/// Smaller than a segment: the whole segment is kept out, not only its two particles.
 TEST(RopeContact, ASmallSphereDoesNotSlipThroughASegment) {
     for (const Solver solver : all_solvers)
         for (const float radius : {0.1f, 0.04f, 0.0f})
@@ -191,7 +189,7 @@ TEST(RopeContact, ASmallSphereDoesNotSlipThroughASegment) {
                                         .pin_end = true});
                 run(world, 0.5);
                 const float low = static_cast<float>(lowest(world));
-                // Up from below, between particles 2 and 3 (or onto the middle), and on.
+                // Up from below, between particles 2 and 3 (or onto the middle).
                 world.add_collider("ball", Sphere{{aside, low - 0.5f, 0}, radius});
                 world.move_collider("ball", {aside, low + 0.2f, 0}, 1.0);
                 double nearest = 1e9;
@@ -199,14 +197,14 @@ TEST(RopeContact, ASmallSphereDoesNotSlipThroughASegment) {
                     nearest = std::min(
                         nearest, nearest_segment(world, dvec3(centre(world.find_collider("ball")->shape))));
                 });
-                // Relaxation gives a little: the next segments pull back.
+                // Relaxation yields a little: the adjacent segments pull back.
                 const double asked = static_cast<double>(radius) + 0.02;
                 EXPECT_GE(nearest, asked - 0.15 * asked) << name(solver) << ' ' << radius << ' ' << aside;
                 EXPECT_GT(world.position(2).y, low) << name(solver) << ' ' << radius << ' ' << aside;
             }
 }
 
-/// The same for a thin rod and a thin plank across, which a segment could fall through.
+/// The same for a thin rod and a thin plank, which could pass between particles.
 TEST(RopeContact, ASegmentHangsOverAThinRod) {
     const Shape thin[] = {Capsule{{0.05f, 0, -1}, {0.05f, 0, 1}, 0.02f},
                           Box{{0.05f, 0, 0}, {0.02f, 0.02f, 1.0f}, glm::quat(1, 0, 0, 0)}};
@@ -218,12 +216,11 @@ TEST(RopeContact, ASegmentHangsOverAThinRod) {
         double highest = -1e9;
         for (std::size_t i = 0; i < world.size(); ++i)
             highest = std::max(highest, world.state().position[i].y);
-        EXPECT_GT(highest, -0.4) << kind(shape);  // it hangs there still
+        EXPECT_GT(highest, -0.4) << kind(shape);  // still hanging there
     }
 }
 
-/// Something fast that passes beside a ball is not stopped by it: neither what flies on nor what is between
-/// two substeps so near that it is within the box around the ball.
+/// A fast rope that passes a ball must not be stopped, even if it crosses the ball's bounding box.
 TEST(RopeContact, AThrownRopeFliesPast) {
     for (const float from : {0.9f, 0.5f}) {
         std::array<World, 2> worlds{world_with({.gravity = {0, 0, 0}}), world_with({.gravity = {0, 0, 0}})};
@@ -242,7 +239,7 @@ TEST(RopeContact, AThrownRopeFliesPast) {
     }
 }
 
-/// Past the end of a long bar that lies aslant, whose bounding box it crosses, in as few passes as there are.
+/// Past the end of a long slanted bar, through its bounding box, with few iterations.
 TEST(RopeContact, AThrownRopeFliesPastABar) {
     for (const int iterations : {1, 2, 3, 16}) {
         std::array<World, 2> worlds{world_with({.iterations = iterations, .gravity = {0, 0, 0}}),
@@ -262,7 +259,7 @@ TEST(RopeContact, AThrownRopeFliesPastABar) {
     }
 }
 
-/// Something fast is stopped on the side that it came from.
+/// A fast rope is stopped on the side that it came from.
 TEST(RopeContact, AThrownRopeDoesNotFlyThrough) {
     for (const float speed : {10.0f, 50.0f, 100.0f}) {
         World world = world_with({.gravity = {0, 0, 0}});

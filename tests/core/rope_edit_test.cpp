@@ -1,4 +1,4 @@
-// Ropes cut, pinned, attached, named and removed: numbers follow, and nothing else changes.
+// Cutting, pinning, attaching, naming and removing: indices follow, and nothing else changes.
 #include <array>
 
 #include "rope_support.hpp"
@@ -24,7 +24,7 @@ World three_ropes() {
     return world;
 }
 
-/// What must hold of every world: that a new one takes its state.
+/// The invariant of every world: its state is accepted.
 void expect_sound(const World& world) {
     EXPECT_NO_THROW(World{world.state()});
     for (const rope::Link& link : world.state().links) EXPECT_LT(std::max(link.a, link.b), world.size());
@@ -44,20 +44,20 @@ TEST(RopeEdit, CutPartsARope) {
     EXPECT_NEAR(world.length(*second), 0.5, 1e-6);
     EXPECT_EQ(world.find("c")->first, 10u);
     expect_sound(world);
-    // What nothing holds falls; the rest hangs on.
+    // The unpinned part falls; the rest still hangs.
     run(world, 0.5);
     EXPECT_NEAR(world.position(world.particle("b", 0)).y, 0.0, 1e-6);
     EXPECT_LT(world.position(world.particle("b 2", 1)).y, -0.3f);
     EXPECT_EQ(world.cut("b 2", 0), "b 2 2");
-    EXPECT_EQ(world.cut("b", 0), "b 3");    // the first name that is free
-    EXPECT_EQ(world.find("b")->count, 1u);  // a single particle is a rope still
+    EXPECT_EQ(world.cut("b", 0), "b 3");    // the first free name
+    EXPECT_EQ(world.find("b")->count, 1u);  // a single particle is still a rope
     EXPECT_EQ(world.length(*world.find("b")), 0.0);
     run(world, 0.5);
     EXPECT_TRUE(all_finite(world));
     expect_sound(world);
 }
 
-/// All of a rope hangs on its pin; after a cut only what is left of it.
+/// The whole rope hangs on its pin; after a cut, only the remaining part.
 TEST(RopeEdit, TensionKnowsOfACut) {
     World world = world_with({.damping = 2.0f});
     world.add_rope("rope", {.from = {0, 0, 0}, .to = {0, -1, 0}, .segments = 10, .pin_start = true});
@@ -92,7 +92,7 @@ TEST(RopeEdit, RemovingRenumbers) {
     EXPECT_TRUE(world.state().links.empty() && world.state().pins.empty() && world.state().bodies.empty());
 }
 
-/// A rope moves as it would have if there had never been the others; only its slot tells of them.
+/// A rope moves as if the removed ones had never existed; only its slot differs.
 TEST(RopeEdit, RemovedOnesLeaveNoTrace) {
     World with = three_ropes(), without;
     without.add_rope("c",
@@ -121,7 +121,7 @@ TEST(RopeEdit, APinIsTakenToItsGoalInItsTime) {
     world.pin(end, {0, 1, 0});  // within the next substep
     world.advance(1.0 / 240.0);
     EXPECT_EQ(world.position(end), glm::vec3(0, 1, 0));
-    world.advance(0.1);  // that was 170 m/s: let go at once it would fly off with them
+    world.advance(0.1);  // that was 170 m/s: released at once, it would fly off at that speed
     world.unpin(end);
     EXPECT_FALSE(world.pinned(end));
     run(world, 1.0);
@@ -141,13 +141,13 @@ TEST(RopeEdit, AttachedParticlesMoveWithTheirCollider) {
     world.advance(1.0 / 240.0);
     EXPECT_LE(distance(world.position(end), {0, 0.5f, 0}), 1e-5);
     world.remove_collider("ball");
-    EXPECT_FALSE(world.pinned(end));  // let go
+    EXPECT_FALSE(world.pinned(end));  // released
     expect_sound(world);
     run(world, 0.5);
     EXPECT_TRUE(all_finite(world));
 }
 
-/// A handle that comes out of the world itself is as good as any.
+/// A handle read from the world's own state is accepted.
 TEST(RopeEdit, HandlesMayComeFromTheWorldItself) {
     World named = three_ropes();
     rope::World& world = named.core();
@@ -164,7 +164,7 @@ TEST(RopeEdit, HandlesMayComeFromTheWorldItself) {
     expect_sound(named);
 }
 
-/// The handle of what is gone finds nothing, though its slot has a new tenant.
+/// The handle of a removed body finds nothing, although its slot is reused.
 TEST(RopeEdit, OldHandlesFindNothing) {
     rope::World world;
     const rope::BodyId first = *world.add_rope({}), second = *world.add_rope({});
@@ -177,7 +177,7 @@ TEST(RopeEdit, OldHandlesFindNothing) {
     EXPECT_EQ(world.remove(first).code(), ErrorCode::OutOfRange);
     EXPECT_EQ(world.find(second)->first, 0u);
     EXPECT_EQ(world.find(third)->kind, Body::Kind::Cloth);
-    // A copy knows the same handles, and a state put back forgets those given since.
+    // A copy knows the same handles; a restored state does not know handles created since.
     const rope::World copy = world;
     const rope::BodyId fourth = *world.add_rope({});
     EXPECT_EQ(copy.find(third)->count, 576u);
@@ -191,7 +191,7 @@ TEST(RopeEdit, OldHandlesFindNothing) {
     EXPECT_FALSE(world.find(ball));
 }
 
-/// Whatever a body is made of can change while it hangs.
+/// All materials of a body can change while it hangs.
 TEST(RopeEdit, MaterialsChangeInPlace) {
     World named = world_with({.damping = 2.0f});
     named.add_rope("rope", {.from = {0, 0, 0}, .to = {0, -1, 0}, .segments = 10, .pin_start = true});
@@ -208,13 +208,13 @@ TEST(RopeEdit, MaterialsChangeInPlace) {
     EXPECT_EQ(world.find(rope)->radius, 0.125f);
     EXPECT_NEAR(world.length(*world.find(rope)), 2.0, 1e-6);
     run(named, 4.0);
-    EXPECT_NEAR(named.position(10).y, -2.0f, 1e-3);  // it hangs down twice as far, and pulls twice as hard
+    EXPECT_NEAR(named.position(10).y, -2.0f, 1e-3);  // twice as long, and twice the tension
     EXPECT_NEAR(world.state().links[0].tension, 2.0 * 9.81 * mass * 10.0 / 11.0, 0.1);
     for (const rope::Link& link : world.state().links)
         EXPECT_EQ(link.compliance, link.kind == rope::Link::Kind::Bend    ? 0.5f
                                    : link.kind == rope::Link::Kind::Shear ? 0.3f
                                                                           : 0.0f);
-    allow(world.set_length(cloth, 1e-3f));  // shrunk in an instant, it tears
+    allow(world.set_length(cloth, 1e-3f));  // shrunk at once, it tears
     const std::size_t links = world.state().links.size();
     run(named, 0.5);
     EXPECT_LT(world.state().links.size(), links);
@@ -237,7 +237,7 @@ TEST(RopeEdit, ClearLeavesOnlySettings) {
     EXPECT_EQ(world.add_rope({}), "rope");
 }
 
-/// Any order of edits leaves a world that holds together and goes on.
+/// Any sequence of edits leaves a valid world that still runs.
 TEST(RopeEdit, RandomEditsLeaveASoundWorld) {
     Random random(81);
     for (int round = 0; round < 20; ++round) {
@@ -293,7 +293,7 @@ TEST(RopeEdit, RandomEditsLeaveASoundWorld) {
     }
 }
 
-/// Several pins that are dragged while the simulation is paused all arrive, or none moves.
+/// Several pins dragged while the simulation is paused: all arrive, or none moves.
 TEST(RopeEdit, DragPinsMovesAllOrNone) {
     World world = three_ropes();
     rope::Workspace workspace;

@@ -1,4 +1,4 @@
-// A soft rope is as soft as its material, whatever the iterations, the substep and the number of segments.
+// A soft rope is as soft as its material, independent of iterations, substep and number of segments.
 #include "rope_support.hpp"
 
 namespace tendril::test {
@@ -13,7 +13,7 @@ Settings soft(Solver solver, float compliance, int iterations) {
     return {.iterations = iterations, .solver = solver, .damping = 2.0f, .compliance = compliance};
 }
 
-/// Straight down from one end, 1 m of 1 kg/m, with nothing below. How much longer it gets, metres.
+/// Straight down from one end, 1 m of 1 kg/m. Returns how much longer it gets, metres.
 double hangs_longer(const Settings& settings, int segments) {
     World world = world_with(settings);
     world.add_rope("rope", {.from = {0, 0, 0}, .to = {0, -1, 0}, .segments = segments, .pin_start = true});
@@ -22,7 +22,7 @@ double hangs_longer(const Settings& settings, int segments) {
 }
 
 /// Link k of n bears the n - k particles below it, each of m = 1/n: C m g / n times the sum of n - k, which
-/// comes to C m g (n + 1) / 2; for n without end that is C g / 2.
+/// is C m g (n + 1) / 2; in the limit of large n, C g / 2.
 double theory(float compliance, int segments) {
     const double n = segments;
     return static_cast<double>(compliance) * gravity * (n + 1.0) / (2.0 * n);
@@ -63,7 +63,7 @@ TEST(RopeElastic, NorDoesTheSubstep) {
     }
 }
 
-/// Between two hands: the same curve for any number of segments, and the deeper the softer.
+/// Between two pins: the same curve for any number of segments, deeper for softer ropes.
 TEST(RopeElastic, SagDoesNotHangOnTheNumberOfSegments) {
     const auto sag = [](float compliance, int segments) {
         World world = world_with(soft(Solver::Direct, compliance, 16));
@@ -75,10 +75,10 @@ TEST(RopeElastic, SagDoesNotHangOnTheNumberOfSegments) {
     EXPECT_NEAR(coarse / fine, 1.0, 0.002);
     EXPECT_GT(fine, sag(2e-3f, 64) * 1.02);
     EXPECT_NEAR(sag(1e-7f, 64) / sag(0.0f, 64), 1.0,
-                1e-4);  // no leap between a stiff rope and an unyielding one
+                1e-4);  // no jump from stiff to inextensible
 }
 
-/// Tension says what a link bears, in newtons: below link k hang n - k particles.
+/// Tension is what a link bears, in newtons: n - k particles hang below link k.
 TEST(RopeElastic, TensionIsWhatHangsBelow) {
     for (const Solver solver : {Solver::Xpbd, Solver::Direct}) {
         for (const float compliance : {0.0f, 1e-3f}) {
@@ -96,7 +96,7 @@ TEST(RopeElastic, TensionIsWhatHangsBelow) {
     }
 }
 
-/// A weight on a spring: 2 pi sqrt(m C L) a swing.
+/// A weight on a spring: a period of 2 pi sqrt(m C L).
 TEST(RopeElastic, BouncesInTheTimeThatItMust) {
     const float compliance = 2e-2f;
     Settings settings = soft(Solver::Direct, compliance, 16);
@@ -121,7 +121,7 @@ TEST(RopeElastic, BouncesInTheTimeThatItMust) {
     EXPECT_NEAR((last - first) / swings / expected, 1.0, 0.01);
 }
 
-/// Relaxation does not know compliance.
+/// Relaxation ignores compliance.
 TEST(RopeElastic, RelaxationStaysAsItIs) {
     EXPECT_EQ(hangs_longer(soft(Solver::Relaxation, 0.0f, 16), 8),
               hangs_longer(soft(Solver::Relaxation, 0.1f, 16), 8));

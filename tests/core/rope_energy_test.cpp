@@ -1,4 +1,4 @@
-// A rope that is let go has the energy that it has: it may lose some, and never gains any.
+// A released rope may lose energy but never gains any.
 #include "rope_support.hpp"
 
 namespace tendril::test {
@@ -6,14 +6,14 @@ namespace {
 
 using rope::Settings;
 
-/// Weight times length, the energy that a rope has to do with: what "0.1 %" is of.
+/// Weight times length: the energy scale that percentages refer to.
 double scale(const World& world) {
     double mass = 0.0;
     for (const double each : world.state().mass) mass += each;
     return mass * 9.81 * world.length(*world.find("rope"));
 }
 
-/// The most that energy was over its start in that many seconds, as a part of what there is of it.
+/// The maximum of energy over its start within `seconds`, as a fraction of scale().
 double most_gained(World& world, int seconds) {
     run_substeps(world, 2, [] {});
     const double start = energy(world), of = scale(world);
@@ -24,7 +24,7 @@ double most_gained(World& world, int seconds) {
     return most;
 }
 
-/// Level, with a bend in it so that it is nowhere in balance, at rest.
+/// Horizontal, bent so that it is nowhere in balance, at rest.
 World let_go(int segments, bool both_ends) {
     World world = world_with({.damping = 0.0f});
     world.add_rope("rope", {.from = {0, 0, 0},
@@ -41,7 +41,7 @@ class RopeEnergy : public testing::TestWithParam<std::tuple<int, bool>> {};
 TEST_P(RopeEnergy, NeverGrowsInAMinute) {
     const auto [segments, both_ends] = GetParam();
     World world = let_go(segments, both_ends);
-    if (both_ends) {  // it hangs nearly still: wound up by a wind that then stops
+    if (both_ends) {  // it hangs nearly still: a wind blows first
         Settings settings = world.settings();
         settings.external = {3, 2, 4};
         world.set_settings(settings);
@@ -58,7 +58,7 @@ INSTANTIATE_TEST_SUITE_P(Ropes, RopeEnergy, testing::Combine(testing::Values(16,
                                     (std::get<1>(of.param) ? "_both_ends" : "_one_end");
                          });
 
-/// Thrown, turning, in free fall: nothing holds it and nothing may speed it up.
+/// Thrown, rotating, in free fall: nothing holds it and nothing may accelerate it.
 TEST(RopeEnergyFree, NeitherDoesThatOfOneThrown) {
     World world = world_with({.damping = 0.0f, .gravity = {0, 0, 0}});
     world.add_rope("rope", {.from = {0, 0, 0}, .to = {1, 0, 0}, .segments = 24, .length = 1.2f});
@@ -68,7 +68,7 @@ TEST(RopeEnergyFree, NeitherDoesThatOfOneThrown) {
     for (glm::dvec3& moved : state.displacement)
         moved = glm::dvec3(random.point(2.0f)) * state.settings.substep;
     world = World(state);
-    run_substeps(world, 240, [] {});  // lengths take what they must of it first
+    run_substeps(world, 240, [] {});  // the length constraints first take their part
     const double start = energy(world);
     double most = 0.0;
     run_substeps(world, 60 * 240, [&] { most = std::max(most, energy(world)); });
@@ -77,7 +77,7 @@ TEST(RopeEnergyFree, NeitherDoesThatOfOneThrown) {
     EXPECT_LE(stretch(world), 1e-3);
 }
 
-/// Every particle thrown its own way, and one end held: it cracks like a whip all over.
+/// Every particle thrown in a random direction, with one end held: it cracks like a whip all over.
 TEST(RopeEnergyFree, NeitherDoesThatOfOneThatThrashes) {
     for (const double substep : {1.0 / 240.0, 1.0 / 60.0}) {
         for (const int segments : {16, 256}) {
@@ -103,7 +103,7 @@ TEST(RopeEnergyFree, NeitherDoesThatOfOneThatThrashes) {
     }
 }
 
-/// Nothing pushes from outside, so where the whole is does not change, nor how it moves.
+/// Without external forces, the centre of mass and the momentum are constant.
 TEST(RopeEnergyFree, MomentumStays) {
     for (const rope::Solver solver : all_solvers) {
         World world = world_with({.solver = solver, .damping = 0.0f, .gravity = {0, 0, 0}});

@@ -1,4 +1,4 @@
-// Coulomb's law, and what follows from it for a rope around a post (Euler-Eytelwein).
+// Coulomb's law, and the capstan equation (Euler-Eytelwein) for a rope around a post.
 #include "rope_support.hpp"
 
 namespace tendril::test {
@@ -8,7 +8,7 @@ using rope::Capsule;
 using rope::Plane;
 using rope::Solver;
 
-/// Laid along a slope of so many radians and left alone; how far it slides in `seconds`.
+/// Placed on a slope of `angle` radians and released; returns how far it slides in `seconds`.
 double slides(Solver solver, float friction, double angle, double seconds, bool across = false) {
     World world = world_with({.solver = solver, .damping = 0.0f, .friction = friction});
     const auto c = static_cast<float>(std::cos(angle)), s = static_cast<float>(std::sin(angle));
@@ -31,7 +31,7 @@ TEST(RopeFriction, HoldsOnASlopeUpToItsTangent) {
             }
 }
 
-/// And beyond it slides with what is left of its weight: g (sin - mu cos) t^2 / 2.
+/// Beyond that angle it slides with the rest of its weight: g (sin - mu cos) t^2 / 2.
 TEST(RopeFriction, SlidesBeyond) {
     for (const Solver solver : all_solvers)
         for (const bool across : {false, true})
@@ -43,7 +43,7 @@ TEST(RopeFriction, SlidesBeyond) {
             }
 }
 
-/// What slides on level ground stops after v^2 / (2 mu g).
+/// A rope sliding on level ground stops after v^2 / (2 mu g).
 TEST(RopeFriction, StopsWhatSlides) {
     for (const Solver solver : all_solvers) {
         World world = world_with({.solver = solver, .damping = 0.0f, .friction = 0.4f});
@@ -58,7 +58,7 @@ TEST(RopeFriction, StopsWhatSlides) {
     }
 }
 
-/// A collider that moves takes along what lies on it, if friction can; without friction it slides away below.
+/// A moving collider takes along what lies on it as far as friction allows; without friction, nothing.
 TEST(RopeFriction, WhatMovesCarries) {
     for (const float friction : {0.8f, 0.0f}) {
         World world = world_with({.damping = 0.0f, .friction = friction});
@@ -67,15 +67,14 @@ TEST(RopeFriction, WhatMovesCarries) {
         run(world, 0.25);
         world.move_collider("plank", {1.0f, -0.1f, 0}, 1.0);
         run(world, 1.0);
-        // The plank sets out at 1 m/s at once: until the rope is as fast it slips by v^2 / (2 mu g).
+        // The plank starts at 1 m/s at once: until the rope is as fast, it slips by v^2 / (2 mu g).
         const double carried = friction > 0.0f ? 1.0 - 1.0 / (2.0 * 0.8 * 9.81) : 0.0;
         EXPECT_NEAR(world.position(8).x, carried, 0.01) << friction;
     }
 }
 
-/// How many times as much rope may hang on one side of a post of radius r as on the other, two metres in all,
-/// before it runs: Euler and Eytelwein's e^(mu pi), and what lies on the post is pressed on by its own
-/// weight:
+/// The maximum ratio of rope on both sides of a post of radius r, two metres in all, before it runs:
+/// Euler-Eytelwein's e^(mu pi), with the weight of the rope on the post pressing it on:
 ///     T' = rho g r cos + mu (T + rho g r sin) around it, so long = (short + k) e^(mu pi) + k, k = 2 mu r /
 ///     (1 + mu^2)
 double max_ratio(double friction, double r) {
@@ -84,13 +83,12 @@ double max_ratio(double friction, double r) {
     return (2.0 - shorter) / shorter;
 }
 
-/// Two metres hang down from a level post, `ratio` times as much on one side as on the other. How far it has
-/// run.
+/// Two metres hang over a level post, `ratio` times as much on one side. Returns how far they have run.
 double runs_off(Solver solver, float friction, double ratio, int segments, double seconds) {
     World world = world_with({.iterations = 64, .solver = solver, .damping = 0.3f, .friction = friction});
     const float radius = 0.08f;
     world.add_collider("post", Capsule{{0, 0, -1}, {0, 0, 1}, radius});
-    // Laid round the upper half at the rope's own radius, straight down on both sides.
+    // Around the upper half at the rope's own radius, straight down on both sides.
     const double r = 0.1, hanging = 2.0, round = pi * r, left = hanging / (1.0 + ratio);
     world.add_rope("rope", {.from = {0, 0, 0},
                             .to = {1, 0, 0},
@@ -116,8 +114,8 @@ double runs_off(Solver solver, float friction, double ratio, int segments, doubl
     return world.state().position[0].y - start;
 }
 
-/// It settles by some millimetres first: it begins as a curve and is a polygon, which vibrates. That also
-/// costs up to an eighth of the friction.
+/// It first settles by a few millimetres: it starts as a curve and becomes a polygon, which vibrates. That
+/// also costs up to an eighth of the friction.
 TEST(RopeFriction, APostHoldsUpToEulersRatio) {
     for (const float friction : {0.1f, 0.2f, 0.3f, 0.5f}) {
         const double holds = max_ratio(0.87 * friction, 0.1), slips = max_ratio(1.05 * friction, 0.1);

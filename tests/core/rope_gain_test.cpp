@@ -1,5 +1,5 @@
-// Nothing gains energy by what it meets. Random ropes, hair and cloth fall among random colliders at rest.
-// TENDRIL_ENERGY_SCENES=10000 plays more of them, and larger ones.
+// Contact never adds energy: random ropes, hair and cloth fall among random colliders at rest.
+// TENDRIL_ENERGY_SCENES=10000 runs more and larger scenes.
 #include <cstdlib>
 #include <glm/gtc/quaternion.hpp>
 
@@ -12,7 +12,7 @@ using rope::ClothShape;
 using rope::Shape;
 using rope::Solver;
 
-/// As likely to double as to halve.
+/// Logarithmic: as likely to double as to halve.
 float between(Random& random, float low, float high) {
     return low * std::pow(high / low, random.part());
 }
@@ -71,7 +71,7 @@ void add_cloth(World& world, Random& random, std::size_t most) {
                            .pins = pins[random.below(3)]});
 }
 
-/// Whether anything touches a collider to begin with: what that does to it is no fall.
+/// Whether anything touches a collider at the start: its motion is then no fall.
 bool touches(const World& world) {
     for (const rope::Collider& collider : world.state().colliders)
         for (const rope::Link& link : world.state().links)
@@ -113,7 +113,7 @@ double potential(const World& world) {
     return sum;
 }
 
-/// Joules over what it began with and 1 % of what it fell, at most.
+/// Maximum energy above the start, less 1 % of the potential energy lost, joules.
 double gained(World& world, double seconds) {
     run_substeps(world, 2, [] {});
     const double start = world.energy(), high = potential(world);
@@ -132,7 +132,7 @@ TEST(RopeGain, NothingGainsEnergyByWhatItMeets) {
     for (int seed = 1; seed <= scenes; ++seed) {
         Random random(static_cast<std::uint64_t>(seed));
         World world = some_world(random, more != nullptr);
-        // Lengths that are kept to a part of a percent hold so much of the weight of a metre.
+        // Lengths accurate to a fraction of a percent account for this fraction of the weight times 1 m.
         const double part = gained(world, 1.5) / weight(world);
         EXPECT_LE(part, 2.5e-3) << seed << ": " << name(world.settings().solver) << ", " << world.size()
                                 << " particles, substep " << world.settings().substep;
@@ -142,7 +142,7 @@ TEST(RopeGain, NothingGainsEnergyByWhatItMeets) {
     if (more != nullptr) std::printf("worst: %.2g of the weight times a metre\n", worst);
 }
 
-/// Both were thrown: to 2 212 and to 344 joules.
+/// Both were once thrown, with 2212 and 344 joules.
 TEST(RopeGain, ARopeIsNotThrownByAThinBar) {
     const struct {
         int segments;
@@ -163,11 +163,11 @@ TEST(RopeGain, ARopeIsNotThrownByAThinBar) {
                 fastest = std::max(fastest, top_speed(world));
             });
             EXPECT_LE(fastest, 40.0) << each.segments << ' '
-                                     << shift;  // it falls 20 m in 2 s, and an end cracks
+                                     << shift;  // falls 20 m in 2 s, and an end cracks
         }
 }
 
-/// A ball comes into being around the middle of a rope that lies there: it comes out, and is not thrown.
+/// A ball appears around the middle of a resting rope: the rope comes out, and is not thrown.
 TEST(RopeGain, ARopeIsNotThrownByAColliderThatAppears) {
     for (const bool pinned : {false, true}) {
         World world;
@@ -229,10 +229,10 @@ Shape shape_through_the_ground(Random& random) {
     }
 }
 
-/// A collider that appears inside a body, or is put there, does not throw it.
+/// A collider that appears inside a body, or moves there, does not throw it.
 TEST(RopeGain, NoBodyIsThrownByAColliderThatAppears) {
     for (const Solver solver : all_solvers) {
-        // Relaxation and XPBD store nothing in links, so what they stretch comes back as motion.
+        // Relaxation and XPBD store nothing in links, so stretch comes back as motion.
         const double bound = solver == Solver::Direct ? 6.0 : 25.0;
         for (const Subject kind : all_subjects) {
             for (std::uint64_t seed = 1; seed <= 8; ++seed) {

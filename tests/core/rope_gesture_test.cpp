@@ -1,5 +1,5 @@
-// A cloth that is pulled about hangs again once it is let go, and falls as a stone does once it is not held.
-// TENDRIL_GESTURES=200 pulls more often.
+// A cloth that was dragged about hangs as before once released, and falls like a stone once unpinned.
+// TENDRIL_GESTURES=200 drags more often.
 #include <cstdlib>
 
 #include "rope_support.hpp"
@@ -38,7 +38,7 @@ void pull_about(World& world, Random& random) {
     world.unpin(held);
 }
 
-/// By how much of what a stone falls it falls otherwise, in half a second without pins.
+/// The relative deviation from a stone's fall, in half a second without pins.
 double unlike_a_stone(World world) {
     world.set_settings({.damping = 0.0f});
     for (std::size_t i = 0; i < world.size(); ++i)
@@ -56,7 +56,7 @@ TEST(RopeGesture, AClothHangsAgainAndFallsAsAStoneDoes) {
     const char* more = std::getenv("TENDRIL_GESTURES");
     const int gestures = more != nullptr ? std::atoi(more) : 3;
     for (const rope::ClothMaterial& material : rope::cloth_materials) {
-        // Each takes seconds, so only the first is pulled often unless more is asked for.
+        // Each takes seconds, so only the first is repeated unless more is requested.
         const bool first = &material == std::begin(rope::cloth_materials);
         for (const int side : {12, 18, 24}) {
             if (!first && side > 12 && more == nullptr) continue;
@@ -72,7 +72,7 @@ TEST(RopeGesture, AClothHangsAgainAndFallsAsAStoneDoes) {
                 run(world, 5.0);
                 const double off = std::abs(mean_height(world) - hanging) / hanging;
                 worst = std::max(worst, off);
-                EXPECT_LE(off, 0.03) << what << ' ' << seed;  // of its height; it stood 3 to 23 % too high
+                EXPECT_LE(off, 0.03) << what << ' ' << seed;  // of its height; once it hung 3 to 23 % off
                 EXPECT_LE(unlike_a_stone(world), 0.02) << what << ' ' << seed;
             }
             if (more != nullptr) std::printf("%s: off by %.2f %% at most\n", what.c_str(), 100.0 * worst);

@@ -1,4 +1,4 @@
-// Random edits of rope worlds with hostile numbers: for tests, and for benchmarks of what the worst costs.
+// Random edits of rope worlds with hostile numbers: for tests, and for benchmarks of the worst case.
 #pragma once
 
 #include <cmath>
@@ -11,7 +11,7 @@
 
 namespace tendril::test {
 
-/// Numbers as a person would give them, now and then the worst that there are.
+/// Plausible numbers, sometimes the worst ones.
 class HostileNumbers {
   public:
     explicit HostileNumbers(std::uint64_t seed) : random(seed) {}
@@ -49,10 +49,10 @@ class HostileNumbers {
     }
 };
 
-/// One edit, mostly a sensible one. What the library refuses is no matter.
+/// One edit, usually a sensible one. Refusals are ignored.
 class HostileEditor {
   public:
-    /// Worlds are emptied before they have more than some `particles`: small ones go through more.
+    /// Clears a world that exceeds about `particles`: small worlds go through more.
     HostileEditor(rope::World& world, rope::Workspace& workspace, HostileNumbers& hostile,
                   std::size_t particles = 80)
         : world_(world),
@@ -61,7 +61,7 @@ class HostileEditor {
           random_(hostile.random),
           particles_(particles) {}
 
-    // One random draw a statement: compilers draw arguments of one call in different orders.
+    // One random draw per statement: compilers evaluate arguments in different orders.
     Result edit() {
         const std::size_t what = random_.below(20);
         const rope::BodyId body = some_body();

@@ -1,4 +1,4 @@
-// Bodies that nothing links to each other are solved apart: no body notices another, and threads that share
+// Bodies without links between them are solved independently: none affects another, and threads that share
 // them give the same bits.
 #include "jobs.hpp"
 #include "rope_support.hpp"
@@ -9,7 +9,7 @@ namespace {
 using rope::Advance;
 using rope::Workspace;
 
-/// Colliders among which everything falls.
+/// Colliders for everything to fall on.
 void add_ground(rope::World& world) {
     allow(world.add_collider(rope::Plane{{0, -0.5f, 0}, {0.1f, 1.0f, 0}}).error());
     for (int i = 0; i < 8; ++i) {
@@ -18,7 +18,7 @@ void add_ground(rope::World& world) {
     }
 }
 
-/// Adds the body of that number: each third a cloth, some hair, the others ropes.
+/// Adds body `number`: every third a cloth, some hair, the others ropes.
 void add_body(rope::World& world, int number, int cells) {
     Random random(static_cast<std::uint64_t>(1000 + number));
     const glm::vec3 at = random.point(1.0f), along = random.point(0.8f);
@@ -54,7 +54,7 @@ rope::World some_world(const rope::Settings& settings, int bodies, int cells) {
     return world;
 }
 
-/// Pins and colliders move while time passes; what all calls reported together.
+/// Moves pins and colliders while advancing; returns the sum of all reports.
 Advance play(rope::World& world, Workspace& workspace, int frames) {
     Advance sum;
     Random random(7);
@@ -90,12 +90,12 @@ TEST(RopeIslands, NoBodyNoticesAnother) {
     }
 }
 
-/// A rope whose pins are further apart than it is long cannot be solved; one that lies between colliders has
-/// the bits beside it that it has alone.
+/// A rope whose pins are further apart than its length cannot be solved; a rope between colliders has the
+/// same bits beside it as alone.
 TEST(RopeIslands, NoBodyNoticesOneThatCannotBeSolved) {
     const auto add_lying = [](rope::World& world) {
         for (const float x : {0.0f, 0.35f}) allow(world.add_collider(rope::Sphere{{x, 0, 0}, 0.2f}).error());
-        // Into the notch, where each particle is pushed out of one ball and into the other.
+        // In the notch, where each particle is pushed out of one ball and into the other.
         allow(world
                   .add_rope({.from = {0.175f, 0.5f, -0.05f},
                              .to = {0.18f, 0.5f, 0.05f},
@@ -121,7 +121,7 @@ bool same(const Advance& a, const Advance& b) {
            a.shortened == b.shortened && a.unresolved == b.unresolved && a.unconverged == b.unconverged;
 }
 
-/// A world, and what becomes of it on one thread.
+/// A world, and the same world after running on one thread.
 struct Played {
     Played(rope::World world, int count) : start(std::move(world)), end(start), frames(count) {
         Workspace workspace;
@@ -147,13 +147,13 @@ TEST(RopeIslands, ThreadsGiveTheSameBits) {
         for (const bool aside : {false, true}) {
             Jobs jobs{.backwards = true, .aside = aside};
             played.expect_the_same_on(3, {run_on_jobs, &jobs}, name(solver));
-            EXPECT_EQ(jobs.calls, 24u);  // one a substep
+            EXPECT_EQ(jobs.calls, 24u);  // one per substep
             EXPECT_EQ(jobs.pieces, 72u);
         }
     }
 }
 
-/// Threads help with cloth that is large enough, whoever comes first and whether or not anybody comes.
+/// Threads share a cloth that is large enough, whichever comes first and whether or not any comes.
 TEST(RopeIslands, ThreadsThatShareACloth) {
     rope::World start = world_with({.iterations = 5});
     add_ground(start);
@@ -174,12 +174,12 @@ TEST(RopeIslands, ThreadsThatShareACloth) {
             Jobs jobs{.backwards = backwards, .aside = aside};
             played.expect_the_same_on(4, {run_on_jobs, &jobs}, backwards ? "backwards" : "forwards");
             EXPECT_EQ(jobs.pieces, 4 * jobs.calls);
-            EXPECT_EQ(jobs.calls, 8u);  // one a substep
+            EXPECT_EQ(jobs.calls, 8u);  // one per substep
         }
     }
 }
 
-/// A small world is not worth a second thread.
+/// A small world does not use a second thread.
 TEST(RopeIslands, LittleWorkNeedsNoCallback) {
     rope::World world = some_world({}, 6, 4);
     Workspace workspace;
@@ -199,8 +199,8 @@ TEST(RopeIslands, NumbersOfThreadsOutOfRangeAreRefused) {
     EXPECT_TRUE(workspace.use_threads(256).ok());
 }
 
-/// A state put together by hand may have links from one body to another: these are solved together, so the
-/// second rope follows the first at the distance of the link.
+/// A hand-made state may have links between bodies: these are solved together, so that the second rope
+/// follows the first at the distance of the link.
 TEST(RopeIslands, LinksBetweenBodiesJoinThem) {
     for (const rope::Solver solver : all_solvers) {
         rope::World apart = world_with({.iterations = 64, .solver = solver, .gravity = {0, 0, 0}});
@@ -219,7 +219,7 @@ TEST(RopeIslands, LinksBetweenBodiesJoinThem) {
     }
 }
 
-/// The same bits with threads, where links go to and fro.
+/// The same bits with threads, with random links between bodies.
 TEST(RopeIslands, ThreadsGiveTheSameBitsOfJoinedBodies) {
     Random random(8);
     rope::State state = some_world({}, 24, 16).state();

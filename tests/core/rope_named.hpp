@@ -1,5 +1,5 @@
-// A rope world with names for bodies and colliders and a workspace of its own, where what the library refuses
-// is thrown: so a test reads as what it tests. All else is the library's World.
+// A rope world with named bodies and colliders and a workspace of its own, which throws if the library
+// refuses, to keep tests readable. The rest is the library's World.
 #pragma once
 
 #include <stdexcept>
@@ -23,7 +23,7 @@ T allowed(Expected<T> given) {
 class World : public rope::World {
   public:
     World() = default;
-    /// Bodies and colliders have the names that they would have been given.
+    /// Bodies and colliders get default names.
     explicit World(rope::State state) : rope::World(allowed(from_state(std::move(state)))) {
         bodies_.resize(this->state().body_slots.size());
         for (const rope::Body& body : this->state().bodies) name_body(body.id, "");
@@ -71,7 +71,7 @@ class World : public rope::World {
         return name_body(allowed(rope::World::cut(id(rope), segment)), "", name);
     }
 
-    /// One that there never was, where none has the name.
+    /// A null handle if nothing has the name.
     rope::BodyId id(std::string_view body) const {
         for (const rope::Body& each : state().bodies)
             if (name(each) == body) return each.id;
@@ -117,7 +117,7 @@ class World : public rope::World {
         return rope::World::advance(seconds, workspace_, {.max_substeps = max_substeps});
     }
 
-    // In single precision, for comparison with what was given.
+    // In single precision, for comparison with inputs.
     glm::vec3 position(std::size_t particle) const { return glm::vec3(rope::World::position(particle)); }
     glm::vec3 velocity(std::size_t particle) const { return glm::vec3(rope::World::velocity(particle)); }
 

@@ -1,4 +1,4 @@
-// One stiff segment that swings: its period, how long it keeps its energy, and what damping takes.
+// One stiff segment that swings: its period, how long it keeps its energy, and the effect of damping.
 #include "rope_support.hpp"
 
 namespace tendril::test {
@@ -18,7 +18,7 @@ World pendulum(float length, float amplitude, const Settings& settings) {
     return world;
 }
 
-/// Mean of so many whole swings, from where it comes through the middle.
+/// The mean of `swings` periods, from one zero crossing.
 double period(World& world, int swings) {
     double before = world.state().position[1].x, time = 0.0, first = -1.0;
     for (int seen = -1; seen < swings && time < 120.0;) {
@@ -35,7 +35,7 @@ double period(World& world, int swings) {
     return 0.0;
 }
 
-/// Energy over that at rest.
+/// The energy above that at rest.
 double swing(const World& world, double length) {
     return energy(world) + world.state().mass[1] * earth_gravity * length;
 }
@@ -77,7 +77,7 @@ TEST(RopePendulum, KeepsNineTenthsOfItsEnergyForAMinute) {
     }
 }
 
-/// What the spec says of plain projection: in a minute it loses 92 %. The plain method stays plain.
+/// The spec on plain projection: it loses 92 % in a minute. Relaxation must stay plain.
 TEST(RopePendulum, PlainRelaxationLosesNearlyAllOfIt) {
     World world = pendulum(1.0f, 0.5f, {.solver = Solver::Relaxation, .damping = 0.0f});
     run_substeps(world, 2, [] {});
@@ -86,13 +86,13 @@ TEST(RopePendulum, PlainRelaxationLosesNearlyAllOfIt) {
     EXPECT_NEAR(1.0 - swing(world, 1.0) / start, 0.92, 0.02);
 }
 
-/// Velocity dies as exp(-c t), so a swing as exp(-c t / 2), and its energy as exp(-c t).
+/// Velocity decays as exp(-c t), so the swing as exp(-c t / 2) and its energy as exp(-c t).
 TEST(RopePendulum, DampingTakesWhatItSays) {
     for (const float damping : {0.1f, 0.5f, 2.0f}) {
         World free = pendulum(1.0f, 0.1f, {.damping = 0.0f});
         World damped = pendulum(1.0f, 0.1f, {.damping = damping});
         const double seconds = std::min(10.0, 3.0 / static_cast<double>(damping));
-        const auto mean_swing = [&](World& world) {  // over one period, since damping takes only from motion
+        const auto mean_swing = [&](World& world) {  // over one period, since only motion is damped
             double sum = 0.0;
             run_substeps(world, 480, [&] { sum += swing(world, 1.0); });
             return sum;
@@ -104,7 +104,7 @@ TEST(RopePendulum, DampingTakesWhatItSays) {
     }
 }
 
-/// Damping is a rate in time, not in substeps.
+/// Damping is a rate per second, not per substep.
 TEST(RopePendulum, DampingDoesNotHangOnTheSubstep) {
     double left[2];
     const double substeps[] = {1.0 / 240.0, 1.0 / 1920.0};
@@ -121,7 +121,7 @@ TEST(RopePendulum, DampingDoesNotHangOnTheSubstep) {
     }
 }
 
-/// Gravity, its scale and the wind are one acceleration: turned round, a pendulum stands on its head.
+/// Gravity, its scale and wind add up to one acceleration: a pendulum swings about any direction.
 TEST(RopePendulum, SwingsAboutWhereverIsDown) {
     const Settings turned{
         .damping = 0.5f, .gravity = {0, -9.81f, 0}, .gravity_scale = 0.5f, .external = {4.905f, 0, 0}};

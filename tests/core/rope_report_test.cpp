@@ -1,4 +1,4 @@
-// What World::advance reports: fallbacks, bodies that neither hang nor fall, energy lost in contact.
+// The reports of World::advance: fallbacks, bodies that neither hang nor fall, energy lost in contact.
 #include "rope_support.hpp"
 
 namespace tendril::test {
@@ -61,7 +61,7 @@ TEST(RopeReport, CountsWhatNeitherIsHeldNorFalls) {
     }
 }
 
-/// A strand between two pins that it does not reach.
+/// A strand that is too short for its two pins.
 TEST(RopeReport, CountsFallbacks) {
     World hair = world_with({});
     hair.add_hair("hair", {.roots = {{{0, 0, 0}, {0, -1, 0}}}, .length = 0.5f, .segments = 10});

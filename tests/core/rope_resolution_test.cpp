@@ -1,4 +1,4 @@
-// What holds for few segments holds for thousands, and what holds in the air holds on a ball.
+// Behaviour is the same for few segments and for thousands, in the air and on colliders.
 #include <array>
 
 #include "rope_support.hpp"
@@ -23,7 +23,7 @@ double deepest_inside(const World& world) {
     return depth;
 }
 
-/// Four metres between two points three metres apart, and what comes up from below under it.
+/// Four metres of rope between points three metres apart, with balls coming up from below.
 World hung_over(int segments, int balls, float radius) {
     World world;
     world.add_rope("rope", {.from = {0, 0, 0},
@@ -59,8 +59,7 @@ TEST(RopeResolution, KeepsItsLengthOverBallsWithAnyNumberOfSegments) {
     }
 }
 
-/// So many that they overlap, and each link of the rope is among several. What they do to it as they come up
-/// is made good once they are there.
+/// So many that they overlap, and each link touches several. Their motion stretches it only for a while.
 TEST(RopeResolution, KeepsItsLengthOverManyBalls) {
     World world = hung_over(1024, 64, 0.05f);
     for (int i = 0; i < 120; ++i) {
@@ -91,7 +90,7 @@ TEST(RopeResolution, KeepsItsLengthTautOverAThinBar) {
         }
 }
 
-/// A collider that is near and not touched changes nothing, not a bit.
+/// A nearby collider that is not touched changes no bit.
 TEST(RopeResolution, SwingsBesideABeamAsWithoutOne) {
     std::array<World, 2> worlds{world_with({.damping = 0.0f}), world_with({.damping = 0.0f})};
     for (World& world : worlds)
@@ -106,7 +105,7 @@ TEST(RopeResolution, SwingsBesideABeamAsWithoutOne) {
     EXPECT_GE(widest, 0.9 * 0.2);
 }
 
-/// A ball drags what cannot get longer: it does, smoothly, and is as long as it was once the ball has left.
+/// A ball drags a rope that is too short: it stretches smoothly, and recovers once the ball has left.
 TEST(RopeResolution, StretchesWhereItHasToAndComesBack) {
     World world;
     world.add_rope("rope",

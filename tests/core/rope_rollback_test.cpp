@@ -1,5 +1,5 @@
-// A copy of a world is the original: whatever was done to it, with whatever numbers, a copy and a world made
-// of its state go on the same, bit for bit. Rollback and scene files stand on this.
+// A copy of a world is equivalent: after any edits with any numbers, a copy and a world made from its state
+// continue bit for bit the same. Rollback and scene files depend on this.
 #include <cmath>
 
 #include "rope_hostile.hpp"
@@ -11,8 +11,8 @@ namespace {
 
 using rope::State;
 
-/// Plays random edits and frames on one world; after each, a copy of it and a world made of its state go on
-/// beside it. `operations` of them, a new world every 400.
+/// Random edits and frames on one world; after each, a copy and a world made from its state run beside it.
+/// Makes `operations` of them, with a new world every 400.
 void play(std::uint64_t seed, int operations) {
     HostileNumbers hostile(seed);
     rope::World world;
@@ -41,12 +41,12 @@ TEST(RopeRollback, ACopyIsTheOriginalWhateverWasDone) {
     for (std::uint64_t seed = 201; seed <= 204; ++seed) play(seed, 1500);
 }
 
-/// For a long run by hand: a million operations take some twenty minutes.
+/// For long manual runs: a million operations take about twenty minutes.
 TEST(RopeRollback, DISABLED_AMillionOperations) {
     for (std::uint64_t seed = 100; seed < 200; ++seed) play(seed, 10'000);
 }
 
-/// Everything at once: ropes that whip, cloth that tears, hair and pins on colliders that move.
+/// Everything at once: whipping ropes, tearing cloth, hair and pins on moving colliders.
 rope::World busy(rope::Solver solver) {
     World world = world_with({.solver = solver});
     world.add_rope("rope",
@@ -68,7 +68,7 @@ rope::World busy(rope::Solver solver) {
     return world.core();
 }
 
-/// A hundred ticks with everything moved about, from the tick of that number on.
+/// A hundred ticks with everything moving, starting at tick `from`.
 void ticks(rope::World& world, rope::Workspace& workspace, int from) {
     for (int i = from; i < from + 100; ++i) {
         const float angle = 0.07f * static_cast<float>(i);

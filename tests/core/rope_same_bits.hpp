@@ -1,5 +1,5 @@
-// Equality of rope states to the last bit: every field of every struct in them. Each struct is taken apart by
-// a structured binding, so a field that is added to one does not compile until it is added here.
+// Bitwise equality of rope states: every field of every struct. Structured bindings take the structs apart,
+// so that a new field does not compile until it is added here.
 #pragma once
 
 #include <cstring>
@@ -11,7 +11,7 @@
 
 namespace tendril::test {
 
-/// All numbers of a state, one behind the other.
+/// All numbers of a state, concatenated.
 class StateBits {
   public:
     explicit StateBits(const rope::State& state) {
@@ -90,7 +90,7 @@ class StateBits {
     std::string bytes_;
 };
 
-/// Whether two worlds are in the same state to the last bit: zeros of different sign are not the same.
+/// Whether two states are bitwise equal: zeros of different sign differ.
 inline bool same_bits(const rope::State& a, const rope::State& b) {
     return StateBits(a) == StateBits(b);
 }

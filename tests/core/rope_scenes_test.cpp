@@ -1,5 +1,5 @@
-// Ten thousand random scenes: ropes, cloths and hair among colliders of every kind that move, overlap, and in
-// which particles start. Nothing free stays inside where there is room, and nothing is ever NaN.
+// Ten thousand random scenes: ropes, cloth and hair among colliders of every kind that move, overlap, and
+// contain particles at the start. No free particle stays inside if there is room, and nothing is ever NaN.
 #include "rope_support.hpp"
 
 namespace tendril::test {
@@ -70,11 +70,11 @@ void add_some_body(World& world, Random& random) {
 }
 
 struct Found {
-    double depth = 0.0;  ///< over what is allowed, metres
+    double depth = 0.0;  ///< above the allowed depth, metres
     std::string what = {};
 };
 
-/// Whether there is room for a ball somewhere near: all that the bound asks for.
+/// Whether there is room for a ball nearby: all that the bound requires.
 bool has_room(const World& world, const dvec3& near, double radius, Random& random) {
     for (int i = 0; i < 400; ++i) {
         const dvec3 at = near + dvec3(random.point(i < 200 ? 0.05f : 1.0f));
@@ -101,7 +101,7 @@ void look(const World& world, Random& random, Found& worst) {
         }
 }
 
-/// One scene, half of a second with a change of mind in it.
+/// One scene of half a second, with colliders that change direction.
 void play(std::uint64_t seed, Found& worst) {
     Random random(seed);
     World world = world_with({.substep = random.chance(4) ? 1.0 / 60.0 : 1.0 / 240.0,
@@ -113,7 +113,7 @@ void play(std::uint64_t seed, Found& worst) {
     for (std::size_t i = 0; i < colliders; ++i)
         world.add_collider("collider " + std::to_string(i), some_shape(random));
     for (std::size_t i = 0; i < bodies; ++i) add_some_body(world, random);
-    if (random.chance(3)) {  // right on a centre
+    if (random.chance(3)) {  // exactly on a centre
         rope::State state = world.state();
         state.position[random.below(state.position.size())] = dvec3(centre(state.colliders[0].shape));
         world = World(state);
@@ -136,7 +136,7 @@ void play(std::uint64_t seed, Found& worst) {
     }
 }
 
-/// Four tests of 2500, so that none takes long.
+/// Four tests of 2500 scenes, so that none takes long.
 class RopeScenes : public testing::TestWithParam<int> {};
 
 TEST_P(RopeScenes, NothingFreeStaysInside) {
@@ -153,7 +153,7 @@ TEST_P(RopeScenes, NothingFreeStaysInside) {
     EXPECT_EQ(failed, 0) << "of 2500";
 }
 
-/// One of 10^5 others, in which a free end went 0.89 m out of a plane and into a capsule.
+/// One of 10^5 others, in which a free end moved 0.89 m out of a plane and into a capsule.
 TEST(RopeScene, TheWayOutOfAPlaneDoesNotEndInACapsule) {
     Found worst;
     play(1'077'508, worst);

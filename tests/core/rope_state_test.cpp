@@ -1,4 +1,4 @@
-// A world is its State: broken ones are refused, and one that is taken over goes on as if nothing had been.
+// A world is its State: invalid states are refused, and a world made from a valid one continues seamlessly.
 #include "rope_support.hpp"
 
 namespace tendril::test {
@@ -44,13 +44,13 @@ TEST(RopeState, CopiesAreOfTheirOwn) {
     world = kept;
     world.advance(0.2);
     EXPECT_TRUE(same_bits(world.state(), moved.state()));
-    copy = World();  // what was moved from can be used anew
+    copy = World();  // a moved-from world can be reused
     copy.add_rope({});
     copy.advance(0.1);
     EXPECT_TRUE(all_finite(copy));
 }
 
-/// What two states can differ in; the handle's generation stands for all handles.
+/// Everything that two states can differ in; one generation stands for all handles.
 TEST(RopeState, EveryFieldCountsWhenStatesAreCompared) {
     const World world = busy_world(rope::Solver::Direct);
     void (*const changes[])(State&) = {
@@ -90,7 +90,7 @@ TEST(RopeState, EveryFieldCountsWhenStatesAreCompared) {
 }
 
 struct Broken {
-    const char* word;  ///< that the refusal has in it
+    const char* word;  ///< that the refusal must contain
     void (*how)(State&);
 };
 
@@ -159,7 +159,7 @@ TEST(RopeState, BrokenOnesAreRefused) {
     }
 }
 
-/// However links are laid over particles: rings, stars, the same link twice, across bodies.
+/// Any graph of links: rings, stars, duplicates, across bodies.
 TEST(RopeState, AnyGraphOfLinksWorks) {
     Random random(91);
     for (int round = 0; round < 60; ++round) {
@@ -180,12 +180,12 @@ TEST(RopeState, AnyGraphOfLinksWorks) {
         world = World(state);
         for (int i = 0; i < 60; ++i) world.advance(1.0 / 60.0);
         EXPECT_TRUE(all_finite(world)) << round;
-        // Nothing flies off, though the lengths contradict each other.
+        // Nothing flies off, although the lengths conflict.
         for (const glm::dvec3& p : world.state().position) EXPECT_LE(glm::length(p), 40.0) << round;
     }
 }
 
-/// What a world has come to by itself it takes back, however heavy, wide or tight it is.
+/// A world accepts any state that it reached itself, however heavy, wide or tight.
 TEST(RopeState, ItsOwnIsNotRefused) {
     World tight;
     tight.add_rope("rope",
@@ -203,7 +203,7 @@ TEST(RopeState, ItsOwnIsNotRefused) {
     }
 }
 
-/// The world has an edge: what falls or is flung over it stops there, and can be saved.
+/// Coordinates are bounded: what falls or is thrown past the bound stops there, and can be saved.
 TEST(RopeState, ItsOwnIsNotRefusedAtTheEdgeOfTheWorld) {
     World world = world_with({.substep = 0.1, .gravity = {1e4f, -1e4f, 0}, .gravity_scale = 1e3f});
     world.add_rope("rope", {.from = {-9e8f, 9e8f, 9e8f}, .to = {-9e8f, 9e8f, 9e8f}, .segments = 5});
@@ -211,9 +211,9 @@ TEST(RopeState, ItsOwnIsNotRefusedAtTheEdgeOfTheWorld) {
     world.add_collider("ball", rope::Sphere{{9.9e8f, 9.9e8f, 9.9e8f}, 1.0f});
     world.add_collider("rod", rope::Capsule{{1e9f, 0, 0}, {1e9f, 1e9f, 1.0f}, 1.0f});
     for (int i = 0; i < 60; ++i) {
-        if (i == 20) world.attach(0, "ball");  // twice as far off as anything is from the origin
+        if (i == 20) world.attach(0, "ball");  // twice as far away as anything is from the origin
         if (i == 30) world.set_settings({.substep = 1e-5, .longest_frame = 1e-3f});
-        if (i == 40) world.set_settings({.substep = 0.1});  // what was done in 1e-5 s goes on in 0.1 s
+        if (i == 40) world.set_settings({.substep = 0.1});  // motion from 1e-5 s continues in 0.1 s
         if (i == 50) world.move_collider("rod", {1e9f, -5e8f, 0}, 0.5);
         world.advance(0.1);
         EXPECT_TRUE(all_finite(world)) << i;

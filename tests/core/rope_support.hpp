@@ -1,4 +1,4 @@
-// What the rope's tests share: ropes that hang, how they swing, and equality down to the bit.
+// Shared by rope tests: hanging ropes, measurements, and bitwise equality.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -25,13 +25,13 @@ inline World world_with(const rope::Settings& settings) {
     return world;
 }
 
-/// Lets seconds pass that one call of advance() would drop.
+/// Advances by more seconds than one call of advance() would accept.
 inline void run(World& world, double seconds) {
     const double frame = 0.25;
     const auto frames = static_cast<int>(std::lround(seconds / frame));
     for (int i = 0; i < frames; ++i) world.advance(frame);
 }
-/// Lets that many substeps pass, one by one, so that what happens in between can be seen.
+/// Advances substep by substep, calling `seen` after each.
 template <class Seen>
 void run_substeps(World& world, int count, Seen seen) {
     for (int i = 0; i < count; ++i) {
@@ -40,7 +40,7 @@ void run_substeps(World& world, int count, Seen seen) {
     }
 }
 
-/// Hung between the origin and (span, 0, 0).
+/// Hangs a rope between the origin and (span, 0, 0).
 inline void hang_between(World& world, float span, float length, int segments) {
     world.add_rope("rope", {.from = {0, 0, 0},
                             .to = {span, 0, 0},
@@ -50,7 +50,7 @@ inline void hang_between(World& world, float span, float length, int segments) {
                             .pin_end = true});
 }
 
-/// Newtons, of all bodies.
+/// The weight of all bodies, newtons.
 inline double weight(const World& world) {
     double mass = 0.0;
     for (const double each : world.state().mass) mass += each;
@@ -71,7 +71,7 @@ inline double lowest(const World& world) {
     return y;
 }
 
-/// How far a rope of that length sags between two points that far apart, in theory.
+/// The theoretical sag of a rope of that length between two points `span` apart.
 inline double catenary_sag(double span, double length) {
     double low = 1e-3 * span, high = 1e3 * span;
     for (int i = 0; i < 200; ++i) {
@@ -82,13 +82,13 @@ inline double catenary_sag(double span, double length) {
 }
 
 inline double stretch(const World& world, const char* body = "rope") {
-    return world.length_error(*world.find(body));  // measured, not said
+    return world.length_error(*world.find(body));  // measured, not as reported
 }
 inline double energy(const World& world, const char* body = "rope") {
     return world.energy(*world.find(body));
 }
 
-/// Every number that a world remembers of its particles is finite.
+/// Whether every number in the state of the particles is finite.
 inline bool all_finite(const World& world) {
     const auto finite = [](const glm::dvec3& p) {
         return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);

@@ -1,4 +1,4 @@
-// Time is simulated in fixed substeps: how it is cut into frames does not matter, and what is dropped is
+// Time is simulated in fixed substeps: how it is divided into frames does not matter, and dropped time is
 // counted.
 #include "rope_support.hpp"
 
@@ -9,7 +9,7 @@ using rope::Advance;
 using rope::Settings;
 using rope::Solver;
 
-/// Something of everything, in motion.
+/// A moving scene with every kind of body.
 World scene(Solver solver) {
     World world = world_with({.solver = solver});
     world.add_rope("rope",
@@ -49,7 +49,7 @@ TEST(RopeTime, NorDoRaggedCuts) {
         World ragged = scene(Solver::Direct);
         double left = 1.0;
         while (left > 0.0) {
-            // From a microsecond to a quarter of a second; and calls with nothing in them.
+            // From a microsecond to a quarter of a second, and empty calls.
             double frame = std::pow(10.0, -6.0 + 5.398 * static_cast<double>(random.below(1001)) / 1000.0);
             if (random.chance(5)) frame = 0.0;
             frame = std::min(frame, left);
@@ -61,8 +61,7 @@ TEST(RopeTime, NorDoRaggedCuts) {
     }
 }
 
-/// An hour of frames of a sixtieth, none of which is a number that doubles have: no substep is lost or made
-/// up.
+/// An hour of frames of 1/60 s, which doubles cannot represent: no substep is lost or added.
 TEST(RopeTime, AnHourHasAllItsSubsteps) {
     World world;
     for (int i = 0; i < 3600 * 60; ++i) world.advance(1.0 / 60.0);
@@ -110,14 +109,14 @@ TEST(RopeTime, SoIsWhatIsOverTheMostSubsteps) {
     EXPECT_EQ(some.advance(0.05).substeps, 12);
 }
 
-/// Less than a substep over in each of many frames is much time in the end: it is simulated or counted.
+/// Less than a substep over in each of many frames adds up: it is simulated or counted.
 TEST(RopeTime, NoTimeIsLostUnseen) {
     World world;
     const double over = 0.4 / 240.0;
     for (int i = 0; i < 1000; ++i) world.advance(0.25 + over);
     EXPECT_NEAR(static_cast<double>(world.state().substeps + world.state().dropped), 60'400.0, 1.0);
 
-    Settings slow;  // a substep longer than what a frame may take
+    Settings slow;  // a substep longer than the limit of a frame
     slow.substep = 0.1, slow.longest_frame = 0.01f;
     World other = world_with(slow);
     for (int i = 0; i < 100; ++i) other.advance(1.0 / 60.0);
@@ -138,7 +137,7 @@ TEST(RopeTime, NoTimeIsNoStepAndBadTimeIsRefused) {
     }
 }
 
-/// A substep that changes in flight changes no speed.
+/// Changing the substep in flight changes no speed.
 TEST(RopeTime, SpeedOutlivesANewSubstep) {
     World world = world_with({.damping = 0.0f, .gravity = {0, 0, 0}, .external = {1, 0, 0}});
     world.add_rope("rope", {.from = {0, 0, 0}, .to = {0, 1, 0}, .segments = 4});

@@ -1,11 +1,11 @@
-// The work of a substep has a bound, whatever the settings and wherever the colliders are.
+// The work of a substep is bounded, whatever the settings and wherever the colliders are.
 #include "rope_support.hpp"
 
 namespace tendril::test {
 namespace {
 
-/// Links and contacts that a substep may look at: so many passes over everything, what a way out may take,
-/// and what links near thin colliders do.
+/// The maximum number of links and contacts that a substep may visit: passes over everything, the searches
+/// for ways out, and links near thin colliders.
 std::uint64_t max_work(const World& world) {
     const std::size_t particles = world.size(), links = world.state().links.size();
     const std::size_t pairs = world.state().colliders.size() * (particles + 14 * links);
@@ -49,7 +49,7 @@ TEST(RopeWork, OfASubstepIsBounded) {
     }
 }
 
-/// What was left out is told.
+/// Skipped work is reported.
 TEST(RopeWork, WhatTheBoundLeavesOutIsCounted) {
     World world = bodies({.iterations = 10'000, .solver = rope::Solver::Relaxation});
     EXPECT_EQ(world.advance(1.0 / 240.0).shortened, 1);
@@ -63,7 +63,7 @@ TEST(RopeWork, WhatTheBoundLeavesOutIsCounted) {
     EXPECT_EQ(shut.advance(1.0 / 240.0).unresolved, shut.size());
 }
 
-/// What is given per substep is enough for what there is room for: a rope wedged between balls.
+/// The budget of a substep suffices if there is room: a rope wedged between balls.
 TEST(RopeWork, WedgedParticlesStillFindTheirWayOut) {
     World world;
     world.add_rope({.from = {-1, 0.3f, 0}, .to = {1, 0.3f, 0}, .segments = 128, .radius = 0.01f});
@@ -78,8 +78,8 @@ TEST(RopeWork, WedgedParticlesStillFindTheirWayOut) {
     EXPECT_EQ(unresolved, 0u);
 }
 
-/// A ball pressed into a trough: the way out of what lies between them is long, and most lines lead further
-/// in. Each of 13 particles looks for it in the same substep.
+/// A ball pressed into a trough: the way out from between them is long, and most directions lead further in.
+/// Each of 13 particles searches in the same substep.
 TEST(RopeWork, WhatABallPressesIntoATroughFindsItsWayOut) {
     Random random(10994);
     for (int i = 0; i < 200; ++i) {

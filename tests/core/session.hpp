@@ -1,54 +1,52 @@
-// A fixed session over the library, and the number it must end in under every compiler and optimisation.
+// Fixed sessions over the library, and the hashes that they must give under every compiler and optimisation.
 #pragma once
 
 #include <cstdint>
 
 namespace tendril::test {
 
-/// What `session_hash` gives. It changes only with what the library computes, and then knowingly: a change
-/// here means that everyone's saved scenes and recordings play differently.
+/// The expected session_hash(). A change means that saved scenes and recordings play differently.
 inline constexpr std::uint64_t golden_session_hash = 0xf7b7c11b0c7f4723u;
 
 /// Runs 20 000 pseudo-random edits and pulls and hashes the bits of every position after each (64-bit
-/// FNV-1a). All numbers in it come from an integer generator and are exact in a float, so that only the
-/// library can differ.
+/// FNV-1a). All numbers are integers scaled to exact floats, so that only the library can differ.
 std::uint64_t session_hash();
 
-/// The same for the solvers: what `solve_hash` gives.
+/// The expected solve_hash().
 inline constexpr std::uint64_t golden_solve_hash = 0x3f3a3d35f788b568u;
 
 /// Runs 4 000 solves by all methods, with and without pole, limits and the other options, and hashes the bits
 /// of every joint and report.
 std::uint64_t solve_hash();
 
-/// The same for ropes: what `rope_hash` gives.
+/// The expected rope_hash().
 inline constexpr std::uint64_t golden_rope_hash = 0x2b6cb0286edd19c7u;
 
-/// Plays 60 worlds of ropes, a sheet and a lock of hair among colliders of every kind, by all three solvers,
-/// with edits in between, and hashes the bits of every particle and tension.
+/// Runs 60 worlds of ropes, a cloth and hair among colliders of every kind, by all three solvers, with edits,
+/// and hashes the bits of every particle and tension.
 std::uint64_t rope_hash();
 
-/// The same for rigs: what `rig_hash` gives.
+/// The expected rig_hash().
 inline constexpr std::uint64_t golden_rig_hash = 0x179dea8ccf0e5998u;
 
-/// Moves the elements of 20 trees by every unit, both spaces, propagating or not, and hashes the bits of what
-/// is read in between.
+/// Moves the elements of 20 trees by every unit, in both spaces, propagating or not, and hashes the bits of
+/// all reads.
 std::uint64_t rig_hash();
 
-/// The same for rigs that solve: what `rig_solve_hash` gives.
+/// The expected rig_solve_hash().
 inline constexpr std::uint64_t golden_rig_solve_hash = 0x5db3f0984941239eu;
 
-/// Solves a rig of every unit forward 200 times and backward once, and hashes the bits of every pose.
+/// Solves a rig with every unit forward 200 times and backward once, and hashes the bits of every pose.
 std::uint64_t rig_solve_hash();
 
-/// The same for filters: what `signal_hash` gives.
+/// The expected signal_hash().
 inline constexpr std::uint64_t golden_signal_hash = 0x7deaff7769b479feu;
 
-/// Runs every kind of filter with many parameters, springs of vectors, of rotations and by the batch, and
-/// hashes the bits of every output and measure.
+/// Runs every kind of filter with many parameters, springs of vectors and rotations, and batches, and hashes
+/// the bits of every output and measure.
 std::uint64_t signal_hash();
 
-/// The same for characters: what `humanoid_hash` gives.
+/// The expected humanoid_hash().
 inline constexpr std::uint64_t golden_humanoid_hash = 0xc9e0302e134a9a33u;
 
 /// Solves a body 600 times, free and within limits and capsules, walks it over stairs, and hashes the bits of

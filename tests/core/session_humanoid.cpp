@@ -39,7 +39,7 @@ std::uint64_t humanoid_hash() {
     const Ground stairs = *Ground::stairs(0.125, 0.25);
     BodyState free_state, held_state;
     FeetState feet_state;
-    // Without a map the left arm is no bone of a body: it swings.
+    // Without a map the left arm is not a bone of the body: it swings.
     SpringChain arm = *SpringChain::make(skeleton, BoneMap(), *skeleton.find("LeftShoulder"));
     SpringChainState arm_state;
     for (int frame = 0; frame < 300; ++frame) {

@@ -58,7 +58,7 @@ Transform constrained(Hierarchy& tree, ElementId child, ElementId one, ElementId
                              parents, options);
 }
 
-/// What one unit makes of a global transform.
+/// A global transform, moved by a random unit.
 Transform moved_by_a_unit(Hierarchy& tree, const std::vector<ElementId>& elements, ElementId item,
                           Random& random) {
     const Transform now = tree.get(item, Space::Global);

@@ -1,4 +1,4 @@
-// One rig of every unit, solved with controls that move.
+// One rig with every unit, solved with moving controls.
 #include <cstddef>
 #include <variant>
 

@@ -1,4 +1,4 @@
-// The part of the fixed session that runs filters.
+// The filters of the fixed session.
 #include <cmath>
 #include <vector>
 

@@ -1,4 +1,4 @@
-// Many springs and values at once, against one at a time.
+// Batches of springs and values against single ones.
 #include "tendril/signal/batch.hpp"
 
 #include <cstdio>
@@ -54,7 +54,7 @@ bool same_bits(const Floats& a, const Floats& b) {
            (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0);
 }
 
-/// Every kind of damping, strengths from none to stiff.
+/// Every kind of damping, strengths from 0 to stiff.
 Springs some_springs(std::size_t count, Random& random) {
     Springs springs;
     for (std::size_t i = 0; i < count; ++i) {
@@ -68,11 +68,11 @@ Springs some_springs(std::size_t count, Random& random) {
     return springs;
 }
 
-/// What a velocity counts by against a distance.
+/// The weight of a velocity relative to a distance.
 double rate_of(const Spring<>& spring, double dt) {
     return std::max(turn * spring.strength, 1.0 / dt);
 }
-/// How large what is added up in a step is, as batch.hpp has it.
+/// The magnitude of the terms of a step, as in batch.hpp.
 double size_of(const Spring<>& spring, const SpringState<>& state, double target, double dt) {
     const double w = turn * spring.strength, velocity = std::abs(target - state.previous_target) / dt;
     const double shift = w > 0.0

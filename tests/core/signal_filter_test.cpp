@@ -1,4 +1,4 @@
-// What holds for every kind of filter.
+// Properties of every kind of filter.
 #include "tendril/signal/filter.hpp"
 
 #include <set>
@@ -85,7 +85,7 @@ TEST(SignalFilter, RefusalsNameTheParameterAndItsValue) {
     }
 }
 
-/// Any filter that check() lets pass; parameters at the ends of their ranges as often as between.
+/// Any filter that check() accepts; parameters at the ends of their ranges as often as between.
 Filter some_filter(Random& random) {
     for (;;) {
         const Kind& kind = signal::kinds()[random.below(signal::kinds().size())];

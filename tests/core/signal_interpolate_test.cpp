@@ -13,7 +13,7 @@ using signal::interp_to_exact;
 glm::dquat about(const glm::dvec3& axis, double angle) {
     return glm::angleAxis(angle, axis);
 }
-/// Radians, the short way.
+/// Radians, the shorter way.
 double angle_between(const glm::dquat& a, const glm::dquat& b) {
     const glm::dquat between = a * glm::conjugate(b);
     return 2.0 * std::atan2(glm::length(glm::dvec3(between.x, between.y, between.z)), std::abs(between.w));
@@ -38,7 +38,7 @@ TEST(SignalInterpolate, ExactlyItDoesNot) {
         const double whole = interp_to_exact(from, to, dt, speed);
         const double halves = interp_to_exact(interp_to_exact(from, to, dt / 2, speed), to, dt / 2, speed);
         EXPECT_NEAR(whole, halves, 1e-9 * (1.0 + std::abs(to - from)));
-        const double near = to + 1e-5;  // where interp_to is there already
+        const double near = to + 1e-5;  // where interp_to already snaps
         EXPECT_NEAR(interp_to_exact(interp_to_exact(near, to, dt / 2, speed), to, dt / 2, speed) - to,
                     1e-5 * std::exp(-speed * dt), 1e-12);
     }

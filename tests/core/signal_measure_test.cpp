@@ -1,4 +1,4 @@
-// Measures on signals with known answers, and whole inputs at several frame rates.
+// Measures of signals with known answers, and comparisons of frame rates.
 #include "tendril/signal/measure.hpp"
 
 #include <functional>
@@ -64,7 +64,7 @@ TEST(SignalMeasure, LagOfASpringIsTheFormulas) {
                                   output = signal::run({&spring, 1}, samples);
         std::vector<double> wanted;
         for (const Sample& sample : samples) wanted.push_back(sample.input);
-        // Without the start, where it is not yet in steady motion.
+        // Without the start, before the motion is steady.
         const std::size_t from = static_cast<std::size_t>(5 * hz);
         const auto lag = signal::lag({std::span(time).subspan(from), std::span(wanted).subspan(from),
                                       std::span(output).subspan(from)});
@@ -123,7 +123,7 @@ TEST(SignalMeasure, WhatRunsAwayIsUnstableAndNothingElseIsSaidOfIt) {
     EXPECT_EQ(measures.following, signal::Following::Unstable);
     EXPECT_FALSE(measures.lag || measures.overshoot || measures.settling_time || measures.jitter);
     EXPECT_GT(measures.rate_difference, 1e3);
-    // The same filter where there are frames enough, and any exact spring.
+    // The same filter at a sufficient frame rate, and any exact spring.
     const auto fast = sampled([](double t) { return std::fmod(t, 2.0) < 1.0 ? 1.0 : -1.0; }, 10.0, 75.0);
     EXPECT_EQ(signal::measure({&explodes, 1}, fast).following, signal::Following::Follows);
     for (const double damping : {0.02, 0.35, 1.0, 3.0}) {
@@ -163,7 +163,7 @@ TEST(SignalMeasure, WhatMovesByItselfHasNoLag) {
     EXPECT_FALSE(verdict(other).lag);
     EXPECT_TRUE(verdict(other).jitter) << "what is left of the input's jitter is still a number";
     EXPECT_EQ(verdict([](double) { return 3.0; }).following, signal::Following::DoesNotFollow);
-    // A tenth of the variance is the input's, and a little more or less.
+    // Slightly more and slightly less than a tenth of the variance is the input's.
     EXPECT_EQ(verdict([&](double t) { return wave(t) + 2.9 * other(t); }).following,
               signal::Following::Follows);
     EXPECT_EQ(verdict([&](double t) { return wave(t) + 3.2 * other(t); }).following,
@@ -176,7 +176,7 @@ TEST(SignalMeasure, WhatMovesByItselfHasNoLag) {
 }
 
 TEST(SignalMeasure, EveryStepCounts) {
-    // Up by 1 with nothing over, down by 2 with a tenth of it over.
+    // Up by 1 without overshoot, down by 2 with a tenth of overshoot.
     const Rows both = rows([](double t) { return t < 1.0   ? 0.0
                                                  : t < 2.0 ? 1.0
                                                            : -1.0; },
@@ -237,7 +237,7 @@ TEST(SignalRates, TheDifferenceIsTheFiltersOwn) {
         for (const char* exact : {"spring", "exponential_decay", "rate_limit", "moving_average", "dead_zone",
                                   "hysteresis", "curve", "scale_bias_clamp"})
             EXPECT_LT(difference_of(filter_of(exact), *samples), 1e-9) << exact;
-        // But for the last 1e-4 of the way, which interp_to_exact takes at once.
+        // Except for the last 1e-4, where interp_to_exact snaps.
         EXPECT_LT(difference_of(filter_of("interp_to_exact"), *samples), 2e-4);
         for (const char* inexact : {"interp_to", "smooth_damp", "one_euro"})
             EXPECT_GT(difference_of(filter_of(inexact), *samples), 5e-3) << inexact;
@@ -247,7 +247,7 @@ TEST(SignalRates, TheDifferenceIsTheFiltersOwn) {
 }
 
 TEST(SignalRates, StepsGoAsThePageHasThem) {
-    // Half a second after a step at the start, at speed 10; 15 Hz has had seven steps, 7/15 s.
+    // Half a second after the first step, at speed 10; 15 Hz has had seven steps, 7/15 s.
     std::vector<Sample> step(60, {1.0 / 60.0, 1.0});
     for (int i = 0; i < 4; ++i) step[static_cast<std::size_t>(i)].input = 0.0;
     const Filter filter = filter_of("interp_to", {{"speed", 10.0}});

@@ -1,5 +1,5 @@
-// Numeric cases of an independent implementation in double precision. Skipped where they are not at hand; the
-// other files here hold without them.
+// Numeric cases from an independent implementation in double precision. Skipped if the files are missing; the
+// other tests do not need them.
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -21,7 +21,7 @@ Json reference(const char* name) {
     return file ? Json::parse(file) : Json();
 }
 
-/// Every parameter of the case is one of the table's.
+/// The filter of a case; each parameter must be in the kind's table.
 Filter filter_of(const std::string& kind, const Json& parameters) {
     const signal::Kind* const found = signal::find_kind(kind);
     EXPECT_NE(found, nullptr) << kind;
@@ -42,7 +42,7 @@ Filter filter_of(const std::string& kind, const Json& parameters) {
     return filter;
 }
 
-/// Returns the worst deviation.
+/// Returns the maximum deviation.
 double play(const Json& example, const std::string& kind) {
     SCOPED_TRACE(example.at("name").get<std::string>());
     const Filter filter = filter_of(kind, example.at("params"));

@@ -55,7 +55,7 @@ TEST(SignalSmoothing, SmoothDampNeverPassesItsTarget) {
     }
 }
 
-/// The largest output within half a minute after a step from 0 to 1.
+/// The maximum output within 30 s after a step from 0 to 1.
 double largest_at(double hz) {
     const signal::SpringSemiImplicit spring{.strength = 8.0, .critical_damping = 1.0};
     signal::MotionState state;
@@ -115,7 +115,7 @@ TEST(SignalSmoothing, OneEuroIsSteadyAtRestAndQuickInMotion) {
     EXPECT_NEAR(state.velocity, 7.7173, 1e-4);
 }
 
-/// As the page says it, from all samples.
+/// The page's definition, from all samples.
 double mean_of_last(const std::deque<std::pair<double, double>>& samples, double window) {
     double time = 0.0, area = 0.0;
     for (auto sample = samples.rbegin(); sample != samples.rend() && time < window; ++sample) {
@@ -172,7 +172,7 @@ TEST(SignalInertialize, LetsTheInputThroughWhereItDoesNotJump) {
 }
 
 TEST(SignalInertialize, TakesAJumpOutSmoothly) {
-    // Two slopes with a jump of 5 between them: place and velocity of the output go on as they were.
+    // Two slopes with a jump of 5 between them: position and velocity of the output are continuous.
     const signal::Filter filter = filter_of("inertialize", {{"halflife", 0.2}, {"threshold", 1.0}});
     const double dt = 1.0 / 2000.0;
     std::vector<double> cut;
@@ -186,7 +186,7 @@ TEST(SignalInertialize, TakesAJumpOutSmoothly) {
         ASSERT_LT(std::abs(velocity - before), 320.0 * dt) << "row " << i;
     }
     EXPECT_NEAR(smooth[2000 + 4000], cut[2000 + 4000], 0.01) << "after ten half-lives";
-    // Without velocities, what is left after one half-life is (1 + 2 ln 2) / 4.
+    // Without velocities, (1 + 2 ln 2) / 4 is left after one half-life.
     signal::FilterState state;
     signal::step(filter, state, 0.0, dt);
     for (int i = 0; i < 400; ++i) signal::step(filter, state, 4.0, dt);

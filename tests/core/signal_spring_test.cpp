@@ -12,7 +12,7 @@ namespace {
 using signal::Spring;
 using signal::SpringState;
 
-/// The text-book solution, by complex exponentials, for a target at 0.
+/// The textbook solution by complex exponentials, for a target at 0.
 std::pair<double, double> solved(double strength, double damping, double place, double velocity, double t) {
     using Complex = std::complex<double>;
     const double w = turn * strength;
@@ -188,7 +188,7 @@ TEST(SignalSpring, RotationsTakeTheShortWay) {
     signal::step(spring, state, turned(3.0), 0.01);
     double way = 0.0;
     glm::dquat before = state.value;
-    for (int i = 0; i < 500; ++i) {  // 3.0 to -3.0: 0.28 through half a turn, not 6 back through nothing
+    for (int i = 0; i < 500; ++i) {  // 3.0 to -3.0: 0.28 through half a turn, not 6 back through 0
         signal::step(spring, state, turned(-3.0), 0.01);
         way += 2.0 * std::acos(std::min(1.0, std::abs(glm::dot(before, state.value))));
         before = state.value;

@@ -1,4 +1,4 @@
-// What the tests of filters share.
+// Shared by filter tests.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@
 
 namespace tendril::test {
 
-// Not inline: chain_support.hpp has an infinity of float, and a program can hold one of that name.
+// Not inline: chain_support.hpp has a float infinity, and a program can hold one of that name.
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr double turn = 6.28318530717958647692;
@@ -30,7 +30,7 @@ inline double between(Random& random, double low, double high) {
     return low + (high - low) * 0.5 * (1.0 + static_cast<double>(random.around(1.0f)));
 }
 
-/// A filter by its name, with some parameters set by theirs.
+/// A filter by its name, with some parameters set by name.
 inline signal::Filter filter_of(std::string_view kind,
                                 std::initializer_list<std::pair<std::string_view, double>> parameters = {}) {
     const signal::Kind* const found = signal::find_kind(kind);
@@ -44,14 +44,14 @@ inline signal::Filter filter_of(std::string_view kind,
     return filter;
 }
 
-/// The output after each of some steps with one dt.
+/// The outputs for a list of inputs at one dt.
 inline std::vector<double> outputs(const signal::Filter& filter, double dt, std::vector<double> inputs) {
     signal::FilterState state;
     for (double& each : inputs) each = signal::step(filter, state, each, dt);
     return inputs;
 }
 
-/// From 0 to 1: what is reached after `seconds` at a frame rate.
+/// The output `seconds` after a step from 0 to 1, at a frame rate.
 inline double reached(const signal::Filter& filter, double hz, double seconds) {
     signal::FilterState state;
     signal::step(filter, state, 0.0, 1.0 / hz);

@@ -1,5 +1,4 @@
-// The task callback: every piece runs once, on the program's own workers where it has some, and gives the
-// same bits however the pieces are ordered.
+// The task callback: every piece runs once, on the program's workers if any, with the same bits in any order.
 #include "tendril/tasks.hpp"
 
 #include "ik_many_support.hpp"

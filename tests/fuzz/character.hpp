@@ -1,4 +1,4 @@
-// What must hold of a character that a reader let through, whatever the bytes were.
+// What must hold for a character that a reader accepts, whatever the bytes were.
 #pragma once
 
 #include <algorithm>
@@ -21,8 +21,8 @@ inline void check_pose(const app::Character& character, const std::vector<rig::T
               "a node is somewhere");
 }
 
-/// `read` reads the bytes as the file "it"; it is refused with words that begin with that name, or a skeleton
-/// with clips that can be played.
+/// `read` reads the bytes as the file "it". Either it refuses with a message that begins with that name, or
+/// it returns a skeleton with clips that can be played.
 template <class Read>
 void check_character(const Read& read) {
     app::Character character;

@@ -1,4 +1,4 @@
-// What a fuzz target does when a property does not hold.
+// What a fuzz target does if a property does not hold.
 #pragma once
 
 #include <cstdint>

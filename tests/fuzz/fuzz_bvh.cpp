@@ -1,4 +1,4 @@
-// A BVH file is refused by a std::runtime_error that names it, or is a character that can be played.
+// A BVH file is refused with a std::runtime_error that names it, or is a character that can be played.
 #include "app/io/character/bvh.hpp"
 #include "tests/fuzz/character.hpp"
 

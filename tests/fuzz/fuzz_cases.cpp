@@ -1,5 +1,5 @@
-// A file of cases is refused by a std::runtime_error, or every case in it is solved by every solver: lengths
-// kept, nothing but numbers, limits held, and the start untouched where the solver refuses.
+// A file of cases is refused with a std::runtime_error, or every solver solves every case in it: lengths are
+// kept, results are finite, limits hold, and the start is unchanged if the solver refuses.
 #include <algorithm>
 #include <cmath>
 #include <tendril/ik/solver.hpp>

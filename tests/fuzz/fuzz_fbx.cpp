@@ -1,4 +1,4 @@
-// An FBX file is refused by a std::runtime_error that names it, or is a character that can be played.
+// An FBX file is refused with a std::runtime_error that names it, or is a character that can be played.
 #include "app/io/character/fbx.hpp"
 #include "tests/fuzz/character.hpp"
 

@@ -1,5 +1,5 @@
-// A file of filters is refused by a std::runtime_error, or every filter in it is one that the library takes:
-// it is written as it was read, and what it puts out is a number.
+// A file of filters is refused with a std::runtime_error, or the library accepts every filter in it: it is
+// written as it was read, and its output is finite.
 #include <cmath>
 
 #include "app/document/json_complete.hpp"
@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t max_filters = 16;
 
-/// A jump, a stretch at rest, a ramp, a spike, frames of several lengths.
+/// A jump, a constant part, a ramp, a spike, with frames of several lengths.
 std::vector<signal::Sample> rows() {
     std::vector<signal::Sample> rows;
     for (int i = 0; i < 60; ++i) {

@@ -1,4 +1,4 @@
-// A glTF or GLB file is refused by a std::runtime_error that names it, or is a character that can be played.
+// A glTF or GLB file is refused with a std::runtime_error naming it, or is a character that can be played.
 #include "app/io/character/gltf.hpp"
 #include "tests/fuzz/character.hpp"
 

@@ -1,5 +1,5 @@
-// Our parser reads what the JSON library reads, to the same value, except what is nested too deep; and a line
-// is found for any path.
+// Our parser reads what the JSON library reads, with the same value, unless it is nested too deep; and finds
+// a line for any path.
 #include "app/document/json_complete.hpp"
 #include "tests/fuzz/check.hpp"
 
@@ -17,7 +17,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         check(error.line >= 1, "an error has a line");
         return 0;
     }
-    // Compared without order: of repeated members both keep the last, but in different places.
+    // Compared without order: both keep the last of repeated members, but at different positions.
     const auto theirs = nlohmann::json::parse(text);
     check(nlohmann::json::parse(ours.dump()) == theirs, "our value is the library's");
     check(parse_json(json_to_text(ours)) == ours, "text for people reads back the same");

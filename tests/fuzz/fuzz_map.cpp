@@ -1,4 +1,4 @@
-// A bone map's file is refused by a std::runtime_error that names it, or reads back as what it was.
+// A bone map's file is refused with a std::runtime_error that names it, or reads back unchanged.
 #include <stdexcept>
 
 #include "app/io/character/map_file.hpp"

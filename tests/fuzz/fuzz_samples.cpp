@@ -1,5 +1,5 @@
-// A CSV file of samples, or of a response, is refused by a std::runtime_error, or its rows are numbers:
-// written again they read back as they are, filters run over them, and what is measured of that is a number.
+// A CSV file of samples, or of a response, is refused with a std::runtime_error, or its rows are finite: they
+// are written and read back unchanged, filters run over them, and measures of the output are finite.
 #include <cmath>
 
 #include "app/io/samples.hpp"

@@ -1,7 +1,7 @@
-// A scene is refused by a std::runtime_error and changes nothing, or it is loaded whole: it saves and loads
-// back to the same, and its labs can show it and let time pass.
+// A scene is refused with a std::runtime_error and changes nothing, or is loaded completely: it saves and
+// loads unchanged, and its labs can show it and advance it.
 //
-// It begins with the labs' own scenes (Lab::test_scenes), as far as they are small.
+// Starts with the labs' own scenes (Lab::test_scenes) that are small enough.
 #include <filesystem>
 #include <fstream>
 
@@ -16,9 +16,9 @@ using tendril::fuzz::check;
 
 namespace {
 
-/// What takes long is shown, but no time passes in it: a fuzzer goes through many scenes instead.
+/// Slow scenes are shown but not advanced: a fuzzer should go through many scenes instead.
 constexpr std::uint64_t max_work = 20'000;
-constexpr std::size_t max_bytes = 8192;  ///< of a scene to begin with
+constexpr std::size_t max_bytes = 8192;  ///< of an initial scene
 
 struct Fixture {
     Labs labs;
@@ -26,7 +26,7 @@ struct Fixture {
     Workspace blank = make_blank_workspace(labs);
     Json saved;
 
-    /// Labs that can be emptied are: what a scene does not mention is written and read all the same.
+    /// Clears the labs that can be cleared: members that a scene omits are still written and read.
     Fixture() {
         for (const auto& lab : labs.all())
             if (commands.find(lab->name() + ".clear") != nullptr)
@@ -43,7 +43,7 @@ const Fixture& fixture() {
 
 }  // namespace
 
-/// Puts the labs' scenes into the first folder that it is given, which takes what the fuzzer learns.
+/// Writes the labs' scenes to the first given folder, which also receives the fuzzer's corpus.
 extern "C" int LLVMFuzzerInitialize(int* count, char*** arguments) {
     std::filesystem::path folder;
     for (int i = 1; i < *count && folder.empty(); ++i)
@@ -84,6 +84,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         lab->bounds(workspace, false);
         for (int tick = 0; tick < 2 && lab->tick_work(workspace) <= max_work; ++tick) lab->step(workspace);
     }
-    load_scene(again, save_scene(workspace));  // what time has made of it opens again
+    load_scene(again, save_scene(workspace));  // it opens again after some time
     return 0;
 }

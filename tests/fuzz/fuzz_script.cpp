@@ -1,5 +1,5 @@
-// A script is refused by a std::runtime_error, or all of it can be used: its events are written as they were
-// read, its commands are carried out or refused, and its expectations give an answer.
+// A script is refused with a std::runtime_error, or all of it can be used: its events are written as they
+// were read, its commands run or are refused, and its expectations give an answer.
 #include "app/document/command.hpp"
 #include "app/document/json_complete.hpp"
 #include "app/labs/labs.hpp"

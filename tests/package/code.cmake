@@ -1,5 +1,5 @@
-# What `tendril code` prints compiles without a warning against the installed library, and moves each chain to the very
-# place that the program itself moves it to. Every script in code/ leads to a scene. In, besides: program.
+# The output of `tendril code` must compile without warnings against the installed library and give exactly the
+# program's own results. Every script in code/ creates a scene. Additional input: program.
 include(${CMAKE_CURRENT_LIST_DIR}/common.cmake)
 set(folder ${work}/code_source)
 file(REMOVE_RECURSE ${folder})
@@ -13,7 +13,7 @@ function(play file lines)
     run(${program} --headless --script ${folder}/${file})
 endfunction()
 
-# Many limits: no person would write them down.
+# Many limits, generated.
 set(many "{\"command\": \"chain.preset\", \"name\": \"tentacle\", \"count\": 80}\n")
 foreach(joint RANGE 77)
     string(APPEND many "{\"command\": \"chain.limit\", \"index\": ${joint}, \"kind\": \"ball_and_socket\", \"up_deg\": ${joint}}\n")
@@ -27,6 +27,7 @@ foreach(script IN LISTS scripts)
     get_filename_component(name ${script} NAME_WE)
     list(APPEND names ${name})
     file(READ ${script} ${name}_lines)
+    string(REPLACE "@golden@" ${source}/tests/app/golden ${name}_lines "${${name}_lines}")
 endforeach()
 
 foreach(name IN LISTS names)
@@ -35,19 +36,19 @@ foreach(name IN LISTS names)
     run(${program} code ${folder}/${name}.json)
     file(WRITE ${folder}/${name}.cpp "${output}")
 endforeach()
-set(build_type None)  # only the library has to be optimised
+set(build_type None)  # only the library must be optimised
 build_project(${folder} ${work}/code -D CMAKE_PREFIX_PATH=${prefix})
 
 set(told "")
 foreach(name IN LISTS names)
     run(${work}/code/${name})
-    if(name MATCHES "^signal")  # filters have no segments: what a jump has become after a second
+    if(name MATCHES "^signal")  # filters have no segments: compare the response to a jump after a second
         if(NOT output MATCHES "\n1.0000 0.800000\n$")
             message(FATAL_ERROR "${name} came to something else:\n${output}")
         endif()
         continue()
     endif()
-    if(name MATCHES "^rope")  # every particle a second later, body after body
+    if(name MATCHES "^rope")  # every particle a second later, by body
         file(READ ${folder}/${name}.cpp program_text)
         string(REGEX MATCHALL "rope::Body::Kind::[A-Za-z]+,[^}]*\\.count = [0-9]+" bodies "${program_text}")
         string(REGEX MATCHALL "[^\n]+" lines "${output}")
@@ -78,6 +79,26 @@ foreach(name IN LISTS names)
         endif()
         play(${name}.check.jsonl "${expectations}")
         string(APPEND told "${name}: ${at} particles\n")
+        continue()
+    endif()
+    if(name MATCHES "^humanoid")  # every node's position
+        string(REGEX MATCHALL "[^\n]+" lines "${output}")
+        set(index 0)
+        set(expectations "{\"command\": \"scene.open\", \"path\": \"${folder}/${name}.json\"}\n")
+        foreach(position IN LISTS lines)
+            string(REPLACE " " ", " position "${position}")
+            string(APPEND expectations "{\"expect\": \"character.nodes.${index}.position\", "
+                                       "\"equals\": [${position}]}\n")
+            math(EXPR index "${index} + 1")
+        endforeach()
+        file(READ ${folder}/${name}.cpp program_text)
+        string(REGEX MATCHALL "\n    {\"" rows "${program_text}")
+        list(LENGTH rows nodes)
+        if(index EQUAL 0 OR NOT index EQUAL nodes)
+            message(FATAL_ERROR "${name} printed ${index} of ${nodes} nodes")
+        endif()
+        play(${name}.check.jsonl "${expectations}")
+        string(APPEND told "${name}: ${index} nodes\n")
         continue()
     endif()
     if(name MATCHES "^rig")  # every element's global pose: numbers, then its name
@@ -135,7 +156,7 @@ foreach(name IN LISTS names)
         endif()
     endforeach()
 
-    # The scene as the program opens it, its target moved to where it is.
+    # The scene as opened by the program, with its target moved to its own position.
     file(READ ${folder}/${name}.json scene)
     string(JSON target GET "${scene}" labs chain target)
     string(REGEX REPLACE "[\n ]+" " " target "${target}")

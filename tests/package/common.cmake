@@ -1,9 +1,9 @@
-# Shared by the scripts here. In: source, work, version, compiler, generator, pkg_config.
-set(prefix ${work}/moved)  # where the installed library ends up
+# Shared by the scripts here. Input: source, work, version, compiler, generator, pkg_config.
+set(prefix ${work}/moved)  # the final folder of the installed library
 set(consumer ${CMAKE_CURRENT_LIST_DIR}/consumer)
 set(expected "tendril ${version}: 3 segments, reach 2, head at 1 2 3, tail at 1 2 1\n8 of 8 tips arrived\nsprings at 0.715 and 0.715\n")
 
-# Runs a command, stops with its output when it fails, and leaves the output in `output`.
+# Runs a command and stores its output in `output`; stops and prints it if the command fails.
 function(run)
     execute_process(COMMAND ${ARGV} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE errors)
     if(NOT result EQUAL 0)
@@ -12,7 +12,7 @@ function(run)
     set(output "${output}" PARENT_SCOPE)
 endfunction()
 
-# Configures a project afresh and builds it, for Release or for what build_type says:
+# Configures a project from scratch and builds it, for Release or build_type:
 # build_project(<source> <build> <options>...)
 set(build_type Release)
 function(build_project from to)

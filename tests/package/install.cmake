@@ -1,5 +1,5 @@
-# Installs the library that was built beside the tests and moves the result: nothing in it may depend on where it was.
-# In, besides: build, libdir.
+# Installs the library built beside the tests and moves the result: nothing in it may depend on its old path.
+# Additional input: build, libdir.
 include(${CMAKE_CURRENT_LIST_DIR}/common.cmake)
 file(REMOVE_RECURSE ${work}/installed ${prefix})
 run(${CMAKE_COMMAND} --install ${build} --component core --prefix ${work}/installed)

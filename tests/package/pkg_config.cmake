@@ -1,4 +1,4 @@
-# One compiler call with what pkg-config says.
+# One compiler call with the flags from pkg-config.
 include(${CMAKE_CURRENT_LIST_DIR}/common.cmake)
 if(NOT pkg_config)
     message("skipped: pkg-config is not installed")

@@ -1,6 +1,5 @@
-# A CMake project that has Tendril's sources in a folder of its own: add_subdirectory builds the library and no more.
-# Built by Clang for this machine's own processor, where fused multiply-adds would be used if they were let: the fixed
-# sessions end there in the numbers that all builds must agree on.
+# A CMake project with Tendril's sources in a subfolder: add_subdirectory builds only the library. Built by Clang for the
+# native processor, which would use fused multiply-adds if allowed: the fixed sessions must still give the common hashes.
 include(${CMAKE_CURRENT_LIST_DIR}/common.cmake)
 set(build ${work}/subdirectory)
 find_program(clang clang++)

@@ -11,7 +11,7 @@ using humanoid::Channel;
 using humanoid::Clip;
 using humanoid::Skeleton;
 
-/// Keys of a node that the solver moved, at every frame.
+/// A node's keys at every frame, and whether the solver ever changed it.
 struct Recording {
     bool is_changed = false;
     Channel channel{};
@@ -27,7 +27,7 @@ void add_key(Channel& channel, double time, const rig::Transform& local) {
     channel.scale.values.push_back(local.scale);
 }
 
-/// A track that says all along what the node does at rest needs no keys.
+/// Drops the keys of a track that always equals the rest pose.
 template <class T>
 void drop_constant(humanoid::Track<T>& track, const T& rest) {
     if (std::ranges::all_of(track.values, [&](const T& each) { return each == rest; })) track = {};

@@ -1,4 +1,4 @@
-// A clip with what is solved on top of it frame by frame, as a clip again.
+// Bakes a solver's frame-by-frame changes of a clip into a new clip.
 #pragma once
 
 #include <functional>
@@ -9,16 +9,16 @@
 
 namespace tendril::app {
 
-/// What the IK makes of a frame's pose, local transforms of all nodes, in place. Called once a frame, in
-/// their order; `dt` is the time since the frame before, 0 at the first.
+/// Changes a frame's pose, the local transforms of all nodes, in place. Called once per frame, in order; `dt`
+/// is the time in seconds since the previous frame, 0 at the first.
 using PoseStep = std::function<void(std::span<rig::Transform> pose, double time, double dt)>;
 
-/// The clip at `rate` frames a second and at its end, each frame as `step` leaves it. Nodes that it never
-/// changes keep the keys that they have. Throws std::runtime_error over 50 million keys.
+/// The clip sampled at `rate` frames per second and at its end, after `step`. Nodes that it never changes
+/// keep their keys. Throws std::runtime_error above 50 million keys.
 humanoid::Clip baked(const humanoid::Skeleton& skeleton, const humanoid::Clip& clip, double rate,
                      const PoseStep& step);
 
-/// With its feet on the ground. Throws std::runtime_error where the map has no two legs.
+/// The clip with its feet on the ground. Throws std::runtime_error if the map lacks two legs.
 humanoid::Clip with_feet_on(const humanoid::Ground& ground, const humanoid::Skeleton& skeleton,
                             const humanoid::BoneMap& map, const humanoid::Clip& clip, double rate);
 

@@ -1,11 +1,11 @@
-// Motion capture in BVH files (Biovision's hierarchy; M. Meredith, S. Maddock, "Motion Capture File Formats
-// Explained", University of Sheffield, 2001), read and written.
+// Reads and writes motion capture in BVH files (Biovision hierarchy; M. Meredith, S. Maddock, "Motion Capture
+// File Formats Explained", University of Sheffield, 2001).
 //
-// What is read: any number of roots; any channels in any order at any joint, rotations multiplied in the
-// order in which they stand; names with blanks; end sites, as nodes of their own ("LeftToeBase end"); any
-// line ends. What the text above leaves open is done as the programs that write such files do: a root's
-// position is added to its offset, that of another joint takes the offset's place. A BVH has no unit: it is
-// guessed from the height of the figure.
+// The reader accepts any number of roots; any channels in any order at any joint, with rotations multiplied
+// in that order; names with blanks; end sites, which become nodes ("LeftToeBase end"); any line ends. Where
+// the text above is ambiguous it follows the programs that write such files: a root's position is added to
+// its offset, another joint's position replaces the offset. A BVH has no unit: it is guessed from the
+// figure's height.
 #pragma once
 
 #include <string>
@@ -20,11 +20,11 @@ namespace tendril::app {
 /// std::runtime_error.
 Character parse_bvh(std::string_view text, const std::string& name, LoadProgress* progress = nullptr);
 
-/// The clip at `rate` frames a second from time 0 up to its duration, Y up, in metres; in millimetres where
-/// the figure is over 4.5 m, which is what parse_bvh() guesses then. Offsets are those of the rest pose, in
-/// the character's space, so that with all rotations 0 the figure stands as it rests; a joint whose
-/// translation moves has position channels. A node that was read from an end site becomes one again; any
-/// other without children keeps its name and gets an end site.
+/// The clip at `rate` frames per second from time 0 to its duration, Y up, in metres, or in millimetres for a
+/// figure over 4.5 m; parse_bvh() guesses either correctly. Offsets are those of the rest pose, in the
+/// character's space, so that all rotations are 0 in the rest pose; a joint whose translation changes has
+/// position channels. A node that was read from an end site becomes one again; other nodes without children
+/// keep their names and get an end site.
 std::string bvh_text(const humanoid::Skeleton& skeleton, const humanoid::Clip& clip, double rate);
 
 }  // namespace tendril::app

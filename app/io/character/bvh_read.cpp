@@ -17,7 +17,7 @@ using humanoid::Node;
 constexpr std::size_t max_frames = 1'000'000;
 constexpr std::size_t max_values = 100'000'000;
 
-/// Goes through the text word by word.
+/// Reads the text word by word.
 class Words {
   public:
     explicit Words(std::string_view text) : text_(text) {}
@@ -32,7 +32,7 @@ class Words {
         while (at_ < text_.size() && !is_blank(text_[at_])) ++at_;
         return text_.substr(begin, at_ - begin);
     }
-    /// Characters.
+    /// Characters not yet read.
     std::size_t left() const { return text_.size() - at_; }
     std::string_view peek() {
         const std::size_t at = at_, line = line_;
@@ -44,8 +44,7 @@ class Words {
         const std::string_view word = next();
         if (!same(word, wanted)) fail("expected " + std::string(wanted) + ", found " + shown(word));
     }
-    /// What is left of this line, without the blanks around it and a brace at its end, which is left to be
-    /// read.
+    /// The rest of this line without surrounding blanks. Stops before an opening brace.
     std::string rest_of_line() {
         while (at_ < text_.size() && is_blank(text_[at_]) && text_[at_] != '\n' && text_[at_] != '\r') ++at_;
         std::size_t end = at_;
@@ -94,7 +93,7 @@ struct BvhJoint {
     std::vector<int> channels;  // 0 to 2: position x to z; 3 to 5: rotation
 };
 
-/// The first part of the file: joints, and as many nodes.
+/// The first part of the file: joints, and a node for each.
 struct Hierarchy {
     std::vector<Node> nodes;
     std::vector<BvhJoint> joints;
@@ -131,7 +130,8 @@ void read_channels(Words& words, BvhJoint& joint, std::size_t& all) {
     }
 }
 
-/// A joint from its name on, and all that hangs on it. Open braces are kept in a list, not in the call stack.
+/// Reads a joint from its name on, and all its descendants. Iterative, so that deep nesting cannot overflow
+/// the call stack.
 void read_tree(Words& words, Hierarchy& hierarchy) {
     std::vector<std::size_t> open{hierarchy.add(words.rest_of_line(), -1)};
     words.expect("{");
@@ -195,7 +195,7 @@ humanoid::Clip read_motion(Words& words, const Hierarchy& hierarchy, LoadProgres
         words.fail("expected 0 to 1000000 frames");
     const auto frames = static_cast<std::size_t>(count);
     if (frames * hierarchy.channels > max_values) words.fail("more than 100000000 numbers");
-    // A number and what parts it from the next are two characters at least.
+    // A number and its separator take at least two characters.
     if (2 * frames * hierarchy.channels > words.left() + 1)
         words.fail("claims " + std::to_string(frames) + " frames of " + std::to_string(hierarchy.channels) +
                    " numbers, the file has " + std::to_string(words.left()) + " more characters");

@@ -12,8 +12,8 @@ using humanoid::Skeleton;
 
 constexpr double degrees = 180.0 / 3.14159265358979323846;
 
-/// Angles z, x and y, in degrees, of rotations about Z, then X, then Y of what was turned before: the order
-/// that most programs write. Where X is a quarter turn, Y is 0 and Z does all.
+/// Euler angles z, x and y in degrees, intrinsic in that order, which most programs write. If x is a quarter
+/// turn, y is 0.
 glm::dvec3 angles_zxy(const glm::dquat& q) {
     const double sine_x = 2.0 * (q.w * q.x + q.y * q.z);
     const double x = std::asin(std::clamp(sine_x, -1.0, 1.0));
@@ -48,14 +48,14 @@ class Writer {
 
   private:
     static std::size_t at(std::int32_t node) { return static_cast<std::size_t>(node); }
-    /// One that came from an end site: it has the name that the reader gave it, and does nothing.
+    /// Whether the node came from an end site: it has the reader's name for one, and is not animated.
     bool is_end_site(std::size_t node) const {
         const std::int32_t parent = skeleton_[node].parent;
         return skeleton_.children(node).empty() && parent >= 0 &&
                skeleton_[node].name == skeleton_[at(parent)].name + " end" && !turns_or_moves(node);
     }
-    /// A BVH has no unit, and who reads it guesses: metres are taken for metres up to a height of 5 m, and
-    /// millimetres for that above.
+    /// A BVH has no unit. guess_unit() recognises metres up to a height of about 5.5 m, and millimetres above
+    /// 4.5 m.
     void find_unit() {
         double low = 0.0, high = 0.0;
         for (std::size_t node = 0; node < skeleton_.size(); ++node) {
@@ -65,7 +65,7 @@ class Writer {
         }
         unit_ = high - low < 4.5 ? 1.0 : 1000.0;
     }
-    /// Braces and line ends would end a name.
+    /// Replaces braces and control characters, which would end a name.
     static std::string written(std::string name) {
         for (char& c : name)
             if (c == '{' || c == '}' || static_cast<unsigned char>(c) < ' ') c = '_';
@@ -82,7 +82,7 @@ class Writer {
         sample(clip_, skeleton_, std::min(static_cast<double>(frame) / rate_, clip_.duration), pose_);
         place(skeleton_, pose_, now_);
     }
-    /// From a parent to its child, in the parent's rotation relative to rest.
+    /// The vector from a node's parent to the node, in the parent's frame relative to rest.
     glm::dvec3 reach(std::size_t node) const {
         const glm::dvec3 way = now_[node].position - now_[at(skeleton_[node].parent)].position;
         return conjugate(turned(at(skeleton_[node].parent))) * way;
@@ -102,8 +102,8 @@ class Writer {
         }
     }
 
-    /// Six decimals would be a frame off after ten hours, and where a foot is fast a tenth of a millimetre
-    /// after two seconds.
+    /// For the frame time: with six decimals time would drift by a frame in ten hours, and a fast foot by a
+    /// tenth of a millimetre in two seconds.
     void write_exactly(double value) {
         char digits[32];
         text_.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
@@ -134,7 +134,7 @@ class Writer {
         }
         line("{");
         ++depth_;
-        // A root's position is added to its offset, which is left to it alone.
+        // A root's position is added to its offset, so the offset is 0.
         write_offset(is_root ? glm::dvec3(0.0) : offset(node));
         if (!is_end_site(node)) {
             line(moves_[node] ? "CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation"
@@ -145,7 +145,7 @@ class Writer {
         --depth_;
         line("}");
     }
-    /// A joint that nothing hangs on needs an end site: a fifth of its own bone on.
+    /// A joint without children needs an end site: extend its own offset by a fifth.
     void write_end_of(std::size_t node) {
         line("End Site");
         line("{");

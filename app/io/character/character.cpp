@@ -8,7 +8,7 @@
 namespace tendril::app {
 namespace {
 
-/// What takes the file's up axis to Y, and keeps the figure upright and its left side left.
+/// The rotation from the file's up axis to Y.
 glm::dquat to_y_up(char up) {
     const double half = std::sqrt(0.5);
     if (up == 'z') return {half, -half, 0.0, 0.0};  // a quarter turn about X: Z becomes Y, Y becomes -Z
@@ -67,7 +67,7 @@ humanoid::Skeleton skeleton_of(std::vector<humanoid::Node> nodes) {
 }
 
 LengthUnit guess_unit(double height) {
-    // CMU's captures are in inches of a skeleton drawn at 0.45 of its size.
+    // CMU's captures are in inches, of a skeleton scaled by 0.45.
     constexpr std::array<LengthUnit, 6> units{{{"metres", 1.0},
                                                {"centimetres", 0.01},
                                                {"inches", 0.0254},

@@ -1,5 +1,4 @@
-// A character as it comes from a file: a skeleton, its clips, and what was done to bring them to Y up and
-// metres.
+// A character from a file: its skeleton, skin and clips, converted to Y up and metres.
 #pragma once
 
 #include <array>
@@ -14,34 +13,33 @@
 
 namespace tendril::app {
 
-/// What a file itself says of its bones.
+/// The file's own assignment of bones.
 struct NamedBones {
     std::string source{};                                    ///< "VRMC_vrm"
-    std::array<std::int32_t, humanoid::bone_count> nodes{};  ///< of the skeleton; -1: none
+    std::array<std::int32_t, humanoid::bone_count> nodes{};  ///< nodes of the skeleton; -1: none
 };
 
 struct Character {
     humanoid::Skeleton skeleton{};
     std::vector<humanoid::Clip> clips{};
     Skin skin{};
-    std::optional<NamedBones> bones{};  ///< none: they have to be matched
-    double scale = 1.0;                 ///< metres of a unit of the file
+    std::optional<NamedBones> bones{};  ///< none: they must be matched
+    double scale = 1.0;                 ///< metres per unit of the file
     char up = 'y';                      ///< the file's axis that points up: x, y or z
-    std::vector<std::string> notes{};   ///< sentences for the panel: what was guessed or left out
+    std::vector<std::string> notes{};   ///< sentences for the panel: what was guessed or omitted
 };
 
-/// Y up and metres: what hangs on nothing is turned, every translation is scaled. `nodes` and `clips` are as
-/// the file has them.
+/// Converts the file's nodes and clips to Y up and metres: rotates the roots and scales every translation.
 void normalise(std::vector<humanoid::Node>& nodes, std::vector<humanoid::Clip>& clips, char up, double scale);
 
-/// As the file says, or else as the library matches them.
+/// The file's own bone map, or else the library's match.
 humanoid::BoneMap bone_map(const Character& character);
 
-/// Throws std::runtime_error with the skeleton's words and the name of the node that they are about.
+/// Throws std::runtime_error with the skeleton's message and the name of the node concerned.
 humanoid::Skeleton skeleton_of(std::vector<humanoid::Node> nodes);
 
-/// Metres of a unit, for a file that does not say: of the units that people use, the one that makes a figure
-/// of that height most nearly 1.75 m. "cm"
+/// A unit of length for files that do not specify one: of the common units, the one that makes a figure of
+/// that height closest to 1.75 m.
 struct LengthUnit {
     const char* name;
     double metres;

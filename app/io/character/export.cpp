@@ -28,11 +28,11 @@ GltfOrigin origin_of(const std::string& file) {
     return {character_bytes(file), fs::path(file).parent_path()};
 }
 
-/// Where each of the character's nodes is in what was read back; throws where one is missing.
+/// The index of each of the character's nodes in the skeleton read back. Throws if one is missing.
 std::vector<std::size_t> places_of(const Skeleton& skeleton, const Skeleton& read, bool is_bvh) {
     std::vector<std::size_t> places(skeleton.size());
     if (is_bvh) {
-        // Both go depth first; behind a joint without children stands the end site that was given to it.
+        // Both are in depth-first order; a joint without children is followed by its added end site.
         std::size_t next = 0;
         for (const std::int32_t each : skeleton.order()) {
             const auto node = static_cast<std::size_t>(each);
@@ -90,7 +90,7 @@ class Comparison {
     const Export& what_;
     const Character& read_;
     std::vector<std::size_t> places_;
-    double ratio_;  ///< metres of a unit of what was read back
+    double ratio_;  ///< metres per unit of the character read back
     std::vector<rig::Transform> local_{};
     std::vector<Placement> wanted_{}, found_{};
 };
@@ -102,7 +102,7 @@ ExportReport report_of(const Export& what, const Character& read, bool is_bvh, b
     Comparison comparison(what, read, is_bvh, has_origin);
     for (std::size_t i = 0; i < report.frames; ++i) {
         comparison.at(static_cast<double>(i) / what.rate, report);
-        // A BVH says nothing of what is between frames.
+        // A BVH does not define what is between frames.
         if (!is_bvh) comparison.at((static_cast<double>(i) + 0.5) / what.rate, report);
     }
     const Skeleton& skeleton = what.character.skeleton;

@@ -1,4 +1,5 @@
-// A clip of a character, written to a file and read back: the one way by which the program exports motion.
+// Writes a character's clip to a file and verifies it by reading it back: the program's only export of
+// motion.
 #pragma once
 
 #include <filesystem>
@@ -8,13 +9,13 @@
 
 namespace tendril::app {
 
-/// What came of an export, measured on what was written.
+/// The quality of an export, measured on the written bytes.
 struct ExportReport {
-    std::size_t frames = 0;       ///< at which joints were compared; glTF also between them
-    std::string worst_joint{};    ///< the one that is the furthest from where it was
-    double worst = 0.0;           ///< by how far, metres
-    bool has_feet = false;        ///< feet stand in the clip; what follows is 0 otherwise
-    double skating_before = 0.0;  ///< the furthest that a standing foot slides, metres
+    std::size_t frames = 0;       ///< frames compared; glTF is also compared between frames
+    std::string worst_joint{};    ///< the joint with the largest deviation
+    double worst = 0.0;           ///< its deviation, metres
+    bool has_feet = false;        ///< feet stand in the clip; otherwise the rest is 0
+    double skating_before = 0.0;  ///< maximum sliding of a standing foot, metres
     double skating_after = 0.0;
 
     /// "67 frames; worst joint LeftHand, 0.0001 mm; skating 12.1 mm before, 3.0 mm after"
@@ -23,20 +24,19 @@ struct ExportReport {
 
 struct Export {
     const Character& character;
-    std::string file{};               ///< that it came from; empty: from none
-    const humanoid::Clip& original;   ///< before anything was corrected
-    const humanoid::Clip& corrected;  ///< what is written
-    double rate = 60.0;               ///< frames a second
+    std::string file{};               ///< the character's source file; empty: none
+    const humanoid::Clip& original;   ///< before corrections
+    const humanoid::Clip& corrected;  ///< the clip to write
+    double rate = 60.0;               ///< frames per second
 };
 
 inline constexpr double min_rate = 1.0, largest_rate = 1000.0;
 
-/// Whether the name ends as one of the files that can be written: .gltf, .glb and .bvh.
+/// Whether the file name has the extension of a format that can be written: .gltf, .glb or .bvh.
 bool ends_as_export(const std::filesystem::path& path);
 
-/// Writes the file beside `path` and renames it; the kind follows from the name's ending. A glTF file keeps
-/// what the character's own glTF file has (gltf_write.hpp). Throws std::runtime_error, and nothing is written
-/// then.
+/// Writes the file atomically, in the format of its extension. A glTF file keeps the contents of the
+/// character's own glTF file (gltf_write.hpp). Throws std::runtime_error and then writes nothing.
 ExportReport export_clip(const Export& what, const std::filesystem::path& path);
 
 }  // namespace tendril::app

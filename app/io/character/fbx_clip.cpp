@@ -69,9 +69,9 @@ void add_times(const aiNodeAnim& channel, std::set<double>& times) {
     }
 }
 using Channels = std::map<std::string, const aiNodeAnim*>;
-/// Where nothing but translation, rotation and scale is animated, Assimp puts all of it, pre-rotation
-/// included, into one channel of the node itself, though it splits the node: that channel then stands for
-/// the whole chain.
+/// If only translation, rotation and scale are animated, Assimp puts everything, including the pre-rotation,
+/// into one channel of the node itself, although it splits the node: that channel then replaces the whole
+/// chain.
 Placement local_at(const FbxJoint& joint, const Channels& channels, double time) {
     const auto channel_of = [&](const aiNode* part) {
         const auto found = channels.find(name_of(*part));
@@ -80,7 +80,7 @@ Placement local_at(const FbxJoint& joint, const Channels& channels, double time)
     const bool parts_move = std::any_of(joint.chain.begin(), joint.chain.end() - 1, channel_of);
     if (const aiNodeAnim* whole = channel_of(joint.chain.back()); whole && !parts_move) {
         rig::Transform local = transform_at(*whole, time);
-        // Of the post-rotation, which a transform has inverted, that channel has the rotation itself.
+        // That channel contains the post-rotation itself, of which a transform needs the inverse.
         for (const aiNode* part : joint.chain) {
             if (!name_of(*part).ends_with("_PostRotation")) continue;
             const glm::dquat inverse = placement_of(part->mTransformation).rotation();
@@ -116,8 +116,8 @@ Clip fbx_clip(const aiAnimation& animation, unsigned index, const std::vector<Fb
         channels[animation.mChannels[i]->mNodeName.C_Str()] = animation.mChannels[i];
         add_times(*animation.mChannels[i], all);
     }
-    // Assimp counts from where the file says that the animation begins. Keys before that, and after its
-    // end, are what the animation is cut out of.
+    // Assimp counts time from the file's start of the animation. Keys before that and after the end are cut
+    // off.
     const double end = animation.mDuration > 0.0 ? animation.mDuration : all.empty() ? 0.0 : *all.rbegin();
     clip.duration = std::max(end, 0.0) / rate;
     for (std::size_t node = 0; node < joints.size(); ++node) {

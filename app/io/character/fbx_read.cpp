@@ -14,8 +14,8 @@
 #include "app/io/character/fbx_structure.hpp"
 #include "app/io/character/unique_names.hpp"
 
-// Debian builds Assimp with its assertions, and a file that breaks one would end the program: this stands in
-// for the library's own, whose handler cannot be set from outside, and makes it a refusal.
+// Debian builds Assimp with assertions, so a bad file could abort the program. This replaces the library's
+// handler, which cannot be set from outside, and throws instead.
 namespace Assimp {
 void aiAssertViolation(const char* expression, const char*, int);
 void aiAssertViolation(const char* expression, const char*, int) {
@@ -30,7 +30,7 @@ using humanoid::Clip;
 using humanoid::Node;
 using humanoid::Placement;
 
-/// Asks Assimp to stop, where somebody wishes that.
+/// Makes Assimp stop once `progress` is cancelled.
 class AssimpProgress final : public Assimp::ProgressHandler {
   public:
     explicit AssimpProgress(LoadProgress* progress) : progress_(progress) {}
@@ -87,7 +87,8 @@ class FbxReader {
             for (unsigned k = 0; k < scene_.mAnimations[i]->mNumChannels; ++k)
                 animated_.insert(plain_name(scene_.mAnimations[i]->mChannels[k]->mNodeName.C_Str()));
     }
-    /// Whether a node or one below it is a bone or, where no mesh has bones, animated; those are wanted.
+    /// Marks as wanted every node that is a bone or has one below it. If no mesh has bones, limbs and
+    /// animated nodes count as bones.
     bool find_wanted(const aiNode& node) {
         const std::string name = plain_name(name_of(node));
         if (no_body_.count(name)) return false;
@@ -104,7 +105,8 @@ class FbxReader {
         for (unsigned i = 0; i < node.mNumChildren; ++i) count += count_wanted(*node.mChildren[i]);
         return count;
     }
-    /// A sky that turns is no skeleton: of what stands side by side, what is not a tenth of the largest goes.
+    /// A rotating sky dome is no skeleton: drops top-level trees with less than a tenth of the largest one's
+    /// nodes.
     void leave_out_small_trees() {
         const aiNode& root = *scene_.mRootNode;
         std::vector<std::size_t> counts;
@@ -114,7 +116,7 @@ class FbxReader {
         for (unsigned i = 0; i < root.mNumChildren; ++i)
             if (10 * counts[i] < most) wanted_.erase(root.mChildren[i]);
     }
-    /// What is wanted, and what hangs on it and is no mesh's. The root that Assimp adds stands for nothing.
+    /// Collects wanted nodes and their descendants without meshes. Skips the root that Assimp adds.
     void collect(const aiNode& node, std::int32_t parent, std::vector<const aiNode*> chain) {
         const bool hangs_on_body =
             parent >= 0 && node.mNumMeshes == 0 && !no_body_.count(plain_name(name_of(node)));

@@ -1,5 +1,5 @@
-// What the parts of the FBX reader share: Assimp's values as the skeleton's, and the chains of nodes that it
-// makes of one with pivots. Included by that reader alone.
+// Shared by the parts of the FBX reader: conversions of Assimp's values, and the chains of nodes into which
+// it splits a node with pivots.
 #pragma once
 
 #include <assimp/scene.h>
@@ -10,16 +10,16 @@
 
 namespace tendril::app {
 
-/// A node of the skeleton: what Assimp made of it, from the outermost pivot to the node itself.
+/// A node of the skeleton: Assimp's chain for it, from the outermost pivot to the node itself.
 struct FbxJoint {
     std::vector<const aiNode*> chain;
     std::int32_t parent;
 };
 
 std::string name_of(const aiNode& node);
-/// Whether Assimp made the node, for one of a node's pivots.
+/// Whether Assimp added the node for a pivot.
 bool is_pivot(const aiNode& node);
-/// The name without what Assimp added to it.
+/// The name without Assimp's suffix.
 std::string plain_name(std::string name);
 humanoid::Placement placement_of(const aiMatrix4x4& matrix);
 /// Shear is lost.

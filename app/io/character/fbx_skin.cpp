@@ -47,7 +47,7 @@ class FbxSkinReader {
             if (node.mMeshes[i] < scene_.mNumMeshes) add_mesh(*scene_.mMeshes[node.mMeshes[i]], node);
         for (unsigned i = 0; i < node.mNumChildren; ++i) add_below(*node.mChildren[i]);
     }
-    /// What the file has in its unit comes out in metres.
+    /// Scales the bind transform, so that skinning converts the file's unit to metres.
     std::size_t add_joint(std::size_t node, Placement from_bind) {
         from_bind.axes *= scale_;
         from_bind.position *= scale_;
@@ -83,7 +83,7 @@ class FbxSkinReader {
         builder_.add_part(what, std::move(corners), std::move(indices), part);
         add_morphs(mesh, what);
     }
-    /// Whether any bone is a joint.
+    /// Returns whether any bone is a joint.
     bool read_influences(const aiMesh& mesh, const std::string& what, SkinBuilder::Corners& corners) {
         corners.influences.resize(mesh.mNumVertices);
         bool any = false;

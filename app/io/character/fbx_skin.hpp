@@ -1,4 +1,4 @@
-// The meshes of an FBX file, over the nodes that were chosen for the skeleton.
+// The meshes of an FBX file, bound to the skeleton's nodes.
 #pragma once
 
 #include "app/io/character/fbx_scene.hpp"
@@ -6,8 +6,8 @@
 
 namespace tendril::app {
 
-/// In metres: `scale` is what a unit of the file is. Meshes without bones hang on the nearest node above that
-/// is a joint; where there is none they are left out. `notes` takes sentences about what else is. Throws
+/// `scale` is metres per unit of the file. Meshes without bones are bound to the nearest ancestor that is a
+/// joint, or omitted if there is none. Appends sentences about other omissions to `notes`. Throws
 /// std::runtime_error.
 Skin fbx_skin(const aiScene& scene, const std::vector<FbxJoint>& joints, double scale,
               std::vector<std::string>& notes);

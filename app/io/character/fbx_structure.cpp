@@ -11,15 +11,15 @@ namespace tendril::app {
 namespace {
 
 constexpr std::size_t max_nested = 64;   // records in records; files have up to 10
-constexpr std::size_t max_depth = 1000;  // models on models: Assimp goes down by recursion
+constexpr std::size_t max_depth = 1000;  // nested models: Assimp recurses
 constexpr std::size_t max_models = 100'000;
 constexpr std::size_t max_curve_keys = 50'000'000;
-constexpr std::uint64_t max_array_bytes = std::uint64_t{1} << 30;  // of all arrays together
-constexpr std::uint64_t max_packed = 1032;                         // bytes that zlib can make of one
+constexpr std::uint64_t max_array_bytes = std::uint64_t{1} << 30;  // sum over all arrays
+constexpr std::uint64_t max_packed = 1032;                         // zlib's maximum expansion
 
 using std::to_string;
 
-/// "Hips" of "Hips\0\1Model" or of "Model::Hips".
+/// "Hips" for "Hips\0\1Model" or "Model::Hips".
 std::string_view plain_name(std::string_view name) {
     if (const std::size_t end = name.find('\0'); end != name.npos) return name.substr(0, end);
     return name.starts_with("Model::") ? name.substr(7) : name;
@@ -36,7 +36,7 @@ class BinaryFbx {
         while (at_ < bytes_.size()) {
             const std::size_t begin = at_;
             Record record = head();
-            if (record.end == 0) {  // the end of what stands in a record, or of the file
+            if (record.end == 0) {  // the end of a record's contents, or of the file
                 if (open_.empty()) break;
                 if (at_ != open_.back().end) fail("a record that does not end where it says");
                 close();
@@ -61,7 +61,7 @@ class BinaryFbx {
         std::uint64_t end = 0, count = 0, length = 0;
         std::string_view name{};
         std::array<std::int64_t, 3> ids{};        // the integers among the first three properties
-        std::array<std::string_view, 3> texts{};  // the texts among them
+        std::array<std::string_view, 3> texts{};  // the strings among them
     };
 
     [[noreturn]] void fail(const std::string& what) const {
@@ -185,7 +185,7 @@ std::int64_t integer(std::string_view text) {
     return value;
 }
 
-/// What stands between commas, quotes taken off.
+/// Comma-separated fields without quotes; at most four.
 std::vector<std::string_view> fields(std::string_view line) {
     std::vector<std::string_view> result;
     while (!line.empty() && result.size() < 4) {
@@ -199,7 +199,7 @@ std::vector<std::string_view> fields(std::string_view line) {
     return result;
 }
 
-/// Line by line: text files have a record's name and properties on one.
+/// Reads line by line: in text files a record's name and properties are on one line.
 FbxObjects text_objects(std::string_view text) {
     FbxObjects objects;
     std::size_t depth = 0, line_number = 0;
@@ -246,7 +246,7 @@ void FbxObjects::add_model(std::int64_t id, std::string_view name, std::string_v
 
 void FbxObjects::check() const {
     std::unordered_map<std::int64_t, std::vector<std::int64_t>> below;
-    std::unordered_map<std::int64_t, std::size_t> open;  // connections from above that are not yet followed
+    std::unordered_map<std::int64_t, std::size_t> open;  // incoming connections not yet followed
     std::size_t keys = 0;
     for (const Connection& each : connections_) {
         if (const auto curve = curves_.find(each.child); curve != curves_.end()) keys += curve->second;
@@ -257,7 +257,7 @@ void FbxObjects::check() const {
     if (keys > max_curve_keys)
         throw std::runtime_error("has more than " + to_string(max_curve_keys) + " keys");
 
-    // From the root down, a model after all that it hangs on: how deep, and how often Assimp would make it.
+    // Topological order from the root: how deep each model is, and how many copies Assimp would create.
     struct Seen {
         std::size_t depth = 0, times = 0;
     };

@@ -1,6 +1,6 @@
-// What an FBX file is made of, checked before Assimp reads it: Assimp believes a file's lengths, counts and
-// connections, and where those lead round in a circle or nest without end, it does too. Binary and text,
-// versions 7.x; W. Blender Foundation, "FBX binary file format specification", 2013, has the records.
+// Checks the structure of an FBX file before Assimp reads it: Assimp trusts a file's lengths, counts and
+// connections, and does not terminate on cycles or endless nesting. Binary and text, versions 7.x; the record
+// format is in Blender Foundation, "FBX binary file format specification", 2013.
 #pragma once
 
 #include <cstdint>
@@ -12,15 +12,15 @@
 
 namespace tendril::app {
 
-/// Collects what hangs on what, and refuses what no character needs.
+/// Collects models, curves and connections, and refuses structures that no character needs.
 class FbxObjects {
   public:
     void add_model(std::int64_t id, std::string_view name, std::string_view kind);
     void add_curve(std::int64_t id, std::size_t keys) { curves_[id] = keys; }
     void connect(std::int64_t child, std::int64_t parent) { connections_.push_back({child, parent}); }
-    /// Throws std::runtime_error: models in a circle, too many or too deep; too many keys.
+    /// Throws std::runtime_error for cycles, for too many or too deeply nested models, and for too many keys.
     void check() const;
-    /// Of the models that are joints.
+    /// Names of the models that are joints.
     const std::unordered_set<std::string>& limbs() const { return limbs_; }
 
   private:
@@ -33,7 +33,7 @@ class FbxObjects {
     std::unordered_set<std::string> limbs_{};
 };
 
-/// Checked. Throws std::runtime_error that says what is wrong and at which byte or line. O(bytes).
+/// Parses and checks the file. Throws std::runtime_error with the reason and the byte or line. O(bytes).
 FbxObjects fbx_objects(std::string_view bytes);
 
 }  // namespace tendril::app

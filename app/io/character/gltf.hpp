@@ -1,9 +1,9 @@
-// Characters in glTF 2.0 files, text or binary, through tinygltf. Nodes by index: names may be missing or
-// double, and are made unique (a node without one is "node_7", by its place in the file). Interpolation stays
-// as it is.
+// Characters in glTF 2.0 files, text or binary, through tinygltf. Nodes are identified by index: names may be
+// missing or repeated, and are made unique (a node without one becomes "node_7", by its index in the file).
+// Keeps the interpolation of keys.
 //
-// Kept as nodes are joints of skins, nodes that are animated, and what those hang on or what hangs between;
-// meshes, cameras and lights that hang beside them are not.
+// The skeleton consists of the skins' joints, VRM bones, animated nodes, and all ancestors of these; other
+// nodes, such as those of meshes, cameras and lights, are omitted.
 #pragma once
 
 #include <filesystem>
@@ -15,9 +15,9 @@
 
 namespace tendril::app {
 
-/// `name` is the file's, for messages; what it names beside itself is looked for in `folder`. Throws
-/// std::runtime_error that begins with the name: what cannot be read, has no skeleton, a clip with numbers
-/// that are none, or buffers or images that are missing.
+/// `name` is the file's name, for messages; external files are read from `folder`. Throws std::runtime_error
+/// that begins with the name if the file cannot be read, has no skeleton, has a clip with numbers that are
+/// not finite, or lacks buffers or images.
 Character parse_gltf(std::string_view bytes, const std::string& name, const std::filesystem::path& folder,
                      LoadProgress* progress = nullptr);
 

@@ -14,7 +14,7 @@ constexpr std::size_t max_rows = 50'000'000;
     throw std::runtime_error(what + ": " + why);
 }
 
-/// The element of a list that an index names.
+/// The list's element at an index. Throws if there is none.
 template <class T>
 const T& named(const std::vector<T>& list, int index, const std::string& what, const char* kind) {
     if (index < 0 || static_cast<std::size_t>(index) >= list.size())
@@ -23,7 +23,7 @@ const T& named(const std::vector<T>& list, int index, const std::string& what, c
     return list[static_cast<std::size_t>(index)];
 }
 
-/// Of a type that check_gltf() knows.
+/// Size in bytes of a component type that check_gltf() accepts.
 std::size_t size_of(int component_type) {
     return static_cast<std::size_t>(
         tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(component_type)));
@@ -53,7 +53,7 @@ double number_at(const unsigned char* at, int component_type, bool normalised) {
     }
 }
 
-/// A stretch of a buffer: where it begins, and rows `stride` bytes apart.
+/// A section of a buffer: rows that are `stride` bytes apart.
 struct Rows {
     const unsigned char* data;
     std::size_t stride;

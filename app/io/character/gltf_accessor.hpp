@@ -1,5 +1,5 @@
-// Numbers out of a glTF file's buffers, every index and size checked: tinygltf checks that the JSON is what
-// it should be, and not that its numbers fit each other.
+// Reads numbers from a glTF file's buffers, checking every index and size: tinygltf checks the JSON's form,
+// but not the consistency of its numbers.
 #pragma once
 
 #include <cstddef>
@@ -10,13 +10,13 @@
 
 namespace tendril::app {
 
-/// Rows of `components` numbers. Integers that are normalised come out from -1 or 0 to 1; sparse values are
-/// put in. `what` is for messages: "animations[2].samplers[0].input". Throws std::runtime_error where an
-/// index points nowhere, the type is another, or the buffer ends before the rows do.
+/// Rows of `components` numbers. Normalised integers are converted to -1 or 0 to 1; sparse values are
+/// applied. `what` is for messages: "animations[2].samplers[0].input". Throws std::runtime_error for an
+/// invalid index, a different type, or a buffer that is too short.
 std::vector<double> accessor_rows(const tinygltf::Model& model, int accessor, int components,
                                   const std::string& what);
 
-/// Rows in it. Throws as above.
+/// The number of rows. Throws as above.
 std::size_t accessor_count(const tinygltf::Model& model, int accessor, const std::string& what);
 
 }  // namespace tendril::app

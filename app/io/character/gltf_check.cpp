@@ -14,10 +14,10 @@ namespace {
 using nlohmann::json;
 using Size = std::uint64_t;
 
-/// Of an accessor without bytes of its own: all zeros, or compressed.
+/// Limit for an accessor without bytes of its own: all zeros, or compressed.
 constexpr Size max_zero_rows = 10'000'000;
 
-/// An element of the file, and where it is: "accessors[3].sparse".
+/// An element of the file, and its path: "accessors[3].sparse".
 class Item {
   public:
     Item(const json& value, std::string place) : value_(&value), place_(std::move(place)) {
@@ -31,14 +31,14 @@ class Item {
         const auto found = value_->find(name);
         if (found == value_->end()) return std::nullopt;
         if (found->is_number_unsigned()) return found->get<Size>();
-        constexpr double exact = 9e15;  // doubles beyond it skip whole numbers
+        constexpr double exact = 9e15;  // larger doubles skip whole numbers
         if (found->is_number_float())
             if (const auto real = found->get<double>(); real >= 0.0 && real < exact)
                 if (const auto whole = static_cast<Size>(real); static_cast<double>(whole) == real)
                     return whole;
         fail(name, "expected a whole number, 0 or more");
     }
-    /// The index of something that the file has `count` of.
+    /// An index into a list of `count` elements, if present. Throws if it is out of range.
     std::optional<std::size_t> index(const char* name, std::size_t count) const {
         const auto found = number(name);
         if (found && *found >= count)
@@ -80,7 +80,7 @@ class Item {
 
 struct View {
     Size length = 0;
-    Size stride = 0;  ///< 0: rows follow each other
+    Size stride = 0;  ///< bytes; 0: rows are contiguous
 };
 
 Size component_size(Size type, const Item& item) {
@@ -129,14 +129,14 @@ class Checker {
     }
 
   private:
-    /// Its size. tinygltf allocates a buffer before it has the bytes.
+    /// The buffer's size. Limited, since tinygltf allocates a buffer before reading its bytes.
     Size buffer(const Item& item) {
         const Size size = item.number("byteLength").value_or(1);
         if (size == 0 || size > max_gltf_bytes)
             item.fail("byteLength", "claims " + std::to_string(size) + " bytes, expected 1 to 1 GB");
         return size;
     }
-    /// A stretch of a buffer; compressed views say in an extension where their bytes are.
+    /// A section of a buffer; compressed views specify their bytes in an extension.
     View view(const Item& item) {
         const View result = stretch(item);
         if (const auto extensions = item.object("extensions"))
@@ -170,7 +170,7 @@ class Checker {
             rows(*values, replaced, row);
         }
     }
-    /// Rows of a view. Only differences of what has been checked: no sum or product that could wrap.
+    /// Checks that rows fit their view. Uses only differences of checked values: no sum or product can wrap.
     void rows(const Item& item, Size count, Size row) {
         const View view = views_[item.required_index("bufferView", views_.size())];
         const Size offset = item.number("byteOffset").value_or(0);

@@ -34,7 +34,7 @@ std::string base64(std::string_view bytes) {
     return text;
 }
 
-/// What kind of picture the bytes are; empty where glTF does not have it.
+/// The MIME type of a picture's bytes; empty if glTF does not support it.
 std::string kind_of_picture(const std::vector<unsigned char>& bytes) {
     const auto begins = [&](std::string_view mark) {
         return bytes.size() > mark.size() &&
@@ -74,7 +74,7 @@ void GltfFile::take_buffers(const tinygltf::Model& model) {
     if (!json.contains("bufferViews")) return;
     for (Json& view : json["bufferViews"]) {
         move(view);
-        // Compressed views say in an extension where they lie.
+        // Compressed views specify their bytes in an extension.
         if (view.contains("extensions"))
             for (Json& extension : view["extensions"]) move(extension);
     }
@@ -124,7 +124,7 @@ std::size_t GltfFile::add_times(const std::vector<float>& times) {
     return place;
 }
 
-/// One row of a set of weights: where its four floats are in the buffer.
+/// The offset in the buffer of a row of four float weights; none for other formats.
 std::optional<std::size_t> GltfFile::row_of_floats(const Json& accessor, std::size_t row) const {
     if (accessor.value("componentType", 0) != TINYGLTF_COMPONENT_TYPE_FLOAT || accessor.contains("sparse") ||
         accessor.value("type", std::string()) != "VEC4" || !accessor.contains("bufferView"))
@@ -135,7 +135,7 @@ std::optional<std::size_t> GltfFile::row_of_floats(const Json& accessor, std::si
     if (view.contains("extensions")) return std::nullopt;
     const std::size_t stride = view.value("byteStride", std::size_t{0});
     return view.value("byteOffset", std::size_t{0}) + accessor.value("byteOffset", std::size_t{0}) +
-           row * (stride > 0 ? stride : 4 * sizeof(float));  // check_gltf() knows that it is in the buffer
+           row * (stride > 0 ? stride : 4 * sizeof(float));  // within the buffer: check_gltf()
 }
 
 void GltfFile::normalise_weights_of(const Json& primitive) {
@@ -167,7 +167,7 @@ void GltfFile::normalise_weights_of(const Json& primitive) {
             std::memcpy(buffer_.data() + at, four, sizeof four);
         }
     }
-    // What they range over is another now; glTF asks for a range of positions alone.
+    // Their range has changed; glTF requires one for positions only.
     if (touched)
         for (std::size_t set = 0; set < sets.size(); ++set)
             accessor(set).erase("min"), accessor(set).erase("max");

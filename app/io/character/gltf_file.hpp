@@ -1,4 +1,4 @@
-// A glTF file in the making: its JSON, and the one buffer that all its views are of.
+// A glTF file under construction: its JSON, and the single buffer of all its views.
 #pragma once
 
 #include <map>
@@ -14,25 +14,25 @@ namespace tendril::app {
 
 class GltfFile {
   public:
-    /// An empty one.
+    /// An empty file.
     GltfFile();
-    /// What another has, number for number. Its buffers become one, and pictures that lie beside it go into
-    /// that too, so that the file needs no other. Throws std::runtime_error where the JSON is none.
+    /// A copy of another file, bit for bit. Merges its buffers and external pictures into one buffer, so that
+    /// it needs no other file. Throws std::runtime_error if the JSON cannot be parsed.
     GltfFile(std::string_view json_text, const tinygltf::Model& model);
 
     nlohmann::ordered_json json;
 
-    /// Rows of `type` ("SCALAR", "VEC3", "VEC4"), as floats. Returns the accessor's place. Those that are
-    /// there already, to the bit, are not put in again.
+    /// Adds rows of `type` ("SCALAR", "VEC3", "VEC4"), as floats. Returns the accessor's index. Rows
+    /// identical to earlier ones are not added again.
     std::size_t add_rows(const char* type, const std::vector<float>& numbers);
-    /// The same with the range that times must have.
+    /// The same with min and max, which glTF requires for times.
     std::size_t add_times(const std::vector<float>& times);
 
-    /// Skin weights of each vertex add up to 1, as the format wants it and not every file has it. Only floats
-    /// are touched; what has been added up already stays to the bit.
+    /// Makes the skin weights of each vertex sum to 1, which the format requires but not every file observes.
+    /// Changes only floats; weights that already do keep their bits.
     void normalise_weights();
 
-    /// The whole file. Text has its buffer in it, in base 64. Throws std::runtime_error over 4 GB.
+    /// The whole file. In text form the buffer is embedded as base64. Throws std::runtime_error above 4 GB.
     std::string bytes(bool binary) const;
 
   private:

@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t deepest_json = 100;
 
-/// Of brackets outside of strings.
+/// Limits the nesting of brackets outside strings.
 void check_depth(std::string_view json) {
     std::size_t depth = 0;
     bool quoted = false;
@@ -36,7 +36,7 @@ std::uint32_t number_at(std::string_view bytes, std::size_t at) {
     return value;
 }
 
-/// The text of a GLB file's first chunk.
+/// The JSON of a GLB file's first chunk.
 std::string_view json_of(std::string_view bytes) {
     if (bytes.size() < 20) throw std::runtime_error("ends in its header");
     if (const std::uint32_t size = number_at(bytes, 8); size > bytes.size())
@@ -46,7 +46,7 @@ std::string_view json_of(std::string_view bytes) {
     if (size > bytes.size() - 20)
         throw std::runtime_error("its JSON chunk claims " + std::to_string(size) + " bytes, the file has " +
                                  std::to_string(bytes.size() - 20) + " more");
-    // tinygltf takes the second chunk's own header for bytes that it has.
+    // tinygltf trusts the size in the second chunk's header.
     if (const std::size_t next = 20 + std::size_t{size}; next + 8 <= bytes.size())
         if (const std::uint32_t binary = number_at(bytes, next); binary > bytes.size() - next - 8)
             throw std::runtime_error("its BIN chunk claims " + std::to_string(binary) +
@@ -55,10 +55,10 @@ std::string_view json_of(std::string_view bytes) {
     return bytes.substr(20, size);
 }
 
-/// What tinygltf may open: the folder of the file and what is below it. It looks in the working folder too.
+/// Restricts tinygltf to the file's folder and its subfolders; it would also look in the working directory.
 struct Beside {
     fs::path folder;      ///< canonical
-    std::string refused;  ///< the first path that led out of it
+    std::string refused;  ///< the first path outside it
 };
 
 bool is_there(const std::string& path, void* user) {
@@ -93,7 +93,7 @@ bool keep_bytes(tinygltf::Image* image, const int, std::string*, std::string*, i
     return true;
 }
 
-/// What tinygltf says, whose sentences end with a line break.
+/// tinygltf's message without trailing line breaks.
 std::string reason(std::string text) {
     while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
     return text.empty() ? "cannot be read" : message(text);

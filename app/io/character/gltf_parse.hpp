@@ -1,5 +1,5 @@
-// A glTF or GLB file as tinygltf has it, after what tinygltf does not check: how deep its JSON nests, which
-// it goes down by recursion, and what it may open beside the file.
+// Parses a glTF or GLB file with tinygltf, after checks that tinygltf omits: the JSON's nesting depth, since
+// it recurses, and which external files it may open.
 #pragma once
 
 #include <filesystem>
@@ -9,15 +9,15 @@
 
 namespace tendril::app {
 
-/// External buffers and images are looked for in `folder`. Images hold the bytes of their files, not pixels.
-/// Throws std::runtime_error: what tinygltf refuses, and files that are missing, images' too.
+/// Reads external buffers and images from `folder`. Images hold the bytes of their files, not pixels. Throws
+/// std::runtime_error for files that tinygltf refuses and for missing external files, including images.
 tinygltf::Model gltf_model(std::string_view bytes, const std::filesystem::path& folder);
 
-/// The text of a file's JSON: its first chunk where it is binary, or all of it.
+/// The JSON text of a file: the first chunk of a binary file, or all of a text file.
 std::string_view gltf_json(std::string_view bytes);
 
-/// Which nodes of the file are those of the skeleton that parse_gltf() makes of it, in its order. Throws
-/// std::runtime_error where it has none.
+/// The file's node for each node of the skeleton that parse_gltf() returns. Throws std::runtime_error if
+/// there is no skeleton.
 std::vector<std::size_t> gltf_nodes(const tinygltf::Model& model);
 
 }  // namespace tendril::app

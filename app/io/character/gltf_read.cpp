@@ -18,10 +18,10 @@ using humanoid::Clip;
 using humanoid::Interpolation;
 using humanoid::Node;
 
-/// Of all clips together: keys may be shared, so that a small file can claim any number.
+/// Sum over all clips: clips can share keys, so even a small file can claim any number.
 constexpr std::size_t max_clip_keys = 20'000'000;
 
-/// Translation, rotation and scale of a matrix, column by column as glTF has it; shear is lost.
+/// Translation, rotation and scale of a column-major matrix, as in glTF; shear is lost.
 rig::Transform decomposed(const std::vector<double>& m) {
     humanoid::Placement placement;
     rig::Transform result;
@@ -95,7 +95,7 @@ class GltfReader {
         return character;
     }
 
-    /// The file's nodes that are the skeleton's, in its order.
+    /// The file's node for each of the skeleton's nodes.
     std::vector<std::size_t> nodes() {
         find_parents();
         choose();
@@ -123,7 +123,7 @@ class GltfReader {
             }
         }
     }
-    /// Joints and what is animated, and what those hang on.
+    /// Chooses joints, VRM bones, animated nodes and their ancestors.
     void choose() {
         std::vector<bool> wanted(model_.nodes.size());
         bool any = false;
@@ -147,7 +147,7 @@ class GltfReader {
             for (std::int32_t above = parents_[i]; above >= 0 && !wanted[static_cast<std::size_t>(above)];
                  above = parents_[static_cast<std::size_t>(above)]) {
                 wanted[static_cast<std::size_t>(above)] = true;
-                if (++steps > wanted.size()) break;  // a circle: Skeleton::make says so
+                if (++steps > wanted.size()) break;  // a cycle: Skeleton::make reports it
             }
         }
         for (std::size_t i = 0; i < wanted.size(); ++i)
@@ -199,7 +199,7 @@ class GltfReader {
         }
         return track;
     }
-    /// Keys that were rounded to bytes are off by a little.
+    /// Normalises: keys rounded to bytes are slightly off.
     static glm::dquat unit(const glm::dquat& value, const std::string& what, std::size_t row) {
         const double size = std::sqrt(glm::dot(value, value));
         if (!(size > 0.5 && size < 2.0))
@@ -249,8 +249,8 @@ class GltfReader {
     const tinygltf::Model& model_;
     LoadProgress* progress_;
     std::vector<std::int32_t> parents_;
-    std::vector<std::int32_t> place_{};  // of the file's nodes in the skeleton; -1: left out
-    std::vector<std::size_t> chosen_{};  // the other way round
+    std::vector<std::int32_t> place_{};  // index in the skeleton of each of the file's nodes; -1: omitted
+    std::vector<std::size_t> chosen_{};  // the inverse
     std::optional<VrmBones> vrm_{};
     std::size_t keys_ = 0;
 };

@@ -50,7 +50,7 @@ class GltfSkinReader {
     }
 
   private:
-    /// What moves a mesh: the joints of its skin, from `first` in the builder's list, or one of its own.
+    /// The joints that move a mesh: those of its skin, from `first` in the builder's list, or a single one.
     struct Binding {
         std::size_t first = 0, count = 1;
     };
@@ -67,7 +67,7 @@ class GltfSkinReader {
             return;
         for (std::size_t i = 0; i < mesh->primitives.size(); ++i) {
             if (mesh->primitives[i].extensions.count("KHR_draco_mesh_compression")) {
-                packed_ = true;  // its accessors have no numbers
+                packed_ = true;  // its accessors hold no data
                 continue;
             }
             const std::string place =
@@ -109,7 +109,8 @@ class GltfSkinReader {
         skins_[index] = binding;
         return binding;
     }
-    /// To the nearest node above that is in the skeleton; none: the mesh is no part of the character.
+    /// Binds to the nearest ancestor in the skeleton. False if there is none: the mesh is not part of the
+    /// character.
     bool rigid_binding(std::size_t index, Binding& binding) {
         Placement from_bind;
         std::size_t node = index, steps = 0;
@@ -140,14 +141,14 @@ class GltfSkinReader {
                                      " rows, POSITION has " + std::to_string(count));
         return result;
     }
-    /// Before memory is taken.
+    /// Checks the size before allocating memory.
     void check_size(int accessor, const std::string& what) const {
         if (accessor_count(model_, accessor, what) > SkinBuilder::max_corners)
             throw std::runtime_error(what + ": more than " + std::to_string(SkinBuilder::max_corners) +
                                      " rows");
     }
 
-    /// Returns how many morphs there were before this one's.
+    /// Returns the number of morphs before this primitive's.
     std::size_t add_primitive(const tinygltf::Primitive& primitive, const Binding& binding, bool is_skinned,
                               const std::string& what) {
         SkinBuilder::Corners corners;
@@ -247,7 +248,7 @@ class GltfSkinReader {
         if (values.empty()) part.picture = -1;
         return part;
     }
-    /// Of a texture; -1: none that can be read.
+    /// Index of a texture's picture; -1 if it cannot be read.
     std::int32_t picture(int index) {
         const tinygltf::Texture* texture = at(model_.textures, index);
         const tinygltf::Image* image = texture ? at(model_.images, texture->source) : nullptr;

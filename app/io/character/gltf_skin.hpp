@@ -1,4 +1,4 @@
-// The meshes of a glTF file, over the nodes that were chosen for the skeleton.
+// The meshes of a glTF file, bound to the skeleton's nodes.
 #pragma once
 
 #include <cstdint>
@@ -12,11 +12,12 @@ namespace tendril::app {
 
 struct GltfNodes {
     std::vector<std::int32_t> parents;  ///< of the file's nodes
-    std::vector<std::int32_t> place;    ///< of the file's nodes in the skeleton; -1: not in it
+    std::vector<std::int32_t> place;    ///< index in the skeleton of each of the file's nodes; -1: not in it
 };
 
-/// As glTF has it; `local(node)` is a node's own transform. What hangs on no node of the skeleton is left
-/// out; so are points and lines. `notes` takes sentences about what else is. Throws std::runtime_error.
+/// `local` has the local transform of each of the file's nodes. Omits meshes with no ancestor in the
+/// skeleton, and points and lines. Appends sentences about other omissions to `notes`. Throws
+/// std::runtime_error.
 Skin gltf_skin(const tinygltf::Model& model, const GltfNodes& nodes,
                const std::vector<humanoid::Placement>& local, std::vector<std::string>& notes);
 

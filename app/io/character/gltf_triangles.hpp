@@ -1,4 +1,4 @@
-// The triangles of a glTF file's scene, whatever they are part of: for a ground to walk on.
+// All triangles of a glTF file's scene, for a ground to walk on.
 #pragma once
 
 #include <cstdint>
@@ -10,11 +10,11 @@ namespace tendril::app {
 
 struct TriangleMesh {
     std::vector<glm::dvec3> vertices;      ///< metres, Y up
-    std::vector<std::uint32_t> triangles;  ///< three places in `vertices` each
+    std::vector<std::uint32_t> triangles;  ///< three indices into `vertices` each
 };
 
-/// Meshes where their nodes put them, as they rest. Throws std::runtime_error that begins with the file's
-/// name: what cannot be read, has no triangles, or too many.
+/// The meshes as placed by their nodes, at rest. Throws std::runtime_error that begins with the file's name
+/// if the file cannot be read, or has no triangles or too many.
 TriangleMesh read_triangles(const std::filesystem::path& path);
 
 }  // namespace tendril::app

@@ -20,7 +20,7 @@ class VrmReader {
         bones_.nodes.fill(-1);
     }
 
-    /// VRM writes "leftUpperArm".
+    /// VRM's names begin in lower case: "leftUpperArm".
     void add(std::string name, const Value* node) {
         const std::string what = std::string(bones_.extension) + ".humanoid.humanBones " + name;
         if (!name.empty()) name[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));

@@ -1,5 +1,5 @@
-// The bones that a VRM file names: a glTF file with the extension VRMC_vrm (VRM 1.0) or VRM (0.x), both by
-// the VRM Consortium, "humanoid" in either.
+// The bones named in a VRM file: a glTF file with the extension VRMC_vrm (VRM 1.0) or VRM (0.x), both by the
+// VRM Consortium, in their "humanoid" member.
 #pragma once
 
 #include <array>
@@ -12,11 +12,11 @@ namespace tendril::app {
 
 struct VrmBones {
     const char* extension = "";
-    std::array<int, humanoid::bone_count> nodes{};  ///< of the file; -1: none
+    std::array<int, humanoid::bone_count> nodes{};  ///< the file's node of each bone; -1: none
 };
 
-/// None where the file has neither extension. Bones that a BoneMap does not have (fingers, eyes, jaw) are
-/// left out. Throws std::runtime_error where a bone is a node that is not there, or that another bone is.
+/// None if the file has neither extension. Omits bones that a BoneMap lacks (fingers, eyes, jaw). Throws
+/// std::runtime_error if a bone's node does not exist or is already another bone's.
 std::optional<VrmBones> vrm_bones(const tinygltf::Model& model);
 
 }  // namespace tendril::app

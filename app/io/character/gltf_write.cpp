@@ -16,7 +16,7 @@ using humanoid::Channel;
 using humanoid::Interpolation;
 using humanoid::Track;
 
-constexpr double nearest_keys = 1e-5;  // seconds; a frame nearer to a key needs none of its own
+constexpr double nearest_keys = 1e-5;  // seconds; a frame closer to a key gets none of its own
 
 const glm::dvec3& part_of(const rig::Transform& local, const Track<glm::dvec3>& track,
                           const Channel& channel) {
@@ -26,7 +26,7 @@ const glm::dquat& part_of(const rig::Transform& local, const Track<glm::dquat>&,
     return local.rotation;
 }
 
-/// A linear track with a key at each frame between its first and its last besides.
+/// A linear track with additional keys at each frame between its first and its last key.
 template <class T>
 Track<T> with_frames(const Channel& channel, const Track<T>& track, double rate) {
     if (track.interpolation != Interpolation::Linear || track.times.size() < 2 || !(rate > 0.0)) return track;
@@ -67,7 +67,7 @@ Json array_of(const glm::dvec3& value) {
     return Json::array({value.x, value.y, value.z});
 }
 
-/// The transform of a node's own, and not a matrix: the animation of a node wants it so.
+/// Replaces a node's matrix by translation, rotation and scale, which glTF requires of animated nodes.
 void set_transform(Json& node, const rig::Transform& local) {
     node.erase("matrix");
     node["translation"] = array_of(local.translation);
@@ -82,13 +82,13 @@ class Animation {
         json_["channels"] = Json::array();
         json_["samplers"] = Json::array();
     }
-    /// What a node's channel has; translations are multiplied by `scale`.
+    /// Adds a node's channel; translations are multiplied by `scale`.
     void add(const Channel& channel, std::size_t node, double scale) {
         add(channel, channel.translation, node, "translation", scale);
         add(channel, channel.rotation, node, "rotation", 1.0);
         add(channel, channel.scale, node, "scale", 1.0);
     }
-    /// A channel of another animation of the file, with its sampler.
+    /// Adds a channel of another animation of the file, with its sampler.
     void keep(const Json& channel, const Json& sampler) {
         json_["channels"].push_back(channel);
         json_["channels"].back()["sampler"] = json_["samplers"].size();
@@ -107,15 +107,15 @@ class Animation {
         std::vector<float> times, numbers;
         for (std::size_t i = 0; i < track.times.size(); ++i) {
             auto time = static_cast<float>(track.times[i]);
-            // A step that came later by what floats lack would be missed by who asks at its time.
+            // Round a step's time down: rounded up, a reader at the exact time would miss it.
             if (track.interpolation == Interpolation::Step && static_cast<double>(time) > track.times[i])
                 time = std::nextafter(time, 0.0f);
-            if (!times.empty() && !(time > times.back())) continue;  // one and the same as a float
+            if (!times.empty() && !(time > times.back())) continue;  // identical when rounded to float
             times.push_back(time);
             for (std::size_t k = 0; k < width; ++k) put(numbers, track.values[i * width + k] * scale);
         }
         constexpr const char* names[]{"STEP", "LINEAR", "CUBICSPLINE"};
-        // A cubic needs two keys, and of one key all say the same.
+        // A cubic needs two keys; a single key is a constant in any interpolation.
         if (times.size() == 1 && width == 3) {
             const auto row = static_cast<std::ptrdiff_t>(numbers.size() / 3);
             numbers = std::vector<float>(numbers.begin() + row, numbers.begin() + 2 * row);
@@ -134,7 +134,8 @@ class Animation {
     Json json_;
 };
 
-/// Channels that move no node as a whole, from the file's animation that the clip was read from.
+/// Keeps channels that do not move nodes, such as morph weights, from the file's animation that the clip came
+/// from.
 void keep_weights(const Json& animations, std::size_t index, Animation& into) {
     if (index >= animations.size()) return;
     const Json& from = animations[index];
@@ -147,8 +148,8 @@ void keep_weights(const Json& animations, std::size_t index, Animation& into) {
     }
 }
 
-/// A node belongs to the skeleton because it is a joint or is animated. What other animations moved, and this
-/// one does not, keeps a key of how it rests.
+/// A node is in the skeleton because it is a joint or animated. One that only other animations moved gets a
+/// key of its rest pose, to stay in the skeleton.
 void keep_animated(const Json& animations, const Character& character, const std::vector<std::size_t>& nodes,
                    std::set<std::size_t> animated, Animation& into) {
     for (const Json& animation : animations) {
@@ -197,7 +198,7 @@ std::string with_origin(const Character& character, const humanoid::Clip& clip, 
     return file.bytes(binary);
 }
 
-/// A skin for each tree: the joints of one must have a common root.
+/// Adds a skin for each tree, since a skin's joints must have a common root.
 void add_skins(const humanoid::Skeleton& skeleton, GltfFile& file) {
     std::vector<std::size_t> skin_of(skeleton.size());
     Json skins = Json::array();

@@ -1,13 +1,12 @@
-// Characters and a clip of theirs as glTF 2.0, text or binary, made to pass the Khronos validator.
+// Writes a character and one of its clips as glTF 2.0, text or binary, that passes the Khronos validator.
 //
-// A character that came from a glTF file keeps what that file has: nodes, skins, materials, meshes, pictures
-// and extensions, all as they came; its animations give way to the one clip, of which what moves no node
-// (morph weights) stays. Skin weights that do not add up to 1, which the format wants, are made to. Of
-// another's, nodes and the clip are written, in metres, Y up, with a skin so that programs see a skeleton.
+// A character from a glTF file keeps that file's contents: nodes, skins, materials, meshes, pictures and
+// extensions. The clip replaces its animations, but keeps their channels that move no node (morph weights).
+// Skin weights are normalised to sum to 1, as the format requires. For other characters the nodes and the
+// clip are written, in metres, Y up, with a skin so that programs recognise a skeleton.
 //
-// Keys: those of the clip, with one at each frame besides where tracks are linear; rotations on one
-// hemisphere. What is between keys is then what it was: a part of an arc is an arc, and steps and cubics
-// keep their own keys.
+// Keys are those of the clip, plus one at each frame in linear tracks; rotations are on one hemisphere. This
+// preserves the motion between keys: a part of an arc is an arc, and steps and cubics keep their own keys.
 #pragma once
 
 #include <filesystem>
@@ -17,14 +16,14 @@
 
 namespace tendril::app {
 
-/// The file that a character came from; no bytes: it came from none, or from one that is no glTF.
+/// The character's source file; no bytes: none, or not glTF.
 struct GltfOrigin {
     std::string bytes{};
     std::filesystem::path folder{};
 };
 
-/// The whole file. `rate` is frames a second; 0: no keys besides the clip's. Throws std::runtime_error where
-/// the origin cannot be read or has other nodes than the character.
+/// The whole file. `rate` is frames per second; 0: no keys besides the clip's. Throws std::runtime_error if
+/// the origin cannot be read or its nodes differ from the character's.
 std::string gltf_bytes(const Character& character, const humanoid::Clip& clip, double rate,
                        const GltfOrigin& origin, bool binary);
 

@@ -113,7 +113,7 @@ SavedMap read_map(const std::filesystem::path& path) {
 }
 
 std::filesystem::path kept_map(const std::filesystem::path& folder, const Skeleton& skeleton) {
-    // FNV-1a, 64 bits: only a file's name; the names in it decide.
+    // FNV-1a, 64 bits: it only determines the file's name; find_kept_map() compares the node names in it.
     std::uint64_t hash = 0xcbf29ce484222325u;
     const auto take = [&](unsigned char byte) { hash = (hash ^ byte) * 0x100000001b3u; };
     for (const humanoid::Node& node : skeleton.nodes()) {
@@ -130,7 +130,7 @@ std::optional<SavedMap> find_kept_map(const std::filesystem::path& folder, const
     std::error_code error;
     if (!std::filesystem::exists(path, error)) return std::nullopt;
     const std::string name = path.filename().string();
-    // A pipe would never end.
+    // Reading a pipe might never end.
     if (!std::filesystem::is_regular_file(path, error)) throw std::runtime_error(name + ": is not a file");
     SavedMap map = read_map(path);
     if (map.nodes != names_of(skeleton))

@@ -1,14 +1,14 @@
-// Bone maps as files: which node, by name, is which bone.
+// Bone maps as files: the name of each bone's node.
 //
 //     {"tendril": "bone map", "version": 1,
 //      "bones": {"Hips": "mixamorig:Hips", "LeftUpperArm": "mixamorig:LeftArm"},
 //      "nodes": ["mixamorig:Hips", "mixamorig:Spine"]}
 //
-// A bone that is not among them has no node. `nodes` are the names of the skeleton's nodes that the map was
-// made for, in its order; a file without them can be read all the same.
+// A missing bone has no node. `nodes` are the names of all nodes of the map's skeleton, in order; they are
+// optional.
 //
-// Maps that a person makes are kept in a folder, too, one for each list of names, and found there again for
-// any skeleton of the same names.
+// The user's maps are also kept in a folder, one for each list of names, and found again for any skeleton
+// with the same names.
 #pragma once
 
 #include <array>
@@ -29,25 +29,26 @@ struct SavedMap {
 };
 
 SavedMap saved_map(const humanoid::BoneMap& map, const humanoid::Skeleton& skeleton);
-/// Each bone that the file names, sure because a person has said so, and reviewed. Throws std::runtime_error
-/// where the skeleton has no node of a name: "LeftHand is node "hand_l", which the character does not have".
+/// The map for a skeleton, with every bone certain and reviewed, since the user has confirmed it. Throws
+/// std::runtime_error if the skeleton lacks a node: "LeftHand is node "hand_l", which the character does not
+/// have".
 humanoid::BoneMap applied(const SavedMap& saved, const humanoid::Skeleton& skeleton);
 
 std::string map_text(const SavedMap& map);
 /// `name` is the file's, for messages: `map.json: line 3: bones.Tail: there is no such bone`. Throws
-/// std::runtime_error. One node is one bone at most.
+/// std::runtime_error, also if two bones have the same node.
 SavedMap parse_map(std::string_view text, const std::string& name);
 SavedMap read_map(const std::filesystem::path& path);
 
-/// Where the map of a skeleton of those names is kept in a folder, whether or not it is there now.
+/// Path in a folder of the kept map for a skeleton with these names, whether or not it exists.
 std::filesystem::path kept_map(const std::filesystem::path& folder, const humanoid::Skeleton& skeleton);
-/// The map that is kept there for exactly those names, and can be applied; nothing where there is none.
-/// Throws std::runtime_error, with the file's name, where the file is another's, or cannot be read.
+/// The map kept there for exactly these names; none if there is none. Throws std::runtime_error with the
+/// file's name if the file has other names, cannot be read or cannot be applied.
 std::optional<SavedMap> find_kept_map(const std::filesystem::path& folder,
                                       const humanoid::Skeleton& skeleton);
-/// Keeps it there, in place of an older one. Throws std::runtime_error.
+/// Keeps a map there, replacing an older one. Throws std::runtime_error.
 void keep_map(const std::filesystem::path& folder, const SavedMap& map, const humanoid::Skeleton& skeleton);
-/// Whether there was one. Throws std::runtime_error where it cannot be removed.
+/// Removes the kept map; returns whether there was one. Throws std::runtime_error if it cannot be removed.
 bool forget_kept_map(const std::filesystem::path& folder, const humanoid::Skeleton& skeleton);
 
 }  // namespace tendril::app

@@ -1,4 +1,4 @@
-// How far a file is read, seen from another thread, and the wish that it be read no further.
+// Progress and cancellation of reading a file, shared between threads.
 #pragma once
 
 #include <atomic>
@@ -8,7 +8,7 @@ namespace tendril::app {
 
 class LoadProgress {
   public:
-    /// Of the reader: `part` of the file is read, 0 to 1. Throws std::runtime_error where it is cancelled.
+    /// Called by the reader: `part` of the file is read, 0 to 1. Throws std::runtime_error if cancelled.
     void at(double part) {
         part_.store(static_cast<float>(part), std::memory_order_relaxed);
         if (cancelled()) throw std::runtime_error("cancelled");
@@ -22,7 +22,7 @@ class LoadProgress {
     std::atomic<bool> cancelled_{false};
 };
 
-/// For readers, whose caller may not want to know.
+/// For readers; `progress` may be null.
 inline void report(LoadProgress* progress, double part) {
     if (progress) progress->at(part);
 }

@@ -1,5 +1,4 @@
-// A character from any file that is known: glTF and GLB (VRM too), FBX, BVH, chosen by what the file is
-// called.
+// Reads a character from any supported file, by its extension: glTF and GLB (including VRM), FBX, BVH.
 #pragma once
 
 #include <filesystem>
@@ -9,15 +8,15 @@
 
 namespace tendril::app {
 
-/// Throws std::runtime_error that begins with the file's name: what is not there, is of no known kind, is
-/// broken, has no skeleton, more nodes than Skeleton::max_nodes, or a clip that humanoid::check() refuses.
-/// It may be read in a thread of its own.
+/// Throws std::runtime_error that begins with the file's name if the file does not exist, has an unknown
+/// format, is invalid, has no skeleton, has more nodes than Skeleton::max_nodes, or has a clip that
+/// humanoid::check() refuses. May run in its own thread.
 Character read_character(const std::filesystem::path& path, LoadProgress* progress = nullptr);
 
 /// The bytes of such a file, up to 1 GB. Throws std::runtime_error that begins with the file's name.
 std::string character_bytes(const std::filesystem::path& path);
 
-/// Whether the name ends as one of those files.
+/// Whether the file name has the extension of a supported file.
 bool ends_as_character(const std::filesystem::path& path);
 
 }  // namespace tendril::app

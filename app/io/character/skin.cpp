@@ -10,7 +10,7 @@ namespace {
 
 using humanoid::Interpolation;
 
-/// Of corners that came without: the mean of their triangles', by area.
+/// Normals for vertices that have none: the area-weighted mean of their triangles' normals, not normalised.
 std::vector<glm::vec3> normals_of(const std::vector<glm::vec3>& positions,
                                   const std::vector<std::uint32_t>& indices) {
     std::vector<glm::vec3> normals(positions.size(), glm::vec3(0.0f));
@@ -137,7 +137,7 @@ void SkinBuilder::add_part(const std::string& what, Corners corners, std::vector
     if (corners.normals.size() != count) corners.normals = normals_of(corners.positions, indices);
     for (glm::vec3& normal : corners.normals) normal = unit(normal);
 
-    // What only some parts have is filled up for the others.
+    // Attributes that only some parts have get defaults in the others.
     if (!corners.uvs.empty() && mesh_.uvs.size() < first) mesh_.uvs.resize(first, glm::vec2(0.0f));
     if (!corners.tints.empty() && mesh_.tints.size() < first) mesh_.tints.resize(first, glm::u8vec4(255));
     if (corners.uvs.empty() && !mesh_.uvs.empty()) corners.uvs.resize(count, glm::vec2(0.0f));

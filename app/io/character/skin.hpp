@@ -1,4 +1,4 @@
-// What a character wears: its meshes as one, bound to the skeleton's nodes, and the clips of its morphs.
+// A character's skin: its meshes merged into one, bound to the skeleton's nodes, and its morph animations.
 //
 //     draw.mesh = character.skin.mesh;
 //     draw.matrices = skin_matrices(character.skin, placements);
@@ -15,8 +15,8 @@
 
 namespace tendril::app {
 
-/// A joint of the skin: `from_bind`, then the node's placement, takes a corner as bound to where it is.
-/// Metres.
+/// A joint of the skin: `from_bind`, then the node's placement, maps a vertex from the bind pose to its
+/// position in metres.
 struct SkinJoint {
     std::size_t node = 0;
     humanoid::Placement from_bind{};
@@ -27,55 +27,56 @@ struct MorphTrack {
     std::size_t first = 0, count = 0;  ///< of the mesh's morphs
     humanoid::Interpolation interpolation = humanoid::Interpolation::Linear;
     std::vector<double> times{};   ///< as a clip's
-    std::vector<double> values{};  ///< `count` a key; cubic: three times that, as a clip's are
+    std::vector<double> values{};  ///< `count` per key; cubic: three times that, as in a clip
 };
 
 struct Skin {
     std::shared_ptr<const SkinnedMesh> mesh{};           ///< null: the file has none
     std::vector<SkinJoint> joints{};                     ///< the mesh's, in its order
-    std::vector<std::vector<MorphTrack>> morph_clips{};  ///< one list a clip, in the clips' order, or none
+    std::vector<std::vector<MorphTrack>> morph_clips{};  ///< one list per clip, in order, or empty
 };
 
-/// For SkinDraw::matrices. `placements` are of all nodes, as humanoid::place() gives them.
+/// For SkinDraw::matrices. `placements` are those of all nodes, from humanoid::place().
 std::vector<AffineRows> skin_matrices(const Skin& skin, std::span<const humanoid::Placement> placements);
-/// Every corner where that takes it, for humanoid::fitted_capsules(); `rest`: the placements at rest.
+/// Every vertex at its skinned position with its strongest joint's node, for humanoid::fitted_capsules();
+/// `rest`: the placements at rest.
 std::vector<humanoid::SkinPoint> skin_points(const Skin& skin, std::span<const humanoid::Placement> rest);
-/// For SkinDraw::morph_weights; a clip without tracks leaves the morphs' own.
+/// For SkinDraw::morph_weights; a clip without tracks keeps the morphs' own weights.
 std::vector<float> morph_weights(const Skin& skin, std::size_t clip, double time);
 
-/// Corners stay as they are bound; what they come out as is `times` as large.
+/// Scales the skinned result; the vertices in the bind pose stay as they are.
 void scale_skin(Skin& skin, double times);
 
-/// Meshes put together while a file is read: corners, then triangles over them, then their morphs.
+/// Merges meshes while a file is read: add a part, then its morphs.
 class SkinBuilder {
   public:
     static constexpr std::size_t max_corners = 4'000'000, max_indices = 30'000'000, max_joints = 16'000;
 
-    /// The place of a new joint.
+    /// Returns the index of the new joint.
     std::size_t add_joint(std::size_t node, const humanoid::Placement& from_bind);
-    /// Corners of a part; lists beside the positions have as many, or are empty. `influences` are joint and
-    /// weight for each corner, any number: the four strongest stay, and are made 1 together. Throws
-    /// std::runtime_error where there are too many corners.
+    /// Vertices of a part; lists other than the positions have the same size or are empty. `influences` are
+    /// any number of joints and weights for each vertex: the four strongest are kept and normalised.
     struct Corners {
         std::vector<glm::vec3> positions, normals;
         std::vector<glm::vec2> uvs;
         std::vector<glm::u8vec4> tints;
         std::vector<std::vector<std::pair<std::size_t, double>>> influences;
-        std::size_t only_joint = 0;  ///< of corners without influences
+        std::size_t only_joint = 0;  ///< for vertices without influences
     };
-    /// Triangles, their material, and what `indices` say of the corners from 0. Throws std::runtime_error
-    /// with `what` before it where an index points nowhere or a number is none.
+    /// Adds triangles with one material; `indices` count the part's vertices from 0. Throws
+    /// std::runtime_error that begins with `what` for an index out of range, a number that is not finite, or
+    /// too many vertices.
     void add_part(const std::string& what, Corners corners, std::vector<std::uint32_t> indices,
                   SkinPart material);
-    /// Of the part that was added last. Returns its place.
+    /// Adds a morph of the last part. Returns its index.
     std::size_t add_morph(const std::string& what, std::string name, double weight,
                           std::vector<glm::vec3> positions, std::vector<glm::vec3> normals);
-    /// A file's bytes, PNG or JPEG; -1 where it is neither, or broken. Sides over
-    /// 2048 are halved.
+    /// Adds a picture from the bytes of a PNG or JPEG file and returns its index; -1 if it is neither or
+    /// invalid. Pictures with a side over 2048 are halved until they fit.
     std::int32_t add_picture(const unsigned char* bytes, std::size_t size);
 
     std::size_t corners() const { return mesh_.positions.size(); }
-    /// Null mesh where nothing was added.
+    /// The mesh is null if nothing was added.
     Skin finish();
 
   private:
@@ -84,7 +85,7 @@ class SkinBuilder {
     std::size_t last_first_ = 0, last_count_ = 0;
 };
 
-/// Linear light to what a screen shows.
+/// Converts linear light to sRGB.
 glm::vec3 shown_colour(const glm::vec3& linear);
 
 }  // namespace tendril::app

@@ -1,4 +1,4 @@
-// Static, as some systems' Dear ImGui pulls in a whole library of stb with the same names.
+// Static, since some systems' Dear ImGui includes a whole stb library with the same names.
 #define STB_IMAGE_STATIC
 #define STB_IMAGE_IMPLEMENTATION
 #define STBI_ONLY_PNG
@@ -17,7 +17,7 @@ namespace {
 constexpr int longest_side = 2048;
 constexpr int max_pixels = 1 << 26;  // 256 MB
 
-/// Each pixel the mean of four.
+/// Each pixel is the mean of four.
 Picture halved(const Picture& whole) {
     Picture half;
     half.size = {std::max(whole.size.x / 2, 1), std::max(whole.size.y / 2, 1)};

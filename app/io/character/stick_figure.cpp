@@ -26,7 +26,7 @@ constexpr FigureJoint middle[]{{"Hips", "", {0, 1.0, 0}},           {"Spine", "H
                                {"Chest", "Spine", {0, 1.2, 0}},     {"UpperChest", "Chest", {0, 1.33, 0}},
                                {"Neck", "UpperChest", {0, 1.5, 0}}, {"Head", "Neck", {0, 1.6, 0}},
                                {"HeadTop_End", "Head", {0, 1.8, 0}}};
-/// Of the left side, which is that of +X.
+/// The left side, at +X.
 constexpr FigureJoint side[]{
     {"Shoulder", "UpperChest", {0.04, 1.45, 0}},  {"UpperArm", "Shoulder", {0.18, 1.45, 0}},
     {"LowerArm", "UpperArm", {0.46, 1.45, 0}},    {"Hand", "LowerArm", {0.72, 1.45, 0}},
@@ -73,7 +73,7 @@ dquat from_to(const dvec3& from, const dvec3& to) {
                                 glm::cross(glm::normalize(from), glm::normalize(to))));
 }
 
-/// A pose being made: global rotations node by node, from the root out.
+/// Builds a pose by setting global rotations, from the root outwards.
 class Pose {
   public:
     explicit Pose(const Skeleton& skeleton)
@@ -90,8 +90,8 @@ class Pose {
         humanoid::place(skeleton_, local_, placed_);
         local(name).rotation = glm::inverse(placed_[static_cast<std::size_t>(parent)].rotation()) * global;
     }
-    /// Two bones to a target; their middle joint towards `pole`, a direction. The lower end turns with the
-    /// lower bone.
+    /// Two-bone IK to a target, with the middle joint in direction `pole`. The end rotates with the lower
+    /// bone.
     void reach(const std::string& upper, const std::string& lower, const std::string& end,
                const dvec3& target, const dvec3& pole) {
         const dvec3 root = placed(upper).position;
@@ -116,7 +116,7 @@ class Pose {
     std::vector<humanoid::Placement> placed_;
 };
 
-/// Frames of all nodes' rotations and of the hips' translation as a clip.
+/// Records frames of all nodes' rotations and of the hips' translation as a clip.
 class Recorder {
   public:
     Recorder(const Skeleton& skeleton, std::string name, double duration) {
@@ -147,8 +147,8 @@ class Recorder {
 
 constexpr double walk_period = 1.1, walk_speed = 1.0;  // s, m/s
 
-/// Where a foot's ankle is and how it is turned, `phase` of a walk's period after its heel came down where
-/// the hips were at z = 0 and the ankle `ahead` of them.
+/// A foot's pose `phase` of a walk's period after its heel strike, when the hips were at z = 0 and the ankle
+/// `ahead` of them.
 struct FootPose {
     dvec3 ankle;
     double pitch;  // degrees, toes up
@@ -176,7 +176,7 @@ FootPose foot_at(double phase) {
         pose.ankle.z += ahead;
         return pose;
     }
-    // Through the air on a cubic that goes on as the foot left the ground and comes down as it will stand.
+    // In the air: a cubic that matches the velocities at lift-off and landing.
     const FootPose left = standing(toe_off), before = standing(toe_off - 1e-4), next = standing(0.0);
     const double u = (phase - toe_off) / (1.0 - toe_off), span = 1.0 - toe_off;
     const dvec3 leaving = (left.ankle - before.ankle) / 1e-4 * span;
@@ -191,7 +191,7 @@ FootPose foot_at(double phase) {
     return pose;
 }
 
-/// `late`: the part of a period by which this leg comes later than the other.
+/// `late`: this leg's delay as a fraction of the period.
 void pose_leg(Pose& pose, const std::string& prefix, double sign, double phase, double late) {
     const double step = std::floor(phase - late);
     const FootPose foot = foot_at(phase - late - step);
@@ -234,7 +234,7 @@ humanoid::Clip make_walk(const Skeleton& skeleton) {
     return recorder.clip();
 }
 
-/// A hand's way in the punch: guard, drawn back, the hook's peak in front of the face, back to guard.
+/// The hand's path in the punch: guard, drawn back, the hook's peak in front of the face, back to guard.
 dvec3 fist_at(double t) {
     struct Key {
         double time;

@@ -1,4 +1,4 @@
-// tinygltf as this program uses it: without reading or writing pictures, which are kept as they came.
+// tinygltf, configured not to decode or encode pictures, which are kept as bytes.
 #pragma once
 
 #define TINYGLTF_NO_STB_IMAGE

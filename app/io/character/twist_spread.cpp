@@ -13,8 +13,8 @@ namespace {
 
 using humanoid::Placement;
 
-constexpr double places = 100.0;  // along a bone
-/// What every GL holds in a texture of joints' matrices.
+constexpr double places = 100.0;  // slices along a bone
+/// Every GL supports a buffer texture of 65536 texels; a matrix takes three.
 constexpr std::size_t max_joints = 65536 / 3;
 constexpr double min_twist = 1e-7;  // radians
 
@@ -26,13 +26,13 @@ std::optional<Placement> inverse(const Placement& of) {
     return back;
 }
 
-/// `of` as it is seen from `from`; the identity from what has no volume.
+/// The rotation of `of` relative to `from`; the identity if `from` is singular.
 glm::dquat rotation_from(const Placement& from, const Placement& of) {
     const auto back = inverse(from);
     return back ? (*back * of).rotation() : glm::dquat(1.0, 0.0, 0.0, 0.0);
 }
 
-/// The joint on that node that stands nearest in the list, so that both belong to one skin of the file.
+/// The joint of that node nearest to index `near`, so that both belong to the same skin of the file.
 std::optional<std::size_t> joint_near(const Skin& skin, std::size_t node, std::size_t near) {
     std::optional<std::size_t> found;
     const auto away = [near](std::size_t i) { return i > near ? i - near : near - i; };
@@ -41,7 +41,7 @@ std::optional<std::size_t> joint_near(const Skin& skin, std::size_t node, std::s
     return found;
 }
 
-/// How one node is turned against another where the skin was bound.
+/// The rotation of one node relative to another in the bind pose.
 glm::dquat bound_turn(const Skin& skin, std::size_t from, std::size_t of, std::span<const Placement> rest) {
     if (const auto one = joint_near(skin, from, 0)) {
         if (const auto other = joint_near(skin, of, *one)) {
@@ -61,7 +61,7 @@ AffineRows rows_of(const Placement& m) {
     return rows;
 }
 
-/// Whether a corner hangs on one of the nodes.
+/// Whether any vertex follows one of the nodes.
 bool is_worn(const Skin& skin, const std::vector<std::size_t>& nodes) {
     return std::ranges::any_of(skin.mesh->weights, [&](const JointWeights& by) {
         for (std::size_t i = 0; i < 4; ++i)
@@ -89,7 +89,7 @@ TwistSpread::TwistSpread(const Skin& skin, const humanoid::Skeleton& skeleton, c
 
 void TwistSpread::spread(const Skin& skin, const humanoid::Skeleton& skeleton,
                          std::span<const Placement> rest) {
-    /// Of a joint that hangs on an arm's bone: which, and what takes a corner as bound to that bone's space.
+    /// For a joint on an arm's bone: the arm, and the transform from the bind pose to the bone's space.
     struct Bound {
         std::size_t arm;
         Placement to_bone;

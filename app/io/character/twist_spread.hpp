@@ -1,15 +1,15 @@
-// A skin whose arms are twisted evenly along their bones, where linear blending lets them shrink to a thread
-// at wrist and shoulder (tendril/humanoid/twist.hpp has the method and its sources).
+// Distributes the twist of arms evenly along their bones; with plain linear blending they collapse at wrist
+// and shoulder (tendril/humanoid/twist.hpp has the method and its sources).
 //
 //     const TwistSpread spread(character.skin, character.skeleton, map);  // once
 //     draw.mesh = character.skin.mesh;
 //     draw.weights = spread.weights();
 //     draw.matrices = spread.matrices(character.skin, placements);
 //
-// A corner follows the same joints by the same weights. Only, where one is a bone of an arm, it follows a
-// copy of that joint which is turned about the bone by the twist of the corner's own place along it: a
-// hundred places to a bone, of which a skin has those that its corners stand at. So no corner is blended
-// between places that are far from each other, and one that is not twisted is where it was, to the bit.
+// A vertex keeps its joints and weights, but instead of a joint on an arm's bone it follows a copy of it,
+// rotated about the bone by the twist at the vertex's position along it. Positions are rounded to a hundredth
+// of the bone, and only those in use get a copy. So no vertex is blended between distant positions, and
+// without twist every vertex stays the same, bit for bit.
 #pragma once
 
 #include <memory>
@@ -23,22 +23,22 @@ namespace tendril::app {
 
 class TwistSpread {
   public:
-    /// Spreads nothing.
+    /// Does nothing.
     TwistSpread() = default;
-    /// Bones with twist nodes that corners hang on are left to those. What counts as untwisted is how the
-    /// skin was bound, or the rest pose where it has no joints that say.
+    /// Skips bones with twist nodes that vertices follow. Twist is relative to the skin's bind pose, or to
+    /// the rest pose if the skin lacks the joints.
     TwistSpread(const Skin& skin, const humanoid::Skeleton& skeleton, const humanoid::BoneMap& map);
 
-    /// For SkinDraw::weights; null where no bone is spread.
+    /// For SkinDraw::weights; null if nothing is distributed.
     const std::shared_ptr<const std::vector<JointWeights>>& weights() const { return weights_; }
-    /// For SkinDraw::matrices: those of skin_matrices(), and behind them those of the copies.
+    /// For SkinDraw::matrices: those of skin_matrices(), followed by those of the copies.
     std::vector<AffineRows> matrices(const Skin& skin, std::span<const humanoid::Placement> placements) const;
 
   private:
     struct Arm {
         humanoid::TwistBone bone{};
-        glm::dquat bound{1.0, 0.0, 0.0, 0.0};      ///< the bone against the one before
-        glm::dquat end_bound{1.0, 0.0, 0.0, 0.0};  ///< the one after against the bone
+        glm::dquat bound{1.0, 0.0, 0.0, 0.0};      ///< the bone relative to the one above
+        glm::dquat end_bound{1.0, 0.0, 0.0, 0.0};  ///< the next bone relative to the bone
     };
     struct Copy {
         std::size_t arm, joint;  ///< of the skin

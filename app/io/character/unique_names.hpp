@@ -1,4 +1,4 @@
-// Names of nodes: files leave them out and use one twice, a skeleton has each once.
+// Makes node names unique, as a skeleton requires: files omit and repeat them.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@ namespace tendril::app {
 
 class UniqueNames {
   public:
-    /// `name`, or with `_2`, `_3` and so on behind it where another has it; a nameless one is `node_7`, by
-    /// its place in the file.
+    /// Returns `name`, with `_2`, `_3` and so on appended if it is taken; an empty one becomes `node_7`, by
+    /// its index in the file.
     std::string add(std::string name, std::size_t place) {
         if (name.empty()) name = "node_" + std::to_string(place);
         std::string unique = name;

@@ -1,4 +1,4 @@
-// The Chain lab in a scene file.
+// The Chain lab in scene files.
 #include <algorithm>
 #include <stdexcept>
 
@@ -41,8 +41,7 @@ std::vector<Segment> load_segments(const JsonPlace& place) {
     return segments;
 }
 
-/// The rotations of version 1, [w, x, y, z], as [x, y, z, w] and in a solver's state; `owner` is what has
-/// them.
+/// Converts the rotations of version 1, [w, x, y, z], to [x, y, z, w] in a solver state of member `owner`.
 void upgrade_rotations(Json& part, const char* owner) {
     if (!part.is_object() || !part.contains(owner) || !part[owner].is_object()) return;
     const auto found = part[owner].find("rotations");
@@ -82,7 +81,7 @@ std::shared_ptr<Part> ChainPart::load(const Json& json, const std::string& where
 
         const int last = std::max(0, static_cast<int>(part->chain.size()) - 1);
         part->index = static_cast<std::size_t>(place["index"].integer(0, last));
-        // Scenes from before there was a Reach mode have no such part.
+        // Scenes older than mode Reach have no such part.
         if (place.has("reach")) part->reach = load_reach(place["reach"], part->chain);
         if (place.has("study")) {
             if (part->mode != ChainMode::Reach)
@@ -90,7 +89,7 @@ std::shared_ptr<Part> ChainPart::load(const Json& json, const std::string& where
             part->study = load_study(place["study"], part->chain);
         }
         if (const auto rule = place.optional("flips")) part->flips = load_flip_rule(*rule);
-        ChainRuntime runtime;  // a part belongs to no workspace yet
+        ChainRuntime runtime;  // the part belongs to no workspace yet
         keep_step(*part, runtime);
         check_range(*part);
         if (const auto selected = place.optional("selected")) {
@@ -102,17 +101,17 @@ std::shared_ptr<Part> ChainPart::load(const Json& json, const std::string& where
                 part->selection = Selection::load(*selected, part->chain.size());
             }
         }
-    } catch (const std::logic_error& error) {  // the core's own words, told where in the file
+    } catch (const std::logic_error& error) {  // the core's message, with its position in the file
         place.fail(error.what());
     }
     return part;
 }
 
-// Reach mode in a scene file.
+// Mode Reach.
 
 namespace {
 
-/// One a bone; nothing where there is none, or none of them.
+/// A list with one entry for each bone; nothing if it is missing or empty.
 std::optional<JsonPlace> bone_list(const JsonPlace& owner, const char* key, std::size_t bones) {
     std::optional<JsonPlace> list = owner.optional(key);
     if (!list || (list->json().is_array() && list->json().empty())) return std::nullopt;
@@ -123,7 +122,7 @@ std::optional<JsonPlace> bone_list(const JsonPlace& owner, const char* key, std:
 }  // namespace
 
 void save_state(Json& json, const ik::State& state, const std::vector<glm::vec3>& joints) {
-    // One of another chain counts for nothing: the next solve begins anew.
+    // The state of another chain is worthless: the next solve would discard it.
     const std::size_t bones = joints.empty() ? 0 : joints.size() - 1;
     if (state.bones() == 0 || !ik::check(state, bones)) return;
     Json& saved = json["state"] = save_ik_state(state);

@@ -21,7 +21,7 @@ std::string name_of(const ChainPart& part, std::size_t index) {
     return "Joint " + std::to_string(index) + (end.empty() ? "" : " (" + end + ")");
 }
 
-/// What the mouse would do to a joint in Reach.
+/// What the mouse does with a joint in mode Reach.
 std::string joint_hint(const ChainPart& part, std::size_t index) {
     const std::string joint = name_of(part, index);
     if (part.study.open()) return joint + ": click selects it.";
@@ -29,7 +29,7 @@ std::string joint_hint(const ChainPart& part, std::size_t index) {
            (index == 0 ? "the tip keeps reaching for the target." : "root and target stay.");
 }
 
-/// What is studied is looked at, and its joints stay where the step has them.
+/// While a study is open, joints cannot be dragged: they stay where the step has them.
 Handle joint_handle(const ChainPart& part, std::size_t index, glm::vec3 at) {
     return {"segment." + std::to_string(index),
             segment_pick(index),
@@ -55,7 +55,7 @@ void ChainLab::add_commands(CommandTable& table) const {
 }
 
 bool ChainLab::moving(const Workspace& workspace) const {
-    // Under the microscope the solve that one looks into stays: its target waits.
+    // A moving target would replace the solve under the microscope.
     const ChainPart& part = chain_part(workspace);
     return part.motion.path != Motion::Path::Still && part.study.kind != Study::Kind::Microscope;
 }
@@ -77,14 +77,14 @@ void ChainLab::step(Workspace& workspace) const {
     workspace.toast(*stopped, ToastKind::Refusal);
 }
 
-/// The microscope that plays.
+/// Whether the microscope plays.
 bool ChainLab::working(const Workspace& workspace) const {
     return chain_part(workspace).study.pace > 0.0f;
 }
 
 void ChainLab::work(Workspace& workspace) const {
     const auto trace = shown_chain(workspace).trace;
-    const bool modified = workspace.modified();  // looking does not mark the scene as modified
+    const bool modified = workspace.modified();  // playback does not mark the scene as modified
     auto& part = workspace.document.edit<ChainPart>(chain_lab);
     part.study.play(tick_seconds * static_cast<double>(workspace.clock.speed), trace ? trace->frames() : 0);
     if (!modified) workspace.saved = workspace.document;
@@ -168,7 +168,7 @@ std::vector<LegendRow> ChainLab::legend(const Workspace& workspace) const {
     const ChainPart& part = shown.part;
     std::vector<LegendRow> rows;
     if (shown.race) {
-        // Side by side each has its title.
+        // Side by side, each pane has a title.
         for (const Racer& racer : shown.race->racers) {
             if (part.study.side_by_side && shown.race->racers.size() > 1) break;
             rows.push_back({solver_title(racer.method), solver_colour(colours, racer.method)});

@@ -81,7 +81,7 @@ void keep_step(ChainPart& part, ChainRuntime& runtime) {
         part.study.step = std::min(part.study.step, trace->frames());
 }
 
-/// With what is selected now.
+/// Keeps the present selection.
 std::shared_ptr<const Part> ChainPart::at_moment(std::shared_ptr<const Part> then) const {
     const auto& earlier = dynamic_cast<const ChainPart&>(*then);
     Selection now = selection;

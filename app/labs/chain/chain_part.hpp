@@ -1,4 +1,4 @@
-// The Chain lab's share of the document.
+// The Chain lab's part of the document.
 #pragma once
 
 #include <array>
@@ -18,13 +18,13 @@
 namespace tendril::app {
 
 inline constexpr const char* chain_lab = "chain";
-inline constexpr std::size_t max_segments = 500'000;          ///< a scene of more would be too large a file
+inline constexpr std::size_t max_segments = 500'000;          ///< larger scenes would make too large a file
 inline constexpr std::size_t max_limited_segments = 100'000;  ///< of a chain with limits, for the same reason
 
 /// How the chain follows its target: the library's four modes, and Reach, which pins the head and iterates.
 enum class ChainMode { Forward, Backward, Fixed, WithIndex, Reach };
 
-/// What can be selected beside joints.
+/// Selectable points other than joints.
 enum class ChainPoint { Target, Pole };
 inline constexpr EnumNames<ChainPoint, 2> chain_points{
     "point",
@@ -36,15 +36,15 @@ inline constexpr FlipWords chain_flip_words{"chain.flips", "target", "the target
 struct ChainPart final : Part {
     Chain chain;
     ChainMode mode = ChainMode::Backward;
-    std::size_t index = 0;                      ///< which segment WithIndex pulls
-    std::array<int, 4> iterations{1, 1, 1, 1};  ///< each pull mode's own; Fixed is the one that repeats
+    std::size_t index = 0;                      ///< the segment that WithIndex pulls
+    std::array<int, 4> iterations{1, 1, 1, 1};  ///< per pull mode; only Fixed iterates
     float tolerance = 1e-4f;                    ///< metres, of Fixed
     glm::vec3 target{0.0f};
     Selection selection;                     ///< of joints
-    std::optional<ChainPoint> chosen_point;  ///< instead of joints
+    std::optional<ChainPoint> chosen_point;  ///< selected instead of joints
     Motion motion;
     ReachSettings reach;
-    std::optional<ReachResult> result;  ///< of the last solve; none once the chain was moved otherwise
+    std::optional<ReachResult> result;  ///< of the last solve; empty once anything else moved the chain
     Study study;
     FlipRule flips;
 
@@ -56,10 +56,10 @@ struct ChainPart final : Part {
     std::size_t bytes() const override;
 };
 
-/// What the lab starts with: eight segments of a metre along +X, the target on the tail.
+/// The lab's initial chain: eight segments of 1 m along +X, the target on the tail.
 ChainPart first_chain();
 
-/// Every mode, in the order of the panel.
+/// In the order of the panel.
 inline constexpr EnumNames<ChainMode, 5> chain_modes{
     "mode",
     {{"forward", "Forward", "Pulls by the head: it goes to the target, the rest trails."},
@@ -73,18 +73,16 @@ int iterations_of(const ChainPart& part, ChainMode mode);
 
 bool operator==(const ChainPart& a, const ChainPart& b);
 
-/// Throws std::invalid_argument where a point has left the range that a scene file can hold: a saved chain
-/// must always open again.
+/// Throws std::invalid_argument if a point has left the range of scene files: a saved chain must open again.
 void check_range(const ChainPart& part);
 
-/// Moves the target and applies the mode once. While something is studied, Reach solves from where that
-/// began.
+/// Moves the target and applies the mode once. While a study is open, Reach solves from the study's start.
 void reach_for(ChainPart& part, glm::vec3 target, ChainRuntime& runtime);
 
-/// Keeps the step under the microscope within the solve that it now shows.
+/// Clamps the microscope's step to the length of its trace.
 void keep_step(ChainPart& part, ChainRuntime& runtime);
 
-/// How far bone `index` is from its length, in metres; 0 for the head.
+/// Deviation of bone `index` from its length, in metres; 0 for the head.
 float length_error(const Chain& chain, std::size_t index);
 
 }  // namespace tendril::app

@@ -1,5 +1,5 @@
-// The Chain lab's solvers, kept from solve to solve as their header asks: one per chain, and one for each
-// part of it that a drag solves by itself. And what is studied: the trace or the race that the picture shows.
+// The Chain lab's solvers, reused between solves as their header asks: one for the chain, and one for each
+// section that a drag solves separately. Also caches the result of the open study.
 #pragma once
 
 #include <cstddef>
@@ -26,25 +26,24 @@ class ChainRuntime final : public Runtime {
     ChainRuntime();
     ~ChainRuntime() override;
 
-    /// A solver for these bones: one that was made for the same before, or a new one. The reference holds
-    /// until the next call. Throws std::invalid_argument for lengths that no chain has.
+    /// A cached or new solver for these bones. The reference is valid until the next call. Throws
+    /// std::invalid_argument for invalid lengths.
     ik::Solver& solver(std::span<const float> lengths, glm::vec3 rest_direction);
     ik::Solver& solver(const Chain& chain);
 
-    /// What is studied; nothing while the part has no study open. Worked out anew only where something has
-    /// changed that it follows from.
+    /// The result of the open study; empty if none is open. Recomputed only when its inputs change.
     Studied studied(const ChainPart& part);
 
-    /// How many solvers it has made, for tests.
+    /// Number of solvers created, for tests.
     std::size_t made() const { return made_; }
 
   private:
     static constexpr std::size_t most =
         4;  ///< a chain, and the two parts that a drag makes of it, and one more
     struct Kept;
-    std::list<Kept> kept_;  ///< the one that was asked for last is first
+    std::list<Kept> kept_;  ///< most recently used first
     std::size_t made_ = 0;
-    std::shared_ptr<const ChainPart> studied_part_;  ///< what `studied_` was worked out from
+    std::shared_ptr<const ChainPart> studied_part_;  ///< the inputs of `studied_`
     Studied studied_;
 };
 

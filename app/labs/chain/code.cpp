@@ -18,7 +18,7 @@
 namespace tendril::app {
 namespace {
 
-/// What the solvers of the library have for a default need not be said.
+/// The library's defaults, which the program need not set.
 const ik::Options plain_options;
 
 class ChainProgram {
@@ -41,7 +41,7 @@ class ChainProgram {
     void limits();
     void rotations();
     void memory();
-    /// Only limits need them.
+    /// Empty without limits: only limits need rotations.
     std::vector<glm::quat> rotations_to_write() const {
         return part_.reach.limits.empty() ? std::vector<glm::quat>() : part_.reach.state.rotations;
     }
@@ -49,9 +49,9 @@ class ChainProgram {
     void end();
 
     void line(std::string_view text) { (code_ += text) += '\n'; }
-    /// A statement of main.
+    /// A statement in main.
     void say(std::string_view text) { ((code_ += "    ") += text) += '\n'; }
-    /// A call that may be refused.
+    /// A call that returns a Result.
     void say_checked(const std::string& call) {
         say("if (const tendril::Result result = " + call + "; !result) std::puts(result.message());");
     }
@@ -199,7 +199,7 @@ void ChainProgram::limits() {
     } else {
         for (std::size_t i = 0; i < limits.size(); ++i)
             if (limits[i].kind != ik::JointKind::Free)
-                code_ += readable("limits[" + std::to_string(i) + "]", limits[i], "    ");
+                code_ += limit_text("limits[" + std::to_string(i) + "]", limits[i], "    ");
     }
     say("options.limits = limits;");
 }
@@ -224,7 +224,7 @@ void ChainProgram::rotations() {
     say("state.rotations = rotations;");
 }
 
-/// What the last solve left in the state, so that the next one goes on from there.
+/// Restores the state that the last solve left, so that the next one continues from it.
 void ChainProgram::memory() {
     for (const std::string& each : ik_memory_texts("state", part_.reach.state)) say(each);
     const ik::PoleMemory& pole = part_.reach.state.pole;
@@ -257,37 +257,12 @@ std::string ChainLab::code(const Workspace& workspace) const {
     return chain_code(chain_part(workspace));
 }
 
-std::string degrees_text(float radians) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.4g", glm::degrees(static_cast<double>(radians)));
-    return text;
-}
-
 std::string enumerator(ik::Method method) {
     return pascal_text(ik::name(method));
 }
 
 std::string enumerator(ik::JointKind kind) {
     return pascal_text(ik::name(kind));
-}
-
-std::string readable(const std::string& name, const ik::Limit& limit, const std::string& margin) {
-    if (limit.kind == ik::JointKind::Hinge) {
-        return margin + name + " = ik::Limit::hinge(" + braced(limit.axis) + ", " + literal(limit.min) +
-               ", " + literal(limit.max) + ");  // " + degrees_text(limit.min) + " to " +
-               degrees_text(limit.max) + " degrees\n";
-    }
-    const std::string next = margin + std::string(name.size() + 4, ' ');
-    std::string text = margin + name + " = {.kind = ik::JointKind::" + enumerator(limit.kind) + ",\n";
-    text += next + ".axis = " + braced(limit.axis) + ",\n";
-    const std::pair<const char*, float> angles[] = {
-        {"up", limit.up},       {"down", limit.down},           {"left", limit.left},
-        {"right", limit.right}, {"twist_min", limit.twist_min}, {"twist_max", limit.twist_max}};
-    for (const auto& [field, angle] : angles) {
-        if (angle == 0.0f) continue;  // as it is by itself
-        text += next + "." + field + " = " + literal(angle) + ",  // " + degrees_text(angle) + " degrees\n";
-    }
-    return text + margin + "};\n";
 }
 
 std::string number_table(const char* name, const std::vector<float>& numbers) {
@@ -334,7 +309,7 @@ std::string limit_table(const std::vector<ik::Limit>& limits) {
     return text + "};\n";
 }
 
-// What a person takes along: text on the clipboard.
+// The clipboard.
 
 void add_copy_commands(CommandTable& table) {
     table.add({.name = "chain.copy",

@@ -20,7 +20,7 @@ Command chain_command(const char* name, const char* title, std::vector<Argument>
                 change_part<ChainPart>(workspace, chain_lab, [&](ChainPart& part, const ChainPart&) {
                     part.study.gesture_begins = workspace.gesture_begins;
                     change(part, given, runtime);
-                    // What is studied is always the solve that the chain shows.
+                    // The study must always match the chain that is shown.
                     if (part.study.open() && effect == Effect::Edit) reach_for(part, part.target, runtime);
                     check_range(part);
                     keep_step(part, runtime);
@@ -80,7 +80,7 @@ void add_chain_commands(CommandTable& table) {
     add_copy_commands(table);
 }
 
-// How the chain follows, and where to.
+// Mode, target, drags and motion.
 
 namespace {
 
@@ -104,7 +104,7 @@ void set_mode(ChainPart& part, const Arguments& given) {
     }
 }
 
-/// Ascending.
+/// In ascending order of joints.
 std::vector<JointPull> pulls_of(const ChainPart& part, const Arguments& given) {
     const std::vector<std::size_t> joints = joints_of(given, part);
     if (given.has("index") != given.has("to"))
@@ -167,7 +167,7 @@ void set_target(ChainPart& part, const Arguments& given, ChainRuntime& runtime) 
     reach_for(part, given.point("to"), runtime);
 }
 
-/// The path starts under the target, so setting it going never makes the target jump.
+/// The path starts at the target, so that starting it never makes the target jump.
 void set_motion(ChainPart& part, const Arguments& given) {
     Motion motion = part.motion;
     motion.path = motion_paths.value(given.text("path"));
@@ -179,7 +179,7 @@ void set_motion(ChainPart& part, const Arguments& given) {
     part.motion = motion;
 }
 
-/// Time goes to a tick of the round: the target jumps there, and the mode is applied once.
+/// Seeks to a tick of the round: moves the target there and applies the mode once.
 void seek_on_path(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
     if (part.motion.path == Motion::Path::Still) throw Refused("the target follows no path");
     part.motion.ticks = static_cast<std::uint32_t>(given.integer("tick")) % ticks_per_round(part.motion);

@@ -1,4 +1,4 @@
-// What the files of this lab's commands share.
+// The Chain lab's commands, chain.*, and what their files share.
 #pragma once
 
 #include <functional>
@@ -12,10 +12,10 @@
 namespace tendril::app {
 
 using ChainChange = void (*)(ChainPart&, const Arguments&);
-/// One that solves too, with the lab's solvers.
+/// A change that also solves, with the lab's solvers.
 using ChainSolve = std::function<void(ChainPart&, const Arguments&, ChainRuntime&)>;
 
-/// A command on a copy of the lab's part.
+/// A command that edits a copy of the lab's part.
 Command chain_command(const char* name, const char* title, std::vector<Argument> arguments, const char* help,
                       ChainChange change, Effect effect = Effect::Edit);
 Command chain_command(const char* name, const char* title, std::vector<Argument> arguments, const char* help,
@@ -24,16 +24,16 @@ Command chain_command(const char* name, const char* title, std::vector<Argument>
 Argument index_argument(bool required, const char* help);
 
 std::size_t index_of(const Arguments& given);
-/// Throws Refused.
+/// Throws Refused if there is no such segment.
 void check_index(const ChainPart& part, std::size_t index);
 
-/// One joint or several, for a command that sets the same on all.
+/// An optional list of joints, for a command that sets the same on all.
 Argument joints_argument();
-/// Those that `index` or `joints` names, as they are given. Throws Refused where neither or both are given,
-/// or a joint is not there.
+/// The joints that `index` or `joints` names, in the order given. Throws Refused if both or neither are
+/// given, or if a joint does not exist.
 std::vector<std::size_t> joints_of(const Arguments& given, const ChainPart& part);
 
-/// The same, ascending and each once, to set something on; one at least.
+/// The same, ascending and without duplicates; at least one.
 std::vector<std::size_t> joints_to_set(const Arguments& given, const ChainPart& part);
 
 void add_shape_commands(CommandTable& table);
@@ -41,8 +41,6 @@ void add_mode_commands(CommandTable& table);
 void add_reach_commands(CommandTable& table);
 void add_study_commands(CommandTable& table);
 void add_copy_commands(CommandTable& table);
-
-// The Chain lab's commands: chain.*.
 
 class CommandTable;
 

@@ -22,10 +22,9 @@
 namespace tendril::app {
 namespace {
 
-constexpr std::size_t max_labels = 2000;  ///< more would never find space beside one another
+constexpr std::size_t max_labels = 2000;  ///< more would not fit beside one another
 
-/// How large a joint's ball is, in pixels: a handle of steady size, smaller only where the joints crowd
-/// together.
+/// The radius of a joint's ball, in pixels: constant, but smaller where joints crowd together.
 float joint_pixels(const ChainPart& part, const Camera& camera, float scale) {
     const float largest = 7.5f * scale, smallest = 2.5f * scale;
     if (part.chain.size() < 2) return largest;
@@ -81,11 +80,10 @@ class Drawing {
         return bones_ ? glm::mix(p.joint, p.neutral, 0.75f) : p.joint;
     }
 
-    /// Metres, at the thick end of the bone that leads to joint i.
+    /// Metres, at the thick end of the bone that ends at joint i.
     float bone_radius(std::size_t i) const { return std::min(0.13f * length(i), 0.16f); }
 
-    /// Pixels. A bone shows by itself where its joint is, so the ball may be small, but not much smaller than
-    /// the bone.
+    /// Pixels. With bones drawn, the ball may be smaller, since the bone itself shows where its joint is.
     float joint_radius(std::size_t i) const {
         if (!bones_) return ball_;
         const float bone =
@@ -93,7 +91,7 @@ class Drawing {
         return std::max(0.75f * ball_, 0.8f * bone);
     }
 
-    /// From joint i - 1 to joint i.
+    /// The bone from joint i - 1 to joint i.
     void bone(std::size_t i) {
         if (bones_) return tapered_bone(i);
         const float width = std::clamp(0.45f * ball_, px(1.5f), px(3.0f));
@@ -102,8 +100,8 @@ class Drawing {
         stroke.pick = segment_pick(i);
     }
 
-    /// Thickest a little way from where it starts, as animation programs draw bones: one sees which way it
-    /// leads. Its shadow is that of a thicker one, so that it is seen on the ground from a height too.
+    /// Thickest near its start, as in animation software, to show its direction. The shadow is wider, so that
+    /// it stays visible on the ground from high above.
     void tapered_bone(std::size_t i) {
         constexpr float thickest = 0.17f, wide = 2.6f;
         const glm::vec3 from = at(i - 1), to = at(i);
@@ -140,7 +138,7 @@ class Drawing {
         }
     }
 
-    /// A line down to the ground tells how high the target hangs.
+    /// With a line to the ground that shows the target's height.
     void target() {
         const glm::vec3 at = part_.target;
         const bool hovered = view_.hovered == target_pick || view_.dragged == target_pick;
@@ -159,7 +157,7 @@ class Drawing {
             .layer = Layer::Overlay;
     }
 
-    /// The way that a moving target goes.
+    /// The path of a moving target.
     void path() {
         if (part_.motion.path == Motion::Path::Still) return;
         constexpr std::uint32_t sides = 96;
@@ -271,7 +269,7 @@ ShownSegment shown_segment(const ShownChain& shown, const std::vector<glm::vec3>
     const float length = shown.part.chain.segments()[index].length;
     if (index == 0) return {joints[0], length, 0.0f};
     const float distance = glm::distance(joints[index], joints[index - 1]);
-    // Outside a solve a bone has its length, but for rounding, which is the error's to show.
+    // At the end of a solve, show the stored length: the rounding difference is in `error`.
     return {joints[index], shows_end(shown) ? length : distance, std::abs(distance - length)};
 }
 
@@ -308,7 +306,7 @@ void draw_incident(const View& view, const ChainPart& part, DrawList& list) {
     list.ring(before->target, 12.0f * view.scale, 1.5f * view.scale, ghost).layer = Layer::Overlay;
     if (incident->kind != Incident::Kind::Flip) return;
     const std::size_t joint = incident->joint;
-    // About that neighbour which moved less.
+    // Turn about the neighbour that moved less.
     const auto moved = [&](std::size_t i) { return glm::distance(was[i].position, is[i].position); };
     const bool last = joint + 1 == is.size();
     const std::size_t about =
@@ -319,7 +317,7 @@ void draw_incident(const View& view, const ChainPart& part, DrawList& list) {
 
 namespace {
 
-/// What the eye sees of a sphere is smaller than its great circle, and nearer.
+/// The silhouette of a sphere: smaller than its great circle, and nearer to the eye.
 void outline(const View& view, DrawList& list, glm::vec3 centre, float radius) {
     const Camera& camera = view.camera;
     glm::vec3 middle = centre;
@@ -327,7 +325,7 @@ void outline(const View& view, DrawList& list, glm::vec3 centre, float radius) {
     glm::vec3 towards = -camera.forward();
     if (!camera.pose().orthographic) {
         const float distance = glm::distance(camera.eye(), centre);
-        if (!(distance > 1.001f * radius)) return;  // seen from within it has no outline
+        if (!(distance > 1.001f * radius)) return;  // no silhouette from inside
         towards = (camera.eye() - centre) / distance;
         const float share = radius / distance;
         middle = centre + towards * (radius * share);
@@ -374,7 +372,7 @@ void draw_reach_sphere(const View& view, const ShownChain& shown, DrawList& list
                 view.scale, faded(view.palette, view.palette.ghost, 0.3f));
 }
 
-// Limits as they are: a cone where the bone may point, a fan for a hinge, a dial for twist.
+// Joint limits: a cone, a fan for a hinge, a dial for twist.
 
 namespace {
 
@@ -432,7 +430,7 @@ class LimitDrawing {
         }
     }
 
-    /// Where the bone would have to point for the target, dashed, with the angle beside it.
+    /// The direction that the target needs, dashed and labelled with its angle.
     void needed(const LimitPen& pen, const LimitLook& look, const LimitShape& shape,
                 const ik::JointAngles& now) {
         const ik::ActiveLimit& limit = *active_;
@@ -499,8 +497,8 @@ void draw_pole(const View& view, const ChainPart& part, DrawList& list) {
 
 namespace {
 
-/// What a mode does, in a box of 3 by 1: the joints from head to tail, the one that goes to the target, and
-/// the one that stays, if any.
+/// A sketch of a mode in a 3 by 1 box: the joints from head to tail, the index of the one that goes to the
+/// target, and of the one that stays, if any.
 struct ModePicture {
     std::vector<glm::vec2> joints;
     std::size_t at_target = 0;
@@ -529,7 +527,7 @@ void draw_mode(ChainMode mode, const Palette& colours) {
     const float high = ImGui::GetTextLineHeight(), wide = 3.0f * high;
     const ImVec2 low = ImGui::GetItemRectMin(), top = ImGui::GetItemRectMax();
     const float right = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
-    if (right - wide < top.x + 0.5f * high) return;  // the words come first
+    if (right - wide < top.x + 0.5f * high) return;  // text takes precedence
     const ImVec2 corner{right - wide, 0.5f * (low.y + top.y) - 0.5f * high};
     const auto at = [&](glm::vec2 place) {
         return ImVec2(corner.x + place.x * high, corner.y + place.y * high);

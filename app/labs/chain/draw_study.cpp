@@ -51,7 +51,7 @@ class MicroscopeDrawing {
         }
     }
 
-    /// The start, and where the last iterations ended, the older the fainter.
+    /// The start, and the ends of the last few iterations; older ones are fainter.
     void ghosts(const Trace& trace, std::size_t step) {
         polyline(trace.start, ghost(0.8f), 2.0f);
         for (const glm::vec3& joint : trace.start) list_.sphere(joint, px(3.0f), Unit::Pixels, ghost(0.8f));
@@ -74,7 +74,7 @@ class MicroscopeDrawing {
         if (alone) label(move.to, std::to_string(move.joint));
     }
 
-    /// The line on which the joint slides: from its neighbour through where it was.
+    /// The line along which the joint slides: from its neighbour through its old position.
     void slide(glm::vec3 neighbour, const ik::Step& move) {
         const glm::vec3 towards = move.from - neighbour;
         const float away = glm::length(towards), bone = glm::distance(neighbour, move.to);
@@ -91,7 +91,7 @@ class MicroscopeDrawing {
         }
     }
 
-    /// Three circles of a sphere: those in the planes of the axes.
+    /// A sphere as three circles, in the coordinate planes.
     void sphere(glm::vec3 centre, float radius) {
         const glm::vec3 axes[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
         for (int plane = 0; plane < 3; ++plane) {
@@ -114,8 +114,8 @@ void draw_microscope(const View& view, const ShownChain& shown, DrawList& list) 
 
 namespace {
 
-constexpr float same_pixels = 3.0f;    ///< nearer than this, two chains cover each other
-constexpr float strand_pixels = 4.5f;  ///< from one strand to the next, where several run along together
+constexpr float same_pixels = 3.0f;    ///< chains closer than this overlap
+constexpr float strand_pixels = 4.5f;  ///< between adjacent strands of overlapping chains
 
 class RaceDrawing {
   public:
@@ -152,8 +152,8 @@ class RaceDrawing {
                glm::distance(pixels_[c][joint], pixels_[d][joint]) < px(same_pixels);
     }
 
-    /// How far to the side the bone that leads to a joint is drawn, pixels: chains that cover each other run
-    /// along side by side, like the strands of a ribbon.
+    /// Lateral offset, in pixels, of the bone that ends at `joint`: overlapping chains are drawn side by
+    /// side, like the strands of a ribbon.
     float aside(std::size_t c, std::size_t joint) const {
         int before = 0, after = 0;
         for (std::size_t d = 0; d < chains_.size(); ++d) {
@@ -163,8 +163,7 @@ class RaceDrawing {
         return 0.5f * px(strand_pixels) * static_cast<float>(before - after);
     }
 
-    /// To the side of the bone that leads to a joint, as the eye sees it, of length 1; zero where it is seen
-    /// end on.
+    /// Unit vector across the bone that ends at `joint`, as seen on screen; zero if the bone is seen end-on.
     glm::vec3 sideways(std::size_t c, std::size_t joint) const {
         const glm::vec3 from = joints(c)[joint - 1], to = joints(c)[joint];
         const glm::vec3 across = glm::cross(view_.camera.forward(), to - from);
@@ -173,8 +172,8 @@ class RaceDrawing {
         return across / length;
     }
 
-    /// From the joint to where the strand meets the next bone's of the same chain: at a corner both keep
-    /// their distance from the middle. `bone` leads to the joint or from it.
+    /// Offset from the joint to the mitre with the adjacent bone of the same chain, so that both keep their
+    /// distance from the middle. `bone` ends or starts at the joint.
     glm::vec3 corner(std::size_t c, std::size_t joint, std::size_t bone) const {
         const float metres = aside(c, bone) * view_.camera.metres_per_pixel(joints(c)[joint]);
         const glm::vec3 own = sideways(c, bone);
@@ -183,7 +182,7 @@ class RaceDrawing {
         const glm::vec3 next = sideways(c, other);
         if (next == glm::vec3(0.0f) || own == glm::vec3(0.0f)) return metres * own;
         const glm::vec3 mean = 0.5f * (own + next);
-        return metres / std::max(glm::dot(mean, mean), 0.25f) * mean;  // a sharp corner is cut short
+        return metres / std::max(glm::dot(mean, mean), 0.25f) * mean;  // limits the mitre of a sharp corner
     }
 
     void chain(std::size_t c) {
@@ -198,7 +197,7 @@ class RaceDrawing {
         }
     }
 
-    /// One ball for all that have their joint there.
+    /// Chains that share a joint position share one ball.
     void joint(std::size_t c, std::size_t i, glm::vec4 colour) {
         bool shared = false;
         for (std::size_t d = 0; d < chains_.size(); ++d) {
@@ -218,7 +217,7 @@ class RaceDrawing {
     const Study& study_;
     DrawList& list_;
     std::vector<const Racer*> chains_;
-    std::vector<std::vector<glm::vec2>> pixels_;  ///< of chains_' joints
+    std::vector<std::vector<glm::vec2>> pixels_;  ///< of the joints of chains_
 };
 
 }  // namespace

@@ -27,7 +27,7 @@ void chain_rows(const ShownChain& shown, const Joints& joints) {
             count_text(chain.empty() ? 0 : chain.size() - 1, "bone").c_str());
     if (chain.empty()) return;
     reading("reach", "%.3f m", static_cast<double>(chain.reach()));
-    const bool reaches = part.mode == ChainMode::Reach;  // "tip to target" stands in its report
+    const bool reaches = part.mode == ChainMode::Reach;  // the report already shows "tip to target"
     reading(reaches ? "root to target" : "head to target", "%.3f m",
             static_cast<double>(glm::distance(joints.front(), part.target)));
     if (!reaches) reading("tail to target", "%.3f m", static_cast<double>(shown_residual(part, joints)));
@@ -57,8 +57,7 @@ void joint_row(const ShownChain& shown, const Joints& joints, std::size_t i, Emi
     text_flush_right(si_text(static_cast<double>(segment.error), "m"));
 }
 
-/// `fixed`: columns as wide as their numbers, to be scrolled sideways, where the panel is too narrow for
-/// them.
+/// `fixed`: columns as wide as their numbers, scrolled sideways, for a panel that is too narrow.
 void header_row(bool fixed) {
     struct Column {
         const char* name;
@@ -84,14 +83,14 @@ void header_row(bool fixed) {
     }
 }
 
-/// Within the table: brings a row that was selected elsewhere into view, once.
+/// Call inside the table: scrolls once to a row that was selected elsewhere.
 void follow_selection(const ChainPart& part, float row_height) {
     int& followed = *ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("followed"), -1);
     const int selected = part.selection.active() ? static_cast<int>(*part.selection.active()) : -1;
     if (std::exchange(followed, selected) == selected || selected < 0) return;
     const float top = static_cast<float>(selected) * row_height;
     const float visible =
-        ImGui::GetWindowHeight() - 2.0f * row_height;  // below the header, and the row itself
+        ImGui::GetWindowHeight() - 2.0f * row_height;  // below the header, less the row itself
     if (top < ImGui::GetScrollY() || top > ImGui::GetScrollY() + visible)
         ImGui::SetScrollY(top - 0.5f * visible);
 }
@@ -138,21 +137,20 @@ void ChainLab::inspector(const Workspace& workspace, Emit& emit) const {
     if (folding_section(workspace, "Joints, in metres", emit, false)) joint_table(shown, joints, emit);
 }
 
-// The inspector of the Chain lab: what is selected. Of several joints it shows the active one, and sets what
-// one sets on all.
+// The selected joints. The active one is shown; edits apply to all.
 
 namespace {
 
 using Joints = std::vector<glm::vec3>;
 
-/// A command's arguments: which joints, and what is set on them.
+/// A command's arguments: the joints, and the value to set on them.
 ArgumentList of_joints(const std::vector<std::size_t>& joints, const char* name, ArgumentValue value) {
     const NamedArgument which = joints.size() == 1 ? NamedArgument{"index", joints.front()}
                                                    : NamedArgument{"joints", SharedJson(Json(joints))};
     return {which, {name, std::move(value)}};
 }
 
-/// "1, 2, 5"; of many only the first.
+/// "1, 2, 5"; "..." stands for any joints after the eighth.
 std::string list_text(const std::vector<std::size_t>& joints) {
     constexpr std::size_t most = 8;
     std::string text;
@@ -161,7 +159,7 @@ std::string list_text(const std::vector<std::size_t>& joints) {
     return joints.size() > most ? text + " ..." : text;
 }
 
-/// Under the microscope a joint is read, not set: it is where the step has it.
+/// Under the microscope a joint is read-only: it shows the pose of the step.
 void joint_in_step(const ShownChain& chain, const Joints& joints, std::size_t i) {
     const ShownSegment shown = shown_segment(chain, joints, i);
     reading("x", "%.3f m", static_cast<double>(shown.position.x));
@@ -196,7 +194,7 @@ struct AngleRow {
     const char* title;
     const char* key;
     const char* help;
-    float low;  ///< degrees; the highest is 180
+    float low;  ///< degrees; the maximum is 180
 };
 
 std::vector<AngleRow> angle_rows(ik::JointKind kind) {

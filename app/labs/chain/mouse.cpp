@@ -1,4 +1,4 @@
-// What the mouse does in the Chain lab: drags, clicks, boxes, and the gizmo of what is selected.
+// The mouse in the Chain lab: drags, clicks, selection boxes, and the gizmo of the selection.
 #include "app/labs/chain/mouse.hpp"
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 namespace tendril::app {
 namespace {
 
-/// A target that moves by itself would take out of the hand what is dragged.
+/// Stops the target's motion, which would compete with the drag.
 void keep_target_still(const ChainPart& part, Emit& emit) {
     if (part.motion.path != Motion::Path::Still) emit.continuously("chain.motion", {{"path", "still"}});
 }
@@ -62,7 +62,7 @@ void ChainLab::click_more(const Workspace& workspace, PickId pick, Emit& emit) c
     emit("chain.select", {{"index", picked_segment(pick)}, {"add", true}});
 }
 
-/// In a race nobody sees the joints of the chain itself.
+/// A race does not show the joints of the chain itself.
 std::vector<Handle> ChainLab::selectable(const Workspace& workspace) const {
     std::vector<Handle> joints = handles(workspace);
     const bool racing = chain_part(workspace).study.kind == Study::Kind::Race;
@@ -81,7 +81,7 @@ void ChainLab::select(const Workspace& workspace, const std::vector<PickId>& pic
     }
 }
 
-/// Of what is selected, and can be moved. Several are turned about the active one too.
+/// The gizmo of the selection, if it can be moved. Several joints can also be rotated about the active one.
 std::optional<Handle> ChainLab::gizmo(const Workspace& workspace) const {
     const ChainPart& part = chain_part(workspace);
     if (part.chosen_point == ChainPoint::Target) return handle(workspace, target_pick);
@@ -107,7 +107,7 @@ void ChainLab::drag_together(const Workspace& workspace, const std::vector<Handl
     const ChainPart& part = chain_part(workspace);
     Json joints = Json::array(), points = Json::array();
     for (const Handle& each : handles) {
-        if (picked_segment(each.pick) >= part.chain.size()) continue;  // what was caught may have gone since
+        if (picked_segment(each.pick) >= part.chain.size()) continue;  // it may have been removed meanwhile
         joints.push_back(picked_segment(each.pick));
         points.push_back(point(each.frame.position));
     }
@@ -121,12 +121,12 @@ namespace {
 
 constexpr float drag_tolerance = 1e-4f;  ///< of the reach to the dragged joint: a fraction of a pixel
 
-/// Some bones of a chain in a row, as a chain of their own that starts where the first one does.
+/// A run of consecutive bones, as a chain of its own with its root at the first joint.
 struct Section {
     std::size_t first = 0, count = 0;  ///< bones
-    std::vector<float> lengths;        ///< metres, one a bone
+    std::vector<float> lengths;        ///< metres, one per bone
     std::vector<glm::vec3> joints;     ///< one more than bones
-    std::vector<glm::quat> rotations;  ///< one a bone; only with limits
+    std::vector<glm::quat> rotations;  ///< one per bone; only with limits
 };
 
 Section section_of(const Chain& chain, const ReachSettings& settings, std::size_t first, std::size_t count) {
@@ -142,7 +142,7 @@ Section section_of(const Chain& chain, const ReachSettings& settings, std::size_
     return section;
 }
 
-/// Solves the section by itself; its first joint stays.
+/// Solves the section on its own; its first joint stays.
 void solve_section(Section& section, const Chain& chain, const ReachSettings& settings, glm::vec3 target,
                    ik::Options options, ChainRuntime& runtime) {
     ik::State state(section.count);
@@ -159,19 +159,19 @@ void solve_section(Section& section, const Chain& chain, const ReachSettings& se
     if (!section.rotations.empty()) section.rotations = state.rotations;
 }
 
-/// What a section that is no whole chain is solved with.
+/// Options for a section that is not the whole chain.
 ik::Options section_options(const ReachSettings& settings, float tolerance) {
     ik::Options options;
     options.tolerance = tolerance;
     options.max_iterations = settings.iterations;
     options.damping = settings.damping;
     options.rotations = false;
-    options.restarts = 0;  // another start may end elsewhere: what is in the hand does not jump
+    options.restarts = 0;  // a restart could end elsewhere: a dragged joint must not jump
     return options;
 }
 
-/// From a dragged joint on. Its first limit is relative to the bone before it, which is turned by `parent`
-/// from rest, so the section is solved in that bone's frame, where that limit is a root's.
+/// Solves a section beyond a dragged joint. Its first limit is relative to the bone before it, which `parent`
+/// rotates from rest, so the section is solved in that bone's frame, where the limit is that of a root.
 void solve_beyond(Section& section, const Chain& chain, const ReachSettings& settings, glm::vec3 target,
                   const ik::Options& options, glm::quat parent, ChainRuntime& runtime) {
     const glm::vec3 root = section.joints.front();
@@ -191,8 +191,8 @@ void solve_beyond(Section& section, const Chain& chain, const ReachSettings& set
     section.joints.front() = root;
 }
 
-/// Takes the bones beyond a dragged joint along with it; with limits as one stiff body with the bone before
-/// it, so that its own limit goes on holding.
+/// Moves the bones beyond a dragged joint along with it; with limits also rotates them with the bone before,
+/// so that the joint's own limit still holds.
 void move_along(Section& beyond, glm::vec3 to, glm::quat by) {
     const glm::vec3 from = beyond.joints.front();
     for (glm::vec3& joint : beyond.joints) joint = to + by * (joint - from);
@@ -202,7 +202,7 @@ void move_along(Section& beyond, glm::vec3 to, glm::quat by) {
 void put_back(const Section& section, std::vector<glm::vec3>& joints, ReachSettings& settings) {
     const auto at = static_cast<std::ptrdiff_t>(section.first);
     std::copy(section.joints.begin(), section.joints.end(), joints.begin() + at);
-    if (section.rotations.empty()) return;  // there is nothing to be limited
+    if (section.rotations.empty()) return;  // no limits
     std::copy(section.rotations.begin(), section.rotations.end(), settings.state.rotations.begin() + at);
 }
 
@@ -222,7 +222,7 @@ void drag_tip(Chain& chain, ReachSettings& settings, glm::vec3 to, ChainRuntime&
     settings.state = exact.state;
 }
 
-/// From joint to joint, the root first: each section in its turn.
+/// Drags several joints, from the root outwards, section by section.
 class SectionDrag {
   public:
     SectionDrag(const Chain& chain, ReachSettings& settings, ChainRuntime& runtime)
@@ -232,13 +232,13 @@ class SectionDrag {
         at_ = to;
         root_moved_ = true;
     }
-    /// As near as comes within a fraction of a pixel.
+    /// Within a fraction of a pixel, if the joint can get there.
     void drag(const JointPull& pull) {
         Section section = section_of(chain_, settings_, first_, pull.joint - first_);
         float reach = 0.0f;
         for (const float length : section.lengths) reach += length;
         const float tolerance = std::min(drag_tolerance * reach, whole_tolerance());
-        // Without limits what lies between two dragged joints turns along with them, and keeps its shape.
+        // Without limits, the bones between two dragged joints rotate along with them and keep their shape.
         const bool between = first_ > 0 || root_moved_;
         if (between && section.rotations.empty())
             turned_ = least_rotation(direction(section.joints.front(), section.joints.back()),
@@ -290,7 +290,7 @@ class SectionDrag {
 
 void drag_joints(Chain& chain, ReachSettings& settings, std::span<const JointPull> pulls, glm::vec3 target,
                  ChainRuntime& runtime) {
-    if (!settings.limits.empty()) {  // other modes move a chain and leave its rotations behind
+    if (!settings.limits.empty()) {  // other modes move the chain without updating its rotations
         std::vector<glm::quat>& rotations = state_for(settings, chain.size() - 1).rotations;
         rotations = rotations_at(positions(chain), rotations, chain.default_direction());
     }
@@ -305,19 +305,19 @@ void drag_joints(Chain& chain, ReachSettings& settings, std::span<const JointPul
     require_ok(chain.set_positions(drag.joints()));
 }
 
-// Several joints of a chain that trails, pulled at once.
+// Trailing modes: several joints pulled at once.
 
 namespace {
 
 constexpr FixedOptions between_joints{.iterations = 100, .tolerance = 1e-5f};
 
-/// The least rotation that takes one direction to the other.
+/// The least rotation from one direction to the other.
 glm::quat turn_of(glm::vec3 from, glm::vec3 to) {
     const float a = glm::length(from), b = glm::length(to);
     return a > 1e-6f && b > 1e-6f ? least_rotation(from / a, to / b) : glm::quat(1, 0, 0, 0);
 }
 
-/// Some joints in a row, as a chain of their own; `back`: the last one first.
+/// The joints `first` to `last` as a chain of their own, reversed if `back`.
 Expected<Chain> part_of(const Chain& chain, std::size_t first, std::size_t last, bool back = false) {
     std::vector<Segment> segments;
     for (std::size_t i = 0; i <= last - first; ++i) {
@@ -342,7 +342,7 @@ Result trail_joints(Chain& chain, std::span<const JointPull> pulls) {
     put(*before, 0, false);
     std::size_t last = first;
     for (const JointPull& pull : pulls.subspan(1)) {
-        // From where it would be if it had only gone along and turned with its ends.
+        // Start from the pose in which it merely moved and turned along with its ends.
         Expected<Chain> between = part_of(chain, last, pull.joint, true);
         const glm::vec3 from = chain.position(last), at = joints[last];
         std::vector<glm::vec3> moved = positions(*between);

@@ -20,7 +20,7 @@
 namespace tendril::app {
 namespace {
 
-/// Length that the next added or inserted segment gets: a wish of the panel, no part of the document.
+/// The length of the next segment that is added or inserted: state of the panel, not of the document.
 float length_of_next() {
     ImGuiStorage& kept = *ImGui::GetStateStorage();
     const ImGuiID kept_as = ImGui::GetID("next length");
@@ -30,7 +30,7 @@ float length_of_next() {
     return length;
 }
 
-/// As people ask for them: to reach first, then the four that trail.
+/// In order of interest: Reach first, then the four trailing modes.
 constexpr std::array modes_in_panel{ChainMode::Reach, ChainMode::Forward, ChainMode::Backward,
                                     ChainMode::Fixed, ChainMode::WithIndex};
 
@@ -121,7 +121,7 @@ void preset_rows(Emit& emit) {
         buttons.push_back({preset.name, preset.title, count_text(preset.count, "joint") + what, preset.of});
     }
     if (app::preset_rows(chain_lab, buttons, "Removes every joint", emit))
-        emit("camera.frame", {{"what", "all"}});  // they differ in size
+        emit("camera.frame", {{"what", "all"}});  // presets differ in size
 }
 
 }  // namespace
@@ -173,7 +173,7 @@ void ChainLab::timeline(const Workspace& workspace, Emit& emit) const {
 
 namespace {
 
-/// "0.23 m", or "4.1 mm" of what is small.
+/// "0.23 m", or "4.1 mm" if small.
 std::string distance_text(float metres) {
     const auto value = static_cast<double>(metres);
     return value >= 0.01 ? fixed_text(value, 2) + " m" : si_text(value, "m");
@@ -206,7 +206,7 @@ Verdict reach_verdict(const ChainPart& part) {
     return {"Refused", Verdict::Kind::Bad};
 }
 
-/// Which joint a trailing mode brings to the target.
+/// The joint that a trailing mode moves to the target.
 std::size_t led_joint(const ChainPart& part) {
     if (part.mode == ChainMode::Backward) return part.chain.size() - 1;
     return part.mode == ChainMode::WithIndex ? part.index : 0;
@@ -266,7 +266,7 @@ void report_rows(const ShownChain& shown, const std::vector<glm::vec3>& joints, 
 
 namespace {
 
-/// Why the method does not honour an option, as its row says; empty where it does.
+/// Why the method ignores an option, as its row says; empty if it does not.
 std::string why_unused(const ReachSettings& reach, ik::Option option) {
     const bool limited = !reach.limits.empty();
     if (ik::honours(reach.method, option, limited)) return {};
@@ -303,7 +303,7 @@ void option_rows(const ReachSettings& reach, Emit& emit) {
     ImGui::EndDisabled();
 }
 
-/// A pole begins above the middle of the line from head to target, clear of the chain.
+/// A new pole target is above the middle of the line from head to target, clear of the chain.
 glm::vec3 first_pole(const ChainPart& part) {
     const glm::vec3 middle = 0.5f * (part.chain.segments().front().position + part.target);
     return middle + glm::vec3(0.0f, 0.6f * std::max(1.0f, part.chain.reach()), 0.0f);

@@ -1,4 +1,5 @@
-// A joint's angle, or how far the tip is from its target, over the last ten seconds; and the poses of them.
+// What the past of the Chain lab shows: a joint's swing or twist, or the distance from tip to target; poses;
+// incidents and their causes.
 #include "app/labs/chain/past.hpp"
 
 #include <algorithm>
@@ -20,7 +21,7 @@ constexpr float nothing = std::numeric_limits<float>::quiet_NaN();
 
 enum class Number { Error, Swing, Twist };  // in the order of chain_past()
 
-/// Degrees between a joint's bone and the one before it, or of the root's and where bones point at rest.
+/// Degrees between a joint's bone and the one before it; at the root, from the rest direction.
 float swing_of(const ChainPart& part, std::size_t joint) {
     const auto segments = part.chain.segments();
     if (joint + 1 >= segments.size()) return nothing;
@@ -30,7 +31,7 @@ float swing_of(const ChainPart& part, std::size_t joint) {
     return glm::degrees(std::atan2(glm::length(glm::cross(parent, bone)), glm::dot(parent, bone)));
 }
 
-/// Degrees about the bone. Known where the solver keeps rotations, which is within limits.
+/// Degrees about the bone. Known only with limits, since only then does the solver keep rotations.
 float twist_of(const ChainPart& part, std::size_t joint) {
     const auto& rotations = part.reach.state.rotations;
     if (part.reach.limits.empty() || joint >= rotations.size()) return nothing;
@@ -51,7 +52,7 @@ const ChainPart& chain_of(const SharedPart& part) {
     return dynamic_cast<const ChainPart&>(*part);
 }
 
-/// And bones of the same lengths between them.
+/// The same number of joints, with bones of the same lengths.
 bool same_joints(const Part& then, const Part& now) {
     const auto a = dynamic_cast<const ChainPart&>(then).chain.segments(),
                b = dynamic_cast<const ChainPart&>(now).chain.segments();
@@ -110,7 +111,7 @@ struct Turn {
     float angle = 0.0f;  ///< radians
 };
 
-/// Of the bone that turned the furthest, or the first of those that turned together, the end that moved
+/// The bone that turned the furthest (the first, if several turned equally far), and the end of it that moved
 /// further.
 Turn furthest_turn(const Chain& before, const Chain& after) {
     constexpr float equal = 1e-3f;  // radians
@@ -128,11 +129,11 @@ Turn furthest_turn(const Chain& before, const Chain& after) {
     return furthest;
 }
 
-/// Which side of its limit a joint is at, for each way it may turn: -1, 0 (within), 1.
+/// Which end of its range each angle of a joint is at: -1, 0 (between), 1.
 struct Sides {
     int hinge = 0, up = 0, left = 0, twist = 0;
 
-    /// Whether it went from one end of a range to the other.
+    /// Whether an angle went from one end of its range to the other.
     bool opposite(const Sides& other) const {
         return hinge * other.hinge < 0 || up * other.up < 0 || left * other.left < 0 ||
                twist * other.twist < 0;
@@ -140,7 +141,7 @@ struct Sides {
 };
 
 int side_of(float angle, float low, float high) {
-    constexpr float at = 0.035f;  // radians: two degrees from its end it is there
+    constexpr float at = 0.035f;  // radians: within two degrees of the end counts as at it
     if (high - low <= 2.0f * at) return 0;
     return angle <= low + at ? -1 : angle >= high - at ? 1 : 0;
 }
@@ -164,12 +165,12 @@ bool limit_switched(const ChainPart& before, const ChainPart& after) {
     return false;
 }
 
-/// What moved, from one solve to the next.
+/// What moved from one solve to the next.
 struct Move {
     float reach = 0.0f;
     float distance = 0.0f;  ///< metres, of target or pole target, whichever moved further
-    float angle = 0.0f;     ///< radians, of the target as the root sees it
-    float swivel = 0.0f;    ///< radians, of the pole target as the line from root to target sees it
+    float angle = 0.0f;     ///< radians, of the target as seen from the root
+    float swivel = 0.0f;    ///< radians, of the pole target about the line from root to target
 };
 
 Move move_of(const ChainPart& before, const ChainPart& after) {
@@ -190,7 +191,7 @@ ReachPose reach_pose(const ChainPart& part) {
     return pose;
 }
 
-/// The first cause that holds; the sentence says no more than what is known.
+/// The first cause that applies.
 std::string cause_of(const ChainPart& before, const ChainPart& after) {
     const ReachPose was = reach_pose(before), is = reach_pose(after);
     const float reach = after.chain.reach();
@@ -218,13 +219,13 @@ std::optional<Incident> flip(const ChainPart& before, const ChainPart& after) {
                     .cause = cause_of(before, after)};
 }
 
-/// "Out of reach: the target is out of reach, ...", in the words of the verdict.
+/// "Out of reach: the target is out of reach, ...": the verdict and the meaning of its status.
 std::string status_cause(const ChainPart& part) {
     const std::string verdict = chain_verdict(part).text;
     return verdict.substr(0, verdict.find(':')) + ": " + status_help(part.result->report.status);
 }
 
-/// The same chain under the same rules: what changed came of target and pole target.
+/// Whether only target and pole target differ: the same chain, with the same settings.
 bool comparable(const ChainPart& before, const ChainPart& after) {
     const Chain &a = before.chain, &b = after.chain;
     if (before.mode != ChainMode::Reach || after.mode != ChainMode::Reach) return false;

@@ -1,4 +1,4 @@
-// What the Chain lab shows of its last ten seconds.
+// The Chain lab's last ten seconds: plots, past poses and incidents.
 #pragma once
 
 #include <vector>
@@ -10,18 +10,16 @@
 namespace tendril::app {
 
 PastView chain_past();
-/// Of the selected joint, or of the one after the root: an arm's elbow. Nothing while nothing is plotted.
+/// The curve of the selected joint, or of joint 1: an arm's elbow. Nothing if nothing is plotted.
 std::optional<PastCurve> chain_past_curve(const Workspace& workspace);
-/// A line for each bone; of a long chain none.
+/// One line for each bone; none for long chains.
 PoseLines chain_lines(const SharedPart& part);
 
-// What a move of the target did to a chain that reaches: joints that jumped, and why.
-
-/// Of two states of a chain, one solve apart: a flip, or what else its report has to say. A flip is counted
-/// where only target or pole target moved, a bone turned by more than the rule allows, and the target moved
-/// little (FlipRule). Nothing outside Reach, and nothing while a solve is analysed, which begins elsewhere.
+/// The incidents between two states of a chain, one solve apart. A flip: only the target or pole target
+/// moved, and little (FlipRule), but a bone turned by more than the rule allows. Also changes in the solver's
+/// report. Nothing outside mode Reach, and nothing while a study is open, since its solves start elsewhere.
 ///
-/// The joint is that end of the bone that turned the furthest which moved further: of an arm, the elbow.
+/// A flip's joint is an end of the bone that turned the furthest, whichever moved further: an arm's elbow.
 std::vector<Incident> chain_incidents(const ChainPart& before, const ChainPart& after);
 
 }  // namespace tendril::app

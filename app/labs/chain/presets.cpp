@@ -14,7 +14,7 @@ namespace {
 
 using Segments = std::vector<Segment>;
 
-/// Places `count` segments along the steps that `step(i)` gives, head first; a step's length is its
+/// Places `count` segments, head first, along the steps that `step(i)` returns; a step's length is its
 /// segment's.
 template <class Step>
 Segments placed(glm::vec3 head, std::size_t count, Step step) {
@@ -33,12 +33,12 @@ float part_of(std::size_t i, std::size_t count) {
     return count < 2 ? 0.0f : static_cast<float>(i) / static_cast<float>(count - 1);
 }
 
-/// The lab's first chain: metre by metre along +X.
+/// The lab's initial chain: segments of 1 m along +X.
 Segments start(std::size_t count) {
     return placed({0, 0, 0}, count, [](std::size_t) { return glm::vec3(1, 0, 0); });
 }
 
-/// Rises from the ground in an S and grows finer towards its tip.
+/// Rises from the ground in an S and gets finer towards its tip.
 Segments tentacle(std::size_t count) {
     const float scale = 7.0f / static_cast<float>(count);
     return placed({0, 0, 0}, count, [=](std::size_t i) {
@@ -49,7 +49,7 @@ Segments tentacle(std::size_t count) {
     });
 }
 
-/// Shoulder, elbow, wrist and finger joints, in metres; longer counts add finger joints.
+/// Shoulder, elbow, wrist and finger joints, in metres; larger counts add finger joints.
 Segments arm(std::size_t count) {
     return placed({0, 3, 0}, count, [](std::size_t i) {
         switch (i) {
@@ -67,8 +67,8 @@ Segments arm(std::size_t count) {
     });
 }
 
-/// Shoulder, elbow, wrist and the tip of a hand that is about to take something; longer counts add joints to
-/// the hand. It is bent in one upright plane, as its hinge is.
+/// Shoulder, elbow, wrist and the tip of a hand about to grasp; larger counts add joints to the hand. It
+/// bends in one vertical plane, like its hinge.
 Segments bent_arm(std::size_t count) {
     const auto along = [](float length, float degrees) {
         const float angle = glm::radians(degrees);
@@ -108,10 +108,10 @@ Segments coil(std::size_t count) {
     });
 }
 
-/// Lengths and directions at random, the same for the same seed.
+/// Random lengths and directions, the same for the same seed.
 Segments random_walk(std::size_t count, std::uint32_t seed) {
     std::mt19937 generator(seed);
-    // Its own mapping to [-1, 1]: the standard's distributions differ from library to library.
+    // Own mapping to [-1, 1]: the distributions of the standard library differ between implementations.
     const auto signed_unit = [&] { return static_cast<float>(generator() >> 8) / 8388608.0f - 1.0f; };
     const float scale = 8.0f / std::sqrt(static_cast<float>(count));
     return placed({0, 2.5f, 0}, count, [&](std::size_t) {
@@ -144,8 +144,8 @@ Chain make_preset(const std::string& name, std::size_t count, std::uint32_t seed
 void make_it_reach(ChainPart& part, ChainRuntime& runtime) {
     part.mode = ChainMode::Reach;
     part.reach = {};
-    // Seen as the program opens, target, pole target and shoulder are about as far away: a drag in the plane
-    // of the view leads from one to the other.
+    // In the opening view, target, pole target and shoulder are at a similar depth, so that a drag in the
+    // view plane can lead from one to the other.
     part.reach.pole = glm::vec3(0.3f, 2.5f, -0.5f);
     constexpr std::size_t elbow = 1;
     if (part.chain.size() > elbow + 1) {

@@ -71,7 +71,7 @@ ik::Options solver_options(const ReachSettings& settings, float reach) {
     options.damping = settings.damping;
     options.twist = glm::radians(settings.twist_deg);
     options.restarts = settings.restarts;
-    options.rotations = false;  // limits keep them up all the same
+    options.rotations = false;  // limits maintain them anyway
     return options;
 }
 
@@ -80,8 +80,7 @@ ik::State& state_for(ReachSettings& settings, std::size_t bones) {
     return settings.state;
 }
 
-/// What a memory holds that is not valid counts for nothing, so it is not kept: equal states are equal bit
-/// for bit, and come back so from a file.
+/// Clears invalid memory, so that equal states are equal bit for bit and stay so through a file.
 static void forget_what_is_not_valid(ik::State& state) {
     if (!state.limits.valid) state.limits = {};
     if (state.pole.valid) return;
@@ -114,7 +113,7 @@ std::size_t bytes_of(const ik::State& state) {
 }
 
 void bone_inserted(ReachSettings& settings, std::size_t index, std::size_t segments_now) {
-    settings.state = {};  // how bones are twisted is found anew
+    settings.state = {};  // twist is determined anew
     if (settings.limits.empty() || segments_now < 2) return;
     const auto at = static_cast<std::ptrdiff_t>(std::min(index, settings.limits.size()));
     settings.limits.insert(settings.limits.begin() + at, ik::Limit{});
@@ -136,7 +135,7 @@ void bones_removed(ReachSettings& settings, const std::vector<std::size_t>& join
     std::vector<ik::Limit> left;
     for (std::size_t i = 0; i < settings.limits.size(); ++i)
         if (!std::binary_search(joints.begin(), joints.end(), i)) left.push_back(settings.limits[i]);
-    left.resize(segments_now < 2 ? 0 : segments_now - 1);  // no bone starts at what is the tail now
+    left.resize(segments_now < 2 ? 0 : segments_now - 1);  // no bone starts at the new tail
     settings.limits = std::move(left);
 }
 
@@ -165,7 +164,7 @@ void set_limits(ReachSettings& settings, const std::vector<std::pair<std::size_t
     if (all_free) forget_limits(settings);
 }
 
-// Reach mode in words.
+// Texts of mode Reach.
 
 namespace {
 
@@ -181,7 +180,7 @@ const char* bound_phrase(ik::Bound bound) {
     return phrases[static_cast<std::size_t>(bound)];
 }
 
-/// Whole degrees, or tenths where limit and need would look the same.
+/// Whole degrees, or tenths if limit and need would otherwise read the same.
 std::string degrees_text(const ik::ActiveLimit& limit, float angle) {
     const auto whole = [](float radians) { return std::lround(glm::degrees(radians)); };
     char text[32];

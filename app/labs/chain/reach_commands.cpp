@@ -1,4 +1,4 @@
-// Reach mode: the solver, its limits and its pole.
+// Commands of mode Reach: the solver, its limits and its pole.
 #include <stdexcept>
 
 #include "app/document/json_complete.hpp"
@@ -72,7 +72,7 @@ std::span<const FieldText> field_texts<ReachSettings>() {
 
 namespace {
 
-/// Lets the chain reach anew for the target that it has, where it does reach.
+/// Solves again for the present target, in mode Reach.
 void reach_again(ChainPart& part, ChainRuntime& runtime) {
     if (part.mode == ChainMode::Reach) reach_for(part, part.target, runtime);
 }
@@ -102,12 +102,12 @@ void set_pole(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
 constexpr const char* angle_names[] = {"min_deg",  "max_deg",   "up_deg",        "down_deg",
                                        "left_deg", "right_deg", "twist_min_deg", "twist_max_deg"};
 
-/// What a joint's limit becomes.
+/// A joint's limit after the edit.
 ik::Limit changed_limit(const ChainPart& part, std::size_t index, const Arguments& given) {
     if (index + 1 == part.chain.size()) {
         throw Refused("index " + std::to_string(index) + " is the tail: no bone starts there to be limited");
     }
-    // A limit of the same kind keeps what is not told; another kind begins with its own angles.
+    // An edit of the same kind keeps the angles that are not given; a new kind starts from its defaults.
     const ik::Limit now = limit_of(part.reach, index);
     const std::string kind = given.has("kind") ? given.text("kind") : ik::name(now.kind);
     Json json = kind == ik::name(now.kind) ? limit_json(now) : Json{{"kind", kind}};

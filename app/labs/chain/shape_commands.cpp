@@ -1,4 +1,4 @@
-// The chain itself: its segments, and its presets.
+// Commands that change the chain itself: its segments and presets.
 #include <algorithm>
 
 #include "app/labs/chain/commands.hpp"
@@ -25,7 +25,7 @@ void check_size(const ChainPart& part) {
     }
 }
 
-/// What was said of the chain as it was holds no longer.
+/// Drops the result and the study, which are about the old chain.
 void shape_changed(ChainPart& part) {
     part.result.reset();
     part.study.close();
@@ -64,7 +64,7 @@ void insert(ChainPart& part, const Arguments& given) {
     } else {
         require_ok(part.chain.insert(index, given.number("length")));
     }
-    // What points at a segment goes on pointing at it.
+    // Keep references to the same segments.
     part.selection.inserted(index);
     if (part.index >= index) ++part.index;
     shape_changed(part);
@@ -75,7 +75,7 @@ void remove_at(ChainPart& part, std::size_t index) {
     require_ok(part.chain.remove(index));
     shape_changed(part);
     bone_removed(part.reach, index, part.chain.size());
-    // A single one hands its selection on, so that one can go on removing.
+    // A sole selection moves on to the next joint, so that the user can keep deleting.
     const bool alone = part.selection.active() == index && !part.selection.several();
     part.selection.removed(index);
     if (part.index > index) --part.index;
@@ -88,7 +88,7 @@ void remove_at(ChainPart& part, std::size_t index) {
     part.index = std::min(part.index, last);
 }
 
-/// All at once: one by one each would move all that come after it.
+/// All at once: removing one by one would move everything behind each of them.
 void remove_all(ChainPart& part, const std::vector<std::size_t>& joints) {
     const auto gone = [&](std::size_t i) { return std::binary_search(joints.begin(), joints.end(), i); };
     std::vector<Segment> left;

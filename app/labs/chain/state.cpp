@@ -1,4 +1,4 @@
-// What --state writes of the Chain lab.
+// The Chain lab in --state.
 #include "app/document/json_complete.hpp"
 #include "app/io/solver_json.hpp"
 #include "app/labs/chain/chain_lab.hpp"
@@ -24,7 +24,7 @@ Json reach_state(const ChainPart& part) {
     return json;
 }
 
-/// The step that is shown.
+/// The step under the microscope.
 Json microscope_state(const ShownChain& shown) {
     const ChainPart& part = shown.part;
     const Study& study = part.study;

@@ -138,7 +138,7 @@ namespace {
 
 constexpr int timings = 5;
 
-/// Sees what the microscope sees: the same curve, and whether the best pose came back in the end.
+/// Records what the microscope records: the residuals, and whether the best pose was restored at the end.
 class Watch final : public ik::Observer {
   public:
     explicit Watch(Racer& racer) : racer_(racer) {}
@@ -147,7 +147,7 @@ class Watch final : public ik::Observer {
     }
     void iteration_done(int, float residual) noexcept override {
         racer_.residuals.push_back(residual);
-        racer_.restored = false;  // what came back before goes on
+        racer_.restored = false;  // the solver went on from the restored pose
     }
 
   private:
@@ -301,7 +301,7 @@ Trace record_trace(Chain chain, ReachSettings settings, glm::vec3 target, ChainR
     return trace;
 }
 
-// A step of a solve in words.
+// Describing a step.
 
 namespace {
 

@@ -1,4 +1,4 @@
-// Analysing a solve: microscope.* and race.*.
+// Commands that analyse a solve: microscope.* and race.*.
 #include <algorithm>
 #include <stdexcept>
 
@@ -23,7 +23,7 @@ Argument start_argument() {
         {std::begin(starts), std::end(starts)});
 }
 
-/// A study is of mode reach; the chain shows what a solve from the start comes to.
+/// Studies need mode Reach; the chain then shows the result of a solve from the study's start.
 void open(ChainPart& part, const Arguments& given, ChainRuntime& runtime, Study::Kind kind) {
     part.study.begin(kind, start_of(given), part.chain, part.reach);
     part.mode = ChainMode::Reach;
@@ -62,7 +62,7 @@ void step(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
         int iteration = trace.iteration(part.study.step);
         const bool within = part.study.step < trace.end_of_iteration(iteration);
         if (within && given.integer("iterations") > 0)
-            --iteration;  // the first one on is the end of this one
+            --iteration;  // the first iteration forward is the end of this one
         to = static_cast<long>(trace.end_of_iteration(iteration + given.integer("iterations")));
     } else {
         to += given.has("by") ? given.integer("by") : 1;
@@ -71,7 +71,7 @@ void step(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
     part.study.pace = 0.0f;
 }
 
-/// At its last step it begins anew.
+/// Restarts playback if it is at the last step.
 void play(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
     check_microscope(part);
     Study& study = part.study;
@@ -137,7 +137,7 @@ void add_microscope_commands(CommandTable& table) {
                             Effect::Look));
 }
 
-/// Does not change the chain: writes what the race found.
+/// Writes the race's results without changing the chain.
 Command race_save() {
     return {.name = "race.save",
             .title = "Save the race as CSV",

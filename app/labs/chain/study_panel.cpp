@@ -22,7 +22,7 @@ std::vector<glm::vec2> by_iteration(const std::vector<float>& residuals) {
     return points;
 }
 
-/// Where the y axis of a plot of residuals begins: two decades under the tolerance shows what matters.
+/// The lower end of the y axis in plots of residuals: two decades below the tolerance.
 float min_residual(float tolerance) {
     return std::max(1e-7f, 1e-2f * tolerance);
 }
@@ -34,7 +34,7 @@ void start_buttons(const char* command, Emit& emit) {
         emit(command, {{"start", "straight"}});
 }
 
-/// Whether time is on the x axis: a wish of the panel, no part of the document.
+/// Whether the x axis is time: state of the panel, not of the document.
 constexpr const char* against_time = "against time";
 
 void small_right(const std::string& text) {
@@ -64,7 +64,7 @@ void racer_row(const ShownChain& shown, ik::Method method, bool time, const Pale
     if (racer->restored) small_right(restored_text(*racer));
 }
 
-/// A solver that this chain cannot have.
+/// A solver that does not accept this chain.
 void missing_racer_row(ik::Method method, const Palette& palette) {
     colour_mark(solver_colour(palette, method));
     bool off = false;

@@ -1,5 +1,5 @@
-// The Humanoid lab's picture: the character's bones and nodes, and behind them what was before anything
-// changed the pose.
+// Drawing of the Humanoid lab: the character's bones, nodes and targets, and behind them the pose before
+// anything modified it.
 #include "app/labs/humanoid/draw.hpp"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ namespace tendril::app {
 namespace {
 
 constexpr std::size_t max_labels = 60;
-constexpr float see_through = 0.35f;  // of a skin that shows its bones
+constexpr float see_through = 0.35f;  // opacity of a skin that shows its bones
 
 class Drawing {
   public:
@@ -67,7 +67,7 @@ class Drawing {
         if (selected(i)) return glm::mix(colour, view_.palette.selection, active(i) ? 0.75f : 0.45f);
         return lit(i) ? glm::mix(colour, view_.palette.accent, 0.6f) : colour;
     }
-    /// Whether its limit holds the bone that ends or turns there.
+    /// Whether the joint's limit holds its bone back.
     bool at_limit(std::size_t i) const {
         const auto bone = part_.bone_of(i);
         return bone && shown_.body && shown_.body->at_limit[static_cast<std::size_t>(*bone)];
@@ -81,7 +81,7 @@ class Drawing {
         return body_[i] ? view_.palette.joint : view_.palette.neutral;
     }
 
-    /// From a node to those that hang on it; its turning moves them.
+    /// From a node to its children, which move when it turns.
     void bones_from(std::size_t i) {
         if (tapered_ && !clad_ && part_.node_of(humanoid::Bone::Head) == i && head(i)) return;
         bool ended = false;
@@ -94,7 +94,7 @@ class Drawing {
         if (!ended && body_[i] && part_.bone_of(i))
             bone(i, shown_.point(i), glm::vec3(shown_.placed[i].apply(end_of(part_, i))), true);
     }
-    /// A ball above the joint: up to the one node above it, or as large as a head is for such a trunk.
+    /// A ball above the joint, sized by the joint's only child if that is plausible, else by the trunk.
     bool head(std::size_t i) {
         const auto hips = part_.node_of(humanoid::Bone::Hips);
         const std::int32_t neck = part_.skeleton()[i].parent;
@@ -149,7 +149,7 @@ class Drawing {
         if (marks) ball.layer = Layer::Overlay;
     }
 
-    /// What the hands are kept out of, as outlines.
+    /// Outlines of the volumes that hands are kept out of.
     void volumes() {
         Solvers& solvers = humanoid_runtime(view_.workspace).solvers;
         for (const humanoid::BodyCapsule& each : solvers.capsules(part_)) {
@@ -189,7 +189,7 @@ class Drawing {
         if (playback.clip) draw.morph_weights = morph_weights(skin, *playback.clip, playback.time);
     }
 
-    /// A ball at its target, or at its bone: what one drags. From where it could not get to a line goes on.
+    /// A draggable ball at the target, or else at the bone. A line shows a target that is not reached.
     void effector(humanoid::Effector which) {
         const PickId pick = effector_pick(which);
         const bool marks = view_.dragged == pick || view_.hovered == pick;
@@ -208,7 +208,7 @@ class Drawing {
             list_.line(bone, at, px(1.6f), glm::vec4(view_.palette.limit, 1.0f)).layer = Layer::Overlay;
     }
 
-    /// What the head looks at, and a thin line from there to the head.
+    /// What the head looks at, with a thin line to the head.
     void gaze() {
         const auto at = glm::vec3(part_.ik.look_at.target);
         const glm::vec3 head = shown_.point(*part_.node_of(humanoid::Bone::Head));
@@ -223,7 +223,7 @@ class Drawing {
             {.at = at, .clearance = px(14.0f), .text = "looked at", .colour = view_.palette.text, .rank = 3});
     }
 
-    /// Where planted feet touch the ground.
+    /// Contacts of planted feet with the ground.
     void soles() {
         if (!shown_.feet) return;
         for (std::size_t side = 0; side < 2; ++side) {
@@ -284,8 +284,8 @@ class Drawing {
     DrawList& list_;
     const HumanoidPart& part_;
     const ShownPose& shown_;
-    std::vector<bool> body_, springs_;  // nodes: of the body, turned by a spring
-    bool clad_;                         // in a skin that is drawn: bones stay inside of it
+    std::vector<bool> body_, springs_;  // nodes of the body; nodes turned by a spring
+    bool clad_;                         // a skin is drawn: bones stay inside it
     bool tapered_, helpers_;
     float thickest_;  ///< metres
 };
@@ -370,7 +370,7 @@ std::vector<bool> body_nodes(const HumanoidPart& part) {
         }
         if (match.node >= 0) body[static_cast<std::size_t>(match.node)] = true;
     }
-    // The end of a last bone, where it has one and no more.
+    // The end of a last bone, if it is the only child.
     for (const humanoid::BoneMatch& match : part.map->bones) {
         if (match.node < 0) continue;
         const auto children = skeleton.children(static_cast<std::size_t>(match.node));

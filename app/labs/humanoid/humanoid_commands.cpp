@@ -1,8 +1,10 @@
 #include "app/labs/humanoid/humanoid_commands.hpp"
 
+#include "app/labs/humanoid/code.hpp"
+#include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "app/labs/kit/arguments.hpp"
 
-// What is selected and how it is shown, which leaves no step to undo, and what counts as a flip.
+// Commands on selection and view, which leave no undo step, and on the flip rule.
 
 template <>
 std::span<const tendril::Field> tendril::fields<tendril::app::HumanoidView>() noexcept {
@@ -86,6 +88,17 @@ void add_humanoid_look_commands(CommandTable& table) {
     table.add(part_command<HumanoidPart>(
         humanoid_lab, "humanoid.flips", "Set the rule for bone flips", flip_arguments(humanoid_flip_words),
         "Sets what counts as a flip of a bone, from the next tick on", set_flips));
+    table.add(
+        {.name = "humanoid.copy",
+         .title = "Copy the character as C++",
+         .arguments = {},
+         .help = "Puts the character and its IK on the clipboard, as a C++ program that uses the library",
+         .effect = Effect::Look,
+         .apply = [](Workspace& workspace, const Arguments&) {
+             workspace.ui.copied =
+                 humanoid_code(humanoid_part(workspace), humanoid_runtime(workspace).solvers);
+             workspace.toast("The character is on the clipboard as C++");
+         }});
 }
 
 }  // namespace tendril::app

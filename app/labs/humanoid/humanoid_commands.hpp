@@ -1,4 +1,4 @@
-// The commands of the Humanoid lab, by what they are about.
+// Shared by the command files of the Humanoid lab.
 #pragma once
 
 #include "app/document/command.hpp"
@@ -7,22 +7,22 @@
 
 namespace tendril::app {
 
-/// The node of that name; throws std::invalid_argument where there is none.
+/// The node of that name; throws std::invalid_argument if there is none.
 std::size_t node_named(const HumanoidPart& part, const std::string& name);
-/// That of "node", or those of "nodes", in their order. Throws Refused, and as node_named() does.
+/// The nodes given by "node" or "nodes", in the given order. Throws Refused, or as node_named() does.
 std::vector<std::size_t> nodes_named(const HumanoidPart& part, const Arguments& given);
 
-/// For the choices of an argument.
+/// Choices for an argument.
 std::vector<std::string> bone_names();
 
-/// Offered by name: nodes of the skeleton, clips.
+/// Arguments completed with names of nodes or clips.
 Argument node_argument(const char* name, bool required, const char* help);
 Argument clip_argument(const char* name, const char* help);
 
-/// Waits for the file that is being read, if one is, and shows its character. Throws Refused.
+/// If a file is being read, waits for it and shows its character. Throws Refused.
 void finish_loading(Workspace& workspace);
 
-/// The same command, which in a window keeps the bone map that it has corrected.
+/// Wraps a command so that in a window it keeps the bone map that it corrected.
 Command keeping(Command command);
 
 /// "sign_flip"
@@ -32,13 +32,10 @@ void add_character_commands(CommandTable& table);
 void add_clip_commands(CommandTable& table);
 void add_ik_commands(CommandTable& table);
 void add_humanoid_look_commands(CommandTable& table);
-/// What hangs on the character.
 void add_attachment_commands(CommandTable& table);
-/// Springs on nodes of its own.
 void add_spring_commands(CommandTable& table);
-/// Maps, exports, and cures.
+/// Bone maps, clip export and cures.
 void add_humanoid_file_commands(CommandTable& table);
-/// Maps that are kept for node names.
 void add_kept_map_commands(CommandTable& table);
 
 }  // namespace tendril::app

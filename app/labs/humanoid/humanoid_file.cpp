@@ -1,5 +1,5 @@
-// The Humanoid lab in a scene file: which file the character came from, and all that a person has set. The
-// character itself is read again.
+// The Humanoid lab in a scene file: the character's file name and all that the user has set. Loading reads
+// the character's file again.
 #include <filesystem>
 
 #include "app/document/json_complete.hpp"
@@ -13,7 +13,7 @@ namespace {
 
 using humanoid::Bone;
 
-/// Where the scene was saved the file had a path of its own; elsewhere it may have its name alone.
+/// The saved path may not exist on another machine; then tries the file name alone.
 SharedCharacter read_again(const JsonPlace& place, const std::string& file) {
     const auto path = place.optional("path");
     const bool elsewhere = path && !std::filesystem::exists(path->text());
@@ -28,7 +28,7 @@ SharedCharacter read_again(const JsonPlace& place, const std::string& file) {
     }
 }
 
-/// The bones that a person has picked another node for.
+/// The bones that the user has mapped to other nodes.
 Json corrections(const HumanoidPart& part) {
     Json bones = Json::object();
     for (std::size_t i = 0; i < humanoid::bone_count; ++i) {
@@ -42,7 +42,7 @@ Json corrections(const HumanoidPart& part) {
 
 void read_corrections(const JsonPlace& place, HumanoidPart& part) {
     if (!place.json().is_object()) place.fail("expected an object of bones");
-    // First those that are taken away: their nodes are free then.
+    // Bones that lose their node come first, so that the node is free.
     for (const bool picked : {false, true}) {
         for (const auto& [name, value] : place.json().items()) {
             const auto bone = humanoid::bone_named(name);
@@ -79,7 +79,7 @@ Json save_playback(const HumanoidPart& part) {
     return json;
 }
 
-/// Names may be double: the place in the list says which, where that still has the name.
+/// Clip names may be ambiguous: the stored index decides, if the clip there still has the name.
 std::size_t read_clip(const JsonPlace& place, const LoadedCharacter& character) {
     const std::string name = place["name"].text();
     const std::vector<humanoid::Clip>& clips = character.clips();
@@ -115,7 +115,7 @@ Json cures_json(const std::vector<ClipCure>& cures) {
     return list;
 }
 
-/// Done again, one after another, on what was read from the character's file.
+/// Repeats the cures, in order, on the character as read from its file.
 void read_cures(const JsonPlace& place, HumanoidPart& part) {
     constexpr std::size_t max_cures = 10'000;
     place.for_each("cures", max_cures, [&](const JsonPlace& each) {

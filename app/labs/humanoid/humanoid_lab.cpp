@@ -4,6 +4,7 @@
 
 #include "app/io/character/read.hpp"
 #include "app/labs/humanoid/attachments/attachment_motion.hpp"
+#include "app/labs/humanoid/code.hpp"
 #include "app/labs/humanoid/humanoid_commands.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "app/labs/humanoid/past/past.hpp"
@@ -53,7 +54,11 @@ void HumanoidLab::step(Workspace& workspace) const {
     const ShownPose shown = solve_pose(part, runtime.solvers, seconds, part.ik_state);
     advance(part.attachments, wearer_of(part, runtime.solvers, shown), runtime.ropes, seconds);
     if (follows) workspace.camera.target += standing_at(workspace) - before;
-    if (!modified) workspace.saved = workspace.document;  // time does not mark the scene as modified
+    if (!modified) workspace.saved = workspace.document;  // playing does not modify the scene
+}
+
+std::string HumanoidLab::code(const Workspace& workspace) const {
+    return humanoid_code(humanoid_part(workspace), humanoid_runtime(workspace).solvers);
 }
 
 bool HumanoidLab::working(const Workspace& workspace) const {

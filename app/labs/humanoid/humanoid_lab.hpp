@@ -1,4 +1,4 @@
-// The Humanoid lab: a character from a file, its bones, its clips, and targets that it reaches for.
+// The Humanoid lab: a character from a file, with its bones, clips and IK targets.
 #pragma once
 
 #include "app/labs/humanoid/humanoid_part.hpp"
@@ -51,10 +51,11 @@ class HumanoidLab final : public Lab {
     void inspector(const Workspace& workspace, Emit& emit) const override;
 
     Json state(const Workspace& workspace) const override;
+    std::string code(const Workspace& workspace) const override;
     std::vector<TestScene> test_scenes() const override;
 };
 
-/// Bones as tapered bones, or as lines and spheres; nodes that are no bones, shown or hidden.
+/// Bones drawn tapered, or as lines and spheres; nodes that are not bones: shown or hidden.
 LabSetting bones_setting();
 LabSetting helpers_setting();
 

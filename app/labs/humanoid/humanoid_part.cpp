@@ -31,7 +31,7 @@ std::optional<Bone> HumanoidPart::bone_of(std::size_t node) const {
     return std::nullopt;
 }
 
-/// What is chosen, how it is shown and what counts as a flip do not go back in time.
+/// Selection, view and flip rule do not rewind.
 std::shared_ptr<const Part> HumanoidPart::at_moment(std::shared_ptr<const Part> then) const {
     auto part = std::make_shared<HumanoidPart>(dynamic_cast<const HumanoidPart&>(*then));
     part->view = view;
@@ -40,7 +40,7 @@ std::shared_ptr<const Part> HumanoidPart::at_moment(std::shared_ptr<const Part> 
     return part;
 }
 
-/// Copies share the character and the map: each counts a part of them.
+/// Copies share the character and the map, so each counts only a fraction of them.
 std::size_t HumanoidPart::bytes() const {
     constexpr std::size_t sharing = 16, a_node = 200, a_key = 48;
     std::size_t keys = 0;
@@ -90,7 +90,7 @@ void check_bones(const HumanoidPart& part) {
 
 namespace {
 
-/// The last name is the active one's, where it is there.
+/// The last name becomes the active node, if it exists.
 Selection selection_of(const std::vector<std::string>& names, const humanoid::Skeleton& skeleton) {
     std::vector<std::size_t> nodes;
     for (const std::string& name : names)

@@ -1,5 +1,5 @@
-// The Humanoid lab's share of the document: a character, which of its nodes are which bones, and what is
-// shown of it. What is drawn follows from it alone (shown_pose.hpp).
+// The Humanoid lab's part of the document: a character, its bone map, and how it is displayed. The displayed
+// pose is a function of the part; see shown_pose.hpp.
 #pragma once
 
 #include <cstdint>
@@ -22,22 +22,22 @@
 namespace tendril::app {
 
 inline constexpr const char* humanoid_lab = "humanoid";
-/// Metres of a unit of a file.
+/// Metres per unit of a file.
 inline constexpr double min_unit = 1e-6, max_unit = 1e6;
 
-/// What a character wears: not drawn, drawn as it is, or so that its bones show through.
+/// How the skin is drawn: not at all, opaque, or so that bones show through.
 enum class SkinLook : std::uint8_t { None, Solid, Transparent };
 
 inline constexpr EnumNames<SkinLook, 3> skin_looks{
     "skin", {{"none", "none"}, {"solid", "solid"}, {"transparent", "transparent"}}};
 
-/// How a skin follows its joints: by linear blending, or with the twist of the arms spread along their bones.
+/// How the skin follows the joints: linear blending, optionally with the twist of the arms spread.
 enum class Skinning : std::uint8_t { Linear, TwistSpread };
 
 inline constexpr EnumNames<Skinning, 2> skinnings{"skinning",
                                                   {{"linear", "linear"}, {"twist_spread", "twist spread"}}};
 
-/// Of which joints the limits are drawn. Those that hold the body back now are drawn with either of the last.
+/// Which joints show their limits. Except with None, joints that their limits hold back show them too.
 enum class LimitsShown : std::uint8_t { None, Selected, All };
 
 inline constexpr EnumNames<LimitsShown, 3> limits_shown{
@@ -47,7 +47,7 @@ struct HumanoidView {
     SkinLook skin = SkinLook::Transparent;
     Skinning skinning = Skinning::TwistSpread;
     bool ghost = true;   ///< of the pose before anything changed it
-    bool follow = true;  ///< the camera goes along with a character that walks
+    bool follow = true;  ///< the camera follows a character that walks
     LimitsShown limits = LimitsShown::Selected;
     bool operator==(const HumanoidView&) const = default;
 };
@@ -57,20 +57,20 @@ struct HumanoidPart final : Part {
     explicit HumanoidPart(SharedCharacter loaded);
 
     SharedCharacter loaded;                        ///< never null
-    std::shared_ptr<const humanoid::BoneMap> map;  ///< as matched, or as a person has corrected it
+    std::shared_ptr<const humanoid::BoneMap> map;  ///< as matched, or as corrected by the user
     Playback playback;
     bool t_pose = false;  ///< the rest pose is shown as a T
     IkSettings ik;
     std::vector<SpringSetting> springs;
     IkState ik_state;
     Attachments attachments;
-    int quiet_ticks = 0;  ///< since anything was set or swung: springs come to rest meanwhile
+    int quiet_ticks = 0;  ///< ticks since the last edit or movement; after enough of them the lab rests
     Selection selection;  ///< of nodes
     HumanoidView view;
     FlipRule flips;
 
     const humanoid::Skeleton& skeleton() const { return loaded->skeleton(); }
-    const humanoid::Clip* clip() const;  ///< null where none is chosen
+    const humanoid::Clip* clip() const;  ///< null if none is chosen
     std::optional<std::size_t> node_of(humanoid::Bone bone) const;
     std::optional<humanoid::Bone> bone_of(std::size_t node) const;
 
@@ -85,16 +85,15 @@ struct HumanoidPart final : Part {
 inline constexpr FlipWords humanoid_flip_words{"humanoid.flips", "target", "the target, as the bone sees it,",
                                                "height", "the character's height"};
 
-/// Makes a node the bone, or none; a node is one bone at most, and where it was another that one has none
-/// then.
+/// Maps a bone to a node, or to none. A node is mapped to one bone at most, so a bone that had it loses it.
 void set_bone(HumanoidPart& part, humanoid::Bone bone, std::optional<std::size_t> node);
-/// After set_bone(): throws std::invalid_argument where the bones no longer hang on each other as a body's
-/// do. A file whose own map is so is not held to it.
+/// Call after set_bone(). Throws std::invalid_argument if the bones do not form a body's hierarchy any more,
+/// unless the file's own map did not either.
 void check_bones(const HumanoidPart& part);
 
-/// What is saved of IK.
+/// The IK settings and state to be saved.
 Json ik_json(const HumanoidPart& part);
-/// Throws std::runtime_error that begins with the place of what is wrong.
+/// Throws std::runtime_error that begins with the JSON path.
 void read_ik(const class JsonPlace& place, HumanoidPart& part);
 
 Json attachments_json(const Attachments& attachments);
@@ -115,21 +114,20 @@ std::span<const tendril::app::FieldText> tendril::app::field_texts<tendril::app:
 
 namespace tendril::app {
 
-// Which nodes of a skeleton are selected. Files and commands have them by name: another skeleton may have the
-// same.
+// Selected nodes. Files and commands store names, because another skeleton may have the same ones.
 
-/// Of all that are selected, in the skeleton's order.
+/// The selected names, in skeleton order.
 std::vector<std::string> names_of(const Selection& selection, const humanoid::Skeleton& skeleton);
-/// Of the active one; empty: nothing is selected.
+/// The active node's name; empty if nothing is selected.
 std::string active_name(const Selection& selection, const humanoid::Skeleton& skeleton);
 
-/// The nodes of the same names; what has none is not selected.
+/// Selects the nodes of the same names; drops the others.
 Selection selection_in(const humanoid::Skeleton& skeleton, const Selection& selection,
                        const humanoid::Skeleton& before);
 
-/// A name, empty where nothing is selected, or {"active", "all"}.
+/// A name, empty if nothing is selected, or {"active", "all"}.
 Json save_selection(const Selection& selection, const humanoid::Skeleton& skeleton);
-/// Without nodes that the skeleton does not have. Throws std::runtime_error that begins with the place.
+/// Drops nodes that the skeleton does not have. Throws std::runtime_error that begins with the JSON path.
 Selection load_selection(const JsonPlace& place, const humanoid::Skeleton& skeleton);
 
 }  // namespace tendril::app

@@ -1,4 +1,4 @@
-// What the Humanoid lab works in: the shown pose of its part, worked out once, and what its panels keep.
+// Caches of the Humanoid lab: the displayed pose of its part, solvers, and the state of its panels.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ namespace tendril::app {
 class HumanoidRuntime final : public Runtime {
   public:
     const ShownPose& shown(const Workspace& workspace);
-    /// Of the part's skin: kept until character or map are others.
+    /// For the part's skin; kept until character or map change.
     const TwistSpread& twist(const HumanoidPart& part);
 
     Loading loading;  ///< a file that is being read
@@ -31,16 +31,16 @@ class HumanoidRuntime final : public Runtime {
     struct Reviewed {
         std::shared_ptr<const Part> part;
         ShownPose shown;
-    } reviewed;  ///< what the last review ended with: the next one begins with it
+    } reviewed;  ///< the end of the last review, where the next one begins
 
-    /// The interface's own: it follows from nothing, and nothing follows from it.
+    /// State of the interface only; nothing else depends on it.
     struct Panel {
-        std::optional<humanoid::Bone> bone;             ///< the row for which a node is picked
-        SearchText node{}, clip{}, holder{}, spring{};  ///< what is looked for
-        int attach_kind = 0;                            ///< of the attachment that Add makes
-        std::string attach_to = "Hips";                 ///< bone or node that it hangs on
+        std::optional<humanoid::Bone> bone;             ///< the row that waits for a node
+        SearchText node{}, clip{}, holder{}, spring{};  ///< search texts
+        int attach_kind = 0;                            ///< kind of attachment that Add makes
+        std::string attach_to = "Hips";                 ///< bone or node to attach it to
         bool past = false;                    ///< the strip shows the last ten seconds instead of the clip
-        std::string export_to{}, map_file{};  ///< paths that are typed
+        std::string export_to{}, map_file{};  ///< paths typed by the user
     } panel;
 
   private:

@@ -1,4 +1,4 @@
-// What the mouse takes hold of in the Humanoid lab, and what comes of it.
+// Mouse input in the Humanoid lab: handles, drags, clicks and selection.
 #include <algorithm>
 #include <glm/common.hpp>
 
@@ -6,7 +6,6 @@
 #include "app/labs/humanoid/draw.hpp"
 #include "app/labs/humanoid/humanoid_lab.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
-#include "app/labs/humanoid/ik/ik_file.hpp"
 #include "app/labs/kit/arguments.hpp"
 
 namespace tendril::app {
@@ -18,7 +17,7 @@ bool has_body(const Workspace& workspace) {
     return humanoid_runtime(workspace).solvers.body(humanoid_part(workspace)) != nullptr;
 }
 
-/// At its target, or where it has none at its bone.
+/// At the target, or at the bone if there is none.
 Handle effector_handle(const Workspace& workspace, Effector effector) {
     const HumanoidPart& part = humanoid_part(workspace);
     const humanoid::Placement& bone =
@@ -40,7 +39,7 @@ std::optional<Effector> effector_at(const HumanoidPart& part, std::size_t node) 
     return std::nullopt;
 }
 
-/// Whose gizmo is shown: of those whose bone is selected, the active one, or else the last.
+/// The effector that shows the gizmo: that of the active node, or else of the last selected node with one.
 std::optional<Effector> gizmo_effector(const HumanoidPart& part) {
     const auto active = part.selection.active();
     if (!active) return std::nullopt;
@@ -51,7 +50,7 @@ std::optional<Effector> gizmo_effector(const HumanoidPart& part) {
     return last;
 }
 
-/// The one that is clicked, or whose effector is.
+/// The clicked node, or the node of the clicked effector.
 std::optional<std::size_t> clicked_node(const HumanoidPart& part, PickId pick) {
     const auto effector = picked_effector(pick);
     return effector ? part.node_of(humanoid::bone_of(*effector)) : picked_node(part, pick);
@@ -111,7 +110,7 @@ void HumanoidLab::drag_together(const Workspace& workspace, const std::vector<Ha
         const Effector effector = *picked_effector(each.pick);
         effectors.push_back(humanoid::name(effector));
         points.push_back(point(each.frame.position));
-        rotations.push_back(quaternion(glm::dquat(each.frame.rotation)));
+        rotations.push_back(dquaternion(glm::dquat(each.frame.rotation)));
         turned |= has(each.drag, Drag::Rotation);
     }
     ArgumentList arguments{{"effectors", SharedJson(std::move(effectors))},
@@ -131,7 +130,7 @@ void HumanoidLab::drag(const Workspace& workspace, PickId pick, const Handle::Fr
     emit.continuously("humanoid.target", arguments);
 }
 
-/// While a row of the bone map waits for a node, a click says which one it is.
+/// While a row of the bone map waits for a node, a click picks that node.
 void HumanoidLab::click(const Workspace& workspace, PickId pick, Emit& emit) const {
     const HumanoidPart& part = humanoid_part(workspace);
     auto& waiting = humanoid_runtime(workspace).panel.bone;
@@ -152,7 +151,7 @@ void HumanoidLab::click(const Workspace& workspace, PickId pick, Emit& emit) con
         emit("humanoid.select", {{"node", name}});
 }
 
-/// A row that waits for a node waits no more, and what is selected stays.
+/// If a row waits for a node, only ends the waiting; the selection stays.
 void HumanoidLab::deselect(const Workspace& workspace, Emit& emit) const {
     auto& waiting = humanoid_runtime(workspace).panel.bone;
     if (!waiting) return click(workspace, no_pick, emit);
@@ -165,7 +164,7 @@ void HumanoidLab::click_more(const Workspace& workspace, PickId pick, Emit& emit
         emit("humanoid.select", {{"node", part.skeleton()[*node].name}, {"add", true}});
 }
 
-/// The nodes that are drawn.
+/// The visible nodes.
 std::vector<Handle> HumanoidLab::selectable(const Workspace& workspace) const {
     const HumanoidPart& part = humanoid_part(workspace);
     const bool helpers = helpers_setting().chosen(workspace.settings) == 0;

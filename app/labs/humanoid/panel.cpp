@@ -19,7 +19,7 @@
 
 namespace tendril::app {
 
-// What one chooses in the Humanoid lab: the character, its bones, a clip, how all of it is shown.
+// Sections of the left panel: the character, its bones, a clip, the view.
 
 namespace {
 
@@ -43,7 +43,7 @@ void rest_row(const HumanoidPanel& panel) {
 
 void scale_row(const HumanoidPanel& panel) {
     if (panel.part.loaded->file.empty()) return;
-    // Units span many orders of magnitude: centimetres are the usual one.
+    // Units span many orders of magnitude; centimetres are the usual one.
     auto centimetres = static_cast<float>(100.0 * panel.part.loaded->character.scale);
     if (number_field("unit of the file", centimetres, 0.01f, 1e-4f, 1e8f, "%.4g cm"))
         panel.emit.continuously("humanoid.scale", {{"metres", 0.01 * static_cast<double>(centimetres)}});
@@ -151,7 +151,7 @@ void HumanoidLab::panel(const Workspace& workspace, Emit& emit) const {
     map_rows(panel);
 }
 
-// What is selected in the Humanoid lab, and the character in numbers.
+// Sections of the right panel: the selection, and the character in numbers.
 
 namespace {
 
@@ -240,8 +240,8 @@ void HumanoidLab::inspector(const Workspace& workspace, Emit& emit) const {
     incident_rows(workspace, panel.colours, emit);
 }
 
-// The bone map: a row for each bone with its node and a bar that says how sure that is. A row that is clicked
-// waits for a node, from the list or from a click on the figure.
+// The bone map: a row per bone with its node and a bar for the confidence of the match. A clicked row waits
+// for a node, from the list or from a click on the figure.
 
 namespace {
 
@@ -259,7 +259,7 @@ const char* sureness(double confidence) {
     return confidence >= 0.8 ? "sure" : confidence >= 0.5 ? "likely" : "doubtful";
 }
 
-/// As long as the match is sure; what is doubtful stands out.
+/// The length is the confidence; the colour makes doubtful matches stand out.
 void confidence_bar(const HumanoidPanel& panel, double confidence, ImVec2 at, float width, float height) {
     ImDrawList* const list = ImGui::GetWindowDrawList();
     list->AddRectFilled(at, {at.x + width, at.y + height}, colour_of(panel.colours.field), 1.5f);
@@ -327,7 +327,7 @@ void bone_row(const HumanoidPanel& panel, Bone bone) {
     }
 }
 
-/// For the row that waits, a list of all nodes; always there, so that nothing below it moves.
+/// A list of all nodes for the row that waits. Always present, so that nothing below it moves.
 void node_chooser(const HumanoidPanel& panel) {
     auto& waiting = panel.runtime.panel.bone;
     ImGui::BeginDisabled(!waiting);

@@ -1,4 +1,4 @@
-// The pieces that the Humanoid lab's panels are put together from.
+// The sections that make up the panels of the Humanoid lab.
 #pragma once
 
 #include "app/labs/humanoid/humanoid_runtime.hpp"
@@ -8,7 +8,7 @@
 
 namespace tendril::app {
 
-/// All that a section reads.
+/// What a section reads.
 struct HumanoidPanel {
     const Workspace& workspace;
     const HumanoidPart& part;
@@ -18,47 +18,47 @@ struct HumanoidPanel {
 };
 HumanoidPanel humanoid_panel(const Workspace& workspace, Emit& emit);
 
-/// What can be done with the character, and whether it reaches what it is to reach.
+/// Whether the character is usable and reaches its targets.
 Verdict humanoid_verdict(const Workspace& workspace);
 
-// left
-/// Which file it is, and what was done to it.
+// Left panel.
+/// The file and what was done to it.
 void character_rows(const HumanoidPanel& panel);
-/// The bones of a body, each with its node and how sure that is.
+/// Each bone with its node and the confidence of the match.
 void bone_rows(const HumanoidPanel& panel);
-/// Which clip, and how it plays.
+/// The clip and its playback.
 void clip_rows(const HumanoidPanel& panel);
-/// The effectors with their targets.
+/// Effectors and their targets.
 void target_rows(const HumanoidPanel& panel);
-/// Where the limits of joints come from.
+/// The source of joint limits.
 void limit_rows(const HumanoidPanel& panel);
-/// Springs on its own ears, antennae, tail.
+/// Springs on ears, antennae, a tail.
 void spring_rows(const HumanoidPanel& panel);
-/// What hangs on it, and the order in which a tick goes.
+/// Attachments, and the order of a tick.
 void attachment_rows(const HumanoidPanel& panel);
-/// What it walks on, and how its feet take that.
+/// The ground, and foot IK.
 void ground_rows(const HumanoidPanel& panel);
-/// Hands that a clip moves, and what the head looks at.
+/// Hand IK, and look-at.
 void hand_rows(const HumanoidPanel& panel);
 void look_rows(const HumanoidPanel& panel);
-/// What the motion lint has found in the clip, with its cures.
+/// The findings of the motion lint, with their cures.
 void lint_rows(const HumanoidPanel& panel);
-/// Where the clip is written to.
+/// Where to write the clip.
 void export_rows(const HumanoidPanel& panel);
-/// Bone maps that are saved and loaded.
+/// Saving and loading bone maps.
 void map_rows(const HumanoidPanel& panel);
 
-// right
-/// How far effectors are from their targets.
+// Right panel.
+/// The distances from effectors to their targets.
 void target_inspector(const HumanoidPanel& panel);
-// What is set here is set on all that is selected; what can only be read is that of the active one.
+// Fields set all selected items; readings are those of the active one.
 /// The selected nodes.
 void node_inspector(const HumanoidPanel& panel);
-/// The springs that turn the selected nodes, or could.
+/// The springs on the selected nodes, or offers to add some.
 void spring_inspector(const HumanoidPanel& panel);
-/// How far the selected joints are turned, and may be.
+/// The rotations and ranges of the selected joints.
 void limit_inspector(const HumanoidPanel& panel);
-/// The character in numbers.
+/// Statistics of the character.
 void character_inspector(const HumanoidPanel& panel);
 
 }  // namespace tendril::app

@@ -55,7 +55,7 @@ Json unmatched_state(const HumanoidPart& part) {
     return names;
 }
 
-/// What the map that is kept would change, or why it is left out; null where none is kept, or it is in use.
+/// What the kept map would change, or why it was ignored; null if there is none, or it is in use.
 Json kept_map_state(const Workspace& workspace) {
     KeptMaps& maps = humanoid_runtime(workspace).kept_maps;
     if (const std::string& why = maps.refused(workspace); !why.empty()) return {{"refused", why}};
@@ -82,7 +82,7 @@ Json character_state(const Workspace& workspace, const ShownPose& shown) {
                 {"notes", part.loaded->character.notes}};
 }
 
-/// What is left between a chain's end and its target, metres; 0 without one.
+/// Metres between the end of a chain and its target; 0 if it has none.
 double residual(const ShownPose& shown, Bone end) {
     for (const humanoid::Effector effector : all_effectors)
         if (humanoid::bone_of(effector) == end) return shown.residual(effector).value_or(0.0);
@@ -140,7 +140,7 @@ Json range_json(const ik::Limit* limit) {
             {"twist_max_deg", in_degrees(limit->twist_max)}};
 }
 
-/// How the joint that the inspector shows is turned, and may be; null without one.
+/// Rotation and range of the joint that the inspector shows; null if there is none.
 Json joint_state(const HumanoidPart& part, Solvers& solvers, const ShownPose& shown) {
     const SelectedJoints selected = selected_joints(part, solvers);
     const auto joint = selected.shown ? joint_now(part, solvers, shown, *selected.shown) : std::nullopt;

@@ -1,4 +1,4 @@
-// The arguments that the commands of every lab are put together from.
+// Arguments and helpers that the commands of every lab share.
 #pragma once
 
 #include <cstddef>
@@ -19,66 +19,62 @@
 namespace tendril::app {
 
 Argument choice_argument(const char* name, bool required, const char* help, std::vector<std::string> choices);
-// These may be left out.
+// The next three are optional.
 Argument integer_argument(const char* name, const char* help, double low, double high);
 Argument number_argument(const char* name, const char* help, double low, double high);
 Argument switch_argument(const char* name, const char* help);
-// These may be left out where not `required`.
+// Optional unless `required`.
 Argument text_argument(const char* name, bool required, const char* help);
 Argument point_argument(const char* name, bool required, const char* help);
-/// One of `count` things that are counted from 0.
+/// A 0-based index below `count`.
 Argument index_argument(const char* name, bool required, const char* help, std::size_t count);
-/// The same argument, for which the palette offers what is there to be named.
+/// The same argument; the palette offers the values that `known` returns.
 Argument offering(Argument argument, std::function<std::vector<std::string>(const Workspace&)> known);
-/// "0", "1", ... to before `count`: for things that are counted.
+/// "0", "1", ... up to `count` - 1.
 std::vector<std::string> places(std::size_t count);
 
-// A refusal of the library becomes one of the program: the message is what the person reads.
+// Turn a library error into an exception whose message the user reads.
 
-/// Throws std::invalid_argument with the result's message, unless all is fine.
+/// Throws std::invalid_argument with the result's message if it is an error.
 inline void require_ok(const Result& result) {
     if (!result) throw std::invalid_argument(result.message());
 }
 
-/// The value, or std::invalid_argument with the message that says why there is none.
+/// The value. Throws std::invalid_argument with the error's message if there is none.
 template <class T>
 T require_value(Expected<T> expected) {
     if (!expected) throw std::invalid_argument(expected.message());
     return std::move(expected).value();
 }
 
-// Several of many things, for a command that does the same to all: a list of indices, counted from 0; and
-// what is not the same for all, another list.
+// Commands that act on several items at once: a list of indices, and parallel lists of values.
 
-/// May be left out: `instead_of` names the one that is given then.
+/// Optional. `instead_of` names the single-item argument that it replaces.
 Argument index_list_argument(const char* name, const char* instead_of);
-/// Whether one is given by its index, and not several by a list. Throws Refused where it is neither or both.
+/// True if the index is given, false if the list is. Throws Refused if both or neither are.
 bool gives_one(const Arguments& given, const char* index, const char* list);
-/// As they are given. Throws Refused, with the argument and the value, for what is no whole number below
-/// `count`.
+/// The indices. Throws Refused, naming argument and value, for anything but an integer in [0, `count`).
 std::vector<std::size_t> index_list(const Arguments& given, const char* name, std::size_t count);
 
-/// A list of values, one for each of the list that is called `of`. May be left out.
+/// An optional list with one value for each entry of the list argument `of`.
 Argument each_argument(const char* name, const char* of);
-/// Throws, with the argument, unless the list has `count` values.
+/// Throws, naming the argument, if `of` is missing or the list does not have `count` values.
 JsonPlace each_list(const Arguments& given, const char* name, const char* of, std::size_t count);
 
-// Several things that have names, for a command that does the same to all. gives_one() of index_list.hpp
-// says whether one is given, or several.
+// The same for items with names; gives_one() serves both.
 
-/// May be left out: `instead_of` names the one that is given then. `more` is said of it in addition.
+/// Optional. `instead_of` names the single-item argument that it replaces; `more` is appended to the help.
 Argument name_list_argument(const char* name, const char* instead_of, const char* more = "");
-/// As they are given. Throws Refused, with the argument and the value, for what is no text.
+/// The names. Throws Refused, naming the argument and the value, for anything but a string.
 std::vector<std::string> name_list(const Arguments& given, const char* name);
 
-/// "Head, LeftHand": of many names only the first, and dots.
+/// "Head, LeftHand"; "..." stands for any names after the eighth.
 std::string name_list_text(const std::vector<std::string>& names);
 
-// How a command changes the part of a lab.
+// Changing a lab's part from a command.
 
-/// Changes a copy of the lab's part: `change` gets it, and the part as it was. A change that comes out equal
-/// is none, and leaves no step to undo; what `change` throws leaves the document as it was (see
-/// CommandTable::run).
+/// Edits a copy of the lab's part: `change` receives the copy and the old part. If both end up equal, there
+/// is no undo step. If `change` throws, the document is unchanged (see CommandTable::run).
 template <class LabPart, class Change>
 void change_part(Workspace& workspace, const char* lab, Change change) {
     const Document before = workspace.document;
@@ -88,7 +84,7 @@ void change_part(Workspace& workspace, const char* lab, Change change) {
     if (part == old) workspace.document = before;
 }
 
-/// A command that does just that.
+/// A command that calls `change` through change_part().
 template <class LabPart>
 Command part_command(const char* lab, const char* name, const char* title, std::vector<Argument> arguments,
                      const char* help, void (*change)(LabPart&, const Arguments&),
@@ -104,10 +100,10 @@ Command part_command(const char* lab, const char* name, const char* title, std::
             }};
 }
 
-// How time changes the part of a lab.
+// Advancing a lab's part in time.
 
-/// Lets `advance` change a copy of the lab's part. Where it throws std::logic_error, since something left the
-/// range that a scene can hold, the document stays as it was and the reason is given back.
+/// Applies `advance` to a copy of the lab's part. If it throws std::logic_error, because a value left the
+/// range that a scene can hold, restores the document and returns the message.
 template <class LabPart, class Advance>
 std::optional<std::string> guarded_step(Workspace& workspace, const char* lab, Advance advance) {
     const Document before = workspace.document;

@@ -4,6 +4,9 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
+#include <glm/trigonometric.hpp>
+#include <utility>
 
 namespace tendril::app {
 
@@ -33,6 +36,11 @@ std::string braced(const glm::vec3& value) {
 
 std::string braced(const glm::dvec3& value) {
     return '{' + double_text(value.x) + ", " + double_text(value.y) + ", " + double_text(value.z) + '}';
+}
+
+std::string braced(const glm::dquat& value) {
+    return '{' + double_text(value.w) + ", " + double_text(value.x) + ", " + double_text(value.y) + ", " +
+           double_text(value.z) + '}';
 }
 
 std::string joined(const std::vector<std::string>& texts) {
@@ -77,6 +85,9 @@ std::string field_text(const Field& field, const FieldValue& value, const std::s
             return '{' + digits(value[0]) + ", " + digits(value[1]) + '}';
         case FieldType::Point:
             return '{' + digits(value[0]) + ", " + digits(value[1]) + ", " + digits(value[2]) + '}';
+        case FieldType::Rotation:
+            return '{' + digits(value[3]) + ", " + digits(value[0]) + ", " + digits(value[1]) + ", " +
+                   digits(value[2]) + '}';
         case FieldType::Choice:
             break;
     }
@@ -125,6 +136,32 @@ std::string keys_text(const signal::Curve& curve, const std::string& margin) {
                 ", .piece = signal::Piece::" + pascal_text(signal::name(key.piece)) + "}";
     }
     return '{' + keys + '}';
+}
+
+std::string degrees_text(float radians) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.4g", glm::degrees(static_cast<double>(radians)));
+    return text;
+}
+
+std::string limit_text(const std::string& name, const ik::Limit& limit, const std::string& margin) {
+    if (limit.kind == ik::JointKind::Hinge) {
+        return margin + name + " = ik::Limit::hinge(" + braced(limit.axis) + ", " + literal(limit.min) +
+               ", " + literal(limit.max) + ");  // " + degrees_text(limit.min) + " to " +
+               degrees_text(limit.max) + " degrees\n";
+    }
+    const std::string next = margin + std::string(name.size() + 4, ' ');
+    std::string text =
+        margin + name + " = {.kind = ik::JointKind::" + pascal_text(ik::name(limit.kind)) + ",\n";
+    text += next + ".axis = " + braced(limit.axis) + ",\n";
+    const std::pair<const char*, float> angles[] = {
+        {"up", limit.up},       {"down", limit.down},           {"left", limit.left},
+        {"right", limit.right}, {"twist_min", limit.twist_min}, {"twist_max", limit.twist_max}};
+    for (const auto& [field, angle] : angles) {
+        if (angle == 0.0f) continue;  // the default
+        text += next + "." + field + " = " + literal(angle) + ",  // " + degrees_text(angle) + " degrees\n";
+    }
+    return text + margin + "};\n";
 }
 
 }  // namespace tendril::app

@@ -61,7 +61,7 @@ namespace {
 
 constexpr float near_root = 0.02f, straight = 0.02f;  ///< of the reach
 
-/// How far the joints lie from the line from root to tip, in metres.
+/// The maximum distance of a joint from the line through root and tip, in metres.
 float bend(const std::vector<glm::vec3>& joints) {
     const glm::vec3 root = joints.front(), line = joints.back() - root;
     const float length = glm::length(line);

@@ -1,4 +1,4 @@
-// What counts as a flip: a bone that turned far in a tick while what it follows hardly moved.
+// Flips: a bone turned far in one tick while its target hardly moved. The rule for them, and likely causes.
 #pragma once
 
 #include <glm/gtc/quaternion.hpp>
@@ -14,8 +14,8 @@ namespace tendril::app {
 
 inline constexpr float min_flip_degrees = 1.0f, max_flip_degrees = 180.0f;
 
-/// A bone turned by more than `degrees`, while the target (of a rig: each control that was moved), as the
-/// bone's root sees it, turned by less than a share of that, or moved by less than a share of the reach.
+/// A bone turned by more than `degrees` while the target (in a rig, each moved control) turned, as seen from
+/// the bone's root, by less than `angle_share` of that, or moved by less than `reach_share` of the reach.
 struct FlipRule {
     float degrees = 30.0f;      ///< min_flip_degrees to max_flip_degrees
     float angle_share = 0.2f;   ///< 0 to 1
@@ -27,30 +27,30 @@ struct FlipRule {
 Json save_flip_rule(const FlipRule& rule);
 FlipRule load_flip_rule(const JsonPlace& place);
 
-/// What the rule is about, in the words of a lab.
+/// How a lab words the rule.
 struct FlipWords {
-    const char* command;  ///< that sets the rule
+    const char* command;  ///< the command that sets the rule
     const char* mover;    ///< "target": what a bone follows
     const char* seen;     ///< "the target, as the root sees it,"
     const char* size;     ///< "reach"
     const char* whole;    ///< "the chain's reach"
 };
-/// Each of them may be left out.
+/// All optional.
 std::vector<Argument> flip_arguments(const FlipWords& words);
 void set_flip_rule(FlipRule& rule, const Arguments& given);
-/// Fields that set it.
+/// Fields that edit the rule.
 void flip_rows(const FlipRule& rule, const FlipWords& words, Emit& emit);
 
-// What can make a chain of bones flip that reaches for a target: as much as the places of its joints show.
+// Likely causes of a flip in a chain that reaches for a target, judged from its joint positions alone.
 
-/// Radians, 0 to pi; 0 where one of them has no length.
+/// Radians, 0 to pi; 0 if either has no length.
 float angle_between(glm::vec3 a, glm::vec3 b);
 /// Between two rotations, 0 to pi.
 double turn_between(const glm::dquat& a, const glm::dquat& b);
-/// Metres from `point` to the line from `a` to `b`, no further than its ends.
+/// Metres from `point` to the segment from `a` to `b`.
 float distance_to(glm::vec3 point, glm::vec3 a, glm::vec3 b);
 
-/// A chain just before a flip, or just after it; one joint at least.
+/// A chain just before or just after a flip; at least one joint.
 struct ReachPose {
     std::vector<glm::vec3> joints{};  ///< from the root on
     glm::vec3 target{0.0f};
@@ -59,18 +59,18 @@ struct ReachPose {
     glm::vec3 root() const { return joints.front(); }
 };
 
-/// `reach`: metres, here and below. Closer than a fiftieth of it.
+/// Whether the target passed within a fiftieth of the reach of the root. `reach`: metres, here and below.
 bool went_through_root(const ReachPose& before, const ReachPose& after, float reach);
 
-/// Where the line from root to target passes the pole target, on either side of the root, the plane that the
-/// chain bends in has no direction.
+/// The bending plane has no direction while the line through root and target contains the pole target.
 struct PolePassage {
-    bool passed = false;  ///< between the two
-    bool close = false;   ///< it is near the pole at one of them
+    bool passed = false;  ///< the pole target changed sides
+    bool close = false;   ///< in one of the poses the line is within 10 degrees of the pole target
 };
 PolePassage pole_passage(const ReachPose& before, const ReachPose& after);
 
-/// One of the two was.
+/// Whether the chain was straight in either pose: every joint within a fiftieth of the reach of the line from
+/// root to tip.
 bool was_straight(const ReachPose& before, const ReachPose& after, float reach);
 
 }  // namespace tendril::app

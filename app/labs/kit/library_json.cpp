@@ -140,8 +140,7 @@ ik::PoleMemory load_pole(const JsonPlace& place, std::size_t joint_count,
 
 Json save_ik_state(const ik::State& state) {
     Json json{{"rotations", Json::array()}};
-    for (const glm::quat& q : state.rotations)
-        json["rotations"].push_back(Json::array({number(q.x), number(q.y), number(q.z), number(q.w)}));
+    for (const glm::quat& q : state.rotations) json["rotations"].push_back(quaternion(q));
     if (state.limits.valid) json["limits"] = save_fields(state.limits);
     if (state.pole.valid) {
         Json& pole = json["pole"] = {{"turn", pole_turns.name(state.pole.turn)},

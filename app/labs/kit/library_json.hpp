@@ -1,4 +1,4 @@
-// Curves of keys as JSON, in filters and in units of a rig:
+// JSON of the library's curves and IK states. Curves of keys, in filters and in rig units:
 //
 //     {"keys": [{"time": 0, "value": 0, "arrive": 0, "leave": 0, "piece": "linear"}, ...],
 //      "source_min": 0, "source_max": 1, "target_min": 0, "target_max": 1}
@@ -16,16 +16,15 @@
 
 namespace tendril::app {
 
-/// The keys alone; tangents that are flat are left out.
+/// The keys alone; tangents of 0 are omitted.
 Json curve_keys_json(const signal::Curve& curve);
-/// Of a key only time and value have to be there; members that it does not have are not looked at. Throws
-/// std::runtime_error that begins with the place of what is wrong. Whether the times are in order
-/// signal::check() says.
+/// Only time and value are required; unknown members are refused. Throws std::runtime_error that begins with
+/// the JSON path of the fault. Does not check the order of the times: signal::check() does.
 std::vector<signal::CurveKey> read_curve_keys(const JsonPlace& place);
 
 Json curve_json(const signal::Curve& curve);
 
-/// Those of a curve's members that are there; the others stay.
+/// Reads the curve members that are present and keeps the others.
 void read_curve_members(const JsonPlace& place, signal::Curve& curve);
 void add_curve_members(std::vector<std::string>& names);
 
@@ -35,14 +34,14 @@ void add_curve_members(std::vector<std::string>& names);
 //      "pole": {"turn": "whole_chain", "pole": [...], "target": [...], "twist_deg": 0, "joints": [...]},
 //      "limits": {"limited": false, "target": [...], "damping": 0}}
 //
-// Places are in metres from the root. `pole` and `limits` are there if the last solve had them.
+// Positions are in metres from the root. `pole` and `limits` are present if the last solve used them.
 
 inline constexpr EnumNames<ik::PoleTurn, 2> pole_turns{
     "pole turn", {{"whole_chain", "whole chain"}, {"each_joint", "each joint"}}};
 
 Json save_ik_state(const ik::State& state);
-/// Of so many bones; at rest where there are no rotations. `joints` stand in for those of a pole that has
-/// none. Throws std::runtime_error that begins with the place of what is wrong.
+/// The state of `bones` bones, at rest if the file has no rotations. `joints` replace those of a pole that
+/// has none. Throws std::runtime_error that begins with the JSON path of the fault.
 ik::State load_ik_state(const JsonPlace& place, std::size_t bones, const std::vector<glm::vec3>& joints = {});
 
 }  // namespace tendril::app

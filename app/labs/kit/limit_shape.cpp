@@ -122,7 +122,7 @@ void LimitPen::rest(const LimitShape& shape) const {
 }
 
 JointTurn joint_turn(const glm::dquat& turn, const glm::dvec3& along) {
-    // A rotation and its opposite are one turn: the shorter one is told.
+    // q and -q are the same rotation: take the shorter way round.
     const glm::dquat q = turn.w < 0.0 ? -turn : turn;
     const glm::dvec3 sines(q.x, q.y, q.z);
     const double about = glm::dot(sines, glm::normalize(along));

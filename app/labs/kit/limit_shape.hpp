@@ -1,5 +1,5 @@
-// A joint's limit as it lies in the world: where its bone may point, and how it may be twisted. The numbers
-// are those that solvers use (tendril/ik/limit.hpp); limit_pen.hpp draws them.
+// A joint's limit in world space: where its bone may point and how it may twist, and how that is drawn. The
+// geometry is that of the solvers (tendril/ik/limit.hpp).
 #pragma once
 
 #include <glm/gtc/quaternion.hpp>
@@ -13,18 +13,18 @@ namespace tendril::app {
 
 class LimitShape {
   public:
-    /// `rest`, of length 1, is where the bone points at rest, in the frame of the limit's axis; `parent`
-    /// turns that frame into the world's. The limit has no fault, and is not free.
+    /// `rest`, of length 1, is the bone's rest direction in the frame of the limit's axis; `parent` rotates
+    /// that frame into the world's. The limit must be valid and not free.
     LimitShape(const ik::Limit& limit, glm::vec3 rest, glm::quat parent);
 
     const ik::Limit& limit() const { return limit_; }
     bool is_hinge() const { return limit_.kind == ik::JointKind::Hinge; }
-    /// Where the bone points after a swing of so much up and left, radians; of length 1.
+    /// Where the bone points after a swing of `up` and `left` radians; of length 1.
     glm::vec3 direction(float up, float left) const;
-    /// Where it points at the bound, `steps` steps after the first: once round a cone, or from a hinge's
-    /// minimum to its maximum.
+    /// Directions on the bound, `steps` + 1 of them: once round a cone, or from a hinge's minimum to its
+    /// maximum.
     std::vector<glm::vec3> outline(int steps) const;
-    /// At right angles to the bone that is turned so, what shows its twist; of length 1.
+    /// A direction at right angles to the bone at these angles that shows its twist; of length 1.
     glm::vec3 side(const ik::JointAngles& angles) const;
 
   private:
@@ -35,15 +35,14 @@ class LimitShape {
     glm::quat parent_;
 };
 
-// Draws the limit of a joint: a cone with spokes where its bone may point, a fan for a hinge, a dial for
-// twist.
+// Draws a joint's limit: a cone with spokes, a fan for a hinge, a dial for twist.
 
 struct LimitLook {
     glm::vec3 centre{0.0f};  ///< the joint
     float radius = 0.0f;     ///< metres
     glm::vec3 colour{1.0f};
-    float strength = 1.0f;  ///< below 1 it stands back
-    bool spokes = true;     ///< and ticks of a hinge
+    float strength = 1.0f;  ///< below 1: paler
+    bool spokes = true;     ///< of a cone; the ticks of a hinge
 };
 
 class LimitPen {
@@ -53,17 +52,17 @@ class LimitPen {
 
     /// The bound of swing.
     void outline(const LimitShape& shape) const;
-    /// What lies within it, seen through.
+    /// The area within it, translucent.
     void fill(const LimitShape& shape) const;
-    /// The range of twist about a bone that is turned so, as an arc `size` of the radius wide, `at` of it
-    /// along the bone, with a needle where the twist is now. Nothing for a hinge, and where nothing may
-    /// twist.
+    /// The range of twist about the bone at these angles, as an arc of `size` times the radius, centred `at`
+    /// times the radius along the bone, with a needle at the present twist. Nothing for a hinge, or if the
+    /// limit allows no twist.
     void dial(const LimitShape& shape, const ik::JointAngles& angles, float at, float size) const;
-    /// Where the bone points now, as a dot at the end of it.
+    /// Where the bone points now, as a dot.
     void dot(const LimitShape& shape, const ik::JointAngles& angles) const;
-    /// The same with a line from the joint, as the hand of a clock; in front of whatever is there.
+    /// The same with a line from the joint, like a clock hand; drawn in front of everything.
     void needle(const LimitShape& shape, const ik::JointAngles& angles) const;
-    /// From the joint to where the bone points at rest, thin.
+    /// A thin line from the joint in the rest direction.
     void rest(const LimitShape& shape) const;
     void line(glm::vec3 a, glm::vec3 b, float width, float alpha) const;
 
@@ -76,17 +75,17 @@ class LimitPen {
     LimitLook look_;
 };
 
-// A turn of a joint in the terms that people know: swing, where its bone points, and twist, about the bone.
+// A joint's rotation in familiar terms: swing (where the bone points) and twist (about the bone).
 
 /// Degrees.
 struct JointTurn {
     double swing = 0.0;  ///< 0 to 180
     double twist = 0.0;  ///< -180 to 180
-    double angle = 0.0;  ///< of both together: 0 to 180
+    double angle = 0.0;  ///< of the whole rotation: 0 to 180
 };
 
-/// `turn`: from rest, a rotation of any length but 0. `along`: where the bone points at rest, in the same
-/// frame, of any length but 0. The twist of a bone that points the very other way than at rest is 0.
+/// `turn`: the rotation from rest, of any length but 0. `along`: the bone's rest direction in the same frame,
+/// of any length but 0. The twist is 0 if the bone points opposite to its rest direction.
 JointTurn joint_turn(const glm::dquat& turn, const glm::dvec3& along);
 
 }  // namespace tendril::app

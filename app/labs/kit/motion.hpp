@@ -1,6 +1,5 @@
-// A path that something follows by itself, so that time means something in a lab: a target in the Chain lab,
-// a collider in the Rope lab. A student watches what a method makes of a steady movement, and can pause it
-// and step it.
+// A path that moves an object over time: the target in the Chain lab, a collider in the Rope lab. A student
+// can watch how a method follows a steady movement, pause it and step it.
 #pragma once
 
 #include <cstdint>
@@ -14,17 +13,17 @@ namespace tendril::app {
 
 class JsonPlace;
 
-inline constexpr float min_period = 0.1f, max_period = 600.0f;  ///< seconds a round
+inline constexpr float min_period = 0.1f, max_period = 600.0f;  ///< seconds per round
 
-/// How far around it is after so many seconds, from 0 to 2 pi.
+/// The angle after `seconds`, 0 to 2 pi.
 double round_angle(double seconds, float period);
 
 struct Motion {
     enum class Path { Still, Circle, FigureEight, Sweep } path = Path::Still;
     glm::vec3 centre{0.0f};
     float radius = 2.0f;      ///< metres
-    float period = 4.0f;      ///< seconds a round
-    std::uint32_t ticks = 0;  ///< since it was set going
+    float period = 4.0f;      ///< seconds per round
+    std::uint32_t ticks = 0;  ///< since the motion started
     bool operator==(const Motion&) const = default;
 };
 inline constexpr float max_motion_radius = 1e4f;  ///< metres
@@ -35,12 +34,11 @@ inline constexpr EnumNames<Motion::Path, 4> motion_paths{"path",
                                                           {"figure_eight", "in a figure eight"},
                                                           {"sweep", "along X"}}};
 
-/// Throws std::invalid_argument, "the target's path would reach farther than 1e9 m", where a path within
-/// `span` of its centre would.
+/// Throws std::invalid_argument, "the target's path would reach farther than 1e9 m", if any point within
+/// `span` of the centre is that far out.
 void check_path(glm::vec3 centre, glm::vec3 span, const char* what);
 
-/// Where the path is after so many ticks; it starts to the right of its centre, or wherever its first point
-/// is.
+/// The point after `ticks` ticks. Circles and figure eights start right of the centre, sweeps at it.
 glm::vec3 motion_point(const Motion& motion, std::uint32_t ticks);
 std::uint32_t ticks_per_round(const Motion& motion);
 

@@ -25,7 +25,7 @@ auto* named(const List& list, const std::vector<std::string>& names, std::string
     return found == list.end() ? nullptr : &*found;
 }
 
-/// Of the state's own list; each once.
+/// Names by the slot of their body or collider. Throws if one is empty or used twice.
 template <class List>
 std::vector<std::string> by_slot(const List& list, const std::vector<std::string>& given, const char* kind) {
     std::vector<std::string> names;

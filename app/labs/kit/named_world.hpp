@@ -1,4 +1,4 @@
-// A rope world whose bodies and colliders have names: the library knows handles, people and files know names.
+// A rope world with named bodies and colliders: the library uses handles, users and files use names.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace tendril::app {
 
-inline constexpr std::size_t max_lab_particles = 100'000;  ///< more would make too large a scene file
+inline constexpr std::size_t max_lab_particles = 100'000;  ///< more would make scene files too large
 inline constexpr std::size_t max_lab_colliders = 1'000;
 
 inline constexpr EnumNames<rope::Solver, 3> rope_solvers{
@@ -23,41 +23,41 @@ inline constexpr EnumNames<rope::Solver, 3> rope_solvers{
       "As relaxation, but with compliance: enough iterations stretch it as a material stretches."},
      {"direct", "Direct", "All segments of a rope at once: it does not stretch, and keeps its energy."}}};
 
-/// A value, as the library's world is; what time needs besides is in a rope::Workspace.
+/// A value type, like the library's world; the state that only stepping needs is in a rope::Workspace.
 class NamedWorld {
   public:
     NamedWorld() = default;
-    /// The names of bodies and colliders in the state's order. Throws std::invalid_argument with what is
-    /// wrong with the state, or where a name is empty or there twice.
+    /// Names are in the order of the state's bodies and colliders. Throws std::invalid_argument if the state
+    /// is invalid, or if a name is empty or used twice.
     NamedWorld(rope::State state, const std::vector<std::string>& bodies,
                const std::vector<std::string>& colliders);
-    /// Another state of bodies and colliders that are all there.
+    /// Replaces the state. Its bodies and colliders must already have names.
     void put(rope::State state);
 
     const rope::World& world() const { return world_; }
     const rope::State& state() const { return world_.state(); }
     const rope::Settings& settings() const { return world_.settings(); }
 
-    // Null, or a handle of nothing, where there is none of that name.
+    // Null, or a null handle, if nothing has that name.
     const rope::Body* find(std::string_view body) const;
     const rope::Collider* find_collider(std::string_view collider) const;
-    /// The collider that a pin moves with; null where there is none.
+    /// The collider that a pin moves with; null if there is none.
     const rope::Collider* holder(const rope::Pin& pin) const { return world_.find(pin.collider); }
     const std::string& name(const rope::Body& body) const { return bodies_[body.id.index]; }
     const std::string& name(const rope::Collider& collider) const { return colliders_[collider.id.index]; }
 
-    // What follows throws std::invalid_argument where the library refuses, or a name is taken or unknown.
+    // The rest throws std::invalid_argument if the library refuses, or if a name is taken or unknown.
     void set_settings(const rope::Settings& settings);
     void clear() { world_.clear(); }
-    /// Each gives back the body's name; "rope", "rope 2", ... where none is wanted.
+    /// Each returns the body's name; an empty `name` becomes "rope", "rope 2", ...
     std::string add_rope(const std::string& name, const rope::RopeShape& shape);
     std::string add_cloth(const std::string& name, const rope::ClothShape& shape);
     /// `attach` is a collider's name, or empty.
     std::string add_hair(const std::string& name, rope::HairShape shape, const std::string& attach = {});
     void remove(std::string_view body);
-    /// Gives back the name of what is behind the cut: the rope's own with a number.
+    /// Returns the name of the part behind the cut: the rope's own name with a number.
     std::string cut(std::string_view rope, std::size_t segment);
-    // As rope::World has them.
+    // As in rope::World.
     void set_length(std::string_view body, float metres);
     void set_mass(std::string_view body, double kilograms);
     void set_radius(std::string_view body, float metres);
@@ -82,7 +82,7 @@ class NamedWorld {
     rope::Advance advance(double seconds, rope::Workspace& workspace, std::uint64_t max_substeps);
 
     std::size_t size() const { return world_.size(); }
-    // In single precision, as pictures have it.
+    // In single precision, for drawing.
     glm::vec3 position(std::size_t particle) const { return glm::vec3(world_.position(particle)); }
     glm::vec3 velocity(std::size_t particle) const { return glm::vec3(world_.velocity(particle)); }
     double length_error(const rope::Body& body) const { return world_.length_error(body); }

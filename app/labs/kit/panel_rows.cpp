@@ -24,7 +24,7 @@ bool preset_rows(const std::string& lab, const std::vector<PresetButton>& preset
     for (const PresetButton& preset : presets) {
         const char* const tooltip = preset.tooltip.empty() ? nullptr : preset.tooltip.c_str();
         const int wanted = preset.of > 0 ? preset.of : of;
-        if (std::exchange(in_row, wanted) != wanted) end_row();  // they are of another width
+        if (std::exchange(in_row, wanted) != wanted) end_row();  // the width changes
         if (!row_button(preset.title.c_str(), wanted, true, tooltip)) continue;
         emit(lab + ".preset", {{"name", preset.name}});
         opened = true;
@@ -40,7 +40,7 @@ bool preset_rows(const std::string& lab, const std::vector<PresetButton>& preset
 void show_verdict(const Verdict& said, const Palette& palette) {
     verdict(said.text, said.kind == Verdict::Kind::Bad ? palette.limit : palette.text);
     if (said.why.empty()) return;
-    // As high for one line as for two, so that nothing below moves when the words change.
+    // Reserve two lines even for one, so that nothing below moves when the text changes.
     const float from = ImGui::GetCursorPosY();
     note(said.why);
     const float two = 2.0f * ImGui::GetTextLineHeight() + ImGui::GetStyle().ItemSpacing.y;

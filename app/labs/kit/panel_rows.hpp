@@ -1,4 +1,4 @@
-// Sections of a panel that fold to their title, and stay as one left them.
+// Building blocks of lab panels: folding sections, presets, verdicts. Sections stay as the user folded them.
 #pragma once
 
 #include <string>
@@ -10,33 +10,31 @@
 
 namespace tendril::app {
 
-/// A heading that folds what follows, by a click anywhere on it. Whether to show that. It is kept in the
-/// settings, by the names of the lab and of the section.
+/// A heading that folds its section by a click anywhere on it. Returns whether to show the section. Saved in
+/// the settings, by lab and title.
 [[nodiscard]] bool folding_section(const Workspace& workspace, const char* title, Emit& emit,
                                    bool open_at_first = true);
 
-// The section of a lab's panel that opens a preset, empties the lab or resets it.
+// The section that opens a preset, empties the lab or resets it.
 
 struct PresetButton {
-    std::string name;  ///< as the command has it
+    std::string name;  ///< its argument of the preset command
     std::string title;
     std::string tooltip{};
-    int of = 0;  ///< buttons to its row; 0: as the others
+    int of = 0;  ///< buttons in its row; 0: as in the others
 };
 
-/// Emits the lab's preset, clear and reset commands: "chain.preset" and so on. `clears` says what Empty
-/// removes. True where a preset was opened.
-/// `of`: buttons to a row.
+/// Emits the lab's commands: "chain.preset", "chain.clear", "chain.reset". `clears` is the tooltip of Empty,
+/// `of` the number of buttons in a row. Returns whether a preset was opened.
 bool preset_rows(const std::string& lab, const std::vector<PresetButton>& presets, const char* clears,
                  Emit& emit, int of = 3);
 
-// What became of what was asked for, in a few words: the first thing one reads in an inspector, and the
-// largest.
+// The outcome of a request in a few words: the first and largest text of an inspector.
 
 struct Verdict {
     std::string text;  ///< "Reached", "Out of reach: 0.23 m short", "Lengths off by 1.5 %"
     enum class Kind { Good, Bad, Open } kind = Kind::Open;
-    std::string why{};  ///< what follows from it, or how to go on; a sentence
+    std::string why{};  ///< the consequence, or what to do next; a sentence
 };
 
 void show_verdict(const Verdict& said, const Palette& palette);

@@ -1,4 +1,4 @@
-// What was worked out of a lab's part as it was at a moment, kept while that moment is remembered.
+// Values computed from past versions of a lab's part, cached while the rewind holds those versions.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@
 
 namespace tendril::app {
 
-/// Of memory, beyond the value itself.
+/// Bytes of memory, beyond the value itself.
 template <class Value>
 std::size_t bytes_beyond(const Value&) {
     return 0;
@@ -23,14 +23,14 @@ std::size_t bytes_beyond(const std::vector<Element>& list) {
     return list.size() * sizeof(Element);
 }
 
-/// By part, which never changes in place; a part is not kept alive by it. Where it grows beyond its bound,
-/// what was worked out first is forgotten.
+/// Keyed by part. Parts never change in place, and the cache does not keep them alive. Evicts the oldest
+/// values when it grows beyond `max_bytes`.
 template <class Value>
 class PartCache {
   public:
     explicit PartCache(std::size_t max_bytes = 16u << 20) : max_bytes_(max_bytes) {}
 
-    /// Worked out by `make` when it is first asked for. The reference holds until anything else is.
+    /// Calls `make` on the first request. The reference is valid until the next call.
     template <class Make>
     const Value& of(const std::shared_ptr<const Part>& part, const Make& make) {
         if (const auto known = values_.find(part); known != values_.end()) return known->second;
@@ -44,7 +44,7 @@ class PartCache {
         return made->second;
     }
     bool has(const std::shared_ptr<const Part>& part) const { return values_.find(part) != values_.end(); }
-    /// Forgets what is no longer remembered, once that is as much again.
+    /// Forgets parts that the rewind has dropped, once they outnumber those it holds.
     void trim(const Rewind& past) {
         if (values_.size() <= 2 * past.size() + 64) return;
         std::set<Key, std::owner_less<>> remembered;
@@ -61,7 +61,7 @@ class PartCache {
         bytes_ = 0;
     }
     std::size_t size() const { return values_.size(); }
-    /// Of memory, roughly.
+    /// Approximate memory use.
     std::size_t bytes() const { return bytes_; }
 
   private:
@@ -77,7 +77,7 @@ class PartCache {
     }
 
     std::map<Key, Value, std::owner_less<>> values_;
-    std::deque<Key> order_;  ///< in which they were worked out
+    std::deque<Key> order_;  ///< in order of insertion
     std::size_t max_bytes_, bytes_ = 0;
 };
 

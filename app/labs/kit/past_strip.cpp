@@ -98,7 +98,7 @@ PastTicks past_ticks(const Workspace& workspace) {
 void go_to_past(const Workspace& workspace, int place, Emit& emit) {
     const PastTicks past = past_ticks(workspace);
     if (workspace.rewind.empty() || place == past.place(workspace.moment)) return;
-    // What undo changes under a hand that keeps still, it does not change back.
+    // If undo changes the moment while the mouse is held still, do not change it back.
     if (!ImGui::IsItemActivated() && ImGui::GetIO().MouseDelta.x == 0.0f) return;
     emit.continuously("time.seek", {{"ticks_back", std::max(0, past.place(past.last) - place)}});
 }
@@ -120,7 +120,7 @@ bool other_strip_button(bool shown, const std::string& other) {
 StripLine past_time_strip(const Workspace& workspace, Emit& emit) {
     const PastTicks past = past_ticks(workspace);
     const Palette& colours = palette(workspace.settings.theme);
-    // The strip is ten seconds long from the beginning: what is not there yet is to its right.
+    // The strip spans ten seconds from the start; the unrecorded part is on its right.
     TimeStrip strip{
         .ticks = past_strip_ticks, .seconds = tick_seconds, .known = past.place(past.last), .bars = {}};
     const auto& incidents = workspace.rewind.incidents();

@@ -1,4 +1,4 @@
-// The strip of the last ten seconds below the scene, with a mark for all that happened in them.
+// The strip of the last ten seconds below the scene, with a mark for each incident.
 #pragma once
 
 #include <algorithm>
@@ -13,41 +13,41 @@
 
 namespace tendril::app {
 
-/// The moments that are remembered, and the present: all that is shown of the past begins at the first.
+/// The moments that the rewind holds, and the present.
 struct PastTicks {
     std::uint64_t first = 0, last = 0;
 
-    /// From the first on.
+    /// The index of a tick, counted from `first`.
     int place(std::uint64_t tick) const { return static_cast<int>(std::clamp(tick, first, last) - first); }
 };
 PastTicks past_ticks(const Workspace& workspace);
-/// As long as the strip is, whatever is remembered.
+/// The strip always has this length, however little is recorded.
 inline constexpr int past_strip_ticks = static_cast<int>(Rewind::max_ticks) + 1;
-/// Goes to the moment at a place: for the last item, while it is dragged.
+/// Goes to the moment at an index. Call it after the item that the user drags.
 void go_to_past(const Workspace& workspace, int place, Emit& emit);
 
-/// Where its line runs, pixels of the window.
+/// The extent of the strip's line, in pixels of the window.
 struct StripLine {
     float left = 0.0f, right = 0.0f;
 };
-/// With the buttons before it.
+/// With the buttons to its left.
 StripLine past_strip(const Workspace& workspace, Emit& emit);
 
-// What that is put together from, for a lab that has another strip beside it.
+// The parts of past_strip(), for a lab that shows another strip beside it.
 
-/// Makes a video of them, which shows nothing but the view of the scene: for a lab that has no more to show.
-/// Small and below the replay button, where the strip keeps its length.
+/// Records the last ten seconds as a video of the scene view. A small button below the replay button, so that
+/// the strip keeps its length.
 void record_button(const Workspace& workspace, Emit& emit);
-/// Plays what is remembered again, or stops it.
+/// Replays the last ten seconds, or stops the replay.
 void replay_button(const Workspace& workspace, Emit& emit);
-/// Where there is another strip: shows this one or, while this is the one that is `shown`, the other, of the
-/// `other` ("clip"). True in a frame in which a person asked for that.
+/// Switches between this strip (while `shown`) and the lab's other one, called `other` ("clip"). True in the
+/// frame of the click.
 bool other_strip_button(bool shown, const std::string& other);
-/// Without any button.
+/// Without buttons.
 StripLine past_time_strip(const Workspace& workspace, Emit& emit);
-/// At tick `at` of another strip: the mark of an incident.
+/// The mark of an incident at tick `at` of another strip.
 TimeMark incident_mark(const Incident& incident, int at, const Palette& palette);
-/// While the mouse is on that mark.
+/// The tooltip, while the mouse is on that mark.
 void tell_incident(const Incident& incident);
 
 /// "Joint 2 flipped: a bone at it turned 128 degrees in one tick"

@@ -23,13 +23,13 @@ namespace {
 
 constexpr float plot_height = 130.0f;      ///< pixels at scale 1
 constexpr std::uint64_t half_second = 30;  ///< ticks
-/// That a frame works out. A count and not a time, so that the same is drawn in every run.
+/// Per frame. A count, not a time limit, so that every run draws the same.
 constexpr std::size_t moments_a_frame = 16;
 
 struct PastRuntime final : Runtime {
-    std::string of;  ///< what the values are of
+    std::string of;  ///< the `of` of the curve that `values` belong to
     PartCache<float> values;
-    bool waits = false;  ///< some of them are missing
+    bool waits = false;  ///< some values are still missing
     PartCache<PoseLines> poses;
 };
 
@@ -41,7 +41,7 @@ float seconds(std::uint64_t ticks) {
     return static_cast<float>(static_cast<double>(ticks) * tick_seconds);
 }
 
-/// Pixels: a plot is written in it.
+/// Pixels. Plots use this font.
 float small_font_size() {
     ImGui::PushFont(small_font());
     const float size = ImGui::GetFontSize();
@@ -49,7 +49,7 @@ float small_font_size() {
     return size;
 }
 
-/// Where the line passes the tick of an incident; larger where a joint jumped.
+/// Marks where the line passes the tick of an incident; larger for a flip.
 std::vector<Curve> marks_on(const Curve& line, const Workspace& workspace) {
     const std::uint64_t first = past_ticks(workspace).first;
     const Palette& colours = palette(workspace.settings.theme);
@@ -168,7 +168,7 @@ void past_plot(const Workspace& workspace, const PastView& view, const std::opti
                 high_y = std::max(margin * high->y, curve.lowest_range);
     const float now = seconds(std::max(workspace.moment, first) - first);
     std::vector<Curve> marks = marks_on(line, workspace);
-    // What happened lies over where one is.
+    // Incidents are drawn over the mark of the present.
     if (const float value = value_at(line, now); std::isfinite(value))
         marks.insert(marks.begin(),
                      {.name = curve.name, .colour = colours.accent, .points = {{now, value}}, .width = 1.7f});
@@ -197,7 +197,7 @@ std::vector<const Rewind::Moment*> ghost_moments(const Workspace& workspace, con
     const Rewind& past = workspace.rewind;
     const Part& now = *workspace.document.parts().at(view.lab);
     std::vector<const Rewind::Moment*> shown;
-    std::uint64_t next = 0;  // of a part that is large not every tick is kept: the first one after it counts
+    std::uint64_t next = 0;  // large parts do not keep every tick: take the first in each half second
     for (const Rewind::Moment& moment : past.moments()) {
         const std::uint64_t begin = moment.tick - moment.tick % half_second;
         if (begin < next || begin < past.oldest()) continue;
@@ -250,7 +250,7 @@ void draw_turn(const View& view, glm::vec3 from, glm::vec3 to, glm::vec3 about, 
         const float t = static_cast<float>(i) / sides;
         const glm::vec3 chord = glm::mix(from, to, t) - about;
         const float length = glm::length(chord), radius = glm::mix(radius_from, radius_to, t);
-        // A half turn has no shorter way: it goes straight.
+        // A half turn has no shorter way round: draw it straight.
         const glm::vec3 next = length > 0.05f * radius ? about + chord * (radius / length) : about + chord;
         list.line(last, next, 2.0f * view.scale, colour).layer = Layer::Overlay;
         last = next;
@@ -288,7 +288,7 @@ void incident_row(const Workspace& workspace, std::size_t number, const Palette&
     const bool chosen = shown && shown->tick == incident.tick && shown->kind == incident.kind;
     ImGui::PushID(static_cast<int>(number));
     colour_mark(incident_colour(incident, palette));
-    // Of a flip the first words: how far it turned is told when it is shown.
+    // Only the first words of a flip: the angle appears once it is selected.
     std::string title = incident_title(incident);
     title = title.substr(0, title.find(':')) + ", " + age_text(workspace, incident);
     ImGui::PushStyleVar(ImGuiStyleVar_SelectableTextAlign, ImVec2(0.0f, 0.5f));

@@ -1,5 +1,4 @@
-// Which of many things, counted from 0, are selected. One of them is the active one, taken last: an inspector
-// shows its values, and sets them on all.
+// The selected indices, 0-based. The active one was selected last: inspectors show it and edit all.
 #pragma once
 
 #include <cstddef>
@@ -21,22 +20,22 @@ class Selection {
 
     void clear();
     void only(std::size_t index);
-    /// In, and active; or out, where it is in.
+    /// Adds and activates the index, or removes it if selected.
     void toggle(std::size_t index);
-    /// All of these, in any order, and with `add` what was selected before; the last one is active.
+    /// Selects these, in any order; `add` keeps the previous selection. The last one becomes active.
     void take(const std::vector<std::size_t>& indices, bool add);
 
-    /// What was selected stays so where another comes in before it, or goes.
+    /// Keep the selection when an item is inserted or removed.
     void inserted(std::size_t at);
     void removed(std::size_t at);
-    /// Without what is not there.
+    /// Deselects indices of `count` or more.
     void keep_below(std::size_t count);
 
     bool operator==(const Selection&) const = default;
 
     /// Null, one index, or {"active", "all"}.
     Json save() const;
-    /// Fails, with the place, where an index is `count` or more, or the active one is not among all.
+    /// Fails, with the JSON path, if an index is `count` or more, or if the active one is not in "all".
     static Selection load(const JsonPlace& place, std::size_t count);
 
   private:

@@ -1,5 +1,5 @@
-// A choice that a lab leaves to the person: kept by name among the settings, shown in their sheet, made by a
-// command.
+// A choice that a lab leaves to the user: saved by name in the settings, shown in the settings sheet, changed
+// by a command.
 #pragma once
 
 #include <cstddef>
@@ -14,20 +14,20 @@ struct Settings;
 struct LabSetting {
     struct Choice {
         std::string name;   ///< in files and commands
-        std::string title;  ///< in the settings' sheet
+        std::string title;  ///< in the settings sheet
     };
-    std::string key;              ///< in the settings' file, and in their sheet
+    std::string key;              ///< in the settings file and sheet
     std::string command;          ///< "view.segments"
     std::string title;            ///< of the command
     std::string argument;         ///< of the command
     std::string help;             ///< of the command
-    std::vector<Choice> choices;  ///< two at least; the first is the default
+    std::vector<Choice> choices;  ///< at least two; the first is the default
 
-    /// The place in `choices` of what is chosen.
+    /// The index in `choices` of the present choice.
     std::size_t chosen(const Settings& settings) const;
 };
 
-/// Chooses what is named, or the next one where nothing is.
+/// Selects the named choice, or the next one if none is named.
 Command setting_command(const LabSetting& setting);
 
 }  // namespace tendril::app

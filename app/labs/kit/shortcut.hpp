@@ -1,4 +1,4 @@
-// A row of the table of keys, as the shell and the labs declare it.
+// Rows of the tables of keys and mouse gestures that the shell and the labs declare.
 #pragma once
 
 #include <string>
@@ -12,20 +12,20 @@ struct Shortcut {
     Chord chord;
     std::string command;
     ArgumentList arguments{};
-    std::string title;    ///< as the menu has it; empty: the command's own
+    std::string title;    ///< in the menu; empty: the command's own
     std::string section;  ///< of the menu and the help: "Edit"; a lab may add sections of its own
     bool in_menu = true;
-    bool while_typing = false;  ///< works although a text field has the keyboard
-    bool repeats = false;       ///< goes on while the key is held
-    std::string lab{};          ///< works in this lab alone; empty: in all of them
+    bool while_typing = false;  ///< works even while a text field has the focus
+    bool repeats = false;       ///< repeats while the key is held
+    std::string lab{};          ///< works in this lab only; empty: in all labs
 };
 
-/// Delete, as every lab in which something can be selected has it.
+/// The Delete key, for labs with a selection.
 inline Shortcut delete_shortcut(const char* command) {
     return {*chord_from_name("delete"), command, {}, "", "Edit"};
 }
 
-/// What the mouse does: a row of the help.
+/// A mouse gesture, as a row of the help.
 struct MouseHelp {
     std::string gesture, effect;
 };

@@ -11,7 +11,7 @@ namespace tendril::app {
 namespace {
 
 constexpr float min_strain = 1e-4f, full_strain = 0.1f;
-constexpr int strand_sides = 6;  // nobody sees more on a hair
+constexpr int strand_sides = 6;  // indistinguishable from more on a hair
 
 }  // namespace
 
@@ -23,7 +23,7 @@ glm::vec3 strain_colour(float strain, const Palette& palette) {
     const float size = std::abs(strain);
     const float share =
         std::log(std::max(size, min_strain) / min_strain) / std::log(full_strain / min_strain);
-    // From a gray that is lighter than both, in either theme.
+    // From a grey that is lighter than both, in either theme.
     const glm::vec3 none = glm::mix(palette.ghost, glm::vec3(1.0f), 0.35f);
     return glm::mix(none, strain > 0.0f ? palette.limit : palette.head, std::min(share, 1.0f));
 }

@@ -15,7 +15,7 @@ constexpr const char* body_kinds[] = {"rope", "cloth", "hair"};
 constexpr const char* body_kinds_of_version_1[] = {"rope", "sheet", "lock"};
 constexpr const char* link_kinds[] = {"stretch", "shear", "bend"};
 
-/// The enumerator whose name the text is.
+/// The enumerator with this name.
 template <class Kind, std::size_t count>
 Kind kind_of(const JsonPlace& place, const char* const (&kinds)[count]) {
     const std::string text = place.text();
@@ -29,7 +29,7 @@ bool is_zero(const glm::dvec3& v) {
     return plus_zero(v.x) && plus_zero(v.y) && plus_zero(v.z);
 }
 
-/// [x, y, z, mass], and before the mass what it moved in the last substep, where it did.
+/// [x, y, z, mass]; with the displacement of the last substep before the mass if it is not zero.
 Json save_particle(const rope::State& state, std::size_t i) {
     Json row = dpoint(state.position[i]);
     if (const glm::dvec3& moved = state.displacement[i]; !is_zero(moved))
@@ -38,7 +38,7 @@ Json save_particle(const rope::State& state, std::size_t i) {
     return row;
 }
 
-/// Older files have three numbers more, what it moved in the substep before; nothing needs them.
+/// Older files have three more numbers, the displacement of the substep before; they are ignored.
 void load_particle(rope::State& state, const JsonPlace& place) {
     const Json& row = place.json();
     if (!row.is_array() || (row.size() != 4 && row.size() != 7 && row.size() != 10))
@@ -53,7 +53,7 @@ void load_particle(rope::State& state, const JsonPlace& place) {
     state.mass.push_back(json_real(row.back(), place.where(), 0.0, 1e30));
 }
 
-/// [a, b, rest, "stretch", compliance, tension]; zeros at its end are left out.
+/// [a, b, rest, "stretch", compliance, tension]; trailing zeros are omitted.
 Json save_link(const rope::Link& link) {
     Json row =
         Json::array({link.a, link.b, number(link.rest), link_kinds[static_cast<std::size_t>(link.kind)]});
@@ -63,7 +63,7 @@ Json save_link(const rope::Link& link) {
     return row;
 }
 
-/// Newtons, which may be more than any other number: a heavy thing stops at once.
+/// Newtons. Not bound by the usual range: stopping a heavy body at once can need more.
 float load_tension(const JsonPlace& place) {
     const float tension = place.json().is_number() ? place.json().get<float>() : std::nanf("");
     if (!std::isfinite(tension)) place.fail("expected a finite number, found " + json_summary(place.json()));
@@ -86,7 +86,7 @@ rope::Link load_link(const JsonPlace& place, std::size_t particles) {
     return link;
 }
 
-/// Names as they stand in a file, of bodies or colliders.
+/// Names of bodies or colliders, in file order.
 using Names = std::vector<std::string>;
 
 Json save_body(const rope::Body& body, const std::string& name) {
@@ -139,8 +139,7 @@ rope::Pin load_pin(const JsonPlace& place, std::size_t particles, const Names& c
 
 Json save_collider(const rope::Collider& collider, const std::string& name) {
     Json json{{"name", name}};
-    const Json shape = save_shape(collider.shape);
-    for (const auto& [key, value] : shape.items()) json[key] = value;
+    json.update(save_shape(collider.shape));
     json["goal"] = dpoint(collider.goal);
     if (collider.seconds != 0.0) json["seconds"] = collider.seconds;
     if (collider.half_goal) json["half_goal"] = dpoint(*collider.half_goal);
@@ -149,13 +148,11 @@ Json save_collider(const rope::Collider& collider, const std::string& name) {
 
 rope::Shape load_shape(const JsonPlace& place) {
     const JsonPlace kind = place["kind"];
-    const auto at = [&](const char* key) { return place[key].point(); };
-    if (kind.text() == "sphere") return rope::Sphere{at("centre"), place["radius"].number()};
-    if (kind.text() == "capsule") return rope::Capsule{at("a"), at("b"), place["radius"].number()};
-    if (kind.text() == "plane") return rope::Plane{at("point"), at("normal")};
-    if (kind.text() == "box")
-        return rope::Box{at("centre"), at("half_extents"), place["rotation"].rotation()};
-    kind.fail("unknown kind \"" + kind.text() + "\"");
+    const rope::Shape* const blank = blank_shape(kind.text());
+    if (blank == nullptr) kind.fail("unknown kind \"" + kind.text() + "\"");
+    rope::Shape shape = *blank;
+    load_all_fields(place, shape_fields_in(shape));
+    return shape;
 }
 
 rope::Collider load_collider(const JsonPlace& place) {
@@ -173,24 +170,28 @@ const char* body_kind_name(rope::Body::Kind kind) {
     return body_kinds[static_cast<std::size_t>(kind)];
 }
 
+std::span<const rope::Shape> blank_shapes() {
+    static const rope::Shape list[] = {rope::Sphere{}, rope::Capsule{}, rope::Plane{}, rope::Box{}};
+    return list;
+}
+
+const rope::Shape* blank_shape(std::string_view kind) {
+    const auto found = std::ranges::find(blank_shapes(), kind, rope::kind);
+    return found == blank_shapes().end() ? nullptr : &*found;
+}
+
+FieldsOf shape_fields_of(const rope::Shape& shape) {
+    return {rope::shape_fields(shape),
+            std::visit([](const auto& each) -> const void* { return &each; }, shape)};
+}
+
+FieldsIn shape_fields_in(rope::Shape& shape) {
+    return {rope::shape_fields(shape), std::visit([](auto& each) -> void* { return &each; }, shape)};
+}
+
 Json save_shape(const rope::Shape& shape) {
     Json json{{"kind", rope::kind(shape)}};
-    if (const auto* sphere = std::get_if<rope::Sphere>(&shape)) {
-        json["centre"] = point(sphere->centre);
-        json["radius"] = number(sphere->radius);
-    } else if (const auto* capsule = std::get_if<rope::Capsule>(&shape)) {
-        json["a"] = point(capsule->a);
-        json["b"] = point(capsule->b);
-        json["radius"] = number(capsule->radius);
-    } else if (const auto* plane = std::get_if<rope::Plane>(&shape)) {
-        json["point"] = point(plane->point);
-        json["normal"] = point(plane->normal);
-    } else if (const auto* box = std::get_if<rope::Box>(&shape)) {
-        const glm::quat& q = box->rotation;
-        json["centre"] = point(box->centre);
-        json["half_extents"] = point(box->half_extents);
-        json["rotation"] = Json::array({number(q.x), number(q.y), number(q.z), number(q.w)});
-    }
+    json.update(save_fields(shape_fields_of(shape)));
     return json;
 }
 
@@ -218,10 +219,10 @@ Json save_world(const NamedWorld& world) {
 
 NamedWorld load_world(const JsonPlace& place) {
     constexpr std::uint64_t most = std::uint64_t{1} << 53;
-    constexpr std::size_t max_links = 8 * max_lab_particles;  // a cloth has six to a particle
+    constexpr std::size_t max_links = 8 * max_lab_particles;  // a cloth has six for each particle
     rope::State state;
     Names body_names, collider_names;
-    // The sizes first: what is too large is refused before anything of it is read.
+    // Sizes first: oversized lists are refused before they are read.
     place["particles"].for_each("particles", max_lab_particles,
                                 [&](const JsonPlace& row) { load_particle(state, row); });
     const std::size_t size = state.position.size();

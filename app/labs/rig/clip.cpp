@@ -14,16 +14,16 @@
 namespace tendril::app {
 namespace {
 
-// Steps of some 30 ns, as Rig::work counts them.
+// In steps of about 30 ns, as Rig::work counts.
 constexpr std::uint64_t max_record_work = 40'000'000, max_frame_work = 20'000'000,
                         clip_work_per_tick = 300'000;
 constexpr std::size_t max_frames_per_tick = 16;
 constexpr double farthest = 1e9;
 
-/// A bone of the rig, in the order of a clip.
+/// A bone of the rig, in clip order.
 struct ClipBone {
     std::size_t element = 0;
-    rig::ElementId id, parent;  ///< the nearest bone above
+    rig::ElementId id, parent;  ///< `parent` is the nearest bone above
 };
 
 std::vector<ClipBone> clip_bones(const rig::Rig& rig, const rig::Hierarchy& tree) {
@@ -57,7 +57,7 @@ void append_frame(std::vector<ClipPose>& poses, const std::vector<ClipBone>& bon
     }
 }
 
-/// Parents come first, so that each goes where its clip has it.
+/// Parents come first, so the parent of each bone is already posed.
 void pose_bones(const ClipPose* frame, const std::vector<ClipBone>& bones, rig::Hierarchy& tree) {
     for (std::size_t i = 0; i < bones.size(); ++i) {
         const rig::Transform within = widened(frame[i]);
@@ -86,7 +86,7 @@ std::uint64_t numbers_in_controls(const rig::Definition& definition) {
     return count;
 }
 
-/// Of a frame: a few descents of some steps, each with a forward solve a number.
+/// Per frame: a few descents of a few steps, each with one forward solve per number.
 std::uint64_t frame_work(const RigPart& part) {
     const std::uint64_t numbers = numbers_in_controls(part.rig.definition()) + 1;
     return numbers * (8 * part.rig.work() + numbers * part.clip->bones.size() / 8);
@@ -200,10 +200,10 @@ std::optional<std::size_t> worst_frame(const ClipSolve& solve) {
 
 namespace {
 
-constexpr std::uint64_t max_work = 20'000'000, rates_work_per_tick = 300'000;  ///< steps of some 30 ns
+constexpr std::uint64_t max_work = 20'000'000, rates_work_per_tick = 300'000;  ///< in steps of about 30 ns
 constexpr double rounding = 1e-9;
 
-/// The take at one frame rate, stopped at the end of each frame of the slowest.
+/// The take at one frame rate. Stops at the end of each frame of the slowest rate.
 class RateTake {
   public:
     RateTake(const RigPart& part, rig::Workspace& scratch, const std::vector<double>& ends)
@@ -227,7 +227,7 @@ std::string name_of(const signal::FrameRate& rate) {
     return std::to_string(std::lround(rate.hz)) + (rate.jittered ? " Hz uneven" : " Hz");
 }
 
-/// Whether something is farther apart than anything before, and `farthest`.
+/// Updates `most` and `farthest`. Returns whether a bone is farther apart than any before.
 bool compare(const rig::Rig& rig, rig::State& a, rig::State& b, double seconds, RateDifference& most,
              double& farthest) {
     bool farther = false;
@@ -276,7 +276,7 @@ float rates_done(const RateDifference& rates) {
     return rates.frames == 0 ? 1.0f : static_cast<float>(rates.done) / static_cast<float>(rates.frames);
 }
 
-/// Of a part as it was: of its take nothing changes that would not end the comparison.
+/// Works on a copy of the part: any change to the take that matters ends the comparison.
 struct RatesWork::Takes {
     explicit Takes(const RigPart& now)
         : part(now), scratch(part.rig), rates(runs_over(static_cast<std::uint32_t>(now.rates->ticks))) {
@@ -289,13 +289,13 @@ struct RatesWork::Takes {
                part.take.keys == now.take.keys && part.walks == now.walks && starts_as(now) &&
                part.rates->ticks == now.rates->ticks && done == now.rates->done;
     }
-    /// Until a tick has passed the take has no start but the state as it is.
+    /// A take without a start begins with the current state: no tick has passed yet.
     bool starts_as(const RigPart& now) const {
         if (part.take.start) return part.take.start == now.take.start;
         return part.state == (now.take.start ? *now.take.start : now.state);
     }
 
-    /// One of the slowest's.
+    /// Advances by one frame of the slowest rate.
     void frame() {
         const double end = rates.runs.front().time[done++];
         for (RateTake& take : takes) take.run_to(end);
@@ -310,7 +310,7 @@ struct RatesWork::Takes {
     signal::RateComparison rates;
     std::vector<RateTake> takes;
     RateDifference most;
-    double farthest = 0.0;  ///< as amount has it
+    double farthest = 0.0;  ///< as amount() measures it
     std::size_t done = 0;
 };
 

@@ -61,7 +61,7 @@ std::string definition_code(const rig::Definition& definition) {
     return text + "    return made;\n}\n\n";
 }
 
-/// What a person has set: input poses, controls, curves.
+/// What the user has set: input poses, controls, curves.
 std::string inputs_code(const RigPart& part) {
     const rig::State rest = part.rig.initial_state();
     std::string text;
@@ -135,7 +135,7 @@ std::string list_code(const auto& list, const auto& text) {
     return code + '}';
 }
 
-/// Where a literal has another type than the input's by itself.
+/// A literal input, with its C++ type.
 std::string literal_code(bool value) {
     return value ? "true" : "false";
 }
@@ -160,7 +160,6 @@ std::string code(const rig::Item& item) {
     return name != nullptr ? string_text(*name) : "rig::ThisElement()";
 }
 
-/// "rig::Of::ControlValue"
 std::string code(rig::Of of) {
     constexpr const char* names[] = {"Transform", "Translation", "Rotation", "Scale",
                                      "X",         "Y",           "Z",        "ControlValue"};
@@ -207,7 +206,7 @@ std::string code(const rig::Input<T>& input) {
         input.source);
 }
 
-/// Of an operation, or of what is made of fields as one is: those that are not as they are by default.
+/// Lists the fields of an operation, or of a struct with rig::fields(), that differ from their default.
 struct FieldsCode {
     std::string margin;
 

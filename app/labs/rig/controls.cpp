@@ -16,7 +16,7 @@
 namespace tendril::app {
 namespace {
 
-/// Fixed, without "-0.00".
+/// With two decimals, and without "-0.00".
 std::string fixed(double value) {
     char text[48];
     std::snprintf(text, sizeof text, "%.2f", std::abs(value) < 0.005 ? 0.0 : value);
@@ -179,13 +179,13 @@ std::string ControlShape::text() const {
     return {};
 }
 
-// Controls as shapes that say what they are: a cube, a cross, three circles, a slider, a switch, a rectangle.
-// The end of its range that a value has reached is in the colour of limits.
+// Controls are drawn as shapes that show their kind: a cube, a cross, three circles, a slider, a switch, a
+// rectangle. The end of a range that a value has reached is drawn in the limit colour.
 
 namespace {
 
-constexpr glm::vec4 catch_only{0.0f};  ///< of strokes that can be caught, but are drawn otherwise
-constexpr float shape_size = 0.14f, switch_size = 0.075f;  ///< metres, half of what they take
+constexpr glm::vec4 catch_only{0.0f};  ///< for invisible strokes that only catch the pointer
+constexpr float shape_size = 0.14f, switch_size = 0.075f;  ///< half extents, metres
 constexpr float smallest = 11.0f;                          ///< pixels
 
 class ControlDrawing {
@@ -246,7 +246,7 @@ class ControlDrawing {
         return stroke;
     }
 
-    /// `corner` has -1 or 1 for each axis; `taken`: of the edge's two ends.
+    /// `corner` maps -1 or 1 per axis to a point; `draw` gets an edge's ends, its first corner and its axis.
     template <class Corner, class Draw>
     void twelve_edges(Corner corner, Draw draw) {
         for (int axis = 0; axis < 3; ++axis) {
@@ -262,7 +262,7 @@ class ControlDrawing {
         }
     }
 
-    /// As large as what stands in the same place.
+    /// Encloses the head of a child bone at the same position.
     float cube_size() const {
         float size = size_;
         const rig::ElementId id = p_.part.rig.id(i_);
@@ -281,7 +281,7 @@ class ControlDrawing {
         };
         twelve_edges(corner,
                      [&](glm::vec3 a, glm::vec3 b, glm::vec3, int) { line(a, b, width(), colour()); });
-        if (half > size_) {  // what it goes around is not to be hidden, but can be caught by its middle
+        if (half > size_) {  // do not hide what is inside, but let its middle be grabbed
             Stroke& grip = p_.list.sphere(at_, p_.px(14.0f), Unit::Pixels, catch_only);
             grip.pick = pick_;
             grip.rank = 3;
@@ -295,7 +295,7 @@ class ControlDrawing {
         for (int axis = 0; axis < 3; ++axis) {
             const glm::vec3 arm = size_ * along(axis);
             line(at_ - arm, at_ + arm, width(), colour());
-            if (p_.has_gizmo(i_)) continue;  // which has arrows
+            if (p_.has_gizmo(i_)) continue;  // the gizmo has arrows
             for (const float side : {-1.0f, 1.0f}) {
                 Stroke& head = p_.list.bone(at_ + 0.72f * side * arm, at_ + 1.06f * side * arm, 0.14f * size_,
                                             0.01f * size_, glm::vec4(colour(), 1.0f));
@@ -306,7 +306,7 @@ class ControlDrawing {
         knob(6.0f);
     }
 
-    /// Of what has a place: its range, where both ends of all axes are there.
+    /// The range of a control with a position, if it has both limits.
     void limit_box() {
         const rig::Control& control = shape_.control();
         if (!control.minimum || !control.maximum) return;
@@ -326,7 +326,7 @@ class ControlDrawing {
         });
     }
 
-    /// Each is caught by itself and turns about its own axis. While the gizmo is there they step back.
+    /// Each circle is grabbed separately and turns about its own axis. They fade while the gizmo is shown.
     void circles() {
         constexpr int sides = 48;
         const glm::vec3 colours[]{p_.view.palette.axis_x, p_.view.palette.axis_y, p_.view.palette.axis_z};
@@ -376,14 +376,14 @@ class ControlDrawing {
         const float stop = p_.at_least(0.05f, 5.0f, middle);
         const auto reached = [&](double end) { return limit_ && std::abs(knob_at - end) < 1e-9; };
         line(on(-half), on(half), 3.0f, pale());
-        // From 0, or from the nearest end to it, to where the knob is: how much of it there is.
+        // From 0, or the end nearest to it, to the knob: shows the amount.
         const double zero = rail.place(std::clamp(0.0, rail.low, rail.high));
         line(on(zero), on(knob_at), 4.0f, colour());
         for (const double side : {-1.0, 1.0}) {
             const double end = side * half;
             const bool open = side < 0.0 ? rail.open_low : rail.open_high;
             if (open) {
-                // It goes on: an arrow, where a limit has a stop.
+                // An open end is an arrow; a limit has a stop.
                 const glm::vec3 tip = on(end + 1.6 * side * static_cast<double>(stop));
                 Stroke& head = p_.list.bone(on(end), tip, 0.8f * stop, 0.01f, glm::vec4(pale(), 1.0f));
                 head.pick = pick_;
@@ -415,7 +415,7 @@ class ControlDrawing {
         grip.rank = 2;
     }
 
-    /// Of the rectangle; where there is no limit, one of two metres shows which way it goes.
+    /// The ends of the rectangle. An end without a limit is drawn two metres from the other.
     std::pair<glm::dvec3, glm::dvec3> ends() const {
         const rig::Control& control = shape_.control();
         glm::dvec3 low(-1.0), high(1.0);
@@ -425,7 +425,7 @@ class ControlDrawing {
         if (!control.maximum && control.minimum) high = low + 2.0;
         return {low, high};
     }
-    /// The one farthest to the upper right of the picture.
+    /// The corner nearest the upper right of the view.
     glm::vec3 corner_of_rectangle() const {
         const auto [low, high] = ends();
         glm::vec3 best = at_;
@@ -456,14 +456,14 @@ class ControlDrawing {
         side(at(low.x, low.y), at(high.x, low.y), control.minimum.has_value(), now.y <= low.y);
         side(at(high.x, low.y), at(high.x, high.y), control.maximum.has_value(), now.x >= high.x);
         side(at(low.x, high.y), at(high.x, high.y), control.maximum.has_value(), now.y >= high.y);
-        // Cross hairs, which say both numbers at a glance.
+        // Cross hairs show both numbers at a glance.
         const glm::vec3 hair = glm::vec3(faded(p_.view.palette, p_.view.palette.target, 0.4f));
         p_.line(at(low.x, now.y), at(high.x, now.y), 1.0f, hair);
         p_.line(at(now.x, low.y), at(now.x, high.y), 1.0f, hair);
         knob(9.0f);
     }
 
-    /// Sliders, switches and rectangles are read like a panel, so they always say what they are.
+    /// Sliders, switches and rectangles work like a panel, so they always show their name.
     void label() {
         const bool marked = p_.is_lit(i_) || p_.is_active(i_);
         const rig::ControlKind kind = shape_.kind();
@@ -479,7 +479,7 @@ class ControlDrawing {
         if (kind == rig::ControlKind::Float && !shape_.control().minimum && !shape_.control().maximum)
             text += ", no limits";
         if (limit_) text += ", at its limit";
-        // Beside what it says something of, not on it; and beyond the gizmo.
+        // Beside the shape, and clear of the gizmo.
         glm::vec3 at = at_;
         if (kind == rig::ControlKind::Float) at = on_rail(0.5 * Rail::length);
         if (kind == rig::ControlKind::Vector2d) at = corner_of_rectangle();

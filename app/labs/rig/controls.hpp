@@ -1,5 +1,5 @@
-// Where a control is drawn and how a drag of it becomes a value: the rail of a float, the rectangle of a
-// vector2d, the box of what has a place. Poses are double here, and become float in the picture.
+// Where a control is drawn and how dragging it becomes a value: the rail of a float, the rectangle of a
+// vector2d, the box of a control with a position. Poses here are double; drawing converts them to float.
 #pragma once
 
 #include <array>
@@ -15,22 +15,21 @@
 
 namespace tendril::app {
 
-/// A float's rail: as long whatever its range; without a limit it goes on.
+/// The rail of a float control. Its length does not depend on the range; an end without a limit is open.
 struct Rail {
     static constexpr double length = 0.8;  ///< metres
     double low = -1.0, high = 1.0;         ///< values at its ends
     bool open_low = true, open_high = true;
 
-    double place(double value) const;  ///< metres from its middle
+    double place(double value) const;  ///< metres from the middle of the rail
     double value(double place) const;
 };
 Rail rail_of(const rig::Control& control);
 
-/// One control of a rig as it is now; the rig and the hierarchy, in which nothing is pending, must outlive
-/// it.
+/// The shape of one control. The rig and the hierarchy, with nothing pending, must outlive it.
 class ControlShape {
   public:
-    /// Nothing where the element is no control.
+    /// Empty if the element is not a control.
     static std::optional<ControlShape> of(const RigPart& part, const rig::Hierarchy& elements,
                                           std::size_t element);
 
@@ -40,23 +39,22 @@ class ControlShape {
     double number() const { return std::get<double>(value_); }
     bool on() const { return std::get<bool>(value_); }
 
-    /// Global: of the control, or of the knob that moves along its rail.
+    /// Global pose of the control, or of the knob on its rail.
     rig::Transform pose() const;
-    /// Global, of a point that a value has: in the parent for a place, along the two axes for a vector2d.
+    /// Global position of a value: in the parent's space, or along the two axes of a vector2d.
     glm::dvec3 placed(const glm::dvec3& value) const;
-    /// Global, of the rail's middle; along its x.
+    /// Global pose of the middle of the rail, which lies along x.
     const rig::Transform& rail_pose() const { return now_; }
 
-    /// Whether a part of its value is at the end of its range. At the value that a control begins with that
-    /// is how it is made, and says nothing.
+    /// Whether a component of the value is at the end of its range, other than by its initial value.
     bool at_limit() const;
     bool can_be_dragged() const;
     Drag drag() const;
-    /// The part of a gizmo that dragging its knob is.
+    /// The gizmo part that dragging the knob corresponds to.
     std::optional<GizmoPart> part() const;
-    /// The value that brings it to a frame, of which only what differs from `from` is taken.
+    /// The value that moves the control to `to`. Ignores members that equal those of `from`.
     Json value_at(const HandleFrame& from, const HandleFrame& to) const;
-    /// "0.50", "0.25, -0.10", "on"; empty for what is seen as it is.
+    /// "0.50", "0.25, -0.10", "on"; empty if the drawing already shows the value.
     std::string text() const;
 
   private:
@@ -67,14 +65,14 @@ class ControlShape {
     const rig::Control& control_;
     const rig::Value& value_;
     const rig::Transform& initial_;
-    rig::Transform space_;  ///< of its parent, global
-    rig::Transform rest_;   ///< its input pose, local
+    rig::Transform space_;  ///< of the parent, global
+    rig::Transform rest_;   ///< input pose, local
     rig::Transform now_;    ///< global
 };
 
 HandleFrame frame_of(const rig::Transform& pose);
 rig::Transform transform_of(const HandleFrame& frame);
-/// Of a transform those members, as JSON, in which `to` differs from `from`.
+/// The members of `transform` in which `to` differs from `from`, as JSON.
 Json changed_transform(const rig::Transform& transform, const HandleFrame& from, const HandleFrame& to);
 
 }  // namespace tendril::app

@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* axis_names[] = {"x", "y", "z"};
 
-/// How many numbers an end of its range has; 0 where it has no range.
+/// Numbers in an end of the range; 0 if the kind has no range.
 std::size_t axes_of(rig::ControlKind kind) {
     switch (kind) {
         case rig::ControlKind::Transform:
@@ -71,7 +71,7 @@ rig::Control read_control(const JsonPlace& place) {
     return control;
 }
 
-/// The parent, which a control may call its space.
+/// The parent, which a control may call "space".
 std::string read_parent(const JsonPlace& place, bool control) {
     const auto name = [&](const char* key) {
         if (!place.has(key) || place.json()[key].is_null()) return std::string();
@@ -154,7 +154,7 @@ namespace {
 
 constexpr std::size_t max_parents = 1'000, max_roots = 1'000;
 
-/// Fields that an operation cannot do without, whatever it is.
+/// Fields that are required in every operation.
 template <class T>
 constexpr bool is_required = false;
 template <>
@@ -168,7 +168,7 @@ constexpr bool is_required<std::string> = true;
 
 class Reader {
   public:
-    /// Of an operation, or of what is made of fields as one is. `beside`: members that are read elsewhere.
+    /// Reads an operation, or a struct with rig::fields(). `beside`: members that are read elsewhere.
     template <class T>
     static void all(const JsonPlace& place, T& of, std::vector<std::string> beside = {}) {
         std::vector<std::string> known = std::move(beside);
@@ -274,7 +274,7 @@ struct Writer {
     static Json write(const signal::Curve& curve) { return curve_json(curve); }
 };
 
-/// Makes `operation` the one of that place in the variant, as it is by default.
+/// Sets `operation` to the alternative of that index, with its defaults.
 template <std::size_t... index>
 void make_operation(rig::Operation& operation, std::size_t wanted, std::index_sequence<index...>) {
     ((index == wanted ? static_cast<void>(operation.emplace<index>()) : void()), ...);
@@ -378,7 +378,7 @@ constexpr std::string_view of_names[] = {"transform", "translation", "rotation",
                                          "x",         "y",           "z",        "value"};
 constexpr std::string_view each_names[] = {"ratio", "index", "count"};
 
-/// What of an element an input of T takes where nothing is said.
+/// The part of an element that an input of T takes by default.
 template <class T>
 constexpr rig::Of taken = rig::Of::Translation;
 template <>

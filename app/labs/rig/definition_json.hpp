@@ -1,4 +1,4 @@
-// A rig's definition as JSON, in the words of the commands that build one:
+// A rig's definition as JSON, with the same names as the commands that build one:
 //
 //     {"elements": [{"name", "kind", "parent", "local"}, {..., "control", "axes", "minimum", "maximum"}],
 //      "curves": [{"name", "value"}],
@@ -21,52 +21,52 @@ inline constexpr std::size_t max_lab_elements = 5'000;
 inline constexpr std::size_t max_lab_curves = 1'000;
 
 Json element_json(const rig::Element& element);
-/// "space" of a control is its parent by another name. Throws std::runtime_error that begins with the place.
+/// A control may call its parent "space". Throws std::runtime_error that begins with the JSON path.
 rig::Element read_element(const JsonPlace& place);
-/// What read_element knows.
+/// The members that read_element accepts.
 std::vector<std::string> element_members();
 
 Json definition_json(const rig::Definition& definition);
-/// Units without a name get one. Throws std::runtime_error that begins with the place; what only shows when
-/// all is put together, Rig::make refuses.
+/// Names the units that have no name. Throws std::runtime_error that begins with the JSON path. Rig::make
+/// later reports the errors that involve several parts of the definition.
 rig::Definition read_definition(const JsonPlace& place);
 
-// Units of a rig as JSON. Reader and writer both go through rig::fields(), so that an operation of the
-// library has its form in files, commands and --state as soon as it is listed there.
+// Units as JSON. Reader and writer both go through rig::fields(), so a new operation appears in files,
+// commands and --state as soon as it is listed there.
 
-inline constexpr std::size_t max_lab_units = 2'000;  ///< bodies included
+inline constexpr std::size_t max_lab_units = 2'000;  ///< including those in bodies
 
-/// With every input, and its name.
+/// Contains every input, and the name.
 Json unit_json(const rig::Unit& unit);
 Json units_json(const std::vector<rig::Unit>& units);
 
-/// What is left out is as the operation has it; a name that is left out stays empty. Throws
-/// std::runtime_error that begins with the place of what is wrong: an operation or a member that is not
-/// known, a form that the input does not take. Whether names are of anything the library checks: Rig::make.
+/// Omitted inputs keep the operation's default; an omitted name stays empty. Throws std::runtime_error that
+/// begins with the JSON path for an unknown operation or member, or a form that the input does not accept.
+/// Rig::make checks whether names refer to anything.
 rig::Unit read_unit(const JsonPlace& place);
 std::vector<rig::Unit> read_units(const JsonPlace& place);
 
-/// Gives every unit without a name one that is not in `taken`, after its operation: "aim", "aim 2".
+/// Names each unit without a name after its operation, avoiding those in `taken`: "aim", "aim 2".
 void name_units(std::vector<rig::Unit>& units, std::set<std::string>& taken);
-/// Adds the names of units, bodies included, but for empty ones.
+/// Adds the non-empty names of the units, including those in bodies.
 void collect_names(const std::vector<rig::Unit>& units, std::set<std::string>& names);
 
-/// What units can be called for in a command: "aim", ..., in the order of rig::Operation.
+/// The unit types that commands accept: "aim", ..., in the order of rig::Operation.
 std::vector<std::string> operation_names();
-/// Every member that a unit of any operation can have, once each, but for unit and name.
+/// Every member that any operation has, without duplicates; excludes "unit" and "name".
 std::vector<std::string> unit_members();
 
-// Where units take values from, as JSON:
+// Inputs as JSON:
 //
 //     [0, 1, 2]                                                          a literal
 //     "head"                                                             an element: the input takes its part
 //     {"element": "head", "of": "translation", "space": "global"}        part of an element's pose
-//     {"element": "dial", "of": "value"}                                 what a control is set to
-//     {"unit": "curve", "output": "result"}                              what a unit hands out
+//     {"element": "dial", "of": "value"}                                 the value of a control
+//     {"unit": "curve", "output": "result"}                              an output of another unit
 //     {"item": "each"}, {"each": "ratio"}                                inside a for-each
 //
-// Where "of" is left out it is what the input takes: the transform, the translation, the rotation, or, for
-// numbers and bools, the value of a control. {"item": "each"} may have "of" and "space" too.
+// Without "of" the input takes the part that fits its type: the transform, the translation, the rotation, or,
+// for numbers and bools, the value of a control. {"item": "each"} may have "of" and "space" too.
 
 Json item_json(const rig::Item& item);
 rig::Item read_item(const JsonPlace& place);

@@ -20,16 +20,16 @@
 
 namespace tendril::app {
 
-// The Rig lab's picture: bones with their axes, nulls, figures, what is selected and what is pending.
+// Bones with their axes, nulls, figures, selection and pending marks.
 
 namespace {
 
-constexpr glm::vec4 unseen{0.0f};  ///< of strokes that can be caught, but are drawn otherwise
+constexpr glm::vec4 unseen{0.0f};  ///< for invisible strokes that only catch the pointer
 constexpr std::size_t max_labels = 2000;
-constexpr float gizmo_clearance = 84.0f;  ///< a name stands beyond the gizmo
+constexpr float gizmo_clearance = 84.0f;  ///< keeps a name clear of the gizmo
 constexpr const char* before_units = "before any unit";
 
-/// Whether units move an element from where its gizmo sets it.
+/// Whether units move an element away from its input pose, which its gizmo sets.
 bool starts_elsewhere(const RigPart& part, const rig::Hierarchy& elements, std::size_t i) {
     const rig::ElementId id = part.rig.id(i);
     if (elements.kind(id) == rig::ElementKind::Control) return false;
@@ -131,7 +131,7 @@ class Drawing {
         p_.list.ring(at, clear + p_.px(4.0f), width, paint).layer = Layer::Overlay;
     }
 
-    /// Of the state as it is kept, not as it is drawn: what the picture shows has been worked out for it.
+    /// Marks the stored state; the drawing itself uses a copy with nothing pending.
     void pending(std::size_t i) {
         const rig::Pending what = p_.part.state.elements.pending(p_.part.rig.id(i));
         if (what == rig::Pending::None) return;
@@ -139,12 +139,11 @@ class Drawing {
         p_.list.ring(p_.point(i), p_.px(13.0f), p_.px(2.0f), glm::vec4(colour, 1.0f)).layer = Layer::Overlay;
     }
 
-    /// Where the selected element begins before any unit moves it, with the bones that lead there and go on
-    /// from it: this is what its gizmo sets.
+    /// Draws the input pose of the selected element, which its gizmo sets, with the bones above and below it.
     void input_pose(std::size_t i) {
         if (!starts_elsewhere(p_.part, p_.elements, i)) return;
         const rig::ElementId id = p_.part.rig.id(i);
-        std::vector<std::size_t> places(p_.part.state.controls.size());  // in the definition, by handle
+        std::vector<std::size_t> places(p_.part.state.controls.size());  // definition index by handle
         for (std::size_t each = 0; each < places.size(); ++each) places[p_.part.rig.id(each).index] = each;
         const auto ghost_of = [&](rig::ElementId at) {
             const rig::ElementId parent = p_.elements.parent(at);
@@ -158,12 +157,12 @@ class Drawing {
         if (lies_elsewhere(i))
             p_.label(start_of(i), p_.name(i) + " " + before_units, p_.view.palette.text, gizmo_clearance, 3);
     }
-    /// Not only turned: two names have room.
+    /// At different positions, so that there is room for two names; not merely turned.
     bool lies_elsewhere(std::size_t i) const { return glm::distance(start_of(i), p_.point(i)) > 1e-4f; }
     glm::vec3 start_of(std::size_t i) const {
         return glm::vec3(p_.part.rig.start_pose(p_.part.state, i).translation);
     }
-    /// Of one bone, and of the one that leads to it.
+    /// One bone, and the one that leads to it.
     void ghost(glm::vec3 to, std::optional<glm::vec3> from) {
         const glm::vec4 paint(p_.view.palette.ghost, 1.0f);
         p_.list.sphere(to, p_.px(4.0f), Unit::Pixels, paint).layer = Layer::Overlay;
@@ -176,7 +175,7 @@ class Drawing {
         const bool always = p_.view.workspace.settings.labels == LabelMode::Always;
         const std::size_t count = p_.part.state.controls.size(), stride = count / max_labels + 1;
         for (std::size_t i = 0; i < count; ++i) {
-            if (p_.part.rig.definition().elements[i].control) continue;  // has its own
+            if (p_.part.rig.definition().elements[i].control) continue;  // controls draw their own
             const bool marked = p_.is_lit(i) || p_.is_active(i);
             if (!marked && !(always && i % stride == 0)) continue;
             const bool has_gizmo = p_.has_gizmo(i) && !lies_elsewhere(i);
@@ -249,14 +248,14 @@ std::vector<LegendRow> RigLab::legend(const Workspace& workspace) const {
 
 namespace {
 
-constexpr float blob_radius = 0.45f;  ///< metres, at rest
+constexpr float blob_radius = 0.45f;  ///< metres, undeformed
 
 double curve_value(const RigPart& part, const char* name) {
     const auto at = part.rig.curve(name);
     return at ? part.state.curves[*at] : 0.0;
 }
 
-/// The colours of the rainbow, alike in strength, for a hue from 0 to 1 and round again.
+/// Rainbow colours of even strength; the hue repeats with period 1.
 glm::vec3 of_hue(double hue) {
     const auto wrapped = static_cast<float>(6.0 * (hue - std::floor(hue)));
     const glm::vec3 full =
@@ -291,7 +290,7 @@ std::vector<glm::dvec3> bone_ends(const rig::Hierarchy& elements, rig::ElementId
         if (elements.kind(child) == rig::ElementKind::Bone)
             ends.push_back(elements.known(child, rig::Space::Global)->translation);
     if (!ends.empty()) return ends;
-    // A last bone goes on the way that led to it, and one by itself stands upright.
+    // A last bone continues in the direction of its parent bone; a single bone points up.
     const rig::Transform pose = *elements.known(bone, rig::Space::Global);
     const rig::Transform local = *elements.known(bone, rig::Space::Local);
     const double length = glm::length(local.translation);
@@ -310,7 +309,7 @@ double bone_size(const rig::Hierarchy& elements, rig::ElementId bone) {
 }
 
 double head_radius(const rig::Hierarchy& elements, rig::ElementId bone) {
-    // What turns with it keeps its distance, so the head is as large however it looks.
+    // Anything that turns with the bone keeps its distance, so turning the head does not change its size.
     const double scale = mean_scale(*elements.known(bone, rig::Space::Global));
     return scale > 1e-9 ? 0.8 * bone_size(elements, bone) / scale : 0.0;
 }
@@ -338,7 +337,7 @@ void draw_head(const View& view, DrawList& list, const rig::Transform& pose, dou
     globe(
         list, view.camera,
         [&](glm::vec3 p) {
-            // Narrower than it is deep, and narrower still towards the chin.
+            // Narrower than deep, and narrower still towards the chin.
             const float chin = 0.16f * std::max(-p.y, 0.0f);
             return placed(pose, size * glm::vec3((0.86f - chin) * p.x, p.y, (0.94f - chin) * p.z));
         },
@@ -357,7 +356,7 @@ void draw_head(const View& view, DrawList& list, const rig::Transform& pose, dou
               placed(pose, size * glm::vec3(0.0f, -0.12f, 1.06f)), 0.07f * scale, 0.12f * scale,
               glm::vec4(skin, 1.0f))
         .pick = pick;
-    // A mouth, from corner to corner.
+    // The mouth.
     glm::vec3 last{};
     for (int i = -3; i <= 3; ++i) {
         const float across = 0.09f * static_cast<float>(i);
@@ -378,7 +377,7 @@ void draw_blob(const View& view, DrawList& list, const rig::Transform& pose, con
     const auto stretch = static_cast<float>(std::clamp(curve_value(part, "stretch"), -0.8, 3.0));
     const auto bulge = static_cast<float>(std::clamp(curve_value(part, "bulge"), -0.8, 3.0));
     const float tall = 1.0f + stretch,
-                wide = 1.0f / std::sqrt(tall);  // what it gains in height it loses in width
+                wide = 1.0f / std::sqrt(tall);  // preserves the volume
     const auto shape = [&](glm::vec3 p) {
         const float off = (p.y + 0.25f) / 0.45f;
         const float out = wide * (1.0f + 0.65f * bulge * std::exp(-off * off));
@@ -410,13 +409,13 @@ void draw_walks(const View& view, DrawList& list) {
     }
 }
 
-// The skeleton as it was before an incident, over what came of it.
+// The skeleton before an incident, over the current one.
 
 namespace {
 
-constexpr std::size_t max_ghosts = 5000;  ///< bones
+constexpr std::size_t max_ghosts = 5000;  ///< in bones
 
-/// The bones and nothing else.
+/// Draws only the bones.
 void draw_skeleton(const RigPicture& picture, const rig::Hierarchy& elements, const glm::vec4& paint) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < picture.part.state.controls.size() && count < max_ghosts; ++i) {
@@ -430,7 +429,7 @@ void draw_skeleton(const RigPicture& picture, const rig::Hierarchy& elements, co
     }
 }
 
-/// Of the bone that flipped: it may have turned about itself.
+/// Axes of the bone that flipped: it may have turned about its own axis.
 void draw_axes(const RigPicture& picture, const rig::Transform& pose, float length) {
     const glm::vec3 colours[]{picture.view.palette.axis_x, picture.view.palette.axis_y,
                               picture.view.palette.axis_z};

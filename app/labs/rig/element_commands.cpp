@@ -1,4 +1,4 @@
-// Elements and named curves: added, set and removed.
+// Commands that add, set and remove elements, named curves and units.
 #include <algorithm>
 
 #include "app/document/json_complete.hpp"
@@ -25,20 +25,20 @@ void add_element(RigPart& part, const Arguments& given) {
     redefine(part, std::move(definition));
 }
 
-/// The pose that a unit gave a bone is no part of its input pose.
+/// The input pose, without what units did to a bone or null.
 rig::Transform input_pose(RigPart& part, std::size_t at, rig::Space space) {
     const bool control = part.rig.definition().elements[at].control.has_value();
     if (!control && space == rig::Space::Global) return part.rig.start_pose(part.state, at);
     return part.state.elements.get(part.rig.id(at), space, control ? rig::Pose::Current : rig::Pose::Input);
 }
 
-/// A value to be set, with its place in the command.
+/// A value to set, with its JSON path in the command.
 struct WantedValue {
-    std::size_t element;  ///< its place in the definition
+    std::size_t element;  ///< index in the definition
     JsonPlace value;
 };
 
-/// The same for all that are named, `one`, or a value for each, `each`. In the order of the definition.
+/// One value for all elements, from argument `one`, or one per element, from `each`. In definition order.
 std::vector<WantedValue> wanted_values(const RigPart& part, const Arguments& given, const char* one,
                                        const char* each) {
     std::vector<WantedValue> wanted;
@@ -57,8 +57,7 @@ std::vector<WantedValue> wanted_values(const RigPart& part, const Arguments& giv
     return wanted;
 }
 
-/// What is left out of the transform stays. Parents come first: their children go with them, and are then
-/// set.
+/// Members omitted from a transform keep their value. Sets parents first, because they move their children.
 void set_elements(RigPart& part, const Arguments& given) {
     const std::vector<WantedValue> elements = wanted_values(part, given, "transform", "transforms");
     const rig::Space space =
@@ -81,7 +80,7 @@ void remove_elements(RigPart& part, const Arguments& given) {
     remove_elements(part, elements_given(part, given));
 }
 
-/// The elements or the unit, whichever was selected last.
+/// Removes the elements or the unit, whichever was selected last.
 void remove_selected(RigPart& part, const Arguments&) {
     const RigSelection selected = part.selected;
     if (selected.unit_last)
@@ -99,11 +98,11 @@ const rig::Element& control_at(const RigPart& part, std::size_t at) {
 }
 
 struct ControlValue {
-    std::size_t element;  ///< its place in the definition
+    std::size_t element;  ///< index in the definition
     rig::Value value;
 };
 
-/// Those that it changes, in their order.
+/// The values that would change their control, in the given order.
 std::vector<ControlValue> differing(const RigPart& part, std::vector<ControlValue> values) {
     rig::State after = part.state;
     for (const ControlValue& each : values) require_ok(part.rig.set_control(after, each.element, each.value));
@@ -113,9 +112,9 @@ std::vector<ControlValue> differing(const RigPart& part, std::vector<ControlValu
     return values;
 }
 
-/// One that has the value already is left alone: units may have moved it since.
+/// Leaves alone a control that already has the value: units may have moved it since.
 void set_values(RigPart& part, std::vector<ControlValue> values) {
-    constexpr std::size_t max_keys_at_once = 64;  // each takes as long as all that are there
+    constexpr std::size_t max_keys_at_once = 64;  // each one copies all keys
     values = differing(part, std::move(values));
     if (values.empty()) return;
     if (!part.last_solved) part.last_solved = std::make_shared<const rig::State>(part.state);
@@ -127,7 +126,7 @@ void set_values(RigPart& part, std::vector<ControlValue> values) {
     part.moving = true;
     part.backward.reset();
     part.rates.reset();
-    // One that is set does not walk on; else the take remembers it, and goes on.
+    // Setting a control ends its walk, which starts a new take. Otherwise the take records the value.
     const bool walked = std::erase_if(part.walks, [&](const RigWalk& walk) {
                             const auto at = part.rig.element(walk.control);
                             return at && is_set[*at];
@@ -136,7 +135,7 @@ void set_values(RigPart& part, std::vector<ControlValue> values) {
     for (const ControlValue& each : values) key_control(part, each.element);
 }
 
-/// One value goes on controls of one kind alone.
+/// A single value can only be set on controls of one kind.
 void check_one_kind(const RigPart& part, const std::vector<WantedValue>& controls) {
     const rig::Element& first = control_at(part, controls.front().element);
     for (const WantedValue& each : controls) {
@@ -238,7 +237,7 @@ void add_element_commands(CommandTable& table) {
                           "Sets the value that a curve has before the units write it", set_curve));
 }
 
-// Units: added, changed, removed, switched off and on.
+// Commands that add, change, move, remove and switch units.
 
 namespace {
 
@@ -246,14 +245,14 @@ Argument unit_name_argument(bool required) {
     return unit_argument("name", required, "of the unit");
 }
 
-/// All but its place is the unit as a scene file has it.
+/// Every member but "at" belongs to the unit, as in a scene file.
 void add(RigPart& part, const Arguments& given) {
     Json unit = given.json();
     unit.erase("at");
     add_unit(part, read_unit(JsonPlace(unit, "")), given.has("at") ? given.integer("at") : -1);
 }
 
-/// What is not given stays, also within a part of an aim and within a filter.
+/// Omitted members keep their value, also inside "primary", "secondary" and "filter".
 void set(RigPart& part, const Arguments& given) {
     const rig::Unit& now = unit_named(part, given.text("name"));
     Json unit = unit_json(now), changes = given.json();
@@ -281,7 +280,7 @@ void enable(RigPart& part, const Arguments& given) {
     enable_unit(part, given.text("name"), given.boolean("on"));
 }
 
-/// And then all that a unit may have.
+/// Appends every member that a unit may have.
 std::vector<Argument> unit_arguments(std::vector<Argument> arguments) {
     for (const std::string& each : unit_members())
         arguments.push_back(json_argument(each.c_str(), false, "as the unit has it"));

@@ -1,4 +1,4 @@
-// The tree of elements: a row each, of which only those in view are drawn.
+// The element tree, which draws only the rows in view, and the fields for selected controls.
 #include <imgui.h>
 #include <algorithm>
 #include <cctype>
@@ -20,7 +20,7 @@ struct Row {
     int depth;
 };
 
-/// Depth first; with a filter those that pass it, all at the left.
+/// Depth first. With a filter, the matching rows without indentation.
 std::vector<Row> rows_of(const RigPart& part, const rig::Hierarchy& tree, std::string_view filter) {
     const std::vector<rig::Element>& elements = part.rig.definition().elements;
     std::vector<Row> rows;
@@ -42,7 +42,7 @@ std::vector<Row> rows_of(const RigPart& part, const rig::Hierarchy& tree, std::s
     return rows;
 }
 
-/// A bone is a rhomb, a null a cross, a control a ring.
+/// Bones are diamonds, nulls crosses, controls rings.
 void draw_kind(rig::ElementKind kind, ImVec2 centre, float size, const Palette& colours) {
     const glm::vec3 c = kind == rig::ElementKind::Control ? colours.target : colours.text_dim;
     const ImU32 colour = ImGui::ColorConvertFloat4ToU32({c.r, c.g, c.b, 1.0f});
@@ -58,7 +58,7 @@ void draw_kind(rig::ElementKind kind, ImVec2 centre, float size, const Palette& 
     }
 }
 
-/// What a control is set to; where anything else is within its parent.
+/// The value of a control; for other elements the local translation.
 std::string short_text(const RigPart& part, const rig::Hierarchy& now, std::size_t i) {
     const std::optional<rig::Control>& control = part.rig.definition().elements[i].control;
     if (!control) return vector_text(now.known(part.rig.id(i), rig::Space::Local)->translation, 1);
@@ -86,7 +86,7 @@ void row_tooltip(const RigPart& part, std::size_t i, rig::Pending pending, bool 
     tooltip(text + "\nShift+click adds it to the selection, or takes it out.");
 }
 
-/// Of one row to the next, pixels.
+/// Distance between rows, pixels.
 float row_height() {
     return 1.25f * ImGui::GetTextLineHeight();
 }
@@ -116,7 +116,7 @@ void draw_row(const RigPanel& panel, const Row& row, bool marks) {
               panel.colours);
     const float mark = marks ? 1.1f * em : 0.0f;
     if (marks) draw_pending(pending, {corner.x + width - 0.4f * em, corner.y + 0.5f * line}, panel.colours);
-    // The name comes first; the value stands beside it where there is room.
+    // The name takes precedence over the value.
     const std::string value = short_text(panel.part, panel.now, row.element);
     const float from = at.x + indent + 1.2f * em, end = at.x + width - mark;
     const float value_width = ImGui::CalcTextSize(value.c_str()).x;
@@ -128,7 +128,7 @@ void draw_row(const RigPanel& panel, const Row& row, bool marks) {
     ImGui::TextDisabled("%s", value.c_str());
 }
 
-/// What was selected elsewhere is scrolled into view, once.
+/// Scrolls once to an element that was selected elsewhere.
 void show_selected(const RigPanel& panel, const std::vector<Row>& rows) {
     std::string& shown = panel.runtime.panel.shown;
     const std::string selected = panel.part.selected_element();
@@ -143,7 +143,6 @@ void show_selected(const RigPanel& panel, const std::vector<Row>& rows) {
     if (top < from || top + row_height() > from + height) ImGui::SetScrollY(top - 0.5f * height);
 }
 
-/// What the marks mean.
 void marks_legend(const Palette& colours) {
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float em = ImGui::GetFontSize();
@@ -188,7 +187,7 @@ void add_element_menu(const RigPanel& panel) {
 void element_tree(const RigPanel& panel) {
     auto& filter = panel.runtime.panel.filter;
     const std::size_t count = panel.part.state.controls.size();
-    constexpr std::size_t many = 12;  // fewer one overlooks at once
+    constexpr std::size_t many = 12;  // a shorter list needs no filter
     if (count > many) {
         ImGui::SetNextItemWidth(-1.0f);
         ImGui::InputTextWithHint("##filter", "Filter by name", filter.data(), filter.size());
@@ -249,18 +248,18 @@ const char* pending_text(rig::Pending pending) {
     return "none pending";
 }
 
-// The value of the selected controls: fields for the active one, which set all of its kind.
+// Fields for the active control. Editing sets all selected controls of its kind.
 
 namespace {
 
 constexpr float max_control = 1e9f;
 
-/// The limits of a control as a drag ends at them.
+/// The limits, which a drag cannot pass.
 glm::vec3 end_of(const std::optional<glm::dvec3>& limit, float none) {
     return limit ? glm::vec3(*limit) : glm::vec3(none);
 }
 
-/// "-1.00 to 1.00", of the parts that the kind has.
+/// "-1.00 to 1.00", with the components of the control's kind.
 std::string limits_text(const rig::Control& control) {
     const auto text = [&](const std::optional<glm::dvec3>& end) {
         if (!end) return std::string("none");
@@ -273,7 +272,7 @@ std::string limits_text(const rig::Control& control) {
 
 class ControlFields {
   public:
-    /// `alike`: those selected that what is set is set on, this one among them.
+    /// `alike`: the selected elements that an edit sets, including this one.
     ControlFields(const RigPanel& panel, std::size_t element, const std::vector<std::size_t>& alike)
         : panel_(panel),
           control_(*panel.part.rig.definition().elements[element].control),
@@ -307,7 +306,7 @@ class ControlFields {
             }
             case rig::ControlKind::Rotation: {
                 glm::dquat rotation = std::get<glm::dquat>(value_);
-                if (rotation_field(panel_, "rotation, degrees", rotation)) set(rotation_json(rotation));
+                if (rotation_field(panel_, "rotation, degrees", rotation)) set(dquaternion(rotation));
                 break;
             }
             case rig::ControlKind::Transform:
@@ -330,7 +329,7 @@ class ControlFields {
         value = touched(std::move(value), control_value_json(control_.kind, value_));
         panel_.edit("rig.control.set", {which(panel_.part, alike_), {"value", SharedJson(std::move(value))}});
     }
-    /// Along its two axes, each by its name.
+    /// One field per axis, named after it.
     void pair(const glm::dvec3& value) const {
         for (int i = 0; i < 2; ++i) {
             float shown = static_cast<float>(value[i]);
@@ -351,7 +350,7 @@ class ControlFields {
     const std::vector<std::size_t>& alike_;
 };
 
-/// Of all controls that are selected, whatever their kinds.
+/// Resets all selected controls, of whatever kind.
 void reset_button(const RigPanel& panel) {
     const RigPart& part = panel.part;
     std::vector<std::size_t> controls;

@@ -21,11 +21,11 @@ double angle_of(const glm::dvec3& a, const glm::dvec3& b) {
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
-/// A control that is not as it was.
+/// A control that changed.
 struct Moved {
     rig::ControlKind kind = rig::ControlKind::Transform;
-    rig::Transform from{}, to{};  ///< in the scene, before any unit moved it
-    double share = 0.0;           ///< of its range, for a number
+    rig::Transform from{}, to{};  ///< global, before any unit moved it
+    double share = 0.0;           ///< of its range, for a float
 };
 
 bool has_place(rig::ControlKind kind) {
@@ -38,7 +38,7 @@ double share_of_range(const rig::Control& control, double from, double to) {
     return range > 0.0 ? std::abs(to - from) / range : 1.0;
 }
 
-/// Controls that were set, and those that go with one that was.
+/// Controls that were set, and those whose parents moved them.
 std::vector<Moved> moved_controls(const rig::Rig& rig, const rig::State& was, const rig::State& is) {
     std::vector<Moved> moved;
     const auto& elements = rig.definition().elements;
@@ -63,7 +63,7 @@ struct Bone {
     double radians = 0.0;
 };
 
-/// Whether a control moved so far that it is no wonder that the bone turned.
+/// Whether the control moved far enough to explain the bone's turn.
 bool far(const Moved& control, const Bone& bone, double size, const FlipRule& rule) {
     const double enough = static_cast<double>(rule.angle_share) * bone.radians;
     const auto share = static_cast<double>(rule.reach_share);
@@ -93,7 +93,7 @@ double skeleton_size(const rig::Rig& rig, rig::State& state) {
 
 std::vector<BoneFlip> bone_flips(const rig::Rig& rig, const rig::State& was, const rig::State& is,
                                  const FlipRule& rule) {
-    rig::State before = was, after = is;  // reading works out what is pending
+    rig::State before = was, after = is;  // copies: reading computes pending poses
     std::vector<Bone> bones;
     for (const std::size_t i : from_the_roots(rig, before.elements)) {
         const rig::ElementId id = rig.id(i);
@@ -123,7 +123,7 @@ namespace {
 
 constexpr const char* not_known = "cause not known";
 
-/// How bones are turned before the first unit and after each.
+/// The global rotations of bones before the first unit and after each.
 class Turns final : public rig::Observer {
   public:
     Turns(const rig::Rig& rig, const std::vector<BoneFlip>& flips) : rig_(rig), flips_(flips) {}
@@ -132,7 +132,7 @@ class Turns final : public rig::Observer {
     void unit_done(std::size_t, rig::State& state) override { row(state); }
     const glm::dquat& at(std::size_t row, std::size_t flip) const { return rows_[row][flip]; }
     std::size_t rows() const { return rows_.size(); }
-    /// The unit that turned it last; none where none did.
+    /// The last unit that turned the bone; none if no unit did.
     std::optional<std::size_t> last_unit(std::size_t flip) const {
         constexpr double touched = 1e-7;  // radians
         for (std::size_t row = rows_.size(); row-- > 1;)
@@ -179,7 +179,7 @@ UnitSolve solve_of(const RigPart& part, rig::State state, std::size_t unit, rig:
     return solve;
 }
 
-/// The first unit after which the two are turned as differently as half the flip.
+/// The first unit after which the two solves differ by at least half the flip.
 std::optional<std::size_t> parting_unit(const Turns& was, const Turns& is, std::size_t flip, double radians) {
     for (std::size_t row = 1; row < std::min(was.rows(), is.rows()); ++row)
         if (turn_between(was.at(row, flip), is.at(row, flip)) >= 0.5 * radians) return row - 1;
@@ -213,14 +213,14 @@ std::vector<FlipCause> flip_causes(const RigPart& part, const rig::State& was, c
     return causes;
 }
 
-// What can turn a bone at a stroke, by the kind of unit.
+// What can suddenly turn a bone, by kind of unit.
 
 namespace {
 
 using Cause = std::optional<std::string>;
-constexpr float close_by = 0.17f;  ///< radians, ten degrees
+constexpr float close_by = 0.17f;  ///< radians, about ten degrees
 
-/// What a unit takes, in one of the two solves.
+/// The inputs of a unit in one of the two solves.
 class Given {
   public:
     Given(const rig::Unit& unit, const RigPart& part)
@@ -264,7 +264,7 @@ struct Both {
     double radians = 0.0;
 };
 
-/// What the library itself reports, of the unit or of one in its body.
+/// What the library reports, for the unit or one in its body.
 Cause by_report(const Both& both) {
     const rig::State &was = both.before.left.state, &is = both.after.left.state;
     const auto top = unit_row(both.before.left, both.unit.name);
@@ -286,7 +286,7 @@ Cause by_switch(const Both& both) {
     return "its weight went from " + fixed_text(from, 2) + " to " + fixed_text(to, 2);
 }
 
-/// A rotation that it takes, and that turned as far.
+/// A rotation input that turned at least half as far.
 Cause by_input(const Both& both) {
     for (const UnitInput& input : both.was.all()) {
         if (input.literal()) continue;
@@ -300,8 +300,8 @@ Cause by_input(const Both& both) {
     return std::nullopt;
 }
 
-/// Half a turn has no shortest way: near it, the axis that a unit turns about goes round, and the bone with
-/// it by twice as much.
+/// At half a turn no direction is the shortest: near it the axis of rotation can swing round, and the bone
+/// turns with it, by twice as much.
 Cause by_half_turn(glm::vec3 from_was, glm::vec3 to_was, glm::vec3 from_is, glm::vec3 to_is, double radians) {
     const float furthest = std::max(angle_between(from_was, to_was), angle_between(from_is, to_is));
     const float axis = angle_between(glm::cross(from_was, to_was), glm::cross(from_is, to_is));
@@ -310,7 +310,7 @@ Cause by_half_turn(glm::vec3 from_was, glm::vec3 to_was, glm::vec3 from_is, glm:
     return "the target was about half a turn away, where no way round is the shortest";
 }
 
-/// The direction that an aim's target is in; none where it is not known.
+/// Direction to an aim's target; none if unknown.
 std::optional<glm::vec3> way_to(const Given& given, const rig::AimInputs& inputs, const std::string& path,
                                 glm::vec3 from) {
     const auto target = given.point(path + "/target");
@@ -339,20 +339,20 @@ Cause by_aim(const Both& both, const rig::Transform& was, const rig::Transform& 
         const PolePassage passage = pole_passage(before, after);
         if (passage.passed) return "the second target passed the line that the first is on";
         if (passage.close) return "the second target came close to the line that the first is on";
-        return std::nullopt;  // what the first leaves open, the second decides
+        return std::nullopt;  // the second target fixes the roll, so no half turn is involved
     }
     return by_half_turn(glm::vec3(was.rotation * glm::dvec3(*axis_was)), *first_was,
                         glm::vec3(is.rotation * glm::dvec3(*axis_is)), *first_is, both.radians);
 }
 
-/// Of the bone that a unit has for its item.
+/// The pose of the unit's item.
 std::optional<rig::Transform> item_pose(const RigPart& part, const rig::Item& item) {
     const auto* const name = std::get_if<std::string>(&item.which);
     const auto at = name ? part.rig.element(*name) : std::nullopt;
     return at ? part.state.elements.known(part.rig.id(*at), rig::Space::Global) : std::nullopt;
 }
 
-/// From the root to the tip.
+/// From root to tip.
 std::vector<glm::vec3> joints_between(const RigPart& part, const rig::Item& root, const rig::Item& tip) {
     const rig::Hierarchy& tree = part.state.elements;
     const auto first = part.rig.element(std::get<std::string>(root.which)),
@@ -370,7 +370,7 @@ std::optional<ReachPose> reach_pose(const Given& given, const RigPart& found, co
                                     const rig::Item& root, const rig::Item& tip) {
     const auto target = given.point("/target");
     ReachPose pose{joints_between(left, root, tip), {}, given.point("/pole_target")};
-    // Where it turns from counts for where the root is; how it is bent, for where it has turned to.
+    // Uses the joints after the unit ran, which show how the chain is bent.
     if (!target || pose.joints.empty() || joints_between(found, root, tip).empty()) return std::nullopt;
     pose.target = *target;
     return pose;

@@ -1,4 +1,4 @@
-// Which bones of a rig jumped from one solve to the next, while its controls hardly moved.
+// Which bones jumped from one solve to the next although no control moved far, and why.
 #pragma once
 
 #include <cstddef>
@@ -11,39 +11,39 @@
 
 namespace tendril::app {
 
-/// A bone that flipped, by FlipRule: no control moved far for how far the bone turned. A number counts as
-/// moved far where it moved by the rule's share of its range; a switch, where it was switched.
+/// A bone that flipped, by FlipRule: no control moved far enough to explain its turn. A number moved far if
+/// it changed by the rule's share of its range; a switch, if it was toggled.
 struct BoneFlip {
-    std::size_t element = 0;  ///< its place in the definition
-    double radians = 0.0;     ///< that it turned, in the scene
+    std::size_t element = 0;  ///< index in the definition
+    double radians = 0.0;     ///< global rotation
 };
 
-/// The bone that turned the furthest first; of those that turned together, the one nearest to the root.
-/// `was` and `is`: two states of the rig, both solved.
+/// Largest turn first; among equal turns, the bone nearest the root first. `was` and `is` are two solved
+/// states of the rig.
 std::vector<BoneFlip> bone_flips(const rig::Rig& rig, const rig::State& was, const rig::State& is,
                                  const FlipRule& rule);
 
-/// Metres: from corner to corner of a box around all bones; 1 where that has no size.
+/// Diagonal of the bounding box of all bones, metres; 1 if that is empty.
 double skeleton_size(const rig::Rig& rig, rig::State& state);
 
-// Why a bone of a rig flipped: the unit in which the two solves part, and what the units report or their
-// inputs show. Where neither says it, "cause not known".
+// Why a bone flipped: the unit at which the two solves diverge, and what its warnings or inputs show. If
+// neither explains it, the text says "cause not known".
 
 struct FlipCause {
-    std::optional<std::size_t> unit;  ///< in Definition::units, after which the bone was turned the other way
+    std::optional<std::size_t> unit;  ///< index in Definition::units: where the two solves diverge
     std::string text;                 ///< "unit aim: the second target passed the primary axis"
 };
 
-/// One a flip. `was` and `is`: two states of the part's rig, both solved; each is solved once more, without
-/// any time passing. For the moment of a flip, not for every tick.
+/// One cause per flip. `was` and `is` are two solved states of the part's rig; each is solved again with a
+/// zero time step. Meant for the moment of a flip, not for every tick.
 std::vector<FlipCause> flip_causes(const RigPart& part, const rig::State& was, const rig::State& is,
                                    const std::vector<BoneFlip>& flips);
 
-/// Of one unit between two solves: `before` and `after` have the rig as the unit found it and as it left it.
+/// The rig just before and just after one unit of a solve.
 struct UnitSolve {
     RigPart found, left;
 };
-/// What of it can turn a bone by `radians` at a stroke; nothing where that is not known.
+/// What in this unit can turn a bone by `radians` from one solve to the next; empty if unknown.
 std::optional<std::string> unit_cause(const rig::Unit& unit, const UnitSolve& before, const UnitSolve& after,
                                       double radians);
 

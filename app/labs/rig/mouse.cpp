@@ -1,4 +1,4 @@
-// What the mouse takes hold of in the Rig lab, and what comes of it.
+// Mouse input in the Rig lab: handles, drags, clicks, selection and the gizmo.
 #include "app/labs/rig/mouse.hpp"
 
 #include <algorithm>
@@ -18,10 +18,10 @@
 namespace tendril::app {
 namespace {
 
-/// Bones and nulls have names among the handles where they are no more than this.
+/// With more elements than this, only controls are handles.
 constexpr std::size_t max_named = 400;
 
-/// Who selects elements leaves the unit selected that is.
+/// Selecting elements keeps the unit selected.
 ArgumentList and_the_unit(const RigPart& part, ArgumentList arguments) {
     if (!part.selected.unit.empty()) arguments.push_back({"unit", part.selected.unit});
     return arguments;
@@ -72,7 +72,7 @@ std::optional<Handle> RigLab::handle(const Workspace& workspace, PickId pick) co
     return handle;
 }
 
-/// While the simulation is paused no tick solves, so a drag does.
+/// A drag also solves while the simulation is paused, because no tick does.
 void RigLab::drag(const Workspace& workspace, PickId pick, const Handle::Frame& to, Emit& emit) const {
     const RigPart& part = rig_part(workspace);
     if (!is_there(part, pick)) return;
@@ -114,7 +114,7 @@ void RigLab::click_more(const Workspace& workspace, PickId pick, Emit& emit) con
     emit("rig.select", {{"element", element.name}, {"add", true}});
 }
 
-/// Every element, not only those that have a handle.
+/// Every element, even those without a handle.
 std::vector<Handle> RigLab::selectable(const Workspace& workspace) const {
     std::vector<Handle> all;
     for (std::size_t i = 0; i < rig_part(workspace).state.controls.size(); ++i)
@@ -245,7 +245,7 @@ Handle input_handle(const Workspace& workspace, std::size_t i) {
     return {element.name, element_pick(i), frame_of(pose), gizmo_drag(element)};
 }
 
-// The gizmo of what is selected in a rig, and what of several it drags at once.
+// The gizmo of the selection, and dragging several elements with it.
 
 namespace {
 
@@ -258,7 +258,7 @@ Handle gizmo_handle(const Workspace& workspace, std::size_t i) {
     return control ? element_handle(workspace, i) : input_handle(workspace, i);
 }
 
-/// Of what a gizmo can take hold of, the active one, or else the last.
+/// The element that shows the gizmo: the active one, or the last selected one that a gizmo can change.
 std::optional<std::size_t> gizmo_element(const RigPart& part) {
     const Selection& selected = part.selected.elements;
     const auto held = [&](std::size_t i) { return drag_at(part, i) != Drag::Nothing; };
@@ -269,11 +269,11 @@ std::optional<std::size_t> gizmo_element(const RigPart& part) {
 
 bool can(const RigPart& part, std::size_t i, Drag what) {
     const Drag changes = drag_at(part, i);
-    // What turns about another one goes round it.
+    // Turning about another element moves along a circle.
     return has(changes, what) || (what == Drag::Rotation && has(changes, Drag::Position));
 }
 
-/// Which of the selected are below another one that is dragged, and so go with it.
+/// Which selected elements have a dragged ancestor and move with it.
 std::vector<bool> carried(const RigPart& part, Drag what) {
     const Selection& selected = part.selected.elements;
     const rig::Hierarchy& tree = part.state.elements;
@@ -326,7 +326,7 @@ void RigLab::drag_together(const Workspace& workspace, const std::vector<Handle>
     Json controls = Json::array(), values = Json::array(), others = Json::array(), transforms = Json::array();
     for (const Handle& each : handles) {
         const std::size_t i = picked_element(each.pick);
-        // What was caught may have gone since: a drag can be undone while it lasts.
+        // The element may be gone: a drag can be undone while it lasts.
         if (!is_there(part, each.pick) || part.rig.definition().elements[i].name != each.name) continue;
         const Handle now = gizmo_handle(workspace, i);
         HandleFrame to = now.frame;
@@ -351,7 +351,7 @@ void RigLab::drag_together(const Workspace& workspace, const std::vector<Handle>
     if (!workspace.clock.playing) emit.continuously("rig.solve", {});
 }
 
-/// A unit alone too, which a click on nothing leaves.
+/// Also deselects a unit that is selected alone, which a click on nothing does not.
 void RigLab::deselect(const Workspace& workspace, Emit& emit) const {
     const RigSelection& selected = rig_part(workspace).selected;
     if (!selected.elements.empty() || !selected.unit.empty()) emit("rig.select");

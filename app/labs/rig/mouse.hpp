@@ -1,4 +1,4 @@
-// Where elements of a rig are taken hold of in the picture.
+// Handles by which the mouse drags elements of a rig.
 #pragma once
 
 #include <cstddef>
@@ -12,14 +12,15 @@ struct RigPart;
 
 /// Whether the rig still has the element.
 bool is_there(const RigPart& part, PickId pick);
-/// As they are in the picture, nothing pending.
+/// The elements as drawn, nothing pending.
 const rig::Hierarchy& elements_of(const Workspace& workspace);
 
-/// What is drawn of it: a knob, a joint.
+/// The handle at what is drawn of the element: a knob, a joint.
 Handle element_handle(const Workspace& workspace, std::size_t i);
-/// What a gizmo changes of it. A knob on its rail, or in its rectangle, needs nothing more to be dragged by.
+/// What the gizmo changes: nothing for float, bool and vector2d controls, which are dragged or clicked
+/// directly.
 Drag gizmo_drag(const rig::Element& element);
-/// Of a bone or a null, which is set where a solve begins with it, before any unit has moved it.
+/// For a bone or a null: its pose before any unit has moved it, which is what a drag sets.
 Handle input_handle(const Workspace& workspace, std::size_t i);
 
 }  // namespace tendril::app

@@ -21,7 +21,7 @@
 
 namespace tendril::app {
 
-// What one chooses in the Rig lab: a preset, elements, units, curves, which way to solve.
+// Sections of the left panel: presets, elements, units, curves, solving.
 
 namespace {
 
@@ -38,13 +38,13 @@ const char* preset_help(const std::string& name) {
 void preset_section(Emit& emit) {
     std::vector<PresetButton> buttons;
     for (const RigPreset& preset : rig_presets()) {
-        const bool short_title = preset.title.size() < 6;  // three of these fit side by side
+        const bool short_title = preset.title.size() < 6;  // three of these fit in a row
         buttons.push_back({preset.name, preset.title, preset_help(preset.name), short_title ? 3 : 1});
     }
     preset_rows(rig_lab, buttons, "Removes every element, curve and unit", emit);
 }
 
-/// What is left of each bone, the most first.
+/// Residuals of the bones, largest first.
 void residual_rows(const RigPanel& panel, const BackwardLeft& left) {
     std::vector<std::size_t> bones;
     for (std::size_t i = 0; i < left.elements.size(); ++i)
@@ -145,7 +145,7 @@ void RigLab::panel(const Workspace& workspace, Emit& emit) const {
         emit("rig.copy");
 }
 
-// What is selected in the Rig lab: an element with its poses, a unit with its inputs.
+// Sections of the right panel: the selected element with its poses, the selected unit with its inputs.
 
 namespace {
 
@@ -158,7 +158,7 @@ void text_line(const char* name, const std::string& value, const char* what = ""
     text_flush_right(elided(value, ImGui::GetContentRegionAvail().x));
 }
 
-/// Read only: translation, rotation, and the scale where there is one.
+/// Read only: translation, rotation, and scale if it is not 1.
 void pose_lines(const char* title, const rig::Transform& pose, const char* what) {
     text_line(title, vector_text(pose.translation, 3) + " m", what);
     text_line("", rotation_text(pose.rotation) + "\xC2\xB0");
@@ -210,7 +210,7 @@ std::optional<SharedJson> transform_fields(const RigPanel& panel, const rig::Tra
         changed["translation"] = dpoint(edited_vector(transform.translation, at, edited));
     explain("How far it is moved along X, Y and Z, in metres.");
     glm::dquat rotation = transform.rotation;
-    if (rotation_field(panel, "rotation, degrees", rotation)) changed["rotation"] = rotation_json(rotation);
+    if (rotation_field(panel, "rotation, degrees", rotation)) changed["rotation"] = dquaternion(rotation);
     edited = by;
     if (vector_field("scale", edited, 0.01f, glm::vec3(-max_coordinate), glm::vec3(max_coordinate), "%.3f"))
         changed["scale"] = dpoint(edited_vector(transform.scale, by, edited));
@@ -268,7 +268,7 @@ void RigLab::inspector(const Workspace& workspace, Emit& emit) const {
     element_inspector(panel);
     why_rows(panel);
     pose_rows(panel);
-    incident_rows(workspace, panel.colours, emit);  // last: fields keep still while one is dragged to a limit
+    incident_rows(workspace, panel.colours, emit);  // last, so that fields stay put during a drag to a limit
 }
 
 Verdict rig_verdict(const RigPart& part) {

@@ -1,5 +1,5 @@
-// How an element is turned, over the last ten seconds: within its parent, from its initial pose; and the
-// poses of them.
+// The Rig lab's last ten seconds: plots of how an element is turned, relative to its parent and initial pose;
+// earlier poses; incidents and what each unit added to an element.
 #include "app/labs/rig/past.hpp"
 
 #include <imgui.h>
@@ -33,7 +33,7 @@ const RigPart& rig_of(const SharedPart& part) {
     return dynamic_cast<const RigPart&>(*part);
 }
 
-/// The one that is plotted; empty in a rig without elements.
+/// The element to plot; empty in a rig without elements.
 std::string plotted_element(const RigPart& part) {
     if (part.selected.elements.active()) return part.selected_element();
     const auto& elements = part.rig.definition().elements;
@@ -51,8 +51,8 @@ std::string plotted_element(const RigPart& part) {
     return first != nullptr ? first->name : std::string();
 }
 
-/// Where a bone points at rest, in its own frame, as it is drawn: to the bones below it, else on the way that
-/// led to it from another bone, else up.
+/// The direction in which a bone is drawn at rest, in its own frame: towards its child bones, else away from
+/// its parent bone, else up.
 glm::dvec3 direction(const rig::Definition& definition, const rig::Element& bone) {
     glm::dvec3 sum(0.0);
     for (const rig::Element& each : definition.elements)
@@ -139,7 +139,7 @@ PoseLines rig_lines(const SharedPart& part) {
 
 namespace {
 
-constexpr std::size_t max_of_a_kind = 8;  ///< in one tick: a rig may have thousands of bones
+constexpr std::size_t max_of_a_kind = 8;  ///< per tick: a rig may have thousands of bones
 
 void add_flips(const RigPart& before, const RigPart& after, std::vector<Incident>& incidents) {
     if (before.edited || after.edited) return;
@@ -172,7 +172,7 @@ void add_reports(const RigPart& before, const RigPart& after, std::vector<Incide
     }
 }
 
-/// A number, or one of the numbers, of a control.
+/// A number of a control's value.
 std::optional<double> part_of(const rig::Value& value, int axis) {
     if (const auto* number = std::get_if<double>(&value))
         return axis == 0 ? std::optional(*number) : std::nullopt;
@@ -195,7 +195,7 @@ int axis_count(rig::ControlKind kind) {
     }
 }
 
-/// "maximum 1.00", "minimum 0.20 m along y"
+/// "its maximum is 1.00", "its minimum is 0.20 m along y"
 std::string limit_text(const rig::Control& control, int axis, bool maximum) {
     const double at = (maximum ? *control.maximum : *control.minimum)[axis];
     std::string text = (maximum ? "its maximum is " : "its minimum is ") + fixed_text(at, 2);
@@ -205,7 +205,7 @@ std::string limit_text(const rig::Control& control, int axis, bool maximum) {
     return text + " m along " + std::array{"x", "y", "z"}[static_cast<std::size_t>(along)];
 }
 
-/// At the limit of one of its numbers; a range of no length is none.
+/// Whether one of its numbers is at its limit. An empty range has no limits.
 bool at_limit(const rig::Control& control, const rig::Value& value, int axis, bool maximum) {
     const auto& limit = maximum ? control.maximum : control.minimum;
     if (!limit) return false;
@@ -252,7 +252,7 @@ std::vector<Incident> rig_incidents(const RigPart& before, const RigPart& after)
 
 namespace {
 
-/// "12.3 mm", "1.20 m": lengths of rigs are between the two.
+/// "12.3 mm", "1.20 m": lengths in rigs are millimetres to metres.
 std::string length_text(double metres) {
     return metres < 1.0 ? fixed_text(1000.0 * metres, 1) + " mm" : fixed_text(metres, 2) + " m";
 }
@@ -263,7 +263,7 @@ std::string added_text(const rig::Contribution& step) {
     return step.before.scale == step.after.scale ? text : text + ", scale";
 }
 
-/// By more than what shows: rounding is no touch.
+/// Ignores changes by rounding.
 bool touched(const rig::Contribution& step) {
     constexpr double enough = 1e-7;
     const glm::dvec3 scale = glm::abs(step.after.scale - step.before.scale);

@@ -1,4 +1,4 @@
-// What the Rig lab shows of its last ten seconds.
+// The Rig lab's last ten seconds: plots, lines and incidents.
 #pragma once
 
 #include <vector>
@@ -10,16 +10,16 @@
 namespace tendril::app {
 
 PastView rig_past();
-/// Of the active element, or of the first bone below another one: an elbow. Nothing while nothing is plotted.
+/// Plots the active element, or if none is selected the first bone whose parent is a bone, such as an elbow.
+/// Empty while nothing is plotted.
 std::optional<PastCurve> rig_past_curve(const Workspace& workspace);
-/// A line for each end of a bone.
+/// A line to each end of a bone.
 PoseLines rig_lines(const SharedPart& part);
 
-// What a person may ask about that came of a tick or a change: bones that flipped, units that report
-// something, controls at their limits.
+// Incidents that a user may ask about after a tick or change: flips, unit warnings, controls at their limits.
 
-/// Of two states of one rig, as the Rig lab reviews them. Flips, of each unit's the bone that turned the
-/// furthest, are counted between two solves, where nothing but controls was set in between.
+/// `before` and `after` are consecutive states of one rig. Flips are only reported between two solves with
+/// nothing but controls set in between, and only the bone that turned furthest for each unit.
 std::vector<Incident> rig_incidents(const RigPart& before, const RigPart& after);
 
 }  // namespace tendril::app

@@ -49,7 +49,7 @@ std::string numbered(const char* name, int number) {
     return result;
 }
 
-/// A head looks at one control, and another, which goes with the first, says where up is.
+/// A head looks at one control; a second one, parented to the first, sets the up direction.
 Definition aim_scene() {
     const AimInputs primary{.axis = glm::dvec3(0, 0, 1), .target = FromElement{"look"}};
     const AimInputs secondary{.axis = glm::dvec3(0, 1, 0), .target = FromElement{"tilt"}};
@@ -83,8 +83,8 @@ Definition aim_scene() {
     return rig;
 }
 
-/// A tentacle of controls, turned by one dial and by hand, and the bones that each follow one of them from
-/// some way off: so that maintaining the offset shows.
+/// A tentacle of controls, turned by a dial and by hand. Each bone follows one of them at some distance,
+/// which shows that the offset is maintained.
 Definition fk_scene() {
     constexpr int count = 6;
     Definition rig;
@@ -112,7 +112,7 @@ Definition fk_scene() {
     return rig;
 }
 
-/// Five arms around a middle; one dial curls them all.
+/// Five arms around a centre, all curled by one dial.
 Definition loop_scene() {
     constexpr int arms = 5, joints = 6;
     Definition rig;
@@ -145,7 +145,7 @@ signal::Curve curve(std::vector<signal::CurveKey> keys, double low = 0.0, double
     return curve;
 }
 
-/// A blob of which two shapes and the hue follow controls, each through a curve of its own.
+/// A blob with two shapes and a hue, each driven by a control through its own curve.
 Definition morph_scene() {
     using enum signal::Piece;
     const Control square{
@@ -156,7 +156,7 @@ Definition morph_scene() {
                     control("shape", "board", {}, square),
                     control("colour", "", at(-1.1, 0.4, 0), dial())};
     rig.curves = {{.name = "stretch"}, {.name = "bulge"}, {.name = "hue"}};
-    // Of a control that lies in its space's origin, the coordinates are its value.
+    // The control lies at the origin of its space, so its local coordinates are its value.
     const auto along = [](Of axis) {
         return FromElement{.element = "shape", .of = axis, .space = Space::Local};
     };
@@ -176,7 +176,7 @@ Definition morph_scene() {
     return rig;
 }
 
-/// Two antennae trail the head: each bone points at where a spring has its tip by now.
+/// Two antennae trail the head: each bone points at a spring that follows its rest tip.
 Definition secondary_scene() {
     constexpr int joints = 6;
     constexpr double length = 0.16;
@@ -197,8 +197,8 @@ Definition secondary_scene() {
     }
     const signal::Curve line;
     signal::Curve softer = line, more = line;
-    // Each spring takes its target as it is at the end of a frame, half a frame early, and every joint adds
-    // to that: with stiff springs that barely damp, frame rates would show nothing but that.
+    // A spring reads its target at the end of a frame, on average half a frame early, and these errors add up
+    // over the joints. With stiff, barely damped springs a comparison of frame rates would show nothing else.
     softer.target_min = 2.0;  // Hz at the root
     softer.target_max = 1.2;
     more.target_min = 0.1;

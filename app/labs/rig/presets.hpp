@@ -1,4 +1,4 @@
-// The five scenes of the lab, as data: each a definition that could have been written in a scene file.
+// The five preset scenes of the lab. Each is a definition that a scene file could contain.
 #pragma once
 
 #include <string>
@@ -16,7 +16,7 @@ struct RigPreset {
     CameraPose view;
 };
 
-/// In the order of the panel; the first is what the lab opens on.
+/// In panel order; the lab opens with the first.
 const std::vector<RigPreset>& rig_presets();
 /// Throws std::invalid_argument for an unknown name.
 const RigPreset& rig_preset(const std::string& name);

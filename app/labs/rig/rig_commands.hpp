@@ -1,4 +1,4 @@
-// What the files of this lab's commands share.
+// Shared by the command files of this lab.
 #pragma once
 
 #include <vector>
@@ -9,19 +9,18 @@
 
 namespace tendril::app {
 
-/// A command on a copy of the lab's part.
+/// A command that changes a copy of the lab's part.
 Command rig_command(const char* name, const char* title, std::vector<Argument> arguments, const char* help,
                     void (*change)(RigPart&, const Arguments&));
-/// Offered by name: elements, those of them that are controls, units.
+/// Arguments completed with the names of elements, controls or units.
 Argument element_argument(const char* name, bool required, const char* help);
 Argument control_argument(const char* name, bool required, const char* help);
 Argument unit_argument(const char* name, bool required, const char* help);
-/// The places in the definition. Refuses, with the argument and the value, what is no name of an element.
+/// Indices in the definition. Refuses unknown element names; the message has the argument and the value.
 std::vector<std::size_t> element_list(const RigPart& part, const Arguments& given, const char* name);
-/// Of one by `name`, or of several by `names`: each once, in the order of the definition. Refuses an empty
-/// list.
+/// The elements given by `name` or `names`, without duplicates, in definition order. Refuses an empty list.
 std::vector<std::size_t> elements_given(const RigPart& part, const Arguments& given);
-/// A value that is no number, text or point; the command reads it itself.
+/// An argument of any JSON form; the command parses it.
 Argument json_argument(const char* name, bool required, const char* help);
 
 void add_element_commands(CommandTable& table);

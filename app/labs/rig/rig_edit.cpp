@@ -26,7 +26,7 @@ void check_count(std::size_t count, std::size_t most, const char* what) {
                                     "; the most is " + std::to_string(most));
 }
 
-/// What shows on a line, and is found in a file.
+/// Names must fit on a line and be storable in a file.
 void check_name(const std::string& name) {
     constexpr std::size_t longest = 100;
     if (name.size() > longest)
@@ -37,12 +37,12 @@ void check_name(const std::string& name) {
     if (!is_storable(name)) throw std::invalid_argument("a name must be text in UTF-8");
 }
 
-/// How many elements a for-each comes to, or any number over `most`.
+/// Number of elements that a for-each visits; stops counting above `most`.
 std::size_t visits(const rig::Rig& rig, const rig::State& rest, const rig::ForEach& loop, std::size_t most) {
     std::size_t count = 0;
     for (const std::string& root : loop.roots) {
         const auto element = rig.element(root);
-        if (!element) continue;  // refused when all is put together
+        if (!element) continue;  // refused later, by Rig::make
         const rig::ElementId top = rig.id(*element);
         for (rig::ElementId at = top; at && count <= most; at = rest.elements.next_depth_first(at, top))
             ++count;
@@ -50,7 +50,7 @@ std::size_t visits(const rig::Rig& rig, const rig::State& rest, const rig::ForEa
     return count;
 }
 
-/// Refuses what would take too long, before it is made: one line of a file can ask for millions of rounds.
+/// Refuses what would run too long, before making it: one line of a file can ask for millions of iterations.
 void check_runs(const rig::Definition& definition) {
     const auto is_loop = [](const rig::Unit& unit) {
         return std::holds_alternative<rig::ForEach>(unit.operation);
@@ -71,7 +71,7 @@ void check_runs(const rig::Definition& definition) {
     }
 }
 
-/// Calls with the list that a unit of that name is in, and its place there.
+/// Calls `found` with the list that contains the unit of that name, and its index there.
 bool find_unit(auto& units, const std::string& name, const auto& found) {
     for (std::size_t i = 0; i < units.size(); ++i) {
         if (units[i].name == name) {
@@ -89,7 +89,7 @@ void require_unit(auto& definition, const std::string& name, const auto& found) 
         throw std::invalid_argument("there is no unit " + quoted(name));
 }
 
-/// The same elements, by name, of those that the other rig has too.
+/// The elements of the same names, where the other rig has them.
 Selection in_other_rig(const Selection& before, const rig::Rig& from, const rig::Rig& to) {
     std::vector<std::size_t> there;
     const auto keep = [&](std::size_t element) {
@@ -148,7 +148,7 @@ void changed(RigPart& part) {
     part.edited = true;
     part.backward.reset();
     part.rates.reset();
-    part.clip_left.reset();  // it was of the rig as it was
+    part.clip_left.reset();  // it belongs to the old rig
     begin_take(part);
 }
 
@@ -211,7 +211,7 @@ void add_unit(RigPart& part, rig::Unit unit, int at) {
     std::set<std::string> taken;
     collect_names(definition.units, taken);
     std::vector<rig::Unit> added{std::move(unit)};
-    collect_names(added, taken);  // one that is taken twice the library refuses
+    collect_names(added, taken);  // the library refuses duplicate names
     name_units(added, taken);
     definition.units.insert(definition.units.begin() + (at < 0 ? count : at), std::move(added.front()));
     redefine(part, std::move(definition));
@@ -312,7 +312,7 @@ class Search {
         for (const std::string& root : roots) take(place, Named::Element, root);
     }
     void field(const std::string&, const rig::Body& body) { units(body.units()); }
-    void field(const std::string&, const auto&) {}  // names nothing
+    void field(const std::string&, const auto&) {}  // refers to nothing
 
     void take(const std::string& place, Named kind, const std::string& name) {
         if (!found && kind == kind_ && names_.contains(name)) found = {unit_->name, place, name};
@@ -336,7 +336,6 @@ namespace {
 
 using Elements = std::vector<rig::Element>;
 
-/// The active element; else the first bone; else the first element.
 const rig::Element* item_of(const RigPart& part) {
     const Elements& elements = part.rig.definition().elements;
     if (const auto active = part.selected.elements.active()) return &elements[*active];
@@ -350,14 +349,14 @@ const rig::Element* parent_of(const RigPart& part, const rig::Element& element) 
     return parent ? &part.rig.definition().elements[*parent] : nullptr;
 }
 
-/// Beside the active one.
+/// The selected elements other than the active one.
 std::vector<std::string> others_selected(const RigPart& part) {
     std::vector<std::size_t> others = part.selected.elements.all();
     std::erase_if(others, [&](std::size_t each) { return each == part.selected.elements.active(); });
     return names_of(part, others);
 }
 
-/// Those selected that are below no other one: a for-each comes to what is below them by itself.
+/// The selected elements without a selected ancestor: a for-each visits descendants itself.
 std::vector<std::string> roots_selected(const RigPart& part) {
     const Elements& elements = part.rig.definition().elements;
     std::vector<bool> covered(elements.size());
@@ -371,8 +370,7 @@ std::vector<std::string> roots_selected(const RigPart& part) {
     return names_of(part, roots);
 }
 
-/// Any that is not this one, those selected and then controls before others: what can be followed, or pointed
-/// at.
+/// Another element, to follow or point at: prefers selected ones, then controls.
 const rig::Element* other_than(const RigPart& part, const rig::Element& element) {
     for (const std::size_t each : part.selected.elements.all())
         if (const rig::Element& other = part.rig.definition().elements[each]; &other != &element)
@@ -386,7 +384,7 @@ const rig::Element* other_than(const RigPart& part, const rig::Element& element)
     return found;
 }
 
-/// So many bones above a bone, all of them bones; null where there are fewer.
+/// The element `count` levels above a bone; null if not all on the way are bones.
 const rig::Element* bones_above(const RigPart& part, const rig::Element& tip, std::size_t count) {
     const rig::Element* at = &tip;
     for (std::size_t i = 0; i < count && at != nullptr; ++i) at = parent_of(part, *at);

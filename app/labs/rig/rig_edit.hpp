@@ -1,5 +1,5 @@
-// What commands do to the lab's part. A definition is changed as a whole: made anew, and what of the state is
-// still of something taken over; refused as a whole too, by std::invalid_argument.
+// Edits of the lab's part. A new definition replaces the old one as a whole, and the state of whatever still
+// exists is kept. Errors are std::invalid_argument and leave the part unchanged.
 #pragma once
 
 #include <optional>
@@ -14,68 +14,66 @@
 
 namespace tendril::app {
 
-/// Throws std::invalid_argument where the library refuses it, or where it has more of something than the
-/// lab's limits let it.
+/// Throws std::invalid_argument if the library refuses the definition, or if it exceeds the lab's limits.
 rig::Rig make_rig(rig::Definition definition);
 void redefine(RigPart& part, rig::Definition definition);
 
-/// Refused: one that is a parent of what stays, or that a unit names; the message says which.
+/// Refuses to remove the parent of a remaining element, or an element that a unit uses; the message names it.
 void remove_elements(RigPart& part, const std::vector<std::size_t>& elements);
-/// In bodies too. Refused: one whose output another unit takes.
+/// Searches bodies too. Refuses to remove a unit whose output another unit uses.
 void remove_unit(RigPart& part, const std::string& name);
 void enable_unit(RigPart& part, const std::string& name, bool on);
-/// Among the units of the rig, or those of the body that it is in. Refused: a place before a unit whose
-/// output it takes, or after one that takes its own.
+/// `at` is the index among the units of the rig, or of the body that contains it. Refuses to move a unit
+/// before one whose output it uses, or after one that uses its output.
 void move_unit(RigPart& part, const std::string& name, int at);
-/// `at`: its place among the units of the rig; -1 for the end. Without a name it is given one.
+/// `at` is the index among the units of the rig; -1 appends. Names the unit if it has no name.
 void add_unit(RigPart& part, rig::Unit unit, int at);
 
-/// Makes a unit, in a body too, as `unit` has it.
+/// Replaces a unit, which may be in a body.
 void set_unit(RigPart& part, const std::string& name, rig::Unit unit);
-/// Selects what is selected in another rig, by name, of what this one has.
+/// Selects the elements and unit of the same names as those selected in another rig.
 void select_as_in(RigPart& part, RigSelection selected, const rig::Rig& other);
-/// A unit that the rig does not have is selected no more.
+/// Deselects the unit if the rig does not have it.
 void forget_missing_unit(RigPart& part);
-/// Throws std::invalid_argument: there is no unit "arm".
+/// Throws std::invalid_argument if there is none: there is no unit "arm".
 const rig::Unit& unit_named(const RigPart& part, const std::string& name);
 
-/// The places in the definition of all elements, parents before their children.
+/// Indices of all elements in the definition, parents before their children.
 std::vector<std::size_t> from_the_roots(const rig::Rig& rig, const rig::Hierarchy& tree);
-/// The place in the definition. Throws std::invalid_argument: there is no element "arm".
+/// The index in the definition. Throws std::invalid_argument if there is none: there is no element "arm".
 std::size_t element_named(const RigPart& part, const std::string& name);
-/// What they are called.
 std::vector<std::string> names_of(const RigPart& part, const std::vector<std::size_t>& elements);
 std::size_t curve_named(const RigPart& part, const std::string& name);
 
-/// Something that a solve begins with was changed: a new take begins.
+/// To be called after anything but a control value changed: starts a new take.
 void changed(RigPart& part);
 
-// Which units name something: an element, another unit, a curve. Nothing that is named can be removed.
+// Which units use a given element, unit or curve. Whatever is in use cannot be removed.
 
 enum class Named { Element, Unit, Curve };
 
 struct Use {
-    std::string unit;    ///< that names one of them
-    std::string member;  ///< in which: "primary.target"
-    std::string name;    ///< of what it names
+    std::string unit;    ///< the unit that uses it
+    std::string member;  ///< the input that does: "primary.target"
+    std::string name;    ///< what it uses
 };
 
-/// The first, in order, bodies included; none where nothing names any of them.
+/// The first use, in order, including bodies; none if no unit uses any of the names.
 std::optional<Use> first_use(const std::vector<rig::Unit>& units, Named kind,
                              const std::set<std::string>& names);
 
-// What a menu adds: elements and units with no more than they need, taken from what is selected.
+// Defaults for the Add menu: elements and units with only the required inputs, filled in from the selection.
 
-/// "bone 3": the first of these that no element has.
+/// "bone 3": the first such name that no element has.
 std::string free_element_name(const RigPart& part, const std::string& base);
 
-/// A unit as rig.unit.add takes it, and why there is none.
+/// A unit as rig.unit.add takes it, or why there is none.
 struct UnitOffer {
     std::optional<SharedJson> unit;
-    const char* needs = "";  ///< "two bones or more": where there is no unit
+    const char* needs = "";  ///< "two bones or more", if there is no unit
 };
-/// `operation` is the index in rig::Operation. Works on the active element, where it is one that works: the
-/// others that are selected it follows. A for-each goes over all that are selected.
+/// `operation` is the index in rig::Operation. The active element becomes the item, and follows the other
+/// selected elements. A for-each loops over all selected elements.
 UnitOffer offered_unit(const RigPart& part, std::size_t operation);
 
 }  // namespace tendril::app

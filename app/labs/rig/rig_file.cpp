@@ -1,5 +1,4 @@
-// The Rig lab in a scene file: the definition, in the words of the commands, and beside it the state, the
-// take that it is in, and the clip.
+// The Rig lab in a scene file: the definition, named as in commands, plus the state, the take and the clip.
 #include "app/labs/rig/rig_file.hpp"
 
 #include <algorithm>
@@ -49,7 +48,7 @@ BackwardLeft load_backward(const JsonPlace& place, const rig::Definition& defini
     return left;
 }
 
-/// "element" is the active one; "elements" are all, where there are several.
+/// "element" is the active one; "elements" lists all, if several are selected.
 Selection load_elements(const JsonPlace& place, const rig::Rig& rig) {
     const auto active = rig.element(place["element"].text());
     const auto several = place.optional("elements");
@@ -89,16 +88,16 @@ std::shared_ptr<Part> RigPart::load(const Json& json, const std::string& where) 
     auto part = std::make_shared<RigPart>();
     try {
         *part = RigPart(read_definition(place));
-    } catch (const std::logic_error& error) {  // the library's own words, told where in the file
+    } catch (const std::logic_error& error) {  // the library's message, with the JSON path
         place.fail(error.what());
     }
     const auto state_place = place.optional("state");
-    if (!state_place) return part;  // a rig that was written by hand begins at rest
+    if (!state_place) return part;  // a hand-written rig starts at rest
     check_members(*state_place, {"moving", "controls", "curves", "poses", "units", "backward", "selected",
                                  "motions", "take", "rates", "clip", "flips"});
     part->moving = (*state_place)["moving"].flag();
     part->state = read_rig_state(*state_place, part->rig);
-    part->edited = true;  // how it was last solved, the file does not say
+    part->edited = true;  // the file does not store the last solved state
     load_time(*state_place, *part);
     if (const auto rule = state_place->optional("flips")) part->flips = load_flip_rule(*rule);
     if (const auto backward_place = state_place->optional("backward"))
@@ -116,7 +115,7 @@ namespace {
 
 constexpr std::uint64_t max_recording_tick = 1'000'000'000'000;  ///< ticks
 
-/// [tick, name, value], or [tick] where the rig was solved.
+/// [tick, name, value], or [tick] for a solve.
 Json keys_json(const RigPart& part) {
     Json keys = Json::array();
     for (const TakeKey& key : *part.take.keys) {
@@ -213,7 +212,7 @@ RateDifference read_rates(const JsonPlace& place) {
             .running = place.has("running") && place["running"].flag()};
 }
 
-/// One that goes on can only be of so many frames as there are in its time.
+/// A running comparison must have the number of frames that its ticks give.
 RateDifference read_rates(const JsonPlace& place, const RigPart& part) {
     RateDifference rates = read_rates(place);
     if (!rates.running) return rates;
@@ -276,7 +275,7 @@ constexpr std::uint64_t max_clip_tick = 1'000'000'000'000;  ///< ticks
 
 using Numbers = std::vector<float>;
 
-/// One of the three of a bone over all frames, one after the other.
+/// One component of a bone's pose over all frames, in one list.
 template <class Of>
 Numbers track(const RigClip& clip, std::size_t bone, Of of) {
     Numbers numbers;
@@ -302,7 +301,7 @@ Json track_json(const Numbers& numbers, std::size_t size) {
     return json;
 }
 
-/// `size` numbers a frame.
+/// `size` numbers per frame.
 Numbers read_track(const JsonPlace& place, std::size_t size, std::size_t frames) {
     Numbers numbers;
     place.for_each("numbers", size * frames,
@@ -346,7 +345,7 @@ ClipSolve read_solve(const JsonPlace& place, const RigPart& part) {
     check_members(place, {"running", "left", "controls"});
     ClipSolve solve{.running = place["running"].flag(), .left = {}, .controls = {}};
     place["left"].for_each("frames", part.clip->frames(), [&](const JsonPlace& each) {
-        const bool older = each.json().is_array() && each.json().size() == 3;  // it had no more
+        const bool older = each.json().is_array() && each.json().size() == 3;  // it ended there
         if (!older) each.check_size(5, "values: millimetres, degrees, bone, scale, stopped");
         FrameLeft left{each.element(0).number(0.0f, 1e9f), each.element(1).number(0.0f, 360.0f),
                        static_cast<std::uint32_t>(each.element(2).index(part.clip->bones.size() - 1))};

@@ -1,4 +1,4 @@
-// Time in a scene file: walks, the take, the clip and what a backward solve left of it, the frame rates.
+// The Rig lab's time in a scene file: walks, the take, the clip with its backward solve, the frame rates.
 #pragma once
 
 #include "app/document/json_place.hpp"
@@ -6,24 +6,24 @@
 
 namespace tendril::app {
 
-/// Into what is saved of the state; what is not there is left out.
+/// Adds to the saved state. Omits whatever is absent.
 void save_time(const RigPart& part, Json& state);
-/// Into a part that has its rig and its state.
+/// `part` must already have its rig and its state.
 void load_time(const JsonPlace& state, RigPart& part);
 
-/// Also what --state shows.
+/// --state shows these too.
 Json walks_json(const RigPart& part);
 Json rates_json(const RigPart& part);
 
-// A clip in a scene file, and what a backward solve left of it:
+// A clip in a scene file, with the result of its backward solve:
 //
 //     {"began": 0, "frames": 121, "bones": {"skull": {"translation": [...], "rotation": [...]}, ...},
 //      "solve": {"running": false, "left": [[mm, degrees, bone], ...], "controls": {...}}}
 //
-// Of a bone each of translation, rotation and scale is there once, where it never changes, or frame after
-// frame in one list; a scale of 1 is left out.
+// Translation, rotation and scale of a bone are each stored once if constant, else as one list of all frames.
+// A scale of 1 is omitted.
 
-Json clip_json(const RigPart& part);  ///< that has one
+Json clip_json(const RigPart& part);  ///< the part must have a clip
 void load_clip(const JsonPlace& place, RigPart& part);
 
 }  // namespace tendril::app

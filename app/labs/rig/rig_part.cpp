@@ -46,8 +46,8 @@ double BackwardLeft::worst_scale() const {
 }
 
 bool BackwardLeft::expressed() const {
-    return worst_mm() < min_shown_mm && worst_degrees() < min_shown_degrees &&
-           worst_scale() < min_shown_scale;
+    return worst_mm() <= min_shown_mm && worst_degrees() <= min_shown_degrees &&
+           worst_scale() <= min_shown_scale;
 }
 
 double amount(const rig::Residual& left) {
@@ -82,14 +82,14 @@ bool RigPart::operator==(const RigPart& other) const {
            rig.definition() == other.rig.definition() && state == other.state && take == other.take;
 }
 
-/// With what is selected now, and by the rule that there is now.
+/// Keeps the current selection and flip rule.
 std::shared_ptr<const Part> RigPart::at_moment(std::shared_ptr<const Part> then) const {
     const auto& earlier = dynamic_cast<const RigPart&>(*then);
     if (earlier.selected == RigSelection{} && selected == RigSelection{} && earlier.flips == flips)
         return then;
     auto part = std::make_shared<RigPart>(earlier);
     part->flips = flips;
-    select_as_in(*part, selected, rig);  // which goes by place in the definition
+    select_as_in(*part, selected, rig);  // the selection holds definition indices
     return part;
 }
 
@@ -100,8 +100,8 @@ std::size_t state_bytes(const rig::State& state) {
     return bytes;
 }
 
-/// Roughly; what is compiled is as large again as what it was made of. Copies share the clip and the keys:
-/// each counts a part of them.
+/// Approximate. The compiled rig is about as large as its definition. Copies share the clip and the keys, so
+/// each counts only a fraction of them.
 std::size_t RigPart::bytes() const {
     constexpr std::size_t an_element = 750, a_unit = 800, sharing = 16;
     std::size_t shared = clip ? clip->poses.size() * sizeof(ClipPose) : 0;

@@ -1,5 +1,5 @@
-// What the Rig lab works in from tick to tick: the workspace of its rig, how long each unit took, and what
-// panels and picture need of the part, worked out once.
+// Caches that the Rig lab keeps between ticks: the workspace of its rig, the time each unit took, take
+// snapshots, and data derived from the part for panels and drawing.
 #pragma once
 
 #include <array>
@@ -16,20 +16,20 @@
 
 namespace tendril::app {
 
-// States of a take, kept at some of its ticks so that going to any of them is quick. A cache: thrown away at
-// any moment, no bit changes.
+// Snapshots of the take's state at some of its ticks, which make it quick to go to any tick. A cache:
+// discarding it changes no result.
 
 class TakeSnapshots {
   public:
     struct Snapshot {
-        rig::State state;  ///< before what was set at that tick
+        rig::State state;  ///< before that tick's controls were set
         bool moving = false;
     };
-    /// The part as it is at its tick; taken where it is one of those that are kept.
+    /// Keeps the part's current tick if it is one of those to be kept.
     void offer(const RigPart& part);
-    /// Takes it in any case. What was set at its tick is to be no part of it yet.
+    /// Keeps it in any case. The part must not include what was set at its tick yet.
     void keep(const RigPart& part);
-    /// The last one at or before a tick, with its tick; null where there is none.
+    /// The last snapshot at or before a tick, with its tick; null if there is none.
     const std::pair<const std::uint32_t, Snapshot>* nearest(const RigPart& part, std::uint32_t tick);
     std::size_t size() const { return by_tick_.size(); }
 
@@ -37,9 +37,9 @@ class TakeSnapshots {
     void follow(const RigPart& part);
 
     std::map<std::uint32_t, Snapshot> by_tick_;
-    std::uint32_t stride_ = 8;  ///< kept are the ticks that this divides
+    std::uint32_t stride_ = 8;  ///< snapshots are kept at multiples of this
     std::size_t bytes_ = 0;
-    // what they follow from
+    // What the snapshots depend on.
     std::shared_ptr<const rig::State> start_;
     std::shared_ptr<const std::vector<TakeKey>> keys_;
     std::vector<RigWalk> walks_;
@@ -48,33 +48,32 @@ class TakeSnapshots {
 
 class RigRuntime final : public Runtime {
   public:
-    /// Of this rig and its copies; kept until another asks.
+    /// The workspace for this rig and its copies. The reference is valid until another rig is asked for.
     rig::Workspace& workspace(const rig::Rig& rig);
 
-    /// Solves forward. `measured`: takes the time of each unit.
+    /// Solves forward. `measured`: times each unit.
     bool solve(RigPart& part, double dt, bool measured);
 
-    /// Microseconds that each unit of the definition took when it was last measured; empty where that was
-    /// another rig.
+    /// Microseconds per unit of the definition in the last measured solve; empty if that was another rig.
     std::vector<double> microseconds(const rig::Rig& rig) const;
 
-    /// The elements of the lab's part with all poses worked out. The reference holds until the next call.
+    /// The elements of the lab's part with nothing pending. The reference is valid until the next call.
     const rig::Hierarchy& resolved(const Workspace& workspace);
 
     TakeSnapshots snapshots;
     RatesWork rates;
 
-    /// Why an element of the lab's part is where it is; worked out anew where the part has changed. The
-    /// reference holds until the next call.
+    /// Why an element of the lab's part is where it is; recomputed when the part has changed. The reference
+    /// is valid until the next call.
     const rig::Explanation& explanation(const Workspace& workspace, std::size_t element);
 
-    /// The interface's own: it follows from nothing, and nothing follows from it.
+    /// State of the interface only; nothing else depends on it.
     struct Panel {
-        std::array<char, 64> filter{};  ///< what names in the tree have to contain
-        std::array<char, 64> choice{};  ///< what is looked for among what an input may be
-        std::string shown{}, unit{};    ///< what the lists were last scrolled to
-        bool all_units = false;         ///< whether those that did not touch the element are listed too
-        /// Euler angles as a person last set them, of the rotation that they give: one has many.
+        std::array<char, 64> filter{};  ///< text that names in the tree must contain
+        std::array<char, 64> choice{};  ///< search text in the list of choices for an input
+        std::string shown{}, unit{};    ///< what the lists last scrolled to
+        bool all_units = false;         ///< whether to list units that did not affect the element
+        /// The Euler angles as last entered for `rotation`, which has many equivalent ones.
         glm::dvec3 degrees{0.0};
         glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
     } panel;

@@ -1,7 +1,7 @@
-// The state of a rig in a scene file, which comes back to the bit.
+// The state of a rig in a scene file, and what --state writes of the Rig lab.
 //
-// A pose is stored for the elements that are not as they are at rest, and so that it comes back to the bit:
-// of local and global one was worked out from the other, and it is that other which is stored.
+// Only poses that differ from rest are stored. Of local and global pose, one was computed from the other;
+// storing that other one makes the round trip exact.
 #include "app/labs/rig/state_json.hpp"
 
 #include <cstring>
@@ -46,7 +46,7 @@ Json save_pose(rig::Hierarchy& tree, rig::Hierarchy& rest, rig::ElementId id, Po
 }
 
 Json save_poses(const rig::Rig& rig, const rig::State& state) {
-    rig::Hierarchy tree = state.elements;  // reading works out what is pending
+    rig::Hierarchy tree = state.elements;  // copy: reading computes pending poses
     rig::Hierarchy rest = rig.initial_state().elements;
     Json poses = Json::object();
     for (const std::size_t i : from_the_roots(rig, tree)) {
@@ -58,7 +58,7 @@ Json save_poses(const rig::Rig& rig, const rig::State& state) {
     return poses;
 }
 
-/// Stored numbers may be larger than given ones, and a scale may be 0: units come to such poses.
+/// Stored numbers may exceed the limits for given ones, and a scale may be 0: units can produce such poses.
 void load_pose(const JsonPlace& place, rig::Hierarchy& tree, rig::ElementId id, Pose pose) {
     check_members(place, {"local", "global"});
     const bool global = place.has("global");
@@ -169,7 +169,7 @@ constexpr double max_remembered = signal::max_output;
 
 struct ToJson {
     Json operator()(std::monostate) const { return nullptr; }
-    Json operator()(const rig::Turned& turned) const { return {{"turned", rotation_json(turned.rotation)}}; }
+    Json operator()(const rig::Turned& turned) const { return {{"turned", dquaternion(turned.rotation)}}; }
     Json operator()(const signal::OutputState& state) const {
         return {{"output", {{"value", state.value}, {"started", state.started}}}};
     }
@@ -191,7 +191,7 @@ signal::SpringState<T> read_spring(const JsonPlace& place, rig::Type type) {
     const rig::Value value = read_value(place["value"], type, max_remembered);
     const rig::Value target = read_value(place["previous_target"], type, max_remembered);
     const bool started = place["started"].flag();
-    if (started) {  // before that a rotation is none yet
+    if (started) {  // until then the rotations are not of unit length
         check_unit(place["value"], value);
         check_unit(place["previous_target"], target);
     }
@@ -271,7 +271,7 @@ Json curves_state(const RigPart& part) {
     return curves;
 }
 
-/// `at`: the place of the next unit among all of the rig, bodies included.
+/// `at`: index of the next unit among all units of the rig, including those in bodies.
 Json unit_state(const RigPart& part, const rig::Unit& unit, std::size_t& at) {
     const rig::UnitState& state = part.state.units[at++];
     Json outputs = Json::object();
@@ -312,7 +312,7 @@ Json backward_state(const RigPart& part) {
                 {"bone", std::move(bone)}};
 }
 
-/// Why the selected element is where it is; null where none is selected.
+/// Why the selected element is where it is; null if none is selected.
 Json why_state(const Workspace& workspace, RigRuntime& runtime) {
     const RigPart& part = rig_part(workspace);
     const auto element = part.selected.elements.active();
@@ -341,7 +341,7 @@ Json take_state(const RigPart& part) {
                 {"keys", take.keys ? take.keys->size() : 0}};
 }
 
-/// "frames" that cannot be expressed, by the worst of each stretch.
+/// Frames that cannot be expressed, as runs with the worst frame of each.
 Json left_state(const RigClip& clip, const ClipSolve& solve) {
     Json runs = Json::array();
     for (const LeftRun& run : left_runs(solve)) {

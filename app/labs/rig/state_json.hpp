@@ -1,5 +1,5 @@
-// The state of a rig as a scene file has it: {"controls", "curves", "poses", "units"}. It comes back to the
-// bit.
+// The state of a rig in a scene file: {"controls", "curves", "poses", "units"}. Round trips bit for bit. Also
+// what --state writes of the Rig lab.
 #pragma once
 
 #include <tendril/rig/rig.hpp>
@@ -10,11 +10,11 @@
 namespace tendril::app {
 
 Json rig_state_json(const rig::Rig& rig, const rig::State& state);
-/// Other members are for others to read. Throws std::runtime_error that begins with the place.
+/// Ignores other members. Throws std::runtime_error that begins with the JSON path.
 rig::State read_rig_state(const JsonPlace& place, const rig::Rig& rig);
 
-// What a unit remembers of an element, as JSON: null where it is nothing, else an object with one member that
-// says what it is, {"turned"}, {"output"}, {"spring"} or {"ik"}.
+// What a unit remembers about an element, as JSON: null for nothing, else an object whose only member names
+// the kind of memory: {"turned"}, {"output"}, {"spring"} or {"ik"}.
 
 Json memory_json(const rig::UnitMemory& memory);
 rig::UnitMemory read_memory(const JsonPlace& place);

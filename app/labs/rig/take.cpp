@@ -14,14 +14,14 @@
 namespace tendril::app {
 namespace {
 
-constexpr std::uint64_t max_seek_work = 40'000'000;  ///< a second or so
+constexpr std::uint64_t max_seek_work = 40'000'000;  ///< about a second
 
 bool same_keys(const RigTake& a, const RigTake& b) {
     if (a.keys == b.keys) return true;
     return a.keys && b.keys && *a.keys == *b.keys;
 }
 
-/// A walk goes where its limits let it; the path has been checked when it was given.
+/// Limits clamp a walk. The path was checked when it was set.
 void walk(const rig::Rig& rig, const std::vector<RigWalk>& walks, rig::State& state, double ticks) {
     for (const RigWalk& each : walks)
         if (const auto at = rig.element(each.control))
@@ -32,8 +32,7 @@ void apply_key(const rig::Rig& rig, const TakeKey& key, rig::State& state) {
     static_cast<void>(rig.set_control(state, key.element, key.value));
 }
 
-/// The keys of a tick: first those that the rig was solved with at that tick, up to the last solve; then
-/// those that were set after that, which are seen one tick later.
+/// The keys of a tick: those up to its last solve, then those set later, which take effect in the next tick.
 struct KeysOfTick {
     std::span<const TakeKey> solved, set;
 };
@@ -46,12 +45,12 @@ KeysOfTick keys_at(const RigTake& take, std::uint32_t tick) {
     return {{begin, set}, {set, end}};
 }
 
-/// Whether a key is already what its control shows: it was set here, or changes nothing.
+/// Whether the control already has the value of a key: it was set here, or changes nothing.
 bool is_shown(const RigPart& part, const TakeKey& key) {
     return part.state.controls[key.element] == key.value;
 }
 
-/// What was done at the part's tick before it was shown.
+/// Applies the keys that belong to the display of the part's tick.
 void arrive(RigPart& part, RigRuntime& runtime, bool measured = false) {
     for (const TakeKey& key : keys_at(part.take, part.take.tick).solved) {
         if (key.element == TakeKey::solve) {
@@ -63,13 +62,13 @@ void arrive(RigPart& part, RigRuntime& runtime, bool measured = false) {
     }
 }
 
-/// What was set at the part's tick after it was shown.
+/// Applies the keys set after the part's tick was displayed.
 void leave(RigPart& part) {
     for (const TakeKey& key : keys_at(part.take, part.take.tick).set)
         if (!is_shown(part, key)) apply_key(part.rig, key, part.state);
 }
 
-/// From the part's tick to the next.
+/// Advances from the part's tick to the next.
 void pass(RigPart& part, RigRuntime& runtime, bool measured) {
     leave(part);
     walk(part.rig, part.walks, part.state, part.take.tick + 1.0);
@@ -88,8 +87,7 @@ std::shared_ptr<const std::vector<TakeKey>> shared(std::vector<TakeKey> keys) {
     return keys.empty() ? nullptr : std::make_shared<const std::vector<TakeKey>>(std::move(keys));
 }
 
-/// Those up to what is shown: at the present tick what was set after it had been shown, and is not, is still
-/// to come.
+/// The keys that have taken effect. Excludes those of the current tick that are not applied yet.
 std::vector<TakeKey> keys_so_far(const RigPart& part) {
     const RigTake& take = part.take;
     if (!take.keys) return {};
@@ -106,14 +104,14 @@ bool too_far(const RigPart& part, std::uint32_t ticks) {
     return ticks * part.rig.work() > max_seek_work;
 }
 
-/// To a tick, from the nearest one before it that is known. False where that is too far away.
+/// Goes to a tick from the nearest snapshot before it. Returns false if that is too far.
 bool go_from_known(RigPart& part, std::uint32_t tick, RigRuntime& runtime) {
     const auto* nearest = runtime.snapshots.nearest(part, tick);
     const std::uint32_t from = nearest ? nearest->first : 0;
     if (too_far(part, tick - from)) return false;
     part.state = nearest ? nearest->second.state : *part.take.start;
     part.last_solved.reset();
-    part.edited = !nearest;  // what a take starts with need not have been solved
+    part.edited = !nearest;  // the start of a take may not be solved
     part.moving = nearest ? nearest->second.moving : true;
     part.take.tick = from;
     arrive(part, runtime);
@@ -121,15 +119,15 @@ bool go_from_known(RigPart& part, std::uint32_t tick, RigRuntime& runtime) {
     return true;
 }
 
-/// Takes what was done at the tick back. `keys`: of the ticks before it.
+/// Undoes the keys of the current tick. `keys`: those of earlier ticks.
 bool undo_keys_here(RigPart& part, std::vector<TakeKey> keys, RigRuntime& runtime) {
     part.take.keys = shared(std::move(keys));
     if (!go_from_known(part, part.take.tick, runtime)) return false;
-    runtime.snapshots.keep(part);  // a drag comes back again and again
+    runtime.snapshots.keep(part);  // a drag comes here repeatedly
     return true;
 }
 
-/// What was set, the last of each control; and then one solve.
+/// The last value set for each control, then a single solve.
 std::vector<TakeKey> as_one(std::span<const TakeKey> keys, std::uint32_t tick) {
     std::vector<TakeKey> once;
     for (const TakeKey& key : keys) {
@@ -150,7 +148,7 @@ bool RigTake::operator==(const RigTake& other) const {
 }
 
 void begin_take(RigPart& part) {
-    if (part.rates && part.rates->running) part.rates.reset();  // it was of the take so far
+    if (part.rates && part.rates->running) part.rates.reset();  // it belongs to the old take
     for (RigWalk& each : part.walks)
         each.motion.ticks = (each.motion.ticks + part.take.tick) % ticks_per_round(each.motion);
     part.take = {.start = nullptr, .keys = nullptr, .tick = 0, .last = 0, .began = part.take.now()};
@@ -161,7 +159,7 @@ void key_control(RigPart& part, std::size_t element) {
     if (part.take.tick == 0 || count >= max_take_keys) return begin_take(part);
     const std::uint32_t tick = part.take.tick, at = static_cast<std::uint32_t>(element);
     std::vector<TakeKey> keys = keys_so_far(part);
-    // What was set before the rig was last solved at this tick has been seen by its units.
+    // Units have already seen what was set before the last solve at this tick.
     const auto seen = std::find_if(keys.rbegin(), keys.rend(), [&](const TakeKey& key) {
         return key.tick < tick || key.element == TakeKey::solve;
     });
@@ -269,14 +267,14 @@ namespace {
 
 using Path = Motion::Path;
 
-/// Around the path, in radians. Rounds are whole ticks long, so that the angle never drifts.
+/// Angle along the path, radians. A round is a whole number of ticks, so the angle never drifts.
 double angle_after(const Motion& motion, double ticks) {
     const double rounds =
         (static_cast<double>(motion.ticks) + ticks) / static_cast<double>(ticks_per_round(motion));
     return glm::two_pi<double>() * (rounds - std::floor(rounds));
 }
 
-/// In a circle of radius 1, and which way it goes there.
+/// Position on the unit path, and the direction of travel.
 struct Step {
     glm::dvec3 at{0.0}, along{0.0, 0.0, 1.0};
 };
@@ -319,7 +317,7 @@ rig::Value walk_value(const RigWalk& walk, const rig::Value& now, double ticks) 
     return to;
 }
 
-// The Rig lab from tick to tick.
+// Ticks and background work of the Rig lab.
 
 namespace {
 
@@ -339,7 +337,7 @@ void RigLab::step(Workspace& workspace) const {
     const bool modified = workspace.modified();
     RigPart& part = workspace.document.edit<RigPart>(rig_lab);
     for (int i = 0; i < due; ++i) pass_tick(part, rig_runtime(workspace), workspace.clock.measured);
-    if (!modified) workspace.saved = workspace.document;  // time does not mark the scene as modified
+    if (!modified) workspace.saved = workspace.document;  // playing does not modify the scene
 }
 
 std::uint64_t RigLab::tick_work(const Workspace& workspace) const {

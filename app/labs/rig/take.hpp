@@ -1,4 +1,4 @@
-// How a take goes on: tick by tick, to any tick, and where another begins.
+// Advances a take: tick by tick, to any tick, and into a new take. Also the paths that controls follow.
 #pragma once
 
 #include <tendril/rig/control.hpp>
@@ -8,30 +8,30 @@
 
 namespace tendril::app {
 
-/// What comes now does not follow from the take so far: another begins here, and time goes on.
+/// Starts a new take at the current time, because what comes next does not follow from the take so far.
 void begin_take(RigPart& part);
-/// The control has been set, after the present tick: what was known to come is forgotten.
+/// Records that the control was set after the current tick. Discards the later keys.
 void key_control(RigPart& part, std::size_t element);
-/// Solves without any time passing. Where that changes anything the take remembers it, and what was known to
-/// come is forgotten. However often that is done at a tick, with whatever set in between, it comes out as if
-/// all had been set at once and then solved.
+/// Solves with a zero time step. If that changes anything, records it in the take and discards the later
+/// keys. Several solves at one tick, with controls set in between, give the same result as setting everything
+/// first and solving once.
 void solve_now(RigPart& part, RigRuntime& runtime, bool measured);
 
 /// Whether a tick would change anything.
 bool time_moves(const RigPart& part);
 void pass_tick(RigPart& part, RigRuntime& runtime, bool measured);
-/// To a tick of the take, as playing there would; later ones too. Throws std::invalid_argument where that
-/// would take too long.
+/// Goes to any tick of the take, as playing to it would, past its end too. Throws std::invalid_argument if
+/// that would take too long.
 void go_to(RigPart& part, std::uint32_t tick, RigRuntime& runtime);
 
-/// A state on its way through a take, in other hands than the part's.
+/// Runs a separate state through the take, without changing the part.
 class TakeRunner {
   public:
-    /// From the take's start.
+    /// Starts at the beginning of the take.
     TakeRunner(const RigPart& part, rig::Workspace& scratch);
-    /// A frame of `seconds`, at whose end so many `ticks` of the take have passed, whole or not.
+    /// Advances by a frame of `seconds`, which ends `ticks` after the start of the take (may be fractional).
     void frame(double seconds, double ticks);
-    void tick();  ///< as pass_tick
+    void tick();  ///< as pass_tick does
     rig::State& state() { return state_; }
 
   private:
@@ -45,13 +45,13 @@ class TakeRunner {
     std::size_t next_key_ = 0;
 };
 
-// Where a control that follows a path is.
+// Positions on the paths that controls follow.
 
-/// Whether a control of that kind can follow one.
+/// Whether controls of this kind can follow a path.
 bool can_walk(rig::ControlKind kind);
-/// After so many ticks of the take, which need not be whole; within the control's space.
+/// The position `ticks` after the start of the take (may be fractional), within the control's space.
 glm::dvec3 walk_point(const Motion& motion, double ticks);
-/// The value of the control there: what the path does not say is as `now` has it.
+/// The value of the control there; takes what the path does not determine from `now`.
 rig::Value walk_value(const RigWalk& walk, const rig::Value& now, double ticks);
 
 }  // namespace tendril::app

@@ -1,4 +1,4 @@
-// The rig as a whole: emptied, solved, put in the place of another.
+// Commands on the rig as a whole and on time: presets, selection, solving, walks, takes, clips, frame rates.
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
@@ -52,8 +52,8 @@ void select(RigPart& part, const Arguments& given) {
     part.selected = std::move(selected);
 }
 
-/// Reading changes no answer, but works out and stores what is pending, which shows: so it is done to the
-/// part itself.
+/// Reading changes no value, but stores computed pending poses, which is visible. So it edits the part
+/// itself.
 void read(Workspace& workspace, const Arguments& given) {
     const std::vector<std::size_t> elements = elements_given(rig_part(workspace), given);
     RigPart& part = workspace.document.edit<RigPart>(rig_lab);
@@ -76,7 +76,8 @@ void copy(Workspace& workspace, const Arguments&) {
 
 void take_preset(Workspace& workspace, const Arguments& given) {
     const RigPreset& preset = rig_preset(given.text("name"));
-    // Where that is open nothing is changed: a recording begins with a scene file, which cannot tell.
+    // Opening an unchanged preset again changes nothing: a recording starts with a scene file, which does not
+    // say whether its rig came from a preset.
     change_part<RigPart>(workspace, rig_lab,
                          [&](RigPart& part, const RigPart&) { part = RigPart(preset.make()); });
     (workspace.lab == rig_lab ? workspace.camera : workspace.cameras[rig_lab]) = preset.view;
@@ -94,7 +95,7 @@ BackwardLeft solve_backward(RigPart& part, rig::Workspace& scratch) {
     return left;
 }
 
-/// No time passes. What was changed before is still to be seen by what remembers: the next tick solves too.
+/// Solves without passing time. Units with memory have yet to see the changes, so the next tick solves too.
 void solve(Workspace& workspace, const Arguments& given) {
     auto& runtime = workspace.runtimes.of<RigRuntime>(rig_lab);
     const bool backward = given.has("direction") && given.text("direction") == "backward";
@@ -205,7 +206,7 @@ void add_solve_commands(CommandTable& table) {
                .apply = solve});
 }
 
-// Time in the lab: controls that walk, going to any tick, clips, frame rates.
+// Time: walks, going to a tick, clips, frame rates.
 
 namespace {
 
@@ -220,14 +221,14 @@ glm::vec3 place_of(const rig::Value& value) {
     return glm::vec3(pose ? pose->translation : std::get<glm::dvec3>(value));
 }
 
-/// The tick of `to` that is as far around as `ticks` after the start of `from` is.
+/// The tick along path `to` with the same phase as `ticks` after the start of `from`.
 std::uint32_t phase_of(const Motion& from, std::uint32_t ticks, const Motion& to) {
     const std::uint64_t round = ticks_per_round(from), at = (std::uint64_t{from.ticks} + ticks) % round;
     return static_cast<std::uint32_t>(at * ticks_per_round(to) / round);
 }
 
-/// The path starts where the control is, so setting it going never makes it jump; unless its centre is given.
-/// One that follows the same path already goes on around the same centre. `old`: null where it does not walk.
+/// Unless its centre is given, the path starts at the control, so that the control does not jump. A control
+/// already on the same path keeps its centre. `old`: null if it does not walk.
 RigWalk walk_given(const RigPart& part, std::size_t at, const RigWalk* old, const Arguments& given) {
     const rig::Element& element = part.rig.definition().elements[at];
     if (!element.control) throw std::invalid_argument("\"" + element.name + "\" is no control");
@@ -288,10 +289,10 @@ void go(Workspace& workspace, const Arguments& given) {
     go_to(part, static_cast<std::uint32_t>(tick), runtime_of(workspace));
     workspace.clock.playing = workspace.clock.replaying = false;
     workspace.ui.incident.reset();
-    if (!modified) workspace.saved = workspace.document;  // time does not mark the scene as modified
+    if (!modified) workspace.saved = workspace.document;  // playing does not modify the scene
 }
 
-/// What was played, or ten seconds of what would walk by itself.
+/// What was played, or else ten seconds if a control walks.
 std::uint32_t ticks_worth_looking_at(const RigPart& part) {
     if (part.take.last > 0) return part.take.last;
     if (part.walks.empty()) throw std::invalid_argument("nothing has been played yet: play, or say how long");
@@ -318,7 +319,7 @@ void solve_clip(RigPart& part, const Arguments&) {
     start_clip_solve(part);
 }
 
-/// What is done stays.
+/// Keeps the frames solved so far.
 void cancel_clip(RigPart& part, const Arguments&) {
     if (!part.clip_left || !part.clip_left->running)
         throw std::invalid_argument("no backward solve of a clip goes on");
@@ -335,7 +336,7 @@ void compare_rates(Workspace& workspace, const Arguments& given) {
     });
 }
 
-/// For who does not wait for ticks.
+/// For callers that do not wait for ticks.
 void finish_rates(Workspace& workspace) {
     RigPart& part = workspace.document.edit<RigPart>(rig_lab);
     for (RatesWork work; part.rates && part.rates->running;) work.advance(part);

@@ -21,8 +21,8 @@
 namespace tendril::app {
 namespace {
 
-/// The controls that the rows are of; shown is the first of them. Those selected that can walk, the active
-/// one before others; else one that walks; else the first that can.
+/// The controls that the rows edit; the first one's walk is shown. The selected controls that can walk, the
+/// active one first; else one that walks; else the first that can.
 std::vector<std::size_t> walkers(const RigPart& part) {
     const auto& elements = part.rig.definition().elements;
     const auto can = [&](std::size_t at) {
@@ -41,7 +41,7 @@ std::vector<std::size_t> walkers(const RigPart& part) {
     return {};
 }
 
-/// Those that follow the same path, and can turn along it where `turning`.
+/// The controls on the same path; with `turning`, only those that can turn along it.
 std::vector<std::size_t> alike(const RigPart& part, const std::vector<std::size_t>& controls,
                                const RigWalk& walk, bool turning) {
     std::vector<bool> same(part.state.controls.size());
@@ -55,7 +55,7 @@ std::vector<std::size_t> alike(const RigPart& part, const std::vector<std::size_
     return found;
 }
 
-/// What is set is set on all that follow the same path.
+/// Edits all controls on the same path.
 void walk_fields(const RigPart& part, const std::vector<std::size_t>& controls, const RigWalk& walk,
                  Emit& emit) {
     const bool turns =
@@ -178,14 +178,14 @@ void time_rows(const Workspace& workspace, Emit& emit) {
         flip_rows(part.flips, rig_flip_words, emit);
 }
 
-// The strip below the scene: the take, where it is, what happened in it and which frames of the clip the rig
-// cannot express; or the last ten seconds, in which a drag takes time though the simulation is paused.
+// The strip below the scene. Shows the take with its current tick, incidents, and clip frames that the rig
+// cannot express; or the last ten seconds, in which a drag takes time even while the simulation is paused.
 
 namespace {
 
 constexpr std::uint64_t shortest = 600, longest = 2ull * max_take_ticks, lead = 60;  ///< ticks
 
-/// From a little before the take, or from the clip where that is near, to what is farthest to the right.
+/// The ticks on display: from shortly before the take, or from a nearby clip, to the end of the later one.
 struct Window {
     std::uint64_t first = 0, last = 0;
 };
@@ -201,7 +201,7 @@ Window window_of(const RigPart& part) {
     window.last = std::max({window.last, take.now(), window.first + shortest});
     return window;
 }
-/// As it is of the last moment that is remembered too: while that is shown again the strip keeps still.
+/// Includes the newest moment in the history, so that the strip stays put while an earlier one is shown.
 Window shown_window(const Workspace& workspace) {
     Window window = window_of(rig_part(workspace));
     if (workspace.rewind.empty()) return window;
@@ -210,12 +210,12 @@ Window shown_window(const Workspace& workspace) {
     return both.last - both.first <= longest ? both : window;
 }
 
-/// From 0 at a tenth of a millimetre to 1 at a metre.
+/// 0 at a tenth of a millimetre, 1 at a metre, logarithmic.
 float share_of(const FrameLeft& left) {
     return static_cast<float>(std::clamp((std::log10(std::max(amount(left), 1e-4)) + 4.0) / 4.0, 0.0, 1.0));
 }
 
-/// What is expressed stands back; what is not goes from yellow to red.
+/// Expressed frames are faint; the others go from yellow to red.
 TimeBar bar_of(const FrameLeft& left, const Palette& colours) {
     if (left.expressed()) return {glm::mix(colours.panel, colours.axis_y, 0.55f), 0.1f};
     const float share = share_of(left);
@@ -250,8 +250,7 @@ std::string told(const RigPart& part, std::uint64_t tick) {
            " are left" + (left.stopped ? ", stopped before the end" : "");
 }
 
-/// Its incidents, where in the take they were; `numbers`: which they are among all. Not those from before the
-/// strip begins.
+/// Incidents within the window, by tick of the take. `numbers`: their indices among all incidents.
 std::vector<TimeMark> take_marks(const Workspace& workspace, const Window& window,
                                  std::vector<std::size_t>& numbers) {
     std::vector<TimeMark> marks;
@@ -266,7 +265,7 @@ std::vector<TimeMark> take_marks(const Workspace& workspace, const Window& windo
     return marks;
 }
 
-/// To the tick before or after this one, of the take.
+/// Goes to the previous or next tick of the take.
 void step_button(const RigPart& part, bool back, Emit& emit) {
     const bool possible = back ? part.take.tick > 0 : part.take.tick < max_take_ticks;
     if (icon_button(back ? "back" : "forward", back ? Icon::ChevronLeft : Icon::ChevronRight,

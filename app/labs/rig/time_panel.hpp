@@ -1,4 +1,4 @@
-// The panel's rows about time: what walks, the clip, the frame rates.
+// The panel's rows about time: walks, the clip, the frame rates.
 #pragma once
 
 #include "app/document/workspace.hpp"
@@ -6,9 +6,9 @@
 
 namespace tendril::app {
 
-/// What moves a control by itself; nothing where no control can.
+/// The paths that controls follow; draws nothing if no control can follow one.
 void walk_rows(const Workspace& workspace, Emit& emit);
-/// Clip, frame rates, what of the last ten seconds is shown, and what counts as a flip.
+/// The clip, the frame rates, plots of the last ten seconds, and the flip rule.
 void time_rows(const Workspace& workspace, Emit& emit);
 
 }  // namespace tendril::app

@@ -56,7 +56,7 @@ class Lister {
     Lister(const RigPart& part, const rig::Hierarchy& now, std::vector<UnitInput>& list)
         : part_(part), now_(now), list_(list) {}
 
-    /// All fields of an operation, or of what is made of fields as one is.
+    /// All fields of an operation, or of a struct with rig::fields().
     template <class T>
     void all(const T& of, const std::string& path, const std::string& title) {
         rig::fields(of, [&](const char* name, const auto& field) {
@@ -131,7 +131,7 @@ class Lister {
         row.value = InputNames{roots, true};
         row.takes = UnitInput::Takes::Roots;
     }
-    void list(const rig::Body&, const std::string&, const std::string&) {}  // rows of their own
+    void list(const rig::Body&, const std::string&, const std::string&) {}  // body units have their own rows
     void list(bool flag, const std::string& path, const std::string& title) {
         add(path, title).value = rig::Value(flag);
     }
@@ -148,7 +148,7 @@ class Lister {
     }
 
     template <class T>
-    static void source_of(UnitInput&, const T&) {}  // the literal
+    static void source_of(UnitInput&, const T&) {}  // a literal
     void source_of(UnitInput& row, const rig::FromElement& from) const {
         const auto* name = std::get_if<std::string>(&from.element.which);
         row.from = name != nullptr ? *name : "each element";
@@ -235,14 +235,14 @@ namespace {
 
 constexpr const char* of_words[] = {"transform", "translation", "rotation", "scale", "x", "y", "z", "value"};
 
-/// What Rig::make takes: an input of T also takes what it can be made from.
+/// As Rig::make: an input of T also accepts types that convert to T.
 bool converts(rig::Type from, rig::Type to) {
     using enum rig::Type;
     return from == to || (from == Bool && to == Number) ||
            (from == Transform && (to == Vector || to == Rotation));
 }
 
-/// Parts of a pose, and those that differ between global and local.
+/// Parts of a pose that have the type; each exists in global and local space.
 std::vector<rig::Of> parts_of(rig::Type type) {
     using enum rig::Of;
     switch (type) {
@@ -313,14 +313,14 @@ class Offers {
         offers_.push_back({std::move(title), SharedJson(std::move(value)), now});
     }
 
-    /// The only type that it takes, or those that a spring takes: its force goes with its result.
+    /// The type of the input, or else the types of a spring. A force must fit the spring's velocity.
     std::vector<rig::Type> types() const {
         if (input_.type) return {*input_.type};
         if (input_.path == "/force") return {rig::type_of(part_.state.units[row_.at].outputs[1])};
         return {rig::Type::Number, rig::Type::Vector, rig::Type::Rotation};
     }
 
-    /// What it is now, from now on for itself.
+    /// Offers the current value as a literal.
     void literal() {
         const rig::Type type = types().front();
         const auto* now = std::get_if<rig::Value>(&input_.value);
@@ -329,7 +329,7 @@ class Offers {
               fits ? value_json(within_range(*now)) : zero_of(type));
     }
 
-    /// A literal weight is 0 to 1, one among parents and a speed are not negative.
+    /// Literal weights are 0 to 1; relative weights and speeds are not negative.
     rig::Value within_range(rig::Value value) const {
         auto* number = std::get_if<double>(&value);
         if (number == nullptr) return value;
@@ -356,8 +356,7 @@ class Offers {
         from_pose("each element", {{"item", "each"}}, type);
     }
 
-    /// Those that have run by then: not the for-each that it is in, nor what another's body did once an
-    /// element.
+    /// Units that have run before. Excludes the enclosing for-each and units in other bodies.
     void from_units(rig::Type type) {
         for (const UnitRow& each : unit_rows(part_)) {
             if (each.at >= row_.at) break;
@@ -397,7 +396,7 @@ class Offers {
         }
     }
 
-    /// One that takes any type takes it as it is.
+    /// An input of any type does no conversion.
     bool fits(rig::Type from, rig::Type to) const { return input_.type ? converts(from, to) : from == to; }
 
     void elements(bool bones) {
@@ -438,8 +437,8 @@ std::vector<InputOffer> input_offers(const RigPart& part, const UnitRow& row, co
 namespace {
 
 struct Help {
-    const char* operation;  ///< empty: whatever has an input of that name
-    const char* input;      ///< the last name of the path; "primary/axis" where that is not enough
+    const char* operation;  ///< empty: any operation with an input of that name
+    const char* input;      ///< last name of the path; "primary/axis" if that is ambiguous
     const char* text;
 };
 
@@ -515,7 +514,7 @@ constexpr Help helps[] = {
     {"", "pole_target", "A point that the elbow or knee points at. None: the chain bends as it did."},
 };
 
-/// The path without the number of a parent: "/parents/0/weight" has "parents/weight".
+/// Compares paths without the index of a parent: "/parents/0/weight" matches "parents/weight".
 bool is_path_of(std::string_view path, std::string_view input) {
     const std::size_t slash = input.find('/');
     if (slash == input.npos) return path.ends_with(input) && path[path.size() - input.size() - 1] == '/';

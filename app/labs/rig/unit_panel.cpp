@@ -1,4 +1,4 @@
-// The units in the order in which they run, each with its switch, its time and its warning.
+// The units in execution order, each with its switch, time and warning, and the inspector of one unit.
 #include <imgui.h>
 #include <algorithm>
 #include <cctype>
@@ -19,7 +19,7 @@
 namespace tendril::app {
 namespace {
 
-/// "parent_constraint" as "parent constraint".
+/// "parent_constraint" becomes "parent constraint".
 std::string operation_title(std::size_t index) {
     std::string title = rig::operation_name(index);
     std::replace(title.begin(), title.end(), '_', ' ');
@@ -34,7 +34,6 @@ void switch_box(const RigPanel& panel, const rig::Unit& unit) {
     if (ImGui::IsItemHovered()) ImGui::SetTooltip(on ? "Runs; click to skip it" : "Skipped; click to run it");
 }
 
-/// Switch, name, operation, time.
 void title_row(const RigPanel& panel, const UnitRow& row, const std::vector<double>& times) {
     const rig::Unit& unit = *row.unit;
     const float em = ImGui::GetFontSize(), line = ImGui::GetTextLineHeight();
@@ -67,7 +66,7 @@ void title_row(const RigPanel& panel, const UnitRow& row, const std::vector<doub
     }
 }
 
-/// A line of a unit: what it reads or hands out, and what that is now; below it, where there is no room.
+/// A line for an input or output of a unit with its current value, on a second line if there is no room.
 void live_line(const std::string& title, const std::string& from, const std::string& value, float margin) {
     const float gap = 0.6f * ImGui::GetFontSize(), width = ImGui::GetContentRegionAvail().x - margin;
     const auto width_of = [](const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x; };
@@ -109,7 +108,7 @@ void live_lines(const RigPanel& panel, const UnitRow& row) {
     const float margin = (row.inner ? 2.6f : 1.4f) * ImGui::GetFontSize();
     const rig::Unit usual;
     for (const UnitInput& input : unit_inputs(panel.part, panel.now, *row.unit)) {
-        // Weight 1 and no condition are what one expects.
+        // Hide the default weight and condition.
         if (input.path == "/weight" && row.unit->weight == usual.weight) continue;
         if (input.path == "/when" && row.unit->when == usual.when) continue;
         live_line(input.title, input.from, live_text(input), margin);
@@ -139,7 +138,7 @@ void add_unit_menu(const RigPanel& panel) {
     ImGui::EndPopup();
 }
 
-/// Its place in the list that it is in, and how long that is.
+/// Index of the unit in its list, and the length of that list.
 std::pair<int, int> place_of(const std::vector<UnitRow>& rows, const UnitRow& row) {
     int at = 0, count = 0;
     for (const UnitRow& each : rows) {
@@ -184,7 +183,7 @@ void unit_list(const RigPanel& panel) {
         panel.workspace.clock.measured ? panel.runtime.microseconds(panel.part.rig) : std::vector<double>();
     const float line = ImGui::GetTextLineHeight() + ImGui::GetStyle().ItemSpacing.y;
     constexpr float max_lines = 26.0f;
-    // As high as what is in it, as long as that is not too much: then it scrolls.
+    // The list grows with its content up to a limit, then scrolls.
     const bool many = rows.size() > 20;
     if (many) ImGui::BeginChild("units", {0.0f, max_lines * line}, false);
     for (const UnitRow& row : rows) {
@@ -192,7 +191,7 @@ void unit_list(const RigPanel& panel) {
         const bool selected = panel.part.selected.unit == row.unit->name;
         if (many && !selected && warning == rig::Warning::None &&
             !ImGui::IsRectVisible({ImGui::GetContentRegionAvail().x, line})) {
-            ImGui::Dummy({1.0f, ImGui::GetTextLineHeight()});  // as high as the row
+            ImGui::Dummy({1.0f, ImGui::GetTextLineHeight()});  // same height as the row
             continue;
         }
         ImGui::PushID(static_cast<int>(row.at));
@@ -210,14 +209,14 @@ void unit_list(const RigPanel& panel) {
     add_unit_menu(panel);
 }
 
-// The selected unit: what it reads, with a field for whatever is a literal, and what it hands out.
+// The selected unit: its inputs, with fields for literals, and its outputs.
 
 namespace {
 
 constexpr float max_literal = 1e9f;
 
 bool is_weight(const UnitInput& input) {
-    // Weights among the parents of a constraint are relative, and may be over 1.
+    // Weights of a constraint's parents are relative and may exceed 1.
     return input.path.ends_with("weight") && !input.path.starts_with("/parents");
 }
 
@@ -247,14 +246,14 @@ class Fields {
         return input_help(rig::operation_name(row_.unit->operation.index()), input_->path);
     }
 
-    /// Where it comes from, and what it is now below that.
+    /// The source, with the current value below it.
     void source_row() const {
         chooser(input_->title, &input_->from);
         if (const auto* value = std::get_if<rig::Value>(&input_->value))
             text_flush_right(elided(input_text(*input_, *value), ImGui::GetContentRegionAvail().x), true);
     }
 
-    /// What else it may be, in a field that shows what it is, or behind a button.
+    /// A list of alternatives, opened by a field that shows the current one, or by a button.
     void chooser(const std::string& title, const std::string* shown, std::size_t index = 0) const {
         SearchText& typed = panel_.runtime.panel.choice;
         const bool open = begin_search(title.c_str(), shown, typed);
@@ -284,7 +283,7 @@ class Fields {
             set(choice.names[static_cast<std::size_t>(chosen)]);
         explain(help().c_str());
     }
-    /// A box for each axis.
+    /// One checkbox per axis.
     void field(const InputFilter& filter) const {
         rig::TransformFilter passes = filter.passes;
         bool changed = false;
@@ -331,7 +330,7 @@ class Fields {
         signal::Curve edited = curve.curve;
         const auto& evaluate = std::get<rig::EvaluateCurve>(row_.unit->operation);
         const double width = edited.source_max - edited.source_min;
-        double at = -1.0;  // shown nowhere
+        double at = -1.0;  // outside the graph
         if (const double* literal = evaluate.value.literal()) at = *literal;
         for (const UnitInput& each : unit_inputs(panel_.part, panel_.now, *row_.unit))
             if (const auto* value = std::get_if<rig::Value>(&each.value); value && each.path == "/value")
@@ -381,7 +380,7 @@ class Fields {
     void literal_field(const glm::dquat& value) const {
         glm::dquat rotation = value;
         if (rotation_field(panel_, (input_->title + ", degrees").c_str(), rotation))
-            set(rotation_json(rotation));
+            set(dquaternion(rotation));
     }
     void literal_field(const rig::Transform& value) const {
         ImGui::TextDisabled("%s", input_->title.c_str());
@@ -412,7 +411,7 @@ void unit_inspector(const RigPanel& panel) {
     if (row->unit->enabled) warning_line(panel, panel.part.state.units[row->at].warning);
     Fields fields(panel, *row);
     for (const UnitInput& input : unit_inputs(panel.part, panel.now, *row->unit)) {
-        if (input.path == "/when" && row->unit->when == rig::Unit().when) continue;  // the switch does that
+        if (input.path == "/when" && row->unit->when == rig::Unit().when) continue;  // the switch covers it
         ImGui::PushID(input.path.c_str());
         fields.row(input);
         ImGui::PopID();

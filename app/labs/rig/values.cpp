@@ -34,7 +34,7 @@ glm::dvec3 read_vector(const JsonPlace& place, double most) {
     return {real_at(place, 0, most), real_at(place, 1, most), real_at(place, 2, most)};
 }
 
-/// Calls with each component of a vector, or of a transform's vectors, and what stands there in `other`.
+/// Calls `take` with each component of a vector, or of a transform's vectors, and its counterpart in `other`.
 void for_each_in_vectors(Json& value, const Json& other, const auto& take) {
     constexpr std::size_t max_vector = 3;
     if (value.is_object() && other.is_object())
@@ -61,10 +61,6 @@ std::size_t read_name(const JsonPlace& place, std::span<const std::string_view> 
     return static_cast<std::size_t>(found - names.begin());
 }
 
-Json rotation_json(const glm::dquat& rotation) {
-    return Json::array({rotation.x, rotation.y, rotation.z, rotation.w});
-}
-
 glm::dquat read_rotation(const JsonPlace& place, double most) {
     if (!place.json().is_array() || place.json().size() != 4)
         place.fail("expected a rotation [x, y, z, w], found " + json_summary(place.json()));
@@ -74,7 +70,7 @@ glm::dquat read_rotation(const JsonPlace& place, double most) {
 
 Json transform_json(const rig::Transform& transform) {
     return Json{{"translation", dpoint(transform.translation)},
-                {"rotation", rotation_json(transform.rotation)},
+                {"rotation", dquaternion(transform.rotation)},
                 {"scale", dpoint(transform.scale)}};
 }
 
@@ -92,7 +88,7 @@ Json value_json(const rig::Value& value) {
         Json operator()(bool flag) const { return flag; }
         Json operator()(double number) const { return number; }
         Json operator()(const glm::dvec3& vector) const { return dpoint(vector); }
-        Json operator()(const glm::dquat& rotation) const { return rotation_json(rotation); }
+        Json operator()(const glm::dquat& rotation) const { return dquaternion(rotation); }
         Json operator()(const rig::Transform& transform) const { return transform_json(transform); }
     };
     return std::visit(ToJson(), value);
@@ -130,7 +126,7 @@ void check_unit(const JsonPlace& place, const rig::Value& value) {
     if (const auto* rotation = std::get_if<glm::dquat>(&value)) q = *rotation;
     if (const auto* transform = std::get_if<rig::Transform>(&value)) q = transform->rotation;
     if (!(std::abs(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w - 1.0) < 1e-6))
-        place.fail("expected a rotation of length 1, found " + json_summary(rotation_json(q)));
+        place.fail("expected a rotation of length 1, found " + json_summary(dquaternion(q)));
 }
 
 rig::Value read_stored(const JsonPlace& place, rig::Type type) {

@@ -1,28 +1,26 @@
 #include "app/labs/rope/body_commands.hpp"
 
 #include <imgui.h>
+
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <string>
-#include <tendril/rope/hair_roots.hpp>
 #include <utility>
 
 #include "app/labs/kit/arguments.hpp"
-#include "app/labs/rope/body_settings.hpp"
 #include "app/labs/rope/panel.hpp"
+#include "app/labs/rope/rope_fields.hpp"
 #include "app/labs/rope/rope_lab.hpp"
 #include "app/view/camera.hpp"
 #include "app/widgets/fields.hpp"
 
 namespace tendril::app {
 
-// Ropes, cloth and hair: adding, removing, pinning, cutting.
+// Commands that add, remove, pin and cut ropes, cloth and hair, and the panel's rows that add them.
 
 namespace {
 
 constexpr double max_particles = static_cast<double>(max_lab_particles);
-constexpr const char* pins_names[] = {"none", "corners", "row"};
-
 std::string name_of(const Arguments& given) {
     return given.has("name") ? given.text("name") : std::string();
 }
@@ -32,22 +30,14 @@ std::size_t count_of(int particles) {
 }
 
 void add_rope(RopeEdit& edit, const Arguments& given) {
-    rope::RopeShape shape{.from = given.point("from"), .to = given.point("to")};
-    if (given.has("segments")) shape.segments = given.integer("segments");
-    if (given.has("length")) shape.length = given.number("length");
-    if (given.has("radius")) shape.radius = given.number("radius");
-    if (given.has("pin_start")) shape.pin_start = given.boolean("pin_start");
-    if (given.has("pin_end")) shape.pin_end = given.boolean("pin_end");
+    rope::RopeShape shape;
+    set_fields(given, shape);
     check_particle_count(edit.seen(), count_of(shape.segments) + 1);
     edit.world().add_rope(name_of(given), shape);
 }
 
 void add_cloth(RopeEdit& edit, const Arguments& given) {
-    rope::ClothShape shape{
-        .corner = given.point("corner"), .along = given.point("along"), .down = given.point("down")};
-    if (given.has("columns")) shape.columns = given.integer("columns");
-    if (given.has("rows")) shape.rows = given.integer("rows");
-    if (given.has("radius")) shape.radius = given.number("radius");
+    rope::ClothShape shape;
     if (given.has("material")) {
         const auto* const material =
             std::ranges::find(rope::cloth_materials, given.text("material"), &rope::ClothMaterial::name);
@@ -55,30 +45,17 @@ void add_cloth(RopeEdit& edit, const Arguments& given) {
         shape.shear = material->shear;
         shape.bend = material->bend;
     }
-    if (given.has("density")) shape.density = given.number("density");
-    if (given.has("shear")) shape.shear = given.number("shear");
-    if (given.has("bend")) shape.bend = given.number("bend");
-    if (given.has("tear")) shape.tear = given.number("tear");
-    if (given.has("pins")) {
-        const auto* const pins = std::find(std::begin(pins_names), std::end(pins_names), given.text("pins"));
-        shape.pins = static_cast<rope::ClothShape::Pins>(pins - std::begin(pins_names));
-    }
+    set_fields(given, shape);
     check_particle_count(edit.seen(), count_of(shape.columns) * count_of(shape.rows));
     edit.world().add_cloth(name_of(given), shape);
 }
 
 void add_hair(RopeEdit& edit, const Arguments& given) {
     rope::HairShape shape;
-    std::string attach;
-    if (given.has("length")) shape.length = given.number("length");
-    if (given.has("segments")) shape.segments = given.integer("segments");
-    if (given.has("radius")) shape.radius = given.number("radius");
-    if (given.has("density")) shape.density = given.number("density");
-    if (given.has("bend")) shape.bend = given.number("bend");
     rope::HairPatch patch;
-    if (given.has("direction")) patch.direction = given.point("direction");
-    if (given.has("strands")) patch.strands = given.integer("strands");
-    if (given.has("spread")) patch.radius = given.number("spread");
+    std::string attach;
+    set_fields(given, shape);
+    set_fields(given, patch);
     check_particle_count(edit.seen(), count_of(patch.strands) * (count_of(shape.segments) + 1));
     if (given.has("attach")) {
         if (given.has("centre")) throw Refused("centre is not for hair that is attached to a collider");
@@ -87,7 +64,6 @@ void add_hair(RopeEdit& edit, const Arguments& given) {
         shape.roots = require_value(rope::roots_on(collider.shape, patch, shape.radius));
     } else {
         if (!given.has("centre")) throw Refused("centre is missing, or a collider to attach the hair to");
-        patch.centre = given.point("centre");
         shape.roots = require_value(rope::roots_around(patch));
     }
     edit.world().add_hair(name_of(given), std::move(shape), attach);
@@ -114,7 +90,7 @@ void pin(RopeEdit& edit, const Arguments& given) {
         throw Refused("at is for one particle: pinned to one point, several would be on top of each other");
     if (given.has("points") && !given.has("particles")) throw Refused("points is for particles");
     const std::vector<NamedParticle> all = named_particles(edit.seen(), given);
-    for (const NamedParticle& named : all) forget_held(edit.part, named);  // now it is held for good
+    for (const NamedParticle& named : all) forget_held(edit.part, named);  // it is pinned now
     if (given.has("at") || given.has("points")) return edit.move_pins(pin_places(given, all, "at", "points"));
     for (const NamedParticle& named : all)
         edit.world().pin(named.particle, edit.seen().position(named.particle));
@@ -122,7 +98,7 @@ void pin(RopeEdit& edit, const Arguments& given) {
 
 void unpin(RopeEdit& edit, const Arguments& given) {
     std::vector<NamedParticle> all = named_particles(edit.seen(), given);
-    // From the last: what is taken from the end of a list moves nothing.
+    // Unpins the last one first: removing from the end of a list moves nothing.
     std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.particle > b.particle; });
     for (const NamedParticle& named : all) {
         if (!edit.seen().pinned(named.particle)) continue;
@@ -131,7 +107,7 @@ void unpin(RopeEdit& edit, const Arguments& given) {
     }
 }
 
-/// What pointed behind the cut points at the same particle of the new rope.
+/// Redirects a reference beyond the cut to the same particle of the new rope.
 void follow_cut(std::string& body, std::size_t& particle, const std::string& cut_rope, std::size_t segment,
                 const std::string& rest) {
     if (body != cut_rope || particle <= segment) return;
@@ -139,7 +115,7 @@ void follow_cut(std::string& body, std::size_t& particle, const std::string& cut
     particle -= segment + 1;
 }
 
-/// The selection goes with its active particle.
+/// The selection stays with its active particle.
 void follow_cut(RopeSelection& selection, const std::string& cut_rope, std::size_t segment,
                 const std::string& rest) {
     if (selection.body != cut_rope) return;
@@ -153,7 +129,7 @@ void follow_cut(RopeSelection& selection, const std::string& cut_rope, std::size
     selection.particles.take(stay, false);
 }
 
-/// All that is held is on one side of the cut.
+/// All held particles are on one side of the cut.
 void follow_cut(Hold& hold, const std::string& cut_rope, std::size_t segment, const std::string& rest) {
     std::string body = hold.body;
     for (std::size_t& each : hold.particles) {
@@ -181,54 +157,41 @@ void cut(RopeEdit& edit, const Arguments& given) {
     forget_missing(part);
 }
 
-Argument own_name(const char* otherwise) {
-    return text_argument("name", false, otherwise);
+/// A name, followed by the fields of `Shapes`.
+template <class... Shapes>
+std::vector<Argument> adding_arguments(const char* otherwise) {
+    std::vector<Argument> all;
+    for (const std::vector<Argument>& each : {field_arguments<Shapes>()...})
+        all.insert(all.end(), each.begin(), each.end());
+    all.push_back(text_argument("name", false, otherwise));
+    return all;
+}
+
+void require_arguments(std::vector<Argument>& arguments, std::initializer_list<std::string_view> names) {
+    for (Argument& each : arguments) each.required = std::ranges::count(names, each.name) != 0;
 }
 
 void add_adding_commands(CommandTable& table) {
-    table.add(rope_command("rope.add", "Add a rope",
-                           {point_argument("from", true, "metres"), point_argument("to", true, "metres"),
-                            own_name("\"rope\", \"rope 2\", ... when left out"),
-                            integer_argument("segments", "32 when left out", 1, max_particles - 1),
-                            number_argument("length", "metres; the distance when left out", 0.0, 1e9),
-                            number_argument("radius", "metres; 0.02 when left out", 0.0, 1e9),
-                            switch_argument("pin_start", "pins its first particle"),
-                            switch_argument("pin_end", "pins its last particle")},
+    std::vector<Argument> of_rope =
+        adding_arguments<rope::RopeShape>("\"rope\", \"rope 2\", ... when left out");
+    require_arguments(of_rope, {"from", "to"});
+    table.add(rope_command("rope.add", "Add a rope", std::move(of_rope),
                            "Adds a rope: straight, or hanging where it is longer than the distance",
                            add_rope));
-    table.add(rope_command(
-        "rope.cloth.add", "Add a cloth",
-        {point_argument("corner", true, "metres"),
-         point_argument("along", true, "from the corner to the other end of the first row"),
-         point_argument("down", true, "from the corner to the last row"),
-         own_name("\"cloth\", \"cloth 2\", ... when left out"),
-         integer_argument("columns", "particles; 24 when left out", 2, max_particles),
-         integer_argument("rows", "particles; 24 when left out", 2, max_particles),
-         number_argument("radius", "metres; 0.01 when left out", 0.0, 1e9),
-         choice_argument("material", false, "its density, shear and bend; cotton when left out",
-                         names(rope::cloth_materials,
-                               [](const rope::ClothMaterial& each) { return std::string(each.name); })),
-         number_argument("density", "kg/m^2; the material's when left out", 0.0, 1e9),
-         number_argument("shear", "compliance, m/N; the material's when left out", 0.0, 1e9),
-         number_argument("bend", "compliance, m/N; the material's when left out", 0.0, 1e9),
-         number_argument("tear", "strain at which links tear; 0: never", 0.0, 1e9),
-         choice_argument("pins", false, "of its first row",
-                         names(pins_names, [](const char* name) { return name; }))},
-        "Adds a cloth", add_cloth));
-    table.add(rope_command(
-        "rope.hair.add", "Add hair",
-        {own_name("\"hair\", \"hair 2\", ... when left out"),
-         point_argument("centre", false, "of the patch that it grows from"),
-         collider_argument("attach", false, "a collider that it grows from, instead of a centre"),
-         point_argument("direction", false, "of growth; down, or outwards from a collider"),
-         integer_argument("strands", "32 when left out", 1, max_particles),
-         number_argument("spread", "the patch's radius, metres; 0.1 when left out", 0.0, 1e9),
-         number_argument("length", "metres; 0.5 when left out", 0.0, 1e9),
-         integer_argument("segments", "of a strand; 16 when left out", 2, max_particles - 1),
-         number_argument("radius", "metres; 0.004 when left out", 0.0, 1e9),
-         number_argument("density", "kg/m; 0.05 when left out", 0.0, 1e9),
-         number_argument("bend", "compliance, m/N", 0.0, 1e9)},
-        "Adds strands of hair, pinned at their roots", add_hair));
+    std::vector<Argument> of_cloth =
+        adding_arguments<rope::ClothShape>("\"cloth\", \"cloth 2\", ... when left out");
+    of_cloth.push_back(choice_argument("material", false, "its density, shear and bend; cotton when left out",
+                                       names(rope::cloth_materials, [](const rope::ClothMaterial& each) {
+                                           return std::string(each.name);
+                                       })));
+    require_arguments(of_cloth, {"corner", "along", "down"});
+    table.add(rope_command("rope.cloth.add", "Add a cloth", std::move(of_cloth), "Adds a cloth", add_cloth));
+    std::vector<Argument> of_hair =
+        adding_arguments<rope::HairShape, rope::HairPatch>("\"hair\", \"hair 2\", ... when left out");
+    of_hair.push_back(
+        collider_argument("attach", false, "a collider that it grows from, instead of a centre"));
+    table.add(rope_command("rope.hair.add", "Add hair", std::move(of_hair),
+                           "Adds strands of hair, pinned at their roots", add_hair));
 }
 
 }  // namespace
@@ -266,11 +229,11 @@ void add_body_commands(CommandTable& table) {
                            "Cuts a rope in two", cut));
 }
 
-// What the Rope lab's panel adds: where there is free space, and selected at once.
+// The panel's rows that add objects, at a free position, and select them.
 
 namespace {
 
-/// "ball", "ball 2", ...: the first name that is not taken.
+/// "ball", "ball 2", ...: the first unused name.
 template <class Taken>
 std::string free_name(const std::string& kind, Taken taken) {
     std::string name = kind;
@@ -278,8 +241,7 @@ std::string free_name(const std::string& kind, Taken taken) {
     return name;
 }
 
-/// The middle of the view, or as near to it as nothing is in the way: to the right of it and nearer, one
-/// after the other.
+/// The centre of the view, or the nearest free position to its right and towards the viewer.
 glm::vec3 free_place(const Workspace& workspace) {
     constexpr float apart = 0.35f;  // metres
     const rope::State& state = rope_part(workspace).world->state();

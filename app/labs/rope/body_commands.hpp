@@ -1,4 +1,4 @@
-// What the files of this lab's commands share.
+// Shared by the command files of this lab.
 #pragma once
 
 #include <vector>
@@ -9,16 +9,16 @@
 
 namespace tendril::app {
 
-/// A command on a copy of the lab's part; what it changes in the world wakes it.
+/// A command that changes a copy of the lab's part. A lab at rest resumes if the world or a swing changes.
 Command rope_command(const char* name, const char* title, std::vector<Argument> arguments, const char* help,
                      void (*change)(RopeEdit&, const Arguments&), Effect effect = Effect::Edit);
 
-/// Offered by name: what hangs in the world, and what it meets.
+/// Arguments completed with the names of bodies or colliders.
 Argument body_argument(const char* name, bool required, const char* help);
 Argument collider_argument(const char* name, bool required, const char* help);
 Argument rope_argument(bool required, const char* help);
 Argument particle_argument(bool required, const char* help);
-/// Several, for a command that does the same to all.
+/// For commands that treat several particles alike.
 Argument particles_argument();
 
 void add_world_commands(CommandTable& table);

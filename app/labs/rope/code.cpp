@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "app/document/json_complete.hpp"
 #include "app/document/workspace.hpp"
 #include "app/labs/kit/code_text.hpp"
+#include "app/labs/kit/world_file.hpp"
 #include "app/labs/rope/rope_edit.hpp"
 
 namespace tendril::app {
@@ -35,20 +35,11 @@ std::string particle_text(const rope::State& state, std::size_t i) {
 }
 
 std::string shape_text(const rope::Shape& shape) {
-    if (const auto* sphere = std::get_if<rope::Sphere>(&shape))
-        return "rope::Sphere{" + braced(sphere->centre) + ", " + literal(sphere->radius) + '}';
-    if (const auto* capsule = std::get_if<rope::Capsule>(&shape))
-        return "rope::Capsule{" + braced(capsule->a) + ", " + braced(capsule->b) + ", " +
-               literal(capsule->radius) + '}';
-    if (const auto* plane = std::get_if<rope::Plane>(&shape))
-        return "rope::Plane{" + braced(plane->point) + ", " + braced(plane->normal) + '}';
-    const auto& box = std::get<rope::Box>(shape);
-    const glm::quat& q = box.rotation;
-    return "rope::Box{" + braced(box.centre) + ", " + braced(box.half_extents) + ", {" + literal(q.w) + ", " +
-           literal(q.x) + ", " + literal(q.y) + ", " + literal(q.z) + "}}";
+    return "rope::" + pascal_text(rope::kind(shape)) + '{' + joined(member_texts(shape_fields_of(shape))) +
+           '}';
 }
 
-/// Index in state.colliders; number_slots() numbers them in this order.
+/// Index in state.colliders, in which order number_slots() numbers them.
 std::size_t place_of(const rope::State& state, rope::ColliderId collider) {
     const auto found = std::ranges::find(state.colliders, collider, &rope::Collider::id);
     return static_cast<std::size_t>(found - state.colliders.begin());
@@ -91,7 +82,7 @@ class RopeProgram {
         line("");
     }
 
-    /// `opening`, entries with commas between them, `closing`: as many on a line as fit.
+    /// `opening`, entries separated by commas, then `closing`, with as many as fit on a line.
     void list(const std::string& opening, const std::vector<std::string>& entries, const std::string& closing,
               const std::string& margin = "    ") {
         std::string row = opening;
@@ -113,7 +104,7 @@ class RopeProgram {
         list("    ", entries, "};");
         line("");
     }
-    /// A comment with the user's name for it.
+    /// A comment with the name that the user gave it.
     void name(const std::string& name) {
         say("// " + Json(name).dump(-1, ' ', false, Json::error_handler_t::replace));
     }

@@ -7,8 +7,8 @@
 
 namespace tendril::app {
 
-/// Complete program: the world without drags, simulated for one second in ticks of 1/60 s. Part of a tick
-/// that slow motion or frame-time jitter left over is not in it.
+/// Complete program: the world without drags, simulated for one second in ticks of 1/60 s. Leaves out a
+/// partial tick that is left over by slow motion or frame-time jitter.
 std::string rope_code(const RopePart& part);
 
 }  // namespace tendril::app

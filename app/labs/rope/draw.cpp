@@ -1,4 +1,4 @@
-// The Rope lab's picture: tubes, cloth and hair, what they lie on, and where they are held.
+// Drawing of the Rope lab: ropes as tubes, cloth, hair, colliders and pins.
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
@@ -12,10 +12,10 @@
 namespace tendril::app {
 namespace {
 
-constexpr float plane_radius = 3.0f;       ///< metres of an endless plane that are shown
-constexpr double heavy_from = 4.0;         ///< times the lightest particle of a rope
-constexpr double weight_density = 2500.0;  ///< kg/m^3: of stone
-constexpr glm::vec4 unseen{0.0f};          ///< of strokes that can be caught, but are drawn otherwise
+constexpr float plane_radius = 3.0f;       ///< visible radius of an infinite plane, metres
+constexpr double heavy_from = 4.0;         ///< multiple of the mass of a rope's lightest particle
+constexpr double weight_density = 2500.0;  ///< kg/m^3, that of stone
+constexpr glm::vec4 unseen{0.0f};          ///< for invisible strokes that only catch the pointer
 
 class Drawing {
   public:
@@ -76,7 +76,7 @@ class Drawing {
             catchable_box(*block, pick);
         } else if (const auto* plane = std::get_if<rope::Plane>(&shape)) {
             plane_patch(list_, view_.camera, plane->point, plane->normal, plane_radius, colour);
-            // A grip in its middle; on the ground it would only be in the way.
+            // A grip in the centre of the plane; on the ground it would only be in the way.
             if (plane->point.y == 0.0f && glm::normalize(plane->normal).y > 0.999f) return;
             solid(list_.sphere(plane->point, px(5.0f), Unit::Pixels, glm::vec4(colour, 1.0f)), pick);
         }
@@ -85,7 +85,7 @@ class Drawing {
         stroke.shadow = true;
         stroke.pick = pick;
     }
-    /// Capsules along all but its thinnest sides: near enough to be caught by.
+    /// Invisible capsules along all but its thinnest sides approximate the box.
     void catchable_box(const rope::Box& block, PickId pick) {
         const glm::vec3 half = block.half_extents;
         const float thick = std::min({half.x, half.y, half.z});
@@ -106,8 +106,8 @@ class Drawing {
         }
     }
 
-    /// Particles that weigh far more than their neighbours are balls, as large as they are heavy: a
-    /// pendulum's bob.
+    /// Particles much heavier than their neighbours are drawn as balls of a size that fits their mass, such
+    /// as a pendulum's bob.
     void weights() {
         const std::vector<double>& mass = world_.state().mass;
         for (const rope::Body& body : world_.state().bodies) {
@@ -126,7 +126,7 @@ class Drawing {
         }
     }
 
-    /// Each half of a link is caught as the particle at its end; where links are cut, all of it as its first.
+    /// Each half of a link picks the particle at its end. With the cut tool, a link picks its first particle.
     void catchable_links() {
         const bool cuts = part_.tool == RopeTool::Cut;
         const rope::State& state = world_.state();
@@ -161,7 +161,7 @@ class Drawing {
             for (std::size_t i = 0; i < body.count; ++i) {
                 const std::size_t particle = body.first + i;
                 const PickId pick = particle_pick(particle);
-                const bool alone = body.count == 1;  // what is left of a rope that was cut at its end
+                const bool alone = body.count == 1;  // the rest of a rope cut near its end
                 const bool selected = chosen(body, i), under_mouse = !cuts && lit(pick);
                 if (!(pinned[particle] || selected || under_mouse || part_.view.particles || alone)) continue;
                 const glm::vec3 colour = selected            ? view_.palette.selection
@@ -176,7 +176,7 @@ class Drawing {
             }
         }
     }
-    /// Pixels: a little more than the rope is thick, so that it shows.
+    /// In pixels: a little more than the rope's thickness, to be visible.
     float ball_radius(const rope::Body& body, std::size_t particle) const {
         const float thick = body.radius / view_.camera.metres_per_pixel(positions_[particle]);
         return std::clamp(1.3f * thick, px(3.0f), std::max(px(6.0f), 1.3f * thick));

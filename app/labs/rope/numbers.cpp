@@ -7,9 +7,9 @@
 namespace tendril::app {
 namespace {
 
-constexpr std::size_t max_pins = 32;  ///< of a body, that are compared with each other
+constexpr std::size_t max_pins = 32;  ///< per body, that are compared with one another
 
-/// How far its links let two particles of a body be from each other, along rows and columns.
+/// How far apart its links let two particles of a body be, along rows and columns.
 class Reach {
   public:
     Reach(const rope::State& state, const rope::Body& body)
@@ -37,7 +37,7 @@ class Reach {
     static constexpr double no_link = std::numeric_limits<double>::infinity();
     std::size_t row_;
     bool strands_;
-    std::vector<double> along_, down_;  ///< rests of the links from each particle
+    std::vector<double> along_, down_;  ///< rest lengths of the links from each particle
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What is measured of ropes: for the inspector, the curves and the plot of the last ten seconds.
+// Measurements of ropes for the inspector, the curves and the plot of the last ten seconds.
 #pragma once
 
 #include <optional>
@@ -9,22 +9,22 @@
 
 namespace tendril::app {
 
-/// Which particles of a world.
+/// Marks particles of a world.
 using Particles = std::vector<bool>;
-/// Those that are selected, or all where none is; empty where what is selected is not in that world.
+/// The selected particles, or all if none is selected; empty if the selected body is not in that world.
 Particles measured_particles(const NamedWorld& world, const std::optional<RopeSelection>& selection);
 
-/// The strongest pull of a stretch link at any of them, newtons; 0 without links.
+/// The strongest tension of a stretch link at any of the particles, newtons; 0 without links.
 float strongest_tension(const NamedWorld& world, const Particles& particles);
-/// Of the fastest of them, m/s.
+/// The highest speed of the particles, m/s.
 float highest_speed(const NamedWorld& world, const Particles& particles);
 
-/// Of a whole world, after a tick.
+/// A sample of the whole world, after a tick.
 RopeSample sample_of(const RopePart& part, const RopeReport& report);
-/// Of the last second: sums, and of `inside` what the last tick said.
+/// Sums over the last second, except for `inside`, which is that of the last tick.
 RopeReport last_second(const std::vector<RopeSample>& samples);
 
-/// A body whose pins are further apart than it is long between them.
+/// A body with pins farther apart than its length between them.
 struct OverPulled {
     std::string body;
     double apart = 0.0, length = 0.0;  ///< metres

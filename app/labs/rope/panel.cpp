@@ -14,10 +14,10 @@
 #include "app/fields/field_rows.hpp"
 #include "app/labs/kit/panel_rows.hpp"
 #include "app/labs/kit/past_strip.hpp"
-#include "app/labs/rope/body_settings.hpp"
 #include "app/labs/rope/numbers.hpp"
 #include "app/labs/rope/past.hpp"
 #include "app/labs/rope/rope_edit.hpp"
+#include "app/labs/rope/rope_fields.hpp"
 #include "app/labs/rope/rope_lab.hpp"
 #include "app/labs/rope/rope_part.hpp"
 #include "app/labs/rope/scenes.hpp"
@@ -26,7 +26,7 @@
 
 namespace tendril::app {
 
-// What one chooses in the Rope lab: scene, tool, what there is, how it is simulated and shown.
+// Sections of the left panel: scene, tool, objects, simulation, view.
 
 namespace {
 
@@ -133,11 +133,11 @@ void RopeLab::timeline(const Workspace& workspace, Emit& emit) const {
     past_plot(workspace, rope_past(), rope_past_curve(workspace), strip, emit);
 }
 
-// What is selected in the Rope lab, and how the simulation goes.
+// Sections of the right panel: the selection, and simulation statistics.
 
 namespace {
 
-/// What the body is made of.
+/// The physical properties of the body.
 void body_rows(const NamedWorld& world, const rope::Body& body, Emit& emit) {
     section(world.name(body).c_str());
     const BodySettings settings = settings_of(world, body);
@@ -183,7 +183,7 @@ void particle_rows(const RopePart& part, const rope::Body& body, std::size_t ind
     body_rows(world, body, emit);
 }
 
-/// Of several particles.
+/// For several selected particles.
 void several_rows(const RopePart& part, const rope::Body& body, const std::vector<std::size_t>& all,
                   Emit& emit) {
     const NamedWorld& world = *part.world;
@@ -204,43 +204,13 @@ void several_rows(const RopePart& part, const rope::Body& body, const std::vecto
     body_rows(world, body, emit);
 }
 
-/// What a kind of collider has beside its place.
+/// All fields of its kind except the position, which is set by moving it, as in a drag.
 void shape_rows(const rope::Collider& collider, const std::string& name, Emit& emit) {
-    const auto set = [&](const char* key, ArgumentValue value) {
-        emit.continuously("rope.collider.set", {{"name", name}, {key, std::move(value)}});
-    };
-    const auto radius_row = [&](float radius) {
-        if (number_field("radius", radius, 0.002f, 0.0f, 1e3f, "%.3f m")) set("radius", radius);
-        explain("How thick the collider is, from its middle to its surface.");
-    };
-    if (const auto* sphere = std::get_if<rope::Sphere>(&collider.shape)) radius_row(sphere->radius);
-    if (const auto* capsule = std::get_if<rope::Capsule>(&collider.shape)) {
-        glm::vec3 a = capsule->a, b = capsule->b;
-        if (point_field("one end", a, 0.01f)) set("a", a);
-        explain("The middle of one of its round ends.");
-        if (point_field("other end", b, 0.01f)) set("b", b);
-        explain("The middle of its other round end.");
-        radius_row(capsule->radius);
-    }
-    if (const auto* plane = std::get_if<rope::Plane>(&collider.shape)) {
-        glm::vec3 normal = plane->normal;
-        if (point_field("normal", normal, 0.01f, 1.0f, "%.3f") && glm::length(normal) > 1e-3f)
-            set("normal", normal);
-        explain("The direction out of the plane: ropes stay on this side. Its length does not matter.");
-    }
-    if (const auto* box = std::get_if<rope::Box>(&collider.shape)) {
-        glm::vec3 half = box->half_extents;
-        if (point_field("half extents", half, 0.005f, 1e3f)) set("half_extents", glm::abs(half));
-        explain("From the middle of the box to its faces, along its own axes: half its size.");
-        // Turned on about its own axes: the angles that it is told by meet at a pole, a box does not.
-        const glm::vec3 was = glm::degrees(glm::eulerAngles(box->rotation)) + 0.0f;  // no -0
-        glm::vec3 turned = was;
-        if (point_field("rotation", turned, 0.5f, 360.0f, "%.1f\xC2\xB0")) {
-            const glm::quat q = box->rotation * glm::quat(glm::radians(turned - was));
-            set("rotation", q);
-        }
-        explain("Turns the box about its own axes.");
-    }
+    const FieldsOf of = shape_fields_of(collider.shape);
+    const FieldRows rows(of, field_texts<rope::Shape>(), "rope.collider.set", emit, {{"name", name}});
+    for (const Field& field : of.table)
+        if (field.name != std::string_view("centre") && field.name != std::string_view("point"))
+            rows.row(field.name);
 }
 
 void collider_rows(const RopePart& part, const rope::Collider& collider, Emit& emit) {
@@ -279,7 +249,7 @@ Curve curve(const char* name, glm::vec3 colour, const std::vector<RopeSample>& s
     return drawn;
 }
 
-/// While frame-time jitter is on, and as long as its frames are among the last ten seconds.
+/// Shown while any frame of the last ten seconds is uneven.
 void frame_times(const std::vector<RopeSample>& samples, const Palette& palette) {
     constexpr float even = 1e3f * static_cast<float>(tick_seconds);
     const auto uneven = [](const RopeSample& sample) { return std::abs(sample.frame - even) > 1e-3f; };

@@ -1,4 +1,4 @@
-// The pieces that the Rope lab's panels are put together from.
+// The sections that make up the panels of the Rope lab.
 #pragma once
 
 #include "app/labs/kit/panel_rows.hpp"
@@ -10,11 +10,11 @@ namespace tendril::app {
 
 /// Buttons that add ropes, cloths, hair and colliders.
 void adding_rows(const Workspace& workspace, Emit& emit);
-/// How well lengths hold.
+/// How well lengths are kept.
 Verdict rope_verdict(const RopePart& part);
-/// What is selected, and what can be done to it.
+/// The selection, and actions on it.
 void selection_rows(const Workspace& workspace, Emit& emit);
-/// How the simulation goes: numbers, and curves of the last ten seconds.
+/// Simulation statistics, and curves of the last ten seconds.
 void number_rows(const Workspace& workspace, const Palette& palette);
 
 }  // namespace tendril::app

@@ -1,4 +1,4 @@
-// How ropes pull, stretch and move over the last ten seconds, and their past poses.
+// The Rope lab's last ten seconds: plots of tension, length error, energy and speed, and past poses.
 #include "app/labs/rope/past.hpp"
 
 #include <algorithm>
@@ -12,8 +12,8 @@ namespace tendril::app {
 namespace {
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t max_threads = 200;  ///< of a past pose
-constexpr std::size_t max_lines = 400;    ///< of a past pose
+constexpr std::size_t max_threads = 200;  ///< per past pose
+constexpr std::size_t max_lines = 400;    ///< per past pose
 
 enum class Number { Tension, Error, Energy, Speed };  // in the order of rope_past()
 
@@ -38,7 +38,7 @@ double value_of(Number what, const NamedWorld& world, const std::optional<RopeSe
     return nothing;
 }
 
-/// "rope 2, particle 7", "3 particles of rope 2", or "rope 2" where it is asked of a whole body.
+/// "rope 2, particle 7", "3 particles of rope 2", or "rope 2" for values of a whole body.
 std::string measured_name(Number what, const RopeSelection& selection) {
     if (what == Number::Error || what == Number::Energy) return selection.body;
     if (!selection.particles.several())
@@ -72,17 +72,17 @@ bool same_particles(const Part& then, const Part& now) {
     return masses(then) == masses(now);
 }
 
-/// Places in a list of `count`, from its first to its last.
+/// `wanted` indices from 0 to `count` - 1, evenly spread.
 std::set<std::size_t> spread(std::size_t count, std::size_t wanted) {
     std::set<std::size_t> places;
     for (std::size_t i = 0; i < wanted; ++i) places.insert(i * (count - 1) / (wanted - 1));
     return places;
 }
 
-/// Particles that follow one another in the list of a world's, each `step` after the one before it.
+/// A row of particles: every `step`-th one in the world's list.
 struct Thread {
     std::size_t first = 0, step = 1, count = 0;
-    /// Which have a link to the next; all, where it is empty.
+    /// Which particles have a link to the next; empty: all.
     std::vector<bool> linked{};
 
     bool whole(std::size_t from, std::size_t to) const {

@@ -1,4 +1,4 @@
-// What the mouse takes hold of in this lab, and what comes of it.
+// Mouse input in the Rope lab: handles, drags, clicks, selection and the gizmo.
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -16,7 +16,7 @@ ArgumentList of_particle(const NamedWorld& world, const ParticlePlace& place) {
     return {{"rope", world.name(*place.body)}, {"particle", place.index}};
 }
 
-/// The collider that a particle is attached to; null where there is none.
+/// The collider that a particle is attached to; null if there is none.
 const rope::Collider* holder_of(const NamedWorld& world, std::size_t particle) {
     for (const rope::Pin& pin : world.state().pins)
         if (pin.particle == particle) return world.holder(pin);
@@ -25,7 +25,7 @@ const rope::Collider* holder_of(const NamedWorld& world, std::size_t particle) {
 
 constexpr glm::vec3 along_x(1.0f, 0.0f, 0.0f), upright(0.0f, 1.0f, 0.0f);
 
-/// The turn that a shape has: of a capsule what brings the x axis along it, of a plane the y axis out of it.
+/// A shape's rotation: of a capsule from the x axis to its axis, of a plane from the y axis to its normal.
 glm::quat turn_of(const rope::Shape& shape) {
     const auto from = [](glm::vec3 axis, glm::vec3 direction) {
         const float length = glm::length(direction);
@@ -38,7 +38,7 @@ glm::quat turn_of(const rope::Shape& shape) {
     return {1.0f, 0.0f, 0.0f, 0.0f};
 }
 
-/// What rope.collider.set is told so that the shape has that turn.
+/// Arguments of rope.collider.set that give the shape that rotation.
 ArgumentList turned(const rope::Shape& shape, glm::quat turn) {
     if (const auto* capsule = std::get_if<rope::Capsule>(&shape)) {
         const glm::vec3 middle = rope::centre(shape);
@@ -118,7 +118,7 @@ void RopeLab::drag(const Workspace& workspace, PickId pick, const Handle::Frame&
     if (const auto* collider = picked_collider(*part.world, pick)) {
         const Handle::Frame now = collider_handle(*part.world, *collider, pick).frame;
         const std::string& name = part.world->name(*collider);
-        // About the axis of a capsule or out of a plane there is nothing to turn.
+        // Rotation about the axis of a capsule or the normal of a plane has no effect.
         const glm::quat by = frame.rotation * glm::inverse(now.rotation);
         const bool box = std::holds_alternative<rope::Box>(collider->shape);
         const glm::vec3 axis =
@@ -136,7 +136,7 @@ void RopeLab::drag(const Workspace& workspace, PickId pick, const Handle::Frame&
     const auto place = picked_particle(*part.world, pick);
     if (!place) return;
     if (const rope::Collider* holder = holder_of(*part.world, place->body->first + place->index)) {
-        // What is attached moves with what holds it.
+        // An attached particle moves with its collider.
         const glm::vec3 by = to - part.world->position(place->body->first + place->index);
         emit.continuously("rope.collider.move",
                           {{"name", part.world->name(*holder)}, {"to", rope::centre(holder->shape) + by}});
@@ -169,7 +169,7 @@ void RopeLab::click(const Workspace& workspace, PickId pick, Emit& emit) const {
     if (part.tool == RopeTool::Pin) {
         const bool pinned = world.pinned(place->body->first + place->index);
         emit(pinned ? "rope.unpin" : "rope.pin", of_particle(world, *place));
-    } else if (part.tool == RopeTool::Cut) {  // of what cannot be cut the command says so
+    } else if (part.tool == RopeTool::Cut) {  // the command refuses what cannot be cut
         const std::size_t segment = std::min(place->index, std::max<std::size_t>(place->body->count, 2) - 2);
         emit("rope.cut", {{"rope", world.name(*place->body)}, {"segment", segment}});
     }
@@ -187,7 +187,7 @@ void RopeLab::click_more(const Workspace& workspace, PickId pick, Emit& emit) co
     emit("rope.select", arguments);
 }
 
-/// Every particle, not only those that have a handle.
+/// Every particle, even those without a handle.
 std::vector<Handle> RopeLab::selectable(const Workspace& workspace) const {
     const NamedWorld& world = *rope_part(workspace).world;
     std::vector<Handle> all;
@@ -195,7 +195,7 @@ std::vector<Handle> RopeLab::selectable(const Workspace& workspace) const {
     return all;
 }
 
-/// Those of the body that has the most of them in the box, or of the one that is added to.
+/// Selects in the body with the most particles in the box, or in the one being added to.
 void RopeLab::select(const Workspace& workspace, const std::vector<PickId>& picks, bool add,
                      Emit& emit) const {
     const RopePart& part = rope_part(workspace);
@@ -251,14 +251,14 @@ std::string RopeLab::hint(const Workspace& workspace, PickId pick) const {
     return name + (pinned ? " (pinned): drag moves its pin." : ": drag pulls it. Click selects it.");
 }
 
-// The gizmo of what is selected in the Rope lab, and what of several particles it drags at once.
+// The gizmo of the selection, and dragging several particles with it.
 
 namespace {
 
 struct SelectedParticles {
     const rope::Body* body = nullptr;
-    std::vector<std::size_t> movable;  ///< by their places in the body, ascending
-    std::size_t attached = 0;          ///< those that go with a collider
+    std::vector<std::size_t> movable;  ///< indices in the body, ascending
+    std::size_t attached = 0;          ///< number of particles that move with a collider
 };
 
 SelectedParticles selected_particles(const RopePart& part) {
@@ -278,7 +278,7 @@ SelectedParticles selected_particles(const RopePart& part) {
 
 }  // namespace
 
-/// Of a collider that is selected, or of several particles: one has hands enough.
+/// For a selected collider or several particles. A single particle is dragged directly.
 std::optional<Handle> RopeLab::gizmo(const Workspace& workspace) const {
     const RopePart& part = rope_part(workspace);
     if (!part.selection) return std::nullopt;
@@ -311,7 +311,7 @@ Together RopeLab::together(const Workspace& workspace, Drag) const {
     return together;
 }
 
-/// All by one command: what is dragged while the simulation is paused then moves at once.
+/// Uses one command for all, so that while the simulation is paused they move simultaneously.
 void RopeLab::drag_together(const Workspace& workspace, const std::vector<Handle>& handles,
                             Emit& emit) const {
     const RopePart& part = rope_part(workspace);
@@ -322,7 +322,7 @@ void RopeLab::drag_together(const Workspace& workspace, const std::vector<Handle
     for (const Handle& each : handles) {
         const auto place = picked_particle(*part.world, each.pick);
         if (!place || (body != nullptr && body != place->body))
-            continue;  // what was caught may have been cut
+            continue;  // the particle may have been cut off
         body = place->body;
         const std::size_t particle = place->body->first + place->index;
         free = free || !part.world->pinned(particle) || std::ranges::binary_search(held, particle);

@@ -43,7 +43,7 @@ void RopeEdit::set_collider(const std::string& name, const rope::Shape& shape) {
     dragged();
 }
 
-/// The curves' last point is of the world as it is now.
+/// Updates the last point of the curves to the current world.
 void RopeEdit::dragged() {
     if (!part.samples.empty()) part.samples.back() = sample_of(part, part.samples.back().report);
 }

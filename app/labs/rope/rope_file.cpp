@@ -1,5 +1,4 @@
-// The Rope lab in a scene file. What a drag holds when it is saved is let go: nobody holds it when it is
-// opened.
+// The Rope lab in a scene file, and what --state writes. Saving releases a drag, which cannot go on later.
 #include <stdexcept>
 
 #include "app/document/json_complete.hpp"
@@ -96,7 +95,7 @@ Jitter load_jitter(const JsonPlace& place) {
 
 RopeView load_view(const JsonPlace& place) {
     RopeView view;
-    if (place.has("stress")) view.strain = place["stress"].flag();  // as version 1 called it
+    if (place.has("stress")) view.strain = place["stress"].flag();  // its name in version 1
     load_fields(place, view);
     return view;
 }
@@ -121,7 +120,7 @@ std::shared_ptr<Part> RopePart::load(const Json& json, const std::string& where)
     auto part = std::make_shared<RopePart>();
     part->time = place["time"].real(0.0, 1e9);
     part->view = load_view(place["view"]);
-    part->jitter = load_jitter(place[place.has("jitter") ? "jitter" : "torture"]);  // as version 1 called it
+    part->jitter = load_jitter(place[place.has("jitter") ? "jitter" : "torture"]);  // its name in version 1
     const JsonPlace tool_place = place["tool"], world_place = place["world"];
     const JsonPlace* reading = &tool_place;
     try {
@@ -129,7 +128,7 @@ std::shared_ptr<Part> RopePart::load(const Json& json, const std::string& where)
         reading = &world_place;
         part->world = std::make_shared<const NamedWorld>(load_world(world_place));
         check_work(*part->world);
-    } catch (const std::logic_error& error) {  // the core's own words, told where in the file
+    } catch (const std::logic_error& error) {  // the library's message, with the JSON path
         reading->fail(error.what());
     }
     part->swings = load_swings(place["swings"], *part->world);

@@ -19,9 +19,9 @@
 namespace tendril::app {
 namespace {
 
-constexpr int resting_ticks = 60;  ///< of rest after which the lab stands still
+constexpr int resting_ticks = 60;  ///< after so many ticks at rest the lab stops
 
-/// Measures in a live window alone: pictures and states off screen hold no timings.
+/// Measures in live windows only: off-screen images and states contain no timings.
 class Stopwatch {
   public:
     Stopwatch(bool on, float& smoothed) : on_(on), smoothed_(smoothed) {
@@ -40,7 +40,7 @@ class Stopwatch {
     Time::time_point start_;
 };
 
-/// Of a collider, but for planes, which have no end.
+/// Extends the bounds by a collider, except for planes, which are infinite.
 void include(const rope::Shape& shape, glm::vec3& low, glm::vec3& high) {
     const auto take = [&](glm::vec3 centre, glm::vec3 extent) {
         low = glm::min(low, centre - extent);
@@ -109,7 +109,7 @@ void RopeLab::step(Workspace& workspace) const {
         stopwatch.stop();
         if (!in_range(*part.world)) throw std::out_of_range("something would get farther than 1e9 m");
         take_sample(part, report);
-        // A tick in which no substep was due tells nothing of rest.
+        // A tick without a substep says nothing about rest.
         const bool moved_on = part.world->state().substeps != substeps;
         part.quiet_ticks = !at_rest(part) ? 0 : part.quiet_ticks + (moved_on ? 1 : 0);
     });
@@ -117,7 +117,7 @@ void RopeLab::step(Workspace& workspace) const {
         workspace.clock.playing = false;
         workspace.toast("The simulation is paused: " + *stopped, ToastKind::Refusal);
     } else if (!modified) {
-        workspace.saved = workspace.document;  // time does not mark the scene as modified
+        workspace.saved = workspace.document;  // playing does not modify the scene
     }
 }
 
@@ -182,7 +182,7 @@ Bounds RopeLab::bounds(const Workspace& workspace, bool selection_only) const {
 }
 
 Verdict rope_verdict(const RopePart& part) {
-    constexpr double seen = 0.01;  // of its length: from here on one sees that a rope is longer
+    constexpr double seen = 0.01;  // of its length: visibly too long
     if (part.world->state().bodies.empty())
         return {"No ropes", Verdict::Kind::Open, "Add a rope, cloth or hair, or take a preset."};
     if (part.samples.empty())

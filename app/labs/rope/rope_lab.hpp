@@ -1,7 +1,7 @@
 // The Rope lab: ropes, cloth and hair among colliders, to drag, pin and cut.
 //
-// Its commands change a copy of the world (rope_edit.hpp); time does the same in step(). The world that a
-// part holds is never changed in place, so undo, rewind and a copy of the document share it.
+// Commands change a copy of the world (rope_edit.hpp), and so does step(). The world of a part is never
+// changed in place, so undo, rewind and copies of the document share it.
 #pragma once
 
 #include "app/labs/lab.hpp"
@@ -9,8 +9,7 @@
 
 namespace tendril::app {
 
-/// What is picked in the picture: a particle by its number in the world, or a collider by its place in the
-/// world's list. The numbers hold for the picture that was drawn.
+/// Pick ids: particles by their index in the world, colliders by their index in its list. Valid per frame.
 inline PickId particle_pick(std::size_t particle) {
     return static_cast<PickId>(particle);
 }
@@ -20,7 +19,7 @@ inline PickId collider_pick(std::size_t index) {
 inline bool is_collider_pick(PickId pick) {
     return pick >= static_cast<PickId>(max_lab_particles);
 }
-/// Of what is there in the picture; null (nothing) where the world has changed since.
+/// What was picked; null if the world has changed since.
 const rope::Collider* picked_collider(const NamedWorld& world, PickId pick);
 struct ParticlePlace {
     const rope::Body* body = nullptr;
@@ -28,8 +27,7 @@ struct ParticlePlace {
 };
 std::optional<ParticlePlace> picked_particle(const NamedWorld& world, PickId pick);
 
-/// Every n-th particle of a world has a handle of its own, so that there are some hundred at most; the ends
-/// of a rope and what is pinned always do.
+/// Every n-th particle has a handle, at most a few hundred. Rope ends and pinned particles always have one.
 std::size_t handle_stride(const NamedWorld& world);
 
 class RopeLab final : public Lab {

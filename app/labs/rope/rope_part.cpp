@@ -6,7 +6,7 @@
 namespace tendril::app {
 namespace {
 
-/// Of lists, what they take; not what the world keeps beside its state to be fast.
+/// Counts the lists of the state, not what the world caches beside it.
 std::size_t bytes_of(const rope::State& state) {
     constexpr std::size_t particle = 3 * sizeof(glm::dvec3) + sizeof(double);
     return state.position.size() * particle + state.links.size() * sizeof(rope::Link) +
@@ -31,8 +31,8 @@ std::shared_ptr<const Part> RopePart::after_undo() const {
     return part;
 }
 
-/// What is chosen, how it is shown and how it is simulated stays; what a drag held then is let go, since no
-/// drag holds it now.
+/// Keeps the current selection, view, tool and simulation settings. Releases a drag held at that moment,
+/// because none holds it now.
 std::shared_ptr<const Part> RopePart::at_moment(std::shared_ptr<const Part> then) const {
     auto part = std::make_shared<RopePart>(dynamic_cast<const RopePart&>(*then));
     let_go(*part);

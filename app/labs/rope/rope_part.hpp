@@ -1,4 +1,4 @@
-// The Rope lab's share of the document: a rope world, and how it is played with and shown.
+// The Rope lab's part of the document: a rope world with its simulation, view and selection.
 #pragma once
 
 #include <cstdint>
@@ -18,14 +18,14 @@
 namespace tendril::app {
 
 inline constexpr const char* rope_lab = "rope";
-/// Links times iterations, and what else is looked at in a substep: of a tick, what is over is dropped; a
-/// world of which one substep takes more is refused.
+/// Work per tick, mainly links times iterations. Substeps beyond it are dropped; a world whose single substep
+/// exceeds it is refused.
 inline constexpr std::uint64_t max_lab_work = 50'000'000;
 
-/// What a click in the scene does to what it hits.
+/// What a click on an object in the scene does.
 enum class RopeTool : std::uint8_t { Move, Pin, Cut };
 
-/// A collider that swings to and fro by itself: its centre is at middle + sin(2 pi t / period) * swing.
+/// A collider that swings to and fro. Its centre is middle + sin(2 pi t / period) * swing.
 struct Swing {
     std::string collider;
     glm::vec3 middle{0.0f};
@@ -34,71 +34,71 @@ struct Swing {
     bool operator==(const Swing&) const = default;
 };
 
-/// The particles of a body that a drag holds; they were free before.
+/// The particles of a body that a drag holds. They were not pinned before.
 struct Hold {
     std::string body;
-    std::vector<std::size_t> particles;  ///< ascending; one at least
+    std::vector<std::size_t> particles;  ///< ascending; at least one
     bool operator==(const Hold&) const = default;
 };
 
-/// What is selected: particles of a body, or a collider.
+/// The selection: particles of a body, or a collider.
 struct RopeSelection {
     std::string body;
-    Selection particles;   ///< of the body; one at least
-    std::string collider;  ///< not empty: this, and no particles
+    Selection particles;   ///< of the body; at least one
+    std::string collider;  ///< if not empty, the collider is selected instead of particles
     std::size_t particle() const { return particles.active().value_or(0); }
     bool operator==(const RopeSelection&) const = default;
 };
 
-/// Frame-time jitter: frames of uneven length, from 1 ms to 250 ms. At 0 a frame is a tick; at 1 they swing
-/// over the whole range.
+/// Frame-time jitter: frames of uneven length, from 1 ms to 250 ms. At dial 0 each frame is a tick; at 1
+/// their lengths cover the whole range.
 struct Jitter {
     float dial = 0.0f;
-    std::uint32_t frames = 0;  ///< so far: what the next frame's length follows from
-    double owed = 0.0;         ///< seconds that have passed since the last frame
-    double frame = 0.0;        ///< seconds: the next frame's length; 0: not known yet
+    std::uint32_t frames = 0;  ///< frames so far; determines the length of the next frame
+    double owed = 0.0;         ///< seconds since the last frame
+    double frame = 0.0;        ///< length of the next frame, seconds; 0: not known yet
     bool operator==(const Jitter&) const = default;
 };
 
 struct RopeView {
-    bool particles = false;  ///< as balls on the tube
-    bool strain = false;     ///< colours by how far each link is over or under its length
+    bool particles = false;  ///< show particles as balls
+    bool strain = false;     ///< colour links by their strain
     int sides = 16;          ///< of the tube, 3 to 64
     bool operator==(const RopeView&) const = default;
 };
 
-/// What the solver says of a tick.
+/// What the solver reports about a tick.
 struct RopeReport {
     std::uint64_t inside = 0;       ///< particles left inside colliders
-    std::uint64_t unconverged = 0;  ///< solves that did not converge, or were taken in part
-    std::uint64_t suspended = 0;    ///< bodies that nothing holds, and that do not fall
-    float contact_loss = 0.0f;      ///< joules that contact took
+    std::uint64_t unconverged = 0;  ///< solves that did not converge or were only applied in part
+    std::uint64_t suspended = 0;    ///< unsupported bodies that nevertheless do not fall
+    float contact_loss = 0.0f;      ///< energy lost to contact, joules
     bool operator==(const RopeReport&) const = default;
 };
 
-/// What a tick came to, for the curves.
+/// The results of a tick, for the curves.
 struct RopeSample {
-    float stretch = 0.0f;  ///< the largest relative length error of all ropes, as the solver left it
-    float error = 0.0f;    ///< the same after contact: with what depenetration added
+    float stretch = 0.0f;  ///< the largest relative length error of all ropes, after the solver
+    float error = 0.0f;    ///< the same after contact, with what depenetration added
     float energy = 0.0f;   ///< joules, of all bodies
-    float frame = 0.0f;    ///< milliseconds: how long the frame is that the tick ends in
+    float frame = 0.0f;    ///< length of the frame that the tick ends in, milliseconds
     RopeReport report;
     bool operator==(const RopeSample&) const = default;
 };
-inline constexpr std::size_t max_rope_samples = 600;  ///< ten seconds of them
+inline constexpr std::size_t max_rope_samples = 600;  ///< ten seconds
 
 struct RopePart final : Part {
     std::shared_ptr<const NamedWorld> world = std::make_shared<const NamedWorld>();
     std::vector<Swing> swings;
-    double time = 0.0;  ///< seconds that the world has been let run
+    double time = 0.0;  ///< simulated time, seconds
     RopeTool tool = RopeTool::Move;
     std::optional<RopeSelection> selection;
     std::optional<Hold> hold;
     Jitter jitter;
     RopeView view;
-    int quiet_ticks = 0;              ///< ticks in a row in which nothing moved to speak of
+    int quiet_ticks = 0;              ///< consecutive ticks without noticeable motion
     std::vector<RopeSample> samples;  ///< of the last ticks. Not saved.
-    /// What a tick's simulation took, microseconds; measured in a live window only. Not saved.
+    /// Simulation time of a tick, microseconds; measured in a live window only. Not saved.
     float cost = 0.0f;
 
     std::shared_ptr<Part> clone() const override { return std::make_shared<RopePart>(*this); }
@@ -109,7 +109,7 @@ struct RopePart final : Part {
     std::size_t bytes() const override;
 };
 
-/// What the lab starts with.
+/// The part that the lab starts with.
 RopePart first_ropes();
 
 /// The lab's part of a workspace.
@@ -119,7 +119,7 @@ inline const RopePart& rope_part(const Workspace& workspace) {
 
 }  // namespace tendril::app
 
-// Names and ranges that files, commands and panels of this lab share.
+// Names and ranges shared by the files, commands and panels of this lab.
 
 namespace tendril::app {
 

@@ -19,7 +19,7 @@ namespace {
 
 constexpr float still_speed = 1e-4f;  ///< m/s
 
-/// 0 to 1, as good as random; the same on every machine, which the standard's distributions are not.
+/// A pseudo-random number from 0 to 1. Unlike the standard's distributions, the same on every machine.
 double shuffled(std::uint32_t number) {
     std::uint32_t x = number + 0x9e3779b9u;
     x = (x ^ (x >> 16)) * 0x85ebca6bu;
@@ -27,22 +27,21 @@ double shuffled(std::uint32_t number) {
     return static_cast<double>(x ^ (x >> 16)) / 4294967295.0;
 }
 
-/// Sends every swinging collider to where it is a tick later.
+/// Starts each swinging collider's motion to its position at `time`, one tick ahead.
 void aim(const RopePart& part, NamedWorld& world, double time) {
     for (const Swing& swing : part.swings)
         world.move_collider(swing.collider, swing_point(swing, time), tick_seconds);
 }
 
-/// What is left of the work that a tick allows, and what the solver has said so far.
+/// The remaining work of a tick, and the solver's reports so far.
 struct Tick {
     std::uint64_t work_left = max_lab_work;
     RopeReport report;
 };
 
-/// Lets time pass in a world.
 void advance(NamedWorld& world, double seconds, rope::Workspace& workspace, Tick& tick) {
     const std::uint64_t each = std::max(work_of_substep(world), std::uint64_t{1});
-    // One always fits: else a world that is too large would stand still without a word.
+    // Always allows one substep: else a world that is too large would silently stop.
     const std::uint64_t most = std::max(tick.work_left / each, std::uint64_t{tick.work_left == max_lab_work});
     const rope::Advance done = world.advance(seconds, workspace, most);
     tick.work_left -= std::min(tick.work_left, each * static_cast<std::uint64_t>(done.substeps));
@@ -54,8 +53,8 @@ void advance(NamedWorld& world, double seconds, rope::Workspace& workspace, Tick
     report.contact_loss += static_cast<float>(done.contact_loss);
 }
 
-/// A frame of the lab. While something swings it is cut where ticks of the lab's own time end, and aimed
-/// there: so the swing is the same however its time is cut.
+/// Advances by a frame. If anything swings, the frame is split at the lab's ticks, where swings are aimed, so
+/// that they do not depend on how time is divided.
 void pass_frame(RopePart& part, NamedWorld& world, double seconds, rope::Workspace& workspace, Tick& tick) {
     constexpr double rounding = 1e-6;  // of a tick
     if (part.swings.empty()) {

@@ -18,7 +18,7 @@ CameraPose view(glm::vec3 target, float yaw, float pitch, float distance) {
     return {.target = target, .yaw = glm::radians(yaw), .pitch = glm::radians(pitch), .distance = distance};
 }
 
-/// The point at a distance along a line of points.
+/// The point at a distance along a polyline.
 glm::dvec3 along(const std::vector<glm::vec3>& line, double distance) {
     for (std::size_t i = 1; i < line.size(); ++i) {
         const glm::dvec3 a(line[i - 1]), b(line[i]);
@@ -98,16 +98,16 @@ void weigh_down(NamedWorld& world, const std::string& rope, std::size_t count, d
     world.put(std::move(state));
 }
 
-// Scenes of ropes.
+// Scenes with ropes.
 
-/// Two hands bring a rope down over a ball and a bar; shorter ones fall over the bar beside it.
+/// Two hands lower a rope over a ball and a bar; shorter ropes fall over the bar beside it.
 RopeScene drape_scene() {
     RopeScene scene;
     NamedWorld& world = scene.world;
     add_ground(world);
     world.add_collider("ball", rope::Sphere{{-0.65f, 0.95f, 0.0f}, 0.4f});
     world.add_collider("bar", rope::Capsule{{0.8f, 1.1f, -0.7f}, {0.8f, 1.1f, 0.7f}, 0.14f});
-    // It begins taut above everything, so that it comes to lie on top.
+    // Starts taut above everything, so that it comes to lie on top.
     const float height = 1.9f, hands = 1.55f, half = 2.1f;
     world.add_rope("rope", {.from = {-half, height, 0},
                             .to = {half, height, 0},
@@ -127,12 +127,12 @@ RopeScene drape_scene() {
                         .radius = 0.016f});
     }
     rope::Settings settings = world.settings();
-    settings.damping = 0.8f;  // what dangles comes to rest within half a minute
+    settings.damping = 0.8f;  // dangling ends come to rest within half a minute
     world.set_settings(settings);
     return scene;
 }
 
-/// A deck of ropes and two hand ropes between four posts; a ball rolls to and fro over it.
+/// A deck of ropes and two hand ropes between four posts, with a ball rolling to and fro.
 RopeScene bridge_scene() {
     RopeScene scene;
     NamedWorld& world = scene.world;
@@ -166,7 +166,7 @@ RopeScene bridge_scene() {
                                                          .pin_start = true,
                                                          .pin_end = true});
     }
-    const glm::vec3 roll(0.0f, 0.92f, 0.0f);  // so low that it presses the deck down
+    const glm::vec3 roll(0.0f, 0.92f, 0.0f);  // low enough to press the deck down
     world.add_collider("ball", rope::Sphere{roll, 0.22f});
     scene.swings.push_back({"ball", roll, {1.1f, 0.0f, 0.0f}, 9.0f});
     rope::Settings settings = world.settings();
@@ -176,8 +176,8 @@ RopeScene bridge_scene() {
     return scene;
 }
 
-/// Pendulums whose swings in half a minute are whole numbers, one more for each: side by side they make
-/// waves, fall apart, and find together again.
+/// Each pendulum swings a whole number of times in half a minute, one more than its neighbour: together they
+/// form waves, drift apart and meet again.
 RopeScene pendulum_scene() {
     RopeScene scene;
     NamedWorld& world = scene.world;
@@ -209,8 +209,7 @@ RopeScene pendulum_scene() {
     return scene;
 }
 
-/// Ropes of few and of many segments fall on bars that get thinner. Nothing takes energy from them but what
-/// they meet: watch the curve.
+/// Ropes of few and many segments fall on ever thinner bars. Only contact takes energy: watch the curve.
 RopeScene bars_scene() {
     RopeScene scene;
     NamedWorld& world = scene.world;
@@ -223,7 +222,7 @@ RopeScene bars_scene() {
     for (const auto& [x, bar, segments] : pairs) {
         const std::string size = std::to_string(segments);
         world.add_collider("bar " + size, rope::Capsule{{x, height, -0.6f}, {x, height, 0.6f}, bar});
-        // A little off the middle, so that it slides down on one side.
+        // Off centre, so that it slides down on one side.
         const float middle = x + 0.06f;
         world.add_rope("rope " + size, {.from = {middle - half, height + fall, 0},
                                         .to = {middle + half, height + fall, 0},
@@ -236,7 +235,7 @@ RopeScene bars_scene() {
     return scene;
 }
 
-/// A rope over the drum of a well: a hand pulls at one end, a bucket hangs from the other.
+/// A rope over the drum of a well, pulled by a hand at one end, with a bucket at the other.
 RopeScene well_scene() {
     RopeScene scene;
     NamedWorld& world = scene.world;
@@ -282,14 +281,14 @@ RopeScene well_scene() {
     world.attach(world.particle("rope", 0), "hand");
     scene.swings.push_back({"hand", hand, 0.24f * pull, 6.0f});
     rope::Settings settings = world.settings();
-    settings.substep = 1.0 / 480.0;  // a weight over a drum wants finer steps
+    settings.substep = 1.0 / 480.0;  // a weight over a drum needs finer steps
     settings.damping = 0.4f;
     settings.friction = 0.15f;
     world.set_settings(settings);
     return scene;
 }
 
-// Scenes of cloth and hair: the same particles and links as a rope.
+// Scenes with cloth and hair, which use the same particles and links as ropes.
 
 /// A cloth falls over a ball.
 RopeScene cloth_scene() {
@@ -311,8 +310,7 @@ RopeScene cloth_scene() {
     return scene;
 }
 
-/// A ball swings into a curtain that hangs by two corners. Pull it about by any point, and let go: it hangs
-/// again.
+/// A ball swings into a curtain that hangs by two corners. Dragged by any point and released, it hangs again.
 RopeScene curtain_scene() {
     RopeScene scene;
     NamedWorld& world = scene.world;
@@ -348,7 +346,7 @@ RopeScene hair_scene() {
     world.add_collider("neck", rope::Capsule{{0, 1.05f, 0}, {0, 1.3f, 0}, 0.07f});
     world.add_collider("shoulders", rope::Capsule{{-0.26f, 0.98f, 0}, {0.26f, 0.98f, 0}, 0.11f});
     rope::HairShape hair{.length = 0.48f, .segments = 14, .radius = 0.004f, .density = 0.02f, .bend = 0.5f};
-    // Up and back, so that the face stays free.
+    // Up and back, to leave the face free.
     const rope::HairPatch patch{.direction = glm::vec3(0, 0.8f, -0.6f), .strands = 140, .radius = 0.3f};
     hair.roots = require_value(roots_on(head, patch, hair.radius));
     world.add_hair("hair", std::move(hair), "head");

@@ -1,4 +1,4 @@
-// Ready-made scenes of the Rope lab: metres around the origin, the ground at y = 0.
+// Preset scenes of the Rope lab. Metres around the origin, with the ground at y = 0.
 #pragma once
 
 #include <string>
@@ -20,16 +20,15 @@ struct RopeSceneEntry {
     const char* title;
     const char* help;
     RopeScene (*make)();
-    CameraPose view;  ///< from where it is best seen
+    CameraPose view;  ///< the best view of the scene
 };
 
-/// The first one is what the lab opens on.
+/// The lab opens with the first one.
 const std::vector<RopeSceneEntry>& rope_scenes();
 /// Throws std::invalid_argument for an unknown name.
 const RopeSceneEntry& rope_scene(const std::string& name);
 RopeScene make_rope_scene(const RopeSceneEntry& entry);
 
-// The scenes, one by one.
 RopeScene drape_scene();
 RopeScene bridge_scene();
 RopeScene pendulum_scene();
@@ -39,11 +38,11 @@ RopeScene hair_scene();
 RopeScene bars_scene();
 RopeScene curtain_scene();
 
-/// The ground, as every scene has it.
+/// Adds the ground that every scene has.
 void add_ground(NamedWorld& world);
-/// Lays a rope along a line, evenly, in place of where it was; it is at rest there.
+/// Places a rope at rest along a polyline, evenly.
 void lay(NamedWorld& world, const std::string& rope, const std::vector<glm::vec3>& line);
-/// Makes the last `count` particles of a rope weigh `kilograms` in all.
+/// Sets the total mass of a rope's last `count` particles.
 void weigh_down(NamedWorld& world, const std::string& rope, std::size_t count, double kilograms);
 
 }  // namespace tendril::app

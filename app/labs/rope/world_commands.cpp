@@ -1,4 +1,4 @@
-// The whole of the lab: what it begins with, and how it is simulated.
+// Commands on the whole world, on colliders, and on selection, drags and view.
 #include <algorithm>
 #include <string_view>
 
@@ -6,6 +6,7 @@
 #include "app/labs/kit/world_file.hpp"
 #include "app/labs/rope/body_commands.hpp"
 #include "app/labs/rope/code.hpp"
+#include "app/labs/rope/rope_fields.hpp"
 #include "app/labs/rope/rope_part.hpp"
 #include "app/labs/rope/rope_time.hpp"
 #include "app/labs/rope/scenes.hpp"
@@ -23,7 +24,7 @@ void reset(RopeEdit& edit, const Arguments&) {
     edit.part = first_ropes();
 }
 
-/// Another scene is looked at as it is best seen; how ropes are shown, and the tool, stay.
+/// Opens a scene with its own view. The display settings and the tool stay.
 void take_scene(Workspace& workspace, const Arguments& given) {
     const RopeSceneEntry& entry = rope_scene(given.text("name"));
     RopeScene scene = make_rope_scene(entry);
@@ -49,7 +50,7 @@ void settings(RopeEdit& edit, const Arguments& given) {
 
 void set_jitter(RopeEdit& edit, const Arguments& given) {
     edit.part.jitter.dial = given.number("dial");
-    edit.part.jitter.frame = 0.0;  // the next frame already follows the dial
+    edit.part.jitter.frame = 0.0;  // the next frame already uses the new dial
 }
 
 std::vector<Argument> settings_arguments() {
@@ -63,56 +64,6 @@ std::vector<Argument> settings_arguments() {
 }
 
 }  // namespace
-
-template <>
-std::span<const FieldText> field_texts<rope::Settings>() {
-    static constexpr EnumRow solvers[] = {rope_solvers.row(rope::Solver::Direct),
-                                          rope_solvers.row(rope::Solver::Xpbd),
-                                          rope_solvers.row(rope::Solver::Relaxation)};
-    static constexpr FieldText texts[] = {
-        {.name = "substep",
-         .label = "substep",
-         .help = "The length of the equal steps into which the simulation is cut. Shorter ones follow fast "
-                 "motion better and cost more.",
-         .decimals = 5},
-        {.name = "iterations",
-         .label = "iterations",
-         .help =
-             "The maximum number of passes per substep. Direct ends as soon as it has converged; with the "
-             "others more passes stretch a rope less and cost more."},
-        {.name = "solver", .label = "solver", .help = "How lengths are kept", .choices = solvers},
-        {.name = "damping",
-         .label = "damping",
-         .help = "How fast motion dies away. Raise it where ropes swing for too long."},
-        {.name = "gravity",
-         .label = "gravity",
-         .help = "The acceleration due to gravity, along each axis; Y points up. On Earth it is 0, -9.81, 0.",
-         .step = 0.05f},
-        {.name = "gravity_scale", .label = "gravity scale", .help = "A factor on gravity."},
-        {.name = "external",
-         .label = "wind",
-         .help = "A steady acceleration of everything that moves, beside gravity.",
-         .step = 0.05f},
-        {.name = "compliance",
-         .label = "compliance",
-         .help = "How elastic ropes are: the fraction of its length that a rope stretches per newton. 0 does "
-                 "not stretch; relaxation ignores it.",
-         .step = 1e-5f,
-         .decimals = 5},
-        {.name = "friction",
-         .label = "friction",
-         .help = "Coulomb's coefficient between ropes and colliders. At 0 ropes slide off; more holds "
-                 "them."},
-        {.name = "longest_frame",
-         .label = "longest frame",
-         .help = "How much time a frame simulates at most; what is over is dropped, so that a slow frame "
-                 "does not make the next one slower.",
-         .step = 1.0f,
-         .decimals = 0,
-         .scale = 1000.0,
-         .unit = "ms"}};
-    return texts;
-}
 
 void add_world_commands(CommandTable& table) {
     table.add(rope_command("rope.clear", "Remove all ropes and colliders", {},
@@ -144,64 +95,34 @@ void add_world_commands(CommandTable& table) {
                      "Makes frames uneven, as in a program that stutters", set_jitter));
 }
 
-// What ropes cannot enter.
+// Commands on colliders.
 
 namespace {
 
-struct Kind {
-    const char* name;
-    rope::Shape shape;
-    std::vector<std::string_view> needs, takes;
-};
-
-const std::vector<Kind>& kinds() {
-    static const std::vector<Kind> list{{"sphere", rope::Sphere{}, {"centre", "radius"}, {}},
-                                        {"capsule", rope::Capsule{}, {"a", "b", "radius"}, {}},
-                                        {"plane", rope::Plane{}, {"point", "normal"}, {}},
-                                        {"box", rope::Box{}, {"centre", "half_extents"}, {"rotation"}}};
-    return list;
-}
-
-const Kind& kind_of(std::string_view name) {
-    return *std::find_if(kinds().begin(), kinds().end(), [&](const Kind& kind) { return name == kind.name; });
-}
-
-bool has(const std::vector<std::string_view>& list, std::string_view name) {
-    return std::find(list.begin(), list.end(), name) != list.end();
-}
-
-void check_needs(const Kind& kind, const Arguments& given) {
-    for (const std::string_view name : kind.needs) {
-        if (!given.has(std::string(name).c_str()))
-            throw Refused(std::string(name) + " is missing; a " + kind.name + " needs it");
-    }
-}
-
-/// A shape of that kind with what is given in place of what it had. Refuses what the kind does not have.
-rope::Shape changed(rope::Shape shape, const Kind& kind, const Arguments& given) {
-    for (const char* name : {"centre", "radius", "a", "b", "point", "normal", "half_extents", "rotation"}) {
-        if (!has(kind.needs, name) && !has(kind.takes, name) && given.has(name))
-            throw Refused(std::string("a ") + kind.name + " has no " + name);
-    }
-    const auto take = [&](const char* name, glm::vec3& value) {
-        if (given.has(name)) value = given.point(name);
-    };
-    if (auto* sphere = std::get_if<rope::Sphere>(&shape)) {
-        take("centre", sphere->centre);
-        if (given.has("radius")) sphere->radius = given.number("radius");
-    } else if (auto* capsule = std::get_if<rope::Capsule>(&shape)) {
-        take("a", capsule->a);
-        take("b", capsule->b);
-        if (given.has("radius")) capsule->radius = given.number("radius");
-    } else if (auto* plane = std::get_if<rope::Plane>(&shape)) {
-        take("point", plane->point);
-        take("normal", plane->normal);
-    } else if (auto* box = std::get_if<rope::Box>(&shape)) {
-        take("centre", box->centre);
-        take("half_extents", box->half_extents);
-        if (given.has("rotation")) box->rotation = given.rotation("rotation");
-    }
+/// The shape with the given fields. Refuses fields that its kind lacks.
+rope::Shape changed(rope::Shape shape, const Arguments& given) {
+    for (const FieldText& text : field_texts<rope::Shape>())
+        if (given.has(text.name) && find_field(rope::shape_fields(shape), text.name) == nullptr)
+            throw Refused(std::string("a ") + rope::kind(shape) + " has no " + text.name);
+    set_fields(given, shape_fields_in(shape));
     return shape;
+}
+
+/// Requires all fields of a new shape, except the rotation of a box, which defaults to upright.
+void check_complete(const rope::Shape& shape, const Arguments& given) {
+    for (const Field& field : rope::shape_fields(shape))
+        if (field.type != FieldType::Rotation && !given.has(field.name))
+            throw Refused(std::string(field.name) + " is missing; a " + rope::kind(shape) + " needs it");
+}
+
+/// One argument per field of any kind of shape.
+std::vector<Argument> shape_arguments() {
+    std::vector<Argument> all;
+    for (const rope::Shape& shape : blank_shapes())
+        for (Argument& each : field_arguments(rope::shape_fields(shape), field_texts<rope::Shape>()))
+            if (std::ranges::find(all, each.name, &Argument::name) == all.end())
+                all.push_back(std::move(each));
+    return all;
 }
 
 Swing* swing_of(RopePart& part, const std::string& collider) {
@@ -210,7 +131,7 @@ Swing* swing_of(RopePart& part, const std::string& collider) {
     return found == part.swings.end() ? nullptr : &*found;
 }
 
-/// A swing whose centre is `at` at this moment.
+/// Shifts a swing so that its centre is at `at` now.
 void centre_on(Swing& swing, glm::vec3 at, double time) {
     swing.middle = glm::vec3(0.0f);
     swing.middle = at - swing_point(swing, time);
@@ -220,16 +141,16 @@ void centre_on(Swing& swing, glm::vec3 at, double time) {
 void add_collider(RopeEdit& edit, const Arguments& given) {
     const std::string name = given.text("name");
     if (name.empty()) throw Refused("name must not be empty");
-    const Kind& kind = kind_of(given.text("kind"));
-    check_needs(kind, given);
-    const rope::Shape shape = changed(kind.shape, kind, given);
+    const rope::Shape& blank = *blank_shape(given.text("kind"));
+    check_complete(blank, given);
+    const rope::Shape shape = changed(blank, given);
     check_collider_count(edit.seen());
     edit.world().add_collider(name, shape);
 }
 
 void set(RopeEdit& edit, const Arguments& given) {
     const rope::Collider& collider = collider_of(edit.seen(), given.text("name"));
-    const rope::Shape shape = changed(collider.shape, kind_of(rope::kind(collider.shape)), given);
+    const rope::Shape shape = changed(collider.shape, given);
     if (shape == collider.shape) return;
     Swing* const swing = swing_of(edit.part, given.text("name"));
     if (swing != nullptr && rope::centre(shape) != rope::centre(collider.shape))
@@ -251,7 +172,7 @@ void remove_collider(RopeEdit& edit, const Arguments& given) {
     forget_missing(edit.part);
 }
 
-/// It swings on from where it is: to change how far or how fast never makes it jump.
+/// A swing continues from where it is, so that changing its amplitude or period does not make it jump.
 void set_swing(RopeEdit& edit, const Arguments& given) {
     const rope::Collider& collider = collider_of(edit.seen(), given.text("name"));
     const glm::vec3 by = given.point("by");
@@ -280,31 +201,18 @@ Argument name_argument() {
 }  // namespace
 
 void add_collider_commands(CommandTable& table) {
-    const auto with_shape = [](std::vector<Argument> arguments) {
-        for (const Argument& argument :
-             {point_argument("centre", false, "of a sphere or box"),
-              number_argument("radius", "of a sphere or capsule, metres", 0.0, 1e9),
-              point_argument("a", false, "a capsule's end"), point_argument("b", false, "its other end"),
-              point_argument("point", false, "on a plane"),
-              point_argument("normal", false, "of a plane, outwards"),
-              point_argument("half_extents", false, "of a box, metres"),
-              Argument{.name = "rotation",
-              .type = ArgumentType::Rotation,
-              .required = false,
-              .help = "of a box: [x, y, z, w], or degrees about X, Y and Z"}})
-            arguments.push_back(argument);
-        return arguments;
-    };
-    table.add(
-        rope_command("rope.collider.add", "Add a collider",
-                     with_shape({text_argument("name", true, "a new one"),
-                                 choice_argument("kind", true,
-                                                 "sphere: centre, radius; capsule: a, b, radius; "
-                                                 "plane: point, normal; box: centre, half_extents, rotation",
-                                                 names(kinds(), [](const Kind& k) { return k.name; }))}),
-                     "Adds a body that ropes cannot enter", add_collider));
-    table.add(rope_command("rope.collider.set", "Change a collider", with_shape({name_argument()}),
-                           "Sets the place, size or rotation of a collider", set));
+    std::vector<Argument> added = shape_arguments(), set_arguments = added;
+    added.insert(added.begin(),
+                 {text_argument("name", true, "a new one"),
+                  choice_argument("kind", true,
+                                  "sphere: centre, radius; capsule: a, b, radius; "
+                                  "plane: point, normal; box: centre, half_extents, rotation",
+                                  names(blank_shapes(), [](const auto& each) { return rope::kind(each); }))});
+    set_arguments.insert(set_arguments.begin(), name_argument());
+    table.add(rope_command("rope.collider.add", "Add a collider", std::move(added),
+                           "Adds a body that ropes cannot enter", add_collider));
+    table.add(rope_command("rope.collider.set", "Change a collider", std::move(set_arguments),
+                           "Sets the position, size or rotation of a collider", set));
     table.add(rope_command("rope.collider.move", "Move a collider",
                            {name_argument(), point_argument("to", true, "where its centre goes, metres")},
                            "Moves a collider; it pushes what it meets", move));
@@ -317,33 +225,7 @@ void add_collider_commands(CommandTable& table) {
         "Makes a collider swing to and fro", set_swing));
 }
 
-}  // namespace tendril::app
-
-// What is selected, held and shown. But for what a drag does to a rope, it leaves no step to undo.
-
-template <>
-std::span<const tendril::Field> tendril::fields<tendril::app::RopeView>() noexcept {
-    using app::RopeView;
-    static constexpr Field rows[] = {field<&RopeView::particles>("particles"),
-                                     field<&RopeView::strain>("strain"),
-                                     field<&RopeView::sides>("sides", {app::min_sides, app::max_sides})};
-    return rows;
-}
-
-namespace tendril::app {
-
-template <>
-std::span<const FieldText> field_texts<RopeView>() {
-    static constexpr FieldText texts[] = {
-        {.name = "strain",
-         .label = "Strain as colour",
-         .help = "Colours each rope by how far its segments are from their lengths."},
-        {.name = "particles", .label = "Particles", .help = "Draws the particles that ropes are made of."},
-        {.name = "sides",
-         .label = "sides",
-         .help = "How many sides ropes have in the picture. More look rounder and take longer to draw."}};
-    return texts;
-}
+// Commands on selection, drags and view. Only what a drag does to a rope leaves an undo step.
 
 namespace {
 

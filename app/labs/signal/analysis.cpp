@@ -8,8 +8,8 @@ namespace {
 
 constexpr double measuring_rate = 60.0;
 
-/// What the hand did up to the last quarter of a second, as far back as is always remembered then: so the
-/// numbers are worked out four times a second and not at every tick, and can be read.
+/// The hand's input up to the last full quarter of a second, over a time that is always still remembered: the
+/// measurements then change four times a second, not at every tick, and stay readable.
 InputRows hand_rows(const SignalPart& part) {
     constexpr double every = 0.25, same = 1e-6;
     InputRows rows;
@@ -50,7 +50,7 @@ StageMeasures measure(const std::vector<double>& time, const std::vector<double>
     return signal::measure({time, wanted, output}, input);
 }
 
-/// The output of every stage; what is off puts out what came in.
+/// The output of every stage; a disabled stage passes its input through.
 std::vector<std::vector<double>> run_chain(const SignalPart& part, const InputRows& rows) {
     std::vector<std::vector<double>> outputs;
     std::vector<double> value = inputs_of(rows);
@@ -106,7 +106,7 @@ std::vector<ShelfPoint> measure_shelf(const SignalPart& part) {
         point.jitter = *measures.jitter;
         points.push_back(std::move(point));
     }
-    // Names of those in the chain are written first: they keep their places.
+    // Filters of the chain come first, so that their labels keep their positions.
     std::stable_sort(points.begin(), points.end(), [](const ShelfPoint& a, const ShelfPoint& b) {
         return a.stage.has_value() && !b.stage.has_value();
     });
@@ -119,12 +119,12 @@ SignalRuntime::Source SignalRuntime::source_of(const SignalPart& part, InputRows
     Source source;
     for (const SignalStage& stage : part.stages) source.filters.emplace_back(stage.filter, stage.enabled);
     source.input = part.input;
-    if (part.input.kind == InputKind::Hand) source.input.hand = 0.0;  // what it is now is in the past next
+    if (part.input.kind == InputKind::Hand) source.input.hand = 0.0;  // the next tick adds it to `past`
     source.rows = std::move(rows);
     return source;
 }
 
-/// Those that are measured; where they follow from the input they need not be made to tell.
+/// The source of the measured rows. Rows that follow from the input need not be compared.
 SignalRuntime::Source SignalRuntime::measured(const SignalPart& part) {
     return source_of(part, part.input.kind == InputKind::Hand ? hand_rows(part) : InputRows());
 }
@@ -166,7 +166,7 @@ Span span_of(const SignalInput& input, std::span<const double> values) {
         span = {values.front(), values.front()};
     include(values);
     if (span.high - span.low > 1e-6 * std::max(std::abs(span.low), std::abs(span.high))) return span;
-    const double around = std::max(0.5 * std::abs(span.high), 1e-3);  // it does not change
+    const double around = std::max(0.5 * std::abs(span.high), 1e-3);  // it is constant
     return {span.low - around, span.high + around};
 }
 
@@ -187,7 +187,7 @@ Span widened(const Span& input, std::span<const std::span<const double>> outputs
 
 Curve curve_of(std::string name, glm::vec3 colour, std::span<const double> time,
                std::span<const double> values, double from, double to) {
-    constexpr double most = 1e30;  // a float has room for what a plot makes of it
+    constexpr double most = 1e30;  // leaves the plot room to compute in floats
     Curve curve{std::move(name), colour, {}};
     curve.points.reserve(time.size());
     for (std::size_t i = 0; i < time.size() && i < values.size(); ++i)

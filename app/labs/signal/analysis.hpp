@@ -1,5 +1,5 @@
-// What the Signal lab measures: of each filter, of the whole chain at several frame rates, of the whole
-// shelf. All of it follows from the part, and is worked out again only when what it follows from has changed.
+// Measurements of the Signal lab: of each filter, of the whole chain at several frame rates, of every kind of
+// filter. All are functions of the part, recomputed only when their inputs change; and the ranges of plots.
 #pragma once
 
 #include <span>
@@ -14,43 +14,43 @@
 
 namespace tendril::app {
 
-/// Of a filter on the input that reaches it at the measuring rate.
+/// Measures of one filter, fed with the input that reaches it at the measuring rate.
 using StageMeasures = signal::Measures;
 
-/// The chain over its measuring rows: for the hand those that went in up to the last quarter of a second,
-/// else the input from 0 on. Cost: 1.5 ms for eight filters, and for the hand no more often than that.
+/// The chain over its measuring rows: the input from 0 on or, for the hand, the input up to the last quarter
+/// of a second. Cost: 1.5 ms for eight filters; for the hand, at most four times a second.
 struct ChainAnalysis {
     std::vector<double> time, input;
     std::vector<std::vector<double>> outputs;  ///< of each stage
-    std::vector<StageMeasures> stages;         ///< of those that are off: what passing through measures
+    std::vector<StageMeasures> stages;         ///< a disabled stage is measured as passing its input through
     StageMeasures whole;
     signal::RateComparison rates;  ///< of the whole chain
 };
 
-/// A kind of filter on the lab's input.
+/// A kind of filter, measured on the lab's input.
 struct ShelfPoint {
     signal::Filter filter;
-    std::optional<std::size_t> stage;  ///< that it is set as; the kind's defaults where the chain has none
+    std::optional<std::size_t> stage;  ///< whose parameters it has; empty: the kind's defaults
     double lag = 0.0;                  ///< seconds
-    double jitter = 0.0;               ///< part of the input's
+    double jitter = 0.0;               ///< fraction of the input's
 };
 
 class SignalRuntime final : public Runtime {
   public:
     const ChainAnalysis& chain(const SignalPart& part);
-    /// Those that both can be measured of.
+    /// The kinds that have both a lag and a jitter.
     const std::vector<ShelfPoint>& shelf(const SignalPart& part);
-    /// What the chain would have made of what went in during the last ticks: one list for each stage.
+    /// The output of each stage for the input of the last ticks.
     const std::vector<std::vector<double>>& recent(const SignalPart& part);
 
     FitWork fit_work;
 
   private:
-    /// All that the numbers follow from.
+    /// All inputs of the measurements.
     struct Source {
         std::vector<std::pair<signal::Filter, bool>> filters;
         SignalInput input;
-        InputRows rows;  ///< as far as they do not follow from the input
+        InputRows rows;  ///< empty if they follow from the input
         bool operator==(const Source&) const = default;
     };
     static Source source_of(const SignalPart& part, InputRows rows);
@@ -66,26 +66,26 @@ inline SignalRuntime& signal_runtime(const Workspace& workspace) {
     return workspace.runtimes.of<SignalRuntime>(signal_lab);
 }
 
-// How much of the y axis a plot of signals shows: all of the input, so that it stays legible, and of what
-// comes out as much as goes with it. A curve that grows without bound leaves the plot.
+// The y range of a plot of signals: all of the input, so that it stays legible, and a limited part of the
+// outputs. A curve that grows without bound leaves the plot.
 
 struct Span {
     double low = -1.0, high = 1.0;
     bool operator==(const Span&) const = default;
 };
 
-/// Of an input: from the start on all that a wave does, else what `values`, those shown, do.
+/// The range of an input: all that a wave can do; otherwise the range of `values`, the rows that are shown.
 Span span_of(const SignalInput& input, std::span<const double> values);
 
-/// With a margin, and wider where a value goes further: in steps, so that the axis does not follow every
-/// swing, and by no more than the input's own range either way.
+/// Adds a margin and makes room for the outputs: in steps, so that the axis does not follow every swing, and
+/// by no more than the input's own range at either end.
 Span widened(const Span& input, std::span<const std::span<const double>> outputs);
 
-/// The points of a curve from `from` to `to`.
+/// The points of a curve with times from `from` to `to`.
 Curve curve_of(std::string name, glm::vec3 colour, std::span<const double> time,
                std::span<const double> values, double from = -1e9, double to = 1e9);
 
-/// Of curves over seconds.
+/// Axes for curves over seconds.
 PlotAxes time_axes(const Span& span, double from, double to);
 
 }  // namespace tendril::app

@@ -1,4 +1,4 @@
-// The chain of filters as a C++ program against the library.
+// Export: the chain of filters as a C++ program that uses the library.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace tendril::app {
 
-/// A whole program: the filters that are on, and a frame's step for a second of a jump.
+/// A complete program: the enabled filters, stepped frame by frame through one second after a jump.
 std::string signal_code(const SignalPart& part);
 
 }  // namespace tendril::app

@@ -26,7 +26,7 @@ glm::vec3 place(float x, double value) {
     return {x, ball_level + static_cast<float>(std::clamp(value, -1e3, 1e3)), 0.0f};
 }
 
-/// The axis that both balls move along, with a mark at each whole unit near them.
+/// The axis of both balls, with a mark at each whole unit near them.
 void axis(const View& view, DrawList& list, double highest) {
     const float reach = static_cast<float>(std::clamp(std::ceil(highest), 1.0, 10.0));
     const glm::vec4 colour = faded(view.palette, view.palette.text_dim, 0.5f);
@@ -59,7 +59,7 @@ glm::vec3 stage_colour(const Palette& palette, const SignalPart& part, std::size
     for (std::size_t i = 0; i < part.stages.size(); ++i)
         if (part.stages[i].enabled) last = i;
     if (stage == last) return output_colour(palette);
-    // Okabe and Ito's others, and then again.
+    // The remaining colours of Okabe and Ito, repeated.
     const bool dark = palette.theme == Theme::Dark;
     const std::array<glm::vec3, 4> others{rgb(0xCC79A7), palette.tail, dark ? rgb(0x8C96FF) : rgb(0x0072B2),
                                           dark ? rgb(0xC9B24A) : rgb(0x8A7400)};
@@ -80,7 +80,7 @@ void SignalLab::draw(const View& view, DrawList& list) const {
         }
         if (lit) list.ring(at, 22.0f * view.scale, 1.5f * view.scale, glm::vec4(colour, 1.0f));
     };
-    // Where the output was at equal times before: the eye sees its speed.
+    // Earlier outputs at equal intervals show its speed.
     const auto& recent = signal_runtime(view.workspace).recent(part);
     if (!recent.empty() && !part.recording) {
         const std::vector<double>& output = recent.back();
@@ -111,13 +111,13 @@ Bounds SignalLab::bounds(const Workspace& workspace, bool) const {
     return bounds_of(place(-beside - ball_radius, low - 0.3), place(beside + ball_radius, high + 0.3));
 }
 
-// The flat picture of the Signal lab: the signal as it goes by, and below it one of three plots.
+// The Signal lab's canvas: the scrolling signal, and below it one of three plots.
 
 namespace {
 
 constexpr double shown_seconds = 5.0;
 
-/// Those of `values` at times between both.
+/// The values at times from `from` to `to`.
 std::span<const double> shown(const std::vector<double>& time, const std::vector<double>& values, double from,
                               double to = 1e9) {
     const auto first = std::lower_bound(time.begin(), time.end(), from) - time.begin();
@@ -147,7 +147,7 @@ void scrolling_plot(const Workspace& workspace, const Palette& palette, float he
     plot("signal", curves, time_axes(span, from, to), height);
 }
 
-/// From the slowest, reddish, to the fastest; uneven frames stand apart.
+/// From the slowest rate, reddish, to the fastest; uneven frames have a colour of their own.
 glm::vec3 rate_colour(const Palette& palette, const signal::FrameRate& rate) {
     if (rate.jittered) return palette.selection;
     if (rate.hz < 20.0) return palette.limit;
@@ -168,7 +168,7 @@ void rates_plot(const Workspace& workspace, const Palette& palette, float height
     const bool hand = part.input.kind == InputKind::Hand;
     const bool wave = part.input.kind == InputKind::Square || part.input.kind == InputKind::Sine;
     const double to = hand ? end : std::min(end, wave ? part.input.period : longest);
-    // A square wave jumps in the middle of its period; of the hand the last seconds count.
+    // A square wave jumps in the middle of its period; the hand shows its last seconds.
     const double from = hand                                   ? std::max(0.0, end - longest)
                         : part.input.kind == InputKind::Square ? 0.45 * part.input.period
                                                                : 0.0;
@@ -216,7 +216,7 @@ void shelf_plot(const Workspace& workspace, const Palette& palette, float height
          height);
 }
 
-/// Which of the lower plots: a row of choices, with what each is for on the right.
+/// A row of buttons that choose the lower plot, each with a tooltip.
 void plot_choice(const SignalPart& part, Emit& emit) {
     for (const SignalPlot each : signal_plots.values()) {
         if (each != SignalPlot::Rates) ImGui::SameLine();
@@ -232,7 +232,7 @@ void plot_choice(const SignalPart& part, Emit& emit) {
     }
 }
 
-/// What colours mean, in as many lines as that takes; of very many in three, and how many more there are.
+/// The colour key, in up to three lines; then how many entries are omitted.
 void colour_key(const std::vector<std::pair<std::string, glm::vec3>>& rows) {
     constexpr int max_lines = 3;
     ImGui::PushFont(small_font());

@@ -1,4 +1,4 @@
-// The balls of the Signal lab, which move by the input and the output: metres, one to a unit of the signal.
+// The balls of the Signal lab, moved by the input and the output: one metre per unit of the signal.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -8,15 +8,15 @@
 
 namespace tendril::app {
 
-inline constexpr float ball_level = 1.5f;  ///< where a signal of 0 is
+inline constexpr float ball_level = 1.5f;  ///< the height of a signal of 0
 
 struct BallPlaces {
     glm::vec3 input{0.0f}, output{0.0f};
 };
-/// Within a kilometre: what grows without bound leaves the picture.
+/// Within 1 km: a signal that grows without bound leaves the picture.
 BallPlaces ball_places(const SignalPart& part);
 
-/// The colour of a filter's output in every plot; the last one on is that of the output ball.
+/// The colour of a filter's output in every plot; the last enabled filter has that of the output ball.
 glm::vec3 stage_colour(const Palette& palette, const SignalPart& part, std::size_t stage);
 glm::vec3 input_colour(const Palette& palette);
 glm::vec3 output_colour(const Palette& palette);

@@ -40,7 +40,7 @@ Json filter_json(const signal::Filter& filter) {
 
 namespace {
 
-/// What a parameter that is out of order goes against.
+/// The value that an out-of-order parameter conflicts with.
 std::string other_end(const signal::Filter& filter) {
     if (const auto* scale = std::get_if<signal::ScaleBiasClamp>(&filter))
         if (scale->clamp_min > scale->clamp_max) return "; clamp_max is " + decimal(scale->clamp_max);
@@ -111,7 +111,7 @@ std::string with_line(const std::string& text, const std::string& where, const s
     return "line " + std::to_string(std::max(1, line)) + ": " + error;
 }
 
-// What filters remember, as JSON: each state says by its name which it is, {"motion": {"value": ...}}.
+// Filter states as JSON, under the name of their type: {"motion": {"value": ...}}.
 
 namespace {
 

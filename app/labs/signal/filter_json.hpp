@@ -1,10 +1,9 @@
-// Filters and their states as JSON: for FILTER.json, commands, scene files and --state alike.
+// JSON of filters and their states, for FILTER.json, commands, scene files and --state.
 //
 //     {"kind": "spring", "strength": 4, "critical_damping": 0.5}
 //
-// Names, ranges and defaults come from signal::kinds(); nothing here lists a filter. A pair is a list of two,
-// a curve's keys are a list of {"time", "value", "arrive", "leave", "piece"}, of which only time and value
-// have to be there.
+// Names, ranges and defaults come from signal::kinds(). A pair is a list of two numbers; a curve's keys are a
+// list of {"time", "value", "arrive", "leave", "piece"}, of which only time and value are required.
 #pragma once
 
 #include <string>
@@ -15,23 +14,21 @@
 
 namespace tendril::app {
 
-/// With every parameter.
+/// With all parameters.
 Json filter_json(const signal::Filter& filter);
-/// Without its kind.
+/// Without the kind.
 Json parameters_json(const signal::Filter& filter);
 
-/// What is left out is as the kind has it; other keys are not looked at. Throws std::runtime_error that
-/// begins with the place of what is wrong: "filters.1.halflife: expected 0 to 10000, found -1".
+/// Missing parameters have the kind's defaults; unknown keys are ignored. Throws std::runtime_error that
+/// begins with the JSON path of the fault: "filters.1.halflife: expected 0 to 10000, found -1".
 signal::Filter filter_from_json(const Json& json, const std::string& where);
-/// One filter, or a list of at most `most`. In a list its places
-/// are "<where>.1.halflife".
+/// One filter, or a list of at most `most`. JSON paths in a list are "<where>.1.halflife".
 std::vector<signal::Filter> filters_from_json(const Json& json, const std::string& where, std::size_t most);
 
-/// Those of the filter's parameters that are given; the others stay. Throws as above, with the filter as it
-/// was.
+/// Sets the given parameters and keeps the others. Throws as above and leaves the filter unchanged.
 void set_parameters(signal::Filter& filter, const Json& given, const std::string& where);
 
-/// Every name that a filter of the kind can be given, once each: its parameters, and the keys of a curve.
+/// All parameter names of a kind, once each, with "keys" for a curve.
 std::vector<std::string> parameter_names(const signal::Kind& kind);
 /// "exponential_decay, rate_limit, ...".
 std::string kind_names();
@@ -39,8 +36,8 @@ std::string kind_names();
 Json filter_state_json(const signal::FilterState& state);
 signal::FilterState filter_state_from_json(const Json& json, const std::string& where);
 
-/// Of a text with at least one filter; the message of `error`, which begins with a place under `where`, with
-/// the line before it.
+/// Prefixes `error`, which begins with a JSON path under `where`, with its line in `text`. The text must
+/// contain at least one filter.
 std::string with_line(const std::string& text, const std::string& where, const std::string& error);
 
 }  // namespace tendril::app

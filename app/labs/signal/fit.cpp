@@ -58,7 +58,7 @@ class KindFit final : public FitTask {
             space_[d].field->set_number(signal::fields_in(filter), space_[d].value(at[d]));
         if (auto* switching = std::get_if<signal::Hysteresis>(&filter))
             if (switching->low > switching->high) std::swap(switching->low, switching->high);
-        // What a largest speed does, it does by the distance max_speed * smooth_time: that is searched.
+        // max_speed acts through the distance max_speed * smooth_time, so that is what is searched.
         if (auto* damp = std::get_if<signal::SmoothDamp>(&filter))
             damp->max_speed = std::min(damp->max_speed / std::max(damp->smooth_time, 1e-4), 1e9);
     }
@@ -69,8 +69,7 @@ class KindFit final : public FitTask {
         return trial_.residual(shifts() ? trial_.best_shift() : 0.0);
     }
 
-    /// A constant force on a spring shifts its output by force / w^2, all of it: how far follows from the
-    /// rest.
+    /// A constant force shifts a spring's output by force / w^2: it follows from the other parameters.
     bool shifts() const { return std::holds_alternative<signal::Spring<>>(filter_); }
 
     signal::Filter filter_at(std::span<const double> at) {
@@ -84,7 +83,7 @@ class KindFit final : public FitTask {
         return filter;
     }
 
-    /// Where a threshold does as well anywhere between two of the input's values: in the middle of that.
+    /// If a threshold may lie anywhere between two input values, puts it in the middle.
     void centre(std::vector<double>& at, std::size_t d) {
         const double enough = residual(at) * (1.0 + 1e-9) + 1e-12;
         const auto edge = [&](double outside) {
@@ -104,7 +103,7 @@ class KindFit final : public FitTask {
         at[d] = dimension.at(0.5 * (dimension.value(low) + dimension.value(high)));
     }
 
-    /// What the input says nothing about stays as it was.
+    /// Resets each parameter that makes no difference to its default.
     void leave_defaults(signal::Filter& filter) {
         const signal::Filter blank = kind_.blank();
         for (const Field& field : kind_.fields) {
@@ -122,10 +121,10 @@ class KindFit final : public FitTask {
     std::vector<Dimension> space_;
     signal::Filter filter_;
     Minimiser minimiser_;
-    int evaluations_ = 0;  ///< beside the minimiser's
+    int evaluations_ = 0;  ///< in addition to the minimiser's
 };
 
-/// Parameters that are not at their defaults: what a person has to set. A curve's keys have two numbers each.
+/// The number of parameters that differ from their defaults. Each key of a curve counts two.
 std::size_t parameters_set(const signal::Filter& filter) {
     const signal::Kind& kind = signal::kind_of(filter);
     const signal::Filter blank = kind.blank();

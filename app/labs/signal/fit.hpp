@@ -1,9 +1,9 @@
-// Finds the parameters with which a filter answers an input as one wants it to: drawn, recorded, or measured
-// somewhere else. So one can see which filter of the shelf to take, and with which numbers.
+// Finds the parameters with which a filter best reproduces a desired response: drawn, recorded, or measured
+// elsewhere. Shows which kind of filter to choose, and with which parameters.
 //
-// Deterministic: the same rows give the same answer at every run, on the same build. Bounded by evaluations,
-// never by time: some hundred runs of a filter over the rows where it has one parameter, twenty thousand
-// where it has six. All kinds together take about 0.3 s for 300 rows.
+// Deterministic: the same rows give the same result in every run of a build. Bounded by evaluations, never by
+// time: a few hundred runs of a filter over the rows for one parameter, twenty thousand for six. All kinds
+// together take about 0.3 s for 300 rows.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 
 namespace tendril::app {
 
-/// Rows of an input, and what should come of it.
+/// The rows of an input, and the desired response.
 struct FitProblem {
     std::span<const signal::Sample> samples;
     std::span<const double> response;  ///< one for each sample
@@ -24,53 +24,53 @@ struct FitProblem {
 
 struct Fit {
     signal::Filter filter;
-    /// What is left: the root mean square of the differences, as a part of the response's range.
+    /// Root mean square of the differences, as a fraction of the response's range.
     double residual = 0.0;
     int evaluations = 0;
 };
 
-/// A fit of one kind, worked out a share at a time. The problem and its rows have to outlive it.
+/// The fit of one kind, computed in shares. The problem and its rows must outlive it.
 class FitTask {
   public:
     virtual ~FitTask() = default;
-    /// Whether there is more to do after this share.
+    /// Returns whether there is more to do.
     virtual bool advance() = 0;
-    /// When there is nothing more to do.
+    /// Call once advance() has returned false.
     virtual Fit fit() = 0;
-    /// Runs of a filter over the rows, so far.
+    /// Runs of a filter over the rows so far.
     virtual int evaluations() const = 0;
 };
 std::unique_ptr<FitTask> begin_fit(const signal::Kind& kind, const FitProblem& problem,
                                    const signal::Filter* like = nullptr);
 
-/// The best of a kind, beginning from `like` too where that is of the kind. A parameter that this input says
-/// nothing about is left at its default; where a range of a threshold does equally well, it is the middle.
+/// The best fit of a kind, searched from `like` too if that is of the kind. A parameter that this input does
+/// not determine stays at its default; a threshold that may lie anywhere in a range is centred in it.
 Fit fit_kind(const signal::Kind& kind, const FitProblem& problem, const signal::Filter* like = nullptr);
 
-/// Every kind's, the best first: by what is left, where residuals of up to `indistinguishable` count as equal
-/// and the filter with fewer parameters comes first.
+/// Sorts by residual, best first. Residuals up to `indistinguishable` are equal; then the filter with fewer
+/// parameters comes first.
 inline constexpr double indistinguishable = 1e-6;
 void rank(std::vector<Fit>& fits);
 
-/// Of a filter as it is.
+/// The residual of a filter as it is.
 double residual_of(const signal::Filter& filter, const FitProblem& problem);
 
-/// The range of a response; 1 where it does not change.
+/// Maximum less minimum; 1 if the values are constant.
 double range_of(std::span<const double> values);
 
-// Two kinds of filter that are fitted in ways of their own.
+// Two kinds of filter with fits of their own.
 
-/// Values and slopes of the keys follow from their times by linear least squares; keys are added where most
-/// is left, as long as that helps, and their times improved.
+/// Key values and slopes follow from the key times by linear least squares. Adds keys where the residual is
+/// largest while that helps, and improves their times.
 std::unique_ptr<FitTask> begin_curve_fit(const FitProblem& problem);
 
-/// With and without its clamp and its interpolation: the simplest that leaves as little as the best. The
-/// range map, which scale and bias can say as well, stays off.
+/// With and without clamp and interpolation: the simplest whose residual is close to the best. The range map
+/// stays off, since scale and bias can express it.
 std::unique_ptr<FitTask> begin_scale_fit(const FitProblem& problem);
 
-// What a filter makes of the rows of a fit, and how far that is from what is wanted.
+// Runs a filter over the rows of a problem and compares the output with the desired response.
 
-/// Residuals under this leave nothing to improve.
+/// Smaller residuals count as exact.
 inline constexpr double exact_residual = 1e-7;
 
 class Trial {
@@ -83,7 +83,7 @@ class Trial {
         for (std::size_t i = 0; i < output_.size(); ++i)
             output_[i] = signal::step(filter, state, problem_.samples[i].input, problem_.samples[i].dt);
     }
-    /// Of the last run, with so much added to every output.
+    /// The residual of the last run, with `shift` added to every output.
     double residual(double shift = 0.0) const {
         double squares = 0.0;
         for (std::size_t i = 0; i < output_.size(); ++i) {
@@ -92,7 +92,7 @@ class Trial {
         }
         return std::sqrt(squares / rows()) / range_;
     }
-    /// What, added to every output of the last run, leaves the smallest residual.
+    /// The shift of the last run's outputs with the smallest residual.
     double best_shift() const {
         double sum = 0.0;
         for (std::size_t i = 0; i < output_.size(); ++i) sum += problem_.response[i] - output_[i];

@@ -1,4 +1,5 @@
-// A curve: what comes out depends on nothing but what goes in, so rows are points of it.
+// Fits of the two kinds with methods of their own. A curve: its output depends on the present input alone, so
+// every row is a point of it.
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -13,10 +14,10 @@ namespace tendril::app {
 namespace {
 
 constexpr std::size_t max_fitted_keys = 12;
-constexpr double closest_keys = 1e-4;  ///< times apart
+constexpr double closest_keys = 1e-4;  ///< minimum distance in time
 
-/// Solves a symmetric, positive definite system in place, by Cholesky's factors. Unknowns that nothing says
-/// anything about come out as about 0.
+/// Solves a symmetric, positive definite system in place by Cholesky factorisation. Undetermined unknowns
+/// come out close to 0.
 std::vector<double> solve(std::vector<double> matrix, std::vector<double> right) {
     const std::size_t n = right.size();
     const auto at = [&](std::size_t row, std::size_t column) -> double& { return matrix[row * n + column]; };
@@ -54,7 +55,7 @@ class CurveFit final : public FitTask {
         left_ = residual(keys_);
     }
 
-    /// Another key, where it helps.
+    /// Adds a key if that helps.
     bool advance() override {
         if (!wants_another()) return false;
         std::vector<double> more = with_another(keys_);
@@ -76,10 +77,10 @@ class CurveFit final : public FitTask {
   private:
     bool wants_another() const { return left_ > exact_residual && keys_.size() < max_fitted_keys; }
 
-    /// Of a key: its value, the slope that arrives at it and the one that leaves it.
+    /// The unknowns of a key: value, arriving slope, leaving slope.
     static std::size_t unknown(std::size_t key, std::size_t which) { return 3 * key + which; }
 
-    /// Values and slopes for keys at these times, all in one list.
+    /// Values and slopes of keys at these times, in one list.
     std::vector<double> shape(const std::vector<double>& keys) {
         ++evaluations_;
         const std::size_t n = 3 * keys.size();
@@ -124,7 +125,7 @@ class CurveFit final : public FitTask {
 
     double residual(const std::vector<double>& keys) { return trial_.residual_of(curve_through(keys)); }
 
-    /// The best of a few places for one more key.
+    /// Adds a key at the best of a few times.
     std::vector<double> with_another(const std::vector<double>& keys) {
         std::vector<double> best = keys;
         double smallest = 1e300;
@@ -141,8 +142,7 @@ class CurveFit final : public FitTask {
         return best;
     }
 
-    /// Moves each inner key between its neighbours, the newest ones as well as the others, to where the
-    /// smallest residual is: golden sections, twice around.
+    /// Moves each inner key to the smallest residual between its neighbours: three rounds of golden sections.
     double improve(std::vector<double>& keys) {
         double left = residual(keys);
         for (int round = 0; round < 3; ++round) {
@@ -183,10 +183,10 @@ class CurveFit final : public FitTask {
     const FitProblem& problem_;
     FitFacts facts_;
     Trial trial_;
-    std::vector<double> times_;       ///< of each row: its input from 0 to 1
-    std::vector<std::size_t> order_;  ///< of rows by time
+    std::vector<double> times_;       ///< of each row: its input, scaled to 0 to 1
+    std::vector<std::size_t> order_;  ///< rows in order of time
     std::vector<double> keys_{0.0, 1.0};
-    double left_ = 0.0;  ///< by those keys
+    double left_ = 0.0;  ///< residual with those keys
     int evaluations_ = 0;
 };
 
@@ -196,11 +196,11 @@ std::unique_ptr<FitTask> begin_curve_fit(const FitProblem& problem) {
     return std::make_unique<CurveFit>(problem);
 }
 
-// scale_bias_clamp: a straight line, a clamp and an interpolation, of which any may be missing.
+// scale_bias_clamp: a line with an optional clamp and an optional interpolation.
 
 namespace {
 
-/// A place from 0 to 1 as a factor from -10 to 10, finer around 0.
+/// Maps 0 to 1 to a factor from -10 to 10, finer around 0.
 double wide(double at) {
     const double x = 2.0 * at - 1.0;
     return x * (1.0 + 9.0 * x * x);
@@ -214,7 +214,7 @@ double place_of_wide(double factor) {
     return 0.5 * (low + high);
 }
 
-/// The line through the rows by least squares, as its values at the lowest and the highest input.
+/// The least squares line through the rows, by its values at the lowest and the highest input.
 struct Line {
     double at_low = 0.0, at_high = 0.0;
 };
@@ -232,16 +232,15 @@ Line regression(const FitProblem& problem, const FitFacts& facts, double low, do
     return {slope * facts.input_low + bias, slope * facts.input_high + bias};
 }
 
-/// What is searched: which of the stages are on, and whether the levels at both ends of a clamp follow from
-/// the rest by least squares.
+/// A search: which stages are on, and whether the levels of the clamp follow from the rest by least squares.
 struct BentPart {
     bool clamp = false, interp = false, levels_follow = false;
 };
 constexpr BentPart parts[] = {{false, false, false}, {true, false, true}, {true, false, false},
                               {false, true, false},  {true, true, true},  {true, true, false}};
 
-/// A clamped line by its bends: up to the input `at` it is `low`, from at + width on `high`. A slope and an
-/// offset say the same, but where a steep line is cut short they lie far beyond what the response shows.
+/// A clamped line by its bends: `low` up to the input `at`, `high` from at + width on. Scale and bias would
+/// say the same, but for a steep clamped line they lie far outside the range of the response.
 struct Bends {
     double at = 0.0, width = 1.0, low = 0.0, high = 1.0;
     double share(double input) const { return std::clamp((input - at) / width, 0.0, 1.0); }
@@ -255,7 +254,7 @@ class ScaleFit final : public FitTask {
           trial_(problem),
           kind_(signal::kind_of(signal::ScaleBiasClamp())) {}
 
-    /// One search after the other, the simplest first, until one leaves nothing.
+    /// One search after the other, simplest first, until one is exact.
     bool advance() override {
         const BentPart& part = parts[part_];
         if (!minimiser_) minimiser_.emplace(search(part));
@@ -331,8 +330,8 @@ class ScaleFit final : public FitTask {
         return bends;
     }
 
-    /// With levels 0 and 1 the output is the part that `high` has in it, and `low` has the rest: given the
-    /// direction in which the response moves, and so its speed, both follow by linear least squares.
+    /// With levels 0 and 1, the output would be the weight of `high`, and the rest that of `low`. The
+    /// direction in which the response moves gives the speed, so both levels follow by linear least squares.
     void set_levels(Bends& bends, std::span<const double> speeds) const {
         const Dimension dimension = speed_dimension();
         const double rising = speeds.empty() ? 0.0 : dimension.value(speeds[0]);
@@ -384,7 +383,7 @@ class ScaleFit final : public FitTask {
         return filter;
     }
 
-    /// Of a line, its clamp at the ends of the response.
+    /// The bends of a line that is clamped to the range of the response.
     Bends bends_of(const Line& line) const {
         const double slope = (line.at_high - line.at_low) / input_range();
         Bends bends{facts_.input_low, input_range(), facts_.response_low, facts_.response_high};
@@ -395,7 +394,7 @@ class ScaleFit final : public FitTask {
         return bends;
     }
 
-    /// Lines through all rows, and through those that no clamp would have cut, each at several speeds.
+    /// Starts from two lines, through all rows and through the unclamped ones, each at several speeds.
     std::vector<std::vector<double>> starts(const BentPart& part) const {
         const double margin = 0.02 * scale();
         const Line lines[] = {
@@ -417,7 +416,7 @@ class ScaleFit final : public FitTask {
         return starts;
     }
 
-    /// Bends all over the input, and so that only its ends are on the slope, at fast and slow speeds.
+    /// Bends all over the input range, some with only an end of it on the slope, at slow and fast speeds.
     void add_bends(std::vector<std::vector<double>>& starts) const {
         const Dimension bend = bend_dimension(), width = width_dimension(), speed = speed_dimension();
         for (const double wide : {0.05, 0.2, 0.5, 1.0})
@@ -440,10 +439,10 @@ class ScaleFit final : public FitTask {
     FitFacts facts_;
     Trial trial_;
     const signal::Kind& kind_;
-    std::vector<Fit> fits_;            ///< of the searches that are done
-    std::size_t part_ = 0;             ///< of `parts`, the one that is searched
-    std::vector<double> bends_start_;  ///< the best place where the levels follow
-    int evaluations_ = 0;              ///< of searches that only led to a start
+    std::vector<Fit> fits_;            ///< of the completed searches
+    std::size_t part_ = 0;             ///< index in `parts` of the present search
+    std::vector<double> bends_start_;  ///< the best point of the search with dependent levels
+    int evaluations_ = 0;              ///< of searches that only provided a start
     std::optional<Minimiser> minimiser_;
 };
 

@@ -12,7 +12,7 @@ namespace {
 
 using Scale = Dimension::Scale;
 
-/// From something to something, each a factor of one of the facts.
+/// One end of a range: a factor times a fact.
 struct Bound {
     double (*of)(const FitFacts&);
     double factor;
@@ -46,7 +46,7 @@ double span_per_shortest(const FitFacts& facts) {
 double farthest(const FitFacts& facts) {
     return std::max({std::abs(facts.input_low), std::abs(facts.input_high), 1e-9});
 }
-/// Where a threshold is never passed.
+/// Thresholds that the input never crosses.
 double under_input(const FitFacts& facts) {
     return facts.input_low - 0.1 * facts.input_range();
 }
@@ -165,7 +165,7 @@ Dimension dimension(const signal::Kind& kind, const char* field, double low, dou
                     bool stepped) {
     const Field* const found = find_field(kind.fields, field);
     if (found == nullptr) throw std::logic_error(std::string(kind.name) + " has no field " + field);
-    // Within what the filter takes; a range by ratio keeps clear of 0.
+    // Within the field's own range; a logarithmic scale stays clear of 0.
     const double from = std::clamp(low, found->range.low, found->range.high);
     const double to = std::clamp(high, found->range.low, found->range.high);
     const double lowest = scale == Scale::Ratio ? std::max(from, 1e-12) : from;
@@ -184,14 +184,14 @@ std::vector<Dimension> fit_space(const signal::Kind& kind, const FitFacts& facts
 
 namespace {
 
-/// `count` values from `low` to `high`, each the same factor over the one before it.
+/// `count` values from `low` to `high` in geometric progression.
 std::vector<double> by_ratio(double low, double high, int count) {
     std::vector<double> values;
     for (int i = 0; i < count; ++i) values.push_back(low * std::pow(high / low, (i + 0.5) / count));
     return values;
 }
 
-/// How fast the response moves, row by row where it does, slowest first: 1/s.
+/// Speeds of the response in the rows where it moves, ascending: 1/s.
 std::vector<double> slopes_of(const FitProblem& problem) {
     std::vector<double> slopes;
     for (std::size_t i = 1; i < problem.samples.size(); ++i) {
@@ -202,13 +202,13 @@ std::vector<double> slopes_of(const FitProblem& problem) {
     return slopes;
 }
 
-/// A response that is held back moves at the largest speed most of the time. Only where it turns does it show
-/// how long that takes, so many smoothing times are tried at each speed.
+/// A speed-limited response moves at its maximum speed most of the time. Only its turns show the smoothing
+/// time, so many smoothing times are tried at each speed.
 void add_smooth_damps(std::vector<signal::Filter>& guesses, const FitProblem& problem,
                       const FitFacts& facts) {
     const std::vector<double> slopes = slopes_of(problem);
     if (slopes.empty()) return;
-    std::vector<double> speeds{1.3 * slopes.back(), 2.0 * slopes.back()};  // where it never gets so fast
+    std::vector<double> speeds{1.3 * slopes.back(), 2.0 * slopes.back()};  // in case it never gets there
     for (const double part : {0.5, 0.8, 0.95, 1.0})
         speeds.push_back(slopes[static_cast<std::size_t>(part * static_cast<double>(slopes.size() - 1))]);
     for (const double speed : speeds) {
@@ -217,8 +217,8 @@ void add_smooth_damps(std::vector<signal::Filter>& guesses, const FitProblem& pr
     }
 }
 
-/// An overdamped spring decays at about pi * strength / damping, and shows little more than that: its
-/// strength and damping are found together or not at all.
+/// An overdamped spring decays at about pi * strength / damping and shows little else, so strength and
+/// damping must be found together.
 void add_springs(std::vector<signal::Filter>& guesses, const FitFacts& facts) {
     for (const double rate : by_ratio(0.2 / facts.duration, 1.0 / facts.shortest, 12))
         for (const double damping : {3.0, 8.0, 20.0, 50.0})
@@ -228,7 +228,7 @@ void add_springs(std::vector<signal::Filter>& guesses, const FitFacts& facts) {
                                                    .target_velocity_amount = amount});
 }
 
-/// A switch is on from `high` on and off from `low` down: what it did at each row says where they cannot be.
+/// The switch turns on at `high` and above, and off at `low` and below: each row bounds both.
 void add_hysteresis(std::vector<signal::Filter>& guesses, const FitProblem& problem, const FitFacts& facts) {
     const double margin = 0.05 * facts.input_range();
     const double middle = 0.5 * (facts.response_low + facts.response_high);

@@ -1,6 +1,5 @@
-// What is searched when filters are fitted: which parameters, over which ranges, on what scale. The ranges
-// follow from the rows at hand, so that a signal in degrees or at 1000 Hz is fitted as well as one from 0 to
-// 1 at 60.
+// The search space of a fit: which parameters, over which ranges, on which scale; and initial guesses. Ranges
+// follow from the rows: signals in degrees or at 1000 Hz fit as well as those from 0 to 1 at 60 Hz.
 #pragma once
 
 #include <optional>
@@ -11,28 +10,28 @@
 
 namespace tendril::app {
 
-/// What the ranges follow from.
+/// The facts that ranges depend on.
 struct FitFacts {
     explicit FitFacts(const FitProblem& problem);
 
-    double shortest = 1.0 / 60.0;  ///< seconds: the smallest dt, but for what takes next to no time
+    double shortest = 1.0 / 60.0;  ///< seconds: the smallest dt, ignoring those of nearly 0
     double duration = 1.0;         ///< seconds of all rows
     double input_low = 0.0, input_high = 1.0;
     double response_low = 0.0, response_high = 1.0;
-    double largest_jump = 1.0;  ///< of the input from row to row
-    double speed = 1.0;         ///< of the input, root mean square, 1/s
+    double largest_jump = 1.0;  ///< of the input, from row to row
+    double speed = 1.0;         ///< of the input: root mean square, 1/s
 
     double input_range() const { return input_high - input_low; }
     double response_range() const { return response_high - response_low; }
-    double span() const;  ///< the larger of both; never 0
+    double span() const;  ///< the larger range; never 0
 };
 
-/// One searched parameter: its values from `low` to `high` lie at 0 to 1 of a dimension.
+/// A searched parameter: maps its values from `low` to `high` to 0 to 1.
 struct Dimension {
     enum class Scale {
         Even,
-        Ratio,  ///< by ratio: low and high are over 0
-        Cube,   ///< finer the nearer to low, which it reaches
+        Ratio,  ///< logarithmic; low and high must be positive
+        Cube,   ///< finer towards low, which it includes
         Fifth   ///< finer still
     };
     const Field* field = nullptr;
@@ -44,17 +43,16 @@ struct Dimension {
     double at(double value) const;
 };
 
-/// Of a kind of filter but a curve and scale_bias_clamp, which are fitted in their own ways.
+/// The space of any kind but curve and scale_bias_clamp, which have fits of their own.
 std::vector<Dimension> fit_space(const signal::Kind& kind, const FitFacts& facts);
 
-/// The dimension of a number; `field` must be one of the kind's.
+/// The dimension of one parameter; `field` must be a field of the kind.
 Dimension dimension(const signal::Kind& kind, const char* field, double low, double high,
                     Dimension::Scale scale, bool stepped = false);
 
-// Where the search for a filter's parameters begins: guesses that follow from the rows, for kinds of which a
-// search all over the range misses some.
+// Initial guesses from the rows, for kinds whose optimum a search of the whole range can miss.
 
-/// Filters of the kind to begin with; none for most kinds. Each can be checked by one run over the rows.
+/// Filters of the kind to start from; none for most kinds. Checking each takes one run over the rows.
 std::vector<signal::Filter> first_guesses(const signal::Kind& kind, const FitProblem& problem,
                                           const FitFacts& facts);
 

@@ -14,7 +14,7 @@
 namespace tendril::app {
 namespace {
 
-constexpr std::size_t share_rows = 200'000;  ///< that filters are run over in a tick
+constexpr std::size_t share_rows = 200'000;  ///< rows that filters run over in a tick
 
 const signal::Filter* of_kind(const std::vector<signal::Filter>& filters, const signal::Kind& kind) {
     const auto found = std::ranges::find_if(
@@ -75,11 +75,11 @@ void FitWork::advance(SignalPart& part) {
     task_.reset();
 }
 
-// The response that is wanted: drawn, or given as numbers or a file; and filters fitted to it.
+// Commands for the desired response, drawn or given as numbers or a file, and for fits to it.
 
 namespace {
 
-/// A stroke over the response that is wanted, which begins as what the chain makes of the input.
+/// Draws a stroke into the desired response, which starts as the output of the chain.
 void draw(SignalPart& part, const Arguments& given) {
     end_recording(part);
     if (part.wanted.empty()) {
@@ -116,7 +116,7 @@ void take_numbers(SignalPart& part, const Json& list) {
     part.wanted = std::move(wanted);
 }
 
-/// A file that has its own input brings it; else there is a row for each of the lab's.
+/// A file with an input of its own replaces the input; otherwise it needs one row for each row of the lab's.
 void take_file(SignalPart& part, const std::string& path) {
     const std::string text = read_text_file(path);
     InputRows rows;
@@ -142,7 +142,7 @@ void fit(SignalPart& part, const Arguments& given) {
     start_fitting(part);
 }
 
-/// For who does not wait for ticks.
+/// For callers without ticks.
 void finish_fit(Workspace& workspace) {
     SignalPart& part = workspace.document.edit<SignalPart>(signal_lab);
     for (FitWork work; part.fitting;) work.advance(part);
@@ -167,7 +167,7 @@ void forget(SignalPart& part, const Arguments&) {
     part.fitting.reset();
 }
 
-/// Time has to pass for it.
+/// Recording needs the simulation to run.
 void begin(Workspace& workspace, const Arguments&) {
     change_part<SignalPart>(workspace, signal_lab,
                             [](SignalPart& part, const SignalPart&) { begin_recording(part); });

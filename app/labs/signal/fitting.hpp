@@ -1,6 +1,5 @@
-// Fitting every kind of filter to the response that is wanted, a share in every tick, so that the window
-// stays responsive; how far it is stands in the part, and follows from the number of ticks, never from the
-// clock.
+// Fits every kind of filter to the desired response, a share in every tick, so that the window stays
+// responsive. The progress is stored in the part and depends on the number of ticks, never on the clock.
 #pragma once
 
 #include <memory>
@@ -9,20 +8,19 @@
 
 namespace tendril::app {
 
-/// Throws Refused where no response is wanted.
+/// Throws Refused if there is no desired response.
 void start_fitting(SignalPart& part);
-/// What is fitted so far stays, ranked.
+/// Keeps the completed fits, ranked.
 void cancel_fitting(SignalPart& part);
 
-/// The search that goes on from tick to tick. It follows from the part: one that was thrown away is made
-/// again, as far as the part says that it is.
+/// The search in progress. It is a function of the part: if lost, it is redone up to the part's progress.
 class FitWork {
   public:
-    /// A share of the fit, some 2 to 15 ms; the last of a kind puts that kind among the part's fits.
+    /// Does one share, some 2 to 15 ms; the last share of a kind adds its fit to the part.
     void advance(SignalPart& part);
 
   private:
-    /// The search of one kind, with the rows that it is about.
+    /// The search of one kind, with its rows.
     struct Task {
         Task(const SignalPart& part);
         bool of(const SignalPart& part) const;

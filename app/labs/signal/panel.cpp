@@ -23,7 +23,7 @@
 
 namespace tendril::app {
 
-// What one chooses in the Signal lab: a preset, what goes in, the filters.
+// The panel: presets, input and filters.
 
 namespace {
 
@@ -78,7 +78,7 @@ void export_section(Emit& emit) {
         emit("signal.copy", {{"as", "csv"}});
 }
 
-/// Adding is one button and a list: fourteen buttons would be a wall.
+/// One button with a list: fourteen buttons would be too many.
 void add_button(Emit& emit) {
     if (row_button("Add a filter", 1, true, "A list of every kind; the new one comes last"))
         ImGui::OpenPopup("add filter");
@@ -152,12 +152,12 @@ void SignalLab::panel(const Workspace& workspace, Emit& emit) const {
     if (open("Export")) export_section(emit);
 }
 
-// The parameters of the selected filter, from the library's table; a curve also has its editor, a spring its
-// other two descriptions.
+// The parameters of the selected filter, from the library's table; for a curve also its editor, for a spring
+// two alternative descriptions.
 
 namespace {
 
-/// The same spring by half-life, and by duration and bounce: all three at once, any of them set.
+/// Half-life, and duration and bounce of the same spring: any of them can be set.
 void spring_rows(const signal::Spring<>& spring, std::size_t at, Emit& emit) {
     const signal::SpringFeel feel = signal::feel_of(spring.strength, spring.critical_damping);
     const auto set = [&](const Expected<signal::SpringShape>& shape) {
@@ -210,7 +210,7 @@ void parameter_rows(const SignalPart& part, const Palette& palette, Emit& emit) 
     ImGui::PopID();
 }
 
-// What the filters cost and gain, in numbers, and the ranking of a fit.
+// The inspector: measurements, and the ranking of a fit.
 
 namespace {
 
@@ -219,7 +219,7 @@ std::string or_dash(const std::optional<double>& value, double factor, int decim
     return fixed_text(factor * *value, decimals) + " " + unit;
 }
 
-/// The same four digits or so, whatever the size; what grows without bound is said so.
+/// About four digits at any size; "unbounded" if the value is huge.
 std::string difference_text(double value) {
     if (value > 1e6) return "unbounded";
     return fixed_text(value, value < 10.0 ? 3 : 0);
@@ -345,7 +345,7 @@ void SignalLab::inspector(const Workspace& workspace, Emit& emit) const {
     }
 }
 
-// The response that is wanted, drawn with the mouse over the input that it is to answer, and the best fits.
+// The desired response, drawn with the mouse over its input, and the best fits.
 
 glm::vec3 fit_colour(const Palette& palette, std::size_t rank) {
     return rank == 0 ? palette.head : rank == 1 ? rgb(0xCC79A7) : palette.tail;
@@ -367,12 +367,12 @@ void fit_plot(const SignalPart& part, const Palette& palette, float height, Emit
         curves.push_back(curve_of("wanted", palette.text, time, part.wanted));
         curves.back().width = 1.4f;
     }
-    // There is always room to draw beyond what there is.
+    // Always leave room to draw beyond the present values.
     Span span = span_of(part.input, input);
     const double range = span.high - span.low, low = span.low - range, high = span.high + range;
     for (const double value : part.wanted)
         span.low = std::min(span.low, value), span.high = std::max(span.high, value);
-    if (!drawn) {  // a stroke begins with what the chain makes of the input
+    if (!drawn) {  // a stroke starts from the output of the chain
         for (const double value : signal::run(enabled_filters(part), rows)) {
             span.low = std::min(span.low, std::max(value, low));
             span.high = std::max(span.high, std::min(value, high));

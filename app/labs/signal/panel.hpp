@@ -1,4 +1,4 @@
-// The pieces that the Signal lab's panels and its flat picture are put together from.
+// Rows of the Signal lab's panel, inspector and canvas.
 #pragma once
 
 #include "app/labs/kit/panel_rows.hpp"
@@ -12,19 +12,19 @@ namespace tendril::app {
 std::string kind_title(const signal::Filter& filter);
 std::string kind_title(const signal::Kind& kind);
 
-/// The chain: a row for each filter, and buttons that add one.
+/// The chain: one row for each filter, and a button that adds one.
 void chain_rows(const SignalPart& part, const Palette& palette, Emit& emit);
 /// How the whole chain follows its input.
 Verdict signal_verdict(const SignalPart& part, const signal::Measures& whole);
-/// The parameters of the filter that is selected.
+/// The parameters of the selected filter.
 void parameter_rows(const SignalPart& part, const Palette& palette, Emit& emit);
 /// The ranking of fitted filters.
 void fit_rows(const SignalPart& part, Emit& emit);
 
-/// How many of the best fits the plot shows, and in which colours.
+/// How many of the best fits the plot shows, and their colours.
 inline constexpr std::size_t shown_fits = 3;
 glm::vec3 fit_colour(const Palette& palette, std::size_t rank);
-/// The plot of a response that is drawn, with the best fits.
+/// The plot of the desired response, to draw on, with the best fits.
 void fit_plot(const SignalPart& part, const Palette& palette, float height, Emit& emit);
 
 }  // namespace tendril::app

@@ -18,7 +18,7 @@ SignalPart engine_against_exact() {
                      InputKind::Square, 2.0, SignalPlot::Rates);
 }
 
-/// At 60 Hz it is only just unstable; at 30 it is gone in a tenth of a second.
+/// Barely unstable at 60 Hz; at 30 Hz it diverges within a tenth of a second.
 SignalPart spring_that_explodes() {
     return part_with({{signal::SpringSemiImplicit{.strength = 8.0, .critical_damping = 1.0}},
                       {signal::Spring<>{.strength = 8.0, .critical_damping = 1.0}, false}},

@@ -1,4 +1,4 @@
-// Ready-made chains of filters, each with an input and a plot that make its point.
+// Presets: chains of filters, each with an input and a plot that make its point.
 #pragma once
 
 #include <string>
@@ -11,11 +11,11 @@ namespace tendril::app {
 struct SignalPreset {
     const char* name;
     const char* title;
-    const char* point;  ///< what to see there, and what to try
+    const char* point;  ///< what to notice, and what to try
     SignalPart (*make)();
 };
 
-/// The first one is what the lab opens on.
+/// The lab opens with the first one.
 const std::vector<SignalPreset>& signal_presets();
 
 }  // namespace tendril::app

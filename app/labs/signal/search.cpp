@@ -11,8 +11,8 @@ namespace {
 
 constexpr double very_large = 1e60;
 
-/// The digits of `number` in base `base`, mirrored at the point: with a prime base for each dimension, the
-/// points of Halton (1960).
+/// The digits of `number` in base `base`, mirrored at the radix point. With a different prime base for each
+/// dimension these are the points of Halton (1960).
 double radical_inverse(unsigned number, unsigned base) {
     double digit = 1.0, result = 0.0;
     for (; number > 0; number /= base) {
@@ -32,8 +32,7 @@ Minimiser::Minimiser(Objective objective, Search search)
     best_.at.assign(search_.dimensions, 0.5);
 }
 
-/// First all over the range, then around each of the best places, then closer and closer around the very
-/// best.
+/// Evaluates points over the whole range, then improves each of the best, then refines the very best.
 bool Minimiser::advance() {
     const std::size_t share = shares_++;
     if (dimensions() == 0) {
@@ -54,7 +53,7 @@ bool Minimiser::advance() {
     return !enough() && shares_ < 1 + candidates_.size() + 2 * rounds;
 }
 
-/// Of the points, and so the size of the neighbourhood that is looked into first.
+/// The number of initial points.
 std::size_t Minimiser::point_count() const {
     return dimensions() == 1 ? 48 : std::max<std::size_t>(48 * dimensions() + 48, 288);
 }
@@ -89,7 +88,7 @@ void Minimiser::spread() {
     }
     std::stable_sort(all.begin(), all.end(),
                      [](const Candidate& a, const Candidate& b) { return a.value < b.value; });
-    // Where there are guesses they lie close together: more of them are improved.
+    // Initial guesses lie close together, so more candidates are improved.
     const std::size_t improved = dimensions() == 1 ? 3 : search_.starts.size() > 16 ? 24 : 8;
     all.resize(std::min(all.size(), improved));
     for (Candidate& each : all) candidates_.push_back(std::move(each.at));
@@ -131,7 +130,7 @@ void Minimiser::improve(int algorithm, Point at, double step, std::size_t evalua
     nlopt_set_xtol_rel(optimiser, 1e-10);
     nlopt_set_stopval(optimiser, search_.enough);
     double last = 0.0;
-    // Whatever it ends with, the best of all evaluations is known.
+    // The result does not matter: value() keeps the best of all evaluations.
     static_cast<void>(nlopt_optimize(optimiser, at.data(), &last));
     nlopt_destroy(optimiser);
 }

@@ -1,6 +1,6 @@
-// Looks for the minimum of a function of a few numbers, each from 0 to 1: points spread evenly over the whole
-// range, the best of them improved by NLopt's local methods (Sbplx, Nelder-Mead). The same at every run: no
-// random numbers, no clock, as many evaluations as the number of dimensions says.
+// Minimises a function of a few numbers, each from 0 to 1: evaluates points spread evenly over the range,
+// then improves the best with NLopt's local methods (Sbplx, Nelder-Mead). Deterministic: no random numbers,
+// no clock; the number of dimensions bounds the evaluations.
 #pragma once
 
 #include <functional>
@@ -13,11 +13,11 @@ using Objective = std::function<double(std::span<const double>)>;
 
 struct Search {
     std::size_t dimensions = 1;
-    /// Dimensions in which the function is made of level steps, as of a threshold: no local method sees them.
+    /// Dimensions in which the function is a step function, as for a threshold: local methods fail there.
     std::vector<std::size_t> stepped{};
-    /// Points to try beside those spread evenly.
+    /// Points to try in addition.
     std::vector<std::vector<double>> starts{};
-    double enough = 0.0;  ///< ends at a value that is no larger
+    double enough = 0.0;  ///< stop at this value or below
 };
 
 struct Minimum {
@@ -26,15 +26,15 @@ struct Minimum {
     int evaluations = 0;
 };
 
-/// The search, a share at a time. Cost: some 200 evaluations in one dimension to 10 000 in six, of which a
-/// share has 1500 at most. Values that are not finite count as very large.
+/// The search, computed in shares. Cost: some 200 evaluations in one dimension to 10 000 in six, at most 1500
+/// in one share. Values that are not finite count as very large.
 class Minimiser {
   public:
     Minimiser(Objective objective, Search search);
 
-    /// Whether there is more to do after this share.
+    /// Returns whether there is more to do.
     bool advance();
-    /// So far.
+    /// The best so far.
     const Minimum& best() const { return best_; }
 
   private:
@@ -51,7 +51,7 @@ class Minimiser {
     Objective objective_;
     Search search_;
     Minimum best_;
-    std::vector<Point> candidates_;  ///< the best of those that were spread, to be improved
+    std::vector<Point> candidates_;  ///< the best of the initial points, to be improved
     std::size_t shares_ = 0;
 };
 

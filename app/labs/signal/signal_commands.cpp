@@ -11,7 +11,7 @@
 
 namespace tendril::app {
 
-// Filters: added, set, moved, switched, removed.
+// Filters: adding, setting, moving, switching and removing them.
 
 namespace {
 
@@ -19,7 +19,7 @@ std::vector<std::string> all_kind_names() {
     return names(signal::kinds(), [](const signal::Kind& kind) { return kind.name; });
 }
 
-/// Of a filter that is there, by its place.
+/// Offers the indices of the present filters.
 Argument filter_argument(Argument place) {
     return offering(std::move(place), [](const Workspace& w) {
         return places(w.document.get<SignalPart>(signal_lab).stages.size());
@@ -29,7 +29,7 @@ Argument filter_argument(Argument place) {
 /// The fields of all kinds, each name once, with a range that covers every kind that has it.
 std::vector<Argument> parameter_arguments() {
     std::vector<Argument> arguments;
-    std::vector<std::string> owners;  // of each argument
+    std::vector<std::string> owners;  // the kinds that have each argument
     const auto add = [&](Argument argument, const signal::Kind& kind) {
         const auto known = std::ranges::find(arguments, argument.name, &Argument::name);
         if (known == arguments.end()) {
@@ -55,7 +55,7 @@ std::vector<Argument> parameter_arguments() {
     return arguments;
 }
 
-/// What is given for a filter must be one of its own.
+/// Throws Refused for a parameter that the kind does not have.
 void check_names(const Arguments& given, const signal::Kind& kind) {
     const std::vector<std::string> own = parameter_names(kind);
     for (const Argument& argument : parameter_arguments()) {
@@ -67,7 +67,7 @@ void check_names(const Arguments& given, const signal::Kind& kind) {
     }
 }
 
-/// The stage that `name` says; `past_end`: one behind the last is one too.
+/// The stage that argument `name` selects; `past_end` also allows one past the last.
 std::size_t stage_index(const SignalPart& part, const Arguments& given, const char* name,
                         bool past_end = false) {
     const auto index = static_cast<std::size_t>(given.integer(name));
@@ -120,7 +120,7 @@ void enable(SignalPart& part, const Arguments& given) {
     const bool on = given.has("on") ? given.boolean("on") : !stage.enabled;
     if (on == stage.enabled) return;
     stage.enabled = on;
-    stage.state = {};  // what it remembers is of another time
+    stage.state = {};  // its memory is out of date
 }
 
 void select(SignalPart& part, const Arguments& given) {
@@ -167,7 +167,7 @@ void add_filter_commands(CommandTable& table) {
         "Selects a filter", select, Effect::Look));
 }
 
-// What goes in, and whole scenes.
+// Input, presets and the lower plot.
 
 namespace {
 
@@ -177,7 +177,7 @@ void clear(SignalPart& part, const Arguments&) {
 }
 
 void take(SignalPart& part, SignalPart fresh) {
-    fresh.input.recording = part.input.recording;  // a gesture that was recorded is not lost
+    fresh.input.recording = part.input.recording;  // keeps the user's recorded gesture
     part = std::move(fresh);
 }
 

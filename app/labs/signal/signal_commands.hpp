@@ -1,4 +1,4 @@
-// The commands of the Signal lab, a file each for what they change.
+// The commands of the Signal lab: signal.*.
 #pragma once
 
 #include "app/document/command.hpp"

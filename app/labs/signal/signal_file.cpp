@@ -1,4 +1,4 @@
-// The Signal lab in a scene file.
+// The Signal lab in scene files.
 #include <algorithm>
 
 #include "app/document/json_complete.hpp"
@@ -87,7 +87,7 @@ Json save_fits(const SignalPart& part) {
     return json;
 }
 
-/// What is still to come of the fits.
+/// A fit in progress.
 Fitting load_fitting(const SignalPart& part, const JsonPlace& place) {
     constexpr std::size_t max_shares = 1000;
     if (part.wanted.size() < 2 || part.recording) place.fail("there is no response to fit to");

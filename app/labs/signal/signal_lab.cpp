@@ -54,7 +54,7 @@ void SignalLab::add_commands(CommandTable& table) const {
     add_fit_commands(table);
 }
 
-/// A hand at rest, for as long as the plot shows, moves nothing.
+/// At rest if the hand has not moved for as long as the plot shows.
 bool SignalLab::moving(const Workspace& workspace) const {
     const SignalPart& part = signal_part(workspace);
     if (part.recording && !part.recording->begun) return false;
@@ -101,7 +101,7 @@ void SignalLab::drag(const Workspace& workspace, PickId pick, const Handle::Fram
         emit.continuously("signal.fit.hand", {{"value", value}});
 }
 
-/// Rows of a CSV become the input.
+/// A CSV file becomes the input.
 bool SignalLab::take_file(const std::string& path, Emit& emit) const {
     const std::size_t dot = path.rfind('.');
     if (dot == path.npos || lower_case(path.substr(dot)) != ".csv") return false;
@@ -109,7 +109,7 @@ bool SignalLab::take_file(const std::string& path, Emit& emit) const {
     return true;
 }
 
-/// One step to undo, with the drag.
+/// Ends the recording in the same undo step as the drag.
 void SignalLab::drop(const Workspace& workspace, PickId pick, Emit& emit) const {
     const auto& recording = signal_part(workspace).recording;
     if (pick == output_pick && recording && recording->begun) emit.continuously("signal.fit.stop");

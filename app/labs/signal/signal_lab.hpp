@@ -1,5 +1,5 @@
-// The Signal lab: a chain of filters that one builds, what goes into it, and what comes out: as curves, as a
-// ball that moves, and as numbers.
+// The Signal lab: the user builds a chain of filters and chooses its input; the output is shown as curves, as
+// a moving ball, and as numbers.
 #pragma once
 
 #include "app/labs/lab.hpp"

@@ -51,7 +51,7 @@ void pass_signal_time(SignalPart& part, double dt) {
     record(part);
 }
 
-/// A chain of other filters than then comes back whole.
+/// If the chain had other filters then, restores it as it was.
 std::shared_ptr<const Part> SignalPart::at_moment(std::shared_ptr<const Part> then) const {
     auto part = std::make_shared<SignalPart>(dynamic_cast<const SignalPart&>(*then));
     const bool same_chain =
@@ -69,7 +69,7 @@ std::shared_ptr<const Part> SignalPart::at_moment(std::shared_ptr<const Part> th
     part->fits = fits;
     part->fitting = fitting;
     part->recording = recording;
-    end_recording(*part);  // nobody goes on with it at another time
+    end_recording(*part);  // a recording cannot continue at another time
     return part;
 }
 
@@ -98,7 +98,7 @@ bool SignalPart::operator==(const SignalPart& other) const {
 
 namespace {
 
-/// -1 to 1, as good as random; the same on every machine.
+/// Pseudorandom in -1 to 1; the same on every machine.
 double shuffled(std::int64_t number) {
     auto x = static_cast<std::uint64_t>(number) + 0x9e3779b97f4a7c15u;
     x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
@@ -106,13 +106,14 @@ double shuffled(std::int64_t number) {
     return static_cast<double>((x ^ (x >> 31)) >> 11) * 0x1p-52 - 1.0;
 }
 
-/// Where in its period a wave is: over 0 and up to 1.
+/// The fraction of the period: greater than 0, up to 1.
 double phase(double time, double period) {
     const double periods = time / period - 1e-9;
     return periods - std::floor(periods);
 }
 
-/// Smooth between random values a quarter of a period apart, and at 60 Hz an error of a tenth of that.
+/// Interpolates smoothly between random values a quarter of a period apart, plus an error of about a tenth of
+/// that at 60 Hz.
 double noise(double time, double period) {
     const double place = 4.0 * time / period;
     const double first = std::floor(place), u = place - first;
@@ -122,8 +123,8 @@ double noise(double time, double period) {
     return 0.9 * drift + 0.1 * shuffled(2 * static_cast<std::int64_t>(std::floor(60.0 * time + 1e-6)) + 1);
 }
 
-/// The row of a recording that a time falls into: each holds for the dt that ends with it. It begins with the
-/// first; later its end is the last one's.
+/// The input of a recording at `time`: each row holds for the dt that ends with it. Starts with the first
+/// row; the end of each repetition has the last.
 double played(const InputRows* rows, double time) {
     const double length = length_of(rows);
     if (length <= 0.0) return 0.0;
@@ -233,7 +234,7 @@ void record(SignalPart& part) {
     const std::vector<double> times = signal::times_of(part.fit_input);
     while (recording.rows < times.size() && times[recording.rows] <= part.time + 1e-6)
         part.wanted[recording.rows++] = recording.value;
-    // What is to come is as it is now.
+    // The rows to come repeat the present value.
     std::fill(part.wanted.begin() + static_cast<std::ptrdiff_t>(recording.rows), part.wanted.end(),
               recording.value);
     if (recording.rows == times.size()) part.recording.reset();

@@ -1,4 +1,4 @@
-// The Signal lab's share of the document: a chain of filters, what goes into it, and what is wanted of it.
+// The Signal lab's part of the document: a chain of filters, its input, and the desired response.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@
 
 namespace tendril::app {
 
-// What goes into the Signal lab's filters: a hand, a wave, a recording.
+// The input of the filters: the hand, a wave, a recording.
 
 enum class InputKind : std::uint8_t { Hand, Square, Sine, Noise, Recorded, Csv };
 
@@ -31,45 +31,45 @@ inline constexpr EnumNames<InputKind, 6> input_kinds{
 
 inline constexpr double min_input_period = 0.02, max_input_period = 60.0;  ///< seconds
 inline constexpr double max_amplitude = 1e6;
-inline constexpr std::size_t max_input_rows = 36'000;  ///< of a recording: ten minutes at 60 Hz
+inline constexpr std::size_t max_input_rows = 36'000;  ///< in a recording: ten minutes at 60 Hz
 
 using InputRows = std::vector<signal::Sample>;
 
 struct SignalInput {
     InputKind kind = InputKind::Square;
-    double amplitude = 1.0;  ///< of square, sine and noise, either way of 0
-    double period = 2.0;     ///< seconds, of these
+    double amplitude = 1.0;  ///< of square, sine and noise, to either side of 0
+    double period = 2.0;     ///< seconds, of the same
     double hand = 0.0;
-    /// What recorded and csv play. Shared between copies, and never changed.
+    /// The rows of Recorded and Csv. Shared between copies, and immutable.
     std::shared_ptr<const InputRows> recording{}, file{};
     std::string path{};  ///< of the file
 
-    /// The same rows, and not merely equal ones.
+    /// Compares recordings by pointer.
     bool operator==(const SignalInput&) const = default;
 };
 
-/// The input at a time of the lab, seconds from 0. A square wave is up right after 0, and down at 0: so
+/// The input at a time of the lab, seconds from 0. A square wave is low at 0 and high right after, so that
 /// frames of every rate that begin at 0 see its jumps at the same time.
 double input_at(const SignalInput& input, double time);
 
-/// How long a recording is, seconds; 0 where there is none.
+/// The length of a recording, seconds; 0 if there is none.
 double length_of(const InputRows* rows);
 
-/// Rows of what the input is from 0 on, long enough to measure by: some periods, or all of a recording up to
-/// `most_seconds`. The first row is at 0, and takes next to no
-/// time: it is what filters start from. `rate`: rows a second. Of the hand there are none.
+/// Rows of the input from 0 on, long enough to measure: a few periods, or a recording, up to
+/// max_measured_seconds. The first row is at 0 and has a dt of nearly 0: filters start from it. `rate`: rows
+/// per second. Empty for the hand.
 InputRows measuring_rows(const SignalInput& input, double rate);
 inline constexpr double max_measured_seconds = 10.0;
 
 inline constexpr const char* signal_lab = "signal";
 inline constexpr std::size_t max_stages = 16;
-inline constexpr std::size_t max_past = 600;    ///< ticks of input that are remembered
-inline constexpr std::size_t max_wanted = 300;  ///< rows of a response to fit to: more would take too long
+inline constexpr std::size_t max_past = 600;    ///< ticks of input that are kept
+inline constexpr std::size_t max_wanted = 300;  ///< rows of a response to fit: more would take too long
 
 /// One filter of the chain.
 struct SignalStage {
     signal::Filter filter;
-    bool enabled = true;  ///< off: the input passes as it is
+    bool enabled = true;  ///< if not, the input passes through
     signal::FilterState state{};
     bool operator==(const SignalStage&) const = default;
 };
@@ -83,80 +83,80 @@ inline constexpr EnumNames<SignalPlot, 3> signal_plots{
       "Every kind of filter on this input: those of the chain as they are set."},
      {"fit", "Fit", "The response that is wanted, and the filters that come nearest to it."}}};
 
-/// A response that a hand shows: the input plays from its start, and the output ball goes with the hand.
+/// A response that the user performs: the input plays from its start, and the output ball follows the mouse.
 struct Recording {
-    double value = 0.0;    ///< where the hand is
-    std::size_t rows = 0;  ///< of the response that are there
-    bool begun = false;    ///< the hand has the ball; no tick passes before
+    double value = 0.0;    ///< the value at the mouse
+    std::size_t rows = 0;  ///< rows of the response recorded so far
+    bool begun = false;    ///< the ball has been grabbed; no tick passes before
     bool operator==(const Recording&) const = default;
 };
 
-/// A fit that is being worked out, a share in every tick (fitting.hpp): one kind after the other, in the
-/// order of signal::kinds(), of which SignalPart::fits has those that are done.
+/// A fit in progress, computed in shares, one per tick (fitting.hpp): one kind after the other, in the order
+/// of signal::kinds(). SignalPart::fits has the completed ones.
 struct Fitting {
-    std::vector<signal::Filter> from;  ///< the chain as it was: searches begin there too
-    std::size_t shares = 0;            ///< ticks that the kind at hand has had
+    std::vector<signal::Filter> from;  ///< the chain at the start: further starting points of the searches
+    std::size_t shares = 0;            ///< ticks spent on the present kind
     bool operator==(const Fitting&) const = default;
 };
-inline constexpr double max_residual = 1e9;  ///< of a fit, as a file has it
+inline constexpr double max_residual = 1e9;  ///< in files
 
 struct SignalPart final : Part {
     std::vector<SignalStage> stages;
     SignalInput input;
     double time = 0.0;  ///< seconds, of the input
-    InputRows past;     ///< what went in during the last ticks, oldest first
+    InputRows past;     ///< the input of the last ticks, oldest first
     std::optional<std::size_t> selected;
     SignalPlot plot = SignalPlot::Rates;
-    /// The response that filters are fitted to, and the input that it is to come from.
+    /// The response that filters are fitted to, and its input.
     InputRows fit_input;
     std::vector<double> wanted;
-    std::optional<Recording> recording;  ///< of `wanted`, which has a row for each of the input's
-    std::vector<Fit> fits;               ///< the best first
-    std::optional<Fitting> fitting;      ///< what is still to come of them
+    std::optional<Recording> recording;  ///< of `wanted`, which has a row for each row of fit_input
+    std::vector<Fit> fits;               ///< best first
+    std::optional<Fitting> fitting;      ///< the fit in progress
 
     std::shared_ptr<Part> clone() const override { return std::make_shared<SignalPart>(*this); }
     Json save() const override;
     std::shared_ptr<Part> load(const Json& json, const std::string& where) const override;
-    /// What filters remember goes back in time, how they are set does not.
+    /// Restores the filters' states but keeps their present parameters.
     std::shared_ptr<const Part> at_moment(std::shared_ptr<const Part> then) const override;
     std::size_t bytes() const override;
     bool operator==(const SignalPart& other) const;
 };
 
-/// What the lab starts with.
+/// The lab's initial part.
 SignalPart first_signal();
 
-/// The filters that are on, in their order.
+/// The enabled filters, in order.
 std::vector<signal::Filter> enabled_filters(const SignalPart& part);
-/// The input that went in last; before the first, the one that will.
+/// The last input; before the first tick, the next one.
 double input_of(const SignalPart& part);
-/// The last output; the last input where no filter has anything to say yet.
+/// The last output; the last input if no filter has run yet.
 double output_of(const SignalPart& part);
-/// The same of one stage.
+/// The output of one stage.
 double output_of(const SignalPart& part, std::size_t stage);
 
-/// Lets `dt` seconds pass.
+/// Advances by `dt` seconds.
 void pass_signal_time(SignalPart& part, double dt);
 
 inline const SignalPart& signal_part(const Workspace& workspace) {
     return workspace.document.get<SignalPart>(signal_lab);
 }
 
-// A response that a person shows with the hand, for filters to be fitted to.
+// Recording a response by hand, for filters to be fitted to.
 
-/// The input that a response answers: the rows that the lab plays from its beginning on, a tick each, or
-/// what the hand did last.
+/// The input of the response: the rows that the lab plays from its start, one per tick, or the last input of
+/// the hand.
 InputRows rows_to_answer(const SignalPart& part);
 
-/// What the hand did last, from where it first moved on; null where it did not.
+/// The last input of the hand, from its first movement on; null if it did not move.
 std::shared_ptr<const InputRows> gesture_of(const SignalPart& part);
 
-/// Puts the input back to its start, with filters that remember nothing. A hand's gesture becomes a recorded
-/// input. Throws Refused where there is no input to answer.
+/// Restarts the input, with the filters' states reset. The hand's gesture becomes a recorded input. Throws
+/// Refused if there is no input.
 void begin_recording(SignalPart& part);
-/// Keeps what is there; less than two rows are nothing.
+/// Keeps the recorded rows, or nothing if there are fewer than two.
 void end_recording(SignalPart& part);
-/// The rows up to the part's time.
+/// Records rows up to the part's time.
 void record(SignalPart& part);
 
 }  // namespace tendril::app

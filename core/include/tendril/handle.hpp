@@ -1,6 +1,6 @@
-// What names a thing that can go away: the index of a slot and its generation, which counts how often the
-// slot was taken and freed. A handle of something that was removed finds nothing, even where its slot is in
-// use again. Names are up to the program.
+// Names an object that can be removed: the index of its slot, and a generation that counts how often the slot
+// was taken and freed. The handle of a removed object finds nothing, even if its slot is in use again. Names
+// are up to the program.
 #pragma once
 
 #include <cstdint>
@@ -11,9 +11,9 @@ template <class Kind>
 struct Handle {
     static constexpr std::uint32_t none = 0xffffffffu;
     std::uint32_t index = none;
-    std::uint32_t generation = 0;  ///< odd of what there is
+    std::uint32_t generation = 0;  ///< odd while the slot is in use
 
-    /// Whether it was ever given out; what it points at may be gone.
+    /// Whether it was ever given out; its object may have been removed since.
     explicit operator bool() const noexcept { return index != none; }
     bool operator==(const Handle&) const = default;
 };

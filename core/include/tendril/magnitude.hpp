@@ -1,11 +1,10 @@
-// The range of every coordinate and length that may come into the library.
+// The limit of every coordinate and length that the library accepts.
 #pragma once
 
 namespace tendril {
 
-/// The largest coordinate and the largest length that are accepted, in metres. Results are accurate within
-/// 1e3 m of the origin: further out, floats stand too far apart (64 m at this limit), and only finiteness is
-/// promised.
+/// The largest accepted coordinate and length, in metres. Results are accurate within 1e3 m of the origin.
+/// Further out floats are too coarse (64 m apart at this limit), and only finiteness is promised.
 inline constexpr float max_magnitude = 1e9f;
 
 }  // namespace tendril

@@ -1,4 +1,4 @@
-// GLM's rotations, and what the library's binary takes for granted of them; as vec3.hpp.
+// GLM's rotations, and the memory layout that the library's binary assumes; see vec3.hpp.
 #pragma once
 
 #include <cstddef>

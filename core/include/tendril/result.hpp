@@ -1,7 +1,8 @@
-// How an editing call answers: fine, or a code and a message that names the argument and its value.
+// What an editing call returns: success, or an error code and a message that names the argument and its
+// value.
 //
-// Nothing in the library throws, and it can be compiled without exceptions and RTTI. A call that is refused
-// has changed nothing. Neither type allocates: the message is kept in place, cut off where it is too long.
+// Nothing in the library throws, and it can be compiled without exceptions and RTTI. A refused call changes
+// nothing. Neither type allocates: the message is stored inline and truncated if it is too long.
 //
 //     if (const Result result = chain.insert(9, 1.0f); !result) log(result.message());
 //     // "insert: index 9 is out of range, the chain has 4 segments"
@@ -10,7 +11,7 @@
 //     if (!solver) return log(solver.message());
 //     solver->solve(...);
 //
-// A broken precondition is no refusal: reading `*expected` where there is no value is a bug in the calling
+// A broken precondition is not a refusal: reading `*expected` without a value is a bug in the calling
 // program. It ends the program with the message on stderr.
 #pragma once
 
@@ -23,22 +24,22 @@
 namespace tendril {
 
 enum class ErrorCode : std::uint8_t {
-    None,             ///< fine
+    None,             ///< success
     InvalidArgument,  ///< a number that is not finite or out of its range, a list of the wrong size
-    OutOfRange,       ///< an index or a handle of something that is not there
-    NotFound,         ///< a name that nothing has
-    AlreadyExists     ///< a name that something has already
+    OutOfRange,       ///< an index out of range, or the handle of a removed object
+    NotFound,         ///< an unknown name
+    AlreadyExists     ///< a name that is in use
 };
 /// "InvalidArgument"
 const char* name(ErrorCode code) noexcept;
 
-/// What came of a call that may be refused.
+/// The outcome of a call that may be refused.
 class [[nodiscard]] Result {
   public:
-    /// Longest message in bytes; what is over is cut off between characters.
+    /// Longest message in bytes; longer ones are cut between characters.
     static constexpr std::size_t max_message = 199;
 
-    /// Fine.
+    /// Success.
     Result() noexcept { message_[0] = '\0'; }
     /// Refused; `code` is not None.
     Result(ErrorCode code, std::string_view message) noexcept;
@@ -48,7 +49,7 @@ class [[nodiscard]] Result {
     bool ok() const noexcept { return code_ == ErrorCode::None; }
     explicit operator bool() const noexcept { return ok(); }
     ErrorCode code() const noexcept { return code_; }
-    /// `insert: index 9 is out of range, the chain has 4 segments`; empty where all is fine.
+    /// `insert: index 9 is out of range, the chain has 4 segments`; empty on success.
     const char* message() const noexcept { return message_; }
 
   private:
@@ -61,7 +62,7 @@ namespace detail {
 [[noreturn]] void no_value(const char* message) noexcept;
 }  // namespace detail
 
-/// A T, or why there is none.
+/// A T, or the reason why there is none.
 template <class T>
 class [[nodiscard]] Expected {
   public:
@@ -71,16 +72,16 @@ class [[nodiscard]] Expected {
 
     bool ok() const noexcept { return held_.index() == 0; }
     explicit operator bool() const noexcept { return ok(); }
-    /// Fine where there is a value.
+    /// Success if there is a value.
     Result error() const noexcept {
         const Result* error = std::get_if<1>(&held_);
         return error ? *error : Result();
     }
     ErrorCode code() const noexcept { return ok() ? ErrorCode::None : std::get_if<1>(&held_)->code(); }
-    /// Empty where there is a value.
+    /// Empty if there is a value.
     const char* message() const noexcept { return ok() ? "" : std::get_if<1>(&held_)->message(); }
 
-    /// The value, which must be there.
+    /// The value, which must exist.
     T& value() & noexcept { return *held(); }
     const T& value() const& noexcept { return *held(); }
     T&& value() && noexcept { return std::move(*held()); }

@@ -1,6 +1,6 @@
-// How a call spreads its work over threads: on the job system that the program has, or on threads of its own.
+// How a call spreads its work over threads: on the program's job system, or on threads of its own.
 //
-// An engine sets `run` to a few lines that hand the pieces to its own workers, as with the enqueueTask
+// An engine sets `run` to a few lines that pass the tasks to its own workers, as with the enqueueTask
 // callback of Box2D v3. The library then starts no thread:
 //
 //     void run_on_jobs(void* user, tendril::TaskFunction task, void* context, std::uint32_t count) {
@@ -9,23 +9,23 @@
 //     solve_many(batch, targets, reports, {.tasks = {run_on_jobs, &jobs}});
 //     workspace.use_threads(8, {run_on_jobs, &jobs});  // rope::Workspace
 //
-// Results never depend on it: every order of the pieces, on any number of threads, gives the same bits.
+// Results never depend on it: any order of the tasks, on any number of threads, gives the same bits.
 #pragma once
 
 #include <cstdint>
 
 namespace tendril {
 
-/// One piece of a call's work. It does not throw, and waits for no piece that has not begun.
+/// One task of a call. It must not throw, nor wait for a task that has not begun.
 using TaskFunction = void (*)(void* context, std::uint32_t index) noexcept;
 
 struct Tasks {
     /// Calls `task(context, i)` once for each i from 0 to count - 1 and returns when all of them have
-    /// returned: in any order, on any threads, side by side or one after another. Must not throw. Null: the
-    /// library starts threads for the call and joins them before it returns, which costs some 20 µs a thread;
-    /// where the system has none to give, the calling thread does their part.
+    /// returned: in any order, on any threads, in parallel or in sequence. Must not throw. Null: the library
+    /// starts threads for the call and joins them before it returns, which costs about 20 µs per thread. If
+    /// the system cannot start a thread, the calling thread does its share.
     void (*run)(void* user, TaskFunction task, void* context, std::uint32_t count) = nullptr;
-    /// Handed to `run` as it is.
+    /// Passed to `run` unchanged.
     void* user = nullptr;
 };
 

@@ -1,5 +1,5 @@
-// GLM's points and directions, and what the library's binary takes for granted of them: a program that sets
-// GLM up otherwise would read other memory than the library wrote, so it does not compile.
+// GLM's points and directions, and the memory layout that the library's binary assumes. A program that
+// configures GLM differently would misread the library's memory, so it does not compile.
 #pragma once
 
 #include <glm/vec3.hpp>

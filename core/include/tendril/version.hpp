@@ -1,4 +1,4 @@
-// Which Tendril this is. The build refuses to configure when it differs from the project's own version.
+// The version of Tendril. Configuring fails if it differs from the project's version in CMake.
 #pragma once
 
 namespace tendril {

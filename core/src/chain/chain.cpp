@@ -9,7 +9,7 @@
 namespace tendril {
 
 float Chain::reach() const noexcept {
-    double sum = 0.0;  // a million short lengths would not add up in a float
+    double sum = 0.0;  // in double: a float would lose a million short lengths
     for (std::size_t i = 1; i < size(); ++i) sum += static_cast<double>(segments_[i].length);
     return static_cast<float>(sum);
 }
@@ -23,8 +23,7 @@ Result Chain::set_default_direction(glm::vec3 direction) {
         return detail::refused("set_default_direction", "direction", "a unit vector",
                                {"one of length", length});
     }
-    // A direction that is a unit vector as far as floats go is kept as it is: a saved one must load as the
-    // same.
+    // Kept if it is a unit vector to float precision: a saved direction must load unchanged.
     if (std::abs(length - 1.0) > 2e-7) {
         direction = {static_cast<float>(x / length), static_cast<float>(y / length),
                      static_cast<float>(z / length)};
@@ -83,7 +82,7 @@ Result Chain::insert(std::size_t index, float length) {
         const Segment& head = segments_.front();
         segments_.insert(segments_.begin(),
                          Segment{detail::moved(head.position, along, -head.length), length});
-        return {};  // nothing else moves
+        return {};
     }
     const glm::vec3 along = bone_direction(index - 1, index);
     const glm::vec3 position = detail::moved(segments_[index - 1].position, along, length);

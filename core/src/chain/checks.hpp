@@ -1,4 +1,4 @@
-// A refusal that belongs to chains; those of single numbers are in math/checks.hpp. Not installed.
+// Argument checks for chains; those for single numbers are in math/checks.hpp. Not installed.
 #pragma once
 
 #include <string_view>
@@ -8,7 +8,7 @@
 
 namespace tendril::detail {
 
-/// Position and length, each in its range; `argument` without member.
+/// Checks position and length for their ranges; `argument` has no member.
 Result check_segment(std::string_view operation, const Argument& argument, const Segment& value) noexcept;
 
 }  // namespace tendril::detail

@@ -1,4 +1,4 @@
-// Many segments at once: a saved chain is restored bit for bit, one that was written by hand or is damaged is
+// Loads many segments at once: a saved chain is restored bit for bit, a hand-written or damaged one is
 // recalculated.
 #include <algorithm>
 #include <limits>
@@ -13,7 +13,7 @@ namespace tendril {
 namespace {
 
 /// How far a bone may be from its length. Within 1e3 m that is the invariant. Further out, rounding a placed
-/// point costs up to half the spacing of floats per axis, so up to 0.87 of the spacing in all.
+/// point costs up to half the spacing of floats per axis, up to 0.87 of the spacing in total.
 double allowed_error(const glm::vec3& from, const Segment& to) {
     const double allowed = 1e-4 * std::max(1.0, static_cast<double>(to.length));
     const double furthest =
@@ -26,19 +26,18 @@ bool has_length(const glm::vec3& from, const Segment& to) {
     const double x = static_cast<double>(to.position.x) - static_cast<double>(from.x);
     const double y = static_cast<double>(to.position.y) - static_cast<double>(from.y);
     const double z = static_cast<double>(to.position.z) - static_cast<double>(from.z);
-    const double distance =
-        std::sqrt(x * x + y * y + z * z);  // in double: far out, floats would lose the answer
+    const double distance = std::sqrt(x * x + y * y + z * z);  // in double: far out, a float is too coarse
     return std::abs(distance - static_cast<double>(to.length)) <= allowed_error(from, to);
 }
 
-/// The first segment that is not at its length from the one before, or the number of segments.
+/// The first segment that is not at its length from the previous one, or the number of segments.
 std::size_t first_loose(std::span<const Segment> segments) {
     std::size_t i = 1;
     while (i < segments.size() && has_length(segments[i - 1].position, segments[i])) ++i;
     return std::min(i, segments.size());
 }
 
-/// A pull that starts at segment `first`, where a segment given at the point of the one before it goes
+/// Pulls towards the tail, from segment `first` on. A segment at the given position of its predecessor goes
 /// straight on.
 void recalculate_from(std::span<Segment> segments, std::size_t first, const glm::vec3& fallback) {
     if (first >= segments.size()) return;

@@ -1,4 +1,4 @@
-// The four modes. Everything is checked first; after that nothing can fail, for the pull is noexcept.
+// The four modes. Arguments are checked first; after that nothing can fail, because a pull is noexcept.
 #include "chain/checks.hpp"
 #include "chain/pull.hpp"
 #include "tendril/chain/chain.hpp"
@@ -30,13 +30,13 @@ Result Chain::backward(glm::vec3 target) {
 }
 
 FixedResult Chain::fixed(glm::vec3 target, const FixedOptions& options) {
-    FixedResult result;  // the only thing returned, so that no message is copied
+    FixedResult result;  // the only return value, so that no message is copied
     result.outcome = detail::check_point("fixed", "target", target);
     if (result.outcome) result.outcome = check_options(options);
     if (!result.outcome || empty()) return result;
 
     result.residual = detail::distance(segments_.front().position, target);
-    if (size() == 1) return result;  // it is the tail, and the tail stays
+    if (size() == 1) return result;  // a single segment is the tail, which stays
     const glm::vec3 tail = segments_.back().position;
     do {
         detail::pull_towards_tail(segments_, 0, target, default_direction_);

@@ -1,4 +1,4 @@
-// The pass over a chain that repeats one step (math/point.hpp). Not installed.
+// A pull: one pass over a chain that repeats the step of math/point.hpp. Not installed.
 #pragma once
 
 #include <cstddef>
@@ -12,8 +12,8 @@ namespace tendril::detail {
 
 using namespace tendril::math;
 
-/// Puts segment `pinned` on `target`, then places the ones after it, up to the tail. `pinned` must be an
-/// index of it.
+/// Moves segment `pinned` to `target`, then places the segments after it, up to the tail. `pinned` must be a
+/// valid index.
 static inline void pull_towards_tail(std::span<Segment> segments, std::size_t pinned, glm::vec3 target,
                                      const glm::vec3& fallback) noexcept {
     segments[pinned].position = target;
@@ -23,8 +23,8 @@ static inline void pull_towards_tail(std::span<Segment> segments, std::size_t pi
     }
 }
 
-/// Puts segment `pinned` on `target`, then places the ones before it, down to the head, each at the distance
-/// from its already placed neighbour that is that neighbour's length.
+/// Moves segment `pinned` to `target`, then places the segments before it, down to the head, each at its
+/// already placed neighbour's length from that neighbour.
 static inline void pull_towards_head(std::span<Segment> segments, std::size_t pinned, glm::vec3 target,
                                      const glm::vec3& fallback) noexcept {
     segments[pinned].position = target;
@@ -33,7 +33,7 @@ static inline void pull_towards_head(std::span<Segment> segments, std::size_t pi
         Segment& segment = segments[i - 1];
         target = step(target, segment.position, length, fallback);
         segment.position = target;
-        // Kept in a variable: read beside a coordinate just written, it would wait for the write.
+        // Kept in a variable: a load next to a coordinate just written would wait for the store.
         length = segment.length;
     }
 }

@@ -1,4 +1,4 @@
-// How the bones of a body hang together and where they point in a T-pose. Not installed.
+// How the bones of a body are connected, and where they point in a T-pose. Not installed.
 #pragma once
 
 #include <optional>
@@ -70,8 +70,8 @@ inline glm::dvec3 t_direction(Bone bone, const Facing& facing) noexcept {
     }
 }
 
-/// Whether a body keeps the first bone out of the second: hands and lower arms out of what is not their own
-/// arm, lower legs out of each other.
+/// Whether a body keeps the first bone out of the second: hands and lower arms out of everything but their
+/// own arm and the shoulders, lower legs out of each other.
 inline bool kept_apart(Bone moving, Bone still) noexcept {
     switch (moving) {
         case Bone::LeftHand:

@@ -16,7 +16,7 @@ using detail::Link;
 
 constexpr const char* effector_names[]{"hips", "head", "left_hand", "right_hand", "left_foot", "right_foot"};
 
-/// How readily a bone turns, against an upper arm.
+/// How readily a bone turns, relative to an upper arm.
 double mobility_of(Bone bone) noexcept {
     switch (bone) {
         case Bone::Hips:
@@ -35,10 +35,10 @@ double mobility_of(Bone bone) noexcept {
     }
 }
 
-/// What a limb may stop short of its full length, against that length: 0.7 mm of a leg of 0.85 m.
+/// How far a limb may stop short of its full length, as part of that length: 0.7 mm for a leg of 0.85 m.
 constexpr double slack_part = 0.0008;
 
-/// The link of a bone; -1: the body has not got it.
+/// The link of a bone; -1: the body lacks the bone.
 int link_of(const std::vector<Bone>& bones, Bone bone) noexcept {
     const auto found = std::find(bones.begin(), bones.end(), bone);
     return found == bones.end() ? -1 : static_cast<int>(found - bones.begin());
@@ -271,7 +271,7 @@ void Body::Work::take(std::span<const rig::Transform> pose) noexcept {
         const double a = length(links[static_cast<std::size_t>(limb.lower)].offset);
         const double b = length(links[static_cast<std::size_t>(limb.end)].offset);
         limb.square = a + b > 0.0 ? 0.5 * a * b / (a + b) : 0.0;
-        limb.even = 2.0 * std::sqrt(limb.square * slack_part * (a + b));  // at most that much off, half way
+        limb.even = 2.0 * std::sqrt(limb.square * slack_part * (a + b));  // beyond() peaks at the slack
     }
 }
 
@@ -332,11 +332,11 @@ void Body::Work::give(std::span<rig::Transform> pose, const glm::dvec3& shift) c
         rig::Transform& local = pose[link.node];
         const glm::dquat was = math::compose(link.start, link.rest);
         glm::dquat turned = math::compose(link.rotation, link.rest);
-        if (link.parent >= 0) {  // what lies between two bones turns with the one before
+        if (link.parent >= 0) {  // nodes between two bones turn with the parent bone
             const Link& before = links[static_cast<std::size_t>(link.parent)];
             turned = math::compose(math::compose(before.start, conjugate(before.rotation)), turned);
         }
-        // Over the clip's own local rotation, so that what does not turn keeps its bits.
+        // Applied to the clip's local rotation, so that a joint that does not turn stays bit-identical.
         const glm::dquat by = math::compose(conjugate(was), turned);
         if (length(glm::dvec3{by.x, by.y, by.z}) < 1e-14) continue;
         local.rotation = rig::normalised(math::compose(local.rotation, by));

@@ -1,4 +1,4 @@
-// A body's capsules in its solve: which are near each other, and the rows of those that touch.
+// A body's capsules in its solve: which are near each other, and the equations of those that touch.
 #include <algorithm>
 
 #include "humanoid/body_solve.hpp"
@@ -7,15 +7,6 @@
 namespace tendril::humanoid::detail {
 
 using namespace rig::detail;
-
-namespace {
-
-/// Metres. What is farther apart is not looked at in a step.
-constexpr double near = 0.15;
-/// Of a contact, against targets of weight 1: with 0.5 m left to go they are 2 mm in each other.
-constexpr double contact_weight = 250.0;
-
-}  // namespace
 
 void BodySolve::find_contacts() noexcept {
     contact_count_ = 0;
@@ -30,7 +21,7 @@ void BodySolve::find_contacts() noexcept {
         const glm::dvec3 way = minus(at.first, at.second);
         const double distance = length(way);
         Contact contact{&pair, at.first, at.second, {0.0, 0.0, 1.0}, distance - pair.apart};
-        if (contact.gap > near) continue;
+        if (contact.gap > contact_range) continue;
         if (distance > 1e-9) contact.apart = times(way, 1.0 / distance);
         if (contact_count_ < max_contacts) {
             contacts_[contact_count_++] = contact;
@@ -82,9 +73,9 @@ bool BodySolve::hold_contacts() noexcept {
         Contact& contact = contacts_[c];
         if (contact.row >= 0) {
             const auto row = static_cast<std::size_t>(contact.row);
-            if (contact.let_go || pull_[row] >= 0.0) continue;
-            rows_[row].weight = 1e-9;
-            contact.let_go = changed = true;
+            if (contact.released || forces_[row] >= 0.0) continue;
+            rows_[row].weight = released_contact_weight;
+            contact.released = changed = true;
             continue;
         }
         double gap = contact.gap;

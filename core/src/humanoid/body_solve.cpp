@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include "humanoid/body_tuning.hpp"
 #include "humanoid/input.hpp"
 #include "humanoid/joint_turn.hpp"
 #include "rig/math.hpp"
@@ -14,23 +15,7 @@ using namespace rig::detail;
 
 namespace {
 
-/// Of feet that stay, against targets of weight 1.
-constexpr double stay_weight = 3e1;
-/// Radians that joints turn back towards the clip's pose in all, for a metre that a target is away when a
-/// solve begins: a pose that could be nearer to the clip's comes nearer while its targets move, and not at
-/// once.
-constexpr double back_per_metre = 3.0;
-/// Metres that a joint moves in a solve, at most, for a metre that a target has moved since the last one; and
-/// what of it is left for the next one, which may have to catch up.
-constexpr double joints_per_target = 12.0, pace_kept = 0.5;
-/// What is left in the next solve of the way that a contact moved a limb without a target.
-constexpr double comes_back = 0.7;
-constexpr double max_pace = 3.0;  ///< metres
-/// Metres. How far a step of least squares holds good is about what is left of the way times this.
-constexpr double lever = 0.5;
-constexpr double largest_turn = 0.5;  ///< radians that a joint turns in a step
-
-/// A bone's rotation as its target wants it, as far as its weight goes.
+/// The rotation that a target asks of its bone, blended in by its weight.
 glm::dquat wanted_rotation(const Link& link, const BodyTarget& target) noexcept {
     const glm::dquat whole = math::compose(rig::normalised(*target.rotation), conjugate(link.rest));
     return rig::blend(link.rotation, whole, target.weight);
@@ -49,48 +34,48 @@ std::optional<BodyReport> BodySolve::run(std::span<rig::Transform> pose, BodySta
     start(pose, state);
     BodyReport result;
     result.settled = false;
-    double cost = measure(), caution = 0.25, part_back = 0.5;
+    double cost = measure();
     const double moved = goals_moved(state);
-    double budget = back_per_metre * moved;
-    for (std::size_t k = 0; k < count_; ++k) goals_[k].stuck = state.left[goals_[k].effector];
-    const double pace = std::min(std::max(joints_per_target * moved, pace_kept * state.pace), max_pace);
+    TrustRegion trust;
+    Relaxation relaxation(moved);
+    for (std::size_t k = 0; k < count_; ++k) goals_[k].stalled = state.left[goals_[k].effector];
+    const double limit = std::min(std::max(travel_per_metre * moved, travel_kept * state.pace), max_travel);
     while (result.iterations < options_.max_iterations) {
         ++result.iterations;
-        const double damping = std::max(caution * lever * std::sqrt(2.0 * cost), 1e-8);
-        find_step(damping, part_back * std::min(1.0, 1e-3 / damping), budget);
+        const double damping = trust.damping(std::sqrt(2.0 * cost));
+        find_step(damping, relaxation);
         const double size = step_size();
         if (size < options_.tolerance) {
             result.settled = true;
             break;
         }
         keep();
-        std::array<double, effector_count> residuals{};
-        for (std::size_t k = 0; k < count_; ++k) residuals[k] = length(goals_[k].left);
-        const double part = std::min(1.0, largest_turn / size), before = farthest();
+        std::array<double, effector_count> before{};
+        for (std::size_t k = 0; k < count_; ++k) before[k] = length(goals_[k].error);
+        const double part = std::min(1.0, max_step_turn / size), travelled = travel();
         apply(part);
         const double next = measure();
-        if (const double now = farthest(); now > pace) {
-            slow_down(part * std::max(pace - before, 0.0) / (now - before), pace);
+        if (const double now = travel(); now > limit) {
+            cut_to(limit, part * std::max(limit - travelled, 0.0) / (now - travelled));
             break;
         }
-        if (next <=
-            cost + back_ * back_ * back_ * back_) {  // turns back along a curve lead off it by their squares
-            result.settled = next > 1e-6 && std::abs(cost - next) < 1e-5 * cost;
+        // The turn back is exact to first order: its square may cost as much.
+        if (next <= cost + back_ * back_ * back_ * back_) {
+            result.settled = next > min_stalled_cost && std::abs(cost - next) < stalled_share * cost;
             cost = next;
-            budget = std::max(budget - part * back_, 0.0);
-            caution = std::max(caution * 0.5, 0.01);
-            part_back = std::min(part_back * 2.0, 0.5);
+            trust.succeeded();
+            relaxation.succeeded(part * back_);
             for (std::size_t k = 0; k < count_; ++k) {
                 Goal& goal = goals_[k];
-                const double now = length(goal.left), was = residuals[k];
-                goal.stuck = times(goal.left, was > now ? now / was : 1.0);
+                const double now = length(goal.error), was = before[k];
+                goal.stalled = times(goal.error, was > now ? now / was : 1.0);
             }
             if (result.settled) break;
         } else {
             put_back();
             cost = measure();
-            caution = std::min(caution * 8.0, 1e6);
-            part_back *= 0.5;
+            trust.failed();
+            relaxation.failed();
         }
     }
     const double depth = deepest();
@@ -98,15 +83,16 @@ std::optional<BodyReport> BodySolve::run(std::span<rig::Transform> pose, BodySta
     for (std::size_t i = 0; i < work_.links.size(); ++i)
         turns[i] = rig::normalised(math::compose(work_.links[i].turn, conjugate(work_.links[i].own)));
     turn_ends();
+    find_contacts();  // of the turned hands and feet, for the report
     if (!give(pose)) return std::nullopt;
     report(pose, result);
-    state.pace = pace;
+    state.pace = limit;
     state.left.fill(glm::dvec3(0.0));
     state.weights.fill(0.0);
     state.clip = clip_;
     state.deepest = depth;
     for (std::size_t k = 0; k < count_; ++k) {
-        state.left[goals_[k].effector] = goals_[k].left;
+        state.left[goals_[k].effector] = goals_[k].error;
         if (goals_[k].target) state.weights[goals_[k].effector] = goals_[k].weight;
     }
     state.turns.resize(work_.links.size());
@@ -115,27 +101,27 @@ std::optional<BodyReport> BodySolve::run(std::span<rig::Transform> pose, BodySta
     return result;
 }
 
-/// Puts what was found into the pose; false, and nothing is changed, where that is no pose: of lengths near
-/// the largest or smallest double, no number remains.
+/// Writes the solution to the pose. False, with the pose unchanged, if it is not finite: bone lengths near
+/// the largest or smallest double lose all their digits.
 bool BodySolve::give(std::span<rig::Transform> pose) noexcept {
     std::array<rig::Transform, bone_count> before;
     for (std::size_t i = 0; i < work_.links.size(); ++i) before[i] = pose[work_.links[i].node];
     work_.give(pose, shift_);
     bool is_sound = is_within(shift_);
-    for (std::size_t k = 0; k < count_; ++k) is_sound = is_sound && is_within(goals_[k].left);
+    for (std::size_t k = 0; k < count_; ++k) is_sound = is_sound && is_within(goals_[k].error);
     for (const Link& link : work_.links) is_sound = is_sound && is_sane(pose[link.node]);
     if (!is_sound)
         for (std::size_t i = 0; i < work_.links.size(); ++i) pose[work_.links[i].node] = before[i];
     return is_sound;
 }
 
-/// Takes the step back, and what of it the pace allows.
-void BodySolve::slow_down(double part, double pace) noexcept {
-    for (int i = 0; i < 4; ++i, part *= 0.5) {
+/// Replaces the last step by the part of it that keeps to the limit.
+void BodySolve::cut_to(double limit, double part) noexcept {
+    for (int i = 0; i < max_travel_cuts; ++i, part *= 0.5) {
         put_back();
         apply(part);
         measure();
-        if (farthest() <= 1.1 * pace) return;
+        if (travel() <= travel_tolerance * limit) return;
     }
     put_back();
     measure();
@@ -146,22 +132,22 @@ double BodySolve::goals_moved(const BodyState& state) const noexcept {
     std::array<double, effector_count> weights{};
     for (std::size_t k = 0; k < count_; ++k) {
         const Goal& goal = goals_[k];
-        most = std::max(most, length(minus(goal.left, state.left[goal.effector])));
-        far = std::max(far, length(goal.left));
+        most = std::max(most, length(minus(goal.error, state.left[goal.effector])));
+        far = std::max(far, length(goal.error));
         if (goal.target) weights[goal.effector] = goal.weight;
     }
     for (std::size_t e = 0; e < effector_count; ++e) {
         const double before = state.weights[e], now = weights[e];
         if (before > 0.0) change = std::max(change, std::abs(now - before) / std::max(now, before));
     }
-    most = std::max(most, change * far);  // of targets that disagree, others come nearer now
+    most = std::max(most, change * far);  // conflicting targets share the residual differently now
     if (state.turns.empty()) return most;
     for (std::size_t e = 0; e < effector_count; ++e)
         most = std::max(most, length(minus(clip_[e], state.clip[e])));
     return most;
 }
 
-double BodySolve::farthest() const noexcept {
+double BodySolve::travel() const noexcept {
     double most = 0.0;
     for (std::size_t i = 0; i < work_.links.size(); ++i)
         most = std::max(most, length(minus(work_.links[i].position, work_.first[i])));
@@ -189,7 +175,7 @@ void BodySolve::set_goals() noexcept {
     for (const Effector foot : {Effector::LeftFoot, Effector::RightFoot}) {
         if (!options_.feet_stay || (seen >> static_cast<unsigned>(foot) & 1u)) continue;
         const Link& link = end_of(static_cast<std::size_t>(foot));
-        add(foot, work_.placements[link.node].position, stay_weight, nullptr);
+        add(foot, work_.placements[link.node].position, planted_foot_weight, nullptr);
     }
 }
 
@@ -210,14 +196,14 @@ void BodySolve::start(std::span<const rig::Transform> pose, const BodyState& sta
     for (std::size_t k = 0; k < count_; ++k) wanted |= 1u << goals_[k].effector;
     for (std::size_t i = 0; i < work_.links.size(); ++i) {
         Link& link = work_.links[i];
-        // A limb that nothing asks for keeps the clip's pose; one that a contact may have moved comes back to
-        // it, and the trunk does as far as targets move.
+        // A limb without a goal takes the clip's pose, gradually if a contact may have moved it. The trunk
+        // starts from the last solve and turns back as targets move.
         if (state.turns.empty()) continue;
         const glm::dquat last = math::compose(state.turns[i], link.own);
         if ((link.effectors & wanted) != 0)
             link.turn = last;
         else if (touches_)
-            link.turn = rig::blend(link.own, last, comes_back);
+            link.turn = rig::blend(link.own, last, deflection_kept);
         else if (std::popcount(link.effectors) > 1)
             link.turn = last;
         clamp_turn(link);
@@ -249,18 +235,18 @@ double BodySolve::measure() noexcept {
     double cost = 0.0;
     for (std::size_t k = 0; k < count_; ++k) {
         Goal& goal = goals_[k];
-        goal.left = minus(goal.position, end_of(goal.effector).position);
+        goal.error = minus(goal.position, end_of(goal.effector).position);
         if (goal.limb) {
             const double off = goal.limb->beyond(goal.limb->bend) - goal.limb->start;
-            goal.left = plus(goal.left, times(goal.limb->along, off));
+            goal.error = plus(goal.error, times(goal.limb->along, off));
         }
-        cost += 0.5 * goal.weight * dot(goal.left, goal.left);
+        cost += 0.5 * goal.weight * dot(goal.error, goal.error);
     }
     find_contacts();
     return cost + contact_cost();
 }
 
-/// Hands, feet and head take their targets' rotations; feet without one keep the clip's.
+/// Applies the targets' rotations to hands, feet and head; feet without one keep the clip's.
 void BodySolve::turn_ends() noexcept {
     work_.place_links(shift_);
     for (std::size_t k = 0; k < count_; ++k) {
@@ -280,7 +266,7 @@ void BodySolve::turn_end(const Goal& goal) noexcept {
     link.turn = math::compose(conjugate(before.rotation), wanted);
     if (goal.effector == static_cast<std::size_t>(Effector::LeftHand) ||
         goal.effector == static_cast<std::size_t>(Effector::RightHand)) {
-        // Part of the twist about the forearm goes to the forearm, which moves no joint.
+        // The lower arm takes part of the twist about its own axis, which moves no joint.
         if (const auto along = direction_of(link.offset, 1e-9)) {
             const double twist =
                 options_.twist_share * (hinge_angle(*along, link.turn) - hinge_angle(*along, link.own));

@@ -3,92 +3,92 @@
 
 #include <optional>
 
+#include "humanoid/body_tuning.hpp"
 #include "humanoid/body_work.hpp"
 
 namespace tendril::humanoid::detail {
 
-/// Symmetric positive definite equations, and Cholesky's method for them.
+/// Symmetric positive definite equations, solved by Cholesky's method.
 struct RowEquations {
     std::size_t count = 0;
-    std::array<std::array<double, max_rows>, max_rows> a{};  ///< the lower half
+    std::array<std::array<double, max_rows>, max_rows> a{};  ///< lower triangle; then its factor
     std::array<double, max_rows> b{};
 
     bool factorise() noexcept;
-    /// Leaves the answer in b.
+    /// Replaces b by the solution.
     void solve() noexcept;
 };
 
 class BodySolve {
   public:
     BodySolve(Body::Work& work, std::span<const BodyTarget> targets, const BodyOptions& options) noexcept;
-    /// None, and nothing has changed, where no finite pose comes of it.
+    /// nullopt, with pose and state unchanged, if there is no finite pose.
     std::optional<BodyReport> run(std::span<rig::Transform> pose, BodyState& state) noexcept;
 
   private:
-    /// What an effector is to reach: a person's target, or where the clip has a foot.
+    /// What an effector has to reach: a target, or the clip's position of a foot.
     struct Goal {
         std::size_t effector;
         glm::dvec3 position;
         double weight;
         const BodyTarget* target;  ///< null: a foot that stays
         const BodyLimb* limb;      ///< null: the head, the hips
-        glm::dvec3 left{0.0};      ///< metres to go, as the solve takes its limb to be
-        glm::dvec3 stuck{0.0};     ///< of that, what the last step did not bring nearer
+        glm::dvec3 error{0.0};     ///< from effector to position, metres, corrected by BodyLimb::beyond()
+        glm::dvec3 stalled{0.0};   ///< the part of it that the last step failed to reduce
     };
-    /// Two capsules that are near each other.
+    /// Two capsules near each other.
     struct Contact {
         const Pair* pair;
-        glm::dvec3 first, second;  ///< where they come nearest
+        glm::dvec3 first, second;  ///< nearest points
         glm::dvec3 apart;          ///< unit, from the second to the first
         double gap;                ///< metres; negative: too near
-        int row = -1;              ///< of the equations, where it holds in this step
-        bool let_go = false;       ///< it would have held them together
+        int row = -1;              ///< its equation; -1: inactive in this step
+        bool released = false;     ///< released: its row would have pulled the two together
     };
     struct Row {
-        glm::dvec3 shift;  ///< what it gains by the hips' way
-        double left;       ///< metres to go
+        glm::dvec3 shift;  ///< gradient with respect to the hips' position
+        double error;      ///< metres
         double weight;
     };
     struct Step {
-        unsigned rows = 0;        ///< a bit for each that its turn moves
+        unsigned rows = 0;        ///< a bit for each equation that its turn affects
         glm::dvec3 turn{0.0};     ///< a rotation vector in the character's space
-        glm::dvec3 back{0.0};     ///< the one towards the clip's pose
-        glm::dvec3 hinge{0.0};    ///< the axis of one, in the character's space
-        double compliance = 0.0;  ///< radians for a torque
+        glm::dvec3 back{0.0};     ///< its part towards the clip's pose
+        glm::dvec3 hinge{0.0};    ///< axis in the character's space
+        double compliance = 0.0;  ///< radians per unit torque
         int blocked = 0;
-        std::array<glm::dvec3, 3>
-            outward{};  ///< at right angles to each other: where its limit does not let it turn
+        std::array<glm::dvec3, 3> outward{};  ///< orthonormal directions blocked by the limit
     };
 
     void set_goals() noexcept;
     void start(std::span<const rig::Transform> pose, const BodyState& state) noexcept;
-    /// Where the links are for their turns; half the weighed squares of what is left.
+    /// Updates links, limbs, goals and contacts; returns half the weighted sum of squared errors.
     double measure() noexcept;
     Link& end_of(std::size_t effector) const noexcept {
         return work_.links[static_cast<std::size_t>(work_.ends[effector])];
     }
-    /// How far the goals are from where the last solve took them to be, metres; what a change of weights may
-    /// move counts as such a way.
+    /// How far the goals have moved since the last solve, metres. Includes contacts, the clip's pose, and the
+    /// move that a change of weights can cause.
     double goals_moved(const BodyState& state) const noexcept;
-    /// How far a joint has come in this solve, metres.
-    double farthest() const noexcept;
-    void slow_down(double part, double pace) noexcept;
-    void find_step(double damping, double part_back, double budget) noexcept;
+    /// The maximum distance that a joint or tip has moved in this solve, metres.
+    double travel() const noexcept;
+    void cut_to(double limit, double part) noexcept;
+    void find_step(double damping, const Relaxation& relaxation) noexcept;
     void solve_rows(double damping) noexcept;
-    /// Blocks what would leave its limit in this step, and lets capsules touch that would pass into each
-    /// other; false where nothing new does.
+    /// Blocks joints that this step would turn past their limits, activates contacts that it would press into
+    /// each other and releases those that would pull. False if nothing changed.
     bool update_active_set() noexcept;
     bool block_limits() noexcept;
     bool hold_contacts() noexcept;
     void find_contacts() noexcept;
     double contact_cost() const noexcept;
-    /// Metres, of capsules in each other.
+    /// Deepest overlap of two capsules, metres.
     double deepest() const noexcept;
     void add_goal_rows() noexcept;
     void add_contact_row(Contact& contact) noexcept;
-    /// What the gap gains by a turn of a link; zero where that moves both or none.
+    /// Gradient of the gap with respect to a link's turn; zero if that moves both capsules or neither.
     glm::dvec3 contact_column(const Contact& contact, std::size_t link) const noexcept;
-    glm::dvec3 let(std::size_t link, const glm::dvec3& torque) const noexcept;
+    glm::dvec3 allowed_torque(std::size_t link, const glm::dvec3& torque) const noexcept;
     double step_size() const noexcept;
     void keep() noexcept;
     void put_back() noexcept;
@@ -101,22 +101,21 @@ class BodySolve {
     Body::Work& work_;
     std::span<const BodyTarget> targets_;
     const BodyOptions& options_;
-    bool touches_;  ///< capsules are kept apart
+    bool touches_;  ///< keep capsules apart
     std::array<Goal, effector_count> goals_{};
     std::size_t count_ = 0;
     std::array<glm::dvec3, effector_count> clip_{};  ///< where the clip has the effectors
-    bool hips_given_ = false;                        ///< their rotation is a target's
-    double back_ = 0.0;                              ///< the largest turn back of the step, radians
+    bool hips_given_ = false;                        ///< a target sets the hips' rotation
+    double back_ = 0.0;                              ///< the step's maximum turn back, radians
     glm::dvec3 shift_{0.0}, shift_step_{0.0}, shift_back_{0.0};
     std::array<Step, bone_count> steps_{};
-    std::array<std::array<glm::dvec3, max_rows>, bone_count>
-        columns_{};  ///< what a row gains by a turn of a link
+    std::array<std::array<glm::dvec3, max_rows>, bone_count> columns_{};  ///< Jacobian: link, row
     std::array<Row, max_rows> rows_{};
     std::size_t row_count_ = 0;
     std::array<Contact, max_contacts> contacts_{};
     std::size_t contact_count_ = 0;
     RowEquations equations_{};
-    std::array<double, max_rows> pull_{};
+    std::array<double, max_rows> forces_{};
 };
 
 }  // namespace tendril::humanoid::detail

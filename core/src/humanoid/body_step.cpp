@@ -1,4 +1,4 @@
-// One step of a body's solve: the equations of damped least squares, and the limits that hold in it.
+// One step of a body's solve: the equations of damped least squares, and the limits active in it.
 #include <algorithm>
 #include <cmath>
 
@@ -10,17 +10,6 @@
 namespace tendril::humanoid::detail {
 
 using namespace rig::detail;
-
-namespace {
-
-/// Of the hips' place, square metres against the square radians of an upper arm.
-constexpr double shift_mobility = 0.004;
-/// What cannot be brought nearer pulls a limb straight, more so the more it turns: that is stiffness, which
-/// least squares leave out. Times this, for joints one above the other turn together.
-constexpr double bends_away = 2.0;
-constexpr int max_changes = 3;  ///< of the limits that hold, in a step
-
-}  // namespace
 
 bool RowEquations::factorise() noexcept {
     for (std::size_t j = 0; j < count; ++j) {
@@ -49,8 +38,8 @@ void RowEquations::solve() noexcept {
     }
 }
 
-/// What a torque turns a link about: all but the directions in which its limit holds it.
-glm::dvec3 BodySolve::let(std::size_t link, const glm::dvec3& torque) const noexcept {
+/// The part of a torque that can turn the link: about its hinge if it has one, and in no blocked direction.
+glm::dvec3 BodySolve::allowed_torque(std::size_t link, const glm::dvec3& torque) const noexcept {
     const Link& at = work_.links[link];
     if (at.parent < 0 && hips_given_) return glm::dvec3(0.0);
     glm::dvec3 result = torque;
@@ -60,17 +49,18 @@ glm::dvec3 BodySolve::let(std::size_t link, const glm::dvec3& torque) const noex
     return result;
 }
 
-void BodySolve::find_step(double damping, double part_back, double budget) noexcept {
-    back_ = length(shift_) * part_back;
+void BodySolve::find_step(double damping, const Relaxation& relaxation) noexcept {
+    double share = relaxation.share(damping);
+    back_ = length(shift_) * share;
     for (std::size_t i = 0; i < work_.links.size(); ++i) {
         const Link& link = work_.links[i];
         steps_[i].back = logarithm(math::compose(link.own, conjugate(link.turn)));
         if (link.effectors != 0 && !(link.parent < 0 && hips_given_))
-            back_ = std::max(back_, part_back * length(steps_[i].back));
+            back_ = std::max(back_, share * length(steps_[i].back));
     }
-    if (back_ > budget) {
-        part_back *= budget / back_;
-        back_ = budget;
+    if (back_ > relaxation.budget()) {
+        share *= relaxation.budget() / back_;
+        back_ = relaxation.budget();
     }
     for (std::size_t i = 0; i < work_.links.size(); ++i) {
         const Link& link = work_.links[i];
@@ -88,10 +78,10 @@ void BodySolve::find_step(double damping, double part_back, double budget) noexc
             if (!(link.effectors >> goal.effector & 1u)) continue;
             const glm::dvec3 arm = minus(
                 work_.links[static_cast<std::size_t>(work_.ends[goal.effector])].position, link.position);
-            stiffness += goal.weight * bends_away * std::max(dot(goal.stuck, arm), 0.0);
+            stiffness += goal.weight * residual_stiffness * std::max(dot(goal.stalled, arm), 0.0);
         }
         step.compliance = 1.0 / stiffness;
-        step.back = rotated(before, times(step.back, part_back * damping / (link.mobility * stiffness)));
+        step.back = rotated(before, times(step.back, share * damping / (link.mobility * stiffness)));
         for (std::size_t k = 0; k < count_; ++k) {
             const Goal& goal = goals_[k];
             if (!(link.effectors >> goal.effector & 1u)) continue;
@@ -108,10 +98,10 @@ void BodySolve::find_step(double damping, double part_back, double budget) noexc
                 column[axis] = minus(column[axis], times(goal.limb->about, slope * goal.limb->along[axis]));
         }
     }
-    shift_back_ = times(shift_, -part_back);
+    shift_back_ = times(shift_, -share);
     add_goal_rows();
     solve_rows(damping);
-    for (int i = 0; i < max_changes && update_active_set(); ++i) solve_rows(damping);
+    for (int i = 0; i < max_active_set_changes && update_active_set(); ++i) solve_rows(damping);
 }
 
 void BodySolve::add_goal_rows() noexcept {
@@ -119,7 +109,7 @@ void BodySolve::add_goal_rows() noexcept {
     for (std::size_t k = 0; k < count_; ++k) {
         for (int axis = 0; axis < 3; ++axis) {
             Row& row = rows_[3 * k + static_cast<std::size_t>(axis)];
-            row = {glm::dvec3(0.0), goals_[k].left[axis], goals_[k].weight};
+            row = {glm::dvec3(0.0), goals_[k].error[axis], goals_[k].weight};
             row.shift[axis] = 1.0;
         }
     }
@@ -129,19 +119,19 @@ void BodySolve::solve_rows(double damping) noexcept {
     RowEquations& e = equations_;
     e.count = row_count_;
     for (std::size_t r = 0; r < row_count_; ++r) {
-        e.b[r] = rows_[r].left - dot(rows_[r].shift, shift_back_);
+        e.b[r] = rows_[r].error - dot(rows_[r].shift, shift_back_);
         for (std::size_t q = 0; q <= r; ++q)
-            e.a[r][q] = shift_mobility / damping * dot(rows_[r].shift, rows_[q].shift);
+            e.a[r][q] = hips_mobility / damping * dot(rows_[r].shift, rows_[q].shift);
         e.a[r][r] += 1.0 / rows_[r].weight;
     }
     for (std::size_t i = 0; i < work_.links.size(); ++i) {
         const Step& step = steps_[i];
         if (step.rows == 0) continue;
-        const glm::dvec3 back = let(i, step.back);
+        const glm::dvec3 back = allowed_torque(i, step.back);
         for (std::size_t r = 0; r < row_count_; ++r) {
             if (!(step.rows >> r & 1u)) continue;
             e.b[r] -= dot(columns_[i][r], back);
-            const glm::dvec3 moved = times(let(i, columns_[i][r]), step.compliance);
+            const glm::dvec3 moved = times(allowed_torque(i, columns_[i][r]), step.compliance);
             for (std::size_t q = 0; q <= r; ++q)
                 if (step.rows >> q & 1u) e.a[r][q] += dot(columns_[i][q], moved);
         }
@@ -150,16 +140,16 @@ void BodySolve::solve_rows(double damping) noexcept {
         e.b.fill(0.0);
     else
         e.solve();
-    pull_ = e.b;
+    forces_ = e.b;
     shift_step_ = shift_back_;
     for (std::size_t r = 0; r < row_count_; ++r)
-        shift_step_ = plus(shift_step_, times(rows_[r].shift, shift_mobility / damping * pull_[r]));
+        shift_step_ = plus(shift_step_, times(rows_[r].shift, hips_mobility / damping * forces_[r]));
     for (std::size_t i = 0; i < work_.links.size(); ++i) {
         glm::dvec3 torque{0.0};
         if (work_.links[i].effectors == 0) continue;
         for (std::size_t r = 0; r < row_count_; ++r)
-            if (steps_[i].rows >> r & 1u) torque = plus(torque, times(columns_[i][r], pull_[r]));
-        steps_[i].turn = let(i, plus(steps_[i].back, times(torque, steps_[i].compliance)));
+            if (steps_[i].rows >> r & 1u) torque = plus(torque, times(columns_[i][r], forces_[r]));
+        steps_[i].turn = allowed_torque(i, plus(steps_[i].back, times(torque, steps_[i].compliance)));
     }
 }
 

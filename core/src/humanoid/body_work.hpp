@@ -1,4 +1,4 @@
-// A body made ready for solves, and what a solve needs. Not installed.
+// A body's precomputed data, and the scratch of its solves. Not installed.
 #pragma once
 
 #include <array>
@@ -14,40 +14,40 @@ namespace tendril::humanoid {
 
 namespace detail {
 
-/// A bone that turns. Rotations are from the T-pose, so that at rest in it they are all 1.
+/// A bone that turns. Rotations are relative to the T-pose, where they are all the identity.
 struct Link {
     Bone bone;
     std::size_t node;
-    int parent;                      ///< a link; -1: the hips
+    int parent;                      ///< a link; -1 for the hips
     double mobility;                 ///< 1: turns as readily as an upper arm
-    unsigned effectors;              ///< a bit for each that its turn moves
-    glm::dquat rest;                 ///< of the node in the T-pose
-    glm::dvec3 hinge;                ///< the axis, unit; zero: a ball
+    unsigned effectors;              ///< a bit for each effector that its turn moves
+    glm::dquat rest;                 ///< the node's rotation in the T-pose
+    glm::dvec3 hinge;                ///< unit axis; zero: no hinge
     ik::detail::LimitedJoint given;  ///< its limit
-    ik::detail::LimitedJoint limit;  ///< that reaches as far as the clip does
+    ik::detail::LimitedJoint limit;  ///< the same, widened to the clip's pose
 
-    // of the clip's pose
-    glm::dvec3 offset;  ///< from the link before, in its frame
+    // in the clip's pose
+    glm::dvec3 offset;  ///< from the parent link, in its frame
     glm::dquat start;   ///< rotation
-    glm::dquat own;     ///< the same in the frame of the link before
-    // of the pose that is sought
-    glm::dquat turn;  ///< rotation in the frame of the link before
+    glm::dquat own;     ///< rotation in the parent link's frame
+    // in the pose being solved
+    glm::dquat turn;  ///< rotation in the parent link's frame
     glm::dquat rotation;
     glm::dvec3 position;
 };
 
-/// An arm or a leg. Near its full length a bend by an angle makes it shorter by that angle's square, so that
-/// it bends infinitely fast where a target comes nearer evenly. A solve takes it for shorter by
-/// `beyond(angle)` than it is: then it grows shorter evenly from the start on.
+/// An arm or a leg. Near full length, bending it shortens it by the square of the angle, so it would bend
+/// infinitely fast to follow a target that approaches at constant speed. A solve treats it as shorter by
+/// `beyond(angle)`, so that it shortens linearly from the start.
 struct BodyLimb {
     int upper = -1, lower = -1, end = -1;  ///< links
-    glm::dvec3 axis{0.0};                  ///< about which it bends, in the frame of the upper link
-    double square = 0.0;                   ///< metres that it is shorter for a square radian
-    double even = 0.0;                     ///< metres for a radian, where it is all but straight
+    glm::dvec3 axis{0.0};                  ///< of the bend, in the upper link's frame
+    double square = 0.0;                   ///< shortening, metres per square radian
+    double even = 0.0;                     ///< the linear shortening near straight, metres per radian
     double start = 0.0;                    ///< beyond() of the clip's pose
-    // now
+    // in the pose being solved
     double bend = 0.0;                  ///< radians
-    glm::dvec3 along{0.0}, about{0.0};  ///< from the upper link to the end; the axis in the character's space
+    glm::dvec3 along{0.0}, about{0.0};  ///< unit, from the upper link to the end; axis in character space
 
     double beyond(double angle) const noexcept {
         const double value = angle * (even - square * angle);
@@ -58,23 +58,23 @@ struct BodyLimb {
     }
 };
 
-/// What hangs farthest from a bone that no other bone hangs on: a finger's end, the top of the head.
+/// The node farthest from a leaf bone's joint: a fingertip, the top of the head.
 struct Tip {
     int link;
     glm::dvec3 at;  ///< from the link, in its frame; metres
 };
 
-/// A capsule on a link. Points are from the link, in its frame, as the clip scales it.
+/// A capsule on a link. Its points are relative to the link, in its frame, with the clip's scale.
 struct Volume {
     BodyCapsule capsule;
     int link;
     unsigned moved_by;  ///< a bit for each link whose turn moves it
     glm::dvec3 from{0.0}, to{0.0};
 };
-/// Two that are kept apart, by their radii or as they are at rest, where that is less.
+/// Two capsules that are kept apart, by the sum of their radii or by their distance at rest if that is less.
 struct Pair {
     std::size_t first, second;
-    double apart;  ///< metres, from line to line
+    double apart;  ///< metres, between their axes
 };
 
 inline constexpr std::size_t max_contacts = 12;
@@ -85,7 +85,7 @@ inline constexpr std::size_t max_rows = 3 * effector_count + max_contacts;
 struct Body::Work {
     BodyJoints joints;
     std::vector<std::int32_t> parents;  ///< of all nodes
-    std::vector<std::size_t> needed;    ///< nodes on the way to a bone, each after its parent
+    std::vector<std::size_t> needed;    ///< mapped bones and all nodes above them, parents first
     std::vector<Bone> bones;
     std::vector<detail::Link> links;
     std::vector<detail::BodyLimb> limbs;
@@ -95,20 +95,20 @@ struct Body::Work {
     std::array<int, effector_count> ends{};
     TwistNodes twist;
 
-    std::vector<Placement> placements;  ///< of all nodes; those that are needed are right
+    std::vector<Placement> placements;  ///< of all nodes; only those in `needed` are current
     std::vector<glm::dquat> kept;       ///< turns before a step
     glm::dvec3 kept_shift{0.0};
-    std::vector<glm::dvec3> first;  ///< where the links were when the solve began
+    std::vector<glm::dvec3> first;  ///< positions of links, then tips, at the start of the solve
 
-    /// And the pairs of them that are kept apart. Refuses a capsule of a bone that is not there, and numbers.
+    /// Adds the capsules and the pairs to keep apart. Refuses an unmapped bone and numbers out of range.
     Result add_volumes(std::span<const rig::Transform> rest, std::span<const BodyCapsule> capsules);
     void place_needed(std::span<const rig::Transform> pose) noexcept;
-    /// Links as the clip has them.
+    /// Reads the links, volumes and limbs from the clip's pose.
     void take(std::span<const rig::Transform> pose) noexcept;
-    /// The pose's rotations as the links have them.
+    /// Writes the links' rotations, and the hips' shift, to the pose.
     void give(std::span<rig::Transform> pose, const glm::dvec3& shift) const noexcept;
     glm::dvec3 place_of(const detail::Tip& tip) const noexcept;
-    /// Where the links are for their turns.
+    /// Forward kinematics of the links' turns.
     void place_links(const glm::dvec3& shift) noexcept;
 };
 

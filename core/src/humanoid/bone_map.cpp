@@ -24,10 +24,10 @@ constexpr const char* names[bone_count]{
 
 using Nodes = std::array<std::int32_t, bone_count>;
 
-/// What the names say, one bone after the other, each where the ones before it let it be.
+/// Finds bones by name, one after the other; those found before restrict where the next may be.
 class Names {
   public:
-    /// Hips and head that no name tells are taken from the shape.
+    /// For the spine, hips and head without a telling name are taken from the shape.
     Names(const Skeleton& skeleton, const ShapeReading& shape)
         : skeleton_(skeleton), readings_(skeleton.size()) {
         for (std::size_t i = 0; i < skeleton.size(); ++i) readings_[i] = detail::read_name(skeleton[i].name);
@@ -51,7 +51,7 @@ class Names {
                skeleton_.is_below(static_cast<std::size_t>(node), static_cast<std::size_t>(above));
     }
 
-    /// The first of that name from the root down, below a node.
+    /// The first node of that part and side from the root down, below `above`.
     std::int32_t topmost(Part part, Side side, std::int32_t above) const {
         for (const std::int32_t node : skeleton_.order())
             if (reading(node).part == part && reading(node).side == side && node != above &&
@@ -59,8 +59,8 @@ class Names {
                 return node;
         return -1;
     }
-    /// Of several that are named so, the one with most of what has a side below it; of those with the same,
-    /// the one that is called hips, or else the one nearest to the limbs.
+    /// Of several candidates, the one with the most left and right nodes below it; among equals, one that is
+    /// called hips, or else the one nearest to the limbs.
     std::int32_t find_hips() const {
         std::int32_t best = -1;
         std::size_t most = 0;
@@ -76,7 +76,7 @@ class Names {
         }
         return best;
     }
-    /// The next one above a node that is of one of these parts; up to the hips.
+    /// The nearest node above that is one of these parts; searches up to the hips.
     std::int32_t above(std::int32_t node, Side side, std::initializer_list<Part> parts) const {
         for (std::int32_t each = parent(node); each >= 0 && each != at(Bone::Hips); each = parent(each))
             if (reading(each).side == side &&
@@ -97,8 +97,8 @@ class Names {
         set(next(shoulder, 1), upper);
         if (upper >= 0) set(shoulder, above(upper, side, {Part::Shoulder, Part::ShoulderArm}));
 
-        // Legs may hang beside what is named hips. A foot that hangs on something else than a leg, as IK rigs
-        // have it, is none of the body's.
+        // Legs may be siblings of the node named hips. A foot without a leg above it, as in IK rigs, is not
+        // the body's.
         std::int32_t foot = topmost(Part::Foot, side, -1);
         if (foot >= 0 && above(foot, side, {Part::LowerLeg, Part::Leg}) < 0) foot = -1;
         lower =
@@ -127,7 +127,7 @@ class Names {
         if (spine.size() > 2) set(Bone::UpperChest, spine.back());
     }
 
-    /// Rigify calls its neck a spine too.
+    /// Rigify names its neck "spine", too.
     bool arms_below(std::int32_t node) const {
         const std::int32_t arm = at(Bone::LeftUpperArm);
         return arm < 0 || below(arm, node);
@@ -143,8 +143,7 @@ std::string named(const Skeleton& skeleton, std::int32_t node) {
     return text;
 }
 
-/// What both readers say of a bone, weighed. `agreed`: how many of the named bones the shape finds too, 0
-/// to 1.
+/// Combines what both readers say of a bone.
 BoneMatch weigh(const Skeleton& skeleton, std::int32_t by_name, std::int32_t by_shape) {
     BoneMatch match;
     if (by_name < 0 && by_shape < 0) return match;
@@ -166,7 +165,7 @@ BoneMatch weigh(const Skeleton& skeleton, std::int32_t by_name, std::int32_t by_
     return match;
 }
 
-/// The shape cannot tell left from right by itself where the feet do not point: names can.
+/// The shape alone cannot tell left from right if the feet point nowhere; names can.
 void swap_sides(ShapeReading& shape) {
     for (std::size_t i = 0; i < bone_count; ++i) {
         const auto bone = static_cast<Bone>(i);
@@ -239,7 +238,7 @@ BoneMap match_bones(const Skeleton& skeleton) {
 
 namespace {
 
-/// The bone that it hangs on in a body; the hips hang on nothing.
+/// The parent in a body with all bones; that of the hips is the hips.
 Bone parent_of(Bone bone) noexcept {
     switch (bone) {
         case Bone::Hips:

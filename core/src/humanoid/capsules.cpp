@@ -16,7 +16,7 @@ class DefaultCapsules {
   public:
     DefaultCapsules(const Skeleton& skeleton, const BoneMap& map) : map_(map), placements_(skeleton.size()) {
         place(skeleton, rest_pose(skeleton), placements_);
-        // Of a figure of 1.8 m: from the hips to the head and down one leg.
+        // A figure of 1.8 m measures 1.45 m from the hips to the head plus one leg.
         size_ =
             (way({Bone::Hips, Bone::Head}) + way({Bone::LeftUpperLeg, Bone::LeftLowerLeg, Bone::LeftFoot})) /
             1.45;
@@ -55,11 +55,11 @@ class DefaultCapsules {
         add(upper, lower, radius);
         add(lower, *detail::limb_child(lower), lower_radius);
     }
-    /// From a bone's joint to another's.
+    /// From one bone's joint to another's.
     void add(Bone bone, Bone next, double radius) {
         if (has(bone) && has(next)) put(bone, at(bone).position, at(next).position, radius);
     }
-    /// From a little beyond a bone's joint on, the way that `before` comes.
+    /// From `start` to `end` past a bone's joint, in the direction from `before`.
     void beyond(Bone bone, Bone before, double start, double end, double radius) {
         if (!has(bone)) return;
         glm::dvec3 along{0.0, 1.0, 0.0};
@@ -89,7 +89,7 @@ std::vector<BodyCapsule> default_capsules(const Skeleton& skeleton, const BoneMa
 
 PlacedCapsule place(const BodyCapsule& capsule, const BoneMap& map,
                     std::span<const Placement> placements) noexcept {
-    const auto node = static_cast<std::size_t>(map[capsule.bone].node);  // -1 is beyond all
+    const auto node = static_cast<std::size_t>(map[capsule.bone].node);  // -1 becomes out of range
     const Placement at = node < placements.size() ? placements[node] : Placement();
     return {at.apply(capsule.from), at.apply(capsule.to), capsule.radius};
 }
@@ -98,7 +98,7 @@ Nearest nearest(const PlacedCapsule& first, const PlacedCapsule& second) noexcep
     const glm::dvec3 a = minus(first.to, first.from), b = minus(second.to, second.from);
     const glm::dvec3 apart = minus(first.from, second.from);
     const double aa = dot(a, a), bb = dot(b, b), ab = dot(a, b), ac = dot(a, apart), bc = dot(b, apart);
-    const double across = aa * bb - ab * ab;  // 0 where they are parallel
+    const double across = aa * bb - ab * ab;  // 0 if they are parallel
     double s = across > 1e-12 * aa * bb ? std::clamp((ab * bc - ac * bb) / across, 0.0, 1.0) : 0.0;
     double t = bb > 0.0 ? (ab * s + bc) / bb : 0.0;
     if (t < 0.0 || t > 1.0 || bb <= 0.0) {

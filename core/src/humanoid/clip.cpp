@@ -12,7 +12,7 @@ namespace {
 using tendril::detail::Argument;
 using tendril::detail::refused;
 
-/// Numbers of a translation or a scale, or of a rotation.
+/// The components of a value.
 std::span<const double> numbers(const glm::dvec3& value) noexcept {
     return {&value.x, 3};
 }
@@ -59,7 +59,7 @@ glm::dvec3 linear(const glm::dvec3& a, const glm::dvec3& b, double part) noexcep
 glm::dquat linear(const glm::dquat& a, const glm::dquat& b, double part) noexcept {
     return rig::blend(a, b, part);
 }
-/// A component of Hermite's cubic: values, and slopes times the time between them.
+/// One component of Hermite's cubic; `leaving` and `arriving` are slopes times the interval.
 double cubic(double from, double leaving, double to, double arriving, double u) noexcept {
     const double u2 = u * u, u3 = u2 * u;
     return (2.0 * u3 - 3.0 * u2 + 1.0) * from + (u3 - 2.0 * u2 + u) * leaving + (3.0 * u2 - 2.0 * u3) * to +

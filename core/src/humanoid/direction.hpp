@@ -5,13 +5,13 @@
 
 namespace tendril::humanoid::detail {
 
-/// Radians, of vectors of any length but 0.
+/// Radians; the vectors may have any length but 0.
 inline double angle_between(const glm::dvec3& a, const glm::dvec3& b) noexcept {
     using namespace rig::detail;
     return arctangent(length(cross(a, b)), dot(a, b));
 }
 
-/// From one unit vector towards another by an angle at most. Of opposite ones about some axis.
+/// Turns one unit vector towards another, by at most `most` radians; opposite ones about an arbitrary axis.
 inline glm::dvec3 turned_toward(const glm::dvec3& from, const glm::dvec3& to, double most) noexcept {
     const double angle = angle_between(from, to);
     if (angle <= most) return to;

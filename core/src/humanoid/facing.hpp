@@ -8,13 +8,12 @@
 
 namespace tendril::humanoid::detail {
 
-/// As facing(); nothing where neither legs nor arms are side by side. `rest`: where the rest pose has the
-/// nodes.
+/// As facing(), but nullopt if neither legs nor arms are side by side. `rest`: placements of the rest pose.
 std::optional<Facing> find_facing(const Skeleton& skeleton, const BoneMap& map,
                                   std::span<const Placement> rest);
 
-/// What hangs on a node farthest from it, seen from above: on a foot, the tip of the toes. The node itself
-/// where nothing does.
+/// The node below `node` that is farthest from it horizontally: for a foot, the tip of the toes. `node`
+/// itself if there is none.
 std::size_t farthest_below(const Skeleton& skeleton, std::span<const Placement> rest, std::size_t node);
 
 }  // namespace tendril::humanoid::detail

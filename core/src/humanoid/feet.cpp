@@ -36,9 +36,8 @@ constexpr detail::OptionRange<FeetOptions> ranges[]{
     {"max_speed", &FeetOptions::max_speed, small, 1e3, "from 1e-6 to 1e3 m/s"},
 };
 
-/// Points evenly far from each other on a disc (H. Vogel, "A better way to construct the sunflower head",
-/// Mathematical Biosciences 44, 1979): along no direction that one walks in are two of them at the same
-/// place.
+/// Points spread evenly over a disc (H. Vogel, "A better way to construct the sunflower head", Mathematical
+/// Biosciences 44, 1979): no two of them cross an edge at once, whichever way the character walks.
 template <std::size_t count>
 std::array<glm::dvec3, count> disc_of() noexcept {
     constexpr double golden_turn = 0.381966011250105;

@@ -1,4 +1,4 @@
-// What Feet knows of a character, shared by its making and its steps. Not installed.
+// A character's legs, precomputed by Feet::make() and used by its steps. Not installed.
 #pragma once
 
 #include "humanoid/limb.hpp"
@@ -11,12 +11,12 @@ namespace detail {
 struct FeetPlan {
     Soles soles;
     std::size_t nodes;                          // of the skeleton
-    std::vector<std::int32_t> above_hips;       // from what hangs on nothing down to the hips' parent
+    std::vector<std::int32_t> above_hips;       // from the root down to the hips' parent
     std::size_t hips;                           // node
-    glm::dquat hips_at_rest;                    // in the character's space
+    glm::dquat hips_at_rest;                    // rotation, in the character's space
     std::array<Limb, 2> legs;                   // down to the toes
     std::array<glm::dvec3, 2> leg_direction{};  // from hip to ankle at rest
-    std::array<glm::dvec3, 12> disc;            // of radius 1, level: where the root asks for the ground
+    std::array<glm::dvec3, 12> disc;            // horizontal, of radius 1: where the root samples the ground
 };
 
 }  // namespace detail

@@ -1,4 +1,4 @@
-// The legs' part of a step: what the hips come down by, how fast anything may move, and the pose.
+// The legs' part of a step: how far the hips are lowered, the speed limits, and the pose.
 #include <cmath>
 
 #include "humanoid/feet_step.hpp"
@@ -9,9 +9,9 @@ using namespace rig::detail;
 
 namespace {
 
-/// What moves a foot faster than this part of max_speed is a jump of the ground.
+/// A foot's goal that moves faster than this part of max_speed is a jump of the ground.
 constexpr double jump_part = 0.6;
-/// A foot that is being set away from an edge stands when it is so near to where it goes, metres.
+/// A foot that is moved away from an edge stands once this much or less remains, metres.
 constexpr double shifting = 0.001;
 
 /// Knees bend forwards.
@@ -19,7 +19,7 @@ Pole pole_of(const glm::dvec3& forward) noexcept {
     return {.direction = forward, .part = 0.1, .always = true};
 }
 
-/// The part of a way, 0 to 1, that one may go.
+/// The part of a way, 0 to 1, that `may` allows, by bisection.
 template <class May>
 double part_of_way(const May& may) noexcept {
     if (may(1.0)) return 1.0;
@@ -31,7 +31,7 @@ double part_of_way(const May& may) noexcept {
 
 }  // namespace
 
-/// What the hips must come down by so that the leg reaches.
+/// How far the hips must be lowered for the leg to reach; negative if it has length to spare.
 double FeetStep::missing(std::size_t i, double lift) const noexcept {
     const LimbPlacement& leg = legs_[i];
     const glm::dvec3 way = minus(plus(leg.end.position, goals_[i].slip), leg.upper.position);
@@ -40,7 +40,7 @@ double FeetStep::missing(std::size_t i, double lift) const noexcept {
     return state_.base - lift - way.y - std::sqrt(std::max(0.0, longest * longest - level));
 }
 
-/// The lift goes along with its goal; where that jumps, what it jumps by eases away.
+/// The lift follows its goal; a jump of the goal eases in.
 void FeetStep::ease_lift(FootState& foot, double goal) const noexcept {
     const double most = options_.max_speed * dt_, change = goal - foot.goal, before = foot.lift;
     foot.goal = goal;
@@ -90,8 +90,8 @@ glm::dvec3 FeetStep::target(std::size_t i, double lift) const noexcept {
     return plus(clips_[i].ankle, {slip.x, lift, slip.z});
 }
 
-/// How fast the knee moves against the clip, 1 where that is as fast as it may, where the hips are moved up
-/// by `along` and the ankle by `lift`.
+/// How fast the knee moves relative to the clip, as part of max_speed, if the hips are raised by `along` and
+/// the ankle by `lift`.
 double FeetStep::knee_speed(std::size_t i, double along, double lift) const noexcept {
     const glm::dvec3 on_hips = target(i, lift - along);
     const glm::dvec3 knee = detail::bend_to(legs_[i], on_hips, pole_of(poles_[i]), options_.straightest).mid;
@@ -99,8 +99,8 @@ double FeetStep::knee_speed(std::size_t i, double along, double lift) const noex
     return length(minus(correction, state_.feet[i].knee)) / (options_.max_speed * dt_);
 }
 
-/// A leg that is nearly straight moves its knee several times as far as its ends. Where the foot stands, the
-/// hips go as much of their way as the knee's speed allows, but no less than the leg needs.
+/// The knee of a nearly straight leg moves several times as far as the leg's ends. If the foot stands, the
+/// hips move only as far as the knee's speed allows, but no less than the leg needs.
 void FeetStep::spare_standing_knees() noexcept {
     if (fresh_ || !(dt_ > 0.0)) return;
     const double from = along_, way = state_.base - state_.drop - from;
@@ -120,7 +120,7 @@ void FeetStep::spare_standing_knees() noexcept {
     state_.drop = drop;
 }
 
-/// Where the foot is in the air, that goes as much of its way.
+/// A foot in the air moves only as far as the knee's speed allows.
 void FeetStep::spare_knee(std::size_t i, double along) noexcept {
     FootState& foot = state_.feet[i];
     if (fresh_ || is_standing(i) || !(dt_ > 0.0)) return;
@@ -130,7 +130,7 @@ void FeetStep::spare_knee(std::size_t i, double along) noexcept {
     if (part == 1.0) return;
     foot.lift = from + way * part;
     if (part == 0.0) {
-        // The clip itself moves the leg too fast: what is slowest of where the foot can go.
+        // The clip itself moves the leg too fast: choose the lift with the slowest knee.
         const double most = options_.max_speed * dt_;
         double least = knee_speed(i, along, from);
         for (const double by : {0.25, -0.25, 0.5, -0.5, 0.75, -0.75, 1.0, -1.0}) {

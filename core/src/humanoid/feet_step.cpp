@@ -1,4 +1,4 @@
-// What comes first and last in a step: where the character is, what the root rides, where the feet go; the
+// The first and last stages of a step: where the character is, how high the root is, where the feet go; the
 // report.
 #include <algorithm>
 #include <cmath>
@@ -13,13 +13,12 @@ using namespace rig::detail;
 
 namespace {
 
-/// A clip that is elsewhere at once: so far, and so fast.
+/// Metres and m/s. A clip whose hips move farther and faster than this in a step has jumped.
 constexpr double jump = 1.0, jump_speed = 20.0;
-/// A leg that could not reach is tried again when it is short of so much of what the pelvis can be lowered
-/// by.
+/// A leg that could not reach is used again once what it is short of is within this part of pelvis_drop.
 constexpr double reach_again = 0.9;
 
-/// The transforms that a step may change, to come back to.
+/// The transforms that a step may change, for blending and restoring.
 class Saved {
   public:
     Saved(Pose pose, std::size_t hips, const std::array<Limb, 2>& legs) noexcept : pose_(pose) {
@@ -77,7 +76,7 @@ bool FeetStep::place() noexcept {
     return true;
 }
 
-/// By the character's forward, turned with the hips and with the leg.
+/// Along the character's forward, turned with the hips and with the leg.
 void FeetStep::point_knees() noexcept {
     const glm::dquat turned = math::compose(hips_.rotation(), conjugate(plan_.hips_at_rest));
     for (std::size_t i = 0; i < 2; ++i) {
@@ -102,8 +101,7 @@ bool FeetStep::is_ground(const std::optional<GroundHit>& hit, double around) con
     return hit && hit->normal.y >= steepest_ && std::abs(hit->height - around) <= options_.max_step;
 }
 
-/// Where the ground is above the clip's floor the character starts on it, however high: nobody starts below
-/// it.
+/// The ground below the hips, or else the highest, if above the clip's floor: nobody starts underground.
 double FeetStep::first_base() const noexcept {
     const glm::dvec3& at = hips_.position;
     const auto near = ground_.below({at.x, at.y + options_.ray_start, at.z});
@@ -113,7 +111,7 @@ double FeetStep::first_base() const noexcept {
     return top && top->normal.y >= steepest_ && top->height >= floor_ ? top->height - floor_ : 0.0;
 }
 
-/// Over the clip's floor; what it was where nothing around can be stood on.
+/// Mean height over the clip's floor; unchanged if there is nothing around to stand on.
 double FeetStep::ground_around() const noexcept {
     if (ground_.kind() == GroundKind::None) return 0.0;
     const double around = floor_ + state_.base, from = around + options_.max_step;
@@ -170,7 +168,7 @@ void FeetStep::find_feet() noexcept {
     }
 }
 
-/// Neither in the ground nor over it, as it came out.
+/// Whether the resulting foot is neither in the ground nor above it.
 bool FeetStep::is_on_ground(const FootReport& foot) const noexcept {
     double lowest = 1e300;
     for (const glm::dvec3& point : {foot.heel, foot.toe})
@@ -219,7 +217,7 @@ FeetReport Feet::step(std::span<rig::Transform> pose, const Ground& ground, doub
             report.feet[i].toe = leg.tail.apply(plan.soles.feet[i].toe);
         }
     }
-    // Bones of nearly no length, or of nearly the largest, leave no numbers to go on with.
+    // Extremely short or long bones may leave no usable numbers.
     bool is_sound = saved.is_sane() && check(next);
     for (const FootReport& foot : report.feet)
         is_sound = is_sound && detail::is_within(foot.heel) && detail::is_within(foot.toe);

@@ -1,4 +1,4 @@
-// A step of Feet, one piece after the other. Not installed.
+// The stages of a step of Feet. Not installed.
 #pragma once
 
 #include <algorithm>
@@ -8,16 +8,16 @@
 
 namespace tendril::humanoid::detail {
 
-/// A foot stands where it is so near the ground, metres, and the leg got it there.
+/// Metres: how near to the ground a foot must be to stand, including what its leg falls short by.
 inline constexpr double touching = 0.003;
 
-/// Moves a critically damped spring on.
+/// Advances a critically damped spring.
 inline double step_spring(signal::SpringState<double>& spring, double half_life, double target,
                           double dt) noexcept {
     const double strength = math::ln2 / (math::pi * half_life);
     return signal::step({.strength = strength, .critical_damping = 1.0}, spring, target, dt);
 }
-/// A spring's value that something else has set: its velocity is what that made of it.
+/// Overrides a spring's value; its velocity becomes that of the actual change, or stays if dt is 0.
 inline void set(signal::SpringState<double>& spring, double before, double value, double dt) noexcept {
     spring.value = value;
     if (dt > 0.0) spring.velocity = (value - before) / dt;
@@ -37,7 +37,7 @@ class FeetStep {
           state_(state),
           options_(options) {}
 
-    /// False where the pose is not finite.
+    /// False if the pose is not finite.
     bool place() noexcept;
     /// Then, in this order:
     void ride() noexcept;
@@ -76,9 +76,9 @@ class FeetStep {
     std::array<FootClip, 2> clips_;
     std::array<FootGoal, 2> goals_;
     std::array<glm::dvec3, 2> knees_, poles_;  // of the clip; where knees point
-    double along_ = 0.0;                       // what the hips were moved up by before the step
-    std::array<double, 2> lifts_{};            // as they were before the step
-    std::array<double, 2> short_of_{};         // what the leg's end is from where it should be
+    double along_ = 0.0;                       // how far the hips were raised before the step
+    std::array<double, 2> lifts_{};            // before the step
+    std::array<double, 2> short_of_{};         // distance of the leg's end from its target
 };
 
 }  // namespace tendril::humanoid::detail

@@ -14,14 +14,14 @@ using namespace rig::detail;
 
 constexpr std::size_t fewest = 16;  // points
 constexpr double inside = 0.8;      // of them, within the radius
-/// Of the points, left out at each end of the line, and at each side of it where its middle is sought.
+/// Part of the points ignored at each end of the line, and at each side when centring it.
 constexpr double at_ends = 0.02, at_sides = 0.15;
-/// Of a default: how thin and thick a fit may be, and how far beside the bone.
+/// In radii of the default: how thin and thick a fit may be, and how far from the bone.
 constexpr double thinnest = 0.4, thickest = 3.0, farthest_aside = 0.75;
-/// How far beside a default, in its radii, the line of a head or a hand may begin and end.
+/// In radii of the default: how far before and beyond it the line of a head or a hand may extend.
 constexpr double before = 2.0, beyond = 4.0;
 
-/// The value that `part` of them are under. Changes their order.
+/// The value below which `part` of them lie. Reorders them.
 double quantile(std::vector<double>& values, double part) {
     const auto place = static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size() - 1));
     std::nth_element(values.begin(), values.begin() + place, values.end());
@@ -36,10 +36,10 @@ struct Line {
     }
 };
 
-/// The middle of the points across the line, as far as it is not too far from it.
+/// The line moved to the middle of the points' cross-section; unmoved if that is farther away than `most`.
 Line centred(const Line& line, const Facing& facing, const std::vector<glm::dvec3>& points, double most) {
     Line moved = line;
-    // A body is as wide on both sides, and arms are as thick above as below: across these.
+    // A body is as wide on both sides, and arms are as thick above as below: centre along these directions.
     const glm::dvec3 aside = direction_of(across(facing.left, line.direction), 0.5)
                                  .value_or(direction_of(across(facing.up, line.direction), 1e-6)
                                                .value_or(perpendicular(line.direction)));
@@ -72,7 +72,7 @@ std::optional<PlacedCapsule> fitted(const PlacedCapsule& usual, const Facing& fa
     if (offs.size() < fewest) return std::nullopt;
     const double radius = quantile(offs, inside);
     if (!(radius >= thinnest * usual.radius && radius <= thickest * usual.radius)) return std::nullopt;
-    if (ends_free) {  // the balls at its ends reach as far as the points do
+    if (ends_free) {  // the caps at the ends reach as far as the points
         const double middle = 0.5 * (low + high);
         low = std::min(low + radius, middle), high = std::max(high - radius, middle);
     }
@@ -80,7 +80,7 @@ std::optional<PlacedCapsule> fitted(const PlacedCapsule& usual, const Facing& fa
                          plus(line.from, times(line.direction, high)), radius};
 }
 
-/// Of each node the bone that it is, or that it hangs on.
+/// For each node its bone, or that of its nearest mapped ancestor.
 std::vector<std::optional<Bone>> bones_of_nodes(const Skeleton& skeleton, const BoneMap& map) {
     std::vector<std::optional<Bone>> bones(skeleton.size());
     for (const std::int32_t each : skeleton.order()) {

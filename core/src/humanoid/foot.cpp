@@ -10,17 +10,17 @@ using namespace rig::detail;
 
 constexpr glm::dvec3 up{0.0, 1.0, 0.0};
 
-/// On a first step, where no speed is known: a sole so high over the clip's floor is in stance.
+/// Metres. On the first step, when no speed is known, a sole lower than this over the clip's floor stands.
 constexpr double standing = 0.015;
-/// A foot is locked again once so much of what the last lock moved it by has eased: otherwise a foot that
-/// slides in the clip would be let go and locked in turns.
+/// A foot locks again once its offset has eased to this part of break_distance: otherwise a foot that slides
+/// in the clip would alternate between locked and released.
 constexpr double lock_again = 0.25;
-/// Radians a second that a foot turns by with the ground, at most.
+/// How fast the ground may turn a foot, radians per second.
 constexpr double turn_speed = 3.0;
-/// m/s; what is faster is no motion, but a step of next to no time.
+/// m/s. Higher speeds come from a tiny dt, not from motion.
 constexpr double fastest = 1e3;
-/// How far ahead a foot in the air looks, seconds, and how much over the plane that it is above the ground
-/// there must be to count as a step, metres.
+/// How far a foot in the air looks ahead, seconds; and how far the ground there must be above the plane below
+/// the foot to count as a step, metres.
 constexpr double ahead[]{0.04, 0.08, 0.12};
 constexpr double step_over_plane = 0.02;
 
@@ -35,7 +35,7 @@ FootAlone judge(const std::optional<GroundHit>& hit, const FootContext& context)
     return step <= context.options.max_step ? FootAlone::No : FootAlone::TooFar;
 }
 
-/// What is below heel and toe, or why the foot cannot stand there.
+/// The ground below heel and toe, or why the foot cannot stand there.
 struct Footing {
     std::optional<GroundHit> heel{}, toe{};  // only what can be stood on
     FootAlone alone = FootAlone::No;
@@ -49,7 +49,7 @@ struct Footing {
             return why == FootAlone::TooSteep ||
                    (why == FootAlone::TooFar && hit->height > context.floor + context.base);
         };
-        // A foot may stick out over an edge, but not into what is too steep or too high.
+        // A foot may stick out over an edge, but not into ground that is too steep or too high.
         if (is_wall(heel, why_heel))
             alone = why_heel;
         else if (is_wall(toe, why_toe))
@@ -67,7 +67,7 @@ struct Footing {
     }
 };
 
-/// From straight up to the normal, but not further than `most`.
+/// From straight up to the normal, by at most `most` radians.
 glm::dquat turn_to(const glm::dvec3& normal, double most) noexcept {
     const glm::dquat whole = minimal_rotation(up, normal);
     const double angle = 2.0 * half_angle_between({1.0, 0.0, 0.0, 0.0}, whole);
@@ -80,7 +80,7 @@ glm::dquat eased_turn(const glm::dquat& from, const glm::dquat& to, double left,
     return slerp(from, to, std::min(1.0 - left, most / angle));
 }
 
-/// Heel and toe against the ankle as the foot is turned, and the ankle, which follows from the toe: that is
+/// Heel and toe relative to the ankle once the foot is turned, and how far the ankle slips, since the toe is
 /// the anchor.
 struct Turned {
     glm::dvec3 heel, toe, slip;
@@ -88,8 +88,7 @@ struct Turned {
     Turned(const FootState& foot, const FootClip& clip) noexcept
         : heel(rotated(foot.turn, minus(clip.heel, clip.ankle))),
           toe(rotated(foot.turn, minus(clip.toe, clip.ankle))) {
-        const glm::dvec3 back =
-            minus(minus(clip.toe, clip.ankle), toe);  // nothing, to the bit, without a turn
+        const glm::dvec3 back = minus(minus(clip.toe, clip.ankle), toe);  // exactly 0 without a turn
         slip = {foot.offset_x + back.x, 0.0, foot.offset_z + back.z};
     }
 };
@@ -108,8 +107,8 @@ double height_of_plane(const GroundHit& hit, double x, double z) noexcept {
     return hit.height - (hit.normal.x * x + hit.normal.z * z) / hit.normal.y;
 }
 
-/// What the foot must be moved by along a unit vector so that neither heel nor toe is on the edge of a step;
-/// 0 where both sides of it are as bad.
+/// How far to move the foot along a unit vector so that neither heel nor toe is on the edge of a step; 0 if
+/// there are edges on both sides or on neither.
 double off_edge(const Footing& footing, const glm::dvec3& heel_at, const glm::dvec3& toe_at,
                 const glm::dvec3& along, double from, const FootContext& context) noexcept {
     const auto is_edge = [&](const std::optional<GroundHit>& hit, const glm::dvec3& at, double by) {
@@ -136,7 +135,7 @@ void keep_off_edges(FootState& foot, const Footing& footing, const glm::dvec3& h
     foot.shift_x = along.x * a + side.x * b, foot.shift_z = along.z * a + side.z * b;
 }
 
-/// Of the toe, level.
+/// Of the toe, horizontal, m/s.
 glm::dvec3 velocity_of(const FootState& foot, const FootClip& clip, const FootContext& context) noexcept {
     if (context.fresh || !(context.dt > 0.0)) return foot.velocity;
     const glm::dvec3 v =
@@ -145,15 +144,15 @@ glm::dvec3 velocity_of(const FootState& foot, const FootClip& clip, const FootCo
     return {v.x * part, 0.0, v.z * part};
 }
 
-/// The step that heel or toe of a foot in the air comes to: the height that it must be over, where there is
-/// one. `hit_now` is what is below it now.
+/// The height of the step that heel or toe of a foot in the air is approaching; -1e300 if there is none.
+/// `hit_now`: the ground below it now.
 double look_ahead(const FootState& foot, const FootClip& clip, const glm::dvec3& at,
                   const std::optional<GroundHit>& hit_now, double from, const FootContext& context) noexcept {
     double highest = -1e300;
     if (foot.locked || !(context.dt > 0.0) || context.fresh || !hit_now) return highest;
     const glm::dvec3 velocity = velocity_of(foot, clip, context);
     const double speed = length(velocity);
-    // What brakes comes to rest on this side of an edge, maybe.
+    // A foot that brakes may stop before the edge.
     const double braking =
         speed > 1e-9 ? std::max(0.0, (dot(foot.velocity, velocity) / speed - speed) / context.dt) : 0.0;
     for (const double seconds : ahead) {
@@ -191,7 +190,7 @@ void update_lock(FootState& foot, const FootClip& clip, const FootContext& conte
             const bool fast = speed > (foot.speed_known ? options.leave_speed : options.enter_speed);
             const double x = foot.lock_x - clip.toe.x, z = foot.lock_z - clip.toe.z;
             const bool far = x * x + z * z > options.break_distance * options.break_distance;
-            // What is let go goes along with the clip from here on, by what it was moved by before.
+            // A released foot follows the clip again, at the offset it had before.
             if (fast || far || height > options.low)
                 foot.locked = false;
             else

@@ -1,5 +1,4 @@
-// One foot's part of a step: whether it is locked, where the ground is, and where the ankle goes by that. Not
-// installed.
+// One foot's part of a step: its lock, the ground below it, and its goal. Not installed.
 #pragma once
 
 #include "rig/math.hpp"
@@ -7,34 +6,34 @@
 
 namespace tendril::humanoid::detail {
 
-/// What a step's two feet have in common.
+/// Shared by both feet of a step.
 struct FootContext {
     const Ground& ground;
     const FeetOptions& options;
     double dt;        // seconds; 0: no time passes
-    bool fresh;       // the first step: everything is where it goes at once
+    bool fresh;       // the first step: nothing eases
     double floor;     // of the clip, in the ground's space
-    double base;      // what the root is moved up by
-    double eased;     // what an easing leaves of anything in this step
+    double base;      // how far the root is raised
+    double eased;     // the factor by which an offset decays in this step
     double steepest;  // cosine of max_slope
 };
 
-/// Where a foot is in the clip, in the ground's space.
+/// A foot in the clip, in the ground's space.
 struct FootClip {
     glm::dvec3 ankle, heel, toe;
 };
 
-/// Where it goes.
+/// Offsets of the ankle from the clip.
 struct FootGoal {
-    double lift = 0.0;     // what the ankle is moved up by, once what limits its speed has let it
-    double contact = 0.0;  // the lift with which the sole is on the ground
-    glm::dvec3 slip{0.0};  // what the ankle is moved by seen from above
+    double lift = 0.0;     // upwards, before the speed limit
+    double contact = 0.0;  // the lift that puts the sole on the ground
+    glm::dvec3 slip{0.0};  // horizontal
 };
 
-/// Locks the foot or lets it go, and eases what a lock has moved it by.
+/// Locks or releases the foot, and eases out the offset of a released lock.
 void update_lock(FootState& foot, const FootClip& clip, const FootContext& context) noexcept;
 
-/// Asks the ground, turns the foot by it; sets foot.alone where there is none to stand on.
+/// Queries the ground and turns the foot by it; sets foot.alone if there is no ground to stand on.
 FootGoal find_goal(FootState& foot, const FootClip& clip, const FootContext& context) noexcept;
 
 }  // namespace tendril::humanoid::detail

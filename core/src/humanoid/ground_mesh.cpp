@@ -1,4 +1,4 @@
-// Triangles sorted into a grid of squares seen from above.
+// Triangles sorted into a horizontal grid of squares.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -16,7 +16,7 @@ using tendril::detail::refused;
 constexpr std::size_t max_triangles = 20'000'000, max_side = 4096;
 constexpr double max_coordinate = 1e6;  ///< metres
 
-/// Twice the area of a, b, p seen from above, positive where p is to the left of a to b.
+/// Twice the area of a, b, p seen from above, positive if p is to the left of a to b.
 double side(const glm::dvec3& a, const glm::dvec3& b, double x, double z) noexcept {
     return (b.x - a.x) * (z - a.z) - (b.z - a.z) * (x - a.x);
 }
@@ -73,8 +73,7 @@ void Ground::Mesh::sort() {
     const double wide = std::max(x_end - x, 1e-3), deep = std::max(z_end - z, 1e-3);
     cell = std::max(std::sqrt(wide * deep / static_cast<double>(triangles.size())),
                     std::max(wide, deep) / static_cast<double>(max_side));
-    // Where large triangles lie on many squares each, fewer squares: the lists stay in proportion to the
-    // mesh.
+    // Large triangles cover many squares each: use fewer squares, to keep the lists proportional to the mesh.
     const std::size_t max_entries = 12 * triangles.size() + 64;
     for (;; cell *= 2.0) {
         columns = static_cast<std::size_t>(wide / cell) + 1;
@@ -112,7 +111,7 @@ std::optional<GroundHit> Ground::Mesh::below(const glm::dvec3& from) const noexc
         const double size = std::abs(area), sign = area < 0.0 ? -1.0 : 1.0;
         const double c = sign * side(t.a, t.b, from.x, from.z), a = sign * side(t.b, t.c, from.x, from.z),
                      b = sign * side(t.c, t.a, from.x, from.z);
-        const double rounding = -1e-9 * size;  // a ray through an edge meets one of its triangles at least
+        const double rounding = -1e-9 * size;  // a ray through an edge hits at least one of its triangles
         if (!(size > 1e-18) || a < rounding || b < rounding || c < rounding) continue;
         const double y = (a * t.a.y + b * t.b.y + c * t.c.y) / (a + b + c);
         if (y > from.y || (best && y <= height)) continue;

@@ -19,12 +19,12 @@ using tendril::detail::refused;
 constexpr Bone arms[2][4]{{Bone::LeftShoulder, Bone::LeftUpperArm, Bone::LeftLowerArm, Bone::LeftHand},
                           {Bone::RightShoulder, Bone::RightUpperArm, Bone::RightLowerArm, Bone::RightHand}};
 constexpr double off = 0.01;
-/// A straight elbow has no side: an arm stays this much short of its length, which is a millimetre.
+/// Of an arm's length: about a millimetre short of it, since a straight elbow has no side.
 constexpr double straightest = 0.998;
 
 struct Arm {
     Limb limb{};
-    std::ptrdiff_t shoulder = -1;          // place in the limb's path
+    std::ptrdiff_t shoulder = -1;          // index in the limb's path; -1: none
     glm::dvec3 direction{0.0}, pole{0.0};  // at rest: from the shoulder to the hand; where the elbow points
 };
 
@@ -35,8 +35,8 @@ bool is_fine(const HandTarget& target) noexcept {
     return size > 1e-6 && size < 1e6;
 }
 
-/// Turns the shoulder towards the target by what the arm is short of. `space` is what hangs above it, `at`
-/// comes as the arm is and leaves as it is then. Returns what the shoulder has turned by.
+/// Turns the shoulder towards a target beyond the arm's reach, by at most `most` radians, and updates `at`.
+/// Returns the shoulder's turn.
 glm::dquat shrug(const Arm& arm, const Placement& root, detail::Pose pose, LimbPlacement& at,
                  const glm::dvec3& target, double longest, double most) noexcept {
     const glm::dquat none{1.0, 0.0, 0.0, 0.0};
@@ -47,8 +47,7 @@ glm::dquat shrug(const Arm& arm, const Placement& root, detail::Pose pose, LimbP
     rig::Transform& local = pose[arm.limb.node(static_cast<std::size_t>(arm.shoulder))];
     const Placement shoulder = above * placement(local);
 
-    // The triangle of shoulder, arm's root and target: its angle at the shoulder, and what it would have to
-    // be.
+    // In the triangle of shoulder, arm's root and target: the angle at the shoulder that just reaches.
     const glm::dvec3 bone = minus(at.upper.position, shoulder.position),
                      way = minus(target, shoulder.position);
     const double c = length(bone), d = length(way);
@@ -63,7 +62,7 @@ glm::dquat shrug(const Arm& arm, const Placement& root, detail::Pose pose, LimbP
     return by;
 }
 
-/// As straight as an arm may be: one that is straighter in the clip comes down to that with the weight.
+/// How straight the arm may be. One that is straighter in the clip bends to the limit as the weight grows.
 double straightest_of(const LimbPlacement& at, double weight) noexcept {
     const double full = at.upper_length() + at.lower_length();
     const double clip = length(minus(at.end.position, at.upper.position)) / std::max(full, 1e-9);
@@ -71,7 +70,7 @@ double straightest_of(const LimbPlacement& at, double weight) noexcept {
     return straightest + over * std::max(0.0, 1.0 - 5.0 * weight);
 }
 
-/// The elbow's pole where the arm is straight: as at rest, turned with the arm.
+/// The elbow's pole for a straight arm: as at rest, turned with the body and the arm.
 glm::dvec3 pole_of(const Arm& arm, const LimbPlacement& at, const glm::dquat& body) noexcept {
     const glm::dvec3 rest = rotated(body, arm.direction);
     const auto now = direction_of(minus(at.end.position, at.upper.position), 1e-9);
@@ -83,7 +82,7 @@ glm::dvec3 pole_of(const Arm& arm, const LimbPlacement& at, const glm::dquat& bo
 struct Hands::Plan {
     std::size_t nodes = 0;
     detail::Head head{};
-    std::size_t hips = 0;  // place in the head's path
+    std::size_t hips = 0;  // index in the head's path
     glm::dquat hips_at_rest{1.0, 0.0, 0.0, 0.0};
     std::array<Arm, 2> arms{};
     TwistNodes twist{};
@@ -101,8 +100,7 @@ struct Hands::Plan {
             const double straight = straightest_of(at, weight),
                          longest = detail::reach_of(at, straight).longest;
             const glm::dquat shrugged = shrug(arm, root, pose, at, goal, longest, options.shoulder);
-            // Elbows may be anywhere in a clip: only of an arm that is straight the pole counts, and not at
-            // once.
+            // Clips may have elbows anywhere: the pole counts only for a straight arm, and fades in.
             const detail::Pole pole{.direction = pole_of(arm, at, turned),
                                     .part = 0.01 * std::min(1.0, 10.0 * weight),
                                     .always = false};
@@ -180,7 +178,7 @@ Expected<Hands> Hands::make(const Skeleton& skeleton, const BoneMap& map) {
                        length(minus(position(3), position(2))) > 1e-6))
             return refused("Hands", name(arms[i][1]), "over two bones with a length", 0.0);
         arm.direction = *line;
-        // Elbows point backwards, and down where the arm itself goes that way.
+        // Elbows point backwards, or in an arbitrary direction if the arm itself points backwards.
         arm.pole =
             direction_of(across(times(soles->forward, -1.0), *line), 1e-6).value_or(perpendicular(*line));
         const auto shoulder = std::find(limb->path.begin(), limb->path.end(), node(0));

@@ -1,4 +1,4 @@
-// What the solvers of a body take from outside: maps and poses. Not installed.
+// Checks of what callers pass to a body's solvers: maps and poses. Not installed.
 #pragma once
 
 #include <cmath>
@@ -10,10 +10,10 @@
 
 namespace tendril::humanoid::detail {
 
-/// The public check(), said by `operation`.
+/// check(), with `operation` in the error message.
 Result check_map(std::string_view operation, const BoneMap& map, const Skeleton& skeleton) noexcept;
 
-/// The map, or one without bones where check_map() refuses it.
+/// The map, or an empty one if check_map() refuses it.
 const BoneMap& map_or_none(const BoneMap& map, const Skeleton& skeleton) noexcept;
 
 /// Each number finite and at most max_magnitude in magnitude.
@@ -22,14 +22,14 @@ inline bool is_within(const glm::dvec3& v) noexcept {
     return std::abs(v.x) <= most && std::abs(v.y) <= most && std::abs(v.z) <= most;
 }
 
-/// Numbers up to max_magnitude, and rotations that are unit quaternions but for what interpolation leaves: of
-/// a length from 0.5 to 2.
+/// Numbers up to max_magnitude, and rotations of a length from 0.5 to 2: interpolated ones are not exactly
+/// unit.
 inline bool is_sane(const rig::Transform& local) noexcept {
     const glm::dquat& q = local.rotation;
     const double squared = q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z;
     return is_within(local.translation) && is_within(local.scale) && squared >= 0.25 && squared <= 4.0;
 }
-/// The first transform that is not sane, or the number of them.
+/// Index of the first transform that is not sane; pose.size() if all are.
 inline std::size_t first_insane(std::span<const rig::Transform> pose) noexcept {
     std::size_t i = 0;
     while (i < pose.size() && is_sane(pose[i])) ++i;

@@ -1,22 +1,22 @@
-// The turns of one joint: rotation vectors, a hinge's angle, the limit. Not installed.
+// Rotations of one joint: rotation vectors, a hinge's angle, the limit. Not installed.
 #pragma once
 
 #include "humanoid/body_work.hpp"
 
 namespace tendril::humanoid::detail {
 
-/// The rotation of a rotation vector, and the other way round, the short way.
+/// From a rotation vector to a quaternion and back; logarithm() takes the short way.
 glm::dquat exponential(const glm::dvec3& turn) noexcept;
 glm::dvec3 logarithm(const glm::dquat& q) noexcept;
 
 glm::quat narrow(const glm::dquat& q) noexcept;
 
-/// The angle of a hinge: of the part of `turn` that is about its axis.
+/// The angle of a hinge: the twist of `turn` about its axis, radians.
 double hinge_angle(const glm::dvec3& axis, const glm::dquat& turn) noexcept;
 
-/// A joint's turn brought within its limit, and whether it was not; what a hinge turns otherwise stays.
+/// Clamps the link's turn to its limit; true if it was beyond. A hinge keeps its turn about other axes.
 bool clamp_turn(Link& link) noexcept;
-/// Makes the limit reach as far as the clip does.
+/// Widens the limit to contain the clip's pose.
 void widen(Link& link) noexcept;
 
 }  // namespace tendril::humanoid::detail

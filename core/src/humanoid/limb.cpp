@@ -18,8 +18,8 @@ glm::dvec3 direction(const glm::dvec3& from, const glm::dvec3& to, const glm::dv
     return direction_of(minus(to, from), shortest).value_or(fallback);
 }
 
-/// At right angles to the line from root to end: where the middle joint stands aside, and the more the nearer
-/// it is to the line, the pole. Never against the pole.
+/// Perpendicular to the line from root to end: the direction of the middle joint, blended with the pole the
+/// more the nearer the joint is to the line. With pole.always never against the pole.
 glm::dvec3 bend_direction(const LimbPlacement& at, const glm::dvec3& line, const Pole& pole) noexcept {
     const glm::dvec3 side = direction_of(across(pole.direction, line), 1e-6).value_or(perpendicular(line));
     glm::dvec3 aside = across(minus(at.lower.position, at.upper.position), line);
@@ -96,7 +96,7 @@ void turn(rig::Transform& local, const Placement& above, const glm::dquat& by) n
     const glm::dvec3 axis{by.x, by.y, by.z};
     const double sine = length(axis);
     if (sine == 0.0) return;
-    // The axis as the parent sees it: by the adjugate, whose sign is that of a mirrored parent, too.
+    // The axis in the parent's space, by the adjugate, whose sign is right for a mirrored parent, too.
     const glm::dvec3 &x = above.axes[0], &y = above.axes[1], &z = above.axes[2];
     const glm::dvec3 seen{dot(cross(y, z), axis), dot(cross(z, x), axis), dot(cross(x, y), axis)};
     const double size = length(seen);

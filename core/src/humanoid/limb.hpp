@@ -1,8 +1,7 @@
-// Two bones of a skeleton solved in closed form: a leg or an arm, whatever stands between its joints. Not
-// installed.
+// Closed-form IK of two bones: a leg or an arm, whatever nodes lie between its joints. Not installed.
 //
-// A limb is the way from the node that hangs on nothing down to the limb's end. Only rotations of its upper,
-// lower and end node are changed; nodes between them (twist bones, pivots) move along.
+// A limb is the path from the root node down to the limb's end. Only the rotations of its upper, lower and
+// end node change; nodes between them (twist bones, pivots) move along.
 #pragma once
 
 #include <optional>
@@ -18,16 +17,16 @@ using Pose = std::span<rig::Transform>;
 
 struct Limb {
     std::vector<std::int32_t> path{};                     // nodes, each the parent of the next
-    std::size_t upper = 0, lower = 0, end = 0, tail = 0;  // places in it; the tail is what the path ends with
+    std::size_t upper = 0, lower = 0, end = 0, tail = 0;  // indices into the path; the tail is its last
 
-    /// From the root to `tail`, through the others; none where they do not hang on each other in that order,
-    /// or two of the first three are one.
+    /// From the root to `tail`, through the others. nullopt unless each is below the one before; only `end`
+    /// and `tail` may be the same node.
     static std::optional<Limb> make(const Skeleton& skeleton, std::int32_t upper, std::int32_t lower,
                                     std::int32_t end, std::int32_t tail);
     std::size_t node(std::size_t place) const noexcept { return static_cast<std::size_t>(path[place]); }
 };
 
-/// Where the nodes of a limb are, and what each of the three that turn hangs on.
+/// Placements of a limb's nodes, and of the parents of the three that turn.
 struct LimbPlacement {
     Placement above_upper, upper, above_lower, lower, above_end, end, tail;
 
@@ -37,41 +36,40 @@ struct LimbPlacement {
     bool is_finite() const noexcept;
 };
 LimbPlacement place(const Limb& limb, const Placement& root, Pose pose) noexcept;
-/// From `above_upper` on.
+/// Updates everything below `above_upper`.
 void place_below(const Limb& limb, LimbPlacement& at, Pose pose) noexcept;
 
-/// Nothing beyond 1e12.
+/// No number over 1e12.
 bool is_moderate(const Placement& placement) noexcept;
 
-/// The vector that `at.axes` takes to `vector`; 0 where they have no volume.
+/// `vector` in the local space of `at`: multiplied by the inverse of at.axes; 0 if they have no volume.
 glm::dvec3 seen_from(const Placement& at, const glm::dvec3& vector) noexcept;
 
-/// The node's local rotation such that in space it is turned by `turn`.
+/// Changes a node's local rotation so that the node turns by `turn` in the outer space.
 void turn(rig::Transform& local, const Placement& above, const glm::dquat& turn) noexcept;
 
-/// How near to its full length a limb may come, and how near to folded up.
+/// The distances from root to end that a limb may have.
 struct Reach {
     double shortest, longest;
 };
 Reach reach_of(const LimbPlacement& at, double straightest) noexcept;
 
-/// Where joints go, and by what the bones turn.
+/// The new positions of middle joint and end, and the turns of the two bones.
 struct Bend {
     glm::dvec3 mid, end;
     glm::dquat upper, lower;
 };
-/// Where the middle joint of a limb that is straight goes.
+/// Where the middle joint of a straight limb goes.
 struct Pole {
-    glm::dvec3 direction;  // of length 1
-    double part;  // of the limb's length that the joint has to stand aside for its own side to count as much
-    bool always;  // the joint is never on the other side
+    glm::dvec3 direction;  // unit length
+    double part;  // offset of the joint, in limb lengths, at which its own side counts as much as the pole
+    bool always;  // the joint is never on the opposite side
 };
-/// The limb's end at `target`, or as near to it as it may come. The middle joint keeps to the side that it is
-/// bent to; the straighter the limb, the more it goes by the pole.
+/// Brings the limb's end to `target`, or as near as it may come. The middle joint keeps its side; the
+/// straighter the limb, the more the pole counts.
 Bend bend_to(const LimbPlacement& at, const glm::dvec3& target, const Pole& pole,
              double straightest) noexcept;
-/// Takes that into the pose, and turns the end by `end_turn` against how it was. `at` is where the limb is
-/// before, and becomes where it is after.
+/// Applies the bend to the pose, and turns the end by `end_turn` relative to how it was. Updates `at`.
 void apply(const Bend& bend, const glm::dquat& end_turn, const Limb& limb, LimbPlacement& at,
            Pose pose) noexcept;
 

@@ -44,7 +44,7 @@ class DefaultLimits {
     }
 
   private:
-    /// Upright bones that share what the whole column has.
+    /// Divides the range of the whole column among its bones.
     void spine(BodyLimits& limits, const std::array<Bone, 3>& bones, const Ball& whole) const {
         double count = 0.0;
         for (std::size_t i = 0; i < 3; ++i)
@@ -65,8 +65,8 @@ class DefaultLimits {
             return limits[static_cast<std::size_t>(side(of_left))];
         };
         const glm::dvec3 out = left ? facing_.left : -facing_.left;
-        const bool lies_left = dot(out, across_) > 0.0;  // a map may have the sides exchanged
-        // About this axis the arm goes up; about the one across it, the body's own up, the left arm goes
+        const bool lies_left = dot(out, across_) > 0.0;  // a map may have the sides swapped
+        // About this axis the arm goes up; about the perpendicular one, the body's up, the left arm goes
         // back.
         const glm::dvec3 raises = cross(out, facing_.up);
         at(Bone::LeftShoulder) =
@@ -75,7 +75,7 @@ class DefaultLimits {
             ball(ik::JointKind::BallAndSocket, raises, {95.0, 100.0, 50.0, 135.0, 90.0}, lies_left);
         at(Bone::LeftLowerArm) = hinge(side(Bone::LeftLowerArm), cross(out, facing_.forward), 150.0);
         at(Bone::LeftHand) = ball(ik::JointKind::Gliding, raises, {70.0, 80.0, 20.0, 35.0, 85.0}, lies_left);
-        // About this axis legs go forward and toes up; about the one across it, forward, they go to the left.
+        // About this axis legs go forward and toes up; about the perpendicular one, forward, they go left.
         const glm::dvec3 lifts = -across_;
         at(Bone::LeftUpperLeg) =
             ball(ik::JointKind::BallAndSocket, lifts, {120.0, 30.0, 45.0, 30.0, 45.0}, lies_left);
@@ -83,8 +83,7 @@ class DefaultLimits {
         at(Bone::LeftFoot) = ball(ik::JointKind::Gliding, lifts, {30.0, 50.0, 25.0, 25.0, 25.0}, lies_left);
         at(Bone::LeftToes) = ik::Limit::hinge(axis(lifts), radians(-40.0), radians(70.0));
     }
-    /// `range`: up, down, left of a left limb, right of it, twist; a right limb has left and right the other
-    /// way round.
+    /// `range`: up, down, left, right and twist of a left limb; a right limb has left and right swapped.
     static ik::Limit ball(ik::JointKind kind, const glm::dvec3& about, const Ball& range, bool left) {
         ik::Limit limit;
         limit.kind = kind;
@@ -97,7 +96,7 @@ class DefaultLimits {
     ik::Limit hinge(Bone bone, const glm::dvec3& usual, double most) const {
         return ik::Limit::hinge(axis(bend_at_rest(bone).value_or(usual)), 0.0f, radians(most));
     }
-    /// The axis about which a lower limb rests bent against the upper one, brought into the T-pose.
+    /// The axis of a lower limb's bend at rest, moved to the T-pose; nullopt if it is nearly straight.
     std::optional<glm::dvec3> bend_at_rest(Bone bone) const {
         const Bone upper = static_cast<Bone>(static_cast<int>(bone) - 1);
         const auto end = detail::limb_child(bone);
@@ -118,12 +117,12 @@ class DefaultLimits {
 
     const BoneMap& map_;
     Facing facing_;
-    glm::dvec3 across_;  // to the left of where it faces, whatever the map calls left
+    glm::dvec3 across_;  // to the left of where the character faces, whatever the map calls left
     std::vector<rig::Transform> pose_;
     std::vector<Placement> rest_, t_;
 };
 
-/// Angles that have been seen.
+/// Angles observed in clips.
 struct Seen {
     std::vector<ik::JointAngles> angles{};
     float twist_min = 0.0f, twist_max = 0.0f;
@@ -143,7 +142,7 @@ struct Seen {
                    std::abs(each.twist - first.twist) > 1e-4f;
         });
     }
-    /// The half-angles, made so much larger that the ellipses between them hold all that was seen.
+    /// Adds the margin and enlarges the half-angles until their ellipses contain every observed angle.
     void widen(float margin) {
         up += margin, down += margin, left += margin, right += margin;
         float most = 1.0f;

@@ -18,7 +18,7 @@ constexpr Bone column[]{Bone::Spine, Bone::Chest, Bone::UpperChest, Bone::Neck, 
 constexpr std::size_t neck = 3, head = 4;
 constexpr glm::dquat none{1.0, 0.0, 0.0, 0.0};
 
-/// A bone that turns: its place in the head's path, and which of the column it is.
+/// A bone that turns: its index in the head's path, and in `column`.
 struct Turning {
     std::size_t place = 0, bone = 0;
 };
@@ -44,7 +44,7 @@ struct LookAt::Plan {
         return bone == neck ? options.neck_part : options.spine_part / static_cast<double>(spine_bones);
     }
 
-    /// Where the path's node at `place` hangs.
+    /// The placement of the parent of the path's node at `place`.
     Placement above(std::size_t place, const Placement& root, detail::Pose pose) const noexcept {
         Placement at = root;
         for (std::size_t i = 0; i < place; ++i)
@@ -56,7 +56,7 @@ struct LookAt::Plan {
               const LookAtOptions& options) const noexcept;
 };
 
-/// Each bone turns as if the head's gaze were fixed to it, by its part of what is left of the whole way.
+/// Each bone turns as if the head's gaze were fixed to it, by its share of the remaining way.
 void LookAt::Plan::turn(detail::Pose pose, const Placement& root, const glm::dvec3& point, double weight,
                         const LookAtOptions& options) const noexcept {
     double left = 1.0;
@@ -148,8 +148,7 @@ LookAtReport LookAt::step(std::span<rig::Transform> pose, const LookAtOptions& o
                                           options.view, options.half_life, dt);
     const bool is_first = dot(state.gaze, state.gaze) < 0.5;
     const double most = dt > 0.0 ? options.max_speed * std::min(dt, 1e3) : 0.0;
-    // Behind its back the eyes do not follow: what comes into view again is looked at from where the clip
-    // looks.
+    // The gaze does not track a target out of view: when one comes into view, it starts from the clip's gaze.
     const glm::dvec3 from = seen > 0.0 ? state.gaze : looks;
     state.gaze = is_first ? wanted : detail::turned_toward(from, state.in_view ? wanted : from, most);
 

@@ -18,7 +18,7 @@ bool is_digit(char c) {
     return std::isdigit(static_cast<unsigned char>(c)) != 0;
 }
 
-/// Words in small letters: separators, capitals and digits begin a new one. "LHipJoint_01": l hip joint 01
+/// Lower-case words, split at separators, capitals and digits. "LHipJoint_01": l hip joint 01
 std::vector<std::string> words_of(std::string_view name) {
     if (const std::size_t colon = name.find_last_of(":|"); colon != name.npos && colon + 1 < name.size())
         name.remove_prefix(colon + 1);
@@ -45,7 +45,7 @@ bool is_one_of(std::string_view word, const std::string_view (&list)[N]) {
     return std::find(std::begin(list), std::end(list), word) != std::end(list);
 }
 
-/// Where one of these is in a name, the node is none of a body's bones.
+/// A node with one of these words in its name is not a bone of the body.
 constexpr std::string_view not_bones[]{
     "twist",  "roll",    "helper", "ik",       "pole",       "poletarget", "target",    "end",
     "leaf",   "tip",     "nub",    "top",      "socket",     "attach",     "weapon",    "prop",
@@ -55,17 +55,17 @@ constexpr std::string_view not_bones[]{
     "little", "pinkie",  "mid",    "palm",     "metacarpal", "carpal",     "wing",      "muscle",
     "share",  "stretch", "tweak",  "fk",       "ctrl",       "control",    "mch",       "site",
     "camera", "light",   "holder", "effector", "goal",       "bend",       "ankleroll", "sec"};
-/// Words that say nothing.
+/// Words to ignore.
 constexpr std::string_view fillers[]{"mixamorig", "bip",       "biped",  "def",  "org", "valve", "j",
                                      "b",         "cc",        "base",   "bone", "bn",  "jnt",   "rig",
                                      "armature",  "character", "c",      "m",    "jt",  "skel",  "sk",
-                                     "bones",     "human",     "center", "mid",  "g"};
+                                     "bones",     "human",     "center", "g"};
 
 struct Word {
     std::string_view text;
     Part part;
 };
-/// What is left of a name, put together.
+/// The remaining words of a name, joined.
 constexpr Word dictionary[]{{"hips", Part::Hips},         {"hip", Part::Hips},
                             {"pelvis", Part::Hips},       {"spine", Part::Spine},
                             {"chest", Part::Spine},       {"upperchest", Part::Spine},
@@ -109,7 +109,7 @@ Side side_of(std::string_view word) {
     return Side::None;
 }
 
-/// "leftarm", "lthigh", "handr": a side that no separator tells from the part.
+/// "leftarm", "lthigh", "handr": a side without a separator.
 Side take_side(std::string& text) {
     for (const std::string_view side : {"left", "right", "l", "r"}) {
         const bool before = text.starts_with(side), after = text.ends_with(side);
@@ -142,7 +142,7 @@ NameReading read_name(std::string_view name) {
     reading.part = part_of(text);
     reading.is_plain = text == "hips";
     const bool has_side = reading.side != Side::None;
-    if (text == "hip" && has_side) reading.part = Part::UpperLeg;  // but Rigify's pelvis.L is none
+    if (text == "hip" && has_side) reading.part = Part::UpperLeg;  // but Rigify's pelvis.L is no leg
     if (reading.part == Part::None || (reading.part >= Part::Shoulder) != has_side) return {};
     return reading;
 }

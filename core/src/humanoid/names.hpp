@@ -1,4 +1,4 @@
-// What the name of a node says about the part of the body that it is. Not installed.
+// Reads a body part and a side from a node's name. Not installed.
 #pragma once
 
 #include <string>
@@ -9,10 +9,10 @@ namespace tendril::humanoid::detail {
 enum class Part : std::uint8_t {
     None,
     Hips,
-    Spine,  // any bone between hips and neck: which one is told by its place
+    Spine,  // any bone between hips and neck: its position tells which
     Neck,
     Head,
-    // From here on there is one on each side, in the order in which they hang on each other.
+    // From here on there is one on each side, in the order of the limb.
     Shoulder,
     UpperArm,
     LowerArm,
@@ -21,9 +21,9 @@ enum class Part : std::uint8_t {
     LowerLeg,
     Foot,
     Toes,
-    // Words that mean one or the other, as the names around them tell.
-    Arm,          // upper, or lower where the upper one is called otherwise
-    ShoulderArm,  // the collar bone, or the upper arm where that has a name of its own
+    // Ambiguous words, resolved by the names around them.
+    Arm,          // the upper arm; or the lower one, if the upper one has another name
+    ShoulderArm,  // the collar bone; or the upper arm, if the collar bone has a name of its own
     Leg
 };
 enum class Side : std::uint8_t { None, Left, Right };
@@ -31,14 +31,14 @@ enum class Side : std::uint8_t { None, Left, Right };
 struct NameReading {
     Part part = Part::None;
     Side side = Side::None;
-    bool is_plain = false;  ///< the bone's own word, as in bone_map.hpp: "hips", not "pelvis"
+    bool is_plain = false;  ///< exactly "hips", not "pelvis" or "hip"
 };
 
-/// Prefixes of programs and of characters do not count, nor do capitals and separators. None for what only
-/// goes along: twist and roll bones, IK targets, end joints, fingers, faces, hair.
+/// Ignores prefixes of programs and characters, case and separators. Part::None for nodes that are no bones
+/// of the body: twist and roll bones, IK targets, end joints, fingers, faces, hair.
 NameReading read_name(std::string_view name);
 
-/// Of a node that is there to take a share of a limb's twist: "lowerarm_twist_01_l", "LeftForeArmRoll".
+/// Whether the node takes a share of a limb's twist: "lowerarm_twist_01_l", "LeftForeArmRoll".
 bool is_twist_name(std::string_view name);
 
 }  // namespace tendril::humanoid::detail

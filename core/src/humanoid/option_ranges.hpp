@@ -15,7 +15,7 @@ struct OptionRange {
     const char* requirement;  // "from 0 to 1"
 };
 
-/// Names the first member that is out of its range, or no number.
+/// Names the first member that is out of range or NaN.
 template <class Options>
 Result check_ranges(const char* operation, const Options& options,
                     std::span<const OptionRange<Options>> ranges) noexcept {

@@ -57,7 +57,7 @@ class Shape {
     const glm::dvec3& at(std::size_t node) const { return places_[node].position; }
     void set(Bone bone, std::size_t node) { found_[bone] = static_cast<std::int32_t>(node); }
 
-    /// Children; those that lie where their parent does stand for theirs.
+    /// Children; a child at its parent's position is replaced by its own children.
     Path branches(std::size_t node) const {
         Path result;
         for (const std::int32_t each : skeleton_.children(node)) {
@@ -69,7 +69,7 @@ class Shape {
         }
         return result;
     }
-    /// From a node to the leaf that is farthest along bones.
+    /// The path from a node to the leaf that is farthest along the bones.
     Path longest(std::size_t node) const {
         Path path{node};
         while (!skeleton_.children(path.back()).empty()) {
@@ -85,7 +85,7 @@ class Shape {
         return reach_[child] +
                length(minus(at(child), at(static_cast<std::size_t>(skeleton_[child].parent))));
     }
-    /// Seen from above: a plane across the way from `a` to `b` has one on each side.
+    /// Whether `middle` lies between `a` and `b`, seen from above.
     bool is_between(const glm::dvec3& middle, const glm::dvec3& a, const glm::dvec3& b) const {
         const glm::dvec3 way(b.x - a.x, 0.0, b.z - a.z);
         if (length(way) < 0.02 * height_) return false;
@@ -117,7 +117,7 @@ class Shape {
             if (top_[node] < at(node).y + 0.2 * height_) continue;
             const auto legs = pair_at(node, true);
             if (!legs) continue;
-            // The limbs that end lowest; of nodes with the same the one nearest to the limbs.
+            // Prefer the limbs that end lowest; among equals, the node nearest to them.
             const double end = std::max(at(end_[legs->a]).y, at(end_[legs->b]).y);
             if (best && end > lowest + 0.05 * height_) continue;
             if (best && end > lowest - 0.05 * height_ && !skeleton_.is_below(node, best->first)) continue;
@@ -126,7 +126,7 @@ class Shape {
         }
         return best;
     }
-    /// Where in a path the two longest bones in a row begin.
+    /// Where in a path the two longest consecutive bones of similar length begin.
     std::optional<std::size_t> upper_of(const Path& path) const {
         std::optional<std::size_t> best;
         double most = 0.0;
@@ -145,7 +145,7 @@ class Shape {
         if (before != bones[0] && *upper > 0) set(before, path[*upper - 1]);
         if (after && *upper + 3 < path.size()) set(*after, path[*upper + 3]);
     }
-    /// Of the two limbs the left one first.
+    /// The two limbs, the left one first.
     std::pair<std::size_t, std::size_t> left_first(const Pair& pair, const glm::dvec3& left) const {
         const std::size_t a = end_[pair.a], b = end_[pair.b];
         const bool a_is_left = dot(minus(at(a), at(b)), left) > 0.0;
@@ -204,8 +204,8 @@ class Shape {
 
     const Skeleton& skeleton_;
     std::vector<Placement> places_;
-    std::vector<double> reach_, top_;  // how far bones go on below a node, and up to which height
-    std::vector<std::size_t> end_;     // the node that is farthest below it, along bones
+    std::vector<double> reach_, top_;  // of each node: length of its longest path down; highest y below it
+    std::vector<std::size_t> end_;     // the last node of that path
     double height_ = 0.0;
     std::optional<Pair> arms_{};
     glm::dvec3 left_{1.0, 0.0, 0.0};

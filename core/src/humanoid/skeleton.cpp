@@ -57,7 +57,7 @@ Expected<Skeleton> Skeleton::make(std::vector<Node> nodes) {
             made.children_[next[static_cast<std::size_t>(nodes[i].parent)]++] = static_cast<std::int32_t>(i);
     made.nodes_ = std::move(nodes);
 
-    // Depth first from the roots. What a circle holds is reached from none of them.
+    // Depth first from the roots, which do not reach the nodes of a cycle.
     made.order_.reserve(count);
     std::vector<std::int32_t> open;
     for (std::size_t i = count; i-- > 0;)
@@ -72,8 +72,10 @@ Expected<Skeleton> Skeleton::make(std::vector<Node> nodes) {
     if (made.order_.size() < count) {
         std::vector<bool> reached(count);
         for (const std::int32_t node : made.order_) reached[static_cast<std::size_t>(node)] = true;
-        const auto lost =
+        auto lost =
             static_cast<std::size_t>(std::find(reached.begin(), reached.end(), false) - reached.begin());
+        // It may only hang below the cycle: so many steps up lead into it.
+        for (std::size_t i = 0; i < count; ++i) lost = static_cast<std::size_t>(made.nodes_[lost].parent);
         return refused("Skeleton", Argument("nodes", lost, "parent"), "of a node that does not hang below it",
                        made.nodes_[lost].parent);
     }

@@ -18,7 +18,8 @@ using tendril::detail::refused;
 constexpr Bone legs[2][4]{{Bone::LeftUpperLeg, Bone::LeftLowerLeg, Bone::LeftFoot, Bone::LeftToes},
                           {Bone::RightUpperLeg, Bone::RightLowerLeg, Bone::RightFoot, Bone::RightToes}};
 
-// Parts of a leg's length, as on the figure of the project's own, whose leg is 0.85 m.
+// Parts of a leg's length, from the project's own figure, whose leg is 0.85 m; heel_part is of the distance
+// from ankle to toe.
 constexpr double ball_part = 0.15 / 0.85, heel_part = 1.0 / 3.0, sole_part = 0.02 / 0.85,
                  ankle_part = 0.09 / 0.85;
 
@@ -79,8 +80,8 @@ class Finder {
         const glm::dvec3 ankle = position(leg[2]);
         glm::dvec3 toe = at_[sole.toes].position;
         if (sole.toes == sole.foot) toe = at_[end_of_foot(leg[2])].position;
-        // The end of the toes is further than the ball that a foot rolls off, and some have their toes' joint
-        // next to the ankle.
+        // The tip of the toes is farther than the ball, over which a foot rolls, and some skeletons have the
+        // toe joint next to the ankle.
         const glm::dvec3 way = level(minus(toe, ankle));
         const double size = length(way), ball = ball_part * soles.leg;
         const double part = sole.toes == sole.foot ? std::min(size, ball) : std::max(size, 0.6 * ball);
@@ -144,7 +145,7 @@ double clip_floor(const Skeleton& skeleton, const Soles& soles, const Clip& clip
         }
         before = now;
     }
-    // A foot that is held still in the air is not on the floor.
+    // A foot held still in the air is not on the floor.
     std::erase_if(standing, [&](double height) { return height > lowest + 0.1; });
     if (standing.empty()) return lowest;
     const auto middle = standing.begin() + static_cast<std::ptrdiff_t>(standing.size() / 2);

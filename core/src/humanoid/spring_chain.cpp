@@ -18,33 +18,33 @@ using namespace rig::detail;
 using tendril::detail::refused;
 
 constexpr double shortest = 1e-9;
-constexpr double unmoved = 1e-7;  // metres: what a pose that is worked out again may differ by
+constexpr double unmoved = 1e-7;  // metres: rounding when the same pose is computed again
 constexpr auto no_place = static_cast<std::size_t>(-1);
 
 enum class Time : std::uint8_t { Passes, Stands, Jumps };
 
-/// A node of the chain. Its tip is where its children begin, in the middle of several.
+/// A node of the chain. Its tip is the mean position of its children.
 struct ChainNode {
     std::size_t node = 0;
-    std::size_t above = no_place;     // place in the chain of what it hangs on; none of the first one
-    std::size_t mass = no_place;      // of its tip; none of a node without length
+    std::size_t above = no_place;     // index in the chain of its parent; none for the first
+    std::size_t mass = no_place;      // of its tip; none for a node without length
     double length = 0.0;              // from the base to its tip, along the chain at rest
     std::vector<std::size_t> ends{};  // its children
-    glm::dvec3 beyond{0.0};           // the tip of one that has none, in its own space
+    glm::dvec3 beyond{0.0};           // its tip if it has no children, in its own space
 };
 
-/// How far a beam that is held at one end bends under its own weight, against its tip: part 0 to 1 of the
-/// way.
+/// Deflection of a cantilever under its own weight at `part` (0 to 1) of its length, relative to its tip.
 double beam(double part) noexcept {
     return part * part * (6.0 - 4.0 * part + part * part) / 3.0;
 }
 
-/// Moves the mass on by one step; its target goes evenly from where it was to `target`. Within `reach` of it.
+/// Advances the mass by one step, in which its target moves to `target` at constant velocity. Keeps it within
+/// `reach` of the target.
 void spring(SpringMass& mass, const glm::dvec3& target, double strength, double damping, double reach,
             double dt) noexcept {
     const glm::dvec3 pace = times(minus(target, mass.target), 1.0 / dt);
     const glm::dvec3 velocity = mass.has_velocity ? minus(mass.velocity, pace) : glm::dvec3(0.0);
-    // What is no number is not slow either.
+    // NaN fails these comparisons, too.
     const bool sound = length(pace) <= SpringChain::max_speed && length(velocity) <= SpringChain::max_speed &&
                        signal::is_input(minus(mass.position, mass.target));
     if (!sound) {
@@ -65,7 +65,7 @@ void spring(SpringMass& mass, const glm::dvec3& target, double strength, double 
     mass = {plus(target, offset.value), plus(offset.velocity, pace), target, true, true};
 }
 
-/// How far a mass is from its target. A drag in a pause, or a file, may have it anywhere.
+/// A mass's offset from its target, at most `reach`: a drag while paused, or a file, may put it anywhere.
 glm::dvec3 swing_of(const SpringMass& mass, double reach) noexcept {
     const glm::dvec3 way = minus(mass.position, mass.target);
     if (!signal::is_input(way)) return glm::dvec3(0.0);
@@ -77,12 +77,12 @@ glm::dvec3 swing_of(const SpringMass& mass, double reach) noexcept {
 
 struct SpringChain::Plan {
     std::size_t nodes = 0;
-    std::vector<std::int32_t> path{};    // from what hangs on nothing to what the chain hangs on
-    std::vector<ChainNode> chain{};      // each after what it hangs on
-    std::vector<std::size_t> turning{};  // nodes: of each mass
+    std::vector<std::int32_t> path{};    // from the root to the parent of the chain
+    std::vector<ChainNode> chain{};      // parents first
+    std::vector<std::size_t> turning{};  // the node of each mass
     double longest = 0.0;                // from the base to the farthest tip
-    double size = 1.0;  // scratch: how many times as large as at rest the character stands there
-    // Scratch, of each of the chain: as the pose has it, and as it swings; by how much its tip does.
+    double size = 1.0;                   // scratch: scale of the character's root
+    // Scratch for each chain node: in the pose; swinging; the offset of its tip.
     std::vector<Placement> before{}, after{};
     std::vector<glm::dvec3> swing{};
 
@@ -150,7 +150,7 @@ Expected<SpringChain> SpringChain::make(const Skeleton& skeleton, const BoneMap&
         const ChainNode* const above = node == root ? nullptr : &plan->chain[place_of[parent]];
         const std::span<const std::int32_t> children = skeleton.children(node);
         const glm::dvec3 way = minus(rest[node].position, rest[parent].position);
-        // Where nothing hangs on it, it reaches as far again as what it hangs on reaches to it.
+        // A leaf is as long as the way from its parent to it.
         ChainNode added{.node = node,
                         .above = above == nullptr ? no_place : place_of[parent],
                         .ends = {children.begin(), children.end()},

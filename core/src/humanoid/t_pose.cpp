@@ -15,7 +15,7 @@ std::vector<rig::Transform> t_pose(const Skeleton& skeleton, const BoneMap& give
     place(skeleton, pose, placements);
     const Facing at = facing(skeleton, map);
     std::vector<glm::dquat> turns(skeleton.size(),
-                                  glm::dquat(1.0, 0.0, 0.0, 0.0));  // from rest, of all above
+                                  glm::dquat(1.0, 0.0, 0.0, 0.0));  // from rest to the T-pose
     for (const std::int32_t each : skeleton.order()) {
         const auto node = static_cast<std::size_t>(each);
         const std::int32_t parent = skeleton[node].parent;

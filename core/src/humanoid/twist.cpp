@@ -16,12 +16,12 @@ using namespace rig::detail;
 namespace {
 
 constexpr glm::dquat no_turn{1.0, 0.0, 0.0, 0.0};
-/// Squared cosines of half a swing of 160 and of 175 degrees.
+/// Squared cosines of half a swing of 160 and of 175 degrees: between them the twist fades out.
 constexpr double told = 0.0302, lost = 0.0019;
-/// Radians; a change below it is the arithmetic's own.
+/// Radians; a smaller change is rounding.
 constexpr double min_twist = 1e-9;
 
-/// The nodes from below `above` down to `node`; empty where that does not hang on it.
+/// The nodes from below `above` down to `node`; empty if `node` is not a descendant of it.
 std::vector<std::size_t> path(const Skeleton& skeleton, std::size_t above, std::size_t node) {
     std::vector<std::size_t> nodes;
     while (node != above) {
@@ -40,7 +40,7 @@ glm::dquat turned_along(const std::vector<std::size_t>& nodes,
     return rig::normalised(turn);
 }
 
-/// The mapped bone that a node hangs on.
+/// The nearest mapped bone above a node.
 std::optional<std::size_t> mapped_above(const Skeleton& skeleton, const BoneMap& map, std::size_t node) {
     for (std::int32_t above = skeleton[node].parent; above >= 0;
          above = skeleton[static_cast<std::size_t>(above)].parent)

@@ -13,8 +13,8 @@ namespace tendril::humanoid::detail {
 
 /// The head, and which way it looks.
 struct Head {
-    std::vector<std::int32_t> path{};   // from what hangs on nothing down to the head
-    glm::dvec3 forward{0.0, 0.0, 1.0};  // as the head itself has it
+    std::vector<std::int32_t> path{};   // from the root down to the head
+    glm::dvec3 forward{0.0, 0.0, 1.0};  // in the head's own space
 
     static Head make(const Skeleton& skeleton, const BoneMap& map, const glm::dvec3& forward) {
         Head head;
@@ -37,10 +37,10 @@ struct Head {
     }
 };
 
-/// What is in view stays so until it is so much outside, radians: nothing flickers at the edge.
+/// Radians. A target in view stays so until it is this far outside, which avoids flicker at the edge.
 inline constexpr double view_margin = 0.05;
 
-/// Moves `view` on towards 1 where the target is in the cone, to 0 where it is not; at once on a first step.
+/// Advances `view` towards 1 if the target is in the cone, otherwise towards 0; at once on the first step.
 inline double step_view(bool& in_view, signal::SpringState<double>& view, double angle, double cone,
                         double half_life, double dt) noexcept {
     in_view = angle <= cone + (in_view ? view_margin : 0.0);

@@ -1,4 +1,4 @@
-// The algebra that solvers use, without its qualification. Not installed.
+// The math functions that solvers use, unqualified. Not installed.
 #pragma once
 
 #include "math/point.hpp"

@@ -8,7 +8,7 @@
 namespace tendril::detail {
 namespace {
 
-/// A message as it grows; what does not fit is left out.
+/// A message under construction; text that does not fit is dropped.
 class Message {
   public:
     Message& add(std::string_view text) noexcept {
@@ -41,7 +41,7 @@ constexpr std::string_view length_range = "finite, at least 0 and at most 1e9";
 
 }  // namespace
 
-// Never "-nan": the sign of a NaN says nothing.
+// Never "-nan": a NaN's sign means nothing.
 Shown::Shown(float value) noexcept : text_(std::isnan(value) ? "nan" : written(buffer_, value)) {}
 Shown::Shown(double value) noexcept : text_(std::isnan(value) ? "nan" : written(buffer_, value)) {}
 Shown::Shown(int value) noexcept : text_(written(buffer_, value)) {}

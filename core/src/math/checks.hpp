@@ -1,10 +1,10 @@
-// What may come into the library, and the words with which it is refused. Not installed.
+// Checks of the library's input, and the wording of their errors. Not installed.
 //
-// Each check answers with a Result, fine or the refusal; a function that has several to make writes
+// Each check returns a Result, success or the error; a function with several checks writes
 //
 //     if (const Result bad = check_point("forward", "target", target); !bad) return bad;
 //
-// Nothing here allocates, and no text is made where nothing is wrong.
+// Nothing here allocates, and no text is built unless a check fails.
 #pragma once
 
 #include <cmath>
@@ -31,7 +31,7 @@ inline bool is_point(const glm::vec3& point) noexcept {
 
 inline constexpr std::size_t no_index = static_cast<std::size_t>(-1);
 
-/// How a message names what was given: `target`, `joints[3]`, `segments[3].position`.
+/// How a message names the argument: `target`, `joints[3]`, `segments[3].position`.
 struct Argument {
     Argument(const char* what) noexcept : name(what) {}
     Argument(std::string_view what, std::size_t at = no_index, std::string_view part = {}) noexcept
@@ -41,8 +41,7 @@ struct Argument {
     std::string_view member{};
 };
 
-/// A value, as a message shows it: numbers by the shortest text that reads back as the same, NaN without
-/// sign.
+/// A value as shown in a message: the shortest text that reads back as the same number, NaN without a sign.
 class Shown {
   public:
     Shown(float value) noexcept;
@@ -51,7 +50,7 @@ class Shown {
     Shown(std::size_t value) noexcept;
     /// `one of length 3`
     Shown(const char* before, double value) noexcept;
-    /// The text itself; must outlive this.
+    /// Refers to the text, which must outlive this.
     Shown(const char* text) noexcept : text_(text) {}
     Shown(std::string_view text) noexcept : text_(text) {}
     Shown(const Shown&) = delete;
@@ -63,11 +62,11 @@ class Shown {
     std::string_view text_;
 };
 
-/// `operation: argument must be requirement, got value`; an empty operation is left out.
+/// Builds `operation: argument must be requirement, got value`; an empty operation is omitted.
 Result refused(std::string_view operation, const Argument& argument, std::string_view requirement,
                const Shown& value) noexcept;
 
-// What is refused is worded out of line, so that a check of what is fine costs its comparisons.
+// Error messages are built out of line, so that a passing check costs only its comparisons.
 Result refused_length(std::string_view operation, const Argument& argument, float value) noexcept;
 Result refused_point(std::string_view operation, const Argument& argument, const glm::vec3& value) noexcept;
 Result refused_index(std::string_view operation, std::size_t index, std::size_t size, std::string_view whole,
@@ -84,12 +83,12 @@ inline Result check_point(std::string_view operation, const Argument& argument,
                           const glm::vec3& value) noexcept {
     return is_point(value) ? Result() : refused_point(operation, argument, value);
 }
-/// index < size; `whole` and `part` are what is counted: `the chain has 8 segments`.
+/// Checks index < size. `whole` and `part` name what is counted: `the chain has 8 segments`.
 inline Result check_index(std::string_view operation, std::size_t index, std::size_t size,
                           std::string_view whole = "the chain", std::string_view part = "segment") noexcept {
     return index < size ? Result() : refused_index(operation, index, size, whole, part);
 }
-/// A list of `wanted` elements.
+/// Checks that a list has `wanted` elements.
 inline Result check_count(std::string_view operation, const Argument& argument, std::size_t count,
                           std::size_t wanted) noexcept {
     return count == wanted ? Result() : refused_count(operation, argument, count, wanted);

@@ -1,15 +1,15 @@
 // Vector units (Highway calls them targets) and the functions that Highway compiled for each of them. Include
-// it before <hwy/foreach_target.h>: it also says for which units nothing is compiled. Not installed.
+// this before <hwy/foreach_target.h>, because it also disables some units. Not installed.
 //
-// A file with such functions defines HWY_TARGET_INCLUDE as its own name and includes <hwy/foreach_target.h>,
-// which compiles it again for each unit, each time with another HWY_NAMESPACE. At its end, under HWY_ONCE,
-// HWY_EXPORT(f) lists what was compiled of f, and TENDRIL_COMPILED_FOR(f, target) is the one for a unit.
+// A file with such functions begins with math/each_target-inl.hpp. At its end, under HWY_ONCE, HWY_EXPORT(f) lists
+// the compiled versions of f, and TENDRIL_COMPILED_FOR(f, target) is the one for a unit.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <string_view>
 
-// Adds nothing for floats and doubles, and some versions do not compile with it as the baseline
+// AVX3_DL adds nothing for floats and doubles, and some versions do not compile with it as the baseline
 // (-march=native).
 #ifdef TENDRIL_FEW_VECTOR_UNITS  // one wide and one narrow, for builds in which each takes minutes
 #define HWY_DISABLED_TARGETS (HWY_AVX3_DL | HWY_AVX3 | HWY_SSE4 | HWY_SSSE3)
@@ -20,7 +20,7 @@
 
 namespace tendril::detail {
 
-/// Calls it with each unit that the machine has and the library was compiled for, the widest first.
+/// Calls `call` with each unit that the machine has and the library was compiled for, widest first.
 template <class Call>
 void for_each_target(Call call) {
     std::int64_t targets = hwy::SupportedTargets() & HWY_TARGETS;
@@ -28,7 +28,16 @@ void for_each_target(Call call) {
     for (; targets != 0; targets &= targets - 1) call(targets & -targets);  // a lower bit is a better target
 }
 
-/// Where Highway's tables of functions have this unit's.
+/// The widest of those units, or the one of that name; 0 for a unit that is not there.
+inline std::int64_t target_named(std::string_view name) {
+    std::int64_t found = 0;
+    for_each_target([&](std::int64_t target) {
+        if (found == 0 && (name.empty() || name == hwy::TargetName(target))) found = target;
+    });
+    return found;
+}
+
+/// Index of this unit in Highway's dispatch tables.
 inline std::size_t table_index(std::int64_t target) {
     hwy::ChosenTarget chosen;
     chosen.Update(target);

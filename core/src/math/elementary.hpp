@@ -1,6 +1,6 @@
-// An exponential, a sine, a cosine and an arctangent in plain arithmetic: the standard library's differ in
-// their last bits from one system to the next, and on some from processor to processor. To 1e-15 of the
-// result. Not installed.
+// Exponential, sine, cosine and arctangent in plain arithmetic, because the standard library's differ in
+// their last bits between systems, and sometimes between processors. Accurate to 1e-15 of the result. Not
+// installed.
 #pragma once
 
 #include <bit>
@@ -13,15 +13,15 @@ inline constexpr double pi = 3.14159265358979323846;
 inline constexpr double ln2 = 0.693147180559945309417;
 
 namespace detail {
-/// Added and subtracted again, it rounds a double under 2^51 to a whole number.
+/// Adding and subtracting this rounds a double under 2^51 to a whole number.
 inline constexpr double rounder = 6755399441055744.0;  // 1.5 * 2^52
 }  // namespace detail
 
-/// e^-x for x >= 0; 0 from 708 on, and for what is not a number.
+/// e^-x for x >= 0; 0 from 708 on, and for NaN.
 static inline double decay(double x) noexcept {
     if (!(x < 708.0)) return 0.0;
-    // e^-x = 2^-k e^-r with |r| <= ln 2 / 2, the latter by its power series. ln 2 is taken off in two parts,
-    // the first of so few bits that its products with k are exact.
+    // e^-x = 2^-k e^-r with |r| <= ln 2 / 2; e^-r by its power series. ln 2 is subtracted in two parts, the
+    // first with so few bits that its products with k are exact.
     constexpr double ln2_high = 0x1.62e42fee00000p-1, ln2_low = 0x1.a39ef35793c76p-33;
     const double k = (x * (1.0 / ln2) + detail::rounder) - detail::rounder;
     const double r = (x - k * ln2_high) - k * ln2_low;
@@ -33,7 +33,8 @@ static inline double decay(double x) noexcept {
 struct SineCosine {
     double sine, cosine;
 };
-/// Of an angle in full turns; whole turns are taken off exactly. Beyond 1e14 turns that of none.
+/// Of an angle in full turns; whole turns are removed exactly. From 1e14 turns on (and for NaN) the angle
+/// counts as 0.
 static inline SineCosine sine_cosine(double turns) noexcept {
     if (!(std::abs(turns) < 1e14)) return {0.0, 1.0};
     const double quarters = (4.0 * turns + detail::rounder) - detail::rounder;
@@ -56,12 +57,12 @@ static inline SineCosine sine_cosine(double turns) noexcept {
     }
 }
 
-/// The angle of the point (x, y) from the x axis, radians, -pi to pi; 0 of the origin.
+/// The angle of the point (x, y) from the x axis, radians, -pi to pi; 0 for the origin.
 static inline double arctangent(double y, double x) noexcept {
     const double across = std::abs(y), along = std::abs(x);
     const bool steep = across > along;
     if (across == 0.0 && along == 0.0) return 0.0;
-    // Three times half the angle, then the power series of what is under tan(pi / 32).
+    // Halves the angle three times, then uses the power series for arguments up to tan(pi / 32).
     double t = steep ? along / across : across / along;
     for (int i = 0; i < 3; ++i) t = t / (1.0 + std::sqrt(1.0 + t * t));
     constexpr double coefficients[]{1.0 / 17, 1.0 / 15, 1.0 / 13, 1.0 / 11, 1.0 / 9,

@@ -36,7 +36,7 @@ bool ForkJoin::work(bool from_first) noexcept {
 }
 
 void ForkJoin::run(TaskFunction part, void* context, std::uint32_t count) noexcept {
-    // All parts of the loop before are done, so nobody looks at these.
+    // All parts of the previous loop are done, so no thread reads these.
     part_ = part;
     context_ = context;
     done_.store(0, std::memory_order_relaxed);

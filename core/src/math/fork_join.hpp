@@ -1,14 +1,14 @@
-// Loops that a thread shares with others while they have nothing else to do. Not installed.
+// Loops that one thread shares with others while these are idle. Not installed.
 //
 //     ForkJoin loops;
-//     loops.begin();                                     // one thread, which the work belongs to
-//     loops.run(parts, [&](std::uint32_t part) { ... }); // again and again; returns when all parts are done
+//     loops.begin();                                     // one thread, the owner of the work
+//     loops.run(parts, [&](std::uint32_t part) { ... }); // repeatedly; returns when all parts are done
 //     loops.end();
 //
-//     while (...) loops.help();                          // any others, at any time, meanwhile or never
+//     while (...) loops.help();                          // any other threads, at any time or never
 //
-// A loop waits only for parts that somebody has begun, so it ends whether or not anybody helps, and however
-// threads are scheduled. Handing out a part costs an atomic operation and no system call.
+// A loop waits only for parts that have been started, so it ends whether or not other threads help, and
+// however they are scheduled. Handing out a part costs one atomic operation and no system call.
 #pragma once
 
 #include <atomic>
@@ -21,23 +21,23 @@ namespace tendril::detail {
 class ForkJoin {
   public:
     ForkJoin() = default;
-    /// Nobody may be at work in one that is moved: nothing is in it then.
+    /// Moving yields a new object: no thread may be working in the source.
     ForkJoin(ForkJoin&&) noexcept : ForkJoin() {}
 
     void begin() noexcept { shared_ = true; }
     void end() noexcept { shared_ = false; }
-    /// Whether there may be help. Where there is none, a loop is best run without parts.
+    /// Whether other threads may help. If not, run the loop without parts.
     bool shared() const noexcept { return shared_; }
 
-    /// Calls `part(i)` for each i below `count`, at most max_parts, in any order, on this thread and on those
-    /// that help. This thread begins with the first and others with the last, so that in loop after loop
-    /// each finds in its cache most of what it needs.
+    /// Calls `part(i)` for each i below `count`, at most max_parts, in any order, on this thread and on
+    /// helping ones. This thread starts with the first part and helpers with the last, so that in loop after
+    /// loop each finds most of its data in its cache.
     template <class Part>
     void run(std::uint32_t count, const Part& part) noexcept {
         run([](void* context, std::uint32_t index) noexcept { (*static_cast<const Part*>(context))(index); },
             const_cast<Part*>(&part), count);
     }
-    /// Takes parts of the loop that is running, if there is one, until none are left; whether there were any.
+    /// Works on the running loop, if any, until no parts are left. Returns whether it did any.
     bool help() noexcept { return work(false); }
 
     static constexpr std::uint32_t max_parts = 0xffff;
@@ -46,17 +46,17 @@ class ForkJoin {
     bool work(bool from_first) noexcept;
     void run(TaskFunction part, void* context, std::uint32_t count) noexcept;
 
-    bool shared_ = false;  ///< of the thread that runs loops alone
+    bool shared_ = false;  ///< only the owner uses it
     TaskFunction part_ = nullptr;
     void* context_ = nullptr;
-    /// Which loop it is, in the upper half, and from where to where its parts are not begun yet, 16 bits
-    /// each. Who takes one off at an end has that part, and may read what the loop is.
+    /// Upper half: the loop's number. Lower half: first and end index of the parts not started yet, 16 bits
+    /// each. The thread that takes a part off either end owns it, and may then read the loop's function and
+    /// context.
     alignas(64) std::atomic<std::uint64_t> open_{0};
     alignas(64) std::atomic<std::uint32_t> done_{0};
 };
 
-/// For what looks again and again whether something has changed: `looked` is how often it has. After some
-/// time others get the processor.
+/// For polling loops: `looked` is the number of polls so far. After a while it yields the processor.
 void pause(std::uint32_t looked) noexcept;
 
 }  // namespace tendril::detail

@@ -1,13 +1,12 @@
-// Points of floats, and the one step that chains and solvers are made of. Not installed.
+// Points of floats, and the one step that chains and solvers share. Not installed.
 //
-// Why no GLM functions: they are inline, so a program that was compiled with other floating-point options
-// could lend the library its copies of them when it is linked. Plain arithmetic in this order gives the same
-// bits everywhere.
+// Why no GLM functions: they are inline, so a program compiled with other floating-point options could
+// replace the library's copies with its own at link time. Plain arithmetic in this order gives the same bits
+// everywhere.
 //
-// Why no check for overflow: what comes in is at most 1e9, and a float that grows by steps of at most 1e9
-// stops growing at 2^54, where the spacing of floats is 2^31 and half of it exceeds the step. So no
-// coordinate ever passes 2^54, no difference 2^55, and the sum of three squares stays under 1e34; a float
-// holds 3e38.
+// Why no overflow checks: input is at most 1e9, and a float that grows in steps of at most 1e9 stops growing
+// at 2^54, where the spacing of floats is 2^31 and half of it exceeds the step. So no coordinate exceeds
+// 2^54, no difference 2^55, and the sum of three squares stays under 1e34; a float holds 3e38.
 #pragma once
 
 #include <cfloat>
@@ -16,7 +15,7 @@
 
 namespace tendril::math {
 
-/// Points nearer to each other than the root of this (0.35 mm) coincide: there is no direction between them.
+/// Points closer than the root of this (0.35 mm) coincide: there is no direction between them.
 inline constexpr float coincidence = FLT_EPSILON;
 
 static inline float squared_distance(const glm::vec3& a, const glm::vec3& b) noexcept {
@@ -37,7 +36,7 @@ static inline glm::vec3 moved(const glm::vec3& origin, const glm::vec3& directio
     return {origin.x + direction.x * by, origin.y + direction.y * by, origin.z + direction.z * by};
 }
 
-/// Unit vector from `a` to `b`, or `fallback` where they coincide.
+/// Unit vector from `a` to `b`, or `fallback` if they coincide.
 static inline glm::vec3 direction(const glm::vec3& a, const glm::vec3& b,
                                   const glm::vec3& fallback) noexcept {
     const float squared = squared_distance(a, b);
@@ -46,8 +45,8 @@ static inline glm::vec3 direction(const glm::vec3& a, const glm::vec3& b,
     return {(b.x - a.x) * inverse, (b.y - a.y) * inverse, (b.z - a.z) * inverse};
 }
 
-/// Where `old` ends up when it must be `length` from `anchor`: on the line from `anchor` through it, or along
-/// `fallback` where the two coincide.
+/// Moves `old` to distance `length` from `anchor`, on the line from `anchor` through it, or along `fallback`
+/// if the two coincide.
 static inline glm::vec3 step(const glm::vec3& anchor, const glm::vec3& old, float length,
                              const glm::vec3& fallback) noexcept {
     const float x = old.x - anchor.x, y = old.y - anchor.y, z = old.z - anchor.z;

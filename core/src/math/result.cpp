@@ -8,7 +8,7 @@
 namespace tendril {
 namespace {
 
-/// The first byte of a UTF-8 character, not one of those that follow.
+/// True for the first byte of a UTF-8 character, false for a continuation byte.
 bool begins_character(char byte) noexcept {
     return (static_cast<unsigned char>(byte) & 0xc0u) != 0x80u;
 }

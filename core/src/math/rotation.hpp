@@ -1,4 +1,4 @@
-// Unit quaternions in plain arithmetic, for the reason that point.hpp gives; of floats or doubles, as
+// Unit quaternions in plain arithmetic, for the reason given in point.hpp; of floats or doubles, like
 // vector.hpp. Not installed.
 #pragma once
 
@@ -22,7 +22,7 @@ template <class T>
 static inline Quat<T> conjugate(const Quat<T>& q) noexcept {
     return {q.w, -q.x, -q.y, -q.z};
 }
-/// First `b`, then `a`.
+/// Applies `b` first, then `a`.
 template <class T>
 static inline Quat<T> compose(const Quat<T>& a, const Quat<T>& b) noexcept {
     return {a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z, a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
@@ -39,24 +39,25 @@ static inline glm::quat rotation_about(const glm::vec3& axis, float angle) noexc
     const float s = std::sin(0.5f * angle);
     return {std::cos(0.5f * angle), axis.x * s, axis.y * s, axis.z * s};
 }
-/// Part of the shortest way from one rotation to another (K. Shoemake, "Animating rotation with quaternion
-/// curves", SIGGRAPH 1985); `from` where `part` is 0, `to` or its negative, which is the same, where it is 1.
+/// Interpolates along the shortest rotation (K. Shoemake, "Animating rotation with quaternion curves",
+/// SIGGRAPH 1985); `from` if `part` is 0, `to` or its negative (the same rotation) if it is 1.
 static inline glm::quat slerp(const glm::quat& from, const glm::quat& to, float part) noexcept {
     const float cosine = from.w * to.w + from.x * to.x + from.y * to.y + from.z * to.z;
     const float sign = cosine < 0.0f ? -1.0f : 1.0f, size = std::abs(cosine);
     float a = 1.0f - part, b = part;
     if (size < 0.9995f) {
         const float angle = std::acos(size);
-        a = std::sin(a * angle), b = std::sin(b * angle);  // by the sine of the whole: unit_quaternion's part
+        a = std::sin(a * angle), b = std::sin(b * angle);  // not divided by sin(angle): unit_quaternion
+                                                           // normalises
     }
     b *= sign;
     return unit_quaternion(a * from.w + b * to.w, a * from.x + b * to.x, a * from.y + b * to.y,
                            a * from.z + b * to.z);
 }
-/// One plus the cosine of the angle between two unit vectors that are as good as opposite.
+/// Threshold for 1 + cosine of the angle between two unit vectors, under which they count as opposite.
 template <class T>
 inline constexpr T nearly_opposite = std::is_same_v<T, float> ? T(1e-6) : T(1e-14);
-/// The minimal rotation that takes one unit vector to another; half a turn about `perpendicular(from)` where
+/// The minimal rotation that takes one unit vector to another; half a turn about `perpendicular(from)` if
 /// they are opposite.
 template <class T>
 static inline Quat<T> minimal_rotation(const Vec<T>& from, const Vec<T>& to) noexcept {

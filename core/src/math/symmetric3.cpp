@@ -7,11 +7,12 @@ namespace {
 
 using Matrix = std::array<std::array<double, 3>, 3>;
 
-/// Turns in the plane of axes p and q so that m[p][q] becomes zero; `vectors` holds one eigenvector a row.
+/// Rotates in the plane of axes p and q so that m[p][q] becomes zero; `vectors` holds one eigenvector per
+/// row.
 void rotate(Matrix& m, std::array<glm::dvec3, 3>& vectors, std::size_t p, std::size_t q) noexcept {
     const double off = m[p][q];
     if (off == 0.0) return;
-    // The smaller of the two angles that do it: t = tan, from t^2 + 2 t cot(2 angle) - 1 = 0.
+    // The smaller of the two solutions: t = tan, from t^2 + 2 t cot(2 angle) - 1 = 0.
     const double half_cot = (m[q][q] - m[p][p]) / (2.0 * off);
     const double t =
         (half_cot >= 0.0 ? 1.0 : -1.0) / (std::abs(half_cot) + std::sqrt(half_cot * half_cot + 1.0));

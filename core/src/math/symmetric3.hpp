@@ -1,6 +1,6 @@
-// Symmetric 3x3 matrices. J J' of any number of ball joints has three rows, so the Jacobian solvers need none
-// that is bigger: no library for matrices is linked, and the bits are the same under every compiler. Doubles,
-// for J J' squares what it is made of. Not installed.
+// Symmetric 3x3 matrices. J J' of any number of ball joints has three rows, so the Jacobian solvers need
+// nothing bigger: no matrix library is linked, and the bits are the same under every compiler. Doubles,
+// because J J' squares the condition number of J. Not installed.
 #pragma once
 
 #include <array>
@@ -30,17 +30,17 @@ static inline void add_square(Symmetric3& m, const glm::dvec3& v, double by) noe
     m.xx += x * v.x, m.yy += y * v.y, m.zz += z * v.z;
     m.xy += x * v.y, m.xz += x * v.z, m.yz += y * v.z;
 }
-/// m += |v|^2 I - v v': what turning about all three axes adds to J J', `v` from the joint to the tip.
+/// m += |v|^2 I - v v': adds a ball joint's contribution to J J', `v` from the joint to the tip.
 static inline void add_ball_joint(Symmetric3& m, const glm::dvec3& v) noexcept {
     const double x = v.x * v.x, y = v.y * v.y, z = v.z * v.z;
     m.xx += y + z, m.yy += x + z, m.zz += x + y;
     m.xy -= v.x * v.y, m.xz -= v.x * v.z, m.yz -= v.y * v.z;
 }
 
-/// Solves (m + diagonal I) x = v for a positive definite m: Cholesky's decomposition in the form L D L',
-/// which needs neither roots nor pivots (Golub, Van Loan, "Matrix Computations", 4th ed. 2013, 4.1 and 4.2).
-/// The inverse by cofactors would lose what counts along a straight tree's branch, where the stiffness across
-/// the bones is a millionth of that along them.
+/// Solves (m + diagonal I) x = v for a positive definite m: Cholesky decomposition in the form L D L', which
+/// needs neither roots nor pivots (Golub, Van Loan, "Matrix Computations", 4th ed. 2013, 4.1 and 4.2).
+/// Inversion by cofactors would lose precision along a tree's straight branch, where the stiffness across the
+/// bones is a millionth of that along them.
 class Factors3 {
   public:
     explicit Factors3(const Symmetric3& m, double diagonal = 0.0) noexcept {
@@ -64,17 +64,18 @@ class Factors3 {
 };
 
 struct Eigen3 {
-    std::array<double, 3> values;       ///< in no order
-    std::array<glm::dvec3, 3> vectors;  ///< of length 1, at right angles to each other
+    std::array<double, 3> values;       ///< unsorted
+    std::array<glm::dvec3, 3> vectors;  ///< orthonormal
 };
 
 /// Jacobi's method (Golub, Van Loan, 8.5), which finds small eigenvalues of a positive semidefinite matrix as
-/// well as large ones. Its convergence is quadratic: a handful of sweeps, and eight at most.
+/// accurately as large ones. It converges quadratically, usually in a handful of sweeps; eight is the
+/// maximum.
 Eigen3 eigen(const Symmetric3& m) noexcept;
 
-/// m^-1 v, but damped along eigenvectors whose singular value is under `small`: by (1 - (s / small)^2) times
-/// `damping`, and by `floor` at least, so that what m has not got comes out as nothing rather than vast (the
-/// law of S. Chiaverini, B. Siciliano, O. Egeland 1994, see ik/methods/jacobian.cpp).
+/// m^-1 v, damped along eigenvectors whose singular value s is under `small`: by (1 - (s / small)^2) times
+/// `damping`, and by at least `floor`, so that null directions give zero instead of huge values (after S.
+/// Chiaverini, B. Siciliano, O. Egeland 1994, see ik/methods/jacobian.cpp).
 glm::dvec3 filtered_solution(const Symmetric3& m, const glm::dvec3& v, double damping, double small,
                              double floor) noexcept;
 

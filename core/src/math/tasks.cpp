@@ -9,7 +9,7 @@
 namespace tendril::detail {
 namespace {
 
-/// What the threads of one call share: each takes the next piece until there are none left.
+/// State shared by the threads of one call: each takes the next piece until none are left.
 struct Shared {
     TaskFunction task;
     void* context;
@@ -26,8 +26,8 @@ void* work(void* shared) noexcept {
     return nullptr;
 }
 
-/// With POSIX threads, because std::thread throws where it cannot start one and this library is compiled
-/// without exceptions.
+/// Uses POSIX threads: std::thread throws if it cannot start a thread, and this library is compiled without
+/// exceptions.
 void run_on_threads(Shared& shared, std::uint32_t threads) noexcept {
     std::array<pthread_t, max_threads> started;
     std::size_t count = 0;

@@ -1,5 +1,5 @@
-// Vectors in plain arithmetic, for the reason that point.hpp gives; of floats, and of doubles for the few
-// sums and closed forms in which floats would lose what counts. Not installed.
+// Vectors in plain arithmetic, for the reason given in point.hpp; of floats, and of doubles for the few sums
+// and closed forms in which floats would lose too much precision. Not installed.
 #pragma once
 
 #include <algorithm>
@@ -41,22 +41,22 @@ template <class T>
 static inline T largest_coordinate(const Vec<T>& a) noexcept {
     return std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)});
 }
-/// What of `a` is at right angles to the unit vector `axis`.
+/// The component of `a` perpendicular to the unit vector `axis`.
 template <class T>
 static inline Vec<T> across(const Vec<T>& a, const Vec<T>& axis) noexcept {
     return minus(a, times(axis, dot(a, axis)));
 }
-/// A unit vector along `a`; none where `a` is not longer than `minimum`.
+/// Unit vector along `a`; none if `a` is not longer than `minimum`.
 template <class T>
 static inline std::optional<Vec<T>> direction_of(const Vec<T>& a, std::type_identity_t<T> minimum) noexcept {
     const T size = length(a);
     if (!(size > minimum)) return std::nullopt;
     return times(a, T(1) / size);
 }
-/// Some unit vector at right angles to `a`, which must not be zero; the same for the same `a`.
+/// A unit vector perpendicular to `a`, which must not be zero; deterministic.
 template <class T>
 static inline Vec<T> perpendicular(const Vec<T>& a) noexcept {
-    // Away from the axis that `a` has the smallest part of, so that the product is never small.
+    // Starts from the axis along which `a` is smallest, so that the result is never small.
     const T x = std::abs(a.x), y = std::abs(a.y), z = std::abs(a.z);
     const Vec<T> away = y <= x && y <= z ? Vec<T>(0, 1, 0) : z <= x ? Vec<T>(0, 0, 1) : Vec<T>(1, 0, 0);
     const Vec<T> side = minus(away, times(a, dot(away, a) / dot(a, a)));
@@ -69,11 +69,11 @@ static inline glm::dvec3 wide(const glm::vec3& a) noexcept {
 static inline glm::vec3 narrow(const glm::dvec3& a) noexcept {
     return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)};
 }
-/// From `a` to `b`, exactly.
+/// From `a` to `b`, in double.
 static inline glm::dvec3 between(const glm::vec3& a, const glm::vec3& b) noexcept {
     return minus(wide(b), wide(a));
 }
-/// The point `by` metres from `from` along a unit vector: worked out in double and rounded once.
+/// The point `by` metres from `from` along a unit vector: computed in double and rounded once.
 static inline glm::vec3 moved(const glm::vec3& from, const glm::dvec3& direction, double by) noexcept {
     return narrow(plus(wide(from), times(direction, by)));
 }

@@ -24,8 +24,8 @@ Target target_of(const AimPart& part, const Transform& item, double whole) noexc
     return {direction_of(way, shortest), weight(part.weight) * whole};
 }
 
-/// `from` blended towards `to` along the chord. Half way to the opposite the chord passes through zero: there
-/// the direction is a quarter turn, about the axis that the half turn is about.
+/// `from` blended towards `to` along the chord. Half way to the opposite direction the chord passes through
+/// zero: the result is then a quarter turn, about the axis of the half turn.
 glm::dvec3 toward(const glm::dvec3& from, const glm::dvec3& to, double part,
                   const glm::dvec3& side) noexcept {
     if (part == 1.0) return to;
@@ -41,14 +41,14 @@ AimWarning turn_primary(glm::dquat& rotation, const glm::dvec3& axis, const Targ
     return AimWarning::None;
 }
 
-/// The rotation about `about` that takes one unit vector at right angles to it to another.
+/// The rotation about `about` from one unit vector to another, both perpendicular to it.
 glm::dquat roll_between(const glm::dvec3& from, const glm::dvec3& to, const glm::dvec3& about) noexcept {
     const double w = 1.0 + dot(from, to), sine = dot(cross(from, to), about);
     if (w < math::nearly_opposite<double>) return {0.0, about.x, about.y, about.z};
     return unit_quaternion(w, about.x * sine, about.y * sine, about.z * sine);
 }
 
-/// Rolls about `about`, the primary axis as it points by now.
+/// Rolls about `about`, the primary axis after the primary part.
 AimWarning roll_secondary(glm::dquat& rotation, const glm::dvec3& axis, const Target& target,
                           const glm::dvec3& about) noexcept {
     const Direction along = direction_of(rotated(rotation, axis), shortest);
@@ -64,7 +64,7 @@ AimWarning roll_secondary(glm::dquat& rotation, const glm::dvec3& axis, const Ta
     return AimWarning::None;
 }
 
-/// Nothing turns where `radians` is negative or NaN.
+/// Does not turn if `radians` is negative or NaN.
 glm::dquat limited(const glm::dquat& from, const glm::dquat& to, double radians) noexcept {
     const double angle = 2.0 * half_angle_between(from, to);
     return angle <= radians ? to : blend(from, to, radians / angle);

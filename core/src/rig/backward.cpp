@@ -12,8 +12,8 @@
 namespace tendril::rig {
 namespace {
 
-constexpr int parts = 9;  ///< numbers that are left of a bone: translation, rotation, scale
-// Of the work that is counted: a step is some 30 ns.
+constexpr int parts = 9;  ///< residuals per bone: three each of translation, rotation, scale
+// In steps of about 30 ns, as in Rig::work.
 constexpr std::uint64_t work_a_solved_bone = 4, multiplications_a_step = 48;
 
 /// The rotation vector from one rotation to another, the short way round.
@@ -26,7 +26,7 @@ glm::dvec3 turn_between(const glm::dquat& from, const glm::dquat& to) noexcept {
     return detail::times(axis, 2.0 * detail::arctangent(sine, turn.w) / sine);
 }
 
-/// The mean distance of bones from their parents, for rotations and scales to count beside metres.
+/// The mean distance of bones from their parents: the scale that weighs rotations and scales against metres.
 double mean_length(const Rig& rig, State& state) {
     double sum = 0.0;
     int count = 0;
@@ -40,7 +40,7 @@ double mean_length(const Rig& rig, State& state) {
     return count > 0 && sum > 1e-9 ? sum / count : 1.0;
 }
 
-/// Springs that have come to rest are springs that have just begun.
+/// Clears all memory. A cleared spring starts at its target, as one that has come to rest.
 void forget(State& state) {
     for (UnitState& unit : state.units)
         for (UnitMemory& memory : unit.memory) memory.held = std::monostate();
@@ -59,8 +59,8 @@ class Descent {
         solve_work_ = rig.work() + work_a_solved_bone * bones_.size();
     }
 
-    /// From the control values of the state to the nearest minimum, as far as the work goes; they are left
-    /// there. The sum of squares.
+    /// Descends from the state's control values to the nearest minimum, or until the work is used up. Writes
+    /// the final values to the state and returns the sum of squares.
     double run() {
         Parameters now(rig_.definition(), state_.controls);
         std::vector<double> left = left_of(now);
@@ -95,14 +95,15 @@ class Descent {
         return sum;
     }
 
-    /// Counts so much more; false where that would be too much.
+    /// Counts `more` work; false if that would exceed the limit.
     bool spend(std::uint64_t more) {
         if (options_.max_work > 0 && work_ + more > options_.max_work) out_of_work_ = true;
         if (!out_of_work_) work_ += more;
         return !out_of_work_;
     }
 
-    /// More damping makes a shorter step, nearer to steepest descent, until one gains.
+    /// Increases the damping, which shortens the step and turns it towards steepest descent, until a step
+    /// gains.
     void descend(Parameters& now, std::vector<double>& left, double& cost) {
         for (; damping_ < 1e12; damping_ *= 8.0) {
             if (!spend(equations_.solving() / multiplications_a_step + solve_work_)) return;
@@ -119,7 +120,7 @@ class Descent {
         }
     }
 
-    /// What is left of every bone with these control values, as one list.
+    /// The residuals of all bones with these control values.
     std::vector<double> left_of(const Parameters& parameters) {
         parameters.write(state_.controls);
         forget(state_);
@@ -138,7 +139,7 @@ class Descent {
         return left;
     }
 
-    /// The derivatives, from differences. False where that would be too much work.
+    /// Derivatives by finite differences. False if that would exceed the work limit.
     bool linearize(const Parameters& now, const std::vector<double>& left) {
         if (!spend(now.size() * solve_work_)) return false;
         columns_.resize(now.size());
@@ -156,8 +157,8 @@ class Descent {
         return true;
     }
 
-    /// The damped step from there, within the limits. A number at an end of its range that the descent pushes
-    /// against stays there.
+    /// The damped step from `now`, within the limits. A parameter at a bound that the descent pushes against
+    /// stays fixed.
     std::optional<Parameters> stepped(const Parameters& now) {
         const std::vector<double>& gradient = equations_.gradient();
         still_.resize(now.size());
@@ -182,7 +183,7 @@ class Descent {
     std::vector<bool> still_;
     std::vector<double> step_;
     double damping_ = 1e-3;
-    std::uint64_t solve_work_, work_ = 0;  ///< steps of some 30 ns
+    std::uint64_t solve_work_, work_ = 0;  ///< in steps of about 30 ns
     int iterations_ = 0, solves_ = 0;
     bool stopped_ = false, out_of_work_ = false;
 };

@@ -1,4 +1,4 @@
-// What may come into a rig from outside, and the words with which it is refused. Not installed.
+// Checks of what comes into a rig from outside. Not installed.
 #pragma once
 
 #include <cmath>
@@ -24,7 +24,7 @@ inline Result check_number(std::string_view operation, const Argument& argument,
     if (std::abs(value) <= static_cast<double>(max_magnitude)) return {};
     return refused(operation, argument, "finite and at most 1e9 in magnitude", value);
 }
-/// `argument` has no member: x, y and z are.
+/// `argument` must not name a member: x, y or z is added as the member.
 inline Result check_vector(std::string_view operation, std::string_view argument,
                            const glm::dvec3& value) noexcept {
     constexpr std::string_view names[]{"x", "y", "z"};

@@ -11,7 +11,7 @@ namespace {
 
 using namespace detail;
 
-/// A difference or sum of two angles in (-pi, pi] brought back into that range.
+/// Wraps a sum or difference of two angles in (-pi, pi] into that range.
 double wrapped(double angle) noexcept {
     return angle > pi ? angle - 2.0 * pi : angle <= -pi ? angle + 2.0 * pi : angle;
 }
@@ -20,9 +20,9 @@ double wrapped(double angle) noexcept {
 struct Turn {
     double cosine, sine;
 };
-constexpr double pole = 1e-9;  ///< below, one of the two angles that to_euler finds means nothing
+constexpr double pole = 1e-9;  ///< below it, one of the two angles in to_euler() is undefined
 
-/// Of half the angle, which is in (-pi, pi].
+/// Cosine and sine of half the angle, which is in (-pi, pi].
 Turn half(double cosine, double sine) noexcept {
     const double larger = std::sqrt(0.5 * (1.0 + std::abs(cosine)));
     const double smaller = 0.5 * std::abs(sine) / larger;
@@ -30,7 +30,7 @@ Turn half(double cosine, double sine) noexcept {
     return {turn.cosine, sine < 0.0 ? -turn.sine : turn.sine};
 }
 
-/// Of half of each Euler angle: to_euler without its arctangents.
+/// Cosine and sine of half of each Euler angle: to_euler() without its arctangents.
 std::array<Turn, 3> half_angles(const glm::dquat& q) noexcept {
     Turn difference{q.w + q.y, q.z - q.x}, sum{q.w - q.y, q.z + q.x};
     const auto make_unit = [](Turn& turn) {

@@ -132,7 +132,7 @@ Result Hierarchy::remove(ElementId element) noexcept {
     const Index top = element.index;
     for (Values& pose : values_) forget_pending(pose, top);
     unlink(top);
-    // From the bottom up: always the first leaf that is left.
+    // From the bottom up: always the first remaining leaf.
     for (Index at = top;;) {
         while (nodes_[at].first_child != none) at = nodes_[at].first_child;
         const Index parent = nodes_[at].parent, next = nodes_[at].next;
@@ -164,7 +164,7 @@ void Hierarchy::clear() noexcept {
     while (roots_.first_child != none) static_cast<void>(remove(handle(roots_.first_child)));
 }
 
-// The tree as it is.
+// Queries.
 
 ElementKind Hierarchy::kind(ElementId element) const noexcept {
     return nodes_[required("kind", element)].kind;

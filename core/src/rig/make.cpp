@@ -15,8 +15,8 @@ using detail::Plan;
 using detail::quoted;
 using detail::UnitPlan;
 
-/// Steps of some 30 ns. A bone of a chain takes ten where the chain follows, twice that where it has to be
-/// bent anew.
+/// In steps of about 30 ns. A bone of a chain takes ten if the chain follows, twice that if it has to be bent
+/// anew.
 constexpr std::uint64_t work_a_unit = 10, work_a_bone = 20;
 
 Result invalid(const std::string& message) {
@@ -74,7 +74,7 @@ class Builder {
         return {};
     }
 
-    /// Parents before their children, whatever their order in the definition.
+    /// Adds parents before their children, whatever their order in the definition.
     Result add_elements() {
         const std::size_t count = plan_.definition.elements.size();
         plan_.work = count;
@@ -98,7 +98,7 @@ class Builder {
 
     Result refused_cycle(const std::vector<std::size_t>& line) const {
         const auto name = [&](std::size_t at) { return quoted(plan_.definition.elements[line[at]].name); };
-        // The last element stands in the cycle; the one before it is its child.
+        // The last element is part of the cycle; the one before it is its child.
         const std::size_t last = line.size() - 1;
         return invalid("element " + name(last) + ": its parent " +
                        quoted(plan_.definition.elements[line[last]].parent) + " is itself below it");
@@ -146,7 +146,7 @@ class Builder {
         return {};
     }
 
-    /// `times`: how many elements it is run on. `around`: the for-each that has it, if one does.
+    /// `times`: how many elements it runs on. `around`: the index of the for-each that contains it, if any.
     Result add_unit(const Unit& unit, std::size_t& at, std::size_t times,
                     std::optional<std::size_t> around = {}) {
         const std::size_t index = at++;
@@ -210,7 +210,7 @@ class Builder {
     }
 
     Plan plan_;
-    std::vector<std::uint32_t> element_at_;  ///< by the index of its handle
+    std::vector<std::uint32_t> element_at_;  ///< element index by handle index
 };
 
 }  // namespace

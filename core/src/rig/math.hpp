@@ -1,4 +1,4 @@
-// The algebra that the rig uses, without its qualification. Not installed.
+// Brings the math functions that the rig uses into its namespace. Not installed.
 #pragma once
 
 #include <algorithm>
@@ -44,11 +44,11 @@ inline double half_angle_between(const glm::dquat& a, const glm::dquat& b) noexc
     const glm::dquat turn = math::compose(b, conjugate(a));
     return arctangent(length(glm::dvec3{turn.x, turn.y, turn.z}), std::abs(turn.w));
 }
-/// As math::slerp.
+/// Like math::slerp.
 inline glm::dquat slerp(const glm::dquat& from, const glm::dquat& to, double part) noexcept {
     const double half = half_angle_between(from, to);
     double a = 1.0 - part, b = part;
-    if (half > 1e-9) {  // below, sines are their angles
+    if (half > 1e-9) {  // below, sines equal their angles
         a = math::sine_cosine(a * half / (2.0 * pi)).sine;
         b = math::sine_cosine(b * half / (2.0 * pi)).sine;
     }
@@ -56,7 +56,7 @@ inline glm::dquat slerp(const glm::dquat& from, const glm::dquat& to, double par
     return unit_quaternion(a * from.w + b * to.w, a * from.x + b * to.x, a * from.y + b * to.y,
                            a * from.z + b * to.z);
 }
-/// A weight that came out of a curve or another unit may be anything; NaN leaves things as they are.
+/// Clamps a weight from a curve or another unit to 0 to 1; NaN becomes 0.
 inline double weight(double value) noexcept {
     return value > 0.0 ? std::min(value, 1.0) : 0.0;
 }

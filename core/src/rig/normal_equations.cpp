@@ -7,7 +7,7 @@ namespace tendril::rig {
 namespace {
 
 constexpr std::size_t at_once = 4;
-/// Multiplications that take as long as to write, or to copy, an entry of a matrix.
+/// The cost of writing or copying a matrix entry, in multiplications.
 constexpr std::uint64_t per_entry = 4;
 
 }  // namespace
@@ -17,7 +17,7 @@ void NormalEquations::plan(const std::vector<std::vector<double>>& columns) {
     first_.assign(count_, 0);
     assembling_ = solving_ = per_entry * count_ * count_;
     if (count_ == 0) return;
-    // An entry of the matrix is not 0 where two columns have a row in common.
+    // A matrix entry is nonzero only if its two columns have a nonzero row in common.
     std::vector<std::size_t> leads(columns.front().size(), count_);
     for (std::size_t i = 0; i < count_; ++i) {
         std::size_t first = i, rows = 0;
@@ -71,7 +71,7 @@ bool NormalEquations::solve(double damping, const std::vector<bool>& still, std:
     if (!(largest > 0.0)) return false;
     matrix_ = normal_;
     step = gradient_;
-    // The same for all: scaled to its own column, what hardly matters would be moved the furthest.
+    // The same damping for all: scaled per column, the least influential parameters would move furthest.
     for (std::size_t i = 0; i < count_; ++i) matrix_[i * count_ + i] += damping * largest;
     for (std::size_t i = 0; i < count_; ++i) {
         if (!still[i]) continue;
@@ -93,7 +93,7 @@ bool NormalEquations::solve(double damping, const std::vector<bool>& still, std:
     return true;
 }
 
-/// By Cholesky, row by row, in place.
+/// Cholesky factorisation in place, row by row.
 bool NormalEquations::factor() {
     for (std::size_t i = 0; i < count_; ++i) {
         double* const row = &matrix_[i * count_];

@@ -1,8 +1,8 @@
-// The damped step of a least squares descent, from the derivatives of what is left. Not installed.
+// The damped step of a least squares descent, from the derivatives of the residuals. Not installed.
 //
-// What most numbers of a large rig leave as it is, is a zero in the matrices, and zeros are passed over: of
-// controls that move bones of their own the cost grows with their number, not with its cube. Sums are taken
-// four at a time, since each of them has to wait for itself; every one has its terms in their order.
+// In a large rig most parameters leave most bones unmoved. These zeros are skipped: if each control moves its
+// own bones, the cost grows with the square of the number of controls, not with its cube. Four sums are
+// accumulated at a time to hide the latency of the additions; the order of terms within a sum is unchanged.
 #pragma once
 
 #include <cstddef>
@@ -13,30 +13,30 @@ namespace tendril::rig {
 
 class NormalEquations {
   public:
-    /// `columns`: by how much each number lessens what is left, for one more of it, as many entries each.
-    /// Nothing is done yet: it can be too much. They are to stay until assemble.
+    /// `columns`: per parameter, how much each residual falls per unit of the parameter. All of the same
+    /// size. Only computes the cost, which may be too high; `columns` must not change until assemble().
     void plan(const std::vector<std::vector<double>>& columns);
-    /// Multiplications, or what takes as long, that assemble and a solve take at most.
+    /// Upper bounds of the cost of assemble() and of one solve(), in multiplications.
     std::uint64_t assembling() const noexcept { return assembling_; }
     std::uint64_t solving() const noexcept { return solving_; }
 
     void assemble(const std::vector<std::vector<double>>& columns, const std::vector<double>& left);
 
-    /// Half the gradient, by number: positive where more of it leaves less.
+    /// Minus half the gradient of the squared residuals: positive if increasing the parameter lowers them.
     const std::vector<double>& gradient() const noexcept { return gradient_; }
 
-    /// The step for a damping, in parts of the largest entry of the matrix: the more, the shorter, and the
-    /// nearer to steepest descent. What is `still` does not move, and the others are solved for without it.
-    /// False where there is no such step.
+    /// The step for a damping, given as a fraction of the largest diagonal entry: more damping gives a
+    /// shorter step, closer to steepest descent. Parameters in `still` do not move; the others are solved for
+    /// without them. False if there is no such step.
     bool solve(double damping, const std::vector<bool>& still, std::vector<double>& step);
 
   private:
     bool factor();
 
     std::size_t count_ = 0;
-    std::vector<double> normal_, matrix_, gradient_;  ///< of symmetric ones the lower half
-    std::vector<std::size_t> first_;                  ///< of a row of the matrix: where its zeros end
-    std::vector<std::uint32_t> rows_;                 ///< of a column: where it is not 0
+    std::vector<double> normal_, matrix_, gradient_;  ///< matrices: lower triangle only
+    std::vector<std::size_t> first_;                  ///< per matrix row: first column that can be nonzero
+    std::vector<std::uint32_t> rows_;                 ///< of the current column: its nonzero rows
     std::uint64_t assembling_ = 0, solving_ = 0;
 };
 

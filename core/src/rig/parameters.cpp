@@ -60,7 +60,7 @@ bool Parameters::at_maximum(std::size_t parameter) const noexcept {
 }
 
 void Parameters::write(std::vector<Value>& controls) const {
-    std::vector<glm::dvec3> turns;  // by element, where it has a rotation
+    std::vector<glm::dvec3> turns;  // per element; zero if it does not turn
     turns.resize(controls.size(), glm::dvec3(0.0));
     controls = start_;
     for (std::size_t i = 0; i < parts_.size(); ++i) {

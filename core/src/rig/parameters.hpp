@@ -1,7 +1,7 @@
-// The values of all controls as one list of numbers, which a descent may change. Not installed.
+// The values of all controls as one list of numbers that a descent may change. Not installed.
 //
-// A number of a rotation is an angle about an axis of its parent's space, added to the rotation that there
-// was at the start; all else is the number itself.
+// Each number of a rotation is an angle about an axis of its parent's space, relative to the rotation at the
+// start; all others are the values themselves.
 #pragma once
 
 #include <cstddef>
@@ -13,18 +13,18 @@ namespace tendril::rig {
 
 class Parameters {
   public:
-    /// Of these control values; those that are bools have no number.
+    /// Of these control values; bools have no number.
     Parameters(const Definition& definition, std::vector<Value> start);
 
     std::size_t size() const noexcept { return parts_.size(); }
     double value(std::size_t parameter) const noexcept { return numbers_[parameter]; }
     void set(std::size_t parameter, double value) noexcept { numbers_[parameter] = value; }
-    /// Brings a number that is out of its range to the end of it.
+    /// Clamps every number to its range.
     void clamp() noexcept;
     bool at_minimum(std::size_t parameter) const noexcept;
     bool at_maximum(std::size_t parameter) const noexcept;
 
-    /// The control values that the numbers say.
+    /// The control values for the current numbers.
     void write(std::vector<Value>& controls) const;
 
   private:

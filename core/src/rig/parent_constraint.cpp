@@ -48,7 +48,7 @@ glm::dquat sum(const glm::dquat& a, const glm::dquat& b, double by) noexcept {
     return {a.w + b.w * by, a.x + b.x * by, a.y + b.y * by, a.z + b.z * by};
 }
 
-/// The weights' sum is `total`, which is not 0.
+/// `total` is the sum of the weights, not 0.
 Transform mean_goal(const ConstraintChild& child, std::span<const ConstraintParent> parents, double total,
                     bool offset) noexcept {
     const Transform first = goal(child, parents.front(), offset);
@@ -66,7 +66,7 @@ Transform mean_goal(const ConstraintChild& child, std::span<const ConstraintPare
         mean.scale = plus(mean.scale, times(each.scale, share));
         if (share > heaviest) heaviest = share, heaviest_rotation = each.rotation;
     }
-    // Rotations that are half a turn from each other may cancel.
+    // Rotations half a turn apart may cancel.
     const bool cancelled = detail::dot(mean.rotation, mean.rotation) < 1e-24;
     mean.rotation = cancelled ? heaviest_rotation : normalised(mean.rotation);
     return mean;

@@ -1,4 +1,4 @@
-// What Rig::make works out of a definition, once. Not installed.
+// What Rig::make compiles from a definition, once. Not installed.
 #pragma once
 
 #include <atomic>
@@ -12,22 +12,22 @@
 
 namespace tendril::rig::detail {
 
-/// An element that a for-each comes to.
+/// One element visited by a for-each.
 struct Visit {
     std::uint32_t element = 0;
-    std::uint32_t index = 0, count = 0;  ///< its place below its root
+    std::uint32_t index = 0, count = 0;  ///< its position below its root
 };
 
-/// Of one unit, or one in a body.
+/// The compiled data of one unit, including those in bodies.
 struct UnitPlan {
-    std::vector<Visit> visits;            ///< of a for-each, in order
-    std::vector<std::uint32_t> bones;     ///< of a unit that solves a chain: its elements from root to tip
-    std::optional<std::size_t> for_each;  ///< of a unit in a body: the one around it
+    std::vector<Visit> visits;            ///< for-each only: in order
+    std::vector<std::uint32_t> bones;     ///< chain solvers only: the elements from root to tip
+    std::optional<std::size_t> for_each;  ///< units in a body only: the for-each around them
     std::vector<Output> outputs;
 };
 
-/// How many rigs share a plan: std::shared_ptr would need RTTI where sanitizers look at its virtual
-/// functions, and the library has none.
+/// How many rigs share a plan. Not std::shared_ptr: with sanitizers that check its virtual functions it needs
+/// RTTI, which the library lacks.
 struct Owners {
     mutable std::atomic<std::uint32_t> count{1};
     Owners() = default;
@@ -36,14 +36,14 @@ struct Owners {
 
 struct Plan {
     Owners owners;
-    Definition definition;  ///< with its names resolved
+    Definition definition;  ///< with names resolved
     Names elements, curves, units_by_name;
-    std::vector<std::int64_t> parents;  ///< of each element, by index; -1 for none
+    std::vector<std::int64_t> parents;  ///< per element: the index of its parent, or -1
     std::vector<ElementId> ids;
     std::vector<std::string> unit_names;
-    std::vector<UnitPlan> units;  ///< one a name
+    std::vector<UnitPlan> units;  ///< one per name
     State initial;
-    std::uint64_t work = 0;  ///< of a solve, see Rig::work
+    std::uint64_t work = 0;  ///< of one solve, see Rig::work
 };
 
 }  // namespace tendril::rig::detail

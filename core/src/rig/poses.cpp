@@ -1,16 +1,16 @@
-// What is pending, and when it is worked out. hierarchy.hpp says what each write does.
+// What is pending, and when it is computed. hierarchy.hpp describes what each write does.
 //
-// Three facts that hold between calls, for each pose:
-//  1. A stored global is true if and only if its parent's is, and parent_version is the parent's version.
-//  2. Where a local is pending, parent_version is the parent's version: it is relative(the parent's stored
-//     global, the element's stored global), whatever has been written above since.
-//  3. What has verified == change is true, and stays so until the next write.
+// Three invariants between calls, for each pose:
+//  1. A stored global is valid if and only if its parent's is and parent_version is the parent's version.
+//  2. While a local is pending, parent_version is the parent's version: the local is relative(the parent's
+//     stored global, the element's stored global), whatever has been written above since.
+//  3. If verified == change, the stored global is valid until the next write.
 #include "tendril/rig/hierarchy.hpp"
 
 namespace tendril::rig {
 namespace {
 
-/// The version of nothing.
+/// A version that no transform has.
 constexpr std::uint64_t never = ~std::uint64_t{0};
 
 }  // namespace
@@ -22,7 +22,7 @@ std::uint64_t Hierarchy::parent_version(const Values& pose, Index at) const noex
 
 // Reading.
 
-/// Brings the stored global of `at` up to date, and with it those of its ancestors.
+/// Brings the stored globals of `at` and of its ancestors up to date.
 void Hierarchy::refresh(Values& pose, Index at) noexcept {
     Index top = at;
     for (Index up = at; up != none && pose.stamps[up].verified != pose.change; up = nodes_[up].parent) {
@@ -35,7 +35,7 @@ void Hierarchy::refresh(Values& pose, Index at) noexcept {
     }
 }
 
-/// The parent is up to date.
+/// Requires the parent to be up to date.
 void Hierarchy::refresh_from_parent(Values& pose, Index at) noexcept {
     Stamp& stamp = pose.stamps[at];
     if (stamp.verified == pose.change) return;
@@ -73,7 +73,8 @@ void Hierarchy::resolve_local(Values& pose, Index at) noexcept {
     ++recomputations_;
 }
 
-/// Before the stored global of `at` is overwritten, which the children's pending locals are relative to.
+/// Called before the stored global of `at` is overwritten, to which the children's pending locals are
+/// relative.
 void Hierarchy::resolve_children(Values& pose, Index at) noexcept {
     while (pose.stamps[at].first_pending != none) resolve_local(pose, pose.stamps[at].first_pending);
 }
@@ -90,7 +91,7 @@ void Hierarchy::make_local_pending(Values& pose, Index at) noexcept {
     first = at;
 }
 
-/// The local is pending no more: it was worked out, or something else is put in its place.
+/// Clears a pending local that was computed or is being replaced.
 void Hierarchy::forget_pending(Values& pose, Index at) noexcept {
     Stamp& stamp = pose.stamps[at];
     if (!stamp.local_pending) return;
@@ -129,7 +130,7 @@ void Hierarchy::resolve_all() noexcept {
     }
 }
 
-// What is pending, without working it out.
+// Queries of what is pending, which compute nothing.
 
 bool Hierarchy::up_to_date(const Values& pose, Index at) const noexcept {
     for (; at != none && pose.stamps[at].verified != pose.change; at = nodes_[at].parent)
@@ -159,7 +160,7 @@ void Hierarchy::start(Values& pose, Index at, const Transform& local) noexcept {
     pose.stamps[at].parent_version = never;
 }
 
-/// Before a write that the children do not follow: their globals are brought up to date.
+/// Called before a write that the children do not follow: brings their globals up to date.
 void Hierarchy::refresh_children(Values& pose, Index at) noexcept {
     if (nodes_[at].first_child == none) return;
     refresh(pose, at);
@@ -167,7 +168,7 @@ void Hierarchy::refresh_children(Values& pose, Index at) noexcept {
         refresh_from_parent(pose, child);
 }
 
-/// After it: their globals stand, whatever the new one above is.
+/// Called after such a write: the children keep their globals, so their locals become pending.
 void Hierarchy::make_children_pending(Values& pose, Index at) noexcept {
     for (Index child = nodes_[at].first_child; child != none; child = nodes_[child].next) {
         make_local_pending(pose, child);
@@ -225,9 +226,9 @@ Result Hierarchy::set(ElementId element, Space space, const Transform& transform
     return {};
 }
 
-// Another parent.
+// Reparenting.
 
-/// What stays is made true against the parent that goes; what changes is forgotten.
+/// Resolves the transform to keep against the old parent, and drops the other.
 void Hierarchy::before_reparent(Values& pose, Index at, Space keep) noexcept {
     if (keep == Space::Global) {
         refresh(pose, at);

@@ -15,7 +15,7 @@ using detail::quoted;
 
 namespace {
 
-/// The type of an input of T; none for one that takes any.
+/// The Type of an input of T; -1 for one that takes any.
 template <class T>
 constexpr int type_index = -1;
 template <>
@@ -43,7 +43,7 @@ Type part_type(Of of) noexcept {
     }
 }
 
-/// Inputs whose name ends so are weights: 0 to 1.
+/// Inputs with this suffix are weights: 0 to 1.
 bool is_weight(std::string_view name) {
     return name == "weight" || name.ends_with(".weight");
 }
@@ -89,7 +89,7 @@ void Resolver::unit(Unit& unit) {
         set->resolved.index = static_cast<std::int32_t>(found->second);
     }
     if (std::holds_alternative<SpringInterpolate>(unit.operation) && refusal_) spring(outputs[index]);
-    // Only now: a unit that reads itself reads one that has not run.
+    // Only now, so that a unit cannot read its own outputs.
     units_[unit.name] = {index, for_each_};
 }
 
@@ -130,7 +130,7 @@ void Resolver::field(const std::string& name, std::vector<ParentInputs>& parents
 void Resolver::field(const std::string& name, Body& body) {
     if (for_each_) return refuse(name + ": a for-each cannot stand in the body of another");
     const std::string outside = place_;
-    // What a body's units know of their for-each is only that they are in one, and in which.
+    // Units in a body need only know which for-each they are in.
     for_each_ = &body.units();
     for (Unit& each : body.units()) {
         unit(each);

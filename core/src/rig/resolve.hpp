@@ -1,4 +1,5 @@
-// Finds what the inputs of units name, and refuses what is not there or does not fit. Not installed.
+// Resolves the names in the inputs of units, and refuses what is missing or has the wrong type. Not
+// installed.
 #pragma once
 
 #include <map>
@@ -12,25 +13,25 @@
 
 namespace tendril::rig {
 
-/// Where in its list what has that name is.
+/// List indices by name.
 using Names = std::map<std::string, std::size_t, std::less<>>;
 
-/// Goes through the units of a rig in the order in which they run, filling in what their inputs name.
+/// Walks the units of a rig in the order in which they run and resolves the names in their inputs.
 class Resolver {
   public:
     Resolver(const Definition& definition, const Names& elements, const Names& curves)
         : definition_(definition), elements_(elements), curves_(curves) {}
 
-    /// The first refusal, or fine.
+    /// The first refusal, or success.
     Result resolve(std::vector<Unit>& units);
-    /// Every unit, those in bodies after the for-each that has them, and what each hands out.
+    /// The names of all units, those in bodies after their for-each, and the outputs of each.
     std::vector<std::string> names;
     std::vector<std::vector<Output>> outputs;
 
   private:
     struct Found {
         std::size_t index;
-        const std::vector<Unit>* body;  ///< that it stands in, if any
+        const std::vector<Unit>* body;  ///< that contains it, if any
     };
 
     void unit(Unit& unit);
@@ -62,15 +63,15 @@ class Resolver {
 
     const Definition& definition_;
     const Names &elements_, &curves_;
-    std::map<std::string, Found, std::less<>> units_;  ///< that run before this one
-    std::set<std::string> taken_;                      ///< names
-    const std::vector<Unit>* for_each_ = nullptr;      ///< the body that is being resolved
-    std::vector<Type> any_types_;  ///< of the inputs of the unit that take any: a spring's target and force
+    std::map<std::string, Found, std::less<>> units_;  ///< that run before the current one
+    std::set<std::string> taken_;                      ///< unit names in use
+    const std::vector<Unit>* for_each_ = nullptr;      ///< the body being resolved
+    std::vector<Type> any_types_;  ///< of the unit's inputs that take any type: a spring's target and force
     std::string place_;            ///< `unit "look"`
     Result refusal_;
 };
 
-/// Whether an input of the one type can be given a value of the other: the same, a bool as 0 or 1, the
+/// Whether an input of one type accepts a value of the other: the same type, a bool as 0 or 1, the
 /// translation or the rotation of a transform.
 bool converts(Type from, Type to) noexcept;
 

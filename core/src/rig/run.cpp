@@ -47,7 +47,7 @@ bool Runner::run(Observer* observer) noexcept {
     return moving_;
 }
 
-/// Bones, nulls and curves to what goes in, controls to where their values have them.
+/// Resets bones, nulls and curves to their input, and poses controls by their values.
 void Runner::put_back() noexcept {
     std::copy(state_.input_curves.begin(), state_.input_curves.end(), state_.curves.begin());
     Hierarchy& tree = state_.elements;
@@ -137,7 +137,7 @@ void Runner::hand_out(std::size_t output, const Value& value) noexcept {
     }
 }
 
-/// Where the weight is 0 the item has to stay as it is, to the bit.
+/// At weight 0 the item must keep its bits.
 void Runner::place(ElementId id, Space space, const Transform& to, bool propagate) noexcept {
     if (weight_ == 0.0) return;
     if (!is_fine(to)) return warn(Warning::OutOfRange);

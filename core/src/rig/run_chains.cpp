@@ -38,8 +38,8 @@ glm::dvec3 Runner::bone_place(std::size_t bone) noexcept {
     return state_.elements.get(plan_.ids[element], Space::Global).translation;
 }
 
-/// In metres. From what does not change with the pose: where no scale changes it keeps its bits, and the
-/// solver that was made for it stays.
+/// In metres. From quantities that do not change with the pose: unless a scale changes, the length keeps its
+/// bits, and the solver made for it can be reused.
 float Runner::bone_length(std::size_t bone) noexcept {
     const std::vector<std::uint32_t>& elements = plan_.units[unit_].bones;
     const glm::dvec3 scale = state_.elements.get(plan_.ids[elements[bone]], Space::Global).scale;
@@ -48,8 +48,8 @@ float Runner::bone_length(std::size_t bone) noexcept {
     return static_cast<float>(detail::length(scaled));
 }
 
-/// A solver for the bones as long as they now are: made at the first solve, and again where a length is not
-/// the very same, for otherwise the answer would depend on which solves there were before.
+/// A solver for the current bone lengths: made at the first solve, and again whenever a length differs at
+/// all. Otherwise the result would depend on earlier solvers.
 bool Runner::prepare_chain(ChainScratch& chain) {
     const std::size_t bones = plan_.units[unit_].bones.size() - 1;
     const glm::dvec3 origin = bone_place(0);
@@ -72,8 +72,7 @@ bool Runner::prepare_chain(ChainScratch& chain) {
     return chain.solver.has_value();
 }
 
-/// Turns each bone on from where the ones before it have brought it, by the shortest arc to where it should
-/// point.
+/// Turns each bone, root first, by the shortest arc from its current direction to the solved one.
 void Runner::turn_bones(const ChainScratch& chain) noexcept {
     Hierarchy& tree = state_.elements;
     const std::vector<std::uint32_t>& elements = plan_.units[unit_].bones;

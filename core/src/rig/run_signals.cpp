@@ -1,4 +1,4 @@
-// The units that are filters of core/signal.
+// The units that are filters of the signal module.
 #include <cmath>
 
 #include "rig/math.hpp"
@@ -10,7 +10,7 @@
 namespace tendril::rig {
 namespace {
 
-/// A change smaller than this, of metres, radians or plain numbers, is rest.
+/// Changes below this count as rest, in metres, radians or plain numbers.
 constexpr double still = 1e-9;
 
 double blended(double from, double to, double weight) noexcept {
@@ -55,7 +55,7 @@ void Runner::operator()(const AlphaInterpolate& op) noexcept {
     auto& remembered = std::get<signal::OutputState>(memory().held);
     const signal::OutputState before = remembered;
     if (!parameters.interp) {
-        // Nothing eases: what goes in now counts, though no time passes.
+        // Without easing the input takes effect at once, even if no time passes.
         signal::OutputState at_once{.value = before.value};
         hand_out(0, blended(value, signal::step(parameters, at_once, value, dt_), weight_));
         if (at_once.started) remembered = at_once;
@@ -80,10 +80,10 @@ void Runner::spring(const SpringInterpolate& op, const T& target) noexcept {
     using Memory = signal::SpringState<T>;
     if (!std::holds_alternative<Memory>(memory().held)) memory().held = Memory();
     auto& remembered = std::get<Memory>(memory().held);
-    // Without time its first step would not count as one: the place to start from has to stick.
     const Rate before = remembered.velocity;
     const T result = signal::step(parameters, remembered, target, dt_);
-    // It stands still for a moment where it turns round, and before a force without a spring has moved it.
+    // The velocity is 0 at a turning point, and before a force without a spring has moved it: that is not
+    // rest.
     moving_ |= size(remembered.velocity) > still || size(difference(remembered.velocity, before)) > still ||
                (parameters.strength < signal::no_strength && size(parameters.force) > still);
     hand_out(0, blended(target, result, weight_));

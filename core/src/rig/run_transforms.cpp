@@ -1,4 +1,4 @@
-// The units that turn, move and constrain one element.
+// The units that transform or constrain one element.
 #include <algorithm>
 
 #include "rig/math.hpp"
@@ -49,7 +49,7 @@ Transform Runner::aimed(const Transform& from, const AimInputs& primary,
 
     const double speed = read(max_speed);
     if (!(speed > 0.0)) return result.transform;
-    // An item is put back at every solve, so how far it has turned is remembered here.
+    // The item is reset at every solve, so its last rotation is remembered here.
     if (skipped_) return from;
     auto* turned = std::get_if<Turned>(&memory().held);
     if (!turned) turned = &memory().held.emplace<Turned>(Turned{result.transform.rotation});
@@ -80,7 +80,7 @@ void Runner::operator()(const ParentConstraint& op) noexcept {
     Hierarchy& tree = state_.elements;
     const ElementId id = item(op.item);
     std::vector<ConstraintParent>& parents = workspace_.parts().parents;
-    parents.clear();  // keeps its memory, which is enough for every unit of the rig
+    parents.clear();  // keeps its capacity, which is enough for every unit of the rig
     double sum = 0.0;
     for (const ParentInputs& inputs : op.parents) {
         const ElementId parent = item(inputs.item);

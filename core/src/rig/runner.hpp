@@ -14,14 +14,14 @@ namespace tendril::rig {
 
 struct ChainScratch;
 
-/// Runs the units of a rig on a state, one after the other; operator() of an operation computes it for
-/// `unit_`, and for `visit_` in the body of a for-each.
+/// Runs the units of a rig on a state in order. Each operator() computes its operation for `unit_`, and in
+/// the body of a for-each for `visit_`.
 class Runner {
   public:
     Runner(const detail::Plan& plan, State& state, double dt, Workspace& workspace) noexcept
         : plan_(plan), state_(state), dt_(dt), workspace_(workspace) {}
 
-    /// Whether anything that remembers still moves.
+    /// Whether anything with memory still moves.
     bool run(Observer* observer) noexcept;
 
     void operator()(const Aim& op) noexcept;
@@ -46,19 +46,19 @@ class Runner {
     void put_back() noexcept;
     void run_unit(const Unit& unit) noexcept;
 
-    // what goes in
+    // input
     template <class T>
     T read(const Input<T>& input) noexcept;
     Value value_of(const FromElement& from) noexcept;
     ElementId item(const Item& item) const noexcept;
     double weight(const Input<double>& input) noexcept;
-    /// From 0 to `maximum`; what is not is clamped, with a warning.
+    /// Clamped to 0 to `maximum`, with a warning if it is outside.
     double parameter(const Input<double>& input, double maximum) noexcept;
     const Transform& global(const Item& item) noexcept {
         return state_.elements.get(this->item(item), Space::Global);
     }
 
-    // what comes out
+    // output
     void warn(Warning warning) noexcept;
     void hand_out(std::size_t output, const Value& value) noexcept;
     void place(ElementId id, Space space, const Transform& to, bool propagate) noexcept;
@@ -82,13 +82,13 @@ class Runner {
     double dt_;
     Workspace& workspace_;
 
-    std::size_t unit_ = 0;  ///< its place in Plan::units
-    std::size_t next_ = 0;  ///< that of the unit after it
+    std::size_t unit_ = 0;  ///< index in Plan::units
+    std::size_t next_ = 0;  ///< index of the next unit
     const detail::Visit* visit_ = nullptr;
     std::size_t place_in_for_each_ = 0;
     double weight_ = 1.0;
-    double for_each_weight_ = 1.0;  ///< of the for-each around the unit
-    bool skipped_ = false;          ///< then its weight is 0, and what it remembers stands still
+    double for_each_weight_ = 1.0;  ///< of the surrounding for-each
+    bool skipped_ = false;          ///< then its weight is 0 and its memory does not advance
     bool moving_ = false;
 };
 

@@ -1,4 +1,4 @@
-// The state of a rig: made, taken over after an edit, and changed by what a person sets.
+// The state of a rig: initial, adopted after an edit, and changed by setters.
 #include <algorithm>
 #include <map>
 #include <string>
@@ -25,7 +25,7 @@ std::optional<std::size_t> found(const Names& names, std::string_view name) {
     return at == names.end() ? std::nullopt : std::optional(at->second);
 }
 
-/// Within its parent, before any unit has run: its input pose, or where its value has a control.
+/// The pose within the parent before any unit has run: the input pose, or the one given by a control's value.
 Transform begun_local(const Plan& plan, State& state, std::size_t element) {
     const Transform& base = state.elements.get(plan.ids[element], Space::Local, Pose::Input);
     const std::optional<Control>& control = plan.definition.elements[element].control;
@@ -42,8 +42,8 @@ Transform begun_global(const Plan& plan, State& state, std::size_t element) {
     return global;
 }
 
-/// The input pose of a control has been set: what its value says of the pose becomes the value, for the rest
-/// its pose at rest has changed.
+/// After the input pose of a control has been set: takes its value from that pose. A Vector2d keeps its value
+/// and moves its rest pose instead.
 void take_value(const Control& control, State& state, std::size_t element, ElementId id) {
     Hierarchy& tree = state.elements;
     const Transform there = tree.get(id, Space::Local, Pose::Input);
@@ -72,8 +72,8 @@ void take_value(const Control& control, State& state, std::size_t element, Eleme
     }
 }
 
-/// Which elements a unit remembers something of, by name; of a chain of bones, which those are. One name, an
-/// empty one, for a unit that remembers of itself.
+/// The names of the elements that a unit has memory of; for a chain of bones, the bones. A single empty name
+/// for a unit with memory of its own.
 std::vector<std::string_view> remembered(const Plan& plan, std::size_t unit) {
     std::vector<std::string_view> names;
     const auto name = [&](std::uint32_t element) {
@@ -87,8 +87,7 @@ std::vector<std::string_view> remembered(const Plan& plan, std::size_t unit) {
     return names;
 }
 
-/// What `before` remembers of the elements that there still are. An element that is come to twice is found
-/// again in its order.
+/// Copies the memory of elements that still exist. An element visited twice is matched in order.
 void adopt_memory(const Plan& plan, std::size_t unit, UnitState& state, const Plan& before, std::size_t was,
                   const UnitState& old) {
     const std::vector<std::string_view> now = remembered(plan, unit), then = remembered(before, was);
@@ -156,7 +155,7 @@ State Rig::initial_state() const {
 
 State Rig::adopted(const Rig& before, const State& state) const {
     State result = plan_->initial;
-    Hierarchy old = state.elements;  // reading works out what is pending
+    Hierarchy old = state.elements;  // reading computes what is pending
     for (std::size_t i = 0; i < plan_->ids.size(); ++i) {
         const Element& element = plan_->definition.elements[i];
         const auto was = before.element(element.name);
@@ -218,7 +217,7 @@ Transform Rig::start_pose(const State& state, std::size_t element) const {
         const auto each = static_cast<std::size_t>(at);
         const auto base = state.elements.known(plan_->ids[each], Space::Local, Pose::Input);
         if (!base) {
-            State copy = state;  // reading works out what is pending
+            State copy = state;  // reading computes what is pending
             return begun_global(*plan_, copy, element);
         }
         const std::optional<Control>& control = plan_->definition.elements[each].control;
@@ -238,8 +237,8 @@ Result Rig::set_element(State& state, std::size_t element, Space space, const Tr
     if (!fine) return fine.error();
     Hierarchy& tree = state.elements;
 
-    // A child that stays where it is, stays where a solve begins with it: where its value has it, if it is a
-    // control.
+    // A child that stays keeps its global pose at the start of a solve: for a control, the one given by its
+    // value.
     std::vector<std::pair<std::size_t, Transform>> stay;
     if (propagate == Propagate::No) {
         const Transform before = begun_global(*plan_, state, element);
@@ -248,7 +247,7 @@ Result Rig::set_element(State& state, std::size_t element, Space space, const Tr
                 stay.emplace_back(i, compose(before, begun_local(*plan_, state, i)));
     }
 
-    // Below a control a global pose is one beside where that control is, not beside where it was at rest.
+    // Below a control a global pose is relative to where the control is now, not to where it was at rest.
     const std::int64_t parent = plan_->parents[element];
     const bool below = space == Space::Global && parent >= 0;
     const Transform local =

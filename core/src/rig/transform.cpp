@@ -11,8 +11,8 @@ namespace {
 using namespace detail;
 using tendril::detail::no_index;
 
-/// Products of two numbers that are no larger stay finite, and so do sums of a few such products: nothing
-/// here can become infinite or NaN.
+/// Products of two numbers within this bound, and sums of a few such products, are finite: nothing here can
+/// become infinite or NaN.
 constexpr double largest = 1e100;
 
 double bounded(double value) noexcept {
@@ -62,7 +62,7 @@ bool operator==(const Transform& a, const Transform& b) noexcept {
 
 glm::dquat normalised(const glm::dquat& rotation) noexcept {
     const double squared = detail::dot(rotation, rotation);
-    if (std::abs(squared - 1.0) <= 4e-15) return rotation;  // as near to 1 as dividing by the length gets it
+    if (std::abs(squared - 1.0) <= 4e-15) return rotation;  // as close to 1 as dividing by the length gets
     if (!(squared > 0.0)) return {1.0, 0.0, 0.0, 0.0};
     return unit_quaternion(rotation.w, rotation.x, rotation.y, rotation.z);
 }

@@ -63,7 +63,7 @@ bool is_fine(const Value& value) noexcept {
     if (const auto* vector = std::get_if<glm::dvec3>(&value)) return in_range(*vector);
     if (const auto* transform = std::get_if<Transform>(&value))
         return in_range(transform->translation) && in_range(transform->scale);
-    return true;  // rotations are normalised by what makes them
+    return true;  // rotations are normalised where they are made
 }
 
 }  // namespace tendril::rig

@@ -1,21 +1,21 @@
-// Values as units pass them on, whatever their type. Not installed.
+// Values passed between units, of any type. Not installed.
 #pragma once
 
 #include "tendril/rig/input.hpp"
 
 namespace tendril::rig {
 
-/// False, 0, a vector of 0, no rotation, the identity.
+/// False, 0, the zero vector, the identity.
 Value neutral(Type type) noexcept;
 
-/// Finite, at most max_magnitude in magnitude, rotations of some length, scales not 0. `what` begins the
-/// message.
+/// Refused: numbers that are not finite or over max_magnitude, rotations of length 0, scales of 0. `what`
+/// begins the message.
 Result check(const char* what, const Value& value) noexcept;
 
-/// With rotations of unit length.
+/// With rotations normalised.
 Value normalised(const Value& value) noexcept;
 
-/// Whether a unit may pass it on.
+/// Whether a unit may output it: finite and within max_magnitude.
 bool is_fine(const Value& value) noexcept;
 
 }  // namespace tendril::rig

@@ -1,4 +1,4 @@
-// What is in a workspace. Not installed.
+// The contents of a workspace. Not installed.
 #pragma once
 
 #include <optional>
@@ -18,7 +18,7 @@ struct ChainScratch {
 };
 
 struct Workspace::Parts {
-    std::vector<ChainScratch> chains;  ///< one a unit; empty of those that solve none
+    std::vector<ChainScratch> chains;  ///< one per unit; empty unless it solves a chain
     std::vector<ConstraintParent> parents;
 };
 

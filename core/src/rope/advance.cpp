@@ -1,4 +1,4 @@
-// How time passes: fixed substeps, in each of which colliders move first and then the islands are solved.
+// Advances time in fixed substeps. In each the colliders move first, then the islands are solved.
 #include <algorithm>
 #include <atomic>
 #include <glm/common.hpp>
@@ -14,15 +14,15 @@ namespace {
 
 using glm::dvec3;
 
-/// Removes the links that are over their body's tear strain; whether there were any.
+/// Removes the links over their body's tear strain; returns whether there were any.
 bool tear(State& state) {
-    std::size_t b = 0;  // links of a body lie together, nearly always
+    std::size_t b = 0;  // links of a body are nearly always contiguous
     const auto torn = [&](const Link& link) {
         while (link.a < state.bodies[b].first) --b;
         while (link.a - state.bodies[b].first >= state.bodies[b].count) ++b;
         const float limit = state.bodies[b].tear;
         if (limit <= 0.0f) return false;
-        // A cell that is pulled askew makes its diagonal longer without anything being overstretched.
+        // A sheared cell lengthens its diagonals without overstretching anything.
         const double longest = static_cast<double>(limit) + (link.kind == Link::Kind::Stretch ? 0.0 : 0.5);
         const double length = detail::length(state.position[link.b] - state.position[link.a]);
         return length > link.rest * (1.0 + longest);
@@ -34,7 +34,7 @@ dvec3 half_of(const Capsule& capsule) {
     return 0.5 * dvec3(capsule.b) - 0.5 * dvec3(capsule.a);
 }
 
-/// A capsule whose centre has moved gets the direction that it has there.
+/// Turns a capsule whose centre has moved to its direction there.
 void turn(Collider& collider, double part, Scratch::Moving& moving) {
     auto& capsule = std::get<Capsule>(collider.shape);
     const dvec3 was = half_of(capsule), middle(centre(collider.shape));
@@ -43,12 +43,12 @@ void turn(Collider& collider, double part, Scratch::Moving& moving) {
     collider.shape =
         detail::kept_in(Capsule{glm::vec3(middle - half), glm::vec3(middle + half), capsule.radius});
     moving.turn = half_of(capsule) - was;
-    // Ends sweep on lines: what contains both places contains all between them.
+    // The ends sweep along lines: the bounds of both positions contain everything in between.
     detail::bounds(collider.shape, moving.by, moving.low, moving.high);
     moving.low = glm::min(moving.low, low);
     moving.high = glm::max(moving.high, high);
     if (collider.seconds != 0.0) return;
-    // It is there; rounded, but there, and stays.
+    // It has arrived, to rounding, and stays.
     collider.half_goal.reset();
     collider.goal = dvec3(centre(collider.shape));
 }
@@ -70,16 +70,16 @@ void move_colliders(State& state, Scratch& scratch) {
     }
 }
 
-/// Less than this is not worth another thread: some 60 us on one.
+/// Less work than this, about 60 us on one thread, is not worth another thread.
 constexpr std::size_t links_a_thread = 1024;
-/// Whether threads without an island help with this one: a large cloth.
+/// Whether idle threads help with this island: a large cloth.
 bool is_shared(const Plan& plan, const Plan::Island& island) {
     if (island.grid == 0) return false;
     const Plan::Grid& grid = plan.grids[island.grid - 1];
     return std::size_t{grid.columns} * grid.rows >= detail::min_shared_cells;
 }
 
-/// How many threads have something to do.
+/// How many threads have work.
 std::size_t useful_threads(const State& state, const Plan& plan) {
     std::size_t useful = plan.islands.size();
     for (const Plan::Island& island : plan.islands)
@@ -137,7 +137,7 @@ Advance World::advance(double seconds, Workspace& workspace, const AdvanceOption
     done.refused = !(seconds >= 0.0 && seconds <= 1e9);
     if (done.refused) return done;
     const double substep = state_.settings.substep;
-    // Only whole substeps are dropped: what is less is not lost, or it would never be counted.
+    // Only whole substeps are dropped. A remainder is kept, as dropping it would not be counted.
     constexpr double rounding = 1e-6;  // of a substep
     const double over = std::max(0.0, seconds - static_cast<double>(state_.settings.longest_frame));
     done.dropped = static_cast<std::uint64_t>(over / substep + rounding);
@@ -148,7 +148,7 @@ Advance World::advance(double seconds, Workspace& workspace, const AdvanceOption
         state_.remainder = std::max(0.0, state_.remainder - static_cast<double>(more) * substep);
         done.dropped += more;
     }
-    constexpr auto countable = std::uint64_t{1} << 53;  // by a file's numbers
+    constexpr auto countable = std::uint64_t{1} << 53;  // exactly representable in a file's numbers
     state_.dropped = std::min(state_.dropped + done.dropped, countable);
     const auto is_due = [&] { return state_.remainder >= substep * (1.0 - rounding); };
     if (!is_due()) return done;

@@ -12,32 +12,13 @@ namespace tendril::rope::detail {
 namespace {
 
 using tendril::detail::Argument;
-using tendril::detail::check_length;
 using tendril::detail::check_point;
 using tendril::detail::refused;
 
-Result check_minimum(const char* operation, const char* what, int count, int minimum) {
-    if (count >= minimum) return {};
-    return refused(operation, what, minimum == 1 ? "at least 1" : "at least 2", count);
-}
-Result check_positive(const char* operation, const char* what, float value) {
-    if (value > 0.0f && value <= max_magnitude) return {};
-    return refused(operation, what, "over 0 and finite", value);
-}
-/// Whether so many more particles fit.
+/// Whether `more` particles fit.
 Result check_fit(const char* operation, const State& state, std::size_t more) {
     if (more <= max_particles && state.position.size() + more <= max_particles) return {};
     return refused(operation, "particles", "at most 1000000 in all", state.position.size() + more);
-}
-
-/// The first refusal of several checks.
-template <class... Results>
-Result first_of(const Result& first, const Results&... others) {
-    if constexpr (sizeof...(others) == 0) {
-        return first;
-    } else {
-        return first ? first_of(others...) : first;
-    }
 }
 
 /// The links of a cloth.
@@ -149,13 +130,9 @@ Expected<BodyId> append(State& state, const char* operation, Draft draft) {
 
 Result draft_rope(const State& state, const RopeShape& shape, Draft& draft) {
     const char* const op = "add_rope";
-    const auto segments = static_cast<std::size_t>(std::max(shape.segments, 0));
-    const Result checked = first_of(
-        check_point(op, "from", shape.from), check_point(op, "to", shape.to),
-        check_minimum(op, "segments", shape.segments, 1),
-        check_length(op, "length", shape.length.value_or(0.0f)), check_length(op, "radius", shape.radius),
-        check_positive(op, "density", shape.density), check_fit(op, state, segments + 1));
-    if (!checked) return checked;
+    if (const Result bad = check_fields(op, shape); !bad) return bad;
+    const auto segments = static_cast<std::size_t>(shape.segments);
+    if (const Result full = check_fit(op, state, segments + 1); !full) return full;
 
     const dvec3 from(shape.from), to(shape.to);
     const double whole = shape.length ? *shape.length : length(to - from);
@@ -173,17 +150,11 @@ Result draft_rope(const State& state, const RopeShape& shape, Draft& draft) {
 
 Result draft_cloth(const State& state, const ClothShape& shape, Draft& draft) {
     const char* const op = "add_cloth";
-    const auto columns = static_cast<std::uint32_t>(std::max(shape.columns, 0)),
-               rows = static_cast<std::uint32_t>(std::max(shape.rows, 0));
+    if (const Result bad = check_fields(op, shape); !bad) return bad;
+    const auto columns = static_cast<std::uint32_t>(shape.columns),
+               rows = static_cast<std::uint32_t>(shape.rows);
     const std::size_t count = static_cast<std::size_t>(columns) * rows;
-    const Result checked =
-        first_of(check_point(op, "corner", shape.corner), check_point(op, "along", shape.along),
-                 check_point(op, "down", shape.down), check_minimum(op, "columns", shape.columns, 2),
-                 check_minimum(op, "rows", shape.rows, 2), check_length(op, "radius", shape.radius),
-                 check_positive(op, "density", shape.density), check_length(op, "shear", shape.shear),
-                 check_length(op, "bend", shape.bend), check_length(op, "tear", shape.tear),
-                 check_fit(op, state, count));
-    if (!checked) return checked;
+    if (const Result full = check_fit(op, state, count); !full) return full;
 
     draft.points.reserve(count);
     for (std::uint32_t r = 0; r < rows; ++r)
@@ -226,15 +197,12 @@ static Result check_roots(const char* operation, const HairShape& shape) {
 
 Result draft_hair(const State& state, const HairShape& shape, Draft& draft) {
     const char* const op = "add_hair";
-    const auto segments = static_cast<std::uint32_t>(std::max(shape.segments, 0));
+    if (const Result bad = check_fields(op, shape); !bad) return bad;
+    if (const Result bad = check_roots(op, shape); !bad) return bad;
+    const auto segments = static_cast<std::uint32_t>(shape.segments);
     const std::size_t row = static_cast<std::size_t>(segments) + 1;
     const std::size_t count = row * std::min(shape.roots.size(), max_particles);
-    const Result checked =
-        first_of(check_positive(op, "length", shape.length), check_minimum(op, "segments", shape.segments, 2),
-                 check_roots(op, shape), check_length(op, "radius", shape.radius),
-                 check_positive(op, "density", shape.density), check_length(op, "bend", shape.bend),
-                 check_fit(op, state, count));
-    if (!checked) return checked;
+    if (const Result full = check_fit(op, state, count); !full) return full;
     const Collider* holder = find_in(state.colliders, shape.attach);
     if (shape.attach && holder == nullptr) return missing(op, "attach", "collider", shape.attach.index);
 

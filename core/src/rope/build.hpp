@@ -8,7 +8,7 @@
 
 namespace tendril::rope::detail {
 
-/// A body that is not yet in a state: its particles are numbered from 0.
+/// A body that is not in a state yet: its particles are numbered from 0.
 struct Draft {
     Body body;
     std::vector<glm::dvec3> points;  ///< at rest
@@ -18,34 +18,34 @@ struct Draft {
 
     void pin(std::size_t particle);
     void link(std::uint32_t a, std::uint32_t b, double rest, Link::Kind kind, float compliance);
-    /// As long as its particles are apart.
+    /// Its rest length is the particles' distance.
     void link(std::uint32_t a, std::uint32_t b, Link::Kind kind, float compliance);
 };
 
-// Each draws a body up for a state, or refuses, naming what is out of range.
+// Each drafts a body for a state, or refuses and names what is out of range.
 Result draft_rope(const State& state, const RopeShape& shape, Draft& draft);
 Result draft_cloth(const State& state, const ClothShape& shape, Draft& draft);
 Result draft_hair(const State& state, const HairShape& shape, Draft& draft);
 
-/// Adds a draft, unless it reaches over the edge of the world.
+/// Adds a draft; refuses one that reaches beyond the edge of the world.
 Expected<BodyId> append(State& state, const char* operation, Draft draft);
 
-/// Where gravity pulls, a unit vector; down where there is none.
+/// The direction of gravity, a unit vector; -Y without gravity.
 glm::dvec3 down(const Settings& settings) noexcept;
-/// Gravity and what there is beside it, m/s^2.
+/// Gravity plus external acceleration, m/s^2.
 glm::dvec3 acceleration(const Settings& settings) noexcept;
-/// Of a link as its solver sees it, m/N.
+/// The compliance of a link as its solver uses it, m/N.
 double compliance(const Settings& settings, const Link& link) noexcept;
 
-// Energy in joules, halfway through a substep: that is where Verlet's speed belongs, so what a leapfrog step
-// conserves is conserved.
+// Energy in joules, halfway through a substep: Verlet's velocity is the one at that time, so what a leapfrog
+// step conserves is conserved.
 
 /// Of a particle that moved by `by` in h seconds.
 double kinetic_energy(double mass, const glm::dvec3& by, double h) noexcept;
-/// Of a link under `tension`. Its ends are `now` apart, and moved apart by `by`. A solver that fell short
-/// leaves a link longer than its tension says; its length halfway is taken to be off by the same factor.
-/// Shear and bend links are so stiff that rotation alone falsifies their length halfway: theirs is the energy
-/// at the end.
+/// Of a link under `tension`. Its ends are `now` apart, a distance that changed by `by` in the substep. A
+/// solver that fell short leaves a link longer than its tension implies; its length halfway is taken to be
+/// off by the same factor. Shear and bend links are so stiff that rotation alone falsifies their length
+/// halfway, so theirs is the energy at the end.
 double elastic_energy(const Link& link, double compliance, double tension, const glm::dvec3& now,
                       const glm::dvec3& by) noexcept;
 }  // namespace tendril::rope::detail

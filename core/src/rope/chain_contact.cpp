@@ -1,4 +1,4 @@
-// What a chain touches: which planes hold which particle, and how friction drags on it.
+// The contacts of a chain: which planes hold which particle, and how friction drags on it.
 #include <algorithm>
 #include <cmath>
 
@@ -12,12 +12,12 @@ namespace {
 using detail::dot;
 using glm::dvec3;
 
-constexpr double slack = 1e-3;         ///< metres that a particle may be pulled beside its free way
+constexpr double slack = 1e-3;         ///< metres that a particle may be pulled off its free path
 constexpr double touching = 1e-5;      ///< metres above a surface
-constexpr double depth = 1e-7;         ///< metres inside that do no harm
-constexpr double harmful = 1e-6;       ///< metres inside that take another step
-constexpr double harmful_late = 1e-5;  ///< the same after many
-/// What friction lets a particle slip in a substep where it holds it, metres.
+constexpr double depth = 1e-7;         ///< metres inside that are harmless
+constexpr double harmful = 1e-6;       ///< metres inside that require another step
+constexpr double harmful_late = 1e-5;  ///< the same after many steps
+/// Slip per substep of a particle that friction holds, metres.
 constexpr double creep = 1e-7;
 
 dvec3 beside(const dvec3& v, const dvec3& normal) {
@@ -26,7 +26,7 @@ dvec3 beside(const dvec3& v, const dvec3& normal) {
 
 }  // namespace
 
-/// Of the chunk that a particle is in, which is looked for beginning with `chunk`.
+/// What is near the chunk of particle `i`; the search for the chunk starts at `chunk`.
 std::span<const IslandScratch::Near> ChainNewton::near_of(std::uint32_t i, std::uint32_t& chunk) const {
     while (plan_.chunks[chunk].first > i) --chunk;
     while (i - plan_.chunks[chunk].first >= plan_.chunks[chunk].count) ++chunk;
@@ -91,7 +91,7 @@ bool ChainNewton::find(std::uint32_t number) {
     return !s_.contacts.empty();
 }
 
-/// Whether a link between two points touches, or all but does.
+/// Whether a link between two points touches, or very nearly does.
 bool ChainNewton::link_touches(const ContactScratch::LinkContact& contact, const dvec3& a, const dvec3& b,
                                bool moved) const {
     for (std::uint32_t c = contact.first; c < contact.first + contact.count; ++c) {
@@ -145,7 +145,7 @@ bool ChainNewton::inside() const {
     return false;
 }
 
-/// Where a free way would pass a surface it is stopped on the side that it came from.
+/// Stops a particle whose free path would pass through a surface on the side that it came from.
 void ChainNewton::begin_plane(ContactScratch::Contact& contact, ContactScratch::Plane& plane) {
     const std::uint32_t i = particle(contact.node);
     const Scratch::Moving& moving = collider(plane.collider);
@@ -171,7 +171,7 @@ void ChainNewton::begin_plane(ContactScratch::Contact& contact, ContactScratch::
     plane.point = at - (surface.distance - radius_) * surface.normal;
 }
 
-/// Whether anything changed that takes another step.
+/// Whether anything changed that requires another step.
 bool ChainNewton::update_contacts() {
     bool changed = false;
     for (ContactScratch::Contact& contact : s_.contacts) changed |= update_planes(contact);
@@ -191,8 +191,8 @@ bool ChainNewton::update_planes(ContactScratch::Contact& contact) {
         const bool was = plane.active;
         if (moved_ && !was && moving.far_from(node.x, radius_)) continue;
         plane.gap = dot(plane.normal, node.x - plane.point);
-        // What is far behind a plane that it touched has come through it: the surface that is nearest there
-        // is another one. One that it did not touch it may as well have gone round.
+        // A particle far behind a plane that it touched has come through it: the surface nearest to it now is
+        // another one. If it did not touch the plane, it may have gone round.
         if (moved_ && (!was || plane.gap > -0.5 * moving.size - radius_)) {
             const SurfaceDistance surface = surface_distance(*moving.shape, node.x);
             plane.normal = surface.normal;
@@ -203,12 +203,12 @@ bool ChainNewton::update_planes(ContactScratch::Contact& contact) {
             plane.active = true;
             changed |= plane.gap < (may_go_ ? -harmful : -harmful_late);
         } else if (was && may_go_) {
-            // What it has to bear: what is out of balance without it.
+            // The force that the contact has to bear: what is out of balance without it.
             plane.active = dot(node.force, plane.normal) + node.mass * plane.gap <= 0.0;
         }
         changed |= may_go_ && plane.active != was;
         if (!plane.active) continue;
-        // The deepest first.
+        // Sorted by depth, deepest first.
         constexpr int most = detail::NodeContact::most;
         if (hold.planes == most && plane.gap >= hold.gap[most - 1]) continue;
         int at = std::min(hold.planes, most - 1);
@@ -240,7 +240,7 @@ void ChainNewton::rub(ContactScratch::Contact& contact) {
         slip = beside(slip, hold.normal[p]);
     }
     double slipped = detail::length(slip);
-    if (!moved_) {  // as far as it slipped before, or as it would by itself
+    if (!moved_) {  // as far as it slipped before, or as it would freely
         const double before = detail::length(state_.displacement[particle(contact.node)] - by);
         const double alone = detail::length(slip + (1.0 / node.mass) * force) - friction * normal / node.mass;
         slipped = std::max(before, alone);
@@ -264,7 +264,7 @@ bool ChainNewton::update_link(ContactScratch::LinkContact& contact) {
     hold.active = false;
     for (std::uint32_t c = contact.first; c < contact.first + contact.count; ++c) {
         const Scratch::Moving& moving = collider(s_.link_colliders[c]);
-        // Where the substep begins as the collider sees it, which has moved since.
+        // The start of the substep as seen by the collider, which has moved since.
         const dvec3 by_a = moved_ ? dvec3(0.0) : moving.by_at(a),
                     by_b = moved_ ? dvec3(0.0) : moving.by_at(b);
         const dvec3 from = a + by_a, along = b + by_b - from;
@@ -289,7 +289,7 @@ bool ChainNewton::update_link(ContactScratch::LinkContact& contact) {
     if (!hold.active) {
         hold.multiplier = 0.0;
     } else if (touched != contact.collider) {
-        // What it has to bear, roughly.
+        // A rough estimate of the force that it has to bear.
         const dvec3 force = s_.nodes[contact.bond].force + s_.nodes[contact.bond + 1].force;
         hold.multiplier = moved_ ? 0.0 : std::max(0.0, -dot(force, hold.normal));
     }
@@ -323,7 +323,7 @@ void ChainNewton::rub_link(const ContactScratch::LinkContact& contact) {
     const double drag = friction * normal / std::max(slipped, creep);
     const auto share = [&](const detail::ChainNode& node, double part, const dvec3& slip) {
         detail::NodeContact& end = s_.holds[static_cast<std::size_t>(node.contact)];
-        if (end.planes > 0) return;  // that has its own
+        if (end.planes > 0) return;  // it has its own
         end.drag = part * drag;
         end.slip = slip;
     };

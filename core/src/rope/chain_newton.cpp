@@ -14,12 +14,12 @@ namespace {
 using glm::dvec3;
 
 constexpr int max_steps = 16;
-constexpr int few_steps = 4;        ///< after which a larger error is accepted
-constexpr int steps_to_let_go = 8;  ///< in which contacts may go again
-constexpr int max_rejected = 3;     ///< steps in a row that are taken again
-/// Of a link, over h^2, by the inverse mass of its ends: what cannot be as short as it should be is so much
-/// longer that its tension is finite. A metre of rope, 64 segments, that carries a hundred times its weight
-/// gets a millionth longer.
+constexpr int few_steps = 4;        ///< after these a larger error is accepted
+constexpr int steps_to_let_go = 8;  ///< in these contacts may be dropped
+constexpr int max_rejected = 3;     ///< consecutive steps that may be repeated
+/// Of a link, over h^2, relative to the inverse mass of its ends. A link that cannot reach its length
+/// stretches just enough to keep its tension finite. A metre of rope, 64 segments, carrying a hundred times
+/// its weight stretches by a millionth.
 constexpr double min_compliance = 1e-8;
 constexpr double accepted = 1e-5;  ///< relative length error
 constexpr double first_stiffer = 10.0;
@@ -31,7 +31,7 @@ std::uint32_t ChainNewton::particle(std::uint32_t node) const {
     return plan_.nodes[plan_.chains[chain_].first_node + node];
 }
 
-/// Where the substep begins, with the tension of the one before.
+/// Starts at the beginning of the substep, with the tension of the previous one.
 void ChainNewton::begin() {
     const Plan::Chain& chain = plan_.chains[chain_];
     const double h = state_.settings.substep, square = h * h;
@@ -80,9 +80,9 @@ void ChainNewton::keep() {
     for (std::size_t c = 0; c < s_.bond_holds.size(); ++c) s_.kept_contacts[c] = s_.bond_holds[c].multiplier;
 }
 
-/// To where that part of the last step leads.
+/// Goes back to a part of the last step.
 void ChainNewton::go_back(double part) {
-    // What is no number is not weighed, but left.
+    // NaN must not survive: part 0 assigns.
     const auto back = [&](auto& to, const auto& from) { to = part > 0.0 ? from + part * (to - from) : from; };
     for (std::size_t k = 0; k < s_.nodes.size(); ++k) {
         back(s_.nodes[k].x, s_.kept[k].x);
@@ -92,8 +92,8 @@ void ChainNewton::go_back(double part) {
         back(s_.bond_holds[c].multiplier, s_.kept_contacts[c]);
 }
 
-/// Whether a link has grown, or shrunk, by too much; `turned`: how far its ends have moved apart, by its
-/// length, at most.
+/// Whether a link has grown or shrunk too much. `turned`: the largest change of a link's direction, relative
+/// to its length.
 bool ChainNewton::went_too_far(double& turned) const {
     bool wild = false, numbers = true;
     turned = 0.0;

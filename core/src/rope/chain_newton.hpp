@@ -1,13 +1,13 @@
-// Newton's method for one chain among colliders: lengths, contacts and friction at once. Not installed.
+// Newton's method for one chain among colliders: lengths, contacts and friction together. Not installed.
 //
-// A step solves all of them, linearised, as one system (chain_system.hpp). Contacts are planes that touch the
-// surface where it is nearest, found anew in every step. Which of them hold is an active set: one comes in
-// where a particle is inside, and goes where it would have to pull. Friction (Coulomb's) drags on what slips:
-// the normal force times the coefficient over how far it slips, both as last known, which a few steps make
-// right (iteratively reweighted least squares). What it holds creeps, by less than anybody sees.
+// Each step linearises all of them and solves one system (chain_system.hpp). A contact is the tangent plane
+// at the nearest point of a surface, recomputed in every step. An active set decides which contacts hold: one
+// is added when a particle is inside, and dropped when it would have to pull. Friction (Coulomb's) is a drag
+// on slip: the normal force times the coefficient over the slip distance, both from the last step, which
+// converges in a few steps (iteratively reweighted least squares). Contacts that stick creep invisibly.
 //
-// A step that makes a link much longer, or turns it too far to go by its direction, is taken again with links
-// that turn less easily (K. Levenberg, 1944), and in the end only in part.
+// A step that lengthens a link too much, or turns it too far for its linearisation, is repeated with links
+// that resist turning (K. Levenberg, 1944), and finally taken only in part.
 #pragma once
 
 #include <cstdint>
@@ -22,14 +22,14 @@ class ChainNewton {
                 IslandScratch& local)
         : state_(state), plan_(plan), island_(island), scratch_(scratch), local_(local), s_(local.contact) {}
 
-    /// Finds what a chain may touch in this substep; false where there is nothing.
+    /// Finds what a chain may touch in this substep; false if there is nothing.
     bool find(std::uint32_t chain);
-    /// Whether it touches any of that where the substep begins, or would on a free way.
+    /// Whether it touches any of that at the start of the substep, or would on a free path.
     bool touches() const;
-    /// Whether it is inside of any of that where the solver has put it.
+    /// Whether it is inside any of that at the solver's result.
     bool inside() const;
-    /// Moves the chain that was found last from where the substep begins; with no contacts where there are
-    /// none.
+    /// Solves the chain that was found last, starting at the beginning of the substep; without contacts if
+    /// there are none.
     void solve();
 
   private:
@@ -60,8 +60,8 @@ class ChainNewton {
     ContactScratch& s_;
     std::uint32_t chain_ = 0;
     double radius_ = 0.0;
-    bool moved_ = false;   ///< a step was taken since the substep began
-    bool may_go_ = false;  ///< contacts may still go again
+    bool moved_ = false;   ///< a step was taken in this substep
+    bool may_go_ = false;  ///< contacts may still be dropped
 };
 
 }  // namespace tendril::rope

@@ -6,12 +6,12 @@
 namespace tendril::rope::detail {
 namespace {
 
-constexpr double softness = 1e-8;       ///< of contacts with links, over the inverse mass
-constexpr double max_stiffness = 1e9;   ///< over the mass
-constexpr double max_multiplier = 1e9;  ///< over mass and rest
+constexpr double softness = 1e-8;       ///< of contacts with links, relative to the inverse mass
+constexpr double max_stiffness = 1e9;   ///< relative to the mass
+constexpr double max_multiplier = 1e9;  ///< relative to mass and rest
 constexpr double enough_freedom = 0.05;
 
-/// What nodes that are eliminated leave to the next.
+/// What eliminated nodes pass on to the next.
 struct Sweep {
     Symmetric3 matrix;
     dvec3 right{0.0};
@@ -30,8 +30,8 @@ Symmetric3 inverse_of(const Symmetric3& m) noexcept {
             by * (m.xx * m.yy - m.xy * m.xy)};
 }
 
-/// Planes take the freedom to move along their normals. Of two that all but say the same the second is left
-/// out where the first left too little freedom: it would fling the node far to the side.
+/// Removes a node's freedom to move along the normals of its planes. Of two nearly parallel planes the second
+/// is skipped if the first left too little freedom: it would fling the node far sideways.
 void hold(ChainNode& node, const NodeContact& contact) noexcept {
     const Symmetric3 free = node.mobility;
     for (int p = 0; p < contact.planes; ++p) {
@@ -65,12 +65,12 @@ inline void solve_node(ChainNode& node, const Sweep& before, double stiffness,
     if (contact != nullptr) hold(node, *contact);
 }
 
-/// A node that is solved, and the bond that leads from it along `along`, make their mark on the next.
+/// Eliminates a solved node and the bond that leads from it in the direction `along`.
 inline Sweep eliminate(const ChainNode& node, ChainBond& bond, const dvec3& along, double weights) noexcept {
     const double s = bond.stiffness;
     const dvec3 moved = node.mobility * along;
     const double pivot = dot(along, moved) + bond.compliance / bond.pliant;
-    bond.inverse = weights > 0.0 ? 1.0 / pivot : 0.0;  // between two pinned nodes there is nothing to solve
+    bond.inverse = weights > 0.0 ? 1.0 / pivot : 0.0;  // nothing to solve between two pinned nodes
     bond.row = along - s * moved;
     bond.right = bond.error / bond.pliant - dot(along, node.offset);
     Sweep next;
@@ -82,13 +82,13 @@ inline Sweep eliminate(const ChainNode& node, ChainBond& bond, const dvec3& alon
     return next;
 }
 
-/// With the multiplier as the one unknown between the two.
+/// Adds the bond's multiplier, the only unknown between the two nodes.
 inline void couple(const ChainBond& bond, Sweep& next) noexcept {
     next.matrix.add(bond.inverse, bond.row, bond.row);
     next.right -= (bond.right * bond.inverse) * bond.row;
 }
 
-/// With the contact's too: `here` and `there` are its parts on the node and on the next.
+/// Adds the contact's multiplier too; `here` and `there` are its shares on the node and on the next.
 void couple(const ChainNode& node, ChainBond& bond, const dvec3& along, double weights, BondContact& contact,
             double here, double there, Sweep& next) noexcept {
     const dvec3 push = here * contact.normal, moved = node.mobility * push;
@@ -110,7 +110,7 @@ void couple(const ChainNode& node, ChainBond& bond, const dvec3& along, double w
     next.matrix.add(1.0, first, bond.row);
     next.matrix.add(1.0, second, contact.row);
     next.right -= bond.right * first + contact.right * second;
-    // Kept as the inverse of the two by two matrix.
+    // Stores the inverse of the 2 x 2 matrix.
     bond.inverse = a, contact.coupled = b, contact.inverse = c;
 }
 
@@ -139,7 +139,7 @@ void ChainSystem::evaluate(double stiffer) noexcept {
             }
         }
         node.force = node.mass * (node.base - node.x) + pull - pull_before;
-        // The part of a contact on the next node pushes it, where tension pulls it back.
+        // On the next node tension pulls back, but the contact's share pushes.
         pull_before = pull - push_next;
     }
 }
@@ -153,7 +153,7 @@ double ChainSystem::largest_error() const noexcept {
 
 void ChainSystem::step() noexcept {
     const auto weight = [](const ChainNode& node) { return node.pinned ? 0.0 : 1.0 / node.mass; };
-    /// Node `k`, towards the node that is `next`.
+    /// Eliminates node `k` towards node `next`.
     const auto pass = [&](const Sweep& before, std::size_t k, std::size_t next) {
         const bool forward = next > k;
         ChainNode& node = nodes[k];
@@ -174,7 +174,7 @@ void ChainSystem::step() noexcept {
     };
     const std::size_t last = nodes.size() - 1, middle = nodes.size() / 2;
     Sweep left, right;
-    // Both at once: neither waits for the other.
+    // Interleaved: neither side waits for the other.
     for (std::size_t k = 0; k < middle; ++k) {
         left = pass(left, k, k + 1);
         if (last - k > middle) right = pass(right, last - k, last - k - 1);
@@ -203,7 +203,7 @@ void ChainSystem::step() noexcept {
             push -= (pressed * (forward ? 1.0 - contact->at : contact->at)) * contact->normal;
         }
         const dvec3 by = here.offset + here.mobility * (change * along + push);
-        // The stiffness acted along the link too: what it did there is tension.
+        // The stiffness acted along the link too; that part is tension.
         const double most = max_multiplier * bond.rest * here.mass;
         bond.multiplier =
             std::clamp(bond.multiplier + change + bond.stiffness * dot(along, next_by - by), -most, most);

@@ -1,16 +1,16 @@
-// One chain among colliders: its lengths and its contacts in one linear system. Not installed.
+// The linear system of one chain among colliders: its lengths and its contacts. Not installed.
 //
-// A step of Newton's method on what a substep has to satisfy. Node j has mass m, link k leads from node k to
-// the next along the unit vector n and has the multiplier t (tension times h^2), which makes it stiff
-// sideways by s = t / length. For displacements dx and changes dt:
+// One step of Newton's method for a substep. Node j has mass m. Link k leads from node k to the next along
+// the unit vector n, with the multiplier t (tension times h^2), which adds the sideways stiffness s = t /
+// length. For displacements dx and changes dt:
 //
 //     (m + s_{j-1} + s_j) dx_j - s_{j-1} dx_{j-1} - s_j dx_{j+1} + n_{j-1} dt_{j-1} - n_j dt_j = force_j
 //     n_k (dx_{k+1} - dx_k) - compliance dt_k = -(length - rest - compliance t_k)
 //
-// A node in contact moves by a given distance along the normal, and against friction beside it; a link in
-// contact does so where it touches. Nodes are eliminated from both ends towards the middle, each with the
-// link behind it: 3 x 3 blocks, O(n). The matrix is symmetric and quasi-definite, so this is stable without
-// pivoting (R. Vanderbei, "Symmetric quasidefinite matrices", 1995).
+// A node in contact moves by a given distance along the normal, and against friction tangentially; a link in
+// contact does so at the point that touches. Nodes are eliminated from both ends towards the middle, each
+// with the link behind it: 3 x 3 blocks, O(n). The matrix is symmetric and quasi-definite, so this is stable
+// without pivoting (R. Vanderbei, "Symmetric quasidefinite matrices", 1995).
 #pragma once
 
 #include <cstdint>
@@ -28,7 +28,7 @@ struct Symmetric3 {
         return {xx * v.x + xy * v.y + xz * v.z, xy * v.x + yy * v.y + yz * v.z,
                 xz * v.x + yz * v.y + zz * v.z};
     }
-    /// Plus `by` times a b^T, which has to be symmetric.
+    /// Adds `by` times a b^T, which must be symmetric.
     void add(double by, const dvec3& a, const dvec3& b) noexcept {
         const dvec3 w = by * a;
         xx += w.x * b.x, xy += w.x * b.y, xz += w.x * b.z;
@@ -37,13 +37,13 @@ struct Symmetric3 {
 };
 
 struct ChainNode {
-    dvec3 x{0.0};               ///< where it is as yet
-    dvec3 base{0.0};            ///< where it would be without links and contacts
+    dvec3 x{0.0};               ///< current position
+    dvec3 base{0.0};            ///< position without links and contacts
     double mass = 1.0;          ///< kg, over 0
-    std::int32_t contact = -1;  ///< its NodeContact; below 0: none
+    std::int32_t contact = -1;  ///< index of its NodeContact; negative: none
     bool pinned = false;
     dvec3 force{0.0};  ///< out of balance, times h^2; without contact
-    // Within a step: it moves by `offset`, and by `mobility` times what else pushes it.
+    // Within a step: moves by `offset`, plus `mobility` times any further force.
     dvec3 offset{0.0};
     Symmetric3 mobility;
 };
@@ -53,51 +53,50 @@ struct ChainBond {
     double rest = 0.0;          ///< metres
     double compliance = 0.0;    ///< m/N, over h^2
     double multiplier = 0.0;    ///< tension times h^2
-    std::int32_t contact = -1;  ///< its BondContact; below 0: none
+    std::int32_t contact = -1;  ///< index of its BondContact; negative: none
     dvec3 along{0.0};           ///< unit
     double error = 0.0;         ///< metres too long
     double stiffness = 0.0;     ///< sideways, times h^2
-    double pliant = 1.0;        ///< what compliance leaves of the stiffness along it
-    // Within a step: how the multiplier follows from the displacement of the node that comes after in
-    // elimination.
+    double pliant = 1.0;        ///< the part of the stiffness along it that compliance leaves
+    // Within a step: expresses the multiplier by the displacement of the next node in elimination order.
     dvec3 row{0.0};
     double right = 0.0, inverse = 0.0;
 };
 
-/// What a contact does to a node.
+/// The effect of contacts on a node.
 struct NodeContact {
     static constexpr int most = 3;
     dvec3 normal[most];  ///< of the planes that it stays on
     double gap[most];    ///< metres above each
     int planes = 0;
-    double drag = 0.0;  ///< friction, times h^2, over the way that it has slipped
-    dvec3 slip{0.0};    ///< that way, metres
+    double drag = 0.0;  ///< friction, times h^2, over the slip distance
+    dvec3 slip{0.0};    ///< metres
 };
 
-/// What touches a link between its ends.
+/// A contact of a link between its ends.
 struct BondContact {
     bool active = false;
     dvec3 normal{0.0};
-    double at = 0.5;          ///< where, from 0 at its node to 1 at the next
+    double at = 0.5;          ///< where on the link, from 0 at its node to 1 at the next
     double gap = 0.0;         ///< metres
     double multiplier = 0.0;  ///< force times h^2
-    // Within a step, as a bond's.
+    // Within a step, as in ChainBond.
     dvec3 row{0.0};
     double right = 0.0, inverse = 0.0, coupled = 0.0;
 };
 
 struct ChainSystem {
     std::span<ChainNode> nodes;
-    std::span<ChainBond> bonds;  ///< one less
+    std::span<ChainBond> bonds;  ///< one fewer than nodes
     std::span<const NodeContact> contacts;
     std::span<BondContact> bond_contacts;
 
-    /// Directions, errors and forces, from where nodes are. `stiffer`: stiffness sideways beside tension's,
-    /// over a node's mass, so that a step turns links less.
+    /// Computes directions, errors and forces from the positions of nodes. `stiffer`: sideways stiffness in
+    /// addition to the tension's, relative to a node's mass, so that a step turns links less.
     void evaluate(double stiffer) noexcept;
-    /// Moves nodes and changes multipliers by one step, from what was evaluated.
+    /// Moves nodes and changes multipliers by one step, after evaluate().
     void step() noexcept;
-    double largest_error() const noexcept;  ///< of a length, over its rest
+    double largest_error() const noexcept;  ///< of a length, relative to its rest
 };
 
 }  // namespace tendril::rope::detail

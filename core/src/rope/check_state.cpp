@@ -21,14 +21,14 @@ bool is_within(const glm::dvec3& p, double limit) {
 bool is_point(const glm::dvec3& p) {
     return is_within(p, max_magnitude);
 }
-/// Between two points.
+/// For vectors between two points.
 bool is_offset(const glm::dvec3& p) {
     return is_within(p, max_displacement);
 }
 bool is_amount(double value) {
     return value >= 0.0 && value <= max_magnitude;
 }
-/// The coordinate that is out of range, for the message.
+/// The out-of-range coordinate, for the message.
 double worst(const glm::dvec3& p) {
     for (int i = 0; i < 3; ++i)
         if (!std::isfinite(p[i])) return p[i];
@@ -48,14 +48,14 @@ Result check_particles(const State& state) {
     for (std::size_t i = 0; i < size; ++i) {
         if (!is_point(state.position[i])) return bad_point("position", i, state.position[i]);
         if (!is_offset(state.displacement[i])) return bad_point("displacement", i, state.displacement[i]);
-        // 1e9 kg/m on 1e9 m, or a square of that, is allowed.
+        // 1e9 kg/m on 1e9 m, or the square of that, is allowed.
         if (!(state.mass[i] > 0.0 && state.mass[i] <= 1e30))
             return refused(op, Argument("mass", i), "over 0 and finite", state.mass[i]);
     }
     return {};
 }
 
-/// Every taken slot belongs to one of the list, and to no other.
+/// Every taken slot belongs to exactly one element of the list.
 template <class List>
 Result check_handles(const List& list, const std::vector<std::uint32_t>& slots, const char* name) {
     std::vector<bool> seen(slots.size(), false);

@@ -7,10 +7,10 @@
 
 namespace tendril::rope::detail {
 
-/// Metres each way that a particle moves in a substep at most: from one edge of the world to the other.
+/// Maximum displacement of a particle in a substep, metres each way: from one edge of the world to the other.
 inline constexpr double max_displacement = 2.0 * static_cast<double>(max_magnitude);
 
-/// Refuses, naming what is wrong and where.
+/// The refusal names what is wrong and where.
 Result check(const State& state);
 
 }  // namespace tendril::rope::detail

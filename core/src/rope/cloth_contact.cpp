@@ -34,8 +34,7 @@ dvec3 at(const detail::GridVector& vector, std::size_t cell) {
 
 }  // namespace
 
-/// What is inside a collider, and what pressed in the solve before. All are visited in the same order each
-/// time.
+/// Finds what is inside a collider, and what pressed in the previous solve. Always in the same order.
 void ClothSolver::find_contacts(bool first) {
     std::vector<ClothContact>&found = local_.cloth_contacts, &before = local_.earlier_contacts;
     std::swap(found, before);
@@ -98,7 +97,7 @@ void ClothSolver::keep(ClothContact contact, const SurfaceDistance& surface, dou
     contact.normal = surface.normal;
     const bool presses = contact.force > 0.0;
     if (contact.gap >= 0.0 && !presses) return;
-    // At first as much as lifts it out.
+    // Initially the force that lifts it out.
     if (!presses) contact.force = -contact.gap * state_.mass[contact.a] / mass_;
     local_.cloth_contacts.push_back(contact);
 }
@@ -121,7 +120,7 @@ void ClothSolver::rub(ClothContact& contact) const {
     contact.drag = size * stiffness_ > most ? most / size : stiffness_;
 }
 
-/// Its share of the potential.
+/// The contact's share of the potential.
 double ClothSolver::potential_of(const ClothContact& contact) const {
     const dvec3 by = between(contact, scratch_.place) - contact.at;
     const double along = detail::dot(by, contact.normal), gap = contact.gap + along;
@@ -147,7 +146,7 @@ void ClothSolver::add_contact(const ClothContact& contact) {
     add(level_.links[link.step], link.cell, -to_a * to_b, stiff);
 }
 
-/// How much each contact presses after a solve.
+/// Stores the force of each contact after a solve.
 void ClothSolver::note_forces() {
     const detail::GridVector& by = cloth_.system.solution();
     for (ClothContact& each : local_.cloth_contacts) {

@@ -1,17 +1,17 @@
-// A cloth as the grid that it is: its links and particles in the layout of a GridSystem, and that system for
-// one step of time. Not installed.
+// A cloth as a grid: its links and particles in the layout of a GridSystem, and that system for one substep.
+// Not installed.
 //
-// A step ends where, with x0 the place a particle would have without forces, m its mass and h the substep,
+// A step minimises, with x0 the position of a particle without forces, m its mass and h the substep,
 //
 //     sum of m |x - x0|^2 / (2 h^2)  +  sum over links of k (length - rest)^2 / 2
 //
-// is least: the backward Euler method (D. Baraff, A. Witkin, "Large Steps in Cloth Simulation", 1998). One
-// step of Newton's method from x0 comes close enough. With f = k (length - rest), n the direction of a link
-// and g = max(f, 0) / length, the block of a link is (k - g) n n^T + g I: what tension adds sideways keeps a
-// taut cloth smooth, and what compression would take away is left out, so the system stays positive definite.
+// This is the backward Euler method (D. Baraff, A. Witkin, "Large Steps in Cloth Simulation", 1998). One step
+// of Newton's method from x0 comes close enough. With f = k (length - rest), n the direction of a link and g
+// = max(f, 0) / length, the block of a link is (k - g) n n^T + g I. The sideways stiffness of tension keeps a
+// taut cloth smooth; the negative one of compression is left out, so the system stays positive definite.
 //
-// Stiffness and force are in units of m / h^2, with m the mean mass of the cloth: numbers stay in range
-// whatever its scale.
+// Stiffness and force are in units of m / h^2, with m the mean mass of the cloth: numbers stay in range at
+// any scale.
 #pragma once
 
 #include <array>
@@ -22,14 +22,14 @@ namespace tendril::rope::detail {
 
 /// All in the layout of the finest level.
 struct ClothArrays {
-    std::array<float*, fine_steps> rest{}, stiffness{};  ///< of links, by the cell they begin in; none: 0
+    std::array<float*, fine_steps> rest{}, stiffness{};  ///< of links, by the cell they begin in; 0: no link
     std::array<float*, fine_steps> pull{};               ///< force over length
-    GridVector place{};                                  ///< from any particle of the cloth, metres
+    GridVector place{};                                  ///< relative to any particle of the cloth, metres
     GridVector lag{};                                    ///< x0 - x
     float* mass = nullptr;
 };
 
-/// What one cloth is solved with.
+/// The data of one cloth's solve.
 struct Cloth {
     GridSystem system;
     ClothArrays arrays;
@@ -39,12 +39,12 @@ struct Cloth {
 
 /// Compiled for each vector unit.
 struct ClothUnit {
-    /// Blocks of links, without contacts, and their pull.
+    /// Computes the blocks of links, without contacts, and their pull.
     void (*links)(const GridLevel&, const ClothArrays&) = nullptr;
-    /// The diagonal and the right side.
+    /// Computes the diagonal and the right side.
     void (*cells)(const GridLevel&, const ClothArrays&) = nullptr;
 };
-/// As vector_unit().
+/// Selected by name like vector_unit().
 ClothUnit cloth_unit(std::string_view name) noexcept;
 
 }  // namespace tendril::rope::detail

@@ -7,7 +7,7 @@
 namespace tendril::rope::detail {
 namespace {
 
-/// Where a link begins and where it leads in a grid; false where it is no link of one.
+/// Finds the cell and the step of a link in a grid; false if it is not a grid link.
 bool place_in_grid(const Body& body, const Link& link, std::size_t stride, Plan::GridLink& in_grid) {
     const auto low = std::min(link.a, link.b), high = std::max(link.a, link.b);
     const std::size_t first = low - body.first, last = high - body.first;
@@ -22,7 +22,7 @@ bool place_in_grid(const Body& body, const Link& link, std::size_t stride, Plan:
     return false;
 }
 
-/// A grid that has every link of an island, each in a place of its own; false where there is none.
+/// Adds a grid that contains every link of an island exactly once; false if there is none.
 bool fill_grid(const State& state, const Plan::Island& island, Plan& plan) {
     const std::uint32_t number = Plan::part(plan.bodies, island.bodies).front();
     const Body& body = state.bodies[number];
@@ -32,7 +32,7 @@ bool fill_grid(const State& state, const Plan::Island& island, Plan& plan) {
                     .columns = static_cast<std::uint32_t>(body.row),
                     .rows = static_cast<std::uint32_t>(body.count / body.row),
                     .links = {static_cast<std::uint32_t>(plan.grid_links.size()), island.links.count}};
-    std::vector<std::uint8_t> taken(grid_stride(body.row) * grid.rows, 0);  // a bit for each step
+    std::vector<std::uint8_t> taken(grid_stride(body.row) * grid.rows, 0);  // a bit per step
     for (const std::uint32_t i : Plan::part(plan.links, island.links)) {
         Plan::GridLink link{.link = i};
         const bool fits = place_in_grid(body, state.links[i], grid_stride(body.row), link);

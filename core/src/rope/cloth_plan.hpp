@@ -1,11 +1,11 @@
-// Which islands are cloths whose links all fit their grid. Not installed.
+// Finds the islands that are cloths whose links all fit a grid. Not installed.
 #pragma once
 
 #include "rope/plan.hpp"
 
 namespace tendril::rope::detail {
 
-/// Fills `plan.grids` and `plan.grid_links`, once islands are there.
+/// Fills `plan.grids` and `plan.grid_links`; requires islands.
 void find_grids(const State& state, Plan& plan);
 
 }  // namespace tendril::rope::detail

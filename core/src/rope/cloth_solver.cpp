@@ -11,11 +11,11 @@ namespace {
 
 using glm::dvec3;
 
-/// What a link is stretched by where the whole weight of its cloth hangs on it.
+/// Strain of a link that carries the weight of the whole cloth.
 constexpr double strain_by_weight = 2e-3;
 /// Of a link, in m / h^2.
 constexpr double min_stiffness = 1e4, max_stiffness = 1e6;
-constexpr double residual_tolerance = 1e-3;  ///< of the residual
+constexpr double residual_tolerance = 1e-3;  ///< relative to the initial residual
 /// Strain of a stretch link up to which two steps are enough.
 constexpr double accepted_strain = 0.01;
 constexpr int max_halvings = 6;
@@ -59,7 +59,7 @@ ClothSolver::ClothSolver(const State& state, const Plan& plan, const Plan::Islan
     stiffness_ = std::clamp(weight / (strain_by_weight * shortest * unit_), min_stiffness, max_stiffness);
 }
 
-/// Calls with each particle and its cell.
+/// Calls `visit` with each particle and its cell.
 template <class Visit>
 void ClothSolver::each_cell(Visit visit) const {
     const std::size_t stride = detail::grid_stride(grid_.columns);
@@ -73,7 +73,7 @@ double ClothSolver::stiffness_of(const Link& link) const {
     return compliance * stiffness_ > 1.0 ? 1.0 / compliance : stiffness_;
 }
 
-/// What stays the same however often it is solved.
+/// Loads what does not change between solves.
 void ClothSolver::load() {
     detail::ClothArrays& to = cloth_.arrays;
     const std::size_t cells = level_.cells();
@@ -99,7 +99,7 @@ void ClothSolver::load() {
     local_.cloth_energy = {.length = rests / (grid_.columns + grid_.rows), .gained = -elastic_};
 }
 
-/// The system where everything is now.
+/// Builds the system at the current positions.
 void ClothSolver::assemble() {
     detail::ClothArrays& to = cloth_.arrays;
     const dvec3 origin = scratch_.place[first_];
@@ -113,7 +113,7 @@ void ClothSolver::assemble() {
     scratch_.cloth_unit.cells(level_, to);
 }
 
-/// Takes pinned particles out of it.
+/// Takes pinned particles out of the system.
 void ClothSolver::pin() {
     each_cell([&](std::size_t, std::size_t cell) {
         if (level_.free[cell] != 0.0f) return;
@@ -123,7 +123,7 @@ void ClothSolver::pin() {
         for (std::size_t s = 0; s < detail::fine_steps; ++s)
             for (float* each : level_.links[s]) {
                 each[cell] = 0.0f;
-                *(each + cell - level_.step(s)) = 0.0f;  // before the first cell there is memory, too
+                *(each + cell - level_.step(s)) = 0.0f;  // memory extends before the first cell
             }
     });
 }
@@ -157,12 +157,12 @@ int ClothSolver::step(int iterations) {
     }
     if (!(after <= before)) go(-part), part = 0.0f;
     taken_ = part;
-    potential();  // for what it notes
+    potential();  // for its side effects
     return solved.iterations;
 }
 
 /// Twice the incremental potential at `place`, over the mean mass and times h^2: inertia, links and contacts.
-/// Also notes the links' multipliers and energy there, and the largest strain of a stretch link.
+/// Also stores the links' multipliers and energy there, and the maximum strain of a stretch link.
 double ClothSolver::potential() {
     double sum = 0.0;
     for (std::size_t i = first_; i < first_ + state_.bodies[grid_.body].count; ++i) {
@@ -186,7 +186,7 @@ double ClothSolver::potential() {
 }
 
 int ClothSolver::solve(int iterations) {
-    // After a single step a swinging cloth gains energy. Two that are half as exact lose some.
+    // With a single step a swinging cloth gains energy. Two steps, half as exact, lose some.
     constexpr int rounds = 2, rounds_in_contact = 3, max_rounds = 6, max_rounds_in_contact = 4;
     load();
     int most = 0;

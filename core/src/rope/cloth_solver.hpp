@@ -1,7 +1,7 @@
-// A cloth that is a grid, solved as a whole together with what it touches: one implicit step (cloth_grid.hpp)
-// in which a contact is as stiff as a link, and friction is a drag along the surface (Coulomb's law, by the
-// force and the slip of the solve before: M. Li et al., "Incremental Potential Contact", 2020). Near
-// colliders it is solved again from where it came to, with the contacts found there. Not installed.
+// Solves a cloth that is a grid as a whole, together with its contacts, in one implicit step
+// (cloth_grid.hpp). A contact is as stiff as a link. Friction is a drag along the surface (Coulomb's law,
+// with the force and the slip of the previous solve: M. Li et al., "Incremental Potential Contact", 2020).
+// Near colliders the step is solved again from its result, with the contacts found there. Not installed.
 #pragma once
 
 #include "rope/scratch.hpp"
@@ -13,7 +13,8 @@ class ClothSolver {
     ClothSolver(const State& state, const Plan& plan, const Plan::Island& island, Scratch& scratch,
                 IslandScratch& local);
 
-    /// Of the island's particles, from `base`. At most so many iterations each time; how many it took most.
+    /// Solves the island's particles, from `base`, with a maximum of `iterations` in each round; returns the
+    /// largest number used.
     int solve(int iterations);
     bool converged() const { return converged_; }
     double taken() const { return taken_; }  ///< the part of the last step that was taken
@@ -60,12 +61,12 @@ class ClothSolver {
     detail::Cloth& cloth_;
     const detail::GridLevel& level_;
     std::size_t first_;
-    double h_, mass_ = 0.0, unit_ = 0.0;  ///< the mean of a particle, kg; its m / h^2
-    double stiffness_ = 0.0;              ///< the most that a link has, in that unit
+    double h_, mass_ = 0.0, unit_ = 0.0;  ///< mean mass of a particle, kg; that over h^2
+    double stiffness_ = 0.0;              ///< maximum of a link, in that unit
     float lightest_ = 1.0f;
     double taken_ = 1.0;
     double elastic_ = 0.0;  ///< energy in links, joules
-    double strain_ = 0.0;   ///< the largest of a stretch link
+    double strain_ = 0.0;   ///< maximum of a stretch link
     bool converged_ = true;
 };
 

@@ -1,15 +1,11 @@
-// The system of a cloth, for each vector unit. Highway compiles this file once for each: it includes it again
-// and again, each time with another HWY_NAMESPACE.
+// The system of a cloth, for each vector unit.
 #include <cstdint>
 #include <string_view>
 
-#include "math/dispatch.hpp"
 #include "rope/cloth_grid.hpp"
 
-#undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "rope/cloth_vector.cpp"
-#include <hwy/foreach_target.h>  // before highway.h
-#include <hwy/highway.h>
+#include "math/each_target-inl.hpp"
 
 #include "rope/grid_lanes-inl.hpp"
 
@@ -27,7 +23,7 @@ void links(const GridLevel& level, const ClothArrays& cloth) {
             V3 by = load(cloth.place, i + step) - load(cloth.place, i);
             const V length =
                 hn::Sqrt(hn::Add(hn::Add(hn::Mul(by.x, by.x), hn::Mul(by.y, by.y)), hn::Mul(by.z, by.z)));
-            // Particles in one place: any direction will do.
+            // Coincident particles: any direction will do.
             const auto some = hn::Gt(length, shortest);
             const V inverse = hn::Div(one, hn::IfThenElse(some, length, one));
             const V3 n = {hn::IfThenElse(some, hn::Mul(by.x, inverse), one), hn::Mul(by.y, inverse),
@@ -86,13 +82,9 @@ HWY_EXPORT(cells);
 }  // namespace
 
 ClothUnit cloth_unit(std::string_view name) noexcept {
-    ClothUnit unit;
-    tendril::detail::for_each_target([&](std::int64_t target) {
-        const bool asked = name.empty() || name == hwy::TargetName(target);
-        if (unit.links != nullptr || !asked) return;
-        unit = {TENDRIL_COMPILED_FOR(links, target), TENDRIL_COMPILED_FOR(cells, target)};
-    });
-    return unit;
+    const std::int64_t target = tendril::detail::target_named(name);
+    if (target == 0) return {};
+    return {TENDRIL_COMPILED_FOR(links, target), TENDRIL_COMPILED_FOR(cells, target)};
 }
 
 }  // namespace tendril::rope::detail

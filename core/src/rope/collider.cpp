@@ -11,11 +11,9 @@ namespace tendril::rope {
 namespace {
 
 using glm::dvec3;
-using tendril::detail::check_length;
-using tendril::detail::check_point;
 using tendril::detail::refused;
 
-/// From a core (a point or a line) of some thickness; where there is no direction, along `otherwise`.
+/// The distance from a core (a point or a line) with a thickness; on the core the normal is `otherwise`.
 SurfaceDistance from_core(const dvec3& by, double thickness, const dvec3& otherwise) {
     const double length = detail::length(by);
     if (length < 1e-12) return {-thickness, otherwise};
@@ -58,32 +56,18 @@ SurfaceDistance of(const Box& box, const dvec3& point) {
     return {inside, axes.to_world(normal)};
 }
 
-Result check_radius(const char* operation, float radius) {
-    if (radius >= 0.0f && radius <= max_magnitude) return {};
-    return refused(operation, "radius", "at least 0 and at most 1e+09 m", radius);
+/// What the ranges of fields cannot express.
+Result check_more(const char*, const Sphere&) {
+    return {};
 }
-
-Result check_each(const char* operation, const Sphere& sphere) {
-    const Result point = check_point(operation, "centre", sphere.centre);
-    return point ? check_radius(operation, sphere.radius) : point;
+Result check_more(const char*, const Capsule&) {
+    return {};
 }
-Result check_each(const char* operation, const Capsule& capsule) {
-    for (const auto& [name, end] : {std::pair{"a", capsule.a}, {"b", capsule.b}})
-        if (const Result bad = check_point(operation, name, end); !bad) return bad;
-    return check_radius(operation, capsule.radius);
-}
-Result check_each(const char* operation, const Plane& plane) {
-    if (const Result bad = check_point(operation, "point", plane.point); !bad) return bad;
-    if (const Result bad = check_point(operation, "normal", plane.normal); !bad) return bad;
+Result check_more(const char* operation, const Plane& plane) {
     if (detail::length(dvec3(plane.normal)) > 1e-12) return {};
     return refused(operation, "normal", "longer than 0", "0");
 }
-Result check_each(const char* operation, const Box& box) {
-    if (const Result bad = check_point(operation, "centre", box.centre); !bad) return bad;
-    for (int i = 0; i < 3; ++i) {
-        const Result bad = check_length(operation, "half_extents", box.half_extents[i]);
-        if (!bad) return bad;
-    }
+Result check_more(const char* operation, const Box& box) {
     const glm::quat& q = box.rotation;
     const double squared = static_cast<double>(q.x) * q.x + static_cast<double>(q.y) * q.y +
                            static_cast<double>(q.z) * q.z + static_cast<double>(q.w) * q.w;
@@ -132,7 +116,11 @@ float size(const Shape& shape) noexcept {
 }
 
 Result check(const char* operation, const Shape& shape) noexcept {
-    return std::visit([&](const auto& each) { return check_each(operation, each); }, shape);
+    const auto check_one = [&](const auto& each) {
+        const Result fields_fine = check_fields(operation, each);
+        return fields_fine ? check_more(operation, each) : fields_fine;
+    };
+    return std::visit(check_one, shape);
 }
 
 }  // namespace tendril::rope

@@ -1,10 +1,10 @@
-// Keeping particles and links out of colliders while the solver works: of cloth and hair, and of all with a
-// solver that takes one link after the other. Ropes that are solved directly have their own
-// (chain_contact.cpp).
+// Keeps particles and links out of colliders while the solver works: those of cloth and hair, and of all
+// bodies with a solver that takes one link after the other. Ropes that are solved directly have contacts of
+// their own (chain_contact.cpp).
 //
-// How far a collider has displaced a particle in a substep is remembered: the part along the normal bounds
-// friction (Coulomb's law, as displacements). What tension has drawn into the collider is part of it, so the
-// tauter a rope around a post is, the more friction it has.
+// Contacts remember how far a collider has displaced a particle in the substep: the part along the normal
+// bounds friction (Coulomb's law, as displacements). It includes what tension has drawn into the collider, so
+// the tauter a rope around a post, the more friction it has.
 #include <algorithm>
 #include <limits>
 #include <optional>
@@ -18,7 +18,7 @@ namespace {
 
 using glm::dvec3;
 
-/// How far a particle may come in a substep beside what it moves freely, metres.
+/// How far a particle may move in a substep beyond its free motion, metres.
 constexpr double extra_way = 1e-3;
 
 struct Bounds {
@@ -86,7 +86,7 @@ void Substep::find_near() {
         whole.add(bounds.low);
         whole.add(bounds.high);
     }
-    // What is far from everything costs nothing further.
+    // Bodies far from all colliders cost nothing further.
     local_.close.clear();
     for (std::uint32_t k = 0; k < scratch_.colliders.size(); ++k) {
         if (whole.meets(scratch_.colliders[k].low, scratch_.colliders[k].high)) local_.close.push_back(k);
@@ -136,7 +136,7 @@ void Substep::resolve_contacts(bool first) {
         for (std::uint32_t i = chunk.first; i < chunk.first + chunk.count; ++i) {
             resolve_particle(i, near.collider, chunk.body, first);
         }
-        // Where links are longer than the collider is thick it could slip through between two particles.
+        // If links are longer than the collider is thick, it could slip through between two particles.
         if (chunk.reach <= scratch_.colliders[near.collider].size) continue;
         for (std::uint32_t l = 0; l < chunk.links; ++l) {
             const Link& link = state_.links[plan_.chunk_links[chunk.first_link + l]];
@@ -164,7 +164,7 @@ void Substep::resolve_particle(std::uint32_t i, std::uint32_t number, std::uint3
     apply_friction(i);
 }
 
-/// Notes that a collider displaced a body by `depth`.
+/// Records that a collider displaced a body by `depth`.
 void Substep::strike(std::uint32_t body, double depth) {
     Scratch::Nearest& nearest = scratch_.body_near[body];
     if (depth > correction_speed * h_ && nearest == Scratch::Nearest::Resting)
@@ -189,7 +189,7 @@ void Substep::resolve_link(const Link& link, std::uint32_t number, std::uint32_t
     if (!(depth > 0.0) || shares <= 0.0) return;
     strike(body, depth);
     const auto displace = [&](std::uint32_t i, double wanted) {
-        // Beside a pinned end the other one would have to go very far.
+        // Next to a pinned end the other one would have to move very far.
         const double by = std::min(wanted, 1.5 * depth);
         if (by <= 0.0) return;
         scratch_.place[i] += by * surface.normal;

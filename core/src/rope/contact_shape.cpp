@@ -22,14 +22,14 @@ dvec3 absolute(const dvec3& v) {
     return {std::abs(v.x), std::abs(v.y), std::abs(v.z)};
 }
 
-/// The parameter, 0 to 1, of the point of a line that is nearest to a point.
+/// The parameter, 0 to 1, of the point of a line nearest to a point.
 double nearest_to(const dvec3& point, const dvec3& a, const dvec3& b) {
     const dvec3 by = b - a;
     const double squared = dot(by, by);
     return squared > 0.0 ? std::clamp(dot(point - a, by) / squared, 0.0, 1.0) : 0.0;
 }
 
-/// The distance to a convex shape along a line has one valley.
+/// The distance to a convex shape along a line: it has a single minimum.
 struct ConvexLine {
     const Shape& shape;
     dvec3 from, by;
@@ -81,20 +81,20 @@ std::optional<double> nearest_between(const Shape& shape, const dvec3& a, const 
         const double t = nearest_to(dvec3(sphere->centre), a, b);
         return t > 0.0 && t < 1.0 ? std::optional(t) : std::nullopt;
     }
-    if (std::holds_alternative<Plane>(shape)) return std::nullopt;  // an end is always as near
+    if (std::holds_alternative<Plane>(shape)) return std::nullopt;  // an end is always at least as near
     const ConvexLine line{shape, a, b - a};
     ConvexLine::Point low = line.at(0.0), high = line.at(1.0);
     if (!(low.slope < 0.0 && high.slope > 0.0)) return std::nullopt;
     const double precise = 1e-9 * length(line.by);
     for (int i = 2; i < max_line_samples; ++i) {
-        // Where the tangents at both ends cross is as low as the distance can be between them.
+        // The tangents at both ends cross at a lower bound of the distance between them.
         const double bend = high.slope - low.slope, width = high.t - low.t;
         const double cross = (low.distance - high.distance + high.slope * width) / bend;
         const double minimum = low.distance + low.slope * cross;
         if (minimum > reach) return std::nullopt;
         const bool low_is_less = low.distance <= high.distance;
         if (std::min(low.distance, high.distance) - minimum <= precise) return low_is_less ? low.t : high.t;
-        // The crossing finds a corner, the slopes' secant the bottom of a curve.
+        // The crossing finds a corner, the secant of the slopes the bottom of a curve.
         const double step = i % 2 == 0 ? cross : -low.slope / bend * width;
         const ConvexLine::Point middle = line.at(low.t + std::clamp(step, 0.001 * width, 0.999 * width));
         (middle.slope < 0.0 ? low : high) = middle;
@@ -103,7 +103,7 @@ std::optional<double> nearest_between(const Shape& shape, const dvec3& a, const 
 }
 
 Shape kept_in(const Shape& shape) noexcept {
-    const auto* capsule = std::get_if<Capsule>(&shape);  // the others are where their centre is
+    const auto* capsule = std::get_if<Capsule>(&shape);  // the others are defined by their centre
     if (capsule == nullptr) return shape;
     const glm::vec3 edge(max_magnitude);
     return Capsule{glm::clamp(capsule->a, -edge, edge), glm::clamp(capsule->b, -edge, edge), capsule->radius};

@@ -1,4 +1,4 @@
-// What finding contacts needs to know about shapes. Not installed.
+// Geometry of shapes for finding contacts. Not installed.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -8,20 +8,20 @@
 
 namespace tendril::rope::detail {
 
-/// A box along the axes that contains a shape and all that it swept while it moved by `by`. A plane's is
-/// without end.
+/// An axis-aligned box that contains a shape and everything it swept while moving by `by`. Infinite for a
+/// plane.
 void bounds(const Shape& shape, const glm::dvec3& by, glm::dvec3& low, glm::dvec3& high) noexcept;
 
-/// Whether a box along the axes lies wholly outside, for the shapes that their bounds say little about.
+/// Whether an axis-aligned box is entirely outside; only for shapes whose bounds say little (planes).
 bool beyond(const Shape& shape, const glm::dvec3& low, const glm::dvec3& high) noexcept;
 
 inline constexpr int max_line_samples = 14;
-/// Where between the ends of the line from a (0) to b (1) a shape is nearest, or reaches deepest; no value
-/// where that is an end, or is further than `reach` away. Takes max_line_samples distances at most.
+/// The position on the line from a (0) to b (1) where a shape is nearest, or reaches deepest. No value if
+/// that is an end, or is farther than `reach` away. Takes at most max_line_samples distances.
 std::optional<double> nearest_between(const Shape& shape, const glm::dvec3& a, const glm::dvec3& b,
                                       double reach) noexcept;
 
-/// The same shape with no coordinate over max_magnitude, which rounding can make it.
+/// The same shape with coordinates clamped to max_magnitude, which rounding can exceed.
 Shape kept_in(const Shape& shape) noexcept;
 
 }  // namespace tendril::rope::detail

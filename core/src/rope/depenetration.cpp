@@ -1,4 +1,4 @@
-// After the last pass: what is still inside a collider comes out, whatever that does to lengths.
+// After the last pass: brings what is still inside a collider out, whatever that does to lengths.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,17 +13,17 @@ namespace {
 
 using glm::dvec3;
 
-/// How far inside a particle may stay, metres: far less than what anybody may rely on.
+/// How deep inside a particle may stay, metres: far less than anyone relies on.
 constexpr double depth_tolerance = 1e-6;
 constexpr int rounds = 12;
-/// Distances that searches for a way out may take in a substep: what is not found by then is left inside and
-/// counted. Each island has so many a particle, and its part by particles of what they share. A particle
-/// between two surfaces takes some hundred; in 10^5 random scenes no substep took more than 1300 in all.
+/// Distances that searches for a way out may take in a substep; a particle not out by then is left inside and
+/// counted. Each island has a budget per particle, and its share, by particles, of a common one. A particle
+/// between two surfaces takes some hundred; in 10^5 random scenes no substep took more than 1300 in total.
 constexpr std::uint64_t searches_per_particle = 128, shared_searches = 8192;
 constexpr int newton_steps = 16;
 
-/// The colliders that one particle can reach. The list of its chunk is complete within the chunk's box; a way
-/// out of a large collider may lead beyond the box, and there every collider of the world is asked.
+/// The colliders that one particle can reach. The list of its chunk is complete within the chunk's box. A way
+/// out of a large collider may lead beyond the box; there every collider of the world is tested.
 struct Neighbours {
     const Scratch& scratch;
     std::span<const IslandScratch::Near> near;
@@ -31,7 +31,7 @@ struct Neighbours {
     std::uint64_t& searches;         ///< distances that searches may still take
     std::uint64_t& distances_taken;  ///< counts all distances
 
-    /// Those that a ball may touch.
+    /// Calls `visit` with the colliders that a ball may touch.
     template <class Visit>
     void each(const dvec3& at, double radius, Visit visit) const {
         const auto visit_if_near = [&](const Scratch::Moving& collider) {
@@ -49,7 +49,7 @@ struct Neighbours {
         return at.x - radius >= low.x && at.y - radius >= low.y && at.z - radius >= low.z &&
                at.x + radius <= high.x && at.y + radius <= high.y && at.z + radius <= high.z;
     }
-    /// The collider that a ball is deepest in, and how deep; null and 0 where it is free.
+    /// The collider that contains a ball most deeply, and how deep; null and 0 if it is free.
     struct Deepest {
         const Shape* shape = nullptr;
         double depth = 0.0;
@@ -65,8 +65,8 @@ struct Neighbours {
     double depth(const dvec3& at, double radius) const { return deepest(at, radius).depth; }
 };
 
-/// The smallest displacement that brings a ball out of the two half spaces that it is deepest in; of one,
-/// where that does.
+/// The smallest displacement that brings a ball out of the two half spaces that it is deepest in, or out of
+/// one if that suffices.
 dvec3 smallest_displacement(const Neighbours& neighbours, const dvec3& at, double radius) {
     std::array<dvec3, 2> normal{};
     std::array<double, 2> depth{0.0, 0.0};
@@ -87,9 +87,9 @@ dvec3 smallest_displacement(const Neighbours& neighbours, const dvec3& at, doubl
     return first > 0.0 ? first * normal[0] + second * normal[1] : depth[1] * normal[1];
 }
 
-/// How far a ball has to go along a line until it no longer touches a shape that it is in; `limit` where that
-/// is further. The distance to a convex shape is convex along a line, so Newton's method comes back from the
-/// limit without ever going too far.
+/// How far a ball must move along a line until it no longer touches a shape that it is in; `limit` if that is
+/// farther. The distance to a convex shape is convex along a line, so Newton's method approaches from the
+/// limit without overshooting.
 double way_out_of(const Shape& shape, const dvec3& from, const dvec3& along, double radius, double limit,
                   std::uint64_t& distances_taken) {
     double way = limit;
@@ -103,8 +103,8 @@ double way_out_of(const Shape& shape, const dvec3& from, const dvec3& along, dou
     return way;
 }
 
-/// Out of every collider along a line; `limit` where that is further, or the search has taken too long. A
-/// line never leads back into a convex shape, so each collider is left only once.
+/// Out of every collider along a line; `limit` if that is farther, or the search has taken too long. A line
+/// never leads back into a convex shape, so each collider is left only once.
 double way_out(const Neighbours& neighbours, const dvec3& from, const dvec3& along, double thickness,
                double limit) {
     double way = 0.0;
@@ -119,7 +119,7 @@ double way_out(const Neighbours& neighbours, const dvec3& from, const dvec3& alo
     return limit;
 }
 
-/// The shortest way out of 26, between surfaces that all but meet; false where none is found.
+/// The shortest way out in 26 directions, for surfaces that nearly meet; false if none is found.
 bool search(const Neighbours& neighbours, const dvec3& from, double thickness, dvec3& at) {
     double shortest = max_magnitude;
     bool found = false;
@@ -134,8 +134,8 @@ bool search(const Neighbours& neighbours, const dvec3& from, double thickness, d
     return found;
 }
 
-/// Brings a ball out of every collider; where not all of it fits, at least its middle. Near where
-/// it is, if that is easily found; false, and unmoved, where it is not found at all.
+/// Brings a ball out of every collider, or at least its centre if the ball does not fit. Stays close if that
+/// is easily found. False, and unmoved, if no way is found.
 bool bring_out(const Neighbours& neighbours, dvec3& place, double radius) {
     for (const double thickness : {radius, 0.0}) {
         dvec3 at = place;

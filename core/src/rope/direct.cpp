@@ -1,13 +1,14 @@
 // The direct solver: whole chains at once, as many side by side as a vector register has lanes.
 //
-// A chain that nothing else is linked to first moves by the tension that it had, applied implicitly; then one
-// or two passes correct its lengths. Where it moves too fast for that (a whip cracks), or would gain energy,
-// it is solved again from the tension that was found, which now acts along the links' new directions: that
+// A chain that nothing else is linked to first moves by its previous tension, applied implicitly; then one or
+// two passes correct its lengths. If it moves too fast for that (a whip cracks), or would gain energy, it is
+// solved again from the tension that was found, which now acts along the links' new directions: that
 // converges, and costs energy.
 //
-// A chain that touches colliders is solved with its contacts, by Newton's method (chain_newton.hpp). A
-// cloth that is a grid is one system with its contacts (cloth_solver.hpp). Where chains share particles
-// otherwise, as in hair, contacts are resolved last: what tension draws into a collider shows as depth, and
+// A chain that touches colliders is solved with its contacts, by Newton's method (chain_newton.hpp). A cloth
+// that is a grid is one system with its contacts (cloth_solver.hpp). If chains share particles otherwise, as
+// in hair, contacts are resolved last: what tension draws into a collider shows as depth, and bounds
+// friction. The resulting length errors are corrected in the next substep.
 // bounds friction. The length errors that this causes are corrected in the next substep.
 #include <algorithm>
 #include <array>
@@ -27,32 +28,32 @@ using detail::Order;
 using detail::Row;
 using glm::dvec3;
 
-constexpr double length_tolerance = 1e-7;       ///< relative length error that is not improved
+constexpr double length_tolerance = 1e-7;       ///< relative length error that needs no correction
 constexpr double accepted_error = 1e-4;         ///< a chain with more is solved again
-constexpr double accepted_shared_error = 1e-3;  ///< the same where chains share particles
-constexpr double fallback_error = 0.02;         ///< a chain with more in the end: its body is relaxed
-constexpr double accepted_gain = 1e-3;          ///< of energy; what gains more is not taken as it stands
+constexpr double accepted_shared_error = 1e-3;  ///< the same if chains share particles
+constexpr double fallback_error = 0.02;         ///< a chain that ends with more: its body is relaxed
+constexpr double accepted_gain = 1e-3;          ///< of energy; a result that gains more is not accepted
 constexpr int max_restarts = 6, fallback_passes = 16;
-/// Minimum of passes of chains that share particles, while they are near a collider.
+/// Minimum passes of chains that share particles, while near a collider.
 constexpr int min_contact_passes = 4;
-/// A chain whose particles others share may be asked for lengths that it cannot have, straight between two
-/// pins: its system is damped (Levenberg, Marquardt), or it would fling its particles about.
+/// A chain that shares particles may be asked for impossible lengths, straight between two pins: its system
+/// is damped (Levenberg, Marquardt), or it would fling its particles about.
 constexpr double shared_damping = 2e-2;
-/// By so much tension acts along the new direction rather than the mean: that damps the jitter of single
-/// particles within a second, and takes from a pendulum of a second's period a few percent of its energy in a
-/// minute.
+/// How much tension acts along the new direction rather than the mean. It damps the jitter of single
+/// particles within a second, and takes a few percent of the energy of a pendulum with a period of one second
+/// in a minute.
 constexpr double min_backward = 0.01;
 
 }  // namespace
 
-/// Chains that are solved side by side: `count` of them from `chain` on, in the lanes of a block.
+/// Chains solved side by side: `count` of them from `chain` on, in the lanes of a block.
 struct Substep::Batch {
     std::uint32_t chain = 0, count = 1;
     bool single = false;
 };
 
-/// Chains that share nothing: what touches something is solved with its contacts, all else as if in the air;
-/// what that brings into a collider, or fails, is solved again with contacts.
+/// Solves chains that share nothing. A chain that touches something is solved with its contacts, any other as
+/// if in the air; if that one then ends inside a collider, or fails, it is solved again with contacts.
 int Substep::direct_alone() {
     ChainNewton newton(state_, plan_, island_, scratch_, local_);
     const std::uint32_t first = island_.chains.first, end = first + island_.chains.count;
@@ -78,8 +79,8 @@ int Substep::direct_alone() {
     return 1;
 }
 
-/// A solve that would throw a chain is taken in part: nothing is corrected faster than the fastest of its
-/// particles moves, or than correction_speed, whichever is more.
+/// Scales down a solve that would throw a chain: nothing is corrected faster than the maximum of the speed of
+/// its fastest particle and correction_speed.
 void Substep::slow_correction(const Plan::Chain& chain) {
     double farthest = 0.0, most = correction_speed * h_;
     const auto each = [&](auto visit) {
@@ -135,15 +136,15 @@ int Substep::direct() {
     return passes;
 }
 
-/// The fallback where chains share particles: a body that could not be solved (or cannot be: it is asked for
-/// the impossible) is relaxed, which always ends somewhere sensible.
+/// The fallback if chains share particles: a body that could not be solved (or cannot be, being asked for the
+/// impossible) is relaxed, which always gives a sensible result.
 void Substep::relax_failed_bodies() {
     bool any = false;
     const std::span<const std::uint32_t> bodies = Plan::part(plan_.bodies, island_.bodies);
     for (const std::uint32_t b : bodies) scratch_.body_failed[b] = 0;
     const std::uint32_t first_chain = island_.chains.first, end_chain = first_chain + island_.chains.count;
     for (std::uint32_t r = first_chain; r < end_chain; ++r) {
-        if (scratch_.chain_error[r] <= fallback_error) continue;  // not so where it is no number
+        if (scratch_.chain_error[r] <= fallback_error) continue;  // false for NaN
         any = true;
         std::uint8_t& failed = scratch_.body_failed[plan_.chains[r].body];
         report_.fallbacks += failed == 0 ? 1 : 0;
@@ -158,7 +159,7 @@ void Substep::relax_failed_bodies() {
             scratch_.touch[i].displacement = dvec3(0.0);
         }
     }
-    // Bodies that no link joins to these are solved.
+    // Bodies that no link joins to these are already solved.
     std::erase_if(local_.near, [&](const IslandScratch::Near& near) {
         return scratch_.body_failed[plan_.chunks[near.chunk].body] == 0;
     });
@@ -187,7 +188,7 @@ double Substep::solve_group(const Plan::Group& group, int iteration) {
         std::uint32_t left = 1;
         while (done + left < group.chains && scratch_.chain_solved[group.first_chain + done + left] == 0)
             ++left;
-        // A few chains are quicker one by one than in a register that is mostly empty.
+        // A few chains are faster one by one than in a mostly empty register.
         const bool single = left < 2 || lanes == 1;
         const std::uint32_t count = single ? 1 : std::min(left, lanes);
         worst = std::max(worst, solve_batch({group.first_chain + done, count, single}, iteration));
@@ -204,8 +205,8 @@ double Substep::solve_batch(const Batch& batch, int iteration) {
     gather(block, batch);
     order.implicit = first.alone && iteration == 0;
     for (std::uint32_t lane = 0; lane < detail::max_lanes; ++lane) {
-        // Chains that share particles undo part of what the others did, and contacts leave length errors to
-        // begin with: there the plain direction serves best.
+        // Chains that share particles partly undo each other's corrections, and contacts leave initial length
+        // errors: there the new direction alone works best.
         const std::uint32_t body = plan_.chains[batch.chain + std::min(lane, batch.count - 1)].body;
         const bool contact = has_fallback_contact(body);
         order.backward[lane] = first.alone && !contact ? min_backward : 1.0;

@@ -1,4 +1,4 @@
-// Several chains side by side in memory, one a lane, for the direct solver. Not installed.
+// Several chains side by side in memory, one per lane, for the direct solver. Not installed.
 #pragma once
 
 #include <cstddef>
@@ -10,20 +10,20 @@ namespace tendril::rope::detail {
 enum Row : std::size_t {
     X,
     Y,
-    Z,  ///< where it is
+    Z,  ///< current position
     BaseX,
     BaseY,
-    BaseZ,  ///< where it would be without any tension
+    BaseZ,  ///< position without any tension
     OldX,
     OldY,
-    OldZ,        ///< where it was one substep before the last; then: the unit direction of its link there
+    OldZ,        ///< position one substep before the last; then the unit direction of its link there
     Weight,      ///< inverse mass; 0: pinned
     Rest,        ///< of its link: length
     Compliance,  ///< compliance, m/N, over h^2
     Multiplier,  ///< tension times h^2
     DirectionX,
     DirectionY,
-    DirectionZ,  ///< the direction that its tension works in
+    DirectionZ,  ///< the direction that its tension acts in
     Upper,
     Right,  ///< of the tridiagonal system
     rows
@@ -31,7 +31,7 @@ enum Row : std::size_t {
 
 inline constexpr std::size_t max_lanes = 8;
 
-/// Chains of `links` links each, in `lanes` lanes. Where there are fewer chains the last one is repeated.
+/// Chains of `links` links each, in `lanes` lanes. Lanes without a chain repeat the last one.
 struct Block {
     double* data = nullptr;  ///< aligned to 64 bytes
     std::size_t links = 0;
@@ -41,13 +41,13 @@ struct Block {
     static std::size_t doubles(std::size_t links, std::size_t lanes) { return (links + 1) * rows * lanes; }
 };
 
-/// What the solver does to a block. Outputs have one value a lane.
+/// A block's solve. Outputs have one value per lane.
 struct Order {
-    bool implicit = false;  ///< first apply the tension that there is implicitly
+    bool implicit = false;  ///< first apply the existing tension implicitly
     /// Tension acts along the mean of the link's directions before and after at 0, along the one after at 1.
     double backward[max_lanes] = {};
-    double passes[max_lanes] = {};  ///< at most
-    double damping = 1e-9;          ///< of the system's diagonal, as a part of it
+    double passes[max_lanes] = {};  ///< maximum
+    double damping = 1e-9;          ///< relative to the system's diagonal
     double tolerance = 1e-7;        ///< relative length error at which a lane is done
     double worst[max_lanes];        ///< out: the largest relative length error
     int taken = 0;                  ///< out: passes taken
@@ -56,11 +56,12 @@ struct Order {
 using SolveBlock = void(const Block& block, Order& order);
 
 struct VectorUnit {
-    SolveBlock* solve = nullptr;   ///< lanes at a time
+    SolveBlock* solve = nullptr;   ///< `lanes` at a time
     SolveBlock* single = nullptr;  ///< one lane
     std::size_t lanes = 1;
 };
-/// The widest there is, or that of a name as ik::vector_units() has it; empty for an unknown name.
+/// The unit of that name as in ik::vector_units(), or the widest if the name is empty; null functions for an
+/// unknown name.
 VectorUnit vector_unit(std::string_view name) noexcept;
 
 }  // namespace tendril::rope::detail

@@ -1,12 +1,11 @@
-// The direct solver on a block, for a register of any width. Not installed; it is included once for each
-// vector unit.
+// The direct solver on a block, for a register of any width. Not installed; included once per vector unit.
 //
 // Let q_k be the direction in which the tension of link k acts, n_k the direction of the link, and w_k the
 // inverse mass of node k. To first order link k gets shorter by
 //
 //     -w_k (n_k q_{k-1}) t_{k-1} + (w_k + w_{k+1}) (n_k q_k) t_k - w_{k+1} (n_k q_{k+1}) t_{k+1}
 //
-// for Lagrange multipliers t: one tridiagonal system a chain. No operation is fused, so every lane has the
+// for Lagrange multipliers t: one tridiagonal system per chain. No operation is fused, so every lane has the
 // same bits with every vector unit.
 #if defined(TENDRIL_ROPE_DIRECT_STEP_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef TENDRIL_ROPE_DIRECT_STEP_INL
@@ -40,7 +39,7 @@ class BlockSolver {
     void run(Order& order) {
         store_old_directions();
         if (order.implicit) apply_implicit_tension(order);
-        // The first pass is always worth it: looking whether it is costs half as much.
+        // The first pass is unconditional: checking whether it is needed costs half as much.
         const V max_passes = hn::LoadU(d_, order.passes);
         V worst = set(1e300);
         order.taken = 0;
@@ -68,8 +67,8 @@ class BlockSolver {
         store(value.x, node, row), store(value.y, node, row + 1), store(value.z, node, row + 2);
     }
     V set(double value) const { return hn::Set(d_, value); }
-    // The second where either is no number, in every vector unit. Highway's own Max and Min leave that to the
-    // machine; x86's are just that, and quicker.
+    // Return the second if either is NaN, in every vector unit. Highway's Max and Min leave that to the
+    // machine; x86's do exactly this, and are faster.
 #if HWY_ARCH_X86 && HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
     static V larger(V a, V b) {
         return hn::Max(a, b);
@@ -97,7 +96,7 @@ class BlockSolver {
     static V dot(const V3& a, const V3& b) {
         return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
     }
-    /// The unit vector, and the length; +X where it has none to speak of.
+    /// The unit vector and the length; +X if the length is about zero.
     V3 unit(const V3& a, V& length) const {
         length = hn::Sqrt(dot(a, a));
         const auto none = hn::Lt(length, set(1e-30));
@@ -117,14 +116,14 @@ class BlockSolver {
         }
     }
 
-    /// How long a link is under the tension that there is.
+    /// The length of a link under its current tension.
     V stretched(std::size_t k) const {
         const V longer = hn::Mul(load(k, Compliance), larger(load(k, Multiplier), hn::Zero(d_)));
         return larger(hn::Add(load(k, Rest), longer), set(1e-9));
     }
 
-    /// Half of the tension there is, over the length: the force that a metre between the nodes makes. Its
-    /// bound keeps a rope that cannot be as short as its pins ask from drowning all other digits.
+    /// Half of the current tension over the length: the force per metre between the nodes. Its bound keeps a
+    /// rope that cannot be as short as its pins ask from drowning all other digits.
     V stiffness(std::size_t k) const {
         const V both = hn::Add(load(k, Weight), load(k + 1, Weight));
         const V half = hn::Div(hn::Mul(set(0.5), larger(load(k, Multiplier), hn::Zero(d_))), stretched(k));
@@ -153,7 +152,7 @@ class BlockSolver {
             upper = hn::Neg(hn::Mul(up, inverse));
             store(upper, k, Upper);
             store3(right, k, X);
-            // The tension that was applied is what counts from here on.
+            // From here on the tension that was applied counts.
             if (!last) store(hn::Mul(hn::Mul(set(2.0), stiff), length), k, Multiplier);
             stiff_before = stiff;
             old_before = old;
@@ -173,7 +172,7 @@ class BlockSolver {
             const V rest = load(k, Rest);
             const V error = hn::Sub(hn::Sub(hn::Sqrt(dot(by, by)), rest),
                                     hn::Mul(load(k, Compliance), load(k, Multiplier)));
-            // What is no number counts as failed.
+            // NaN counts as failed.
             const V part = hn::Div(hn::Abs(error), larger(rest, set(1e-9)));
             worst = larger(worst, smaller(part, set(1e300)));
             from = to;
@@ -181,7 +180,7 @@ class BlockSolver {
         return worst;
     }
 
-    /// One pass: the lengths made right to first order, where `open`.
+    /// One pass: corrects the lengths to first order in the lanes `open`.
     template <class M>
     void improve(M open, const Order& order) const {
         eliminate(order);
@@ -214,7 +213,7 @@ class BlockSolver {
             const V3 to = load3(k + 1, X);
             V length;
             const V3 lies = unit(minus(to, from), length), old = load3(k, OldX);
-            // Over a right angle in two substeps is too fast for the mean to be of use.
+            // Over a right angle in two substeps is too fast for the mean to be useful.
             const auto slow = hn::Gt(dot(lies, old), zero);
             const V3 mean = plus(times(after, lies), times(before, old));
             const V3 acts{hn::IfThenElse(slow, mean.x, lies.x), hn::IfThenElse(slow, mean.y, lies.y),
@@ -226,7 +225,7 @@ class BlockSolver {
             const V diagonal = hn::Add(hn::Mul(both, dot(lies, acts)), compliance);
             const V lower = hn::Neg(hn::Mul(weight, dot(lies, acts_before)));
             const V up_before = hn::Neg(hn::Mul(weight, dot(lies_before, acts)));  // of row k - 1
-            // The row before is finished only now that its upper entry is known.
+            // The previous row can be finished only now that its upper entry is known.
             V upper_ready = zero;
             if (k > 0) {
                 upper_ready = hn::Mul(up_before, upper_before);
@@ -235,7 +234,7 @@ class BlockSolver {
             const V pivot =
                 hn::Sub(hn::Add(diagonal, hn::Mul(set(order.damping), both)), hn::Mul(lower, upper_ready));
             const V inverse = hn::Div(set(1.0), larger(pivot, larger(hn::Mul(set(1e-10), both), set(1e-30))));
-            // Between two pinned nodes there is nothing to solve.
+            // Nothing to solve between two pinned nodes.
             const auto fixed = hn::Le(both, zero);
             right_before =
                 hn::IfThenZeroElse(fixed, hn::Mul(inverse, hn::Sub(error, hn::Mul(lower, right_before))));

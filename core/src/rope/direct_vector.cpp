@@ -1,15 +1,11 @@
-// The direct solver for each vector unit. Highway compiles this file once for each: it includes it again and
-// again, each time with another HWY_NAMESPACE.
+// The direct solver for each vector unit.
 #include <cstdint>
 #include <string_view>
 
-#include "math/dispatch.hpp"
 #include "rope/direct_block.hpp"
 
-#undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "rope/direct_vector.cpp"
-#include <hwy/foreach_target.h>  // before highway.h
-#include <hwy/highway.h>
+#include "math/each_target-inl.hpp"
 
 #include "rope/direct_step-inl.hpp"
 
@@ -45,14 +41,10 @@ HWY_EXPORT(wide_lanes);
 }  // namespace
 
 VectorUnit vector_unit(std::string_view name) noexcept {
-    VectorUnit unit;
-    tendril::detail::for_each_target([&](std::int64_t target) {
-        const bool asked = name.empty() || name == hwy::TargetName(target);
-        if (unit.solve != nullptr || !asked) return;
-        unit = {TENDRIL_COMPILED_FOR(solve_wide, target), TENDRIL_COMPILED_FOR(solve_single, target),
+    const std::int64_t target = tendril::detail::target_named(name);
+    if (target == 0) return {};
+    return {TENDRIL_COMPILED_FOR(solve_wide, target), TENDRIL_COMPILED_FOR(solve_single, target),
                 TENDRIL_COMPILED_FOR(wide_lanes, target)()};
-    });
-    return unit;
 }
 
 }  // namespace tendril::rope::detail

@@ -1,6 +1,6 @@
 // The energy bound. A solve that falls short, or depenetration, can leave a body with more energy than it
 // had; its velocity is then scaled down until the gain is gone. The direct solver always keeps the bound; the
-// others keep it beside a collider that strikes the body, or while its links hold their lengths.
+// others keep it near a collider that strikes the body, or while its links hold their lengths.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -14,7 +14,7 @@ namespace {
 
 using glm::dvec3;
 
-/// A gain of less than this part of weight times length is rounding.
+/// A gain of less than this, relative to weight times length, is rounding.
 constexpr double rounding = 1e-9;
 
 /// The energy that scaling a velocity by s removes. A shorter displacement also moves the halfway point
@@ -29,16 +29,16 @@ double slower(double kinetic, double since, double gained) {
     const double most = std::clamp(-since / (2.0 * kinetic), 0.0, 1.0);
     const double root = since * since + 4.0 * kinetic * (kinetic + since - gained);
     if (!(root > 0.0)) return most;
-    // Whichever form of the root subtracts no nearly equal numbers.
+    // The form of the root that does not subtract nearly equal numbers.
     const double sum = std::sqrt(root);
     const double s =
         since > 0.0 ? 2.0 * (kinetic + since - gained) / (sum + since) : (sum - since) / (2.0 * kinetic);
     return std::clamp(s, most, 1.0);
 }
 
-/// Whether a link without compliance is off its length by enough to hold energy that nothing counts.
+/// Whether a link without compliance is so far off its length that it holds uncounted energy.
 bool strains(const Link& link, const dvec3& along) {
-    constexpr double counted = 1e-3;  // of its length
+    constexpr double counted = 1e-3;  // relative to its length
     const double rest = link.rest;
     return link.kind == Link::Kind::Stretch && std::abs(detail::length(along) - rest) > counted * rest;
 }
@@ -97,8 +97,8 @@ bool Substep::Ledger::gains(double part) const {
 }
 
 /// Removes the gain from motion relative to the mean first, so that a free body keeps falling freely. A pin
-/// takes momentum, so with one all motion is scaled alike. Any gain left is stretch that a collider caused by
-/// appearing inside the body: tensions are scaled down, so that the links cannot return it as motion.
+/// takes momentum, so with one all motion is scaled alike. Any remaining gain is stretch caused by a collider
+/// that appeared inside the body: tensions are scaled down, so that the links cannot return it as motion.
 Substep::Slowed Substep::Ledger::slowed() const {
     Slowed slowed;
     if (!gains(rounding)) return slowed;
@@ -125,7 +125,7 @@ double Substep::Ledger::contact_loss() const {
 }
 
 bool Substep::Ledger::suspended() const {
-    constexpr double seen = 0.1;  // of its weight
+    constexpr double seen = 0.1;  // relative to its weight
     const double fall = it_.h_ * it_.h_ * detail::length(it_.acceleration_);
     return near_ == Scratch::Nearest::None && !pinned_ && fall > 0.0 &&
            detail::length(pushed_) > seen * mass_ * fall;
@@ -168,7 +168,7 @@ void Substep::balance_energy() {
         scratch_.chain_slowed[r] = balance(ledger_of(plan_.chains[r]));
 }
 
-/// Positions stay; velocities and the tension of links that stretch are scaled.
+/// Scales velocities and the tension of elastic links; positions stay.
 void Substep::slow_down() {
     const auto slow = [&](std::size_t i, const Slowed& slowed) {
         if (scratch_.weight[i] == 0.0) return;

@@ -18,12 +18,12 @@ inline double length(const dvec3& a) noexcept {
 inline dvec3 cross(const dvec3& a, const dvec3& b) noexcept {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-/// +Y where there is none.
+/// +Y for the zero vector.
 inline dvec3 unit(const dvec3& a) noexcept {
     const double size = length(a);
     return size > 1e-30 ? (1.0 / size) * a : dvec3(0.0, 1.0, 0.0);
 }
-/// A unit vector at right angles, always the same for the same direction.
+/// A perpendicular unit vector, always the same for the same direction.
 inline dvec3 perpendicular(const dvec3& a) noexcept {
     const dvec3 along = unit(a);
     return unit(std::abs(along.y) < 0.9 ? cross(cross(along, {0.0, 1.0, 0.0}), along)

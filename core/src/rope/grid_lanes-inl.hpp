@@ -1,5 +1,4 @@
-// Vectors and blocks of grid cells, a register of them at a time. Not installed; it is included once for each
-// vector unit.
+// Vectors and blocks of grid cells, a register at a time. Not installed; included once per vector unit.
 #if defined(TENDRIL_ROPE_GRID_LANES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef TENDRIL_ROPE_GRID_LANES_INL
 #undef TENDRIL_ROPE_GRID_LANES_INL

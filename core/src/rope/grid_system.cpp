@@ -7,13 +7,13 @@
 namespace tendril::rope::detail {
 namespace {
 
-/// Of a level that is not made coarser.
+/// Size of the coarsest level.
 constexpr std::size_t coarsest = 2;
 constexpr int coarsest_passes = 6;
-/// What threads share a loop by.
+/// The unit of work that threads share in a loop.
 constexpr std::size_t part_cells = 16 * dot_cells;
 
-/// Gives arrays for levels out of one memory; first it only counts.
+/// Distributes one block of memory over the arrays of levels; with null it only counts.
 class Arrays {
   public:
     explicit Arrays(float* memory) : next_(memory) {}
@@ -32,7 +32,7 @@ class Arrays {
 
   private:
     void take(const GridLevel& level, float*& array) {
-        // What a register, begun a link before the first cell or behind the last, reads.
+        // A register may begin a link before the first cell or after the last.
         const std::size_t around = 2 * level.stride + 4 * grid_lanes;
         if (next_ != nullptr) array = next_ + taken_ + around;
         taken_ += level.cells() + 2 * around;
@@ -69,7 +69,7 @@ void GridSystem::resize(std::size_t columns, std::size_t rows, std::span<float*>
     share(memory_.data() + (line - off) % line);
 }
 
-/// What is done to levels, in parts where threads help.
+/// Runs operations on levels, in parts if threads help.
 class GridSystem::Loops {
   public:
     Loops(const GridUnit& of, tendril::detail::ForkJoin& loops) : unit(of), loops_(loops) {}
@@ -78,7 +78,7 @@ class GridSystem::Loops {
     void cells(const GridLevel& level, Work work) const {
         run(level.cells(), part_cells, level.cells() >= min_shared_cells, work);
     }
-    /// Of the next level, of which a cell is four of this one.
+    /// Over rows of the next level; each of its cells is four of this level's.
     template <class Work>
     void rows(const GridLevel& next, Work work) const {
         run(next.rows, std::max<std::size_t>(1, part_cells / 4 / next.stride),
@@ -105,7 +105,7 @@ class GridSystem::Loops {
     tendril::detail::ForkJoin& loops_;
 };
 
-/// One cycle: x from the right side.
+/// One cycle: computes x from the right side.
 void GridSystem::precondition(const Loops& loops, std::size_t index) {
     const GridUnit& unit = loops.unit;
     const GridLevel& level = levels_[index];

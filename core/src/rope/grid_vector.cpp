@@ -1,23 +1,19 @@
-// What is done to a grid, for each vector unit. Highway compiles this file once for each: it includes it
-// again and again, each time with another HWY_NAMESPACE.
+// The grid operations for each vector unit.
 #include <algorithm>
 #include <cstdint>
 #include <string_view>
 
-#include "math/dispatch.hpp"
 #include "rope/grid_system.hpp"
 
-#undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "rope/grid_vector.cpp"
-#include <hwy/foreach_target.h>  // before highway.h
-#include <hwy/highway.h>
+#include "math/each_target-inl.hpp"
 
 #include "rope/grid_lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace tendril::rope::detail {
 namespace HWY_NAMESPACE {
-/// L d L^T of each block: 1 / d in xx, yy and zz, and L's numbers in the others.
+/// L d L^T of each block: 1 / d in xx, yy and zz, L in the others.
 void factorize(const GridLevel& level, float floor, GridRange cells) {
     const V least = hn::Set(Tag(), floor), one = hn::Set(Tag(), 1.0f);
     each_register(cells, [&](std::ptrdiff_t i) {
@@ -77,7 +73,7 @@ void smooth(const GridLevel& level, GridRange cells) {
     });
 }
 
-/// Of two numbers each, one after the other.
+/// Interleaved numbers, taken apart.
 struct Pairs {
     V even, odd;
 };
@@ -90,8 +86,8 @@ V sum(const Pairs& pairs) {
     return hn::Add(pairs.even, pairs.odd);
 }
 
-/// For rows of the coarse level: calls with where a register is, its column, and where the first of its cells
-/// of the fine level is.
+/// For rows of the coarse level: calls `visit` with the index of a register, its column, and the index of its
+/// first cell on the fine level.
 template <class Visit>
 void each_coarse(const GridLevel& fine, const GridLevel& coarse, GridRange rows, Visit visit) {
     for (std::size_t row = rows.first; row < rows.end; ++row)
@@ -125,14 +121,14 @@ void prolong(const GridLevel& fine, const GridLevel& coarse, GridRange rows) {
         each_coarse(fine, coarse, rows, [&](std::ptrdiff_t from, std::size_t column, std::ptrdiff_t to) {
             const V value = load(coarse.x[c] + from);
             hn::StoreInterleaved2(value, value, Tag(), twice);
-            // The rows of the fine level may end first.
+            // The fine level's rows may be shorter.
             for (std::size_t k = 0; k < 2 * lanes && 2 * column + k < fine.stride; k += lanes)
                 for (const std::ptrdiff_t i : {to, to + below})
                     add_to(fine.x[c] + i + k, fine.free + i + k, twice + k);
         });
 }
 
-/// Blocks of links that stay within a cell of the coarse level leave its diagonal; others are added up.
+/// Links within a cell of the coarse level are removed from its diagonal; the others are summed.
 void coarsen_blocks(const GridLevel& fine, const GridLevel& coarse, std::size_t k, GridRange rows) {
     const auto below = static_cast<std::ptrdiff_t>(fine.stride);
     const V two = hn::Set(Tag(), 2.0f);
@@ -151,7 +147,8 @@ void coarsen_blocks(const GridLevel& fine, const GridLevel& coarse, std::size_t 
         const V inner = hn::Add(hn::Add(hn::Add(right_i.even, right_j.even), sum(down_i)),
                                 hn::Add(falling_i.even, rising_i.odd));
         V to_right = hn::Add(hn::Add(right_i.odd, right_j.odd), falling_i.odd);
-        // One to the left and down of the next cell's, within a row of cells: the same link the other way.
+        // A link down and to the left, from the next cell but within its row of cells: here it leads to the
+        // right.
         to_right = hn::Add(to_right, load_pairs(rising + i + 2).even);
         V to_down = hn::Add(hn::Add(sum(down_j), falling_j.even), rising_j.odd);
         if (fine.steps == fine_steps) {
@@ -176,7 +173,7 @@ void coarsen(const GridLevel& fine, const GridLevel& coarse, GridRange rows) {
     for (std::size_t row = rows.first; row < rows.end; ++row)
         for (std::size_t column = 0; column < coarse.columns; ++column) {
             const float* of = fine.free + 2 * row * fine.stride + 2 * column;
-            // Behind the last row and column there is nothing that is free.
+            // Beyond the last row and column nothing is free.
             coarse.free[row * coarse.stride + column] =
                 std::max(std::max(of[0], of[1]), std::max(of[fine.stride], of[fine.stride + 1]));
         }
@@ -231,17 +228,13 @@ HWY_EXPORT(scale_and_add);
 }  // namespace
 
 GridUnit grid_unit(std::string_view name) noexcept {
-    GridUnit unit;
-    tendril::detail::for_each_target([&](std::int64_t target) {
-        const bool asked = name.empty() || name == hwy::TargetName(target);
-        if (unit.multiply != nullptr || !asked) return;
-        unit = {TENDRIL_COMPILED_FOR(factorize, target), TENDRIL_COMPILED_FOR(coarsen, target),
+    const std::int64_t target = tendril::detail::target_named(name);
+    if (target == 0) return {};
+    return {TENDRIL_COMPILED_FOR(factorize, target), TENDRIL_COMPILED_FOR(coarsen, target),
                 TENDRIL_COMPILED_FOR(multiply, target),  TENDRIL_COMPILED_FOR(smooth_first, target),
                 TENDRIL_COMPILED_FOR(smooth, target),    TENDRIL_COMPILED_FOR(restrict_to, target),
                 TENDRIL_COMPILED_FOR(prolong, target),   TENDRIL_COMPILED_FOR(dot, target),
                 TENDRIL_COMPILED_FOR(add, target),       TENDRIL_COMPILED_FOR(scale_and_add, target)};
-    });
-    return unit;
 }
 
 }  // namespace tendril::rope::detail

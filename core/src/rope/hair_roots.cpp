@@ -8,7 +8,7 @@
 namespace tendril::rope {
 namespace {
 
-/// `otherwise` where the patch has no direction of its own.
+/// The patch's direction, or `otherwise` if it has none; unit.
 Expected<glm::vec3> direction_of(const HairPatch& patch, glm::vec3 otherwise) {
     const glm::vec3 direction = patch.direction.value_or(otherwise);
     const float length = glm::length(direction);
@@ -16,10 +16,10 @@ Expected<glm::vec3> direction_of(const HairPatch& patch, glm::vec3 otherwise) {
     return tendril::detail::refused("hair", "direction", "of some finite length", length);
 }
 
-/// A point of the patch: how far from its middle, and which way.
+/// A point of the patch: distance and direction from its centre.
 struct Seat {
     float distance = 0.0f;
-    glm::vec3 outwards{1.0f, 0.0f, 0.0f};  ///< unit, across the direction
+    glm::vec3 outwards{1.0f, 0.0f, 0.0f};  ///< unit, perpendicular to the direction
 };
 
 std::vector<Seat> seats(const HairPatch& patch, glm::vec3 direction) {
@@ -59,7 +59,7 @@ Expected<std::vector<HairRoot>> roots_on(const Shape& shape, const HairPatch& pa
     const float ball = plane != nullptr ? 0.0f : size(shape);
     std::vector<HairRoot> roots;
     for (const Seat& seat : seats(patch, direction)) {
-        // A round way along a ball of the collider's size, and from there to its surface.
+        // Along an arc on a ball of the collider's size, and from there to its surface.
         const float angle = ball > 0.0f ? seat.distance / ball : 0.0f;
         const glm::vec3 from =
             ball > 0.0f ? middle + ball * (std::cos(angle) * direction + std::sin(angle) * seat.outwards)

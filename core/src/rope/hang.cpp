@@ -16,12 +16,12 @@ struct Parabola {
     dvec3 at(double t) const { return from + t * across + (4.0 * sag * t * (1.0 - t)) * down; }
     dvec3 slope(double t) const { return across + (4.0 * sag * (1.0 - 2.0 * t)) * down; }
 
-    /// Further on from t, the point that is `chord` away.
+    /// The parameter of the next point after t that is `chord` away.
     double next(double t, double chord) const {
         const dvec3 here = at(t);
         double low = t, step = chord / std::max(length(slope(t)), 1e-300), high = t + step;
         while (length(at(high) - here) < chord && high < t + 1e6) high += step, step *= 2.0;
-        // Newton's method, kept within what is known to enclose the answer.
+        // Newton's method, kept within the bracket.
         double guess = std::min(high, t + chord / std::max(length(slope(t)), 1e-300));
         for (int i = 0; i < 60; ++i) {
             const dvec3 by = at(guess) - here;
@@ -37,7 +37,7 @@ struct Parabola {
         return guess;
     }
 
-    /// Where `segments` chords from the beginning end; 1 is `to`. Never far beyond that.
+    /// The parameter where `segments` chords from the start end; 1 is `to`. Stops soon after that.
     double end(double chord, std::size_t segments) const {
         double t = 0.0;
         for (std::size_t i = 0; i < segments && t < 2.0; ++i) t = next(t, chord);
@@ -45,10 +45,10 @@ struct Parabola {
     }
 };
 
-/// Down along a line and up again: how a rope hangs where it has no width.
+/// Down along a line and up again: a rope without horizontal extent.
 std::vector<dvec3> folded(const dvec3& from, const dvec3& to, double length_, std::size_t segments,
                           const dvec3& down) {
-    const double lower = dot(to - from, down);  // by so much is `to` below `from`
+    const double lower = dot(to - from, down);  // how far `to` is below `from`
     const double turn = 0.5 * (length_ + lower);
     std::vector<dvec3> points;
     points.reserve(segments + 1);

@@ -1,4 +1,4 @@
-// How a rope lies when it is put up. Not installed.
+// The initial shape of a rope. Not installed.
 #pragma once
 
 #include <cstddef>
@@ -7,8 +7,8 @@
 
 namespace tendril::rope::detail {
 
-/// `segments` + 1 points from `from` to `to`: straight, or where `length` is more than the distance on a
-/// parabola along `down` (unit), so that neighbours are length / segments apart.
+/// `segments` + 1 points from `from` to `to`: straight, or, if `length` exceeds the distance, on a parabola
+/// along `down` (unit). Neighbours are then length / segments apart.
 std::vector<glm::dvec3> hang(const glm::dvec3& from, const glm::dvec3& to, double length,
                              std::size_t segments, const glm::dvec3& down);
 

@@ -7,11 +7,11 @@
 namespace tendril::rope::detail {
 namespace {
 
-/// Bodies whose chains are all alone are put together until an island has so many links: enough to fill
-/// registers, few enough for a large world to be spread over threads.
+/// Bodies whose chains are all alone are merged until an island has this many links: enough to fill
+/// registers, few enough to spread a large world over threads.
 constexpr std::uint32_t island_links = 2048;
 
-/// Bodies that links join, named by the first of each.
+/// Sets of bodies joined by links, identified by their first body (union-find).
 class JoinedBodies {
   public:
     explicit JoinedBodies(std::size_t bodies) : parent_(bodies) {
@@ -30,7 +30,7 @@ class JoinedBodies {
     std::vector<std::uint32_t> parent_;
 };
 
-/// Sorts a list by the island of each of its elements, and keeps their order otherwise.
+/// Sorts a list by the island of each element; stable.
 template <class T>
 void sort_by_island(std::vector<Plan::Island>& islands, Plan::Range Plan::Island::*range,
                     std::vector<T>& list, auto island_of) {
@@ -49,7 +49,7 @@ void sort_by_island(std::vector<Plan::Island>& islands, Plan::Range Plan::Island
     list = std::move(sorted);
 }
 
-/// Makes the islands; gives that of each body.
+/// Makes the islands; returns the island of each body.
 std::vector<std::uint32_t> make_islands(const State& state, const std::vector<std::uint32_t>& body_of,
                                         Plan& plan) {
     const std::size_t bodies = state.bodies.size();
@@ -65,7 +65,7 @@ std::vector<std::uint32_t> make_islands(const State& state, const std::vector<st
     for (const std::uint32_t i : plan.soft) shares[joined.first_of(body_of[state.links[i].a])] = 1;
 
     std::vector<std::uint32_t> island_of(bodies, 0);
-    std::uint32_t open = 0, open_links = island_links;  // what bodies alone are put into
+    std::uint32_t open = 0, open_links = island_links;  // the island that lone bodies go to
     for (std::uint32_t b = 0; b < bodies; ++b) {
         const std::uint32_t first = joined.first_of(b);
         if (first != b) {

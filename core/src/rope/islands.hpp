@@ -1,4 +1,4 @@
-// Which bodies of a world are solved together. Not installed.
+// Divides the bodies of a world into islands that are solved together. Not installed.
 #pragma once
 
 #include "rope/plan.hpp"
@@ -8,8 +8,8 @@ namespace tendril::rope::detail {
 /// The body of each particle.
 std::vector<std::uint32_t> bodies_of_particles(const State& state);
 
-/// Divides a plan with chains, soft links and chunks, all of them in the state's order, into islands, and
-/// sorts its lists by them.
+/// Divides a plan into islands and sorts its lists by them. Requires chains, soft links and chunks, in the
+/// state's order.
 void divide_into_islands(const State& state, Plan& plan);
 
 }  // namespace tendril::rope::detail

@@ -1,4 +1,4 @@
-// What bodies are made of, changed while they hang.
+// Changes of a body's material while it hangs.
 #include <algorithm>
 #include <cmath>
 

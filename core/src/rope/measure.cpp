@@ -1,4 +1,4 @@
-// What can be read off a world.
+// Measurements of a world.
 #include <algorithm>
 #include <cmath>
 
@@ -10,7 +10,7 @@
 namespace tendril::rope {
 namespace {
 
-/// Of a stretch link, relative to its rest; 0 of the others.
+/// The relative length error of a stretch link; 0 for other links.
 double error_of(const State& state, const Link& link) {
     if (link.kind != Link::Kind::Stretch) return 0.0;
     const double length = detail::length(state.position[link.b] - state.position[link.a]);

@@ -83,7 +83,7 @@ bool Plan::fits(const State& state) const noexcept {
 }
 
 void Plan::group_chains(std::size_t particles) {
-    std::vector<std::uint32_t> taken(particles, 0);  // by the group of that number, counted from 1
+    std::vector<std::uint32_t> taken(particles, 0);  // 1-based number of the last group with the particle
     for (Island& island : islands) {
         island.groups.first = static_cast<std::uint32_t>(groups.size());
         const std::uint32_t begin = island.chains.first, end = begin + island.chains.count;

@@ -1,6 +1,5 @@
-// How the links of a world are solved: which bodies are solved together, which links follow each other in
-// constraint chains, and which chains can be solved side by side. It follows from bodies and links alone. Not
-// installed.
+// How the links of a world are solved: which bodies together, which links as chains, and which chains side by
+// side. Depends on bodies and links alone. Not installed.
 #pragma once
 
 #include <cstdint>
@@ -16,46 +15,46 @@ struct Plan {
     struct Range {
         std::uint32_t first = 0, count = 0;
     };
-    /// Bodies that no link joins to any other: nothing that happens in a substep reaches from one island to
-    /// another, so islands are solved in any order and side by side. Bodies whose chains are all alone are
-    /// put together, so that registers are full.
+    /// Bodies that no link joins to any other. Nothing in a substep reaches from one island to another, so
+    /// islands can be solved in any order and in parallel. Bodies whose chains are all alone are merged to
+    /// fill registers.
     struct Island {
         Range bodies{}, links{}, soft{}, chains{}, groups{}, chunks{};
         std::uint32_t particles = 0;
-        bool alone = false;      ///< every chain is, and there is no soft link
-        std::uint32_t grid = 0;  ///< one that all its links are of, in `grids`, counted from 1; 0: none
+        bool alone = false;      ///< every chain is alone, and there are no soft links
+        std::uint32_t grid = 0;  ///< 1-based index in `grids` of the one with all its links; 0: none
     };
-    /// Stretch links that follow each other: each begins at the particle where the one before ended.
+    /// Consecutive stretch links: each begins at the particle where the previous one ends.
     struct Chain {
         std::uint32_t first_link = 0, links = 0;
         std::uint32_t first_node = 0;  ///< in `nodes`, links + 1 of them
         std::uint32_t body = 0;
         bool alone = false;  ///< no other link touches its particles
     };
-    /// Chains of an island, of equal length, that share no particle: one after the other in `chains`.
+    /// Chains of an island, of equal length, that share no particle; contiguous in `chains`.
     struct Group {
         std::uint32_t first_chain = 0, chains = 0;
     };
-    /// Particles of one body that lie together: what colliders are looked for with.
+    /// Consecutive particles of one body: the unit of the search for colliders.
     struct Chunk {
         std::uint32_t first = 0, count = 0, body = 0;
         std::uint32_t first_link = 0, links = 0;  ///< in `chunk_links`: stretch links that begin in it
-        float reach = 0.0f;                       ///< the longest of them
+        float reach = 0.0f;                       ///< rest length of the longest of them
     };
 
-    /// A cloth that is linked to nothing else, by links that its grid has.
+    /// A cloth with no links other than those of its grid.
     struct Grid {
         std::uint32_t body = 0, columns = 0, rows = 0;
         Range links{};  ///< in `grid_links`
     };
-    /// Where a link is among the arrays of its grid's system.
+    /// The position of a link in the arrays of its grid's system.
     struct GridLink {
         std::uint32_t link = 0, cell = 0, step = 0;
     };
 
     Plan() = default;
     explicit Plan(const State& state);
-    /// Whether another plan of this state would be the same.
+    /// Whether a new plan of this state would be the same.
     bool fits(const State& state) const noexcept;
     template <class T>
     static std::span<const T> part(const std::vector<T>& list, const Range& range) {
@@ -63,9 +62,9 @@ struct Plan {
     }
 
     std::vector<Island> islands;
-    // What an island has of each lies together, in the state's order.
+    // The elements of an island are contiguous in each list, in the state's order.
     std::vector<std::uint32_t> bodies, links;
-    std::vector<std::uint32_t> soft;  ///< links that are no stretch links
+    std::vector<std::uint32_t> soft;  ///< links other than stretch links
     std::vector<Chain> chains;
     std::vector<Group> groups;
     std::vector<Chunk> chunks;
@@ -82,7 +81,7 @@ struct Plan {
     void cut_into_chunks(const State& state);
     void group_chains(std::size_t particles);
 
-    // What it follows from.
+    // The inputs that it depends on.
     struct Joined {
         std::uint32_t a, b;
         float rest;

@@ -13,15 +13,15 @@ namespace tendril::rope {
 namespace {
 
 constexpr double substeps = 8.0;  ///< a large move is not made good in one
-/// A stiff link that is further from its length than contacts leave it gets it back.
+/// A stiff link further off its length than contacts leave it gets its length back.
 constexpr double max_error = 0.05;
 
 bool is_stiff(const Settings& settings) {
     return settings.solver == Solver::Direct && settings.compliance == 0.0f;
 }
 
-/// A world in which nothing would happen: no weight, no motion, nothing on its way, every link as long as it
-/// is.
+/// A world in which nothing would happen: no weight, no motion, no moves under way, every link at its current
+/// length.
 State frozen(const World& world) {
     const State& was = world.state();
     State still = was;
@@ -51,7 +51,7 @@ State frozen(const World& world) {
     return still;
 }
 
-/// What was not sent anywhere goes on to where it was going.
+/// Pins and colliders that were not dragged resume their moves.
 void send_on(State& now, const State& still, const State& was) {
     for (Pin& pin : now.pins) {
         const auto at =
@@ -70,7 +70,7 @@ void send_on(State& now, const State& still, const State& was) {
     }
 }
 
-/// `send` moves what is dragged in a world, in so many seconds.
+/// `send` moves what is dragged in a world within the given seconds.
 template <class Send>
 Result drag(World& world, Workspace& workspace, Send send) {
     const State& was = world.state();

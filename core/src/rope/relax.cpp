@@ -1,4 +1,4 @@
-// One link after the other, over and over.
+// Relaxation: one link after the other, repeatedly.
 #include <algorithm>
 
 #include "rope/build.hpp"
@@ -7,7 +7,7 @@
 
 namespace tendril::rope {
 
-/// Moves both ends by their share of the error, or the free one by all of it, or neither.
+/// Moves both ends by their share of the error; a pinned end does not move.
 void Substep::satisfy(std::uint32_t number, double compliance) {
     const Link& link = state_.links[number];
     const double weight_a = scratch_.weight[link.a], weight_b = scratch_.weight[link.b];

@@ -1,4 +1,4 @@
-// What is in a workspace; nothing of it is remembered from one substep to the next. Not installed.
+// The contents of a workspace; nothing persists from one substep to the next. Not installed.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace tendril::rope {
 
-/// A particle's touch with a collider, in one substep.
+/// A particle's contact with a collider in one substep.
 struct Touch {
     glm::dvec3 normal{0.0};
     glm::dvec3 displacement{0.0};           ///< by the collider so far, metres
@@ -22,85 +22,85 @@ struct Touch {
     bool touching = false;
 };
 
-/// What islands share: each writes what belongs to its own bodies, links, chains and chunks, and nothing
-/// else. Colliders have moved before islands are solved.
+/// Shared by the islands: each writes only what belongs to its own bodies, links, chains and chunks.
+/// Colliders have moved before islands are solved.
 struct Scratch {
-    std::vector<glm::dvec3> place;   ///< where each particle is as yet
-    std::vector<glm::dvec3> base;    ///< where it would be without links and colliders
+    std::vector<glm::dvec3> place;   ///< current position of each particle
+    std::vector<glm::dvec3> base;    ///< position without links and colliders
     std::vector<double> weight;      ///< inverse mass; 0: pinned
     std::vector<double> multiplier;  ///< of each link: tension times h^2
     std::vector<Touch> touch;
-    /// The colliders near a body. Struck: one at rest displaced it faster than correction_speed.
+    /// What is near a body. Struck: a resting collider displaced it faster than correction_speed.
     enum class Nearest : std::uint8_t { None, Resting, Struck, Moving };
     std::vector<Nearest> body_near;
     std::vector<std::uint8_t> body_failed;  ///< whether a body could not be solved
     std::vector<glm::dvec3> chunk_low, chunk_high;
     struct Moving {
         const Shape* shape = nullptr;  ///< at the end of the substep
-        glm::dvec3 by{0.0};            ///< in the substep
+        glm::dvec3 by{0.0};            ///< displacement in the substep
         glm::dvec3 low{0.0}, high{0.0};
         double size = 0.0;
-        glm::dvec3 turn{0.0};  ///< of a capsule: by how much more than `by` its end b has moved, and a less
+        glm::dvec3 turn{0.0};  ///< of a capsule: how far end b moves beyond `by`; end a moves oppositely
 
-        /// How far the shape has moved at the point of it that is nearest to `at`.
+        /// The displacement of the shape at its point nearest to `at`.
         glm::dvec3 by_at(const glm::dvec3& at) const;
-        /// The distance of `at`, where a particle came from `was` in the substep. Something fast is put
-        /// back to where it touches first, on the side that it came from.
+        /// The distance of `at`, for a particle that started the substep at `was`. If it moved fast, puts
+        /// `at` back to where it first touches, on the side that it came from.
         SurfaceDistance entered(const glm::dvec3& was, glm::dvec3& at, double radius,
                                 std::uint64_t& work) const;
         bool moves() const { return by != glm::dvec3(0.0) || turn != glm::dvec3(0.0); }
-        /// Whether a ball is wholly beyond where the shape is or was in the substep.
+        /// Whether a ball is entirely beyond the shape's bounds in the substep.
         bool far_from(const glm::dvec3& at, double radius) const {
             return at.x + radius < low.x || at.y + radius < low.y || at.z + radius < low.z ||
                    at.x - radius > high.x || at.y - radius > high.y || at.z - radius > high.z;
         }
     };
     std::vector<Moving> colliders;
-    std::vector<std::uint8_t> chain_solved;  ///< whether a chain is solved with what it touches
+    std::vector<std::uint8_t> chain_solved;  ///< whether a chain is solved with its contacts
     std::vector<double> chain_error;         ///< of each chain: relative length error after its last pass
-    /// Factors on the mean velocity of some particles, on what differs from it, and on the tension of a
-    /// cloth's links.
+    /// Factors on the mean velocity of some particles, on the deviations from it, and on the tension of
+    /// links.
     struct Slowed {
         glm::dvec3 mean{0.0};  ///< of their displacements
         double whole = 1.0, apart = 1.0, tension = 1.0;
         bool any() const { return whole != 1.0 || apart != 1.0 || tension != 1.0; }
     };
     std::vector<Slowed> chain_slowed;
-    std::vector<std::uint32_t> collider_at;  ///< where a slot's collider is in the list
+    std::vector<std::uint32_t> collider_at;  ///< list index by slot
     std::vector<detail::Cloth> cloths;       ///< of the plan's grids
     detail::VectorUnit unit;
     detail::GridUnit grid_unit;
     detail::ClothUnit cloth_unit;
 };
 
-/// What solving a chain among colliders takes.
+/// Memory for solving a chain among colliders.
 struct ContactScratch {
-    /// Of a collider, where it is nearest to a particle.
+    /// The tangent plane of a collider nearest to a particle.
     struct Plane {
         std::uint32_t collider = 0;
         bool active = false;
         double gap = 0.0;
         glm::dvec3 normal{0.0}, point{0.0};  ///< a particle on the plane touches
-        glm::dvec3 by{0.0};                  ///< how far the collider has moved there, in the substep
+        glm::dvec3 by{0.0};                  ///< displacement of the collider there, in the substep
     };
     struct Contact {
         std::uint32_t node = 0;
         std::uint32_t first = 0, count = 0;  ///< in `planes`
     };
-    /// Of colliders so small that a link can touch them between its ends.
+    /// With colliders so small that a link can touch them between its ends.
     struct LinkContact {
         std::uint32_t bond = 0;
         std::uint32_t first = 0, count = 0;    ///< in `link_colliders`
-        std::uint32_t collider = 0xffffffffu;  ///< that it touches
+        std::uint32_t collider = 0xffffffffu;  ///< the one that it touches
         glm::dvec3 point{0.0};                 ///< on its plane
     };
     struct Kept {
         glm::dvec3 x{0.0};
         double multiplier = 0.0, error = 0.0;
     };
-    std::vector<Contact> contacts;  ///< as `holds`, by node
+    std::vector<Contact> contacts;  ///< parallel to `holds`, by node
     std::vector<Plane> planes;
-    std::vector<LinkContact> link_contacts;  ///< as `bond_holds`, by bond
+    std::vector<LinkContact> link_contacts;  ///< parallel to `bond_holds`, by bond
     std::vector<std::uint32_t> link_colliders;
     std::vector<detail::ChainNode> nodes;
     std::vector<detail::ChainBond> bonds;
@@ -110,41 +110,41 @@ struct ContactScratch {
     std::vector<double> kept_contacts;
 };
 
-/// Where a collider holds a particle of a cloth, or a link between its ends.
+/// A contact of a collider with a particle of a cloth, or with a link between its ends.
 struct ClothContact {
-    std::uint32_t near = 0;      ///< in IslandScratch's
-    std::uint32_t a = 0, b = 0;  ///< particles; one and the same, or a link's
-    std::uint32_t link = 0;      ///< of a link: its number
-    double t = 0.0;              ///< where it is between them, 0: at a
-    double force = 0.0;          ///< in the last solve; over 0: it presses
+    std::uint32_t near = 0;      ///< index in IslandScratch::near
+    std::uint32_t a = 0, b = 0;  ///< particles: the same one twice, or a link's ends
+    std::uint32_t link = 0;      ///< of a link: its index
+    double t = 0.0;              ///< position between them, 0: at a
+    double force = 0.0;          ///< in the last solve; positive: presses
     double gap = 0.0;            ///< from the collider's surface, less the radius of the cloth
     glm::dvec3 normal{0.0};
     glm::dvec3 at{0.0};    ///< where it was found
-    glm::dvec3 slip{0.0};  ///< along the surface, in the substep until then
-    double drag = 0.0;     ///< against that, in the stiffness of links
+    glm::dvec3 slip{0.0};  ///< along the surface, since the substep began
+    double drag = 0.0;     ///< against the slip, in the unit of link stiffness
 
     bool is_link() const { return a != b; }
 };
 
-/// What solving one island takes; each thread has its own.
+/// Memory for solving one island; each thread has its own.
 struct IslandScratch {
     struct Near {
         std::uint32_t chunk, collider;
     };
     std::vector<Near> near;              ///< chunk by chunk
-    std::vector<std::uint32_t> close;    ///< colliders that anything is near
-    std::vector<std::uint32_t> touched;  ///< particles with a touch
+    std::vector<std::uint32_t> close;    ///< colliders near anything
+    std::vector<std::uint32_t> touched;  ///< particles in contact
     std::vector<double> block;           ///< memory of a block
     std::size_t block_offset = 0;
     ContactScratch contact;
     std::vector<ClothContact> cloth_contacts, earlier_contacts;
-    /// Of the cloth solved last: roughly its length, metres, and the energy in its links and by how much that
-    /// grew, joules.
+    /// Of the cloth solved last: its approximate length, metres, the energy in its links and its gain,
+    /// joules.
     struct {
         double length = 0.0, elastic = 0.0, gained = 0.0;
     } cloth_energy;
-    tendril::detail::ForkJoin loops;  ///< of a cloth; threads without an island help
-    Advance done;                     ///< in this substep; `passes` of the island that took most
+    tendril::detail::ForkJoin loops;  ///< of a cloth; idle threads help
+    Advance done;                     ///< in this substep; `passes`: maximum over the islands
 };
 
 struct Workspace::Parts {
@@ -152,17 +152,17 @@ struct Workspace::Parts {
     Scratch scratch;
     std::vector<IslandScratch> threads{1};
     Tasks tasks;
-    bool prepared = false;  ///< sizes follow from a plan
+    bool prepared = false;  ///< sizes match the plan
 
-    /// Makes everything fit a state.
+    /// Adapts everything to a state.
     void prepare(const State& state);
-    /// Links or bodies are other ones now.
+    /// Call after links or bodies have changed.
     void replan(const State& state);
 
     // advance.cpp
-    /// The rest of a substep once colliders have moved: threads take islands until there are none left.
+    /// The rest of a substep after colliders have moved: threads take islands until none is left.
     void solve_islands(State& state, bool measures);
-    /// What the threads did in the substep becomes part of the whole call's report.
+    /// Adds what the threads did in the substep to the report of the call.
     void add_up(Advance& done);
 };
 

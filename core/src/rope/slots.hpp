@@ -1,4 +1,4 @@
-// Handles: which slot is whose. Not installed.
+// Slots of handles. Not installed.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace tendril::rope::detail {
 
-/// A free slot, now taken: the first one, so that the same calls give the same handles.
+/// Takes the first free slot, so that the same calls give the same handles.
 template <class Id>
 Id take_slot(std::vector<std::uint32_t>& slots, std::size_t taken) {
     auto free = slots.end();
@@ -26,7 +26,7 @@ void free_slot(std::vector<std::uint32_t>& slots, Id id) noexcept {
     ++slots[id.index];
 }
 
-/// Null where there is none. Mostly things stand in the order of their slots, then it is found at once.
+/// Null if there is none. Most lists are in slot order; then it is found at once.
 template <class List, class Id>
 auto* find_in(List& list, const Id& id) noexcept {
     if (id.index < list.size() && list[id.index].id == id) return &list[id.index];

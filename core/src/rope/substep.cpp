@@ -1,4 +1,4 @@
-// What is free moves on, a solver puts it right, and what came of it becomes the state.
+// A substep of an island: free particles move, a solver corrects them, and the result becomes the state.
 #include "rope/substep.hpp"
 
 #include <algorithm>
@@ -14,21 +14,21 @@ namespace {
 
 using glm::dvec3;
 
-/// True only where every coordinate is at most `limit`, false where one is no number: a single comparison for
-/// what runs for every particle. What is beyond it is looked at again.
+/// True only if every coordinate is at most `limit`; false for NaN. A single comparison, because it runs for
+/// every particle; the others are checked again.
 bool surely_within(const dvec3& v, double limit) {
     return std::abs(v.x) + std::abs(v.y) + std::abs(v.z) <= limit;
 }
 
-/// The world has an edge, max_magnitude from the origin each way, where what flies further stops. Where the
-/// solver found no number, a particle stays where it was.
+/// Clamps a position to the edge of the world, max_magnitude from the origin in each coordinate. If the
+/// solver's result is not finite, the particle stays where it was.
 dvec3 within_the_world(const dvec3& place, const dvec3& was) {
     constexpr double edge = max_magnitude;
     const bool number = std::isfinite(place.x) && std::isfinite(place.y) && std::isfinite(place.z);
     return number ? glm::clamp(place, dvec3(-edge), dvec3(edge)) : was;
 }
 
-/// Newtons, of a Lagrange multiplier over h^2.
+/// Tension in newtons from a Lagrange multiplier.
 float tension_of(double multiplier, double square) {
     constexpr double limit = 1e30;
     const double tension = multiplier / square;
@@ -61,8 +61,8 @@ void Substep::run(bool measures) {
     commit();
 }
 
-/// The settings' iterations, or fewer where an island would take more than its part, by particles and links,
-/// of max_pass_work links and contacts.
+/// The settings' iterations, or fewer if an island would exceed its share, by particles and links, of
+/// max_pass_work links and contacts.
 int Substep::passes_allowed() const {
     const std::size_t size = island_.particles + island_.links.count;
     const std::size_t whole = state_.position.size() + state_.links.size();
@@ -77,15 +77,15 @@ int Substep::passes_allowed() const {
 
 void Substep::move_particles() {
     damping_ = std::exp(-static_cast<double>(state_.settings.damping) * h_);
-    // Where the step before was not as long as this one, Verlet's rule for uneven steps.
+    // Verlet's rule for uneven steps, if the previous substep was not as long as this one.
     const bool before = state_.displaced_in > 0.0;
     const double same = before ? h_ / state_.displaced_in : 0.0;
     if (before) before_ = state_.displaced_in / h_;
-    constexpr double limit = detail::max_displacement;  // no two places are further apart
+    constexpr double limit = detail::max_displacement;  // no two positions are further apart
     const dvec3 fall = (before ? 0.5 * h_ * (h_ + state_.displaced_in) : h_ * h_) * acceleration_;
     each_particle([&](std::size_t i) {
         dvec3& moved = state_.displacement[i];
-        moved = same * moved;  // had the substep before been as long as this one
+        moved = same * moved;  // as if the previous substep had been as long as this one
         if (same > 1.0) moved = glm::clamp(moved, dvec3(-limit), dvec3(limit));
         scratch_.base[i] = state_.position[i] + (damping_ * moved + fall);
         scratch_.weight[i] = 1.0 / state_.mass[i];
@@ -113,16 +113,16 @@ void Substep::move_particles() {
     }
 }
 
-/// How far links are from their rest lengths now, by body.
+/// Measures how far links are from their rest lengths, by body.
 void Substep::measure() {
     if (!measures_) return;
-    constexpr double limit = max_magnitude;  // where a rest is next to nothing
+    constexpr double limit = max_magnitude;  // for a rest of nearly 0
     const std::span<const std::uint32_t> bodies = Plan::part(plan_.bodies, island_.bodies);
     for (const std::uint32_t b : bodies) state_.bodies[b].stretch = 0.0f;
     std::size_t b = bodies.front();
     for (const std::uint32_t i : Plan::part(plan_.links, island_.links)) {
         const Link& link = state_.links[i];
-        while (link.a < state_.bodies[b].first) --b;  // links of a body lie together, nearly always
+        while (link.a < state_.bodies[b].first) --b;  // links of a body are nearly always contiguous
         while (link.a - state_.bodies[b].first >= state_.bodies[b].count) ++b;
         if (link.kind != Link::Kind::Stretch) continue;
         const double length = detail::length(scratch_.place[link.b] - scratch_.place[link.a]);
@@ -142,7 +142,7 @@ void Substep::stay_in_the_world() {
 void Substep::commit() {
     each_particle([&](std::size_t i) {
         dvec3 &place = scratch_.place[i], &position = state_.position[i], &moved = state_.displacement[i];
-        // Coordinate by coordinate: a whole vector just written cannot be read at once. Zeros lose their
+        // Coordinate by coordinate: a vector just written as a whole cannot be read at once. Zeros lose their
         // sign, which would depend on how many ropes were solved side by side.
         for (int c = 0; c < 3; ++c) {
             const double to = place[c] + 0.0;

@@ -1,4 +1,4 @@
-// One fixed step of time, of one island. Not installed.
+// One fixed substep of one island. Not installed.
 #pragma once
 
 #include "rope/scratch.hpp"
@@ -8,7 +8,7 @@ namespace tendril::rope {
 
 namespace detail {
 
-/// The part of the way to a goal that is done in `h`, of the `seconds` that are left for it.
+/// The part of the way to a goal that is covered in `h`, with `seconds` left for it.
 inline double part_of(double h, double& seconds) {
     const double part = seconds > h * (1.0 + 1e-6) ? h / seconds : 1.0;
     seconds = part < 1.0 ? seconds - h : 0.0;
@@ -19,15 +19,15 @@ inline double part_of(double h, double& seconds) {
 
 class Substep {
   public:
-    /// Writes what belongs to the island and nothing else, so that others can be solved at the same time.
-    /// What it did is added to `local.done`.
+    /// Writes only what belongs to the island, so that others can be solved at the same time. Adds its report
+    /// to `local.done`.
     Substep(State& state, const Plan& plan, const Plan::Island& island, Scratch& scratch,
             IslandScratch& local);
-    /// `measures`: bodies get their length error in the end.
+    /// `measures`: bodies get their length error at the end.
     void run(bool measures);
 
   private:
-    /// Contact that displaces a body faster than this, m/s, would throw it.
+    /// A contact that displaces a body faster than this, m/s, would throw it.
     static constexpr double correction_speed = 2.0;
 
     // substep.cpp
@@ -76,7 +76,7 @@ class Substep {
     void slow_correction(const Plan::Chain& chain);
     void gather(const detail::Block& block, const Batch& batch) const;
     void scatter(const detail::Block& block, std::uint32_t lane, std::uint32_t chain);
-    /// Whether contacts displace a body after its lengths are solved, and not together with them.
+    /// Whether contacts displace a body after its lengths are solved, not together with them.
     bool has_fallback_contact(std::uint32_t body) const { return !island_.alone && is_near(body); }
     bool is_near(std::uint32_t body) const { return scratch_.body_near[body] != Scratch::Nearest::None; }
 
@@ -97,13 +97,13 @@ class Substep {
     Advance& report_;
     bool measures_ = false;
     double h_;
-    double before_ = 1.0;   ///< length of the substep before, over this one's
+    double before_ = 1.0;   ///< length of the previous substep relative to this one
     double damping_ = 1.0;  ///< of velocity, in the substep
     Slowed slowed_;
     glm::dvec3 acceleration_;
 };
 
-/// The energy that particles and links have gained in this substep, in joules.
+/// The energy that particles and links gain in this substep, in joules.
 class Substep::Ledger {
   public:
     Ledger(const Substep& substep, Scratch::Nearest near)
@@ -112,18 +112,18 @@ class Substep::Ledger {
     void add_particle(std::size_t i);
     void add_link(std::uint32_t link);
     void add_cloth();
-    /// Zero where a moving collider or pin may have done work.
+    /// Zero if a moving collider or pin may have done work.
     double gained() const { return worked_on_ ? 0.0 : gained_; }
-    /// More than this part of their weight times their length.
+    /// Whether the gain exceeds this part of their weight times their length.
     bool gains(double part) const;
     Slowed slowed() const;
-    /// Joules that contact took. The work of colliders that move cannot be told from it.
+    /// Joules lost to contact. The work of moving colliders cannot be separated from it.
     double contact_loss() const;
     /// Relaxation and XPBD can hold stretch that no energy counts; bounded then, a taut rope would sag.
     bool bounds_relaxation() const {
         return near_ == Scratch::Nearest::Struck || (near_ != Scratch::Nearest::None && !strained_);
     }
-    /// Nothing holds or touches it, and it does not fall freely.
+    /// Nothing holds or touches it, but it does not fall freely.
     bool suspended() const;
 
   private:
@@ -131,8 +131,8 @@ class Substep::Ledger {
     Scratch::Nearest near_;
     double gained_ = 0.0, damped_ = 0.0, kinetic_ = 0.0, elastic_ = 0.0, mass_ = 0.0, length_ = 0.0;
     glm::dvec3 momentum_{0.0};              ///< times the substep
-    glm::dvec3 pushed_{0.0};                ///< by what is not gravity: momentum, times the substep
-    double fallen_ = 0.0, released_ = 0.0;  ///< by gravity and by links, since halfway
+    glm::dvec3 pushed_{0.0};                ///< momentum from all but gravity, times the substep
+    double fallen_ = 0.0, released_ = 0.0;  ///< energy released by gravity and by links, since halfway
     bool worked_on_, pinned_ = false, strained_ = false;
 };
 

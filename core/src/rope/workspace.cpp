@@ -1,4 +1,4 @@
-// Workspaces: memory that follows from a world's state.
+// Workspaces: memory sized by a world's state.
 #include "tendril/rope/workspace.hpp"
 
 #include "math/checks.hpp"
@@ -8,7 +8,7 @@
 namespace tendril::rope {
 namespace {
 
-/// Gives everything its size, so that nothing is allocated later.
+/// Sizes everything, so that nothing is allocated later.
 void size(Scratch& scratch, const State& state, const Plan& plan) {
     const std::size_t particles = state.position.size();
     scratch.place.resize(particles);

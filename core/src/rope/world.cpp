@@ -1,4 +1,4 @@
-// What changes a world's shape. How it moves is in advance.cpp.
+// Edits of a world. For its motion see advance.cpp.
 #include "tendril/rope/world.hpp"
 
 #include <algorithm>
@@ -32,14 +32,14 @@ Result check_particle(const char* operation, std::size_t particle, std::size_t s
     return check_index(operation, particle, size, "the world", "particle");
 }
 
-/// Takes out of `list` what is from `first` on.
+/// Removes `count` elements from `first` on.
 template <class T>
 void erase_range(std::vector<T>& list, std::size_t first, std::size_t count) {
     const auto from = list.begin() + static_cast<std::ptrdiff_t>(first);
     list.erase(from, from + static_cast<std::ptrdiff_t>(count));
 }
 
-/// In slots from 0 on, in their order, unless they have handles already.
+/// Numbers the elements from slot 0, unless they have handles.
 template <class List>
 void number(List& list, std::vector<std::uint32_t>& slots) {
     if (list.empty() || list.front().id) return;

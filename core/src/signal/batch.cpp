@@ -17,7 +17,7 @@ struct List {
     const char* name;
     std::size_t size;
 };
-/// All as long as `count`.
+/// Checks that every list has `count` entries.
 Result check_lists(const char* operation, std::size_t count, std::initializer_list<List> lists) noexcept {
     for (const List& list : lists)
         if (const Result bad = check_count(operation, list.name, list.size, count); !bad) return bad;

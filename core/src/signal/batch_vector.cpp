@@ -1,18 +1,14 @@
-// Springs and interp_to for a register of values at a time. Highway compiles this file once for each vector
-// unit: it includes it again and again, each time with another HWY_NAMESPACE.
+// Springs and interp_to for a register of values at a time.
 #include "signal/batch_vector.hpp"
 
 #include <algorithm>
 #include <array>
 
-#include "math/dispatch.hpp"
 #include "tendril/signal/input.hpp"
 #include "tendril/signal/spring.hpp"
 
-#undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "signal/batch_vector.cpp"
-#include <hwy/foreach_target.h>  // before highway.h
-#include <hwy/highway.h>
+#include "math/each_target-inl.hpp"
 
 #include "signal/elementary-inl.hpp"
 
@@ -23,12 +19,12 @@ namespace HWY_NAMESPACE {
 constexpr float two_pi = 6.28318531f;
 constexpr float weakest = static_cast<float>(no_strength);
 constexpr float max_state = static_cast<float>(max_output);
-constexpr float min_state = 1e-25f;  ///< below, it is 0: denormal numbers take a hundred times longer
+constexpr float min_state = 1e-25f;  ///< smaller counts as 0: denormal numbers take a hundred times longer
 
 HWY_INLINE Mask both(Mask a, Mask b) {
     return hn::And(a, b);
 }
-/// No for what is not a number.
+/// False for NaN.
 HWY_INLINE Mask is_within(Lanes x, float limit) {
     return hn::Le(hn::Abs(x), all(limit));
 }
@@ -46,7 +42,7 @@ HWY_INLINE Lanes bounded(Lanes x) {
 struct Swing {
     Lanes c, s;
 };
-/// `cycles` is strength * dt. Each kind of damping is worked out only where some lane has it.
+/// `cycles` is strength * dt. Each kind of damping is only computed if some lane needs it.
 HWY_INLINE Swing swing_of(Lanes cycles, Lanes damping) {
     const Lanes one = all(1.0f);
     const Lanes below = hn::Mul(hn::Sub(one, damping), hn::Add(one, damping));
@@ -76,7 +72,7 @@ HWY_INLINE Swing swing_of(Lanes cycles, Lanes damping) {
     return {hn::Mul(left, c), hn::Mul(left, s)};
 }
 
-/// One register of springs from `i` on: as step() in spring.cpp.
+/// One register of springs from index `i`: the same as step() in spring.cpp.
 HWY_INLINE void step_register(const SpringRows& rows, std::size_t i, Lanes dt, Lanes rate) {
     const Floats d;
     const auto load = [&](const float* row) { return hn::LoadU(d, row + i); };
@@ -96,7 +92,7 @@ HWY_INLINE void step_register(const SpringRows& rows, std::size_t i, Lanes dt, L
     const Mask is_spring = hn::Ge(strength, all(weakest));
     const Lanes hz = hn::IfThenElseZero(is_spring, strength), w = times(hz, two_pi);
     const Lanes divisor = hn::IfThenElse(is_spring, w, all(1.0f));
-    // How far force and target velocity shift the target; without a spring the force accelerates.
+    // The target's shift by force and target velocity; without a spring the force accelerates.
     const Lanes target_velocity = hn::Mul(hn::Sub(target, previous), hn::Mul(amount, rate));
     const Lanes ahead = hn::Mul(target_velocity, hn::Add(damping, damping));
     const Lanes shift = hn::Div(hn::Add(hn::Div(force, divisor), ahead), divisor);
@@ -131,7 +127,7 @@ HWY_INLINE void interp_register(const InterpRows& rows, std::size_t i, Lanes dt)
     hn::StoreU(hn::IfThenElse(is_within(target, max_magnitude), reached, current), d, rows.current + i);
 }
 
-/// Some lists of floats, in place or in a register's worth of memory.
+/// The last, incomplete register of a list, padded with 0; null for a list that is left out.
 constexpr std::size_t max_lanes = 16;
 struct Row {
     HWY_ALIGN float lanes[max_lanes] = {};
@@ -193,7 +189,7 @@ HWY_EXPORT(step_springs);
 HWY_EXPORT(interp_to);
 HWY_EXPORT(interp_to_exact);
 
-/// Those of this machine, the widest first. Asking the processor takes microseconds: it is done once.
+/// The vector units of this machine, widest first. Asking the processor takes microseconds: done once.
 struct Units {
     std::array<VectorUnit, 16> units{};
     std::array<std::string_view, 16> names{};

@@ -1,4 +1,4 @@
-// What a vector unit does to arrays of springs and values. Not installed.
+// Operations of a vector unit on arrays of springs and values. Not installed.
 #pragma once
 
 #include <cstddef>
@@ -6,7 +6,7 @@
 
 namespace tendril::signal::detail {
 
-/// As SpringArrays; force and target_velocity_amount may be null.
+/// Like SpringArrays; force and target_velocity_amount may be null.
 struct SpringRows {
     const float *strength, *critical_damping, *force, *target_velocity_amount, *target;
     float *value, *velocity, *previous_target;
@@ -16,13 +16,14 @@ struct InterpRows {
     const float *target, *speed;
 };
 
-/// `dt` within its bounds.
+/// `dt` must be within its bounds.
 struct VectorUnit {
     void (*step_springs)(const SpringRows& rows, std::size_t count, float dt) = nullptr;
     void (*interp_to)(const InterpRows& rows, std::size_t count, float dt) = nullptr;
     void (*interp_to_exact)(const InterpRows& rows, std::size_t count, float dt) = nullptr;
 };
-/// The widest there is, or that of a name as ik::vector_units() has it; empty for an unknown name.
+/// The unit of that name as in ik::vector_units(), or the widest if the name is empty; null functions for an
+/// unknown name.
 VectorUnit vector_unit(std::string_view name) noexcept;
 
 }  // namespace tendril::signal::detail

@@ -29,7 +29,7 @@ Result check_key(const Curve& curve, std::size_t i) noexcept {
     return {};
 }
 
-/// Hermite's cubic from 0 to 1, tangents by the whole piece.
+/// Hermite's cubic over 0 to 1; tangents are per piece.
 double cubic(double from, double leave, double to, double arrive, double u) noexcept {
     const double v = 1.0 - u;
     return v * v * (from * (1.0 + 2.0 * u) + leave * u) + u * u * (to * (1.0 + 2.0 * v) - arrive * v);
@@ -43,7 +43,7 @@ double evaluate_piece(const CurveKey& from, const CurveKey& to, double time) noe
     return cubic(from.value, from.leave * width, to.value, to.arrive * width, u);
 }
 
-/// At most max_magnitude, as a tangent may be.
+/// At most max_magnitude, the limit of a tangent.
 double slope_between(const CurveKey& a, const CurveKey& b) noexcept {
     const double width = b.time - a.time, limit = static_cast<double>(max_magnitude);
     return width > 0.0 ? std::clamp((b.value - a.value) / width, -limit, limit) : 0.0;

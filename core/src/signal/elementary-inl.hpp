@@ -1,5 +1,5 @@
 // math/elementary.hpp for a register of floats, to 3e-7. No operation is fused, so every lane has the same
-// bits with every vector unit. Not installed; it is included once for each vector unit.
+// bits with every vector unit. Not installed; included once per vector unit.
 #if defined(TENDRIL_SIGNAL_ELEMENTARY_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef TENDRIL_SIGNAL_ELEMENTARY_INL
 #undef TENDRIL_SIGNAL_ELEMENTARY_INL
@@ -32,7 +32,7 @@ HWY_INLINE Lanes times(Lanes a, float b) {
     return hn::Mul(a, all(b));
 }
 
-/// `... + x^2 * (third + x * fourth)`: a polynomial by its coefficients, the lowest power first.
+/// `... + x^2 * (third + x * fourth)`: a polynomial by its coefficients, lowest power first.
 template <class... Rest>
 HWY_INLINE Lanes polynomial(Lanes x, float first, Rest... rest) {
     if constexpr (sizeof...(rest) == 0) {
@@ -42,7 +42,7 @@ HWY_INLINE Lanes polynomial(Lanes x, float first, Rest... rest) {
     }
 }
 
-/// To the nearest whole number; under 2^22 in magnitude.
+/// Rounds to the nearest whole number; x under 2^22 in magnitude.
 HWY_INLINE Lanes rounded(Lanes x) {
     const Lanes rounder = all(12582912.0f);  // 1.5 * 2^23
     return hn::Sub(hn::Add(x, rounder), rounder);
@@ -52,7 +52,7 @@ HWY_INLINE Lanes rounded(Lanes x) {
 HWY_INLINE Lanes decay(Lanes x) {
     const Mask in_range = hn::Lt(x, all(87.0f));
     x = hn::IfThenElseZero(in_range, x);
-    // e^-x = 2^-k e^-r; ln 2 is taken off in two parts, the products of the first with k are exact.
+    // e^-x = 2^-k e^-r; ln 2 is subtracted in two parts, and the products of the first with k are exact.
     const Lanes k = rounded(times(x, 1.44269504f));
     const Lanes r = hn::Sub(hn::Sub(x, times(k, 0.693359375f)), times(k, -2.12194440e-4f));
     const Lanes small = polynomial(r, 1.0f, -1.0f, 1.0f / 2, -1.0f / 6, 1.0f / 24, -1.0f / 120, 1.0f / 720);
@@ -64,7 +64,7 @@ HWY_INLINE Lanes decay(Lanes x) {
 struct SineCosine {
     Lanes sine, cosine;
 };
-/// Of an angle of at least 0, in full turns; from 2^20 turns on that of none.
+/// Of an angle in full turns, at least 0; from 2^20 turns on it counts as 0.
 HWY_INLINE SineCosine sine_cosine(Lanes turns) {
     turns = hn::IfThenElseZero(hn::Lt(turns, all(1048576.0f)), turns);
     const Lanes quarters = rounded(times(turns, 4.0f));

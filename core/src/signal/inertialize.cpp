@@ -15,7 +15,7 @@ void advance(const Inertialize& parameters, InertializeState& state, double inpu
     } else if (state.jumped) {
         state.offset_velocity -= change / dt;
     }
-    // A critically damped spring of that w; its strength in Hz is w / (2 pi).
+    // A critically damped spring with that w; its strength in Hz is w / (2 pi).
     const double strength = math::ln2 / (math::pi * std::max(parameters.halflife, 1e-6));
     const detail::Motion motion = detail::motion_of(strength, 1.0, dt);
     const double offset = state.offset, velocity = state.offset_velocity, before = state.value;

@@ -5,8 +5,8 @@
 namespace tendril::signal {
 namespace {
 
-/// `part_of(dt)` is the part of the way, from 0 to 1; within a squared distance of `arrived` it is the target
-/// itself.
+/// `part_of(dt)` is the part of the way to move, at least 0. Within the squared distance `arrived` the result
+/// is the target.
 template <class T, class Part>
 T interpolated(const T& current, const T& target, double dt, double speed, double arrived,
                const Part& part_of) noexcept {

@@ -1,4 +1,4 @@
-// The shift that fits one signal to another best.
+// The shift that best fits one signal to another.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,10 +11,10 @@ namespace {
 constexpr double max_shifts = 1e4;
 constexpr int refinements = 28;  ///< to a millionth of a row
 constexpr double unlimited = std::numeric_limits<double>::infinity();
-/// Of the input's spread, by how much a fit may be worse than the best and still be as good: what is held
-/// beyond the ends favours large shifts where the output is weaker than the input.
+/// A fit worse than the best by less than this part of the input's spread is as good: values held beyond the
+/// ends favour large shifts if the output is weaker than the input.
 constexpr double as_good_as = 0.1;
-constexpr double explained = 0.1;  ///< of the output's variance, by an input that it follows
+constexpr double explained = 0.1;  ///< the part of the output's variance that an input must explain
 
 class Fit {
   public:
@@ -26,8 +26,8 @@ class Fit {
         }
     }
 
-    /// Sum of squares between the output and what is wanted, `shift` seconds late; held beyond the ends. Not
-    /// summed further than beyond `limit`.
+    /// Sum of squared differences between the output and `wanted` shifted by `shift` seconds, constant beyond
+    /// the ends. Stops summing above `limit`.
     double error(double shift, double limit = unlimited) const {
         const auto& [time, wanted, output] = response_;
         double sum = 0.0;
@@ -42,7 +42,7 @@ class Fit {
         return sum;
     }
 
-    /// Of the output with what is wanted, `shift` seconds late; 0 where that does not change.
+    /// The correlation of the output with `wanted` shifted by `shift` seconds; 0 if either is constant.
     double correlation(double shift) const {
         const auto& [time, wanted, output] = response_;
         const double n = static_cast<double>(time.size());
@@ -56,7 +56,7 @@ class Fit {
         return xx > 0.0 && yy > 0.0 ? xy / (std::sqrt(xx) * std::sqrt(yy)) : 0.0;
     }
 
-    /// Where the error is smallest between `low` and `high`, which has one minimum: golden section.
+    /// The shift of smallest error between `low` and `high`, which enclose one minimum: golden section.
     double refined(double low, double high) const {
         constexpr double golden = 0.6180339887498949;
         double a = high - golden * (high - low), b = low + golden * (high - low);
@@ -102,7 +102,7 @@ double median_dt(std::span<const double> time) {
     return *middle;
 }
 
-/// Sum of squares about the mean.
+/// Sum of squared differences from the mean.
 double spread_of(std::span<const double> values) {
     double mean = 0.0, sum = 0.0;
     for (const double x : values) mean += x / static_cast<double>(values.size());
@@ -138,7 +138,7 @@ std::optional<double> lag(const Response& response, double longest) {
             smallest = std::min(smallest, error_at(shift));
         }
     }
-    // From no shift outwards, the first minimum that is as good as the best.
+    // From shift 0 outwards: the first minimum that is as good as the best.
     for (int k = 0; k < reach; ++k) {
         for (const int shift : {k, -k}) {
             const double error = error_at(shift);

@@ -6,7 +6,7 @@
 namespace tendril::signal {
 namespace {
 
-constexpr double settled = 0.02;  ///< of a step
+constexpr double settled = 0.02;  ///< relative to the step
 
 bool usable(const Response& response, std::size_t rows) {
     return response.time.size() >= rows && response.wanted.size() == response.time.size() &&
@@ -18,7 +18,7 @@ double span_of(std::span<const double> values) {
     return *high - *low;
 }
 
-/// Below 0 for a step down.
+/// Negative for a step down.
 double size_of(const Step& step) {
     return step.to - step.from;
 }
@@ -83,7 +83,7 @@ std::optional<double> settling_time(const Response& response) {
         while (i > step.first && left(i - 1) <= settled) --i;
         if (i == step.end) return std::nullopt;
         if (i == step.first) continue;
-        // Between that row and the next, straight.
+        // Linear between that row and the next.
         const double part = (left(i - 1) - settled) / (left(i - 1) - left(i));
         const double at = response.time[i - 1] + part * (response.time[i] - response.time[i - 1]);
         longest = std::max(longest, at - response.time[step.first]);

@@ -1,13 +1,13 @@
-// How a damped spring moves in t seconds: what of its distance and its velocity is left, exactly. Not
-// installed.
+// The motion of a damped spring over t seconds: exactly how much of its distance and its velocity remains.
+// Not installed.
 //
 // With w = 2 pi strength and z the damping ratio, x'' = -w^2 x - 2 z w x' has the solution
 //
 //     x(t) = (C + z w S) x + S v,    v(t) = -w^2 S x + (C - z w S) v,
 //
 // where C = exp(-z w t) cos(d t), S = exp(-z w t) sin(d t) / d, d = w sqrt(1 - z^2). Over critical damping d
-// is imaginary, and cosine and sine become hyperbolic; at critical damping S = t exp(-w t). Without damping
-// or strength the same holds.
+// is imaginary, and cosine and sine become hyperbolic; at critical damping S = t exp(-w t). The same holds
+// without damping or strength.
 #pragma once
 
 #include "math/elementary.hpp"
@@ -30,7 +30,7 @@ static inline Motion motion_of(double strength, double damping, double t) noexce
         c = left * swing.cosine;
         s = left * t * (angle > 1e-100 ? swing.sine / angle : 1.0);
     } else if (const double root = std::sqrt(-below), angle = w * t * root; angle < 0.5) {
-        // Hyperbolic cosine and sine by their power series: differences of exponentials would lose digits.
+        // Power series of the hyperbolic cosine and sine: differences of exponentials would lose digits.
         double cosine = 1.0, sine = 1.0;
         for (int n = 14; n > 0; n -= 2) {
             cosine = 1.0 + (angle * angle * (1.0 / (n * (n - 1)))) * cosine;
@@ -40,7 +40,7 @@ static inline Motion motion_of(double strength, double damping, double t) noexce
         c = left * cosine;
         s = left * t * sine;
     } else {
-        // The slow one of the two decays, and what of the fast one there is for each part of the slow one.
+        // The slower of the two decays, and the ratio of the faster one to it.
         const double slow = math::decay(w * t / (damping + root)), fast = math::decay(2.0 * angle);
         c = slow * 0.5 * (1.0 + fast);
         s = slow * 0.5 * (1.0 - fast) * t / angle;

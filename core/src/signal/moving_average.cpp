@@ -1,7 +1,7 @@
-// A queue whose sum is always at hand, as two stacks: entries that came since the last turn are summed as
-// they come; at a turn all of them get the sum from themselves to the newest, and then leave one by one. A
-// running sum, from which entries are taken off again, would keep the rounding of the largest that ever
-// passed.
+// A queue with a running sum, as two stacks. New entries are summed as they arrive. When the old stack is
+// empty, all entries move to it, each with the sum from itself to the newest, and then leave one by one. A
+// single running sum from which entries are subtracted would keep the rounding error of the largest value
+// ever seen.
 #include "signal/stepped.hpp"
 #include "tendril/signal/smoothing.hpp"
 
@@ -23,7 +23,7 @@ void push(MovingAverageState& state, double dt, double input) noexcept {
     state.new_area += dt * input;
 }
 
-/// Drops what has left, and sums what is there from the newest back.
+/// Drops entries that have left the window, and sums the others from the newest back.
 void turn(MovingAverageState& state) noexcept {
     state.entries.erase(state.entries.begin(),
                         state.entries.begin() + static_cast<std::ptrdiff_t>(state.first));
@@ -37,7 +37,7 @@ void turn(MovingAverageState& state) noexcept {
     state.new_time = state.new_area = 0.0;
 }
 
-/// Lets go of entries that are wholly older than the window; the newest stays.
+/// Drops entries entirely older than the window; the newest stays.
 void drop_old(MovingAverageState& state, double window) noexcept {
     while (state.first + 1 < state.entries.size()) {
         if (state.first == state.split) turn(state);
@@ -51,7 +51,7 @@ void take(MovingAverageState& state, double window, double dt, double input) noe
     drop_old(state, window);
     const Entry& oldest = state.entries[state.first];
     const double time = time_in(state), surplus = std::max(time - window, 0.0);
-    // Only a window shorter than the newest sample has nothing else in it.
+    // Only if the window is shorter than the newest sample does it contain nothing else.
     if (surplus >= time || state.first + 1 == state.entries.size()) {
         state.value = input;
     } else {

@@ -10,7 +10,7 @@ namespace tendril::signal {
 namespace {
 
 constexpr std::size_t max_frames = 1'000'000;
-constexpr double same_time = 1e-9;  ///< seconds: times nearer than that are the same
+constexpr double same_time = 1e-9;  ///< seconds: times closer than this are equal
 
 constexpr FrameRate all_usual_rates[] = {{15.0}, {30.0}, {60.0}, {144.0}, {60.0, true}};
 
@@ -18,7 +18,7 @@ double hz_of(const FrameRate& rate) {
     return rate.hz >= 0.1 && rate.hz <= 1e4 ? rate.hz : 60.0;
 }
 
-/// The input as every rate sees it, held over the frames of the slowest.
+/// The input at every rate: constant over each frame of the slowest rate.
 class HeldInput {
   public:
     HeldInput(std::span<const Sample> samples, std::span<const FrameRate> rates) {
@@ -32,15 +32,15 @@ class HeldInput {
     }
     bool empty() const { return rows_.empty(); }
     double end() const { return rows_.back().time; }
-    /// Frames of the slowest rate are counted from 1.
+    /// The end of a frame of the slowest rate, counted from 1.
     double frame_end(std::size_t frame) const {
         return std::min(static_cast<double>(frame) / slowest_, end());
     }
-    /// The frame of the slowest rate that a time is in.
+    /// The frame of the slowest rate that contains a time.
     std::size_t frame_at(double time) const {
         return static_cast<std::size_t>(std::max(std::ceil((time - same_time) * slowest_), 1.0));
     }
-    /// A row's input counts from the row before it up to its own time.
+    /// A row's input applies from the time of the row before it to its own.
     double at(double time) const {
         const double held = frame_end(frame_at(time)) - same_time;
         const auto row = std::lower_bound(rows_.begin(), rows_.end(), held,
@@ -70,17 +70,17 @@ class Unit {
     std::uint64_t state_ = 1;
 };
 
-/// The ends of a rate's frames, cut at those of the slowest.
+/// The ends of a rate's frames, split at those of the slowest rate.
 std::vector<double> frame_ends(const FrameRate& rate, const HeldInput& input) {
     const double hz = hz_of(rate), end = input.end();
     std::vector<double> times;
     Unit random;
-    double own = 0.0;  // the end of the rate's own frame, uncut
+    double own = 0.0;  // the end of the rate's own frame, before splitting
     std::size_t whole = 0, slow = 1;
     while (times.size() < max_frames && (times.empty() || times.back() < end - same_time)) {
         const double now = times.empty() ? 0.0 : times.back();
         while (own <= now + same_time) {
-            // Counted, not added up, where frames are even.
+            // Frames of equal length are counted, to avoid summing rounding errors.
             own = rate.jittered ? own + (0.4 + 1.2 * random.next()) / hz : static_cast<double>(++whole) / hz;
         }
         while (input.frame_end(slow) <= now + same_time && input.frame_end(slow) < end) ++slow;
@@ -104,7 +104,7 @@ class Reader {
 
   private:
     const HeldInput& input_;
-    double held_ = 0.0, held_until_ = 0.0;  ///< of the slowest rate's frame that was read last
+    double held_ = 0.0, held_until_ = 0.0;  ///< of the frame of the slowest rate that was read last
 };
 
 /// Filters that run frame by frame.
@@ -119,7 +119,7 @@ class Runner {
         output_ = step(filters_, states_, reader_.at(to), to - now_);
         now_ = to;
     }
-    /// What a frame that ended then would give; nothing has changed.
+    /// The output of a frame that would end at `to`; changes nothing.
     double ahead(double to) const {
         std::vector<FilterState> copies = states_;
         return step(filters_, copies, input_.at(to), to - now_);
@@ -144,7 +144,7 @@ RateRun run_of(std::span<const Filter> filters, const HeldInput& input, const Fr
 }
 
 void find_difference(RateComparison& comparison, const HeldInput& input) {
-    // The frames of the slowest end in frames of all others.
+    // Each frame of the slowest rate ends with a frame of every other rate.
     auto& runs = comparison.runs;
     std::vector<std::size_t> at(runs.size(), 0);
     for (std::size_t slow = 1; !runs.empty(); ++slow) {

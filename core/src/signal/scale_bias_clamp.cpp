@@ -6,7 +6,7 @@
 namespace tendril::signal {
 namespace {
 
-/// The first three stages. A range as narrow as may be maps to no more than max_output.
+/// The first three stages. Bounded by max_output, even for the narrowest in_range.
 double without_memory(const ScaleBiasClamp& parameters, double value) noexcept {
     if (parameters.map_range) {
         const auto [in_low, in_high] = parameters.in_range;
@@ -20,7 +20,7 @@ double without_memory(const ScaleBiasClamp& parameters, double value) noexcept {
     return value;
 }
 
-/// interp_to, but of any magnitude that the stages before it give.
+/// interp_to without its limit on magnitude, which earlier stages may exceed.
 double eased(double from, double to, double speed, double dt) noexcept {
     if (!(speed > 0.0) || detail::squared_distance(from, to) < 1e-8 || dt * speed >= 1.0) return to;
     return from + (to - from) * (dt * speed);

@@ -1,6 +1,6 @@
-// What lets one formula work on numbers, vectors and rotations: a place moved by a displacement, and the
-// displacement between two places. Rotations are places whose displacements are rotation vectors. All in
-// double, in plain arithmetic, as math/point.hpp has the reason. Not installed.
+// Lets one formula work on numbers, vectors and rotations: positions, and displacements between them. A
+// rotation is a position; its displacements are rotation vectors. All in double, in plain arithmetic for the
+// reason in math/point.hpp. Not installed.
 #pragma once
 
 #include <algorithm>
@@ -26,8 +26,7 @@ static inline double times(double a, double by) noexcept {
     return a * by;
 }
 
-// ---- In double, and back
-// -----------------------------------------------------------------------------------
+// ---- Conversion to double and back
 
 static inline double wide(double x) noexcept {
     return x;
@@ -41,7 +40,7 @@ static inline dvec3 wide(const dvec3& x) noexcept {
 static inline dvec3 wide(const glm::vec3& x) noexcept {
     return math::wide(x);
 }
-/// Of length 1.
+/// Normalised.
 static inline dquat wide(const dquat& q) noexcept {
     const double scale = 1.0 / std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
     return {q.w * scale, q.x * scale, q.y * scale, q.z * scale};
@@ -51,7 +50,7 @@ static inline dquat wide(const glm::quat& q) noexcept {
                       static_cast<double>(q.z)});
 }
 
-/// At most max_output in magnitude; 0 for what is not a number, which nothing here makes.
+/// Clamped to max_output in magnitude; NaN, which nothing here produces, becomes 0.
 static inline double bounded(double x) noexcept {
     return x >= -max_output ? (x <= max_output ? x : max_output) : (x < -max_output ? -max_output : 0.0);
 }
@@ -73,7 +72,6 @@ T narrow(const dquat& q) noexcept {
 }
 
 // ---- Displacements
-// -----------------------------------------------------------------------------------------
 
 /// First `b`, then `a`.
 static inline dquat compose(const dquat& a, const dquat& b) noexcept {
@@ -81,7 +79,7 @@ static inline dquat compose(const dquat& a, const dquat& b) noexcept {
             a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x, a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
 }
 
-/// From `from` to `to`; for rotations the short way round, as axis times angle.
+/// From `from` to `to`; for rotations axis times angle, the short way round.
 static inline double displacement(double from, double to) noexcept {
     return to - from;
 }
@@ -109,7 +107,7 @@ static inline dquat moved(const dquat& from, const dvec3& by) noexcept {
     return wide(compose({half.cosine, by.x * scale, by.y * scale, by.z * scale}, from));
 }
 
-/// Squared; of rotations that of their components, the short way.
+/// For rotations the squared difference of their components, the short way round.
 static inline double squared_distance(double a, double b) noexcept {
     return (b - a) * (b - a);
 }

@@ -1,4 +1,4 @@
-// The rule of input.hpp, once for all filters. Not installed.
+// The rule of input.hpp, implemented once for all filters. Not installed.
 #pragma once
 
 #include <algorithm>
@@ -8,13 +8,12 @@
 
 namespace tendril::signal::detail {
 
-/// As long as a step may count.
 static inline double bounded_dt(double dt) noexcept {
     return std::clamp(dt, min_dt, max_dt);
 }
 
-/// One step of a filter. `start(dt)` gives the state after a first step; `advance(dt)` changes `state` by any
-/// later one. Both get a dt within bounds, and are not called for an input that is refused.
+/// One step of a filter. `start(dt)` returns the state after a first step; `advance(dt)` changes `state` in
+/// any later one. Both get a dt within bounds, and are not called for a refused input.
 template <class State, class Start, class Advance>
 double stepped(State& state, double input, double dt, const Start& start, const Advance& advance) noexcept {
     if (!is_input(input)) return state.value;
@@ -32,7 +31,7 @@ double stepped(State& state, double input, double dt, const Start& start, const 
     return state.value;
 }
 
-/// Of a filter whose first output is what any would be: no memory, or only that of its last output.
+/// The first state of a filter that remembers at most its last output.
 static inline OutputState output(double value) noexcept {
     return {.value = value};
 }

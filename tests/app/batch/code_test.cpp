@@ -1,5 +1,4 @@
-// A chain as a C++ program: what stands in it. That it compiles and moves the chain as the program does is
-// held by tests/package/code.cmake.
+// A chain as a C++ program: its text. tests/package/code.cmake compiles and runs it.
 #include "app/labs/chain/code.hpp"
 #include "app/labs/chain/chain_runtime.hpp"
 

@@ -1,4 +1,4 @@
-// A list read value by value: the same as parsing it whole, and the same texts refused.
+// A list read value by value: equivalent to parsing it whole, with the same texts refused.
 #include "app/batch/list_reader.hpp"
 
 #include <gtest/gtest.h>
@@ -46,7 +46,7 @@ TEST(ListReader, refuses_what_is_no_list_and_says_the_line) {
                           "nested deeper than 64"));
 }
 
-// Cut and changed at random, a text is either read as the parser reads it or refused as the parser does.
+// For texts truncated and modified at random, reads or refuses exactly what the parser does.
 TEST(ListReader, never_takes_what_the_parser_refuses) {
     const std::string sound = R"([{"name":"a","lengths":[1,2.5],"x":"]}\"["},[],"t",null, {"b":{}}, -3])";
     std::mt19937 random(11);

@@ -1,4 +1,4 @@
-// `tendril lint` and `tendril bake`: the real program with good files and bad ones.
+// `tendril lint` and `tendril bake`: the built program with valid and invalid files.
 #include "app/document/json_complete.hpp"
 #include "app/io/character/export.hpp"
 #include "app/io/character/read.hpp"
@@ -29,7 +29,7 @@ class MotionProgram : public testing::Test {
     TempFolder folder_;
 
   private:
-    /// The sign bits of the right knee's key of frame 12.
+    /// Flips the sign bits of the right knee's key in frame 12.
     void flip_a_key(const char* name) const {
         std::string bytes = read(folder_ / name);
         const auto text = static_cast<std::size_t>(static_cast<unsigned char>(bytes[12])) +
@@ -93,7 +93,7 @@ TEST_F(MotionProgram, bake_writes_the_clip_and_says_how_near_it_came) {
             EXPECT_NEAR(read.clips.at(0).duration, 1.1, 1e-6);
         }
     }
-    // On stairs the figure goes up.
+    // On stairs the figure climbs.
     run({"bake", file, "--ground", "stairs", "--out", path("up.bvh")});
     const app::Character up = app::read_character(folder_ / "up.bvh");
     const auto& hips = up.clips.at(0).channels.at(0).translation.values;

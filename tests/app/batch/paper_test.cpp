@@ -1,4 +1,4 @@
-// `tendril paper`: what it measures, and the real program's table. Nothing here waits on a time.
+// `tendril paper`: its measurements, and the built program's table. No test depends on timing.
 #include "app/batch/paper.hpp"
 
 #include <signal.h>
@@ -103,7 +103,7 @@ TEST(Paper, a_signal_leaves_whole_rows) {
     std::this_thread::sleep_for(std::chrono::milliseconds(60));
     process.signal(SIGINT);
     const Outcome outcome = process.wait(30.0);
-    // Where the signal came before the program could listen, or after its end, nothing is told.
+    // If the signal came before the program was listening, or after its end, there is no message.
     if (outcome.exit_code == 128 + SIGINT) GTEST_SKIP() << "too early";
     EXPECT_EQ(outcome.exit_code, 0);
     const Strings lines = lines_of(outcome.out);

@@ -1,4 +1,4 @@
-// `tendril signal`: the real program with good files and bad ones.
+// `tendril signal`: the built program with valid and invalid files.
 #include <cmath>
 #include <sstream>
 
@@ -155,7 +155,7 @@ TEST_F(SignalProgram, rates_tell_a_filter_that_depends_on_them) {
     EXPECT_LT(number(exact.err.substr(lead.size())), 1e-12);
 }
 
-/// A filter can be copied out of a scene or a state, with what that says besides.
+/// A filter can be copied from a scene or from --state with its additional members.
 TEST_F(SignalProgram, ignores_keys_that_it_does_not_know) {
     const std::string samples = "0.1,0\n0.1,1\n0.1,1\n";
     const Outcome plain = run(R"({"kind": "spring", "strength": 3})", samples);
@@ -175,7 +175,7 @@ TEST_F(SignalProgram, fit_ranks_the_kinds_and_its_filters_run) {
     ASSERT_TRUE(succeeded(response));
     write(folder_ / "response.csv", response.out);
     const Outcome fitted = run(R"({"kind": "interp_to"})", samples, {"--fit", path("response.csv")});
-    ASSERT_EQ(fitted.exit_code, 0) << fitted.err;  // which has its progress, where it takes over a second
+    ASSERT_EQ(fitted.exit_code, 0) << fitted.err;  // may contain progress if it takes over a second
     EXPECT_EQ(count_lines(fitted.out), 15);
     ASSERT_TRUE(fitted.out.starts_with("kind,residual,filter\nspring,")) << fitted.out;
     std::string best = fitted.out.substr(fitted.out.find("\"{") + 1);

@@ -1,4 +1,4 @@
-// `tendril solve`: the real program with good files and bad ones.
+// `tendril solve`: the built program with valid and invalid files.
 #include <signal.h>
 
 #include <algorithm>
@@ -86,7 +86,7 @@ TEST_F(Solve, prints_a_table_where_nothing_is_asked) {
     ASSERT_TRUE(succeeded(outcome));
     ASSERT_EQ(count_lines(outcome.out), 4);
     EXPECT_TRUE(outcome.out.starts_with("name "));
-    // In every row the solver's column begins at the same character.
+    // The solver's column begins at the same character in every row.
     std::size_t begin = 0;
     for (int line = 0; line < 4; ++line) {
         const std::size_t end = outcome.out.find('\n', begin);
@@ -138,7 +138,7 @@ struct BadFile {
 
 class BadCases : public testing::TestWithParam<BadFile> {};
 
-/// A sound case on line 2, then this one on line 3.
+/// A valid case on line 2, then this one on line 3.
 std::string after_a_sound_one(const std::string& members) {
     return std::string("[\n{\"name\": \"sound\", \"lengths\": [1], \"target\": [1, 0, 0]},\n{")
         .append(members)
@@ -207,7 +207,7 @@ INSTANTIATE_TEST_SUITE_P(
                 {"cases.1.limits.0.axis"}}),
     [](const auto& file) { return file.param.name; });
 
-/// No parameter of the tests above: those are made whenever the program of tests starts.
+/// Not a test parameter: those are created whenever the test program starts.
 TEST_F(Solve, a_file_that_is_too_large_is_told_with_2) {
     EXPECT_TRUE(complained(run(std::string((64u << 20) + 1, ' '), {}), 2, {"cases.json: ", "64 MB"}));
 }
@@ -259,7 +259,7 @@ class SolveSignals : public testing::TestWithParam<std::pair<int, const char*>> 
 TEST_P(SolveSignals, end_with_what_is_done_whole) {
     const auto& [number, format] = GetParam();
     const TempFolder folder;
-    // Slow enough to be caught in the middle: what is out of reach goes on through all of its iterations.
+    // Slow enough to be interrupted: targets out of reach use all their iterations.
     std::string cases = "[";
     for (int i = 0; i < 20'000; ++i) {
         if (i > 0) cases += ',';

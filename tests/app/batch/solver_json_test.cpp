@@ -1,4 +1,4 @@
-// Limits, reports and holds as JSON.
+// Limits, reports and active limits as JSON.
 #include "app/io/solver_json.hpp"
 #include "app/document/json_complete.hpp"
 

@@ -110,7 +110,7 @@ TEST(AtomicFile, refuses_where_permissions_say_so) {
     test::write(folder / "file", "old");
     fs::permissions(folder / "file", fs::perms::owner_read);
     const auto result = test::in_child([&] {
-        // The administrator may write everywhere.
+        // root can write anywhere.
         if (::geteuid() == 0 && (::chown(folder.path().c_str(), 65534, 65534) != 0 || ::setuid(65534) != 0))
             return 9;
         const bool read_only = has(write_message(folder / "file"), "Permission denied") &&
@@ -126,8 +126,8 @@ TEST(AtomicFile, refuses_where_permissions_say_so) {
     EXPECT_EQ(folder.names(), Names{"file"});
 }
 
-/// A device to write to. The administrator gets one of our own: where the code is wrong, a test with the
-/// right to do it would put a file in the place of the machine's. Empty where none can be made.
+/// A device to write to. root gets a private one: if the code is wrong, it could replace the system's device
+/// with a file. Empty if none can be made.
 fs::path device(const TempFolder& folder, const char* name, unsigned minor_number) {
     if (::geteuid() != 0) return fs::path("/dev") / name;
     const fs::path path = folder / name;
@@ -183,7 +183,7 @@ TEST(AtomicFile, that_finds_no_room_leaves_the_old_file_alone) {
     EXPECT_EQ(folder.names(), Names{"file"});
 }
 
-/// A name is taken where a program with our number died while it wrote.
+/// A temporary name may be taken by a dead program with the same process ID.
 TEST(AtomicFile, steps_past_the_remains_of_a_dead_writer) {
     const TempFolder folder;
     const auto result = test::in_child([&] {
@@ -198,7 +198,7 @@ TEST(AtomicFile, steps_past_the_remains_of_a_dead_writer) {
     EXPECT_EQ(test::read(folder / "file"), "whole");
 }
 
-/// One letter throughout, as long as that letter says: anything torn or mixed shows.
+/// A single letter repeated as often as the letter says: torn or mixed versions are visible.
 std::string version_of(int i) {
     const auto step = static_cast<std::size_t>(i % 26);
     return std::string(50'000 + 17'000 * step, static_cast<char>('a' + i % 26));
@@ -232,7 +232,7 @@ TEST(AtomicFile, is_whole_whenever_its_writer_is_killed) {
             fs::remove(folder / name);
         }
     }
-    // Else the test looks at nothing: writers must get through, and must be caught at it.
+    // Otherwise nothing is tested: some writers must finish, and some must be interrupted.
     EXPECT_GT(changed, 5);
     EXPECT_GT(torn_beside, 5);
 }

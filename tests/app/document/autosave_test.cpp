@@ -27,14 +27,14 @@ std::string saved_title(const std::filesystem::path& file) {
     return read_json_file(file)["labs"]["arm"]["title"].get<std::string>();
 }
 
-/// But for locks.
+/// Without lock files.
 std::vector<std::string> files(const TempFolder& folder) {
     std::vector<std::string> names = folder.names();
     std::erase_if(names, [](const std::string& name) { return name.ends_with(".lock"); });
     return names;
 }
 
-/// The number of a program that has ended.
+/// The ID of a process that has ended.
 std::string dead_pid() {
     const pid_t pid = ::fork();
     if (pid == 0) ::_exit(0);
@@ -149,8 +149,7 @@ TEST(Autosave, offers_only_what_programs_that_ended_left_the_newest_first) {
           std::string("autosave-12x.json"), std::string("autosave.json"), std::string("settings.json"),
           "autosave-" + dead_pid() + ".json.bak"})
         test::write(folder / name, "{}");
-    // The number of a program that runs, ours, and of the one that always runs: what tells is who holds the
-    // lock.
+    // IDs of running processes, ours and the one that always runs: what counts is who holds the lock.
     const auto ours = FileLock::take(folder / ("autosave-" + std::to_string(::getpid()) + ".lock"));
     const auto first = FileLock::take(folder / "autosave-1.lock");
     ASSERT_TRUE(ours && first);
@@ -167,13 +166,13 @@ TEST(Autosave, offers_only_what_programs_that_ended_left_the_newest_first) {
 
 TEST(Autosave, of_a_program_that_ended_is_offered_though_its_number_is_used_again) {
     const TempFolder folder;
-    const auto reused = folder / "autosave-1.json";  // a process of that number runs everywhere
+    const auto reused = folder / "autosave-1.json";  // process 1 runs everywhere
     test::write(reused, "{}");
     test::write(folder / "autosave-1.lock", "");  // left by a crash, held by nobody
     EXPECT_EQ(Autosave::left_behind(folder.path()), std::vector{reused});
 }
 
-/// Two containers share a folder, and both programs have the number 7.
+/// Two containers share a folder, and both programs have process ID 7.
 TEST(Autosave, of_two_programs_with_one_number_are_two_files) {
     const TempFolder folder;
     Workspace workspace = test::make_workspace();
@@ -234,7 +233,7 @@ TEST(Autosave, of_a_program_that_was_killed_is_found_and_recovered) {
     EXPECT_TRUE(std::filesystem::exists(files[0]));
 }
 
-/// In a container every start of the program may have the same number.
+/// In a container, every start of the program may have the same process ID.
 TEST(Autosave, does_not_overwrite_what_a_program_of_the_same_number_left) {
     const TempFolder folder;
     Workspace lost = test::make_workspace();

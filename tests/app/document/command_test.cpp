@@ -1,4 +1,4 @@
-// Arguments that take more than one form.
+// Arguments that accept more than one form.
 #include "app/document/command.hpp"
 
 #include <gtest/gtest.h>

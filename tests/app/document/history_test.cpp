@@ -12,7 +12,7 @@ namespace {
 using test::make_part;
 using test::TestPart;
 
-/// A document whose "arm" is titled so.
+/// A document whose "arm" has this title.
 Document document_of(const std::string& title, std::size_t floats = 0) {
     Document document;
     document.set("arm", make_part(title, std::vector<float>(floats)));
@@ -57,7 +57,7 @@ TEST(History, forgets_what_could_be_redone_when_something_else_is_done) {
     EXPECT_EQ(title_of(*history.undo(document_of("3"))), "1");
 }
 
-/// Two labs, the one changing by itself while the other is edited and undone.
+/// Two labs: one changes by itself while the other is edited and undone.
 TEST(History, brings_back_only_what_the_command_changed) {
     History history;
     Document now = document_of("before");
@@ -81,7 +81,7 @@ TEST(History, says_where_a_change_is_to_be_seen) {
     History history;
     history.push(document_of("0"), "rope.preset", 0, {"rope", "a.json", near}, {"rope", "a.json", far});
 
-    Place place{"chain", "a.json", other};  // somebody looks at another lab meanwhile
+    Place place{"chain", "a.json", other};  // meanwhile the user opens another lab
     const Document back = *history.undo(document_of("1"), &place);
     EXPECT_EQ(place.lab, "rope");
     EXPECT_EQ(place.camera, near);
@@ -91,7 +91,7 @@ TEST(History, says_where_a_change_is_to_be_seen) {
     EXPECT_EQ(place.lab, "rope");
     EXPECT_EQ(place.camera, far) << "and not what was seen in the other lab";
 
-    place = {"rope", "b.json", other};  // turned since: redo leads to that
+    place = {"rope", "b.json", other};  // the camera moved since: redo restores that
     const Document again = *history.undo(document_of("1"), &place);
     EXPECT_EQ(place.camera, near);
     history.redo(again, &place);
@@ -224,7 +224,7 @@ TEST(History, keeps_within_its_bytes_and_always_one_step) {
     EXPECT_EQ(title_of(*history.undo(document_of("now"))), "huger");
 }
 
-/// Against a list of titles and a position in it, which is all that a history means.
+/// Compared with a list of titles and a position in it, which is what a history means.
 TEST(History, behaves_like_a_list_with_a_place_in_it) {
     std::mt19937 random(4);
     History history;
@@ -279,7 +279,7 @@ TEST(History, never_exceeds_its_bounds_whatever_is_done) {
                 history.push(before, "edit", random() % 3);
                 now.edit<TestPart>(random() % 2 ? "arm" : "rope").values.resize(random() % 3000);
         }
-        // One step back and one forward may stay though they are too large; each part is at most 12 kB here.
+        // One undo and one redo step may remain although they are too large; each part is at most 12 kB here.
         ASSERT_LE(history.bytes(), bound + 4 * 13'000);
         ASSERT_LE(history.size(), 20u);
     }

@@ -29,7 +29,7 @@ TEST(Json, a_number_has_the_fewest_decimals_that_read_back) {
 }
 
 TEST(Json, every_float_comes_back_bit_for_bit_through_text) {
-    // The one float whose fewest decimals, read as a double first, round to another float.
+    // The one float whose shortest decimals round to another float if read as a double first.
     EXPECT_EQ(parse_json(number(0x1.5c87fap-84f).dump()).get<float>(), 0x1.5c87fap-84f);
     std::mt19937 random(1);
     for (int i = 0; i < 200'000; ++i) {
@@ -102,7 +102,7 @@ TEST(Json, of_repeated_members_the_last_counts) {
 TEST(Json, a_file_of_nothing_but_keys_takes_no_ages) {
     std::string text = "{\"k\":0";
     for (int i = 0; i < 300'000; ++i) text += ",\"k" + std::to_string(i % 200'000) + "\":1";
-    EXPECT_EQ(parse_json(text + '}').size(), 200'001u);  // hours, were each key compared with all before it
+    EXPECT_EQ(parse_json(text + '}').size(), 200'001u);  // hours if each key were compared with all before it
 }
 
 TEST(Json, text_for_people_reads_back_the_same) {

@@ -52,7 +52,7 @@ TEST(Rewind, StaysWithinItsBoundAndThinsEvenly) {
     constexpr std::size_t bound = 1 << 20;
     Rewind rewind(bound);
     for (std::uint64_t tick = 0; tick <= 2000; ++tick) {
-        remember(rewind, tick, tick, 2000);  // 8 kB each: 130 have room
+        remember(rewind, tick, tick, 2000);  // 8 kB each: 130 fit
         ASSERT_LE(rewind.bytes(), bound);
         ASSERT_EQ(rewind.newest(), tick);
     }
@@ -74,7 +74,7 @@ TEST(Rewind, KeepsTheNewestHoweverLarge) {
     EXPECT_EQ(title_at(rewind, 3), "5");
 }
 
-/// A workspace whose open lab has run for a while, as the program lets it.
+/// A workspace whose lab has run for a while in the program.
 struct Seek : testing::Test {
     Workspace workspace = test::make_workspace();
     CommandTable table;
@@ -135,7 +135,7 @@ TEST_F(Seek, GoingBackOverAnEditCanBeUndone) {
     EXPECT_EQ(workspace.history.undo_label(), "time.seek");
     EXPECT_EQ(seek(70), "30");
     EXPECT_EQ(workspace.history.size(), 2u) << "already before it";
-    play(1);  // forgets all that came after; undo does not
+    play(1);  // forgets everything later; undo does not
     table.run(workspace, "undo", Json::object());
     EXPECT_EQ(title(), "100") << "where one came from";
     table.run(workspace, "undo", Json::object());
@@ -231,7 +231,7 @@ TEST(Rewind, IncidentsGoWithTheMomentsTheyBelongTo) {
     remember(rewind, 11, 30);
     ASSERT_EQ(rewind.incidents().size(), 2u);
     EXPECT_EQ(rewind.incidents()[0].cause, "first");
-    remember(rewind, 12, 12);  // from there on it is another story
+    remember(rewind, 12, 12);  // from there on the past differs
     EXPECT_EQ(rewind.incidents().size(), 2u);
     remember(rewind, 11, 11);
     EXPECT_TRUE(rewind.incidents().empty());

@@ -21,7 +21,7 @@ using test::message_of;
 using test::TempFolder;
 using test::TestPart;
 
-/// Something of everything, all different from blank.
+/// One of everything, all different from the defaults.
 Workspace make_busy_workspace() {
     Workspace workspace = test::make_workspace();
     workspace.document.edit<TestPart>("arm").title = "an \"arm\" [{\\ \xC3\xA4";
@@ -35,13 +35,13 @@ Workspace make_busy_workspace() {
     return workspace;
 }
 
-/// All that loading may change, to see whether it did.
+/// Everything that loading may change.
 std::string snapshot(const Workspace& w) {
     return save_scene(w).dump() + w.path.string() + std::to_string(w.history.size()) +
            (w.modified() ? " modified" : "") + std::to_string(w.clock.tick);
 }
 
-/// Loads what must be refused and gives the reason; the workspace must not change.
+/// Loads a scene that must be refused and returns the reason; the workspace must not change.
 std::string refusal(const Json& scene) {
     Workspace workspace = make_busy_workspace();
     const Document document = workspace.document;
@@ -151,7 +151,7 @@ TEST(SceneFile, of_any_other_kind_is_refused_with_the_place_and_the_reason) {
               "");
 }
 
-/// A lab that trips over a file in its own way still only refuses it.
+/// A lab that throws in its own way still only refuses the file.
 TEST(SceneFile, that_a_part_chokes_on_is_refused) {
     struct Choking : TestPart {
         std::shared_ptr<Part> load(const Json& json, const std::string&) const override {
@@ -288,7 +288,7 @@ TEST(SceneFile, with_any_byte_changed_is_refused_or_read_whole) {
     EXPECT_GT(accepted, 1000 / test::sanitizer_factor);
 }
 
-/// Every value of a scene in turn replaced by one of every kind.
+/// Replaces each value of a scene in turn by one of every type.
 TEST(SceneFile, with_any_value_of_another_kind_is_refused_or_read_whole) {
     const Json scene = save_scene(make_busy_workspace()).flatten();
     const std::vector<Json> others{

@@ -1,4 +1,4 @@
-// The frame itself, run in this process on a window off screen.
+// App itself, run in the test process on an offscreen window.
 #include "app/app.hpp"
 #include "app/document/refused.hpp"
 
@@ -19,7 +19,7 @@ class AppTest : public testing::Test {
     void run(const std::string& name, const Json& arguments) { app_.run({name, arguments}); }
     glm::vec2 pixel(const std::string& name) { return handle(app_.state(), name); }
     const ChainPart& part() { return chain_part(app_.workspace()); }
-    /// Has caught the target and moved it a little.
+    /// Grabs the target and moves it a little.
     void begin_drag() {
         const glm::vec2 caught = pixel("target");
         take(MouseMove{caught});

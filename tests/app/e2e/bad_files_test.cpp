@@ -1,5 +1,5 @@
-// Scripts and scenes that cannot be read: exit code 2 (or a refusal in a running program), one line, memory
-// flat, nothing overwritten.
+// Unreadable scripts and scenes: exit code 2 (or a refusal in a running program), a one-line message, bounded
+// memory, nothing overwritten.
 #include "tests/app/support/play.hpp"
 
 namespace tendril::test {
@@ -24,7 +24,7 @@ class BadFiles : public testing::Test {
         std::filesystem::remove(folder_ / "state.json");
         return read(folder_ / "good.json");
     }
-    /// A megabyte after the other, so that the tests' own memory stays small.
+    /// Writes one megabyte after the other, so that the test itself needs little memory.
     void write_much(const std::string& name, const std::string& before, char filler, int megabytes) {
         std::ofstream out(folder_ / name, std::ios::binary);
         const std::string block(1u << 20, filler);

@@ -1,4 +1,4 @@
-// The cards of things to try: every step of every lab's is played, and ticks itself off.
+// The cards of things to try: plays every step of every card, and expects it to be ticked off.
 #include <imgui_internal.h>
 
 #include "app/app.hpp"
@@ -32,7 +32,7 @@ std::vector<CardOfLab> all_cards() {
     return cards;
 }
 
-/// A lab with its card shown, on the scene that the card is about.
+/// A lab with a card shown, on the card's scene.
 class CardOnScene {
   public:
     explicit CardOnScene(const CardOfLab& which, glm::ivec2 size = {1280, 720})
@@ -54,7 +54,7 @@ class CardOnScene {
         for (const SharedJson& line : step.script) text += line->dump() + "\n";
         Player player(parse_script(text, app_->commands()));
         while (!player.done()) player.advance(*app_);
-        wait(60);  // of a large part it looks less often
+        wait(60);  // large parts are checked less often
     }
     std::vector<bool> done() { return app_->state().at("card").at("done").get<std::vector<bool>>(); }
     bool has_handle(const std::string& name) {
@@ -70,7 +70,7 @@ class CardOnScene {
     Card card_;
 };
 
-/// Of those that the last frame had, by a part of its name.
+/// A window of the last frame, by a part of its name.
 const ImGuiWindow* shown_window(const std::string& part) {
     for (const ImGuiWindow* const each : ImGui::GetCurrentContext()->Windows)
         if (each->WasActive && std::string(each->Name).find("/" + part) != std::string::npos) return each;
@@ -111,7 +111,7 @@ TEST_P(LabCard, sections_that_light_up_are_there) {
     const CommandTable table = make_command_table(labs);
     Workspace workspace = make_blank_workspace(labs);
     const auto run = [&](const std::string& command, Json arguments) {
-        if (command.starts_with("time.")) return;  // none passes here
+        if (command.starts_with("time.")) return;  // no time passes here
         arguments.erase("command");
         table.run(workspace, command, arguments);
     };
@@ -156,7 +156,7 @@ TEST_P(LabCard, that_was_put_away_comes_back_anew) {
     EXPECT_FALSE(scene.done().front());
 }
 
-/// Somewhere near the right edge, above the card's steps, is the button that puts it away.
+/// The button that hides the card is somewhere near the right edge, above the steps.
 TEST_P(LabCard, is_put_away_by_one_click) {
     CardOnScene scene(GetParam());
     App& app = scene.app();
@@ -170,7 +170,7 @@ TEST_P(LabCard, is_put_away_by_one_click) {
     EXPECT_FALSE(app.workspace().ui.quit);
 }
 
-/// However small the window and large the text, at least half of the panel stays the inspector's.
+/// However small the window and large the text, the inspector keeps at least half of the panel.
 TEST_P(LabCard, leaves_room_beside_it) {
     for (const glm::ivec2 size : {glm::ivec2(1024, 640), glm::ivec2(1280, 720), glm::ivec2(2560, 1440)}) {
         CardOnScene scene(GetParam(), size);
@@ -209,7 +209,7 @@ TEST(CardsTest, follow_one_another) {
     EXPECT_EQ(app.state().at("card"), before);
 }
 
-/// The chevron is left of the button that puts the card away, near the right edge.
+/// The chevron is left of the button that hides the card, near the right edge.
 TEST(CardsTest, the_chevron_shows_the_next_card_on_its_scene) {
     CardOnScene scene({"rope", 1});
     const std::vector<Card> cards = read_cards(cards_source("rope"));

@@ -1,4 +1,4 @@
-// The last ten seconds of the Chain lab in the running program: drags, flips, and going back to them.
+// The Chain lab's last ten seconds in the running program: drags, flips, and returning to them.
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
@@ -11,7 +11,7 @@ namespace {
 
 using app::Json;
 
-/// Plays what is refused in the window, which ends no script.
+/// Plays in a window, where a refusal does not end the script.
 Json play_refused(const ScriptText& script) {
     const TempFolder folder;
     write(folder / "script.jsonl", script.text());
@@ -22,7 +22,7 @@ Json play_refused(const ScriptText& script) {
     return app::parse_json(read(state));
 }
 
-/// Two bones in Reach whose target then goes through the root, a hundredth of the reach in a tick.
+/// Two bones in mode Reach whose target then passes through the root, a hundredth of the reach per tick.
 ScriptText through_the_root() {
     ScriptText script;
     script.command("chain.preset", {{"name", "start"}, {"count", 3}})
@@ -36,7 +36,7 @@ ScriptText through_the_root() {
 
 constexpr const char* straight = "the chain was straight (collinear)";
 
-/// But for the first: there the straight chain bends.
+/// All flips but the first, in which the straight chain bends.
 std::vector<Json> flips_of(const Json& state) {
     std::vector<Json> flips;
     for (const Json& event : state.at("events"))
@@ -44,7 +44,7 @@ std::vector<Json> flips_of(const Json& state) {
     return flips;
 }
 
-/// The number of the last moment.
+/// The index of the last moment.
 int newest_of(ScriptText script) {
     const Json time = state_after(script.command("time.seek", {{"ticks_back", 1}}))["time"];
     return time["moment"].get<int>() + 1;
@@ -57,7 +57,7 @@ TEST(ChainsPast, AFlipIsMarkedAtItsTickWithItsCause) {
     for (const Json& flip : flips) EXPECT_TRUE(test::says(flip["cause"], "target root"));
     EXPECT_EQ(state["events"][0]["cause"], straight);
     EXPECT_GT(flips[0]["degrees"].get<double>(), 30.0);
-    // The poses on both sides of it are the ones that differ so much.
+    // The poses before and after it differ that much.
     const auto tick = flips[0]["tick"].get<int>(), now = newest_of(through_the_root());
     const auto pose_at = [&](int at) {
         return state_after(through_the_root().command("time.seek", {{"ticks_back", now - at}}));
@@ -88,7 +88,7 @@ TEST(ChainsPast, ADragIsRememberedTickByTickAndTakenBackBySeeking) {
     const Json begin = state_after(script);
     EXPECT_EQ(begin["segments"], state_after(reach)["segments"]);
     EXPECT_EQ(begin["target"], state_after(reach)["target"]);
-    // It can be undone, and it is shown again up to its end, at any speed.
+    // Undo works, and a replay shows it again up to its end, at any speed.
     EXPECT_EQ(state_after(ScriptText(script).command("undo"))["segments"], end["segments"]);
     ScriptText again = script;
     again.command("time.speed", {{"factor", 0.5}}).command("time.replay").wait(20);
@@ -109,7 +109,7 @@ TEST(ChainsPast, AnIncidentIsGoneToByItsNumber) {
     EXPECT_EQ(there["time"]["ticks_back"],
               newest - state["events"][static_cast<std::size_t>(number)]["tick"].get<int>() - 1);
     EXPECT_EQ(there["events"], state["events"]) << "looking back forgets nothing";
-    // What is done there takes the place of what came after it.
+    // A change there replaces what came after it.
     const Json other = state_after(ScriptText(script).command("chain.target", {{"to", {1, 1, 0}}}).wait(1));
     EXPECT_EQ(flips_of(other).size(), 1u) << "those that came after it are forgotten";
     ASSERT_GT(flips_of(state).size(), 1u);
@@ -122,7 +122,7 @@ TEST(ChainsPast, AnIncidentIsGoneToByItsNumber) {
 }
 
 TEST(ChainsPast, ARefusedNumberIsAMarkAndNoFlip) {
-    // Typed into the panel; what a script is refused it knows by itself, and its state stays as it was.
+    // Typed into the panel; a refused script command leaves no event.
     const ScriptText reach = ScriptText().command("chain.mode", {{"mode", "reach"}}).wait(3);
     const Json typed =
         play_refused(ScriptText(reach).click(chain_panel::iterations).wait(2).text("0").key("enter").wait(2));
@@ -150,7 +150,7 @@ TEST(ChainsPast, AnAnalysisBeginsWhereTheLastDragBegan) {
 }
 
 TEST(ChainsPast, AReplayEndsWithThePastItShows) {
-    // Another lab, another scene, or undo takes it away while it runs.
+    // Another lab, another scene, or undo ends it while it runs.
     for (const char* other : {"lab.open", "scene.new", "undo"}) {
         ScriptText script = through_the_root().command("time.replay").wait(2);
         const Json arguments = std::string(other) == "lab.open" ? Json{{"name", "rope"}} : Json::object();
@@ -159,7 +159,7 @@ TEST(ChainsPast, AReplayEndsWithThePastItShows) {
 }
 
 TEST(ChainsPast, AReplayGoesOnWhereOnlySomeMomentsAreKept) {
-    // Of a chain so large every fourth moment is kept.
+    // Of a chain this large, every fourth moment is kept.
     ScriptText script = ScriptText().command("chain.preset", {{"name", "start"}, {"count", 100000}});
     for (int i = 1; i <= 90; ++i) script.command("chain.target", {{"to", {100, i, 0}}});
     const Json shown = state_after(script.command("time.replay").wait(100));

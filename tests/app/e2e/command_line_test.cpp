@@ -1,5 +1,4 @@
-// The command line: what it lists, and what it cannot do, said in one line with exit code 2 and nothing
-// overwritten.
+// The command line: what it lists; errors are one line with exit code 2, and nothing is overwritten.
 #include <algorithm>
 #include <sstream>
 
@@ -61,7 +60,7 @@ TEST_F(CommandLine, lists_the_chain_commands_with_exactly_these_arguments) {
     }
 }
 
-// The README's tables and the program's shortcuts are the same text.
+// The README's tables and the program's shortcuts must be the same text.
 TEST_F(CommandLine, the_readme_has_the_shortcuts) {
     const fs::path readme = source_path("README.md");
     ASSERT_TRUE(fs::exists(readme));
@@ -83,7 +82,7 @@ TEST_F(CommandLine, the_readme_has_the_shortcuts) {
 struct Mistake {
     const char* name;
     Strings arguments;
-    Strings told;  ///< parts of the complaint
+    Strings told;  ///< parts of the message
 };
 
 class Mistakes : public testing::TestWithParam<Mistake> {};

@@ -1,4 +1,4 @@
-// The mouse in the 3D view, played in pixels against the built program.
+// The mouse in the 3D view, in pixels, with the built program.
 #include <glm/geometric.hpp>
 
 #include "tests/app/support/play.hpp"
@@ -9,7 +9,7 @@ namespace {
 using app::Json;
 const glm::vec2 elsewhere(640, 600);  ///< in the view, with nothing under it
 
-/// Where everything is before the first event.
+/// The state before the first event.
 const Json& start() {
     static const Json state = state_after(ScriptText().wait(1));
     return state;
@@ -21,7 +21,7 @@ glm::vec3 target_of(const Json& state) {
     return point_of(state.at("target"));
 }
 
-/// What a drag must have left as it was, whatever else moved.
+/// What a drag must not change, whatever else moved.
 void expect_lengths_kept(const Json& state) {
     const Json& segments = state.at("segments");
     for (std::size_t i = 1; i < segments.size(); ++i) {
@@ -143,7 +143,7 @@ TEST(Drag, begins_only_beyond_a_few_pixels) {
 }
 
 TEST(Drag, where_handles_overlap_the_target_wins) {
-    // The target lies on the tail from the start.
+    // The target is on the tail at the start.
     const Json state = state_after(ScriptText().drag({target_pixel(), {700, 250}, {600, 200}}));
     EXPECT_EQ(state["tail"], state["target"]);
     EXPECT_TRUE(state["selected"].is_null());
@@ -183,7 +183,7 @@ TEST(Undo, takes_back_a_whole_drag_at_once) {
     EXPECT_EQ(state_after(script)["segments"], start()["segments"]);
 }
 
-/// Ctrl, then Z, as a person presses them: Z is an axis key too, but not in a chord.
+/// Ctrl, then Z, as users press them: Z is also an axis key, but not in a chord.
 TEST(Undo, in_mid_drag_stays_undone_until_the_mouse_moves) {
     const glm::vec2 at = target_pixel();
     const auto dragging = [&] { return ScriptText().move(at).down().move(at + glm::vec2(-50, -60)).wait(2); };
@@ -246,7 +246,7 @@ TEST(Camera, what_lies_under_the_cursor_stays_there_in_a_zoom) {
     const glm::vec2 cursor = handle(start(), "segment.1");
     const Json state = state_after(ScriptText().move(cursor).wheel(4));
     EXPECT_LT(state["camera"]["distance"].get<float>(), 0.7f * start()["camera"]["distance"].get<float>());
-    // What stays is the plane of the camera's target; the segment is near it, not in it.
+    // The plane of the camera's target stays; the segment is near it, not in it.
     EXPECT_LT(glm::distance(handle(state, "segment.1"), cursor), 25.0f);
     const Json flat = state_after(ScriptText().key("1").key("5"));
     const glm::vec2 point = handle(flat, "segment.1");

@@ -1,5 +1,5 @@
-// What holds for every lab of the table, and for one that only the tests have: random events and commands let
-// loose on each of its scenes break nothing, and all of it comes out the same when it is played again.
+// Properties of every lab, and of one that only the tests have: random events and commands on each of its
+// scenes break nothing, and replaying them gives the same result.
 #include <algorithm>
 #include <cstdlib>
 
@@ -40,7 +40,7 @@ void set_up(App& app, const LabScene& scene) {
         app.run({command.name, to_json(command.arguments)});
 }
 
-/// The lab's own commands, and those that every lab has to stand.
+/// The lab's own commands, and those that every lab must support.
 std::vector<std::string> vocabulary(const App& app, const std::string& lab) {
     CommandTable table;
     app.labs().find(lab)->add_commands(table);
@@ -50,14 +50,14 @@ std::vector<std::string> vocabulary(const App& app, const std::string& lab) {
     return names;
 }
 
-/// What stands for a text: names that the scene has, and some that none has.
+/// Text arguments: names that exist in the scene, and some that do not.
 std::vector<std::string> words_of(const TestScene& scene) {
     std::vector<std::string> words = scene.words;
     words.insert(words.end(), {"", "\xFF"});
     return words;
 }
 
-/// What is saved is opened, and is the same when it is saved again.
+/// A saved scene opens, and saves the same again.
 void expect_opens_again(const Workspace& workspace) {
     static const Labs labs = all_labs();
     const Json saved = save_scene(workspace);
@@ -76,8 +76,7 @@ TEST_P(EveryScene, StandsRandomEventsAndCommandsAndReplaysThem) {
     expect_replay_ends_the_same(
         [](App& app) {
             set_up(app, GetParam());
-            app.workspace()
-                .history.clear();  // a recording knows the scene that it starts from, and nothing before
+            app.workspace().history.clear();  // a recording knows its initial scene, and nothing before it
             app.workspace().cameras.clear();
             app.start_recording();
             Monkey monkey(app, 11, vocabulary(app, GetParam().lab), words_of(GetParam().scene));
@@ -92,7 +91,7 @@ TEST_P(EveryScene, StandsRandomEventsAndCommandsAndReplaysThem) {
         all_labs);
 }
 
-/// Random scenes per test scene; TENDRIL_RANDOM_SCENES sets another number.
+/// Random scenes per test scene; TENDRIL_RANDOM_SCENES overrides it.
 unsigned random_scenes() {
     const char* const given = std::getenv("TENDRIL_RANDOM_SCENES");
     return given == nullptr ? 3u : static_cast<unsigned>(std::strtoul(given, nullptr, 10));
@@ -112,7 +111,7 @@ TEST_P(EveryScene, OpensAsItWasSavedWhateverWasDoneToIt) {
     }
 }
 
-/// On what is there already some commands are refused.
+/// Some commands are refused in a scene that is not empty.
 void try_to_set_up(App& app, const LabScene& scene) {
     for (const CommandCall& command : scene.scene.commands) {
         try {
@@ -122,7 +121,7 @@ void try_to_set_up(App& app, const LabScene& scene) {
     }
 }
 
-/// Scenes of the same lab: its own, the next two, and the one halfway round.
+/// Scenes of the same lab: its own, the next two, and the one halfway through the list.
 std::vector<LabScene> some_others(const LabScene& scene) {
     std::vector<LabScene> all = all_scenes();
     std::erase_if(
@@ -136,8 +135,7 @@ std::vector<LabScene> some_others(const LabScene& scene) {
     return some;
 }
 
-/// The mouse rests on a handle, or holds it, and the scene under it is exchanged for others of its lab, and
-/// back.
+/// The mouse rests on a handle, or holds it, while the scene is replaced by others of the lab, and back.
 TEST_P(EveryScene, MayGoAwayUnderTheMouse) {
     const auto window = open_offscreen({1000, 700});
     for (const LabScene& other : some_others(GetParam())) {
@@ -177,7 +175,7 @@ TEST_P(EveryScene, LooksAndMovesTheSameEachTimeAndAfterItWasSaved) {
         set_up(app, GetParam());
         if (through_a_file)
             load_scene(app.workspace(), parse_json(json_to_text(save_scene(app.workspace()))));
-        const std::uint64_t begin = app.workspace().moment;  // which what set the scene up has counted
+        const std::uint64_t begin = app.workspace().moment;  // after the ticks of the setup
         for (int i = 0; i < GetParam().scene.ticks; ++i) app.tick(nullptr);
         Json state = app.state();
         state.erase("time");
@@ -195,7 +193,7 @@ TEST_P(EveryScene, IsUndoneToWhereItBegan) {
     app.run({"time.pause"});
     app.run({"lab.open", Json{{"name", GetParam().lab}}});
     const Json blank = save_scene(app.workspace()).at("labs");
-    for (const CommandCall& command : GetParam().scene.commands)  // what is only looked at is no step
+    for (const CommandCall& command : GetParam().scene.commands)  // commands that only look are no undo steps
         if (app.commands().find(command.name)->effect == Effect::Edit)
             app.run({command.name, to_json(command.arguments)});
     while (app.workspace().history.can_undo()) app.run({"undo"});

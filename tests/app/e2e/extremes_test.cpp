@@ -1,5 +1,4 @@
-// What nobody does on purpose: windows of every shape, numbers at the edge, novels typed in. The program
-// stays up.
+// Unlikely input: windows of every shape, extreme numbers, very long text. The program must not crash.
 #include "tests/app/support/play.hpp"
 
 namespace tendril::test {
@@ -7,7 +6,7 @@ namespace {
 
 using app::Json;
 
-/// Plays to the end with a picture drawn, whatever is refused on the way.
+/// Plays to the end and draws a picture, whatever is refused on the way.
 testing::AssertionResult survives(const ScriptText& script) {
     const TempFolder folder;
     write(folder / "script.jsonl", script.text());

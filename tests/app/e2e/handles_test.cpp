@@ -1,4 +1,4 @@
-// The pixels that the state gives are where the picture has the things.
+// The pixel positions in --state must be where the picture shows the objects.
 #include <glm/geometric.hpp>
 
 #include "app/view/palette.hpp"
@@ -15,7 +15,7 @@ struct Pose {
 
 class Handles : public testing::TestWithParam<Pose> {};
 
-/// A chain pulled by its head, so that neither end is behind the target, away from the axes.
+/// A chain pulled by segment 5, so that neither end is behind the target, away from the axes.
 ScriptText scene(const Pose& pose) {
     ScriptText script;
     app::Json camera = app::parse_json(pose.camera);
@@ -30,8 +30,7 @@ ScriptText scene(const Pose& pose) {
 
 TEST_P(Handles, are_where_the_picture_has_them) {
     const Played played = play(scene(GetParam()), {.picture = true});
-    const glm::ivec2 low(300, 110),
-        high(980, 680);  // the view without the panels beside it and the hint above
+    const glm::ivec2 low(300, 110), high(980, 680);  // the view without its panels and hint
     const app::Palette& colours = app::palette(app::Theme::Dark);
     const std::vector<std::pair<std::string, Wanted>> things{
         {"target", {.colour = colours.target}},
@@ -62,7 +61,7 @@ INSTANTIATE_TEST_SUITE_P(
         Pose{"front", R"({"yaw_deg": 0, "pitch_deg": 0, "distance": 14, "orthographic": true})"}),
     [](const auto& pose) { return pose.param.name; });
 
-/// A lab that is opened from the command line is laid out before anything is drawn.
+/// A lab opened from the command line is laid out before anything is drawn.
 TEST(HandlesAtTheStart, are_where_the_first_frame_has_them) {
     for (const char* lab : {"chain", "rig"}) {
         const app::Json none = play(ScriptText(), {.more = {"--lab", lab}}).state["handles"];
@@ -93,7 +92,7 @@ TEST(HandlesOfALargeWindow, follow_its_size) {
     EXPECT_LE(glm::distance(blob->centre, handle(played.state, "target")), 1.0f);
 }
 
-// As large as screens are. No golden picture: its bytes would outweigh all others.
+// The largest usual screen. No golden picture: it would be larger than all others together.
 TEST(HandlesOfALargeWindow, are_drawn_at_3840x2160) {
     const Played played = play(ScriptText().command("view.text_scale", {{"scale", 2}}),
                                {.picture = true, .more = {"--size", "3840x2160"}});

@@ -1,5 +1,4 @@
-// New, opened and saved scenes among undo and redo: a recording of them replays with the same refusals, and
-// ends in the same state.
+// New, opened and saved scenes among undo and redo: the recording replays identically.
 #include "app/document/refused.hpp"
 #include "app/document/scene_file.hpp"
 #include "tests/app/e2e/monkey.hpp"
@@ -9,7 +8,7 @@ namespace {
 
 using namespace app;
 
-/// What a replay has to lead to.
+/// What a replay must end in.
 struct Ending {
     Json state;
     Json scene;
@@ -36,7 +35,7 @@ std::ostream& operator<<(std::ostream& out, const Ending& ending) {
                << ending.scene.dump().substr(0, 2000);
 }
 
-/// Runs a command that may be refused; whether it was.
+/// Runs a command and returns whether it was refused.
 bool refused(App& app, const std::string& name, const Json& arguments = Json::object()) {
     try {
         app.run({name, arguments});
@@ -51,8 +50,7 @@ void tap(App& app, const char* chord) {
     app.tick(&event);
 }
 
-/// Acts in a program that records, then plays the recording into another one. Files that it wrote are away by
-/// then.
+/// Acts in a program that records, removes the files that it wrote, and plays the recording in another one.
 template <class Act>
 void expect_exact_replay(const TempFolder& folder, const std::string& scene, Act act) {
     const auto window = open_offscreen({1280, 720});
@@ -138,7 +136,7 @@ TEST(HistoryReplay, UndoBringsBackTheOldScenesFile) {
 
 class HistoryReplaySeeds : public testing::TestWithParam<unsigned> {};
 
-/// Whatever the order, in every lab.
+/// In any order, in every lab.
 TEST_P(HistoryReplaySeeds, NewOpenSaveUndoAndRedoInAnyOrder) {
     const TempFolder folder;
     const WorkingIn working(folder);
@@ -182,8 +180,7 @@ TEST_P(HistoryReplaySeeds, NewOpenSaveUndoAndRedoInAnyOrder) {
     });
 }
 
-/// Undoing everything and redoing it loses nothing: no part of the scene, no mark on the strip of the last
-/// ten seconds, and not the place on it.
+/// Undoing and redoing everything loses nothing: neither scene nor the strip's marks and position.
 TEST_P(HistoryReplaySeeds, AllUndoneAndRedoneIsAsItWas) {
     const TempFolder folder;
     const WorkingIn working(folder);

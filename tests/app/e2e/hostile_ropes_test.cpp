@@ -1,5 +1,5 @@
-// The same into the Rope lab: nothing that is not finite gets in, no rope loses a particle that nobody took,
-// and undo leads back to what was there.
+// The same for the Rope lab: nothing becomes infinite or NaN, no rope loses particles without a command, and
+// undo restores the initial state.
 #include "app/document/command.hpp"
 #include "app/labs/rope/rope_lab.hpp"
 #include "tests/app/e2e/monkey.hpp"
@@ -30,7 +30,7 @@ void expect_finite_world(const NamedWorld& world) {
     ASSERT_EQ(particles, world.size());
 }
 
-/// What stays whatever time does: names, sizes, settings.
+/// What time does not change: names, sizes, settings.
 Json lasting(App& app) {
     const NamedWorld& world = *rope_part(app.workspace()).world;
     const rope::State& state = world.state();

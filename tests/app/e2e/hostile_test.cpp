@@ -1,5 +1,5 @@
-// Three thousand random events and commands, many of them hostile, into one running program: it neither
-// crashes nor lets anything that is not finite in, its chain stays whole, and undo leads all the way back.
+// Three thousand random events and commands, many of them hostile, in one running program: it does not crash,
+// nothing becomes infinite or NaN, the chain keeps its lengths, and undo leads all the way back.
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -11,7 +11,7 @@ namespace {
 
 using namespace app;
 
-/// The chain's invariant: each length is kept, and every coordinate finite.
+/// The chain's invariant: lengths are kept, and all coordinates are finite.
 void expect_whole(const Chain& chain) {
     const auto segments = chain.segments();
     for (std::size_t i = 1; i < segments.size(); ++i) {
@@ -50,8 +50,7 @@ TEST_P(Hostile, events_and_commands_break_nothing) {
         ASSERT_FALSE(app.quit());
     }
 
-    // Motion runs on by itself and belongs to no step: the chain is held still to look at what undo brings
-    // back.
+    // The motion runs on outside of undo steps: pause it to check what undo restores.
     app.run({"time.pause", Json::object()});
     int steps = 0;
     while (app.workspace().history.can_undo() && steps++ < 2000) app.run({"undo", Json::object()});
@@ -62,7 +61,7 @@ TEST_P(Hostile, events_and_commands_break_nothing) {
         EXPECT_EQ(back[member], first[member]) << member;
     }
 
-    // All of it was recorded, and none of the recording is beyond the player.
+    // Everything was recorded, and the player accepts all of it.
     EXPECT_NO_THROW(parse_script(app.recording(), app.commands()));
 }
 

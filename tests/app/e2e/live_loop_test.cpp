@@ -1,4 +1,4 @@
-// The loop of a real window, turned by hand: it draws when something may have changed, and only then.
+// The loop of a real window, turned by hand: it draws if something may have changed, and only then.
 #include "app/live_loop.hpp"
 
 #include "app/labs/chain/chain_lab.hpp"
@@ -87,7 +87,7 @@ TEST_F(LiveLoopTest, a_thousand_moves_between_two_frames_are_one) {
 
 TEST_F(LiveLoopTest, no_press_is_lost_in_a_burst) {
     settle();
-    // Pressed, moved and let go between two frames: nothing of it may fall under the table.
+    // Pressed, moved and released between two frames: no event may be lost.
     const glm::vec2 target = handle(app_.state(), "target");
     turn({MouseMove{target}, MousePress{MouseButton::Left, true}, MouseMove{target + glm::vec2(-30, -30)},
           MouseMove{target + glm::vec2(-60, -90)}, MousePress{MouseButton::Left, false},

@@ -1,4 +1,4 @@
-// The microscope in the running program: what it shows stays while one looks.
+// The microscope in the running program: what it shows stays.
 #include "tests/app/support/play.hpp"
 
 namespace tendril::test {

@@ -1,4 +1,4 @@
-// Somebody who presses everything: random events and commands, many of them hostile, into a running program.
+// A monkey test: random events and commands, many of them hostile, in a running program.
 #pragma once
 
 #include <cmath>
@@ -15,12 +15,12 @@ namespace tendril::test {
 
 using namespace app;
 
-/// The names of every command that a lab brings.
+/// The names of all commands of a lab.
 std::vector<std::string> lab_commands(const App& app);
 
 class Monkey {
   public:
-    /// It runs commands of those names, and where a text is wanted it says one of those words.
+    /// Runs commands of these names; text arguments are taken from `words`.
     Monkey(App& app, unsigned seed, std::vector<std::string> names, std::vector<std::string> words)
         : app_(app), random_(seed), names_(std::move(names)), words_(std::move(words)) {}
 
@@ -33,7 +33,7 @@ class Monkey {
         }
     }
 
-    /// Runs one of the commands, with arguments that may be refused.
+    /// Runs a random command; it may be refused.
     void command();
 
   private:
@@ -44,7 +44,7 @@ class Monkey {
     bool coin() { return below(2) == 0; }
     float between(float low, float high) { return std::uniform_real_distribution<float>(low, high)(random_); }
 
-    /// A number as people type them, and now and then one that nobody should.
+    /// A plausible number, sometimes a hostile one.
     Json any_number() {
         static const std::vector<Json> hostile{0.0,
                                                -1.0,
@@ -83,7 +83,7 @@ class Monkey {
         return list;
     }
 
-    /// Often a name of something, for most of what takes any value takes one.
+    /// Often a name, since most arguments of any type are names.
     Json any_json() {
         switch (words_.empty() ? below(4) : below(6)) {
             case 0:
@@ -147,7 +147,7 @@ class Monkey {
                 return Drop{{"/no/such/scene.json"}};
         }
     }
-    /// Files are not the monkey's: what it would save it would save among ours.
+    /// Keys that open or save files do nothing, so that no file is overwritten.
     Event harmless(const KeyTap& tap) {
         const Key key = tap.chord.key;
         if (key == Key::S || key == Key::O || key == Key::N || key == Key::Q || key == Key::Enter)
@@ -168,7 +168,7 @@ inline void expect_finite(const Json& json, const std::string& where) {
     }
 }
 
-/// What `act` did and recorded, played again into another program, ends in the same state. `labs` makes their
+/// Replays what `act` did and recorded in another program, and expects the same state. `labs` makes their
 /// labs.
 template <class Act>
 void expect_replay_ends_the_same(

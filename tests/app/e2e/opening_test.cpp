@@ -1,4 +1,4 @@
-// What a window opens on where it was told nothing.
+// The scene that a window opens with by default.
 #include "app/opening.hpp"
 
 #include "app/labs/chain/chain_lab.hpp"
@@ -77,7 +77,7 @@ TEST_F(OpenScene, cards_are_offered_once) {
     EXPECT_FALSE(card_shown(workspace().settings, chain_lab));
 }
 
-/// The circle is there when it is asked for, in Reach only.
+/// The circle appears on request, in mode Reach only.
 TEST_F(OpenScene, its_sphere_of_reach_is_a_setting) {
     const auto strokes = [&] {
         const Camera camera(workspace().camera, {{0.0f, 0.0f}, {800.0f, 600.0f}});

@@ -1,4 +1,4 @@
-// The command palette in the running program: what is typed, Tab, Enter and the mouse, and what ran.
+// The command palette in the running program: typing, Tab, Enter and the mouse, and what ran.
 #include <imgui.h>
 
 #include <random>
@@ -53,7 +53,7 @@ TEST_F(PaletteTest, TabCompletesNameArgumentAndValueWithTheCaretBehind) {
     open().type("chain.mod").key("tab").type("re").key("tab").key("enter");
     EXPECT_FALSE(is_open());
     EXPECT_EQ(app_.state()["mode"], "reach");
-    // What several commands have in common, then the one that is typed on.
+    // The common prefix of several commands, then the rest as typed.
     const std::size_t before = chain().chain.size();
     open().type("chain.remo").key("tab").key("tab").type("1").key("enter");
     EXPECT_FALSE(is_open());
@@ -132,7 +132,7 @@ TEST_F(PaletteTest, AClickOnARowChoosesIt) {
     app_.tick(nullptr);
     EXPECT_FALSE(is_open());
     EXPECT_NE(app_.workspace().settings.theme, theme);
-    // One that needs an argument goes on in the line, with the keyboard there.
+    // A command that needs an argument continues in the line, which keeps the keyboard.
     open().type("simulation's speed");
     take(MousePress{MouseButton::Left, true});
     take(MousePress{MouseButton::Left, false});
@@ -153,8 +153,7 @@ TEST_F(PaletteTest, NamesOfTheSceneComplete) {
     EXPECT_EQ(std::count(left.begin(), left.end(), "blue line"), 0);
 }
 
-// In every size that the program can have; where it is drawn, nothing may fail either.
-/// It says Ctrl+Q beside it, and does what that does.
+/// It shows Ctrl+Q beside it, and does the same.
 TEST_F(PaletteTest, QuitAsksAboutUnsavedWorkAsItsKeyDoes) {
     app_.run({"chain.add", Json{{"length", 1}}});
     open().type("quit").key("enter");
@@ -199,7 +198,7 @@ TEST_F(PaletteTest, HostileLinesCrashNothing) {
     }
 }
 
-// What two fingers scroll sideways, panels get too.
+// Panels receive the sideways scrolling of two fingers.
 TEST(Wheel, SidewaysReachesThePanels) {
     const auto window = open_offscreen({640, 480});
     Ui ui;

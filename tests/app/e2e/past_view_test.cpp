@@ -1,4 +1,4 @@
-// The plot of the last ten seconds and their ghosts in the running program, in every lab that has joints.
+// The plot and the past poses of the last ten seconds in the running program, in every lab that has joints.
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "app/live_loop.hpp"
 #include "tests/app/support/play.hpp"
@@ -12,7 +12,7 @@ using app::Json;
 struct PlottedLab {
     const char* lab;
     const char* of;
-    ScriptText scene;  ///< something that moves by itself
+    ScriptText scene;  ///< a scene that moves by itself
 };
 
 std::vector<PlottedLab> plotted_labs() {
@@ -77,7 +77,7 @@ TEST(PastViews, AreSettingsAndNothingToUndoOrToSave) {
         EXPECT_EQ(with.value("modified", false), plain.value("modified", false)) << lab.lab;
         EXPECT_TRUE(plain["past"]["plot"].is_null());
         EXPECT_EQ(with["past"]["plot"]["of"], lab.of);
-        // Each without an argument is the next choice, and at last the first one.
+        // Each without an argument selects the next choice, in the end the first one.
         const Json off = state_after(
             ScriptText(script).command(view(lab, "_ghosts"), {{"of", "past"}}).command(view(lab, "_ghosts")));
         EXPECT_EQ(off["past"], plain["past"]) << lab.lab;
@@ -154,7 +154,7 @@ TEST(PastViews, GhostsAreOfWhatHasTheJointsThatThereAreNow) {
     }
 }
 
-/// Each lab with its strip of the last ten seconds above the plot, stopped.
+/// Each lab with its strip of the last ten seconds above the plot, paused.
 ScriptText below_the_strip(const PlottedLab& lab) {
     ScriptText script = shown(lab).wait(420).command("time.pause");
     if (std::string(lab.lab) == "rig") script.command("view.rig_strip", {{"of", "past"}});
@@ -209,7 +209,7 @@ class LivePlot : public testing::Test {
     }
     std::size_t poses() { return app::humanoid_runtime(app_.workspace()).past.size(); }
 
-    /// With the present.
+    /// With the present one.
     std::size_t moments() { return app_.workspace().rewind.size() + 1; }
 
     std::unique_ptr<app::Window> window_ = app::open_offscreen({1000, 700});

@@ -1,4 +1,4 @@
-// The view as a picture of its own: of the size that is asked for, and without what is behind it.
+// The view as a picture: of the requested size, and without the background.
 #include <cstdlib>
 
 #include "tests/app/support/play.hpp"
@@ -30,7 +30,7 @@ TEST(Picture, IsAsLargeAsAsked) {
     EXPECT_GT(as_seen.size.x, 500);
 }
 
-/// Where nothing shines through, the colour is that of the picture with its background.
+/// Opaque pixels have the colour of the picture with background.
 TEST(Picture, IsTransparentWhereNothingIs) {
     for (const char* lab : {"chain", "rope", "humanoid"}) {
         const app::Json size{{"width", 600}, {"height", 400}};

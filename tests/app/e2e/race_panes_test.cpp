@@ -1,4 +1,4 @@
-// The race side by side: a pane for each solver, one camera, and the mouse works in each.
+// The race side by side: one pane for each solver, a common camera, and the mouse works in each.
 #include <glm/geometric.hpp>
 #include <set>
 
@@ -24,7 +24,7 @@ glm::vec2 corner(const Json& state, std::size_t pane, const char* which) {
     return {at[0].get<float>(), at[1].get<float>()};
 }
 
-/// From a place in the first pane to the same place in another.
+/// From a point in the first pane to the same point in another.
 glm::vec2 across(const Json& state, std::size_t pane) {
     return corner(state, pane, "min") - corner(state, 0, "min");
 }
@@ -69,7 +69,7 @@ TEST(RacePanes, TheyShareACameraThatAnyOfThemTurnsAndZooms) {
         const Json turned = state_after(race().drag({free, free + glm::vec2(60.0f, 0.0f)}));
         EXPECT_NE(turned["camera"]["yaw_deg"], before["camera"]["yaw_deg"]) << pane;
         EXPECT_EQ(turned["target"], before["target"]) << pane;
-        // What lies under the pointer stays there.
+        // The point under the pointer stays.
         const glm::vec2 target = handle(before, "target") + across(before, pane);
         const Json nearer = state_after(race().move(target).wheel(3.0f));
         EXPECT_LT(nearer["camera"]["distance"], before["camera"]["distance"]) << pane;
@@ -83,7 +83,7 @@ TEST(RacePanes, APictureHasThemAll) {
     state_after(race().command("view.picture", {{"path", path}, {"width", 802}, {"height", 602}}));
     const app::Image picture = app::read_png(path);
     ASSERT_EQ(picture.size, glm::ivec2(802, 602));
-    // The target's ball stands at the same place in each quarter.
+    // The target's ball is at the same position in each quarter.
     const auto orange = [&](glm::ivec2 from, glm::ivec2 to) {
         glm::dvec2 sum(0.0);
         int count = 0;

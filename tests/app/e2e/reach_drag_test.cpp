@@ -1,4 +1,4 @@
-// A hand on a joint in Reach: the joint is an effector of its own, the root and the target stay.
+// Dragging a joint in mode Reach: the joint is an effector of its own, root and target stay.
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -15,14 +15,14 @@ glm::vec3 joint(const Json& state, std::size_t index) {
     return point_of(state.at("segments").at(index).at("position"));
 }
 
-/// Seven bones of a metre that reach for a target well within them.
+/// Seven bones of 1 m whose target is well within reach.
 ScriptText reaching() {
     return ScriptText()
         .command("chain.mode", {{"mode", "reach"}})
         .command("chain.target", {{"to", {3, 3, 1}}});
 }
 
-/// Takes the joint through several points of the view, button down all the way.
+/// Drags through several points of the view with the button down.
 ScriptText& drag_joint(ScriptText& script, glm::vec2 from, glm::vec2 by) {
     script.move(from).down();
     for (int i = 1; i <= 12; ++i) script.move(from + by * (static_cast<float>(i) / 12.0f));
@@ -39,7 +39,7 @@ void expect_bones_kept(const Json& state) {
 TEST(ReachDrag, a_joint_follows_the_mouse_while_root_target_and_tip_stay) {
     const Json before = state_after(reaching());
     for (const std::size_t index : {2u, 3u, 5u}) {
-        // Where two bones are left to the tip, they do not let it stay for long.
+        // With only two bones left to the tip, the tip soon cannot stay.
         const glm::vec2 by = index == 5 ? glm::vec2(-6, 8) : glm::vec2(-35, 40);
         const glm::vec2 at = handle(before, "segment." + std::to_string(index));
         ScriptText script = reaching();
@@ -48,7 +48,7 @@ TEST(ReachDrag, a_joint_follows_the_mouse_while_root_target_and_tip_stay) {
         EXPECT_EQ(after["target"], before["target"]) << index;
         EXPECT_EQ(after["mode"], "reach");
         EXPECT_LT(glm::distance(handle(after, "segment." + std::to_string(index)), at + by), 0.5f) << index;
-        // The tip keeps hold of the target, or comes as near as the bones beyond the hand let it.
+        // The tip stays on the target, or as near as the bones beyond the dragged joint allow.
         const float left = 7.0f - static_cast<float>(index);
         const float missing =
             std::max(0.0f, glm::distance(joint(after, index), point_of(after["target"])) - left);

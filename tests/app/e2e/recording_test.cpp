@@ -1,4 +1,4 @@
-// A recording, played, gives the same state and the same picture, byte for byte.
+// Playing a recording gives the same state and the same picture, byte for byte.
 #include "tests/app/support/panel_places.hpp"
 #include "tests/app/support/play.hpp"
 
@@ -7,7 +7,7 @@ namespace {
 
 using app::Json;
 
-/// What a run leaves: its state and its picture as they lie on the disk.
+/// The result of a run: the bytes of its state and picture.
 struct Left {
     std::string state, picture, recording;
     bool operator==(const Left&) const = default;
@@ -32,7 +32,7 @@ class Recording : public testing::Test {
         const Left second = run((folder_ / "first.jsonl").string(), "second");
         EXPECT_EQ(recorded.state, first.state);
         EXPECT_TRUE(recorded.picture == first.picture);
-        // A replay records itself, so the second is a recording of a recording.
+        // A replay records itself, so the second one replays a recording of a recording.
         EXPECT_EQ(first.state, second.state);
         EXPECT_TRUE(first.picture == second.picture);
         EXPECT_EQ(first.recording, second.recording);
@@ -78,7 +78,7 @@ TEST_F(Recording, holds_drags_and_commands) {
     EXPECT_EQ(state["mode"], "fixed");
 }
 
-// Everything of the window that is no scene: panels, palette, help, keys, wheel over a list, resizing.
+// Everything in the window that is not the scene: panels, palette, help, keys, wheel over a list, resizing.
 TEST_F(Recording, holds_the_use_of_panels) {
     const glm::vec2 forward_radio = chain_panel::forward, target = handle(start_state(), "target");
     ScriptText script;
@@ -133,7 +133,7 @@ TEST_F(Recording, holds_time) {
     script.key("space").wait(10).key(".").key(".").key("space").wait(7);
     const Left left = record_and_replay(script);
     EXPECT_EQ(state_of(left)["motion"], "figure_eight");
-    // 41 ticks, the one of the key that pauses apart, two steps, and what ran after the second space.
+    // 41 ticks, one for the key that pauses, two steps, and those after the second space.
     EXPECT_GT(state_of(left)["time"]["tick"], 45);
     EXPECT_LT(state_of(left)["time"]["tick"], 60);
 }

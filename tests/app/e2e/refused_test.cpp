@@ -1,5 +1,4 @@
-// Commands with hostile arguments, in scripts: refused with a reason, the document unchanged, the exit code
-// as app.md has it.
+// Commands with hostile arguments in scripts: refused with a reason and an exit code, the document unchanged.
 #include "tests/app/support/play.hpp"
 
 namespace tendril::test {
@@ -8,11 +7,11 @@ namespace {
 using app::Json;
 
 struct Refusal {
-    std::string line;  ///< as it stands in the script, without the closing brace
-    std::string told;  ///< a part of the reason
+    std::string line;  ///< the script line, without the closing brace
+    std::string told;  ///< part of the reason
 };
 
-/// Each is valid JSON. 1e999 is no number that JSON readers agree on; it may be refused as no JSON at all.
+/// Each is valid JSON. JSON readers differ on 1e999; it may be refused as invalid JSON.
 const std::vector<Refusal>& refusals() {
     static const std::vector<Refusal> list{
         {R"({"command": "chain.add")", "length"},

@@ -1,5 +1,4 @@
-// Things that once went wrong, each from the outside: what a person or a script did, and what must come of
-// it.
+// Regressions, seen from outside: what a user or a script did, and the correct result.
 #include <sstream>
 
 #include "tests/places.hpp"
@@ -10,7 +9,7 @@ namespace tendril::test {
 namespace {
 
 TEST(OnceWrong, escape_in_a_drag_that_did_nothing_undoes_nothing_else) {
-    // Along Z, seen from the front, a drag goes nowhere.
+    // Along Z, seen from the front, a drag has no effect.
     ScriptText script;
     script.command("chain.target", {{"to", app::Json::array({5, 3, 0})}})
         .command("camera.view", {{"name", "front"}});
@@ -29,7 +28,7 @@ TEST(OnceWrong, escape_lets_go_of_a_drag_as_if_it_had_not_been) {
     EXPECT_EQ(after["segments"], before["segments"]);
 }
 
-/// The mouse rested on the hand's handle, which was drawn once more when it was gone: a crash.
+/// The mouse rested on the hand's handle, which was drawn once more after its removal: a crash.
 TEST(OnceWrong, a_hand_goes_away_under_the_mouse) {
     const TempFolder folder;
     const std::string two_nodes = (folder / "two.bvh").string(), scene = (folder / "two.json").string();
@@ -61,7 +60,7 @@ TEST(OnceWrong, a_hand_goes_away_under_the_mouse) {
     }
 }
 
-/// What was remembered of a chain outlived it, and the scene was saved and never opened again.
+/// State of the old chain survived it, and the saved scene could not be opened.
 TEST(OnceWrong, a_chain_that_was_dragged_and_exchanged_is_saved_and_opened) {
     const TempFolder folder;
     const std::string path = (folder / "scene.json").string();

@@ -1,4 +1,4 @@
-// The last ten seconds of the Rig lab in the running program: flips of bones, and going back to them.
+// The Rig lab's last ten seconds in the running program: flips of bones, and returning to them.
 #include <cmath>
 
 #include "tests/app/support/play.hpp"
@@ -9,7 +9,7 @@ namespace {
 
 using app::Json;
 
-/// The head looks up; then the control that says where its crown is passes the line that it looks along.
+/// The head looks up; then the control for its up direction crosses its line of sight.
 ScriptText tilt_past_the_look(int steps = 40) {
     ScriptText script;
     script.command("lab.open", {{"name", "rig"}})
@@ -55,7 +55,7 @@ TEST(RigsPast, AFlipIsMarkedAtItsTickWithBoneUnitAndCause) {
         turned += flip["degrees"].get<double>();
     }
     EXPECT_GT(turned, 60.0);
-    // Just before and just after it is as far apart as it says.
+    // The poses before and after it differ by as much as it says.
     const std::size_t number = number_of(state, flips[0]);
     const ScriptText there = tilt_past_the_look().command("time.incident", {{"number", number}});
     const Json after = state_after(there);

@@ -1,4 +1,4 @@
-// The Rope lab in the running program: dragged by the mouse, played back, and gone back in time.
+// The Rope lab in the running program: dragging, replaying, and seeking in the past.
 #include <glm/geometric.hpp>
 
 #include "tests/app/support/play.hpp"
@@ -18,7 +18,7 @@ const Json& collider(const Json& state, const std::string& name) {
     throw std::runtime_error("there is no collider " + name);
 }
 
-/// A drag through points, in steps of a few pixels as a hand makes them, held at the end.
+/// A drag in steps of a few pixels, like a hand's, held at the end.
 ScriptText& slowly(ScriptText& script, glm::vec2 from, glm::vec2 to, int steps = 40) {
     script.move(from).down();
     for (int i = 1; i <= steps; ++i)
@@ -46,7 +46,7 @@ TEST(RopeInTheWindow, ABallDraggedThroughARopeCarriesIt) {
     EXPECT_NEAR(top(state) - top(start), lifted, 0.1) << "the rope that lay on it went up with it";
     EXPECT_EQ(state["substeps_dropped"], 0);
 
-    // The whole drag is one step.
+    // The whole drag is one undo step.
     const Json back = state_after(script.command("undo"));
     EXPECT_NEAR(collider(back, "ball")["centre"][1].get<double>(), 0.95, 1e-6);
 }
@@ -93,7 +93,7 @@ TEST(RopeInTheWindow, ARecordingOfItAllEndsInTheSameState) {
         return app::parse_json(read(state));
     };
     EXPECT_EQ(replay(recording), recorded);
-    // And one that begins in the midst of it, from a scene file.
+    // And a recording that starts in the middle, from a scene file.
     const std::string scene = (folder / "scene.json").string();
     state_after(ScriptText(begin)
                     .command("rope.jitter", {{"dial", 0.5}})
@@ -120,7 +120,7 @@ TEST(RopeInTheWindow, TimeGoesBackAndOnFromThere) {
     EXPECT_EQ(back["cloths"], then["cloths"]);
     EXPECT_EQ(back["seconds"], then["seconds"]);
 
-    // What is looked at stays, and playing on comes to the same, as nothing was changed.
+    // The tool stays, and continuing gives the same result, since nothing was changed.
     const Json again = state_after(ScriptText(script)
                                        .command("rope.tool", {{"name", "cut"}})
                                        .command("time.seek", {{"ticks_back", 100}})
@@ -142,7 +142,7 @@ TEST(RopeInTheWindow, WhatWasAddedSinceTheMomentOneGoesBackToComesWithUndo) {
 }
 
 TEST(RopeInTheWindow, UndoBringsTheLabAndTheViewAndLeavesOtherLabsAsTheyAre) {
-    // A change of the chain is undone from the Rope lab: that opens the Chain lab, and ropes run on.
+    // Undoing a change of the chain from the Rope lab opens the Chain lab, and the ropes run on.
     ScriptText script = ScriptText().command("chain.target", {{"to", {5, 2, 0}}});
     script.command("lab.open", {{"name", "rope"}}).wait(60).command("undo");
     EXPECT_EQ(state_after(script)["lab"], "chain");
@@ -162,7 +162,7 @@ TEST(RopeInTheWindow, UndoBringsTheLabAndTheViewAndLeavesOtherLabsAsTheyAre) {
 }
 
 TEST(RopeInTheWindow, ButtonsAddWhatTheySay) {
-    // Of the section "Add", though scenes of the same titles stand above it.
+    // In section "Add", below presets with the same titles.
     ScriptText script = rope_lab().command("rope.clear").wait(2);
     for (const glm::vec2 button : {glm::vec2(126, 449), glm::vec2(205, 449), glm::vec2(48, 449)})
         script.move(button).wait(2).down().up().wait(2);

@@ -1,4 +1,4 @@
-// app/run, with a system that only pretends: what it shows while it installs and builds.
+// app/run with mock tools: what it prints while it installs and builds.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A copy of the scripts beside a cmake, an apt and a program that only say what they would do.
+/// A copy of the scripts beside a mock cmake, apt and program that only print what they would do.
 class RunScript : public testing::Test {
   protected:
     RunScript() {
@@ -35,7 +35,7 @@ class RunScript : public testing::Test {
         write(folder_ / name, "#!/usr/bin/env bash\n" + body + "\n");
         fs::permissions(folder_ / name, fs::perms::owner_all);
     }
-    /// What `cmake --build` says; configuring says nothing.
+    /// The output of `cmake --build`; configuring prints nothing.
     void build_says(const std::string& lines) {
         tool("bin/cmake", "case $1 in --build) " + lines + " ;; esac");
     }
@@ -62,7 +62,7 @@ TEST_F(RunScript, CountsWhatItInstallsAndBuildsAndThenStartsTheProgram) {
 
 TEST_F(RunScript, OnATerminalWritesTheCountOverInPlace) {
     build_says("for i in 1 2 3; do echo \"[$i/3] Building CXX object $i.o\"; done");
-    // util-linux's script gives its command a terminal.
+    // script (util-linux) provides a terminal.
     const Outcome outcome = Process({"script", "-qec", (folder_ / "app/run").string(), "/dev/null"},
                                     {{"PATH", (folder_ / "bin").string() + ":" + std::getenv("PATH")}})
                                 .wait();

@@ -1,4 +1,4 @@
-// Selecting with the mouse: Shift, a box, and what the gizmo moves then.
+// Selecting with the mouse: Shift, a box, and what the gizmo then moves.
 #include <glm/geometric.hpp>
 
 #include "tests/places.hpp"
@@ -49,13 +49,13 @@ TEST(SelectByMouse, ABoxSelectsWhatIsInItAndTurnsNothing) {
     EXPECT_EQ(one["selection"], Json({2, 3, 4}));
     EXPECT_EQ(one["camera"], start["camera"]);
     EXPECT_EQ(one["segments"], start["segments"]);
-    // From the right to the left, and from below, is the same box.
+    // From right to left and from below is the same box.
     ScriptText other = front();
     box(other, joint(start, 4) + room, joint(start, 2) - room);
     EXPECT_EQ(state_after(other)["selection"], Json({2, 3, 4}));
     box(script, joint(start, 6) - room, joint(start, 6) + room, true);
     EXPECT_EQ(state_after(script)["selection"], Json({2, 3, 4, 6}));
-    // Nothing in it: nothing is selected any more.
+    // An empty box clears the selection.
     box(script, joint(start, 2) - 4.0f * room, joint(start, 2) - 3.0f * room);
     EXPECT_EQ(state_after(script)["selection"], Json::array());
 }
@@ -91,7 +91,7 @@ TEST(SelectByMouse, EscapeSelectsNothingInEveryLab) {
         script.command(each.select, each.arguments);
         const Json before = selected(state_after(script));
         EXPECT_NE(before, none) << each.lab << each.arguments;
-        // What lies over the scene is closed first.
+        // Escape first closes what is over the scene.
         EXPECT_EQ(selected(state_after(ScriptText(script).key("?").key("escape"))), before) << each.lab;
         EXPECT_EQ(selected(state_after(ScriptText(script).key("ctrl+k").key("escape"))), before) << each.lab;
         EXPECT_EQ(selected(state_after(ScriptText(script).key("?").key("escape").wait(2).key("escape"))),
@@ -153,7 +153,7 @@ TEST(SelectByMouse, ShiftClickAddsABoneOfTheFigureAndTakesItOut) {
     Json state = state_after(script);
     EXPECT_EQ(state["selection"].size(), 3u);
     EXPECT_EQ(state["selected"], "LeftHand") << "its ball stands for the hand";
-    // Beside all of it Shift keeps what is selected.
+    // In empty space, Shift keeps the selection.
     script.click(handle(start, "node.LeftLowerArm")).click({320, 120}).release("shift");
     state = state_after(script);
     EXPECT_EQ(state["selection"].size(), 2u);
@@ -174,7 +174,7 @@ TEST(SelectByMouse, ABoxSelectsTheNodesOfTheFigureThatAreSeen) {
     EXPECT_TRUE(state["body"]["targets"].empty());
     const glm::vec2 foot = handle(start, "node.RightLowerLeg");
     EXPECT_EQ(state_after(box(script, foot - margin, foot + margin, true))["selection"].size(), 3u);
-    // A box in which nothing is selects nothing.
+    // An empty box clears the selection.
     box(script, {320, 120}, {340, 140});
     EXPECT_EQ(state_after(script)["selection"], Json::array());
 }

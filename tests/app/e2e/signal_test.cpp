@@ -1,4 +1,4 @@
-// The Signal lab in the running program: the ball dragged by the mouse, a response drawn, small windows.
+// The Signal lab in the running program: dragging the ball, drawing a response, small windows.
 #include <algorithm>
 #include <cmath>
 
@@ -73,8 +73,8 @@ double most_wanted_after(ScriptText script) {
     return most;
 }
 
-/// The axes make room for what was drawn, but not before the button is up: the value under a mouse at rest
-/// would grow in every frame.
+/// The axes make room for what was drawn, but only once the button is up: otherwise the value under a resting
+/// mouse would grow in every frame.
 TEST(SignalInTheWindow, TheAxesOfAResponseStayWhileItIsDrawn) {
     ScriptText script = ScriptText()
                             .command("lab.open", {{"name", "signal"}})
@@ -89,7 +89,7 @@ TEST(SignalInTheWindow, TheAxesOfAResponseStayWhileItIsDrawn) {
     EXPECT_NEAR(most_wanted_after(held.wait(60).up().wait(3)), at_once, 0.1);
 }
 
-/// The window stays responsive; a script's own command is done at once, and comes to the same.
+/// The window stays responsive; a script's command completes at once, with the same result.
 TEST(SignalInTheWindow, AFitThatAButtonBeginsGoesOnFromTickToTick) {
     const glm::vec2 fit{1060.0f, 286.0f};
     const ScriptText drawn =
@@ -139,7 +139,7 @@ TEST(SignalInTheWindow, AResponseIsShownWithTheOutputBall) {
     EXPECT_EQ(undone.at("seconds"), 0.0);
 }
 
-/// The editor of a curve with three keys, at the end of the panel; nothing moves.
+/// The editor of a curve with three keys, at the end of the panel, with nothing moving.
 class CurveInTheWindow : public testing::Test {
   protected:
     CurveInTheWindow() {
@@ -207,7 +207,7 @@ TEST_F(CurveInTheWindow, ADoubleClickAddsAKeyAndARightClickRemovesIt) {
 }
 
 TEST_F(CurveInTheWindow, ATangentIsDraggedByItsEnd) {
-    // Its handle lies a fixed length to the right of a key that is level there.
+    // Its handle is a fixed length to the right of a key with a level tangent.
     script.click(middle).wait(2);
     const glm::vec2 end = middle + glm::vec2(39.0f, 0.0f);
     script.drag({end, end + glm::vec2(0.0f, -10.0f), end + glm::vec2(-10.0f, -30.0f)}).wait(2);

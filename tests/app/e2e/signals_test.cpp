@@ -1,4 +1,4 @@
-// Ends that come from outside: clean, and with everything written.
+// Termination by signals: a clean end with everything written.
 #include <signal.h>
 
 #include <chrono>
@@ -33,7 +33,7 @@ TEST_P(Signals, end_it_cleanly_with_everything_written) {
     EXPECT_GE(state["time"]["tick"], 1);
     EXPECT_EQ(app::read_png(folder / "picture.png").size, glm::ivec2(1280, 720));
 
-    // What was recorded up to the signal leads to the same place.
+    // The recording up to the signal leads to the same state.
     EXPECT_TRUE(succeeded(
         run_program({"--headless", "--script", path("record.jsonl"), "--state", path("again.json")})));
     EXPECT_EQ(app::parse_json(read(folder / "again.json")), state);

@@ -1,4 +1,4 @@
-// Numbers that are typed into a panel: what is out of range is refused with its value and the range.
+// Numbers typed into a panel: those out of range are refused with their value and the range.
 #include <algorithm>
 
 #include "tests/app/support/panel_places.hpp"
@@ -18,7 +18,7 @@ ScriptText typed_into_every_row(const char* text) {
     return script;
 }
 
-/// Plays it; refusals of what is typed into a panel end no script.
+/// Plays the script; refusals in a panel do not end it.
 Played played_with_refusals(const ScriptText& script) {
     const TempFolder folder;
     write(folder / "script.jsonl", script.text());
@@ -52,7 +52,7 @@ TEST(TypedNumbers, InRangeAreTaken) {
     EXPECT_EQ(solve.at("soft_zone"), 1.0);
 }
 
-/// Types into the Chain lab's field for iterations, a key at a time, and ends as the script goes on.
+/// Types into the Chain lab's iterations field key by key; the script then goes on.
 ScriptText typed_iterations(const std::string& text) {
     ScriptText script;
     script.command("chain.mode", {{"mode", "reach"}});
@@ -88,7 +88,7 @@ TEST(TypedNumbers, ThatBeginOutOfRangeAreTaken) {
     EXPECT_EQ(elsewhere.state.at("solve").at("iterations"), 42);
 }
 
-/// 100 is what the field has: 1 and 10 on the way to it are nobody's numbers. Nor is what was deleted.
+/// 100 is the field's present value: 1 and 10 on the way must not be applied, nor must deleted text.
 TEST(TypedNumbers, ThatSayWhatIsThereOrNothingChangeNothing) {
     for (const bool deleted : {false, true}) {
         for (const char* key : {"enter", "tab"}) {
@@ -111,7 +111,7 @@ TEST(TypedNumbers, EscapeTakesThemBack) {
     EXPECT_EQ(played.state.at("solve").at("iterations"), 100);
 }
 
-/// Not on the way there either: the chain stays as it is to the bit while somebody types.
+/// Not on the way there either: the chain is bitwise unchanged while the user types.
 TEST(TypedNumbers, ChangeNothingBeforeEnter) {
     const app::Json before = state_after(typed_iterations(""));
     const app::Json typing = state_after(typed_iterations("3").wait(30));
@@ -132,7 +132,7 @@ TEST(TypedNumbers, AreWorkedOutWithTheirUnits) {
     EXPECT_EQ(played_with_refusals(thirds).state.at("solve").at("snap_back").get<float>(), 1.0f / 3.0f);
 }
 
-/// Enter leaves a person at the mistake; a click elsewhere puts back what was, and says why.
+/// After Enter the field stays open; a click elsewhere restores the value and gives the reason.
 TEST(TypedNumbers, ThatAreNoneAreRefusedInWords) {
     const Played elsewhere =
         played_with_refusals(typed_iterations("many").key("enter").click({700.0f, 400.0f}).wait(30));
@@ -154,7 +154,7 @@ TEST(TypedNumbers, ThatAreNoneAreRefusedInWords) {
     EXPECT_TRUE(has(unit.outcome.err, "\"3 m\": this number has no unit")) << unit.outcome.err;
 }
 
-/// Neither the click into the field nor what is typed there turns the view.
+/// Neither the click into the field nor the typed keys turn the view.
 TEST(TypedNumbers, NeverReachTheCamera) {
     const app::Json before = state_after(ScriptText().command("chain.mode", {{"mode", "reach"}}).wait(30));
     ScriptText script = typed_iterations("");
@@ -169,7 +169,7 @@ TEST(TypedNumbers, TabGoesToTheNextField) {
     const app::Json both = play(typed).state.at("solve");
     EXPECT_EQ(both.at("iterations"), 42);
     EXPECT_EQ(both.at("tolerance"), 0.25);
-    // Each is a change of its own.
+    // Each is an undo step of its own.
     const app::Json one = play(ScriptText(typed).key("ctrl+z").wait(5)).state.at("solve");
     EXPECT_EQ(one.at("iterations"), 42);
     EXPECT_NE(one.at("tolerance"), 0.25);
@@ -177,7 +177,7 @@ TEST(TypedNumbers, TabGoesToTheNextField) {
     EXPECT_EQ(none.at("iterations"), 100);
 }
 
-/// FABRIK has no damping: the fields below the soft zone are grey.
+/// FABRIK has no damping: the fields below the soft zone are greyed out.
 TEST(TypedNumbers, TabPassesByWhatCannotBeChanged) {
     ScriptText script;
     script.command("chain.mode", {{"mode", "reach"}});
@@ -211,7 +211,7 @@ TEST(TypedNumbers, AreScrubbedFinerWithShift) {
     EXPECT_LE(fine, coarse / 4);
 }
 
-/// 2^32 + 7 is 7 where a parser keeps the last 32 bits.
+/// 2^32 + 7 would be 7 in a parser that keeps the last 32 bits.
 TEST(TypedNumbers, WholeOnesThatNoIntHoldsAreRefused) {
     for (const char* text : {"4294967303", "-4294967289", "99999999999999999999"}) {
         const Played played = played_with_refusals(typed_into_every_row(text));

@@ -1,4 +1,4 @@
-// Who quits with unsaved work is asked first, and what is then chosen happens.
+// Quitting with unsaved work asks first, and does what the user then chooses.
 #include "tests/app/support/play.hpp"
 
 namespace tendril::test {
@@ -8,7 +8,7 @@ std::size_t segments(const app::Json& state) {
     return state.at("segments").size();
 }
 
-/// Ctrl+Q in a scene with or without a change; a segment more says that the program went on.
+/// Ctrl+Q in a scene with or without a change; one segment more shows that the program went on.
 app::Json after_ctrl_q(bool changed, const ScriptText& then = {}) {
     ScriptText script;
     if (changed) script.command("chain.add", {{"length", 0.5}});
@@ -40,7 +40,7 @@ TEST(UnsavedWork, IsSavedOnTheWayOut) {
     EXPECT_EQ(app::parse_json(read(file)).at("labs").at("chain").at("segments").size(), segments(state));
 }
 
-/// A scene without a name is given one first; the dialog that asks for it can be cancelled.
+/// A scene without a name gets one first; the dialog can be cancelled.
 TEST(UnsavedWork, WithoutANameIsGivenOne) {
     const TempFolder folder;
     const std::string file = (folder / "new.json").string();
@@ -60,7 +60,7 @@ TEST(UnsavedWork, WithoutANameIsGivenOne) {
     EXPECT_EQ(segments(state_after(cancelled)), at_first + 2) << "saving later does not quit";
 }
 
-/// What was asked for on the way out is forgotten with the dialog: a later save is a save.
+/// The request to quit ends with the dialog: a later save only saves.
 TEST(UnsavedWork, AfterAnotherSceneWasOpenedASaveOnlySaves) {
     const TempFolder folder;
     const std::string other = (folder / "other.json").string(), file = (folder / "new.json").string();
@@ -72,7 +72,7 @@ TEST(UnsavedWork, AfterAnotherSceneWasOpenedASaveOnlySaves) {
     EXPECT_EQ(segments(state_after(script)), segments(state_after(ScriptText())) + 2);
 }
 
-/// What was asked is answered by saving.
+/// Saving answers the question.
 TEST(UnsavedWork, SavedMeanwhileIsAskedForNoMore) {
     const TempFolder folder;
     const std::string file = (folder / "arm.json").string();

@@ -1,5 +1,4 @@
-// What ffmpeg does after the last frame takes no time of the window: it goes on, can be cancelled, and is
-// told.
+// ffmpeg's work after the last frame does not block the window: it can be cancelled, and is reported.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -28,7 +27,7 @@ class VideoFinish : public testing::Test {
     }
     ~VideoFinish() override { ::setenv("PATH", path_.c_str(), 1); }
 
-    /// Something else called ffmpeg, which does this after it has read all frames.
+    /// Films with a stand-in for ffmpeg that runs `end` after it has read all frames.
     void film_with(const std::string& end) {
         install(end);
         app_.workspace().ui.video =
@@ -46,7 +45,7 @@ class VideoFinish : public testing::Test {
         loop_.turn(event ? std::vector<Event>{*event} : std::vector<Event>{}, tick_seconds, player_);
         longest_ = std::max(longest_, std::chrono::duration<double>(Time::now() - begin).count());
     }
-    /// Until the last frame is written.
+    /// Runs until the last frame is written.
     void write_frames() {
         for (int i = 0; i < 200 && filming() && filming()->done < filming()->frames; ++i) tick();
     }
@@ -93,7 +92,7 @@ TEST_F(VideoFinish, IsCancelledByEscapeAndLeavesNoFile) {
     EXPECT_LT(longest_, 1.0);
 }
 
-/// What a person did is played again with an ffmpeg that is faster or slower than it was then.
+/// Replays a session with an ffmpeg that is faster or slower than it was.
 class VideoReplay : public VideoFinish {
   protected:
     void press(const char* chord) { tick(KeyTap{*chord_from_name(chord)}); }
@@ -101,7 +100,7 @@ class VideoReplay : public VideoFinish {
         install(end);
         app_.run({"lab.open", Json{{"name", "chain"}}});
         app_.run({"chain.select", Json{{"index", 2}}});
-        app_.workspace().clock.tick = 0;  // who plays it counts from there
+        app_.workspace().clock.tick = 0;  // a player counts from there
         app_.start_recording(true);
         app_.run({"chain.motion", Json{{"path", "circle"}}});
         for (int i = 0; i < 30; ++i) tick();
@@ -113,7 +112,7 @@ class VideoReplay : public VideoFinish {
         ASSERT_TRUE(filming());
         write_frames();
     }
-    /// Of the session, and of the recording of it played with another ffmpeg: state and files are the same.
+    /// Plays the recording of the session with another ffmpeg and expects the same state and files.
     void expect_same_again(const std::string& end) {
         for (int i = 0; i < 5; ++i) tick();
         write(folder_ / "r.jsonl", app_.recording());
@@ -157,7 +156,7 @@ TEST_F(VideoReplay, IsNotWrittenWhereTheSessionEndedBefore) {
     EXPECT_FALSE(std::filesystem::exists(folder_ / "a.mp4"));
 }
 
-/// A script is on its own: it is no window in which a person waits.
+/// A script runs on its own: there is no window in which a user waits.
 TEST_F(VideoReplay, OfAHeadlessRecordingFindsTheFileAfterTheLastFrame) {
     install("sleep 0.2\n");
     const std::string recording = (folder_ / "r.jsonl").string();

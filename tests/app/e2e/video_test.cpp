@@ -1,4 +1,4 @@
-// The last seconds as a video: every frame is the picture of that moment, and nothing else changes.
+// The last seconds as a video: every frame is the picture of its moment, and nothing else changes.
 #include <cstdlib>
 
 #include "app/document/command.hpp"
@@ -34,7 +34,7 @@ Json video(const std::filesystem::path& path, const Json& more = Json::object())
     return arguments;
 }
 
-/// What the program says to it, in a script after `before`.
+/// The message that refuses the command, in a script after `before`.
 std::string refusal(const ScriptText& before, const Json& arguments, const Environment& changes = {}) {
     const TempFolder folder;
     ScriptText script = before;
@@ -45,7 +45,7 @@ std::string refusal(const ScriptText& before, const Json& arguments, const Envir
     return outcome.err;
 }
 
-/// A program of that name on PATH, before all others.
+/// Puts a program of that name first on PATH.
 Environment with_program(const TempFolder& folder, const std::string& name, const std::string& script) {
     write(folder / name, "#!/bin/sh\n" + script);
     std::filesystem::permissions(folder / name, std::filesystem::perms::owner_all);
@@ -96,7 +96,7 @@ TEST(Video, HasATransparentBackground) {
                                4);
 }
 
-/// Once more after going back in time: what one looks at is not where the video ends.
+/// Once more after seeking: the video does not end at the moment that is shown.
 TEST(Video, ShowsAllThatIsRememberedWhereverOneIs) {
     const TempFolder folder;
     ScriptText script = swinging_rope();
@@ -125,7 +125,7 @@ TEST(Video, ChangesNothingElse) {
         EXPECT_EQ(before.state, after.state);
         EXPECT_EQ(before.picture.rgba, after.picture.rgba);
     }
-    // What was undone can be redone.
+    // Redo still works.
     const TempFolder folder;
     ScriptText undone = dragged_chain();
     undone.command("undo").command("view.video", video(folder / "a.png")).command("redo");
@@ -166,7 +166,7 @@ TEST(Video, IsRefusedInWords) {
     EXPECT_EQ(folder.names(), std::vector<std::string>{}) << "nothing is left of any of these";
 }
 
-/// The dialog by its key, its name as it is offered, and Enter.
+/// Opens the dialog with its key and accepts the suggested name with Enter.
 ScriptText recorded_by_hand() {
     ScriptText script = swinging_rope();
     return script.key("ctrl+shift+p").wait(4).key("enter").wait(3);
@@ -178,7 +178,7 @@ TEST(Video, IsWrittenWhileOneGoesOn) {
     EXPECT_TRUE(succeeded(run_script(script.wait(60), {}, folder.path())));
     ASSERT_EQ(folder.names(), std::vector<std::string>{"tendril-1.png"});
     EXPECT_GE(read_apng(read(folder / "tendril-1.png")).frames.size(), 20u);
-    // What happens meanwhile is not in it.
+    // Later changes are not in it.
     ScriptText meanwhile = recorded_by_hand();
     meanwhile.command("rope.clear").command("lab.open", {{"name", "chain"}}).wait(60);
     const std::string alone = read(folder / "tendril-1.png");
@@ -226,7 +226,7 @@ TEST(Video, GoesOnWhereEscapeMeansSomethingElseAndWhereOneWantsToQuit) {
     EXPECT_EQ(folder.names(), (std::vector<std::string>{"tendril-1.png", "tendril-2.png"}));
 }
 
-/// The program that writes it is a stand-in here: it counts what it is given.
+/// A stand-in for ffmpeg counts the bytes that it is given.
 TEST(Mp4Video, GoesThroughAPipe) {
     const TempFolder folder, tools;
     const Environment fake = with_program(tools, "ffmpeg",

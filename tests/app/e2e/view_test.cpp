@@ -23,7 +23,7 @@ TEST(View, ALeftDragOnNothingTurnsItAndAClickDoesNot) {
     EXPECT_EQ(turned["segments"], start["segments"]);
     const Json clicked = state_after(ScriptText().move(nothing).down().up());
     EXPECT_EQ(clicked["camera"], start["camera"]);
-    // On a handle it is a drag of that.
+    // On a handle it drags the handle.
     const glm::vec2 target = handle(start, "target");
     const Json dragged = state_after(ScriptText().drag({target, target + glm::vec2(-40, -40)}));
     EXPECT_EQ(dragged["camera"], start["camera"]);
@@ -76,10 +76,10 @@ TEST(View, TheWheelZoomsAndSidewaysItShifts) {
     const Seen shifted = seen_after(scrolls("zoom").line(wheel(0, 2)));
     EXPECT_EQ(shifted.distance, before.distance);
     EXPECT_GT(glm::distance(shifted.target, before.target), 0.05f);
-    // To the left and back again.
+    // Left and back again.
     const Seen back = seen_after(scrolls("zoom").line(wheel(0, 2)).line(wheel(0, -2)));
     EXPECT_LT(glm::distance(back.target, before.target), 1e-4f);
-    // Two fingers never go quite straight.
+    // Two fingers never move quite straight.
     const Seen slanted = seen_after(scrolls("zoom").line(wheel(2, 0.5)));
     EXPECT_EQ(slanted.distance, zoomed.distance);
     EXPECT_EQ(slanted.target, zoomed.target);
@@ -95,25 +95,25 @@ TEST(View, TwoFingersShiftItWhereThatIsChosenAndZoomWithCtrl) {
     }
     EXPECT_LT(glm::distance(both.target - before.target, up.target + aside.target - 2.0f * before.target),
               1e-3f);
-    // As far as the same way with the middle button: the scene follows the fingers.
+    // As far as a drag with the middle button: the scene follows the fingers.
     const Seen dragged =
         seen_after(scrolls("pan").down("middle").move(nothing + glm::vec2(30, 30)).up("middle"));
     EXPECT_LT(glm::distance(both.target, dragged.target), 1e-3f);
     const Seen pinched = seen_after(scrolls("pan").hold("ctrl").wheel(2).release("ctrl"));
     EXPECT_EQ(pinched.distance, seen_after(scrolls("zoom").wheel(2)).distance);
-    // Over a panel it is the panel's.
+    // Over a panel, the panel scrolls.
     const Seen panel = seen_after(scrolls("pan").move({100, 400}).line(wheel(2, 2)));
     EXPECT_EQ(panel.target, before.target);
 }
 
 TEST(Panels, ASectionFoldsByAClickOnItsTitle) {
-    // Folded presets bring the modes up to where they were: a click there chooses Reach.
+    // Folding the presets moves the modes up: a click at their new position chooses Reach.
     const glm::vec2 presets(40.0f, 69.0f);
     ScriptText folded = ScriptText().click(presets).wait(25);
     const glm::vec2 reach_then(60.0f, chain_panel::forward.y - 32.0f - 96.0f);
     EXPECT_EQ(state_after(ScriptText(folded).click(reach_then).wait(2))["mode"], "reach");
     EXPECT_EQ(state_after(ScriptText().click(reach_then).wait(2))["mode"], "backward");
-    // Another click brings them back.
+    // Another click unfolds them.
     const glm::vec2 forward = chain_panel::forward;
     EXPECT_EQ(state_after(folded.click(presets).wait(25).click(forward).wait(2))["mode"], "forward");
 }
@@ -121,7 +121,7 @@ TEST(Panels, ASectionFoldsByAClickOnItsTitle) {
 TEST(Panels, AddStaysUnderThePointer) {
     const std::size_t before = state_after(ScriptText().wait(1))["segments"].size();
     for (const char* mode : {"forward", "backward", "fixed"}) {
-        // Fixed has two rows more above it; each mode's own place is where its first click lands.
+        // Fixed has two more rows above it, so the button is further down.
         ScriptText script = ScriptText().command("chain.mode", {{"mode", mode}}).wait(2);
         const glm::vec2 at = chain_panel::add + glm::vec2(0.0f, std::string(mode) == "fixed" ? 64.0f : 0.0f);
         script.move(at).wait(2);
@@ -131,7 +131,7 @@ TEST(Panels, AddStaysUnderThePointer) {
 }
 
 TEST(View, TheAxesInTheCornerAreClickedForASide) {
-    // From the front +X points to the right, and +Y up: their ends are where a click looks along them.
+    // From the front, +X points right and +Y up: a click on their ends looks along them.
     const ScriptText front = ScriptText().command("camera.view", {{"name", "front"}});
     const auto size = glm::vec2(1280, 720);
     const float right = size.x - 272.0f, top = 44.0f, reach = 27.0f, radius = 8.5f;

@@ -1,4 +1,4 @@
-// The real window: the built program on a display of its own, with the mouse and the keys of that display.
+// The real window: the built program on a display of its own, with that display's mouse and keys.
 #include <signal.h>
 
 #include <chrono>
@@ -21,7 +21,7 @@ void sleep(int milliseconds) {
     std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
 }
 
-/// Waits for something to become true; false when it never does.
+/// Waits until the condition is true; false if it never is.
 template <class Condition>
 bool eventually(const Condition& condition, int seconds = 15) {
     for (int i = 0; i < seconds * 50 * sanitizer_factor; ++i) {
@@ -49,7 +49,7 @@ class RealWindow : public testing::Test {
             if (!installed(program))
                 GTEST_SKIP() << program << " is not installed (third_party/packages-debian.txt)";
         }
-        // It chooses a free display itself and says which. It must not start over when a client leaves.
+        // It chooses a free display itself and prints it. It must not restart when a client leaves.
         server_ = std::make_unique<Process>(std::vector<std::string>{
             "Xvfb", "-displayfd", "1", "-screen", "0", "1600x1000x24", "-nolisten", "tcp", "-noreset"});
         ASSERT_TRUE(eventually([&] { return server_->out().ends_with('\n') || !server_->running(); }));
@@ -68,21 +68,21 @@ class RealWindow : public testing::Test {
                 {"WAYLAND_DISPLAY", {}},
                 {"XDG_CONFIG_HOME", (folder_ / "config").string()},
                 {"LIBGL_ALWAYS_SOFTWARE", "1"},
-                // The display's own driver leaves things behind in libraries that are gone by then.
+                // The display driver leaks in libraries that are unloaded by then.
                 {"LSAN_OPTIONS", "detect_leaks=0"}};
     }
     void start(std::vector<std::string> more = {}) {
         more.insert(more.end(), {"--lab", "chain"});
         start_as_it_comes(more);
     }
-    /// On the scene that it opens on by itself.
+    /// With the scene that it opens by default.
     void start_as_it_comes(const std::vector<std::string>& more) {
         std::vector<std::string> arguments{"--size", "1280x720", "--state", state_path()};
         arguments.insert(arguments.end(), more.begin(), more.end());
         program_ = std::make_unique<Process>(program_command(arguments), environment());
         ASSERT_TRUE(eventually([&] { return !program_->running() || find_window(); })) << "no window came up";
         ASSERT_TRUE(program_->running()) << program_->err();
-        // There is no window manager to give it the focus, or a place.
+        // There is no window manager to focus or position it.
         xdotool({"windowmove", window_, "0", "0"});
         xdotool({"windowfocus", window_});
         sleep(300);
@@ -110,13 +110,13 @@ class RealWindow : public testing::Test {
         xdotool({"key", "--clearmodifiers", name});
         sleep(150);
     }
-    /// And says that what is not saved may go.
+    /// Quits and discards unsaved changes.
     void quit_discarding() {
         key("ctrl+q");
         sleep(200);
         click({640, 381});
     }
-    /// The state it left, once it has ended cleanly.
+    /// The state that it wrote, after it has ended cleanly.
     Json ended() {
         const Outcome outcome = program_->wait(20.0);
         EXPECT_TRUE(succeeded(outcome));
@@ -130,7 +130,7 @@ class RealWindow : public testing::Test {
     std::string display_, window_;
 };
 
-/// Where things are at first: the same off screen as in a window of that size.
+/// The initial state: the same offscreen as in a window of that size.
 const Json& first_state() {
     static const Json state = state_after(ScriptText().wait(1));
     return state;
@@ -239,7 +239,7 @@ TEST_F(RealWindow, settings_are_kept_by_name) {
     const Json settings = app::parse_json(read(settings_path()));
     EXPECT_EQ(settings["theme"], "light");
 
-    // The next start reads them, and leaves them as they are.
+    // The next start reads the settings, and leaves them unchanged.
     start({"--screenshot", (folder_ / "light.png").string()});
     program_->signal(SIGINT);
     ended();
@@ -270,7 +270,7 @@ TEST_F(RealWindow, broken_settings_stop_nothing) {
     ended();
 }
 
-/// The terminal or the session is closed, or the display goes away: nobody is asked, and nothing is lost.
+/// The terminal or session is closed, or the display goes away: no question, and nothing is lost.
 TEST_F(RealWindow, keeps_unsaved_work_whatever_ends_it) {
     const fs::path config = settings_path().parent_path();
     for (const char* way : {"SIGTERM", "SIGHUP", "the display"}) {
@@ -295,7 +295,7 @@ TEST_F(RealWindow, keeps_unsaved_work_whatever_ends_it) {
 }
 
 TEST_F(RealWindow, offers_what_a_crash_left) {
-    // Autosaves come after half a minute: this one is made by hand, as of a program that is no more.
+    // Autosaves take half a minute: make one by hand, as of a program that has ended.
     ScriptText script;
     script.command("chain.preset", {{"name", "arm"}})
         .command("scene.save", {{"path", (folder_ / "arm.json").string()}});

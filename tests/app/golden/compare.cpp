@@ -14,14 +14,14 @@ namespace {
 
 using app::Image;
 
-/// A part of a picture, as CIELAB values.
+/// Part of a picture in CIELAB.
 struct LabPicture {
     glm::ivec2 size{0};
     std::vector<glm::vec3> values;
 
     explicit LabPicture(glm::ivec2 s)
         : size(s), values(static_cast<std::size_t>(s.x) * static_cast<std::size_t>(s.y)) {}
-    /// Beyond the border as at it.
+    /// Clamps to the border.
     std::size_t index(int x, int y) const {
         x = std::clamp(x, 0, size.x - 1);
         y = std::clamp(y, 0, size.y - 1);
@@ -32,7 +32,7 @@ struct LabPicture {
 };
 
 struct Box {
-    glm::ivec2 min{0}, max{0};  ///< max is past the end
+    glm::ivec2 min{0}, max{0};  ///< exclusive
     glm::ivec2 size() const { return max - min; }
 };
 
@@ -41,7 +41,7 @@ const std::uint8_t* pixel_of(const Image& image, int x, int y) {
                                     static_cast<std::size_t>(x));
 }
 
-/// Around every byte that differs, with room for the neighbourhoods; empty for equal pictures.
+/// Contains every byte that differs, with a margin for the neighbourhoods; empty if the pictures are equal.
 Box changed_box(const Image& a, const Image& b) {
     constexpr int margin = 4;
     Box box{a.size, {0, 0}};
@@ -73,7 +73,7 @@ float lab_curve(float t) {
     return t > 216.0f / 24389.0f ? std::cbrt(t) : (24389.0f / 27.0f * t + 16.0f) / 116.0f;
 }
 
-/// CIELAB for the white of sRGB, D65.
+/// CIELAB for the white point of sRGB, D65.
 glm::vec3 to_lab(const std::uint8_t* rgb) {
     const auto& levels = linear_levels();
     const float r = levels[rgb[0]], g = levels[rgb[1]], b = levels[rgb[2]];
@@ -92,7 +92,7 @@ LabPicture lab_of(const Image& image, const Box& box) {
     return lab;
 }
 
-/// How far `value` is outside the box of the values around (x, y).
+/// Distance of `value` from the range of values around (x, y).
 float excess(glm::vec3 value, const LabPicture& other, int x, int y) {
     glm::vec3 low = other.at(x, y), high = low;
     for (int dy = -1; dy <= 1; ++dy) {
@@ -104,7 +104,7 @@ float excess(glm::vec3 value, const LabPicture& other, int x, int y) {
     return glm::length(glm::max(glm::max(low - value, value - high), 0.0f));
 }
 
-/// The first measure, before its mean.
+/// The colour measure before its mean.
 std::vector<float> excesses(const LabPicture& a, const LabPicture& b) {
     std::vector<float> result(a.values.size());
     for (int y = 0; y < a.size.y; ++y) {

@@ -1,4 +1,4 @@
-// What the comparison of pictures must see, and what it must not: on the program's own pictures, altered.
+// What the comparison of pictures must detect, and what it must not, on modified pictures of the program.
 #include "tests/app/golden/compare.hpp"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace {
 
 using app::Image;
 
-/// The Chain lab's scene without panels, to be altered before it is drawn.
+/// The Chain lab's scene without panels, to be modified before it is drawn.
 class Studio {
   public:
     Studio() : window_(app::open_offscreen({900, 520})), workspace_(app::make_blank_workspace(labs_)) {
@@ -52,7 +52,7 @@ std::uint8_t level(double value) {
     return static_cast<std::uint8_t>(std::clamp(std::lround(value), 0L, 255L));
 }
 
-/// Every level off by as much as `most`, at random.
+/// Every level off by up to `most`, at random.
 Image noisy(Image image, int most, unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_int_distribution<int> off(-most, most);
@@ -69,7 +69,7 @@ Image brighter(Image image, int by) {
     return image;
 }
 
-/// The whole picture a fraction of a pixel to the right, as if every edge had been smoothed otherwise.
+/// The whole picture a fraction of a pixel to the right, as if every edge were smoothed differently.
 Image nudged(const Image& image, double pixels) {
     Image result = image;
     const auto row = 4 * static_cast<std::size_t>(image.size.x);
@@ -80,7 +80,7 @@ Image nudged(const Image& image, double pixels) {
     return result;
 }
 
-/// Draws what `with` has and `without` has not at another place in `without`.
+/// Takes what `with` has and `without` lacks, and draws it into `without`, moved by `by`.
 Image moved(const Image& with, const Image& without, glm::ivec2 by) {
     Image result = without;
     const auto at = [&](int x, int y) {
@@ -97,7 +97,7 @@ Image moved(const Image& with, const Image& without, glm::ivec2 by) {
     return result;
 }
 
-/// Pictures of the whole program, once with a label beside a segment and once without.
+/// Pictures of the whole program, with and without a label beside a segment.
 struct Labelled {
     Image with, without;
 };
@@ -107,7 +107,7 @@ Labelled labelled() {
         .command("camera.set", {{"target", {2, 1, 0}}, {"yaw_deg", -20}, {"pitch_deg", 20}, {"distance", 9}})
         .command("chain.target", {{"to", {1, 3, 0}}});
     const Image without = play(script, {.picture = true}).picture;
-    // Always, for one label at a time: that of a chain of one segment.
+    // Labels always shown, but just one: a chain of one segment.
     script.command("view.labels", {{"show", "always"}});
     return {play(script, {.picture = true}).picture, without};
 }
@@ -226,7 +226,7 @@ TEST(Compare, another_size_fails) {
     EXPECT_FALSE(compare(picture, Image{}).same);
 }
 
-// The two tests that fail when the comparison goes blind, and with it every golden picture.
+// Fails if the comparison detects nothing any more, and with it no golden picture would.
 TEST(Compare, is_not_blind) {
     const Image dark = app::read_png(golden_folder() / "mode_fixed.png");
     const Image other = app::read_png(golden_folder() / "empty_chain.png");

@@ -33,11 +33,11 @@ fs::path output_folder() {
 
 namespace {
 
-/// Golden pictures have 64 levels a channel, which halves the files: a level may be off by two of 255, and by
-/// one more where another rasteriser drew.
+/// Golden pictures have 64 levels per channel, which halves the files: a level may be off by two of 255, and
+/// by one more with another rasteriser.
 constexpr int rounding = 3;
 
-/// The picture, as the golden one where it differs by no more than rounding.
+/// The picture, with every level that differs only by rounding replaced by the golden one.
 app::Image rounded_as(const app::Image& golden, app::Image actual) {
     if (actual.size != golden.size) return actual;
     for (std::size_t i = 0; i < actual.rgba.size(); ++i)
@@ -49,7 +49,7 @@ const std::set<std::string> whole_windows{"opening",      "opening_rope",      "
                                           "opening_rig",  "opening_humanoid",  "settings",
                                           "text_scale_2", "palette_arguments", "small_1024x640"};
 
-/// Each pixel the mean of four, of the part from `min` to `max`.
+/// The part from `min` to `max` at half the size: each pixel is the mean of four.
 app::Image half_size(const app::Image& image, glm::ivec2 min, glm::ivec2 max) {
     app::Image half{(max - min) / 2, {}};
     const auto row = 4 * static_cast<std::size_t>(image.size.x);
@@ -85,8 +85,8 @@ app::Image golden_part(const std::string& name, const app::Image& window, const 
 std::string panel_texts(const FrameRecord& frame) {
     std::string lines;
     for (const DrawnText& each : frame.texts) {
-        if (each.window == nullptr) continue;  // on the scene: in the picture
-        if (each.text == "Debug") continue;    // the title of Dear ImGui's own window, which is never shown
+        if (each.window == nullptr) continue;  // text on the scene: in the picture
+        if (each.text == "Debug") continue;    // title of Dear ImGui's own window, which is never shown
         const app::Rect& box = each.box;
         const bool seen = box.max.x > each.clip.min.x && box.max.y > each.clip.min.y &&
                           box.min.x < each.clip.max.x && box.min.y < each.clip.max.y;

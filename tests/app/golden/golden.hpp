@@ -1,4 +1,4 @@
-// Golden pictures: what the program is expected to draw, kept beside the scripts that lead there.
+// Golden pictures: the expected output of the program, beside the scripts that produce it.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -16,34 +16,33 @@ namespace tendril::test {
 
 /// tests/app/golden
 std::filesystem::path golden_folder();
-/// Every script there, sorted; its picture has the same name, with .png.
+/// Every script there, sorted; its picture has the same name with .png.
 std::vector<std::filesystem::path> golden_scripts();
 
-/// Where pictures that failed are left: $TENDRIL_TEST_OUTPUT, else tests/output.
+/// The folder for pictures that failed: $TENDRIL_TEST_OUTPUT, else tests/output.
 std::filesystem::path output_folder();
 
-/// What of a window a golden picture shows, so that a label renamed in a panel renews few of them: of some
-/// scripts the whole window, of the others the middle, with the view, plots and strip, at half the size.
+/// The part of a window that a golden picture shows: the whole window for some scripts, otherwise the middle
+/// at half the size (view, plots and strip), so that renaming a label in a panel affects few pictures.
 app::Image golden_part(const std::string& name, const app::Image& window, const app::Json& state);
 
-/// The texts of the panels, one a line with its place in pixels: what a picture of them would hold, for a
-/// person to read in a diff.
+/// The texts of the panels, one per line with its position in pixels: what a picture of them would show, in a
+/// form that is readable in a diff.
 std::string panel_texts(const FrameRecord& frame);
 
-/// Forgives the rounding of the golden picture's colours.
+/// Ignores the rounding of the golden picture's colours.
 Difference compare_with_golden(const app::Image& golden, const app::Image& actual);
 
-/// Whether the picture looks as the golden one does. Where not, leaves `name`.actual.png and
-/// `name`.difference.png in the output folder and says so.
+/// Whether the picture looks like the golden one. If not, writes `name`.actual.png and `name`.difference.png
+/// to the output folder and says so.
 testing::AssertionResult looks_like(const app::Image& actual, const std::filesystem::path& golden,
                                     const std::string& name);
 
-/// What $TENDRIL_RENEW_GOLDENS asks for: nothing, "1" to renew the pictures that no longer pass, "all" for
-/// every one.
+/// The request in $TENDRIL_RENEW_GOLDENS: nothing, "1" to renew the pictures that fail, "all" for all.
 enum class Renewal { None, Failing, All };
 Renewal wanted_renewal();
 
-/// Keeps `actual` as the golden picture, in few colours.
+/// Writes `actual` as the golden picture, with few colours.
 void renew_golden(const std::filesystem::path& golden, const app::Image& actual);
 
 }  // namespace tendril::test

@@ -1,4 +1,4 @@
-// The pictures that the program draws, held against the golden ones; with both backends that need no display.
+// Compares the program's pictures with the golden ones, with both backends that need no display.
 #include "tests/app/golden/golden.hpp"
 
 #include <map>
@@ -10,7 +10,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Why a backend is not there; empty where it is.
+/// Why a backend is unavailable; empty if it is available.
 std::string missing(const std::string& backend) {
     static std::map<std::string, std::string> known;
     const auto [found, is_new] = known.try_emplace(backend);
@@ -30,11 +30,11 @@ Drawn draw(const fs::path& script, const std::string& backend) {
     const FrameRecorder recorder;
     const TempFolder folder;
     const fs::path picture = folder / "picture.png", state = folder / "state.json";
-    // Beside the script lie the files that it names.
+    // Files that the script names are beside it.
     const Outcome outcome = run_here({"--headless", "--backend", backend, "--script", script.string(),
                                       "--screenshot", picture.string(), "--state", state.string()},
                                      script.parent_path());
-    // What a script expects to be refused is told all the same.
+    // Refusals that a script expects are still reported.
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     if (outcome.exit_code != 0) return {};
     return {golden_part(script.stem().string(), app::read_png(picture), app::parse_json(read(state))),

@@ -7,7 +7,7 @@ import os
 import struct
 import sys
 
-# name, parent, where in the body, metres
+# name, parent, position in the body in metres
 JOINTS = [("Hips", None, (0, 0.95, 0)), ("Spine", "Hips", (0, 1.08, 0)), ("Chest", "Spine", (0, 1.25, 0)),
           ("Neck", "Chest", (0, 1.46, 0)), ("Head", "Neck", (0, 1.54, 0.01))]
 for side, x in (("Left", 1), ("Right", -1)):

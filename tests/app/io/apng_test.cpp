@@ -1,5 +1,4 @@
-// Animated PNG: what is read back is what was written, pixel for pixel; and the reader that says so is
-// strict.
+// Animated PNG: reading returns what was written, pixel for pixel, with a strict reader.
 #include "app/io/apng.hpp"
 
 #include <random>
@@ -13,7 +12,7 @@ namespace {
 using app::ApngFile;
 using app::Image;
 
-/// A gradient with a square on it that moves with the number, see-through at its edge.
+/// A gradient with a square that moves with `number`, translucent at its edge.
 Image picture(glm::ivec2 size, int number) {
     Image image{size, {}};
     for (int y = 0; y < size.y; ++y)
@@ -64,7 +63,7 @@ TEST(AnimatedPng, ReadsBackPixelForPixel) {
     }
 }
 
-/// More than fits into a chunk, and than zlib holds back.
+/// Larger than a chunk, and than zlib's buffer.
 TEST(AnimatedPng, LargeFramesAreManyChunks) {
     const std::vector<Image> frames{noise({500, 300}, 1), noise({500, 300}, 2)};
     const std::string bytes = written(frames, {.transparent = true});
@@ -106,7 +105,7 @@ TEST(AnimatedPng, ShowsAFrameForSoManyTicks) {
     EXPECT_DOUBLE_EQ(seconds({.every = 60, .speed = 2.0}), 0.5);
 }
 
-/// A viewer that knows no animation, and every test that compares pictures, sees the first frame.
+/// Viewers without animation, and tests that compare pictures, see the first frame.
 TEST(AnimatedPng, IsAPictureOfItsFirstFrame) {
     const std::vector<Image> frames{picture({31, 17}, 0), picture({31, 17}, 1)};
     EXPECT_EQ(app::decode_png(written(frames, {.transparent = true})).rgba, frames[0].rgba);

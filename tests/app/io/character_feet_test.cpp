@@ -1,4 +1,4 @@
-// The figure's own walk, and clips that others made, with their feet on the ground.
+// The figure's walk, and third-party clips, with their feet on the ground.
 #include <gtest/gtest.h>
 
 #include <filesystem>

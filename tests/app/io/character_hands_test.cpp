@@ -1,4 +1,4 @@
-// The figure's own punch, brought to a post.
+// The figure's punch, aimed at a post.
 #include <gtest/gtest.h>
 
 #include <tendril/humanoid/hands.hpp>

@@ -1,5 +1,5 @@
-// Files that are broken, or want to break something: each is refused with words that begin with the file's
-// name and say where, or read as what it is; none takes long, or much memory.
+// Broken and malicious files: each is refused with a message that begins with the file's name and says where,
+// or is read correctly; none takes long, or much memory.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 
 class HostileCharacter : public testing::Test {
   protected:
-    /// What reading says; "" where it is read.
+    /// The message of the refusal; "" if the file is read.
     std::string refusal(const std::string& name, const std::string& bytes) {
         test::write(folder_ / name, bytes);
         try {
@@ -72,12 +72,12 @@ TEST_F(HostileCharacter, empty_and_other_files_are_refused_by_every_reader) {
 
 const std::string asset = R"({"asset":{"version":"2.0"},)";
 
-/// Two joints, the second on the first; `more` may say more of them.
+/// Two joints, the second a child of the first; `first` and `second` add members to them.
 std::string two_joints(const std::string& first, const std::string& second, const std::string& rest = "") {
     return asset + R"("nodes":[{"children":[1])" + first + R"(},{"translation":[0,1,0])" + second +
            R"(}],"skins":[{"joints":[0,1]}])" + rest + "}";
 }
-/// A clip that turns node 0; keys as a data URI of floats.
+/// A clip that animates node 0; keys as a data URI of floats.
 std::string keys(const std::string& data, const std::string& times, const std::string& values,
                  const std::string& path = "translation", const std::string& node = "0") {
     return R"(,"buffers":[{"byteLength":)" + std::to_string(data.size() / 4 * 3) +
@@ -188,14 +188,14 @@ TEST_F(HostileCharacter, gltf_images_that_are_not_there_are_refused) {
 }
 
 TEST_F(HostileCharacter, gltf_bytes_that_nothing_uses_are_checked_as_well) {
-    // A well file, with one view, one accessor or one mesh besides that claims what is not there.
+    // A valid file with one additional view, accessor or mesh that refers to missing data.
     const auto with = [](const std::string& view, const std::string& accessor, const std::string& more = "") {
         const std::string view_1 = R"({"buffer":0,"byteOffset":12,"byteLength":36})";
         const std::string values = three_places + (accessor.empty() ? "" : "," + accessor);
         std::string file =
             two_joints("", "", keys(base64(std::vector<float>(12, 0.5f)), three_times, values) + more);
         if (const auto at = file.find(view_1); !view.empty()) file.insert(at + view_1.size(), "," + view);
-        // The clip's times must rise.
+        // The clip's times must be ascending.
         return file.replace(file.find("AAAAPwAAAD8AAAA/"), 16, base64({0.0f, 0.5f, 1.0f}));
     };
     ASSERT_EQ(refusal("well.gltf", with("", "")), "");
@@ -405,13 +405,13 @@ std::string fbx_models(const std::vector<std::pair<int, int>>& connections, int 
 TEST_F(HostileCharacter, fbx_that_breaks_an_assertion_of_assimp_does_not_end_the_program) {
     const std::string bytes =
         test::read(tendril::test::source_path("tests/fuzz/corpus/fbx/curve_without_keys.fbx"));
-    const std::string words = refusal("keys.fbx", bytes);  // where Assimp has no assertions it may be read
+    const std::string words = refusal("keys.fbx", bytes);  // without assertions in Assimp it may be read
     EXPECT_TRUE(words.empty() || words.find("does not hold") != words.npos) << words;
 }
 
 TEST_F(HostileCharacter, a_figure_without_nodes_is_refused_whatever_reads_it) {
     EXPECT_THROW(static_cast<void>(skeleton_of({})), std::runtime_error);
-    // An animated mesh with pivots and no bone, of Assimp's tests.
+    // An animated mesh with pivots but no bones, from Assimp's tests.
     const std::filesystem::path animated =
         tendril::test::characters_folder().parent_path() / "found/fbx_mesh_only.fbx";
     if (std::filesystem::exists(animated))

@@ -1,5 +1,5 @@
-// Where the joints of characters are, at rest and in clips, against readers of the formats that share nothing
-// with the program's: the Python scripts in reference/.
+// Joint positions of characters, at rest and in clips, compared with independent readers of the formats: the
+// Python scripts in reference/.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -30,7 +30,7 @@ bool has_python() {
     return std::system("python3 -c '' > /dev/null 2>&1") == 0;
 }
 
-/// Times to look at: any, or those of keys where the file's own curves are not kept between its keys.
+/// Sample times: any, or those of keys if the file's curves between keys are not preserved.
 std::vector<double> times_in(const humanoid::Clip& clip, bool at_keys, std::mt19937& random) {
     std::vector<double> times;
     if (!at_keys) {
@@ -88,7 +88,7 @@ fs::path dump(const fs::path& file, const test::TempFolder& folder) {
     return to;
 }
 
-/// Every character file in a folder, none over the tolerance away, in metres.
+/// Checks every character file in a folder; none may be off by more than the tolerance, in metres.
 void check_all(const fs::path& of, double tolerance) {
     const test::TempFolder folder;
     std::string dumps;

@@ -1,5 +1,4 @@
-// What characters wear: corners bound to nodes, the strongest weights, morphs and their clips, colours; and
-// what of it is refused.
+// Skins: vertices bound to nodes, the strongest weights, morphs and their clips, colours; and refusals.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,8 +21,8 @@ std::string raw(std::initializer_list<T> values) {
     return bytes;
 }
 
-/// A triangle at x = 1, skinned to nodes 0 and 1 of which the second stands 1 m above the first; with a morph
-/// that lifts it by 1 m, animated from 0 to 1 in a second. Each chunk of numbers is a buffer view of its own.
+/// A triangle at x = 1, skinned to nodes 0 and 1, the second 1 m above the first; with a morph that lifts it
+/// by 1 m, animated from 0 to 1 in a second. Each list of numbers has a buffer view of its own.
 class OwnGltf {
   public:
     std::string primitive = R"("POSITION":0,"JOINTS_0":1,"WEIGHTS_0":2)";

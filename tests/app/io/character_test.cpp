@@ -1,4 +1,4 @@
-// Characters: the built-in figure, and files that others made where those are present.
+// Characters: the built-in figure, and third-party files if present.
 #include <gtest/gtest.h>
 
 #include <filesystem>

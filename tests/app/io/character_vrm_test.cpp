@@ -1,4 +1,4 @@
-// The bones that a VRM file names are its map, whatever the nodes are called and wherever they are.
+// The bones that a VRM file names are its bone map, whatever its nodes are called and wherever they are.
 #include <gtest/gtest.h>
 
 #include "app/io/character/gltf.hpp"
@@ -14,7 +14,7 @@ constexpr const char* needed[]{"hips",          "spine",         "head",        
                                "rightHand",     "leftUpperLeg",  "leftLowerLeg",  "leftFoot",
                                "rightUpperLeg", "rightLowerLeg", "rightFoot"};
 
-/// A chain of nameless nodes that goes up, and what is said of them.
+/// A chain of unnamed nodes that goes up, with this extension and these bones.
 Character read(const std::string& extension, const std::string& bones) {
     std::string nodes;
     for (int i = 0; i < 19; ++i)

@@ -1,4 +1,4 @@
-// Other programs: found on PATH, given bytes, and their failures told in their own words.
+// Child processes: found on PATH, given bytes, and their failures reported in their own words.
 #include "app/io/child_process.hpp"
 
 #include "tests/app/support/temp_folder.hpp"
@@ -38,7 +38,7 @@ TEST(ChildProcesses, FailInTheirOwnWords) {
     EXPECT_TRUE(has(message_of([] { ChildProcess(Words{"/nowhere/tool"}); }), "cannot start tool"));
 }
 
-/// A pipe that nobody reads any more would end this program too.
+/// Writing to a pipe without a reader must not end this program.
 TEST(ChildProcesses, MayEndBeforeTheyHaveReadAll) {
     const std::string many(10'000'000, 'x');
     const auto failure = [&](const std::string& script) {
@@ -56,7 +56,7 @@ TEST(ChildProcesses, ThatHangAreGivenUp) {
         "sh no more data"));
 }
 
-/// It goes on in the background, as xclip does, with the same files open.
+/// The child leaves a process in the background with the same files open, as xclip does.
 TEST(ChildProcesses, MayLeaveOneBehind) {
     EXPECT_EQ(message_of([] { ChildProcess(shell("cat > /dev/null; sleep 5 & exit 0")).finish(2.0); }), "");
 }

@@ -26,7 +26,7 @@ using tendril::test::TempFolder;
 
 constexpr double tenth_of_a_millimetre = 1e-4;
 
-/// A tenth of a millimetre on a person of 1.8 m, and as much of a larger figure: files hold floats.
+/// 0.1 mm for a figure of 1.8 m, proportionally more for larger ones: files store floats.
 double allowed_error(const humanoid::Skeleton& skeleton) {
     std::vector<humanoid::Placement> placements(skeleton.size());
     humanoid::place(skeleton, humanoid::rest_pose(skeleton), placements);
@@ -76,7 +76,7 @@ TEST_F(Exports, steps_and_cubics_and_flipped_keys_come_back) {
         {0.1, 0.7},
         {glm::dvec3(0), {0, 1, 0}, {1, 2, 0}, {0, -3, 0}, {1, 1, 0}, glm::dvec3(0)}};
     clip.channels[1].rotation = {Interpolation::Step, {0.0, 0.55}, {{1, 0, 0, 0}, {0, 1, 0, 0}}};
-    // Away, back with another sign, and there again.
+    // Away, back with the opposite sign, and away again.
     const auto about_x = [](double half) { return glm::dquat(std::cos(half), std::sin(half), 0, 0); };
     clip.channels[2].rotation = {Interpolation::Linear,
                                  {0.0, 0.123, 0.5, 1.0},
@@ -112,7 +112,7 @@ TEST_F(Exports, a_bvh_has_its_rate_its_names_and_a_unit_that_is_read_again) {
     EXPECT_NE(bvh.find("Frames: 34\n"), std::string::npos);
     EXPECT_NE(bvh.find("Frame Time: 0.03333333333333333\n"), std::string::npos);
     EXPECT_NE(bvh.find("JOINT HeadTop_End\n"), std::string::npos);
-    // A giant and a dwarf keep their sizes, though a BVH has no unit.
+    // Giants and dwarfs keep their sizes, although a BVH has no unit.
     for (const double size : {0.01, 0.3, 2.0, 4.0, 90.0}) {
         std::vector<humanoid::Node> nodes = figure_.skeleton.nodes();
         std::vector<Clip> clips = figure_.clips;
@@ -122,7 +122,7 @@ TEST_F(Exports, a_bvh_has_its_rate_its_names_and_a_unit_that_is_read_again) {
         const ExportReport report = write(other, clips[0], "other.bvh");
         EXPECT_LT(report.worst, 1e-5 * std::max(size, 1.0)) << size << ": " << report.text();
     }
-    // End sites that were read become end sites again.
+    // End sites that were read are written as end sites.
     const Character once = read_character(folder_ / "walk.bvh");
     write(once, once.clips[0], "again.bvh");
     EXPECT_EQ(read_character(folder_ / "again.bvh").skeleton.size(), once.skeleton.size());
@@ -148,7 +148,7 @@ TEST_F(Exports, what_cannot_be_written_is_refused_and_the_old_file_stays) {
     Clip age = figure_.clips[0];
     age.duration = 1e9;
     EXPECT_THROW(write(figure_, age, "walk.glb"), std::runtime_error);
-    // The file has other nodes than the character that is said to come from it.
+    // The file has other nodes than the character that claims to come from it.
     const Character other{.skeleton = *humanoid::Skeleton::make({{"a", -1, {}}}), .clips = {}, .notes = {}};
     EXPECT_THROW(write(other, Clip{}, "walk.glb", (folder_ / "walk.glb").string()), std::runtime_error);
     EXPECT_EQ(text("walk.glb"), before);
@@ -166,11 +166,11 @@ TEST_F(Exports, feet_on_the_ground_are_baked) {
         EXPECT_LT(report.worst, tenth_of_a_millimetre) << report.text();
         GltfStructure{text("on_ground.glb")};
     }
-    // Nothing to stand on: nothing is changed.
+    // Without a ground nothing changes.
     EXPECT_EQ(with_feet_on({}, figure_.skeleton, map, walk, 60.0), walk);
 }
 
-/// All members of `before` but animations and what holds their numbers are in `after` too.
+/// All members of `before` except animations and their data are also in `after`.
 void expect_kept(const nlohmann::json& before, const nlohmann::json& after) {
     for (const char* member : {"scenes", "scene", "skins", "meshes", "materials", "textures", "samplers",
                                "cameras", "extensions", "extensionsUsed"})

@@ -1,4 +1,4 @@
-// Capsules fitted to the skins of characters that others made, and to that of the golden pictures.
+// Capsules fitted to the skins of third-party characters, and of the golden pictures' character.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -31,11 +31,11 @@ struct Worn {
         if (is_body()) capsules = fitted_capsules(character.skeleton, map, points);
     }
     bool is_body() const { return character.skin.mesh && map.is_usable(); }
-    /// Metres from the surface of a capsule; negative within.
+    /// Metres from the surface of a capsule; negative inside.
     static double off(const PlacedCapsule& capsule, const glm::dvec3& point) {
         return gap(capsule, {point, point, 0.0});
     }
-    /// Of the points of bones with a capsule, the part that is within any of `them`, or up to 1 cm off.
+    /// Of the points of bones with a capsule, the fraction that is inside any of `them` or within 1 cm.
     double held(const std::vector<BodyCapsule>& them) const {
         std::array<bool, bone_count> has{};
         for (const BodyCapsule& each : them) has[static_cast<std::size_t>(each.bone)] = true;
@@ -78,7 +78,7 @@ TEST(CapsulesOfCharacters, hold_their_skins_and_let_them_rest) {
             EXPECT_GE(each.radius, 0.4 * usual[i].radius);
             EXPECT_LE(each.radius, 3.0 * usual[i].radius);
         }
-        // Body.glb 0.97; of the others 0.66 to 0.92, and by the defaults 0.11 to 0.64.
+        // 0.97 for body.glb, 0.66 to 0.92 for the others; with the default capsules 0.11 to 0.64.
         const double held = worn.held(worn.capsules);
         EXPECT_GT(held, 0.6);
         EXPECT_GT(held, worn.held(usual));
@@ -104,7 +104,7 @@ TEST(CapsulesOfCharacters, keep_a_hand_out_of_the_waist) {
         const auto at = [&](Bone bone) {
             return worn.placed[static_cast<std::size_t>(worn.map[bone].node)].position;
         };
-        // A third of the way from the hips to the head; from the front to the back.
+        // A third of the way from the hips to the head, from front to back.
         const glm::dvec3 waist = glm::mix(at(Bone::Hips), at(Bone::Head), 0.33);
         const double size = glm::distance(at(Bone::Hips), at(Bone::Head)) / 0.6;
         const glm::dvec3 ahead = facing(skeleton, worn.map).forward;

@@ -1,5 +1,4 @@
-// What the glTF specification asks of a file's structure, checked here so that no other program is needed: a
-// part of what the Khronos validator does.
+// Checks a file's structure against the glTF specification, a subset of what the Khronos validator checks.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -14,7 +13,7 @@ namespace tendril::app {
 
 class GltfStructure {
   public:
-    /// The bytes of a GLB file, or of a text with its buffer in it.
+    /// The bytes of a GLB file, or of a text file with an embedded buffer.
     explicit GltfStructure(const std::string& bytes) {
         bytes.starts_with("glTF") ? read_binary(bytes) : read_text(bytes);
         if (json.contains("buffers")) check_views();

@@ -1,4 +1,4 @@
-// Feet that slide, float or sink in a clip, and the clip after the lint has mended them.
+// Feet that slide, float or sink in a clip, and the clip after lint has fixed it.
 #include <gtest/gtest.h>
 
 #include "tests/app/io/lint_support.hpp"
@@ -12,7 +12,7 @@ using tendril::test::Random;
 
 class LintCure : public LintFigure {
   protected:
-    /// Mends what is found until nothing is, as a person would who clicks on each.
+    /// Fixes findings until there are none, like a user who clicks on each.
     Clip mended(Clip clip, int most) const {
         for (int i = 0;; ++i) {
             const LintReport report = run(clip);
@@ -36,7 +36,7 @@ class LintCure : public LintFigure {
         sample(clip, skeleton, time, pose);
         return placed_pose(pose);
     }
-    /// The furthest that a node is elsewhere in the other clip, metres.
+    /// The maximum distance of a node between two clips, metres.
     double apart(const Clip& a, const Clip& b, const char* node, double from, double to) const {
         double most = 0.0;
         for (double time = from; time <= to; time += 1.0 / 240.0)
@@ -52,7 +52,7 @@ double ramp(double time, double first, double last) {
 }
 
 TEST_F(LintCure, a_foot_that_slid_stands) {
-    // The left foot stands flat from 1.21 s to 1.49 s.
+    // The left foot is flat on the ground from 1.21 s to 1.49 s.
     for (const double rate : {24.0, 30.0, 60.0, 120.0}) {
         for (const glm::dvec3& way :
              {glm::dvec3(0.06, 0, 0), glm::dvec3(0, 0, -0.1), glm::dvec3(0.04, 0, 0.04)}) {
@@ -141,7 +141,7 @@ TEST_F(LintCure, cubic_and_stepped_tracks_and_nodes_without_keys_are_mended_too)
         EXPECT_LT(apart(clip, whole, "LeftFoot", 0.0, 0.9), 1e-9);
         EXPECT_EQ(whole.channels[1].rotation.interpolation, kind);
     }
-    // Hips that are never keyed, over feet that are.
+    // Hips without keys, above feet with keys.
     Clip still{.name = "still", .duration = 2.0, .channels = {}};
     Channel thigh{.node = *skeleton.find("LeftUpperLeg")}, shin{.node = *skeleton.find("LeftLowerLeg")};
     for (int i = 0; i <= 60; ++i) {

@@ -1,4 +1,4 @@
-// Clips of the built-in figure with something wrong planted in them, and others with nothing wrong.
+// Clips of the built-in figure with a planted fault, and clips without any.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ namespace tendril::app {
 
 using namespace humanoid;
 
-/// The pose of every frame, to change and to make a clip of again.
+/// The poses of all frames: edit them and convert them back to a clip.
 class Frames {
   public:
     Frames(const Skeleton& skeleton, const Clip& clip, double rate, double seconds)
@@ -39,7 +39,7 @@ class Frames {
         place(skeleton_, poses[frame], all);
         return all;
     }
-    /// Moves an ankle, by turning thigh and shin; the foot keeps its rotation.
+    /// Moves an ankle by rotating thigh and shin; the foot keeps its rotation.
     void move_foot(std::size_t frame, const std::string& side, const glm::dvec3& by) {
         const auto node = [&](const char* bone) { return *skeleton_.find(side + bone); };
         const std::size_t upper = node("UpperLeg"), lower = node("LowerLeg"), foot = node("Foot");
@@ -61,7 +61,7 @@ class Frames {
         now = placed(frame);
         turn(frame, foot, kept * glm::conjugate(now[foot].rotation()));
     }
-    /// Turns a node in the figure's space.
+    /// Rotates a node in the figure's space.
     void turn(std::size_t frame, std::size_t node, const glm::dquat& by) {
         const glm::dquat parent = placed(frame)[static_cast<std::size_t>(skeleton_[node].parent)].rotation();
         glm::dquat& local = poses[frame][node].rotation;

@@ -1,4 +1,4 @@
-// The motion lint on the built-in figure's clips, with faults planted and without, and on files of others.
+// Motion lint on the built-in figure's clips, with and without planted faults, and on third-party files.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -16,7 +16,7 @@ using tendril::test::Random;
 class LintTest : public LintFigure {
   protected:
     std::int32_t node(const char* name) const { return static_cast<std::int32_t>(*skeleton.find(name)); }
-    /// Everything that was found is of that kind and node, and it is found at all.
+    /// Expects findings, all of this kind and node.
     void expect_only(const Clip& clip, Fault fault, const char* name, std::size_t first, std::size_t last,
                      double amount, double tolerance) const {
         const LintReport report = run(clip);
@@ -32,7 +32,7 @@ class LintTest : public LintFigure {
     }
 };
 
-/// 0 before `first`, 1 from `last` on.
+/// 0 up to `first`, 1 from `last` on.
 double ramp(std::size_t frame, std::size_t first, std::size_t last) {
     if (frame <= first) return 0.0;
     if (frame >= last) return 1.0;
@@ -66,7 +66,7 @@ TEST_F(LintTest, finds_nothing_in_variations_of_them) {
         const glm::dquat turn = glm::angleAxis(angle, glm::dvec3(0, 1, 0));
         const glm::vec3 point = random.point(20.0f);
         const bool in_place = random.chance(4), lifted = random.chance(3);
-        const double pace = walks ? faster / rate : 0.0;  // metres that the walk gets on in a frame
+        const double pace = walks ? faster / rate : 0.0;  // metres that the walk advances per frame
         for (std::size_t k = 0; k < frames.poses.size(); ++k) {
             rig::Transform& root = frames.poses[k][0];
             if (in_place) root.translation.z -= pace * static_cast<double>(k);
@@ -81,7 +81,7 @@ TEST_F(LintTest, finds_nothing_in_variations_of_them) {
 }
 
 TEST_F(LintTest, finds_a_slid_foot) {
-    // The left foot stands flat from 0.11 s to 0.39 s of each 1.1 s.
+    // The left foot is flat on the ground from 0.11 s to 0.39 s of each 1.1 s.
     for (const double rate : {30.0, 60.0}) {
         const auto at = [&](double seconds) { return static_cast<std::size_t>(std::lround(seconds * rate)); };
         for (const glm::dvec3& way :
@@ -128,7 +128,7 @@ TEST_F(LintTest, finds_hips_that_are_lowered_and_feet_that_float) {
         ASSERT_FALSE(report.findings.empty()) << by;
         for (const Finding& each : report.findings) {
             EXPECT_EQ(each.fault, by < 0.0 ? Fault::Sinking : Fault::Floating) << each.text;
-            // The tip of its toes dips by 20 mm when a foot leaves.
+            // The toe tip dips by 20 mm when a foot lifts.
             EXPECT_NEAR(each.amount, 1000.0 * std::abs(by), 21.0) << each.text;
             EXPECT_GE(each.frame, 60u);
             EXPECT_LE(each.frame, 120u);
@@ -163,7 +163,7 @@ TEST_F(LintTest, finds_a_popped_knee_and_mends_it) {
 }
 
 TEST_F(LintTest, finds_a_knee_that_snaps_straight) {
-    // The right foot goes where its leg cannot reach, as a careless foot IK has it.
+    // The right foot goes beyond its leg's reach, as careless foot IK moves it.
     Frames frames = walk();
     for (std::size_t k = 40; k < 60; ++k) {
         const glm::dvec3 hip = frames.placed(k)[*skeleton.find("RightUpperLeg")].position;
@@ -277,16 +277,16 @@ TEST(LintFiles, those_of_others_are_what_they_were_found_to_be) {
         return counts;
     };
     using Counts = std::map<Fault, int>;
-    // Made with care: nothing.
+    // Careful work: nothing.
     EXPECT_EQ(faults("cesium_man.gltf"), Counts());
     EXPECT_EQ(faults("human_clip.glb"), Counts());
     EXPECT_EQ(faults("pab_skeleton.fbx"), Counts());
-    // Exported without a thought for signs.
+    // Exported without regard for quaternion signs.
     EXPECT_EQ(faults("snake.glb").size(), 1u);
     EXPECT_GT(faults("snake.glb")[Fault::SignFlip], 0);
     EXPECT_GT(faults("pab_walk.fbx")[Fault::SignFlip], 0);
     EXPECT_GT(faults("robot.glb")[Fault::SignFlip], 5);
-    // A capture as it came: toes that jump by 28 degrees within 1/120 s.
+    // A raw capture: toes that jump by 28 degrees within 1/120 s.
     EXPECT_GT(faults("cmu_01_01.bvh")[Fault::Jump], 0);
     EXPECT_EQ(faults("cmu_01_01.bvh")[Fault::KneePop], 0);
 }

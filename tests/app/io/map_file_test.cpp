@@ -1,4 +1,4 @@
-// Bone maps as files: good ones come back, bad ones are refused and say where.
+// Bone maps as files: valid ones load unchanged, invalid ones are refused with the position of the fault.
 #include <gtest/gtest.h>
 
 #include "app/document/json_complete.hpp"
@@ -102,7 +102,7 @@ TEST(MapFile, is_kept_for_a_skeleton_of_the_same_names_and_no_other) {
     EXPECT_EQ(tendril::test::read(path), map_text(saved));
     EXPECT_EQ(find_kept_map(folder.path(), skeleton()), saved);
     std::vector<humanoid::Node> nodes = skeleton().nodes();
-    nodes.back().rest.translation *= 2.0;  // of another size, but of the same names
+    nodes.back().rest.translation *= 2.0;  // another size, but the same names
     EXPECT_EQ(find_kept_map(folder.path(), *humanoid::Skeleton::make(nodes)), saved);
     nodes.back().name = "other";
     const humanoid::Skeleton other = *humanoid::Skeleton::make(nodes);
@@ -134,7 +134,7 @@ TEST(MapFile, that_is_kept_is_refused_with_its_name_where_it_cannot_be_the_chara
     std::filesystem::create_directories(path);
     EXPECT_TRUE(tendril::test::has(
         tendril::test::message_of([&] { find_kept_map(folder.path(), skeleton()); }), "is not a file"));
-    // Where the folder cannot be made.
+    // If the folder cannot be created.
     tendril::test::write(folder / "file", "");
     EXPECT_TRUE(tendril::test::has(
         tendril::test::message_of([&] { keep_map(folder / "file", saved, skeleton()); }), "cannot write"));

@@ -1,4 +1,4 @@
-// Skins of twisted arms, by linear blending and with the twist spread: how thin they get, and how they move.
+// Skins of twisted arms, linearly blended and with the twist spread: thinness and motion.
 #include "app/io/character/twist_spread.hpp"
 
 #include <gtest/gtest.h>
@@ -21,8 +21,8 @@ constexpr double degree = 3.14159265358979323846 / 180.0;
 constexpr float radius = 0.04f;
 const glm::dvec3 along{1.0, 0.0, 0.0};
 
-/// A tube along the left arm of the figure, from its chest to its fingers, a ring every 5 mm. Bones share
-/// the rings 3 cm to both sides of their joints.
+/// A tube along the figure's left arm, from chest to fingers, with a ring every 5 mm. Bones share the rings
+/// within 3 cm of their joints.
 class TwistedTube : public testing::Test {
   protected:
     static constexpr int sides = 16;
@@ -67,7 +67,7 @@ class TwistedTube : public testing::Test {
         for (std::size_t i = 0; i < skin.mesh->positions.size(); ++i) result.push_back(skinned(draw, i));
         return result;
     }
-    /// Of an arm that is straight: the part of the radius that the thinnest ring has.
+    /// For a straight arm: the radius of the thinnest ring relative to the tube's.
     double thinnest(bool spreads) const {
         float least = 1.0f;
         for (const glm::vec3& each : corners(spreads))
@@ -139,7 +139,7 @@ TEST_F(TwistedTube, moves_as_evenly_as_the_hand_turns_but_for_half_a_turn) {
             turn(Bone::LeftHand) = swing * glm::angleAxis(twist * degree, along);
             const std::vector<glm::vec3> now = corners(true);
             if (!before.empty()) {
-                // Of the hand a corner is 20 cm off its axis at most; and that of the arm goes half a turn.
+                // A vertex of the hand is at most 20 cm off its axis, and the arm makes half a turn.
                 ASSERT_LT(farthest(before, now), 0.25 * 0.5 * degree) << twist;
             }
             before = now;

@@ -1,4 +1,4 @@
-// The Chain lab's commands: what each does, what each refuses, and that a refusal changes nothing.
+// The Chain lab's commands: effects, refusals, and that a refusal changes nothing.
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -128,7 +128,7 @@ TEST_F(ChainCommands, ADragIsOneUndoStepAndUndoIsExact) {
     EXPECT_EQ(save_scene(workspace), start);
     run("redo");
     EXPECT_EQ(save_scene(workspace), dragged);
-    run("chain.select", {{"index", 1}});  // choosing is no change
+    run("chain.select", {{"index", 1}});  // selecting is not a change
     EXPECT_EQ(workspace.history.size(), 1u);
 }
 

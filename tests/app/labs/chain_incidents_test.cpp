@@ -16,7 +16,7 @@ float angle_between(glm::vec3 a, glm::vec3 b) {
     return glm::degrees(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)));
 }
 
-/// The bone that turned the furthest between two poses, by this test's own count.
+/// The bone that turned the furthest between two poses, computed independently.
 struct Turn {
     std::size_t joint = 0;
     float degrees = 0.0f;
@@ -33,7 +33,7 @@ Turn furthest_turn(const std::vector<glm::vec3>& was, const std::vector<glm::vec
 class ChainIncidents : public ChainTest {
   protected:
     std::mt19937 random{7};
-    std::string also_;  ///< another cause that is right too
+    std::string also_;  ///< another cause that is also correct
     float uniform(float low, float high) {
         return low + (high - low) * static_cast<float>(random() >> 8) / 16777216.0f;
     }
@@ -46,7 +46,7 @@ class ChainIncidents : public ChainTest {
     }
     glm::vec3 across(glm::vec3 line) { return glm::normalize(glm::cross(line, direction())); }
 
-    /// A chain of so many bones from the origin, each at an angle to the one before, in mode reach.
+    /// A chain of bones from the origin, each at an angle to the one before, in mode Reach.
     void chain(const std::vector<float>& lengths, glm::vec3 first, glm::vec3 axis, float bend) {
         run("chain.clear");
         glm::vec3 at(0.0f);
@@ -64,8 +64,8 @@ class ChainIncidents : public ChainTest {
         int flips = 0, marked = 0;
         std::string problem;
     };
-    /// Moves the target along a path. Whatever turns so that the rule counts it has to be marked in that very
-    /// step, with its joint and with this cause; and nothing else.
+    /// Moves the target along a path. Every turn that the rule counts must be marked in that very step, with
+    /// its joint and this cause; and nothing else.
     Gesture drag(const Path& path, const std::string& cause) {
         for (int settled = 0; settled < 3; ++settled) target(path.front());
         Gesture gesture;
@@ -99,7 +99,7 @@ class ChainIncidents : public ChainTest {
         }
         return gesture;
     }
-    /// Whether the joint is an end of a bone that turned as far as any, and moved as far as its other end.
+    /// Whether the joint is an end of a bone that turned the furthest, and moved as far as the other end.
     bool jumped(const std::vector<glm::vec3>& was, std::size_t joint, const Turn& turn) const {
         const std::vector<glm::vec3> is = pose();
         const auto moved = [&](std::size_t i) { return glm::distance(was[i], is[i]); };
@@ -111,7 +111,7 @@ class ChainIncidents : public ChainTest {
         }
         return false;
     }
-    /// Gestures until `count` of them have flipped.
+    /// Tries gestures until `count` of them have flipped.
     template <class Make>
     void expect_planted(int count, const std::string& cause, Make make) {
         int flipped = 0, tried = 0;
@@ -124,7 +124,7 @@ class ChainIncidents : public ChainTest {
     }
 };
 
-/// From `from` to `to` about an axis, at a radius.
+/// An arc from angle `from` to `to` about an axis.
 Path arc(glm::vec3 centre, glm::vec3 axis, float radius, float from, float to, float step) {
     Path path;
     for (float angle = from; angle < to; angle += step)
@@ -145,7 +145,7 @@ TEST_F(ChainIncidents, TargetThroughTheRoot) {
 }
 
 TEST_F(ChainIncidents, TargetsLinePassedThePole) {
-    also_ = "the target's line came close to the pole";  // a tick before it passes, or after
+    also_ = "the target's line came close to the pole";  // a tick before or after it passes
     expect_planted(40, "the target's line passed the pole", [&] {
         const glm::vec3 line = direction(), axis = across(line);
         chain({uniform(0.7f, 1.3f), uniform(0.7f, 1.3f), uniform(0.7f, 1.3f)}, line, axis, 0.6f);

@@ -1,4 +1,4 @@
-// The inspector's numbers are those of the picture: under the microscope, of the step that is shown.
+// The inspector's numbers match the picture: under the microscope, those of the step that is shown.
 #include <cstdio>
 #include <glm/geometric.hpp>
 
@@ -38,7 +38,7 @@ TEST_F(ChainInspector, shows_the_step_that_is_under_the_microscope) {
     run("chain.select", {{"index", 4}});
     const auto shown = shown_chain(workspace).trace;
     const Trace& trace = *shown;
-    // The tip was put onto the target; nothing else has moved, so its bone is far too long.
+    // The tip was put onto the target and nothing else has moved, so its bone is far too long.
     run("microscope.seek", {{"step", 1}});
     const std::vector<glm::vec3> joints = trace.pose(1);
     const float residual = glm::distance(joints[4], part().target),
@@ -53,13 +53,13 @@ TEST_F(ChainInspector, shows_the_step_that_is_under_the_microscope) {
     EXPECT_EQ(state()["microscope"]["lengths"][4], number(bone));
     EXPECT_EQ(state()["microscope"]["lengths"][2], 1.0);
 
-    // On the way, the joints are where no solve has ended.
+    // On the way, the joints are in poses where no solve has ended.
     run("microscope.seek", {{"step", 4}});
     const std::vector<glm::vec3> later = trace.pose(4);
     expect_says("x " + metres(later[4].x, "%.3f m"));
     expect_says("tip to target " + metres(glm::distance(later[4], part().target), "%.4f m"));
 
-    // The last step is where the solve ended, and its report is shown.
+    // The last step is the end of the solve, whose report is shown.
     run("microscope.seek", {{"step", trace.frames()}});
     expect_says("Converged");
     expect_says("tip to target " + metres(part().result->report.residual, "%.4f m"));

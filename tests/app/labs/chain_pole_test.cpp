@@ -1,6 +1,5 @@
-// The pole's memory in the program: a target that crosses the line through root and pole turns the chain no
-// faster than its joints may move; through saving and opening, undo and redo, and whatever the lab's runtime
-// is.
+// The pole's memory in the program: while the target crosses the line through root and pole, joints move no
+// faster than they may; across saving and loading, undo and redo, and with any runtime of the lab.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -14,10 +13,10 @@
 namespace tendril::app {
 namespace {
 
-constexpr float radius = 3.0f;           ///< metres, of the arc that the target follows about the root
-constexpr float from = 0.2f, to = 0.7f;  ///< radians; the pole (2, 1, 0) is seen at 0.46
+constexpr float radius = 3.0f;           ///< metres, of the target's arc about the root
+constexpr float from = 0.2f, to = 0.7f;  ///< radians; the pole (2, 1, 0) is at 0.46
 
-/// Where the target is, `step` metres of arc from one to the next.
+/// Target positions, `step` metres of arc apart.
 std::vector<glm::vec3> arc(float step) {
     std::vector<glm::vec3> points;
     for (int i = 0; from + static_cast<float>(i) * step / radius < to; ++i) {
@@ -52,7 +51,7 @@ class ChainPole : public ChainTest {
         run("chain.pole", {{"to", {2, 1, 0}}});
     }
     void reach(glm::vec3 target) { run("chain.target", {{"to", point(target)}}); }
-    /// The most that a joint moves in a tick, in parts of what the target moved.
+    /// The maximum ratio of a joint's motion to the target's in a tick.
     float worst_ratio(float step) {
         float worst = 0.0f;
         const std::vector<glm::vec3> path = arc(step);
@@ -79,7 +78,7 @@ TEST_F(ChainPole, a_target_that_crosses_its_line_moves_no_joint_over_50_times_as
 TEST_F(ChainPole, is_faced_in_the_end) {
     start(6);
     for (const glm::vec3& target : arc(0.005f)) reach(target);
-    // Past the pole's direction the bend must have turned over: to the other side of the line to the target.
+    // Past the pole's direction the bend must be on the other side of the line to the target.
     const glm::vec3 line = glm::normalize(part().target), pole(2, 1, 0);
     const glm::vec3 side = pole - line * glm::dot(pole, line);
     const glm::vec3 bend = part().chain.position(3) - line * glm::dot(part().chain.position(3), line);
@@ -93,7 +92,7 @@ TEST_F(ChainPole, goes_on_from_a_saved_scene_to_the_same_bits) {
         Workspace other = make_blank_workspace(labs);
         for (std::size_t i = 0; i < path.size(); ++i) {
             reach(path[i]);
-            // The other one was saved, closed and opened before each step.
+            // The other workspace was saved, closed and opened before each step.
             if (i > 0) {
                 table.run(other, "chain.target", {{"to", point(path[i])}});
                 ASSERT_EQ(save_scene(other), save_scene(workspace)) << "step " << i;
@@ -123,7 +122,7 @@ TEST_F(ChainPole, goes_on_after_undo_and_redo_to_the_same_bits) {
     }
 }
 
-/// What a person does in Reach, with limits and without, dragging joints and looking inside.
+/// A typical session in mode Reach, with and without limits, with dragged joints and studies.
 void play_session(const CommandTable& table, Workspace& workspace, const Labs& labs,
                   const std::function<void()>& after_each) {
     const auto run = [&](const char* name, Json arguments = Json::object()) {
@@ -186,7 +185,7 @@ TEST_F(ChainPole, solvers_are_made_once_per_chain) {
 namespace tendril::test {
 namespace {
 
-/// The same in the built program: what it writes after each step, and what a recording of it plays to.
+/// The same in the built program: its output after each step, and the replay of a recording.
 TEST(PoleInTheProgram, does_not_flip_and_its_recording_plays_to_the_same_bits) {
     const TempFolder folder;
     for (const float step : {0.025f, 0.005f}) {

@@ -1,5 +1,5 @@
-// Several joints pulled at once, as one gizmo drags them: each goes where it is dragged as long as the bones
-// let it, lengths and limits are kept, and one step undoes it.
+// Several joints dragged at once by one gizmo: each follows as far as the bones allow, lengths and limits are
+// kept, and one undo step reverts it.
 #include <algorithm>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/trigonometric.hpp>
@@ -17,7 +17,7 @@ class ChainPull : public ChainTest, protected test::RandomNumbers {
     glm::vec3 joint(std::size_t i) const { return part().chain.position(i); }
     std::size_t tip() const { return part().chain.size() - 1; }
 
-    /// Bones of several lengths, in all directions.
+    /// Bones of random lengths in random directions.
     void random_chain(std::size_t bones) {
         run("chain.clear");
         glm::dvec3 at(0.0);
@@ -50,7 +50,7 @@ TEST_F(ChainPull, AllGoWhereTheyAreMovedOrTurnedInEveryMode) {
         const auto modes = chain_modes.names();
         const std::string mode = modes[static_cast<std::size_t>(round) % modes.size()];
         run("chain.mode", {{"mode", mode}});
-        // In reach the root stays unless it is dragged too: then all can go along.
+        // In mode Reach the root stays unless it is dragged too: then all joints can follow.
         const auto joints = some_joints(mode == "reach");
         if (joints.size() < 2) continue;
         const std::vector<glm::vec3> before = positions(part().chain);
@@ -65,7 +65,7 @@ TEST_F(ChainPull, AllGoWhereTheyAreMovedOrTurnedInEveryMode) {
         for (std::size_t k = 0; k < joints.size(); ++k)
             EXPECT_LT(glm::distance(joint(joints[k]), to[k]), 2e-3f) << mode << " " << joints[k];
         expect_lengths_kept();
-        // What lies between them keeps its shape.
+        // The joints between them keep their shape.
         for (std::size_t i = joints.front(); !turns && i <= joints.back(); ++i)
             EXPECT_LT(glm::distance(joint(i), before[i] + by), 2e-3f) << mode << " " << i;
     }

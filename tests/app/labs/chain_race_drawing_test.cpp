@@ -1,4 +1,4 @@
-// Chains of a race that would cover each other are drawn apart.
+// Chains of a race that would overlap are drawn apart.
 #include <glm/geometric.hpp>
 #include <map>
 
@@ -15,7 +15,7 @@ class RaceDrawingTest : public ChainTest {
 
     std::shared_ptr<const Race> race() const { return shown_chain(workspace).race; }
 
-    /// The lines that have a solver's colour, in their order: one for each of its bones.
+    /// The lines in a solver's colour, in order: one for each of its bones.
     std::map<ik::Method, std::vector<Stroke>> bones(std::size_t pane = 0) const {
         DrawList list;
         labs.find(chain_lab)->draw({workspace, camera_, colours_, no_pick, no_pick, 1.0f, pane}, list);
@@ -30,7 +30,7 @@ class RaceDrawingTest : public ChainTest {
         return found;
     }
     glm::vec2 seen(glm::vec3 at) const { return *camera_.project(at); }
-    /// Pixels from where a bone is drawn to where it is, at its middle, across it.
+    /// Lateral distance between a bone and its drawn line, at its middle, pixels.
     float aside(const Stroke& drawn, glm::vec3 from, glm::vec3 to) const {
         const glm::vec2 along = glm::normalize(seen(to) - seen(from));
         const glm::vec2 off = seen(0.5f * (drawn.a + drawn.b)) - seen(0.5f * (from + to));
@@ -62,10 +62,10 @@ TEST_F(RaceDrawingTest, EqualChainsRunAlongLikeStrands) {
     }
 }
 
-/// Around a bend the strands meet at their corners, and keep their distance.
+/// Around a bend the strands meet at their corners and keep their distance.
 TEST_F(RaceDrawingTest, StrandsMeetAtTheCorners) {
     reach_with(6);
-    run("chain.target", {{"to", Json::array({2.5, 2.5, 0.5})}});  // already there: the pose that all keep
+    run("chain.target", {{"to", Json::array({2.5, 2.5, 0.5})}});  // already there: all keep the pose
     run("race.open", {{"start", "here"}});
     const auto drawn = bones();
     int corners = 0;
@@ -84,7 +84,7 @@ TEST_F(RaceDrawingTest, StrandsMeetAtTheCorners) {
         }
     }
     EXPECT_GT(corners, 15);
-    // Some of them are apart indeed.
+    // Some of them are really apart.
     const auto middle = [&](ik::Method method) {
         const Stroke& line = drawn.at(method)[3];
         return seen(0.5f * (line.a + line.b));

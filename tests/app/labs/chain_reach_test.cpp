@@ -1,4 +1,4 @@
-// Reach mode: what each command does to it, what is refused, and what a limit says that holds.
+// Mode Reach: effects of each command, refusals, and the text for an active limit.
 #include <cmath>
 #include <glm/trigonometric.hpp>
 
@@ -10,13 +10,13 @@ namespace {
 
 class ChainReach : public ChainTest {
   protected:
-    /// Two bones of a metre whose elbow bends from 0 to 145 degrees in the plane of the picture.
+    /// Two bones of 1 m whose elbow bends from 0 to 145 degrees in the plane of the view.
     void elbow() {
         reach_with(2);
         run("chain.limit",
             {{"index", 1}, {"kind", "hinge"}, {"axis", {0, 0, 1}}, {"min_deg", 0}, {"max_deg", 145}});
     }
-    /// How far from the shoulder a two-bone arm of metres ends whose elbow is bent so much.
+    /// Distance from shoulder to tip of two bones of 1 m with the elbow bent by `degrees`.
     static float distance_at(float degrees) { return 2.0f * std::cos(glm::radians(0.5f * degrees)); }
 };
 
@@ -152,7 +152,7 @@ TEST_F(ChainReach, everything_comes_back_from_a_file_bit_for_bit) {
     load_scene(other, scene);
     EXPECT_EQ(save_scene(other), scene);
     EXPECT_EQ(chain_part(other).reach, part().reach);
-    // And goes on as this one does.
+    // And continues the same way.
     const Json on{{"to", {0.9, -0.8, 0.5}}};
     run("chain.target", on);
     run_in(other, "chain.target", on);
@@ -179,7 +179,7 @@ TEST_F(ChainReach, a_scene_with_a_limit_that_commands_refuse_is_refused) {
     }
 }
 
-/// Nothing is remembered of bones that have just come or gone.
+/// State must not refer to bones that were just added or removed.
 TEST_F(ChainReach, a_joint_is_dragged_at_once_after_another_was_removed) {
     reach_with(5);
     run("chain.target", {{"to", {2, 2, 0}}});

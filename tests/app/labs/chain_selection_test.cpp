@@ -1,4 +1,4 @@
-// Several joints at once: selected, limited, made longer, removed.
+// Several joints at once: selecting, limiting, lengthening, removing.
 #include "app/labs/chain/draw.hpp"
 #include "tests/app/labs/chain_support.hpp"
 
@@ -73,7 +73,7 @@ TEST_F(ChainSelection, DeleteRemovesAllOfThem) {
     EXPECT_TRUE(part().chain.empty());
 }
 
-/// One by one this would take hours: it ends, or the test runs out of time.
+/// One by one this would take hours and run out of time.
 TEST_F(ChainSelection, ManyAreDoneAtOnce) {
     run("chain.preset", {{"name", "start"}, {"count", 100'000}});
     run("chain.mode", {{"mode", "reach"}});
@@ -175,7 +175,7 @@ TEST_F(ChainSelection, ComesBackFromAFileAndStaysOverTheSeconds) {
     run("chain.select", {{"point", "target"}});
     load_scene(other, parse_json(save_scene(workspace).dump()));
     EXPECT_EQ(chain_part(other).chosen_point, ChainPoint::Target);
-    // An older moment with fewer joints keeps those that it has.
+    // A moment with fewer joints keeps the part of the selection that it has.
     ChainPart then = part();
     then.chain = Chain();
     ChainPart now = part();

@@ -13,7 +13,7 @@ namespace {
 class ChainStudy : public ChainTest {
   protected:
     const Study& study() const { return part().study; }
-    /// Until the next command.
+    /// Valid until the next command.
     const Trace& trace() const { return *shown_chain(workspace).trace; }
     std::shared_ptr<const Race> race() const { return shown_chain(workspace).race; }
 };
@@ -31,10 +31,10 @@ TEST_F(ChainStudy, the_microscope_shows_the_eight_pulls_of_an_iteration_of_four_
         const Json& move = shown["moves"][0];
         const std::size_t joint = move["joint"].get<std::size_t>();
         EXPECT_EQ(shown["positions"][joint], move["to"]);
-        if (move["neighbour"].is_null()) continue;  // the tip onto the target, the root onto its place
+        if (move["neighbour"].is_null()) continue;  // the tip onto the target, the root onto its position
         const std::size_t neighbour = move["neighbour"].get<std::size_t>();
         pulls.emplace_back(joint, neighbour);
-        // On the line from its neighbour through where it was, at the bone's length.
+        // On the line from its neighbour through its old position, at the bone's length.
         const auto at = [&](const Json& p) { return glm::vec3(p[0], p[1], p[2]); };
         const glm::vec3 anchor = at(shown["positions"][neighbour]);
         const glm::vec3 was = at(move["from"]) - anchor, is = at(move["to"]) - anchor;
@@ -181,7 +181,7 @@ TEST_F(ChainStudy, a_row_of_the_race_says_what_its_curve_ends_with_and_what_ran)
                       racer.report.least_squares_steps > 0)
                 << ran;
             EXPECT_EQ(ran.find("restart") != ran.npos, racer.report.restarts > 0) << ran;
-            // The microscope, from the same start, sees the same curve and says the same words.
+            // The microscope, from the same start, shows the same residuals and the same words.
             run("chain.solver", {{"name", ik::name(racer.method)}});
             run("microscope.open", {{"start", "straight"}});
             EXPECT_EQ(trace().residuals, racer.residuals) << ik::name(racer.method);
@@ -222,7 +222,7 @@ TEST_F(ChainStudy, the_chain_is_copied_as_code_and_as_a_scene) {
     EXPECT_FALSE(refused("chain.copy", {{"as", "rust"}}).empty());
 }
 
-/// The microscope's last step is where the chain is, whatever was done meanwhile.
+/// The microscope's last step is the chain's pose, whatever happened meanwhile.
 TEST_F(ChainStudy, chain_report_and_trace_never_part) {
     const auto expect_one = [&](const char* after) {
         const std::vector<glm::vec3> last = trace().pose(trace().frames());

@@ -1,4 +1,4 @@
-// What the tests of the Chain lab's commands share.
+// Shared by tests of the Chain lab's commands.
 #pragma once
 
 #include "app/labs/chain/chain_lab.hpp"
@@ -11,7 +11,7 @@ class ChainTest : public LabTest {
     ChainTest() : LabTest(chain_lab) {}
 
     const ChainPart& part() const { return chain_part(workspace); }
-    /// A chain of so many bones of a metre along +X, in mode reach.
+    /// A chain of bones of 1 m along +X, in mode Reach.
     void reach_with(int bones) {
         run("chain.preset", {{"name", "start"}, {"count", bones + 1}});
         run("chain.mode", {{"mode", "reach"}});

@@ -1,5 +1,5 @@
-// Every row of the tables below: what it is set to is saved, loaded and undone; what is out of its range is
-// refused by its command and in a file, with its name, and changes nothing.
+// Every row of the tables below: a value that is set is saved, loaded and undone; a value out of range is
+// refused by the command and in a file, by name, and changes nothing.
 #include "app/fields/fields.hpp"
 
 #include <tendril/rope/settings.hpp>
@@ -7,9 +7,12 @@
 #include "app/document/command.hpp"
 #include "app/labs/chain/chain_lab.hpp"
 #include "app/labs/chain/reach.hpp"
+#include "app/labs/humanoid/attachments/attachments.hpp"
 #include "app/labs/humanoid/humanoid_lab.hpp"
 #include "app/labs/humanoid/ik/ik_settings.hpp"
 #include "app/labs/humanoid/springs/springs.hpp"
+#include "app/labs/kit/world_file.hpp"
+#include "app/labs/rope/rope_fields.hpp"
 #include "app/labs/rope/rope_lab.hpp"
 #include "app/labs/rope/rope_part.hpp"
 #include "app/labs/signal/filter_fields.hpp"
@@ -26,10 +29,10 @@ struct Table {
     const char* path;  ///< in the lab's part of a scene
     std::span<const Field> fields;
     std::span<const FieldText> texts;
-    Json with = Json::object();   ///< further arguments of the command
-    Json first = Json::object();  ///< what is set before
-    CommandCall made{};           ///< what makes the object, if it is not there from the start
-    const char* name = command;   ///< in the names of tests
+    Json with = Json::object();   ///< additional arguments of the command
+    Json first = Json::object();  ///< set before
+    CommandCall made{};           ///< creates the object if it is not there initially
+    const char* name = command;   ///< in test names
 };
 
 template <class Struct>
@@ -38,7 +41,7 @@ Table table_of(const char* lab, const char* command, const char* path, Json with
     return {lab, command, path, fields<Struct>(), field_texts<Struct>(), std::move(with), std::move(first)};
 }
 
-/// A filter of that kind, alone in the lab. Fields that bound others are set to their maximum first.
+/// A filter of that kind, alone in the lab. Fields that bound others are first set to their maximum.
 Table table_of(const signal::Kind& kind) {
     Json first{{"at", 0}};
     for (const char* const high : {"clamp_max", "high"})
@@ -52,6 +55,22 @@ Table table_of(const signal::Kind& kind) {
             .first = first,
             .made = {"signal.filter.add", {{"kind", kind.name}}},
             .name = kind.name};
+}
+
+/// A collider of that kind, the first in the lab.
+Table table_of(const rope::Shape& shape) {
+    ArgumentList made{{"name", "it"}, {"kind", rope::kind(shape)}};
+    const Json saved = save_fields(shape_fields_of(shape));
+    for (const Field& field : rope::shape_fields(shape))
+        made.push_back({field.name, SharedJson(saved.at(field.name))});
+    return {.lab = rope_lab,
+            .command = "rope.collider.set",
+            .path = "/world/colliders/0",
+            .fields = rope::shape_fields(shape),
+            .texts = field_texts<rope::Shape>(),
+            .with = {{"name", "it"}},
+            .made = {"rope.collider.add", made},
+            .name = rope::kind(shape)};
 }
 
 std::vector<Table> all_tables() {
@@ -68,6 +87,7 @@ std::vector<Table> all_tables() {
         table_of<HumanoidView>(humanoid_lab, "humanoid.view", "/view"),
         table_of<Playback>(humanoid_lab, "humanoid.clip", "/clip")};
     for (const signal::Kind& kind : signal::kinds()) all.push_back(table_of(kind));
+    for (const rope::Shape& shape : blank_shapes()) all.push_back(table_of(shape));
     return all;
 }
 
@@ -85,12 +105,47 @@ struct Row {
     }
 };
 
-/// Those that a command sets.
+/// The fields that a command sets.
 std::vector<Row> rows() {
     std::vector<Row> all;
     for (const Table& table : tables())
         for (const FieldText& text : table.texts)
-            all.push_back({&table, find_field(table.fields, text.name)});
+            if (const Field* const field = find_field(table.fields, text.name))
+                all.push_back({&table, field});
+    return all;
+}
+
+/// Values beyond each end of the range, and of other types.
+std::vector<Json> bad(const Field& field) {
+    std::vector<Json> all{Json::array({1}), Json::object()};
+    if (!field.optional) all.push_back(nullptr);
+    const auto [low, high] = field.range;
+    const double by = std::max(1.0, 1e-3 * (high - low));
+    switch (field.type) {
+        case FieldType::Flag:
+            all.insert(all.end(), {1, "yes"});
+            break;
+        case FieldType::Integer:
+            all.insert(all.end(), {low - 1, high + 1, low + 0.5, "1"});
+            break;
+        case FieldType::Choice:
+            all.insert(all.end(), {"glue", "", 0});
+            break;
+        case FieldType::Number:
+            all.insert(all.end(), {low - by, high + by, std::nan(""), true});
+            break;
+        case FieldType::Pair:
+            all.insert(all.end(), {Json::array({0, high + by}), Json::array({low - by, 0}), 0,
+                                   Json::array({0, 1, 2}), Json::array({0, "1"})});
+            break;
+        case FieldType::Rotation:
+            all.insert(all.end(), {Json::array({0, 0, 0, 0}), Json::array({0, 0, "z", 1}), 0});
+            break;
+        case FieldType::Point:
+            all.insert(all.end(), {Json::array({0, high + by, 0}), Json::array({low - by, 0, 0}),
+                                   Json::array({0, 0}), Json::array({0, 0, "z"})});
+            break;
+    }
     return all;
 }
 
@@ -110,12 +165,12 @@ class EveryField : public LabTest, public testing::WithParamInterface<Row> {
         arguments[field().name] = value;
         return arguments;
     }
-    /// Number three quarters up its range: of a float, as its shortest decimals.
+    /// The number three quarters up a range; for a float, by its shortest decimals.
     Json number_in(const FieldRange& range) const {
         const double value = range.low + 0.75 * (range.high - range.low);
         return field().exact ? Json(value) : number(static_cast<float>(value));
     }
-    /// Something else than it is.
+    /// A different value.
     Json other(const Json& now) const {
         switch (field().type) {
             case FieldType::Flag:
@@ -128,40 +183,12 @@ class EveryField : public LabTest, public testing::WithParamInterface<Row> {
                 return number_in(field().range);
             case FieldType::Pair:
                 return Json::array({field().range.low, number_in(field().range)});
+            case FieldType::Rotation:
+                return Json::array({0.5, 0.5, 0.5, 0.5});
             case FieldType::Point:
                 return Json::array({number_in(field().range), 0, number_in(field().range)});
         }
         return {};
-    }
-    /// Beyond each end of the range, and of another type.
-    std::vector<Json> bad() const {
-        std::vector<Json> all{Json::array({1}), Json::object()};
-        if (!field().optional) all.push_back(nullptr);
-        const auto [low, high] = field().range;
-        const double by = std::max(1.0, 1e-3 * (high - low));
-        switch (field().type) {
-            case FieldType::Flag:
-                all.insert(all.end(), {1, "yes"});
-                break;
-            case FieldType::Integer:
-                all.insert(all.end(), {low - 1, high + 1, low + 0.5, "1"});
-                break;
-            case FieldType::Choice:
-                all.insert(all.end(), {"glue", "", 0});
-                break;
-            case FieldType::Number:
-                all.insert(all.end(), {low - by, high + by, std::nan(""), true});
-                break;
-            case FieldType::Pair:
-                all.insert(all.end(), {Json::array({0, high + by}), Json::array({low - by, 0}), 0,
-                                       Json::array({0, 1, 2}), Json::array({0, "1"})});
-                break;
-            case FieldType::Point:
-                all.insert(all.end(), {Json::array({0, high + by, 0}), Json::array({low - by, 0, 0}),
-                                       Json::array({0, 0}), Json::array({0, 0, "z"})});
-                break;
-        }
-        return all;
     }
     void SetUp() override {
         run("lab.open", {{"name", of().lab}});
@@ -175,7 +202,7 @@ class EveryField : public LabTest, public testing::WithParamInterface<Row> {
     }
 };
 
-/// A field without a text would have neither argument nor row.
+/// A field without a text would have neither an argument nor a row.
 TEST(FilterFields, EachHasItsText) {
     for (const signal::Kind& kind : signal::kinds()) {
         const std::span<const FieldText> texts = filter_texts(kind);
@@ -206,7 +233,7 @@ TEST_P(EveryField, IsSavedLoadedAndUndone) {
 }
 
 TEST_P(EveryField, IsRefusedOutOfItsRangeAndChangesNothing) {
-    for (const Json& value : bad())
+    for (const Json& value : bad(field()))
         EXPECT_TRUE(
             test::says(refused(of().command, given(value)), std::string(of().command) + " " + field().name))
             << value;
@@ -215,7 +242,7 @@ TEST_P(EveryField, IsRefusedOutOfItsRangeAndChangesNothing) {
 TEST_P(EveryField, IsRefusedInAFileWithItsPlace) {
     std::string place = std::string("labs.") + of().lab + of().path + "." + field().name;
     std::ranges::replace(place, '/', '.');
-    for (const Json& value : bad()) {
+    for (const Json& value : bad(field())) {
         Json scene = save_scene(workspace);
         scene.at("labs").at(of().lab).at(at(of().path))[field().name] = value;
         try {
@@ -225,6 +252,46 @@ TEST_P(EveryField, IsRefusedInAFileWithItsPlace) {
         } catch (const std::runtime_error& error) {
             EXPECT_TRUE(test::says(error.what(), place)) << value;
         }
+    }
+}
+
+/// Tables that a command takes whole: what it makes does not keep them.
+struct Shape {
+    const char* lab;
+    const char* command;
+    std::span<const Field> fields;
+    Json with;  ///< what else it needs
+};
+
+class EveryShape : public LabTest {
+  protected:
+    EveryShape() : LabTest(rope_lab) {}
+};
+
+TEST_F(EveryShape, IsRefusedOutOfItsRangeAndChangesNothing) {
+    const Json up{0, 1, 0}, right{1, 0, 0}, down{0, -1, 0};
+    const Shape shapes[] = {
+        {rope_lab, "rope.add", fields<rope::RopeShape>(), {{"from", up}, {"to", right}}},
+        {rope_lab,
+         "rope.cloth.add",
+         fields<rope::ClothShape>(),
+         {{"corner", up}, {"along", right}, {"down", down}}},
+        {rope_lab, "rope.hair.add", fields<rope::HairShape>(), {{"centre", up}}},
+        {rope_lab, "rope.hair.add", fields<rope::HairPatch>(), {{"centre", up}}},
+        {rope_lab, "rope.set", fields<BodySettings>(), {{"rope", "rope"}}},
+        {humanoid_lab, "humanoid.attach", fields<AttachmentShape>(), {{"bone", "Head"}, {"kind", "hair"}}}};
+    for (const Shape& shape : shapes) {
+        run("lab.open", {{"name", shape.lab}});
+        if (shape.lab == std::string_view(rope_lab)) {
+            run("rope.clear");
+            run("rope.add", {{"from", up}, {"to", right}, {"name", "rope"}});
+        }
+        for (const Field& field : shape.fields)
+            for (const Json& value : bad(field)) {
+                Json given = shape.with;
+                given[field.name] = value;
+                EXPECT_TRUE(test::says(refused(shape.command, given), field.name)) << shape.command << value;
+            }
     }
 }
 

@@ -1,4 +1,4 @@
-// What tests of fits share.
+// Shared by tests of fits.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 
 namespace tendril::test {
 
-/// Whether the response says what the field is: where it is 2 % off, more than `least` is left.
+/// Whether the response determines the field: a change of 2 % leaves a residual of more than `least`.
 inline bool excited(const signal::Filter& truth, const Field& field, int axis, const app::FitProblem& problem,
                     double least) {
     double smallest = 1e9;

@@ -1,4 +1,4 @@
-// What the tests of every lab share: a blank workspace, and commands run in it by name.
+// Shared by tests of all labs: a blank workspace, and commands by name.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -31,14 +31,14 @@ class LabTest : public testing::Test {
 
     const Lab& lab() const { return *labs.find(lab_); }
     Json state() const { return lab().state(workspace); }
-    /// As a script runs it: what it begins is finished.
+    /// As in a script: long work is completed.
     void run(const char* name, const Json& arguments = Json::object(), Gesture gesture = 0);
-    /// As the window runs it: what it begins, ticks go on with.
+    /// As in the window: long work continues in ticks.
     void begin(const char* name, const Json& arguments = Json::object());
     void run_in(Workspace& other, const char* name, const Json& arguments) const;
-    /// Runs what must be refused; gives the message, having checked that nothing changed.
+    /// Runs a command that must be refused, checks that nothing changed, and returns the message.
     std::string refused(const char* name, const Json& arguments = Json::object());
-    /// The same, with a message that says each of these, in any order.
+    /// The same, with a message that says each of these in any order.
     void expect_refused(const char* name, const Json& arguments, const std::vector<std::string>& says);
 
   private:

@@ -1,4 +1,4 @@
-// The outline of a limit, held against the library's own measure: what is drawn is what solvers keep to.
+// The outline of a limit against the library's own measure: the drawing shows the solvers' limits.
 #include "app/labs/kit/limit_shape.hpp"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ class Pose {
         limit.axis = glm::cross(rest, other) + 0.3f * rest;
         parent = glm::angleAxis(random.around(3.0f), glm::normalize(random.point(1.0f) + glm::vec3(1e-3f)));
     }
-    /// As the solver measures a bone that points there, in the world, by the shortest turn from rest.
+    /// The solver's angles of a bone that points there, in the world, by the shortest rotation from rest.
     ik::JointAngles measured(glm::vec3 direction) const {
         const glm::vec3 to = glm::conjugate(parent) * direction;
         return ik::measure(limit, rest, glm::quat(rest, to));

@@ -1,5 +1,5 @@
-// What labs share of their last ten seconds: turns told as swing and twist, what is kept of a moment, and
-// which moments are shown as ghosts.
+// Shared code for the last ten seconds: rotations as swing and twist, cached values, and which moments are
+// shown as ghosts.
 #include "app/labs/kit/past_view.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// The Rope lab's commands: what each does, and what --state says of it.
+// The Rope lab's commands: their effects, and --state.
 #include <array>
 
 #include "app/labs/rope/rope_time.hpp"
@@ -371,7 +371,7 @@ TEST_F(RopeCommands, LooksLeaveNoStepAndAreKept) {
     EXPECT_EQ(state().at("ropes").size(), 4u);
 }
 
-/// Each scene stands, stays whole and in one place, and is seen.
+/// Each preset stays intact and in place, and is in view.
 TEST_F(RopeCommands, ScenesHoldTogether) {
     for (const RopeSceneEntry& entry : rope_scenes()) {
         run("rope.preset", {{"name", entry.name}});

@@ -1,4 +1,4 @@
-// Quasi-static drags in the Rope lab work in the lab's own runtime, and no bit depends on it.
+// Quasi-static drags in the Rope lab use the lab's own runtime, and no bit depends on it.
 #include <filesystem>
 #include <fstream>
 #include <regex>
@@ -35,7 +35,7 @@ TEST_F(RopeDrag, ThrowingTheRuntimeAwayChangesNoBitOfAPausedDrag) {
     EXPECT_TRUE(ends[1] == ends[3]) << "and time goes on the same";
 }
 
-/// A mouse that drags moves a hundred times a second; a workspace is made once.
+/// A mouse drag moves a hundred times a second; create a workspace only once.
 TEST_F(RopeDrag, OnlyRuntimesMakeAWorkspaceOfTheLibrarys) {
     const std::regex made(R"(rope::Workspace\s+\w+\s*[;{=(]|rope::Workspace\s*[({])");
     int found = 0;

@@ -1,4 +1,4 @@
-// Several particles that one gizmo drags: pins are moved, what is free is held until it is let go.
+// Several particles dragged by one gizmo: pins move, free particles are held until released.
 #include <random>
 
 #include "app/document/json_complete.hpp"
@@ -54,7 +54,7 @@ TEST_F(RopeDragged, PinsAndFreeParticlesGoTheSameWayInOneStep) {
         EXPECT_EQ(state()["held"]["particles"], Json({3, 4}));
         drag(goals);
         EXPECT_EQ(state()["held"]["particles"], Json({3, 4})) << "those that are held are no pins";
-        // A file does not know that a hand holds them.
+        // A file does not store that they are held.
         Workspace other = make_blank_workspace(labs);
         load_scene(other, save_scene(workspace));
         const NamedWorld& saved = *rope_part(other).world;
@@ -109,7 +109,7 @@ TEST_F(RopeDragged, AnyParticlesFollowAnyWayAndNothingElseIsHeldAfterwards) {
     }
 }
 
-/// However the lengths are solved: what lies between a pin and a free particle goes with them.
+/// With any solver: what is between a pin and a free particle moves along with them.
 TEST_F(RopeDragged, PausedWhatLiesBetweenGoesAlong) {
     for (const char* solver : {"direct", "xpbd", "relaxation"}) {
         single_rope(10);

@@ -1,4 +1,4 @@
-// The Rope lab in scene files: bit for bit, and what is wrong in them told with its place.
+// The Rope lab in scene files: bit for bit, and faults with their position.
 #include <bit>
 #include <random>
 
@@ -17,7 +17,7 @@ using test::message_of;
 
 class RopeFile : public RopeTest {
   protected:
-    /// Loads a part; gives what is wrong with it.
+    /// Loads a part and returns the message of the fault.
     std::string wrong(const Json& json) const {
         return message_of([&] { part().load(json, "labs.rope"); });
     }
@@ -115,7 +115,7 @@ TEST_F(RopeFile, WhatIsWrongIsToldWithItsPlace) {
         {"/world/pins/0/particle", 5, "labs.rope.world.pins.0.particle: expected a whole number"},
         {"/world/pins/0/goal", 5, "labs.rope.world.pins.0.goal: expected a point"},
         {"/world/colliders/0/kind", "blob", "labs.rope.world.colliders.0.kind: unknown kind \"blob\""},
-        {"/world/colliders/0/radius", -1, "labs.rope.world: World: "},
+        {"/world/colliders/0/radius", -1, "labs.rope.world.colliders.0.radius: expected a number"},
         {"/world/settings/substep", 1, "labs.rope.world.settings.substep: expected a number"},
         {"/world/remainder", -1, "labs.rope.world.remainder: expected a number from 0 to 10"},
         {"/world/substeps", 1.5, "labs.rope.world.substeps: expected a whole number from 0 to"},
@@ -124,7 +124,7 @@ TEST_F(RopeFile, WhatIsWrongIsToldWithItsPlace) {
         EXPECT_TRUE(has(wrong_with(place, value), reason)) << place << ": " << wrong_with(place, value);
 }
 
-/// Every value in turn replaced by one of every kind: refused with a place, or read whole.
+/// Replaces each value in turn by one of every type: refused with its position, or loaded completely.
 TEST_F(RopeFile, WithAnyValueOfAnotherKindIsRefusedOrReadWhole) {
     single_rope(3);
     run("rope.pin", {{"rope", "rope"}, {"particle", 0}});
@@ -146,7 +146,7 @@ TEST_F(RopeFile, WithAnyValueOfAnotherKindIsRefusedOrReadWhole) {
     std::size_t at = 0;
     for (const auto& [place, value] : flat.items()) {
         for (const Json& other : others) {
-            if (at++ % test::sanitizer_factor != 0) continue;  // all of them take a minute there
+            if (at++ % test::sanitizer_factor != 0) continue;  // there, all of them take a minute
             Json changed = scene;
             changed["labs"]["rope"][Json::json_pointer(place)] = other;
             Workspace loaded = make_blank_workspace(labs);

@@ -1,4 +1,4 @@
-// The gizmo of a collider that is selected: arrows move it, rings turn what has a direction.
+// The gizmo of the selected collider: arrows move it, rings rotate shapes that have a direction.
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <random>

@@ -1,4 +1,4 @@
-// What is plotted of ropes at each moment that is remembered, against what the panel and --state say of them.
+// The plotted numbers of ropes at each remembered moment, against the panel and --state.
 #include "app/labs/rope/past.hpp"
 
 #include <algorithm>
@@ -33,7 +33,7 @@ class RopePast : public RopeTest, protected test::RandomNumbers {
     SharedPart shared() const { return workspace.document.parts().at(rope_lab); }
 };
 
-/// Of one link after the other: how strong, at a particle or anywhere.
+/// The maximum tension of links at a particle, or of all links.
 float tension(const NamedWorld& world, std::optional<std::size_t> particle) {
     float strongest = 0.0f;
     for (const rope::Link& link : world.state().links) {

@@ -1,4 +1,4 @@
-// What the Rope lab's commands refuse, in which words, and that nothing changes then.
+// What the Rope lab's commands refuse, their messages, and that a refusal changes nothing.
 #include <cmath>
 
 #include "tests/app/labs/rope_support.hpp"
@@ -92,7 +92,7 @@ TEST_F(RopeRefusals, WhatWouldTakeTooLongIsRefusedWithItsSize) {
 TEST_F(RopeRefusals, TooManyAreRefusedWithTheNumberAndTheLimit) {
     single_rope(8);
     EXPECT_TRUE(test::says(refused("rope.add", {{"from", origin}, {"to", right}, {"segments", 10'000'000}}),
-                           "rope.add segments 1 99999 10000000"));
+                           "rope.add segments 1 999999 10000000"));
     EXPECT_TRUE(test::says(refused("rope.add", {{"from", origin}, {"to", right}, {"segments", 99'999}}),
                            "rope.add 100009 particles 100000"));
     EXPECT_TRUE(test::says(refused("rope.cloth.add", {{"corner", origin},

@@ -1,4 +1,4 @@
-// Several particles at once: selected, pinned, cut apart.
+// Several particles at once: selecting, pinning, cutting.
 #include "tests/app/labs/rope_support.hpp"
 
 namespace tendril::app {
@@ -29,7 +29,7 @@ TEST_F(RopeSelectionTest, ParticlesOfOneRopeAreAddedAndTakenOut) {
     EXPECT_EQ(selected(), Indices{5});
     run("rope.select", {{"rope", "rope"}, {"particle", 5}, {"add", true}});
     EXPECT_FALSE(part().selection);
-    // Of another rope: that instead.
+    // Selecting on another rope replaces the selection.
     run("rope.add", {{"name", "other"}, {"from", {0, 3, 0}}, {"to", {1, 3, 0}}, {"segments", 4}});
     run("rope.select", {{"rope", "rope"}, {"particles", {1, 3}}});
     run("rope.select", {{"rope", "other"}, {"particle", 4}, {"add", true}});
@@ -59,7 +59,7 @@ TEST_F(RopeSelectionTest, ABoxTakesTheRopeThatHasMostInIt) {
     select({first + 3, 2, first + 1, first, 7});
     EXPECT_EQ(part().selection->body, "other");
     EXPECT_EQ(selected(), (Indices{0, 1, 3}));
-    // Added to is the one that is selected, whichever has most.
+    // Adding keeps the selected body, even if another has more particles in the box.
     select({first + 2, 1, 2, 3, 4, 5}, true);
     EXPECT_EQ(selected(), (Indices{0, 1, 2, 3}));
     select({}, true);

@@ -1,5 +1,5 @@
-// What a rope, cloth or hair is made of, changed while it hangs.
-#include "app/labs/rope/body_settings.hpp"
+// Editing the material of ropes, cloth and hair while they hang.
+#include "app/labs/rope/rope_fields.hpp"
 #include "app/labs/rope/rope_lab.hpp"
 #include "tests/app/labs/lab_support.hpp"
 #include "tests/says.hpp"
@@ -51,7 +51,7 @@ TEST_F(RopeSet, ChangesWhatABodyIsMadeOf) {
     EXPECT_EQ(made_of("hair").bend, rope::HairShape().bend);
 }
 
-/// It goes on from where it is, no particle moves further than its part of the change, and none is thrown.
+/// It continues from its pose, no particle moves further than its share of the change, and none is thrown.
 TEST_F(RopeSet, ALongerRopeSinksToItsNewLength) {
     const double before = lowest();
     const std::vector<glm::dvec3> was = world().state().position;

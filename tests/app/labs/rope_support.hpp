@@ -1,4 +1,4 @@
-// What the tests of the Rope lab share.
+// Shared by tests of the Rope lab.
 #pragma once
 
 #include "app/labs/rope/rope_lab.hpp"
@@ -12,11 +12,11 @@ class RopeTest : public LabTest {
 
     const RopePart& part() const { return rope_part(workspace); }
     const NamedWorld& world() const { return *part().world; }
-    /// Ticks, whether or not anything moves.
+    /// Runs ticks, whether or not anything moves.
     void wait(int ticks) {
         for (int i = 0; i < ticks; ++i) lab().step(workspace);
     }
-    /// Nothing but a rope of so many segments, a metre long, from the origin's upside along +X.
+    /// A single rope of 1 m at a height of 2 m, along +X.
     void single_rope(int segments = 8) {
         run("rope.clear");
         run("rope.add", {{"from", {0, 2, 0}}, {"to", {1, 2, 0}}, {"segments", segments}});

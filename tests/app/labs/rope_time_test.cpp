@@ -1,4 +1,4 @@
-// How time passes in the Rope lab: the same whatever it is cut into, slower or faster, and to rest.
+// Time in the Rope lab: independent of frames, at any speed, until everything is at rest.
 #include "app/labs/rope/rope_time.hpp"
 #include "app/labs/rope/scenes.hpp"
 #include "tests/app/labs/rope_support.hpp"
@@ -53,7 +53,7 @@ TEST_F(RopeTime, UnevenFramesLeadToTheSameWorld) {
     }
 }
 
-/// However fine the substeps are, a tick ends; the time that there was no room for is counted.
+/// A tick is bounded, however fine the substeps; time beyond the bound is counted as dropped.
 TEST_F(RopeTime, ATickTakesSoMuchWorkAndNoMore) {
     single_rope(50);
     run("rope.settings", {{"substep", 1e-5}, {"iterations", 10'000}, {"solver", "relaxation"}});
@@ -76,7 +76,7 @@ TEST_F(RopeTime, FramesAreFrom1To250Milliseconds) {
     EXPECT_GT(longest, 0.24);
 }
 
-/// What the plot of frame times shows is what time was cut into.
+/// The plot of frame times shows the actual frames.
 TEST_F(RopeTime, ThePlotHasTheFramesThatTimeIsCutInto) {
     wait(3);
     EXPECT_NEAR(part().samples.back().frame, 1e3 * tick_seconds, 1e-4);

@@ -1,4 +1,4 @@
-// Scenes that an older version of the program wrote still open, and mean what they meant.
+// Scenes written by older versions still open, with the same meaning.
 #include <glm/gtc/quaternion.hpp>
 
 #include "tests/app/labs/chain_support.hpp"
@@ -9,10 +9,10 @@
 namespace tendril::app {
 namespace {
 
-/// Written by version 1: a chain with limits under the microscope, and a rope beside a box that is turned.
+/// Written by version 1: a chain with limits under the microscope, and a rope beside a rotated box.
 const std::string version_1 = tendril::test::source_path("tests/app/labs/scene_version_1.json");
 
-/// A bone's rotation takes its rest direction, +X here, to where it points.
+/// Checks that each rotation takes the rest direction, +X, to the bone's direction.
 void expect_rotations_of(const std::vector<glm::quat>& rotations, const std::vector<glm::vec3>& joints) {
     ASSERT_EQ(rotations.size() + 1, joints.size());
     for (std::size_t i = 0; i < rotations.size(); ++i) {
@@ -51,15 +51,15 @@ TEST_F(SceneVersion1, is_saved_again_as_version_2_with_w_last_everywhere) {
                       Json::array({w_first[1], w_first[2], w_first[3], w_first[0]}));
         }
     }
-    // The ropes' were so already; two of their keys have other names now, and particles have three numbers
-    // less.
+    // Those of the ropes were already in that order; two of their keys have been renamed, and particles have
+    // three numbers fewer.
     std::string ropes = old["labs"]["rope"].dump();
     for (const auto& [before, after] : {std::pair{"\"torture\"", "\"jitter\""}, {"\"stress\"", "\"strain\""}})
         ropes.replace(ropes.find(before), std::string_view(before).size(), after);
     Json expected = parse_json(ropes);
     for (Json& row : expected["world"]["particles"])
         if (row.size() == 10)
-            row.erase(row.begin() + 6, row.begin() + 9);  // what moved in the substep before
+            row.erase(row.begin() + 6, row.begin() + 9);  // the displacement of the substep before
     EXPECT_EQ(now["labs"]["rope"], expected);
 
     Workspace again = make_blank_workspace(labs);

@@ -1,4 +1,4 @@
-// What is selected, of many things that come and go.
+// A selection among items that are inserted and removed.
 #include "app/labs/kit/selection.hpp"
 
 #include <gtest/gtest.h>
@@ -39,7 +39,7 @@ TEST(Selection, TheLastOneTakenIsActive) {
     EXPECT_EQ(selection, Selection());
 }
 
-/// Against a plain set of names, which insertions and removals do not rename.
+/// Compared with a set of names, which insertions and removals do not change.
 TEST(Selection, FollowsWhatComesAndGoes) {
     std::mt19937 random(11);
     for (int round = 0; round < 300; ++round) {

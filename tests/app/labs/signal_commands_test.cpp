@@ -1,4 +1,4 @@
-// The Signal lab's commands: what each does, what --state says of it, and what is refused.
+// The Signal lab's commands: effects, --state, and refusals.
 #include <cmath>
 
 #include "app/document/json_complete.hpp"

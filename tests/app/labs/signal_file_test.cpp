@@ -1,4 +1,4 @@
-// The Signal lab in scene files, and the numbers it works out: the same however they are come by.
+// The Signal lab in scene files, and its measurements, which do not depend on how they were triggered.
 #include <cmath>
 
 #include "app/labs/signal/analysis.hpp"

@@ -1,4 +1,4 @@
-// What the Signal lab plays and what it fits are the same rows.
+// The Signal lab must play and fit the same rows.
 #include <cmath>
 
 #include "app/labs/signal/signal_part.hpp"

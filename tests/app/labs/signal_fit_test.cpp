@@ -1,4 +1,4 @@
-// Fitting filters to responses: curves that each kind of filter made are met, by the numbers that made them.
+// Fitting filters to responses: responses of each kind of filter are matched, with the original parameters.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,8 +20,8 @@ double between(test::Random& random, double low, double high) {
     return low + (high - low) * (0.5 + 0.5 * static_cast<double>(random.around(1.0f)));
 }
 
-/// Jumps of several heights, stretches at rest, ramps, a sweep and some noise: every kind of filter has
-/// something to do. Uneven frames where `uneven`.
+/// Jumps of several heights, constant parts, ramps, a sweep and some noise: every kind of filter has an
+/// effect. Uneven frames if `uneven`.
 Samples rich_input(std::size_t rows, unsigned seed, bool uneven) {
     test::Random random(seed);
     Samples samples;
@@ -42,7 +42,7 @@ Samples rich_input(std::size_t rows, unsigned seed, bool uneven) {
     return samples;
 }
 
-/// A filter as people set them, of a kind.
+/// A filter of a kind, with typical parameters.
 signal::Filter some_filter(const signal::Kind& kind, test::Random& random) {
     const auto pick = [&](double low, double high) { return between(random, low, high); };
     signal::Filter filter = kind.blank();
@@ -112,7 +112,7 @@ TEST_P(FitOfAKind, MeetsTheResponseByTheParametersThatMadeIt) {
         EXPECT_NEAR(residual_of(fit.filter, problem), fit.residual, 1e-12);
         EXPECT_TRUE(signal::check(fit.filter));
         EXPECT_EQ(fit_kind(kind, problem).filter, fit.filter) << "the same at every run";
-        // Of a curve the values count: its ranges and keys can say the same in many ways.
+        // For a curve only its values count: different ranges and keys can give the same curve.
         if (std::holds_alternative<signal::Curve>(truth)) continue;
         int compared = 0;
         for (const Field& field : kind.fields)
@@ -124,7 +124,7 @@ TEST_P(FitOfAKind, MeetsTheResponseByTheParametersThatMadeIt) {
                     << kind.name << " " << field.name << ", draw " << draw;
                 ++compared;
             }
-        // Between two rows a switch's thresholds may be anywhere: they have a test of their own.
+        // Between two rows a switch's thresholds are arbitrary: they have a test of their own.
         if (!std::holds_alternative<signal::Hysteresis>(truth)) {
             EXPECT_GT(compared, 0) << kind.name << ": this input says nothing of it";
         }
@@ -258,7 +258,7 @@ TEST(Fit, BeginsFromWhatItIsGivenToo) {
     EXPECT_LT(fit.residual, 1e-6);
     EXPECT_LT(fit.evaluations, fit_kind(signal::kind_of(truth), {samples, response}).evaluations)
         << "there is nothing left to improve";
-    const signal::Filter other = signal::DeadZone{};  // of another kind: not looked at
+    const signal::Filter other = signal::DeadZone{};  // of another kind: ignored
     EXPECT_EQ(fit_kind(signal::kind_of(truth), {samples, response}, &other).filter,
               fit_kind(signal::kind_of(truth), {samples, response}).filter);
 }

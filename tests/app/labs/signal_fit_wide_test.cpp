@@ -1,5 +1,5 @@
-// Filters set to what few people choose are found too: very slow ones, clamps that cut nearly all of a line,
-// thresholds that the input never passes.
+// Filters with unusual parameters are found too: very slow ones, clamps that cut off most of a line,
+// thresholds that the input never crosses.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -108,7 +108,7 @@ TEST_P(FitOfAWideRange, FindsWhatMadeTheResponse) {
             SCOPED_TRACE(testing::Message() << "draw " << draw << ", wave " << static_cast<int>(wave));
             const Samples samples = wide_input(wave, random);
             const signal::Filter truth = wide_filter(kind, random);
-            // On two levels other lines and clamps say the same.
+            // With two levels, other lines and clamps give the same response.
             const bool line = std::holds_alternative<signal::ScaleBiasClamp>(truth);
             const bool curve = std::holds_alternative<signal::Curve>(truth);
             const bool hysteresis = std::holds_alternative<signal::Hysteresis>(truth);
@@ -158,7 +158,7 @@ TEST(FitOfExtremes, SpringsThatAreDampedThirtyTimesOver) {
     for (const Wave wave : {Wave::Square, Wave::TwoSines, Wave::Jumps}) {
         const Samples samples = wide_input(wave, random);
         expect_found(signal::Spring<>{.strength = 2.0, .critical_damping = 30.0}, samples, true);
-        // Of a stronger one the response shows hardly more than how fast it decays.
+        // A stronger one shows little more than its rate of decay.
         for (const double strength : {8.0, 20.0}) {
             const signal::Filter truth = signal::Spring<>{.strength = strength, .critical_damping = 30.0};
             expect_found(truth, samples, false);

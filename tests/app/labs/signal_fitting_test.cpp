@@ -1,4 +1,4 @@
-// A fit that is worked out a share in every tick, as the window has it.
+// A fit computed in shares, one per tick, as in the window.
 #include "app/labs/signal/analysis.hpp"
 #include "app/labs/signal/signal_part.hpp"
 #include "tests/app/labs/lab_support.hpp"
@@ -19,7 +19,7 @@ class SignalFitting : public LabTest {
     void draw() {
         run("signal.fit.draw", {{"from", 0.2}, {"from_value", -0.5}, {"to", 0.6}, {"to_value", 0.7}});
     }
-    /// So many ticks, or to its end; how many there were.
+    /// Runs up to `most` ticks, or to the end; returns how many there were.
     int work(int most = 10'000) {
         int ticks = 0;
         for (; ticks < most && lab().working(workspace); ++ticks) lab().work(workspace);
@@ -49,7 +49,7 @@ TEST_F(SignalFitting, InSharesItIsWhatItIsAtOnce) {
     expect_same(part().fits, at_once);
     EXPECT_FALSE(part().fitting);
 
-    // Whoever throws the search away, or saves and opens it in the middle, loses nothing.
+    // Discarding the search, or saving and loading it half way, loses nothing.
     workspace = other;
     begin("signal.fit");
     int ticks = 0;

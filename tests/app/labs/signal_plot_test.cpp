@@ -1,5 +1,4 @@
-// What the Signal lab's plots show: the span of their axes, and numbers that are worked out no more often
-// than they can be read.
+// The Signal lab's plots: the ranges of their axes, and measurements that stay readable.
 #include <cmath>
 
 #include "app/labs/signal/analysis.hpp"

@@ -1,4 +1,4 @@
-// What each lab says first: in the inspector, and in the state.
+// Each lab's verdict, in the inspector and in --state.
 #include "app/labs/rope/panel.hpp"
 #include "tests/app/labs/lab_support.hpp"
 #include "tests/says.hpp"
@@ -22,7 +22,7 @@ TEST_F(RopeVerdict, SaysWhetherLengthsHold) {
     EXPECT_EQ(said(), "Not moved yet");
     wait(60);
     EXPECT_EQ(said(), "Lengths hold");
-    // A solver that does not hold them, with next to no iterations.
+    // A solver that does not keep lengths, with few iterations.
     run("rope.preset", {{"name", "bridge"}});
     run("rope.settings", {{"solver", "relaxation"}, {"iterations", 1}});
     wait(60);
@@ -107,7 +107,7 @@ class RigVerdict : public LabTest {
 TEST_F(RigVerdict, SaysWhetherEveryUnitRan) {
     run("rig.solve");
     EXPECT_EQ(said(), "All units ran");
-    // The target of an aim onto the head itself: there is no direction to it.
+    // Aiming an item at its own position: there is no direction.
     run("rig.clear");
     EXPECT_EQ(said(), "No units");
     run("rig.element.add", {{"name", "a"}});

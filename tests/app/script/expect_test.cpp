@@ -14,7 +14,7 @@ const Json state = parse_json(R"({
     "tail": [1.0, 2.0, 0.0], "segments": [{"position": [0, 0, 0], "length": 1.0}, {"position": [1, 0, 0], "length": 0.25}],
     "huge": 1e300, "3": "three", "": "empty"})");
 
-/// What the expectation of this line finds wrong.
+/// The fault that the expectation in this line finds.
 std::string found(const std::string& line) {
     const Script script = test::parse(line);
     return check_expectation(std::get<Expect>(script.lines.at(0).action), state);

@@ -99,7 +99,7 @@ TEST(Recorder, splits_a_wait_too_long_for_a_line) {
     EXPECT_EQ(script.lines.size(), 3u);
 }
 
-/// File names need not be text, but a recording must stay readable.
+/// File names need not be UTF-8, but a recording must stay readable.
 TEST(Recorder, writes_a_name_that_is_not_utf8_as_well_as_it_can) {
     Recorder recorder(start);
     recorder.event(Drop{{"a\xff.json"}});

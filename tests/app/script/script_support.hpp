@@ -1,4 +1,4 @@
-// A small vocabulary for scripts, and the events of one random line.
+// A small vocabulary for scripts, and random events.
 #pragma once
 
 #include <random>
@@ -9,10 +9,10 @@
 
 namespace tendril::test {
 
-/// Of lines with the commands chain.add, chain.mode and undo, which do nothing.
+/// Parses lines with the commands chain.add, chain.mode and undo, which do nothing.
 app::Script parse(std::string_view text);
 
-/// Any event that leaves a line, with any value that the window could give.
+/// Any event that is recorded as a line, with any value that the window could produce.
 inline app::Event random_event(std::mt19937& random) {
     using namespace app;
     const auto below = [&](int end) { return static_cast<int>(random() % static_cast<unsigned>(end)); };

@@ -40,7 +40,7 @@ TEST(Script, has_lines_for_commands) {
     EXPECT_EQ(refused.arguments->dump(), R"({"index":1})");
     EXPECT_FALSE(only<RunCommand>(R"({"command": "undo", "refused": false})").expect_refusal);
     EXPECT_EQ(only<RunCommand>(R"({"command": "undo"})").arguments->dump(), "{}");
-    // An argument may have the name of another line's form.
+    // An argument may have the name of another kind of line.
     EXPECT_EQ(
         only<RunCommand>(R"({"key": 1, "command": "undo", "wait": 2, "recording": 3})").arguments->size(),
         3u);
@@ -253,7 +253,7 @@ TEST(Script, that_has_a_member_too_many_is_refused) {
     }
 }
 
-/// Not a line of it would run.
+/// Refused before any line runs.
 TEST(Script, cut_off_anywhere_within_a_line_is_refused) {
     const std::string line = R"({"expect": "tail", "near": [1, 2, 0], "within": 0.001})";
     for (std::size_t size = 1; size < line.size(); ++size)

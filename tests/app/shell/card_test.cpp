@@ -1,4 +1,4 @@
-// A card as its file has it, and when its steps count as done.
+// Cards: their files, and when their steps count as done.
 #include "app/labs/card.hpp"
 
 #include <gtest/gtest.h>
@@ -79,7 +79,7 @@ class CardWatch : public testing::Test {
         };
         watch_card(progress_, card_, part_, tell);
     }
-    /// The part becomes another, and time passes until it is looked at.
+    /// Changes the part and waits until it is checked.
     void change(const Json& state) {
         part_ = std::make_shared<test::TestPart>();
         for (int i = 0; i < 60; ++i) watch(state);

@@ -1,4 +1,4 @@
-// What the palette finds, offers and says while a line is typed, without a window.
+// What the palette finds, offers and reports while a line is typed, without a window.
 #include "app/shell/command_completion.hpp"
 
 #include <algorithm>
@@ -51,11 +51,11 @@ TEST_F(Completion, FindsByPlainWordsFirst) {
     EXPECT_EQ(names("add joint", "chain").front(), "chain.add");
     EXPECT_EQ(names("ADD JOINT tip", "chain").front(), "chain.add");
     EXPECT_EQ(names("cut", "chain").front(), "rope.cut");
-    // The title's words before those of the name, and those before the help's.
+    // Words of the title rank before those of the name, and those before the help's.
     const Strings swings = names("swing", "rope");
     ASSERT_TRUE(has(swings, "rope.collider.swing"));
     EXPECT_EQ(swings.front(), "rope.collider.swing");
-    // Words in any order, all of them.
+    // All words must match, in any order.
     EXPECT_TRUE(names("joint xyzzy").empty());
     EXPECT_EQ(names("tip at joint a add", "chain").front(), "chain.add");
 }
@@ -163,7 +163,7 @@ TEST_F(Completion, OffersWhatAListCanHaveElementByElement) {
     EXPECT_NE(wrong("humanoid.limits bones=LeftUpperArm"), "") << "is no list and becomes none";
 }
 
-/// Names with what ends an element, or a list, in them; however it is typed, what is offered is no mistake.
+/// Names with characters that end an element or a list; offers for them must still be valid.
 TEST_F(Completion, ListsOfNamesThatLookLikeLists) {
     for (const char* name : {"a, b", "c]", "d \"e\"", "\\", "[f"})
         table_.run(workspace_, "rig.element.add", {{"name", name}, {"kind", "bone"}});
@@ -211,7 +211,7 @@ TEST_F(Completion, SaysWhatIsWrongWhileItIsTyped) {
     EXPECT_EQ(missing(read("undo ")), "");
 }
 
-// The same words as when it is run: what is told early is what would be refused.
+// The same messages as when it runs: what is reported early is what would be refused.
 TEST_F(Completion, FindsEveryMistakeThatTheTableWouldRefuse) {
     for (const char* line : {"chain.add length=abc ", "chain.add length=[1] ", "chain.target to=[1,2] ",
                              "race.solver on=1 ", "chain.mode mode=x ", "chain.select index=1.5 ",
@@ -223,7 +223,7 @@ TEST_F(Completion, FindsEveryMistakeThatTheTableWouldRefuse) {
     }
 }
 
-// Whatever is typed, and wherever one stops: an answer, and lines that can be read again.
+// Any input, stopped anywhere, gets an answer, and lines that parse again.
 TEST_F(Completion, TenThousandHostileLinesAreAnswered) {
     std::mt19937 random(11);
     const auto below = [&](std::size_t end) { return random() % end; };

@@ -1,4 +1,4 @@
-// Plain names of commands: each has one, and it is one that a person would look for.
+// Titles of commands: each has one, in words that a user would search for.
 #include <algorithm>
 #include <cctype>
 #include <map>
@@ -47,7 +47,7 @@ TEST_F(CommandTitles, AreShortPhrasesThatSayMoreThanTheName) {
     }
 }
 
-// A person who reads two rows must be able to tell them apart: in a lab with the program's own beside it.
+// Two rows of a lab's and the program's commands must be distinguishable.
 TEST_F(CommandTitles, AreUniqueInALabAndTheProgram) {
     for (const auto& lab : labs_.all()) {
         std::map<std::string, std::string> seen;
@@ -69,8 +69,8 @@ TEST_F(CommandTitles, StandWithTheLabThatHasThem) {
     EXPECT_EQ(lab_of("view.character_bones"), "humanoid");
 }
 
-// The menu, the help and the README's list say of a command what the palette says; only what a key adds
-// ("Save as...") has words of its own.
+// Menu, help and the README's list use the palette's titles; only a shortcut with arguments ("Save as...")
+// has a title of its own.
 TEST_F(CommandTitles, AreWhatTheMenuSays) {
     const Shortcuts shortcuts(labs_, table_);
     std::set<std::string> plain;
@@ -89,7 +89,7 @@ TEST_F(CommandTitles, AreListed) {
     EXPECT_NE(list.find("\nchain.add length [position]\n    Add a joint at the tip\n    "), list.npos);
 }
 
-// What the palette offers is there: a choice that a command takes, or a name in the document.
+// Offers of the palette are valid: a choice of the command, or a name in the document.
 TEST_F(CommandTitles, ComeWithArgumentsWhoseOffersAreTaken) {
     Workspace workspace = make_blank_workspace(labs_);
     table_.run(workspace, "rope.add", {{"from", {0, 1, 0}}, {"to", {1, 1, 0}}, {"name", "my rope"}});
@@ -125,7 +125,7 @@ TEST_F(CommandTitles, ComeWithArgumentsWhoseOffersAreTaken) {
         table_.run(workspace, "lab.open", {{"name", name}});
 }
 
-// What an argument says that it is set to now is a value that it takes.
+// An argument's present value is one that it accepts.
 TEST_F(CommandTitles, ComeWithArgumentsWhosePresentValueFits) {
     Workspace workspace = make_blank_workspace(labs_);
     int count = 0;

@@ -1,4 +1,4 @@
-// A folded side panel and the strip that stays of it.
+// A folded side panel and the strip that remains of it.
 #include <gtest/gtest.h>
 
 #include "app/shell/layout.hpp"

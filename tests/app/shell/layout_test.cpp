@@ -1,7 +1,7 @@
-// Every lab, at three sizes of window and three sizes of text: no text is cut, nothing lies on anything else,
-// and everything that can be clicked can be reached.
+// Every lab, at three window sizes and three text sizes: no text is cut off, nothing overlaps, and everything
+// that can be clicked can be reached.
 #include <gtest/gtest.h>
-#include <imgui_internal.h>  // scrolling a window from outside, and which windows there are
+#include <imgui_internal.h>  // scrolling windows from outside, and listing them
 
 #include <algorithm>
 #include <cctype>
@@ -30,7 +30,7 @@ std::vector<std::string> lab_names() {
     return names;
 }
 
-/// Titles that end in "..." since something is asked next.
+/// Titles that end in "..." because a question follows.
 bool means_dots(const std::string& text) {
     return text == "Save..." || text == "Open..." || text == "Save as..." || text == "Open ..." ||
            text.ends_with(" ...");
@@ -82,7 +82,7 @@ class LayoutTest : public testing::TestWithParam<std::string> {
         }
     }
 
-    /// All windows that scroll, so many steps down. False once the last has reached its end.
+    /// Scrolls all windows down by `step` steps. False once the last has reached its end.
     static bool scroll_to(int step) {
         bool more = step == 0;
         for (ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {
@@ -93,7 +93,7 @@ class LayoutTest : public testing::TestWithParam<std::string> {
         }
         return more;
     }
-    /// Everything that the window shows now, and what scrolling brings.
+    /// Checks everything that the window shows now, and what scrolling reveals.
     void look() {
         for (int step = 0; scroll_to(step); ++step) {
             app_.settle();
@@ -116,7 +116,7 @@ class LayoutTest : public testing::TestWithParam<std::string> {
         note(covered(shell_parts(frame)));
         note_beneath_panels(frame);
     }
-    /// What lies on the scene and out of its rectangle is hidden by a panel.
+    /// What is on the scene but outside its rectangle is hidden by a panel.
     void note_beneath_panels(const FrameRecord& frame) {
         const Rect view = layout().view;
         for (const DrawnText& text : frame.texts) {
@@ -135,17 +135,17 @@ class LayoutTest : public testing::TestWithParam<std::string> {
         for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {
             if (!window->Active || window->Hidden || window->IsFallbackWindow) continue;
             const std::string name = window_name(window);
-            // Meant to lie over the others: sheets, which have a title, what pops up, and the palette.
+            // These may cover others: sheets, which have a title, popups, and the palette.
             if ((window->Flags & (ImGuiWindowFlags_Popup | ImGuiWindowFlags_Tooltip)) != 0) continue;
             if ((window->Flags & ImGuiWindowFlags_NoTitleBar) == 0 || name.starts_with("palette")) continue;
             const ImRect rect = window->Rect();
             const Rect box{{rect.Min.x, rect.Min.y}, {rect.Max.x, rect.Max.y}};
-            const bool panel = name == "left" || name == "right";  // its card and its content are
+            const bool panel = name == "left" || name == "right";  // its card and its content are checked
             const bool child = (window->Flags & ImGuiWindowFlags_ChildWindow) != 0;
             const bool of_panel =
                 child && (name == "left/content" || name == "right/content" || name == "right/card");
             if (panel || (child && !of_panel)) continue;
-            // A toast lies over the panels, where the view is too narrow to read it in.
+            // A toast covers the panels if the view is too narrow to read it in.
             if (name.starts_with("toast") && view_is_narrower_than_a_toast()) continue;
             add(name.starts_with("axis ") ? "axis gizmo" : name, box);
         }
@@ -155,7 +155,7 @@ class LayoutTest : public testing::TestWithParam<std::string> {
             const bool row = std::any_of(legend.begin(), legend.end(),
                                          [&](const LegendRow& each) { return each.name == text.text; });
             const std::string invitation = lab().invitation();
-            // A label on the scene may read the same.
+            // A label on the scene may have the same text.
             const bool in_column = std::abs(text.box.min.x - layout().view.min.x - 30.0f * scale_) < 1.0f;
             if (row && in_column) add("legend", {{layout().view.min.x, text.box.min.y}, text.box.max});
             if (!invitation.empty() && text.text.starts_with(invitation)) add("first hint", text.box);
@@ -167,7 +167,7 @@ class LayoutTest : public testing::TestWithParam<std::string> {
     }
     bool view_is_narrower_than_a_toast() { return layout().view.size().x < 412.0f * scale_; }
 
-    /// With the mouse on it, all of it is told.
+    /// The tooltip must show the whole text.
     void require_tooltip(const DrawnText& text) {
         const std::string kept = text.text.substr(0, text.text.size() - 3);
         if (!asked_.insert(window_name(text.window) + kept).second) return;
@@ -196,8 +196,7 @@ class LayoutTest : public testing::TestWithParam<std::string> {
         look();
         if (size_ == sizes[0]) look_at_lists();
     }
-    /// What opens below each field with a list, once for each size of text: lists do not know the window's
-    /// size.
+    /// Opens the list of each field, once for each text size: lists do not depend on the window's size.
     void look_at_lists() {
         for (int step = 0; scroll_to(step); ++step) {
             app_.settle();
@@ -219,7 +218,7 @@ class LayoutTest : public testing::TestWithParam<std::string> {
         return room.Contains({item.box.min.x, item.box.min.y}) &&
                room.Contains({item.box.max.x, item.box.max.y});
     }
-    /// What opens over the window, one after the other.
+    /// Opens each sheet in turn.
     void look_at_sheets() {
         for (const char* command : {"view.settings", "view.help", "view.palette"}) {
             run(command, {{"open", true}});
@@ -252,7 +251,7 @@ class LayoutTest : public testing::TestWithParam<std::string> {
         look();
         workspace().ui.toasts.clear();
     }
-    /// The menu, and the list of labs where there is one.
+    /// Opens the menu, and the list of labs if there is one.
     void look_at_bar() {
         app_.settle();
         const FrameRecord frame = recorder_.frame();
@@ -265,7 +264,7 @@ class LayoutTest : public testing::TestWithParam<std::string> {
             if (window_name(text.window) == "top" && text.text.ends_with(" ..."))
                 look_behind(text.box.centre());
     }
-    /// What a click there opens.
+    /// Checks what a click there opens.
     void look_behind(glm::vec2 at) {
         const Event there = MouseMove{at}, press = MousePress{MouseButton::Left, true},
                     release = MousePress{MouseButton::Left, false};
@@ -299,7 +298,7 @@ class LayoutTest : public testing::TestWithParam<std::string> {
     App app_{*window_};
     FrameRecorder recorder_;
     glm::ivec2 size_{0};
-    int popups_ = 0;  ///< that were looked at
+    int popups_ = 0;  ///< popups that were checked
     float scale_ = 1.0f;
     std::string scene_;
     std::map<std::string, Found> found_;

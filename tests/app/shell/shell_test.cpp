@@ -1,4 +1,4 @@
-// The shell without a window: shortcuts, layout, input, the command palette's reading and searching.
+// The shell without a window: shortcuts, layout, input, the command palette's parsing and searching.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,12 +15,12 @@
 namespace tendril::app {
 namespace {
 
-/// Whether the shortcut's command is accepted in one of the scenes that its lab is tested with.
+/// Whether the shortcut's command is accepted in one of its lab's test scenes.
 bool accepted_somewhere(const Labs& labs, const CommandTable& table, const Shortcut& shortcut) {
     const Lab& lab = shortcut.lab.empty() ? *labs.all().front() : *labs.find(shortcut.lab);
     for (const TestScene& scene : lab.test_scenes()) {
         Workspace workspace = make_blank_workspace(labs);
-        workspace.keeps = true;  // keys are of a window
+        workspace.keeps = true;  // shortcuts belong to a window
         workspace.open_lab(lab.name());
         for (const CommandCall& command : scene.commands)
             table.run(workspace, command.name, to_json(command.arguments));

@@ -51,7 +51,7 @@ class TooltipTest : public testing::Test {
             if (told_.insert(id).second)
                 ADD_FAILURE() << name_ << ", " << where << ": no tooltip at \"" << text << '"';
     }
-    /// Where that was not searched yet.
+    /// Searches it unless it was searched before.
     template <class Draw>
     void search(const std::string& name, const Draw& draw) {
         const auto drawn = [&] {
@@ -93,11 +93,11 @@ TEST_P(Tooltips, StandAtEverythingInThePanels) {
 INSTANTIATE_TEST_SUITE_P(Labs, Tooltips, testing::Values("chain", "rope", "signal", "rig", "humanoid"),
                          [](const auto& lab) { return std::string(lab.param); });
 
-/// The window around the panels, as it is with a lab open.
+/// The window around the panels, with a lab open.
 class ShellTooltips : public TooltipTest, public testing::WithParamInterface<const char*> {
   protected:
     ShellTooltips() : TooltipTest(GetParam()) {}
-    /// Of the part of the window that `of` picks from its layout.
+    /// Searches the part of the window that `of` selects from its layout.
     template <class Of>
     void search_part(const Workspace& workspace, const std::string& name, Of of) {
         const glm::vec2 size = finder_.window_size();

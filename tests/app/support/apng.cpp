@@ -87,7 +87,7 @@ class Reader {
     void follow(std::string_view data) {
         require(number(data, 0) == sequence_++, "a sequence number is wrong");
     }
-    /// Each frame's pixels are a PNG without its head and its end.
+    /// Each frame's pixels are a PNG without header and trailer.
     void finish_frame() {
         if (control_.empty()) return;
         const glm::ivec2 size{static_cast<int>(number(control_, 4)), static_cast<int>(number(control_, 8))};

@@ -1,4 +1,4 @@
-// Reads animated PNG, strictly as the specification has it: what is wrong with a file throws.
+// A strict reader of animated PNG: throws at any deviation from the specification.
 #pragma once
 
 #include <string_view>
@@ -9,14 +9,14 @@
 namespace tendril::test {
 
 struct ApngFrame {
-    app::Image image;                         ///< the whole picture while it is shown
-    unsigned numerator = 0, denominator = 0;  ///< of the seconds that it is shown
-    glm::ivec2 changed{0};                    ///< size of the part that the file has of it
+    app::Image image;                         ///< the complete picture
+    unsigned numerator = 0, denominator = 0;  ///< duration in seconds
+    glm::ivec2 changed{0};                    ///< size of the part stored in the file
 };
 
 struct Apng {
     glm::ivec2 size{0};
-    unsigned plays = 0;  ///< 0: for ever
+    unsigned plays = 0;  ///< 0: forever
     std::vector<ApngFrame> frames;
 };
 

@@ -9,7 +9,7 @@
 namespace tendril::test {
 namespace {
 
-/// The colour without its gray: a direction for the hue, a length for the strength.
+/// The colour without its grey: the direction is the hue, the length the saturation.
 glm::vec2 hue_of(glm::vec3 rgb) {
     return {rgb.r - 0.5f * (rgb.g + rgb.b), 0.8660254f * (rgb.g - rgb.b)};
 }
@@ -22,7 +22,7 @@ class Mask {
     glm::ivec2 low() const { return low_; }
     glm::ivec2 high() const { return low_ + size_; }
 
-    /// One pixel taken off all round.
+    /// Removes one pixel all round.
     Mask eroded() const {
         Mask result(low(), high());
         for (int y = low().y; y < high().y; ++y) {
@@ -68,7 +68,7 @@ Mask mask_of(const app::Image& image, const Wanted& wanted, glm::ivec2 low, glm:
     return mask;
 }
 
-/// Empties the region that holds (x, y), and says what it was.
+/// Clears the region that contains (x, y) and returns it.
 Blob take_region(Mask& mask, int x, int y) {
     std::vector<glm::ivec2> open{{x, y}};
     glm::ivec2 least{x, y}, most{x, y};

@@ -1,4 +1,4 @@
-// Finds things in a picture by their colour, as a person would: knowing nothing of where they should be.
+// Finds objects in a picture by colour alone, as a viewer would, without knowing where they should be.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -10,21 +10,20 @@
 namespace tendril::test {
 
 struct Blob {
-    glm::vec2 centre{0.0f};  ///< of the box around it, in pixels; a pixel's own centre is at +0.5
+    glm::vec2 centre{0.0f};  ///< of its bounding box, in pixels; a pixel's own centre is at +0.5
     int pixels = 0;
 };
 
-/// Pixels of about that hue, strong enough to be no blend with something else, as connected regions. Nothing
-/// where there are none. `solid` leaves out lines: only what stays after a pixel is taken off all round
-/// counts.
+/// Connected regions of pixels of about that hue, saturated enough not to be blended. `solid` ignores lines:
+/// counts only what remains after removing one pixel all round.
 struct Wanted {
     glm::vec3 colour{0.0f};       ///< sRGB, 0 to 1
     float hue_off = 0.25f;        ///< radians
-    float least_strength = 0.5f;  ///< share of the wanted colour's own saturation
+    float least_strength = 0.5f;  ///< relative to the saturation of `colour`
     bool solid = true;
 };
 
-/// The largest region within [low, high).
+/// The largest region within [low, high); nothing if there is none.
 std::optional<Blob> find_blob(const app::Image& image, const Wanted& wanted, glm::ivec2 low, glm::ivec2 high);
 
 }  // namespace tendril::test

@@ -1,4 +1,4 @@
-// Work done in a child process: to be killed, limited or measured without harm to the tests.
+// Runs work in a child process, which can be killed, limited or measured without affecting the tests.
 #pragma once
 
 #include <sys/resource.h>
@@ -9,7 +9,7 @@
 
 namespace tendril::test {
 
-/// Runs `work` in a child; its result (0 to 100), or 101 where it threw, or -1 where it died otherwise.
+/// Runs `work` in a child. Returns its result (0 to 100), 101 if it threw, or -1 if it died otherwise.
 template <class Work>
 int in_child(const Work& work) {
     const pid_t pid = ::fork();
@@ -26,7 +26,7 @@ int in_child(const Work& work) {
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-/// The most memory this process has held so far, in megabytes.
+/// The peak memory of this process so far, in megabytes.
 inline long peak_megabytes() {
     struct rusage usage {};
     ::getrusage(RUSAGE_SELF, &usage);

@@ -10,7 +10,7 @@
 namespace tendril::test {
 namespace {
 
-FrameRecorder* active = nullptr;  // the wrapped functions have nothing else to find it by
+FrameRecorder* active = nullptr;  // the wrapped functions have no other way to find it
 
 const ImGuiWindow* window_of(const ImDrawList& list) {
     const ImGuiContext& context = *ImGui::GetCurrentContext();
@@ -86,8 +86,8 @@ void FrameRecorder::last_item_is(DrawnItem::Kind kind) {
 
 }  // namespace tendril::test
 
-// The linker sends calls of Dear ImGui's functions to those named __wrap_..., and calls of __real_... to the
-// function itself. A member function takes its object as a first argument.
+// The linker redirects calls of Dear ImGui's functions to __wrap_..., and calls of __real_... to the function
+// itself. A member function takes its object as first argument.
 #if IMGUI_VERSION_NUM < 19200
 #define TENDRIL_ADD_TEXT "_ZN10ImDrawList7AddTextEPK6ImFontfRK6ImVec2jPKcS7_fPK6ImVec4"
 #else
@@ -173,7 +173,7 @@ bool begin_combo(const char* label, const char* preview, ImGuiComboFlags flags) 
     return open;
 }
 
-#if IMGUI_VERSION_NUM < 18970  // later it is a flag that the item is made with
+#if IMGUI_VERSION_NUM < 18970  // later versions set a flag when the item is created
 void real_allow_overlap() __asm__("__real_" TENDRIL_OVERLAP);
 void allow_overlap() __asm__("__wrap_" TENDRIL_OVERLAP);
 void allow_overlap() {

@@ -1,6 +1,6 @@
-// What Dear ImGui draws in a frame, as texts and items rather than pixels: each text with its place and with
-// what it is clipped to, each item with its box. Its functions are wrapped when the tests are linked (see
-// CMakeLists.txt there), so the program that is looked at is the one that people run.
+// Dear ImGui's output of a frame as texts and items instead of pixels: each text with its position and clip
+// rectangle, each item with its box. Its functions are wrapped when the tests are linked (see CMakeLists.txt
+// there), so the program under test is the real one.
 #pragma once
 
 #include <imgui.h>
@@ -15,17 +15,17 @@ struct ImGuiWindow;
 namespace tendril::test {
 
 struct DrawnText {
-    const ImGuiWindow* window = nullptr;  ///< null where it lies on the scene
+    const ImGuiWindow* window = nullptr;  ///< null on the scene
     std::string text;
-    app::Rect box;   ///< all of it, clipped or not
-    app::Rect clip;  ///< what of the screen it may be seen in
+    app::Rect box;   ///< unclipped
+    app::Rect clip;  ///< the visible part of the screen
     const ImFont* font = nullptr;
     float widest_word = 0.0f;
-    float wrap = 0.0f;  ///< 0: it stands on one line
+    float wrap = 0.0f;  ///< 0: a single line
 };
 
 struct DrawnItem {
-    enum class Kind { Button, Text, Combo, Row, Other };  ///< a row may have items of its own on it
+    enum class Kind { Button, Text, Combo, Row, Other };  ///< a row may contain other items
     const ImGuiWindow* window = nullptr;
     unsigned id = 0;
     app::Rect box;
@@ -34,10 +34,10 @@ struct DrawnItem {
 
 struct FrameRecord {
     std::vector<DrawnText> texts;
-    std::vector<DrawnItem> items;  ///< those that can be clicked, also where they are scrolled out of sight
+    std::vector<DrawnItem> items;  ///< that can be clicked, including those scrolled out of view
 };
 
-/// Records while it lives, the last frame only. One at a time.
+/// Records while it exists; keeps the last frame. One at a time.
 class FrameRecorder {
   public:
     FrameRecorder();
@@ -47,7 +47,7 @@ class FrameRecorder {
 
     const FrameRecord& frame() const { return record_; }
 
-    // what the wrapped functions say
+    // called by the wrapped functions
     void text(const ImDrawList& list, const ImFont* font, float size, const ImVec2& at, const char* begin,
               const char* end, float wrap, const ImVec4* clip);
     void item(const ImVec4& box, unsigned id);

@@ -24,7 +24,7 @@ std::vector<CommandCall> bones_and_a_control() {
 
 namespace {
 
-/// The lab's own scenes: its test scenes, and every preset.
+/// The lab's scenes: its opening, its test scenes, and every preset.
 std::vector<Shown> scenes_of(const Lab& lab, const CommandTable& table) {
     std::vector<Shown> all{{"as it opens", lab.opening()}};
     for (const TestScene& scene : lab.test_scenes()) all.push_back({scene.name, scene.commands});

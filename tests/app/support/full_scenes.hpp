@@ -1,5 +1,5 @@
-// Scenes in which the panels are full: something is selected, and what can be switched on is on. For tests
-// that look at everything a panel can show.
+// Scenes with full panels: something is selected, and everything that can be switched on is on. For tests
+// that check everything a panel can show.
 #pragma once
 
 #include <string>
@@ -10,17 +10,17 @@
 
 namespace tendril::test {
 
-/// A scene, and what is selected and switched on in it.
+/// A scene with its selection and switches.
 struct Shown {
     std::string name;
     std::vector<app::CommandCall> commands;  ///< from a blank document
-    int ticks = 3;                           ///< to let pass
+    int ticks = 3;                           ///< to run
 };
 
 app::CommandCall call(const char* name, app::ArgumentList arguments = {});
-/// Three bones above each other, the last one "c", and a control "look".
+/// Three bones in a column, the last one "c", and a control "look".
 std::vector<app::CommandCall> bones_and_a_control();
-/// As it opens, its test scenes, each preset, and one scene for every kind of thing that can be selected.
+/// Its opening, its test scenes, each preset, and one scene for every kind of selectable object.
 std::vector<Shown> all_scenes(const app::Lab& lab, const app::CommandTable& table);
 
 }  // namespace tendril::test

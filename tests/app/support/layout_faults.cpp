@@ -12,7 +12,7 @@ namespace {
 
 using app::Rect;
 
-constexpr float slack = 1.5f;  ///< pixels: places are rounded
+constexpr float slack = 1.5f;  ///< pixels: positions are rounded
 
 Rect shared(const Rect& a, const Rect& b) {
     return {glm::max(a.min, b.min), glm::min(a.max, b.max)};
@@ -34,24 +34,24 @@ Rect rect_of(const ImRect& rect) {
     return {{rect.Min.x, rect.Min.y}, {rect.Max.x, rect.Max.y}};
 }
 
-/// Nothing of it is drawn, as by a popup that only measures itself.
+/// Whether nothing of it is drawn, as for a popup that only measures itself.
 bool hidden(const ImGuiWindow* window) {
     return window != nullptr && (!window->Active || window->Hidden || window->SkipItems);
 }
 
-/// The window that scrolls what is in `window` up and down, itself or one around it; null where none does.
+/// The window that scrolls the content of `window` vertically, itself or an ancestor; null if none does.
 const ImGuiWindow* scroller_of(const ImGuiWindow* window) {
     while (window != nullptr && window->ScrollMax.y <= 0.0f)
         window = (window->Flags & ImGuiWindowFlags_ChildWindow) != 0 ? window->ParentWindow : nullptr;
     return window;
 }
 
-/// Whether it is cut by an edge beyond which one can scroll.
+/// Whether it is cut by an edge beyond which the user can scroll.
 bool can_be_scrolled_to(const DrawnText& text) {
     for (const ImGuiWindow* window = scroller_of(text.window); window != nullptr;
          window = scroller_of(window->ParentWindow)) {
         const Rect room = rect_of(window->InnerClipRect);
-        // A table keeps the row of its titles at its upper edge.
+        // A table keeps its title row at its upper edge.
         const float titles = window->Scroll.y > 0.0f ? 2.0f * text.box.size().y : 0.0f;
         const bool above =
             text.box.min.y < room.min.y + titles + slack && text.clip.min.y >= room.min.y - slack;
@@ -61,20 +61,20 @@ bool can_be_scrolled_to(const DrawnText& text) {
     return false;
 }
 
-/// The cross of a sheet: it is in the bar of its title, under which nothing scrolls.
+/// The close button of a sheet is in its title bar, under which nothing scrolls.
 bool in_title_bar(const DrawnItem& item) {
     return (item.window->Flags & ImGuiWindowFlags_NoTitleBar) == 0 &&
            inside(item.box, rect_of(item.window->TitleBarRect()));
 }
 
-/// What is typed scrolls in its field.
+/// Text in an input field scrolls there.
 bool is_typed(const FrameRecord& frame, const DrawnText& text) {
     return std::any_of(frame.items.begin(), frame.items.end(), [&](const DrawnItem& item) {
         return item.kind == DrawnItem::Kind::Text && inside(text.clip, item.box) && seen(text.clip);
     });
 }
 
-/// What of an item can be seen now.
+/// The visible part of an item.
 Rect seen_of(const DrawnItem& item) {
     return shared(item.box, rect_of(item.window->InnerClipRect));
 }
@@ -83,7 +83,7 @@ LayoutFault fault(const std::string& what, const DrawnText& text) {
     return {what, window_name(text.window), text.text};
 }
 
-/// The text that names an item: within its box, else nearest to the left of it.
+/// The text that names an item: inside its box, or else nearest on its left.
 std::string name_of(const FrameRecord& frame, const DrawnItem& item) {
     const DrawnText* best = nullptr;
     float nearest = 1e9f;
@@ -192,7 +192,7 @@ std::vector<LayoutFault> out_of_reach(const FrameRecord& frame, glm::vec2 screen
         const glm::vec2 size = item.box.size();
         if (size.x < 3.0f || size.y < 3.0f) add("is too small to be clicked");
         Rect room = rect_of(item.window->InnerRect);
-        // A row of a list is larger by half of the space around it.
+        // A row of a list is larger by half of the spacing around it.
         const ImVec2 space = ImGui::GetStyle().ItemSpacing;
         const glm::vec2 edge{0.5f * space.x + slack, 0.5f * space.y + 2.0f * slack};
         if (item.box.min.x < room.min.x - edge.x || item.box.max.x > room.max.x + edge.x)

@@ -1,4 +1,4 @@
-// Where the Chain lab's panel has what tests click, in a window of 1280 by 720 as it is at first.
+// Positions in the Chain lab's panel that tests click, in the initial window of 1280 by 720.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -8,7 +8,7 @@ namespace tendril::test::chain_panel {
 inline constexpr glm::vec2 forward{60.0f, 274.0f};
 inline constexpr glm::vec2 target_y{173.0f, 641.0f};  ///< in the four trailing modes
 inline constexpr glm::vec2 add{48.0f, 513.0f};        ///< the button, in the four trailing modes
-// In mode reach:
+// In mode Reach:
 inline constexpr glm::vec2 iterations{173.0f, 523.0f};
 inline constexpr glm::vec2 soft_zone{173.0f, 651.0f};
 

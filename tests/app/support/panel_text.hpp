@@ -1,4 +1,4 @@
-// What a person reads in a panel: its text, as Dear ImGui writes it into a log.
+// The text of a panel, from Dear ImGui's log.
 #pragma once
 
 #include <imgui.h>
@@ -15,11 +15,11 @@ namespace tendril::test {
 
 class PanelReader {
   public:
-    /// All that `draw` writes into a panel 360 pixels wide; a row stands on one line.
+    /// All text that `draw` writes into a panel 360 pixels wide; one line for each row.
     template <class Draw>
     std::string read(const Draw& draw) {
         std::string text;
-        for (int frame = 0; frame < 2; ++frame) {  // some sizes are known a frame later
+        for (int frame = 0; frame < 2; ++frame) {  // some sizes are known one frame later
             ui_.begin({window_->size(), window_->framebuffer_size(), 1.0f}, app::Theme::Dark, input_, nullptr,
                       true);
             ImGui::SetNextWindowPos({0.0f, 0.0f});

@@ -1,4 +1,4 @@
-// Plays a script off screen, in this process, and reads back what it left.
+// Plays a script offscreen in this process, and returns its results.
 #pragma once
 
 #include "app/io/image.hpp"
@@ -10,15 +10,15 @@ namespace tendril::test {
 struct Played {
     Outcome outcome;
     app::Json state;
-    app::Image picture;  ///< empty unless asked for
+    app::Image picture;  ///< empty unless requested
 };
 
 struct PlayOptions {
     bool picture = false;
-    std::vector<std::string> more{};  ///< further arguments
+    std::vector<std::string> more{};  ///< additional arguments
 };
 
-/// Fails the test where the program does.
+/// Fails the test if the program fails.
 inline Played play(const ScriptText& script, const PlayOptions& options = {}) {
     const TempFolder folder;
     write(folder / "script.jsonl", script.text());
@@ -36,7 +36,7 @@ inline Played play(const ScriptText& script, const PlayOptions& options = {}) {
     return played;
 }
 
-/// Where the state says that a handle is; fails the test where there is no such handle in view.
+/// The pixel position of a handle in --state; fails the test if no such handle is in view.
 inline glm::vec2 handle(const app::Json& state, const std::string& name) {
     for (const auto& each : state.at("handles")) {
         if (each.at("name") == name && each.at("pixel").is_array()) {
@@ -51,7 +51,7 @@ inline glm::vec3 point_of(const app::Json& json) {
     return {json.at(0).get<float>(), json.at(1).get<float>(), json.at(2).get<float>()};
 }
 
-/// The state that a script leads to.
+/// The state after a script.
 inline app::Json state_after(const ScriptText& script) {
     return play(script).state;
 }

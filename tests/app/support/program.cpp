@@ -88,7 +88,7 @@ void Process::signal(int number) const {
 double Process::cpu_seconds() const {
     std::ifstream in("/proc/" + std::to_string(id_) + "/stat");
     std::string text(std::istreambuf_iterator<char>(in), {});
-    // The second field is the name in parentheses, which may hold anything.
+    // The second field is the name in parentheses, which may contain anything.
     const auto end_of_name = text.rfind(')');
     if (end_of_name == text.npos) return 0.0;
     std::istringstream fields(text.substr(end_of_name + 1));

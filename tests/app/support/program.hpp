@@ -1,4 +1,4 @@
-// Starts programs as a person's shell would, the built one above all, and says what came of them.
+// Starts programs as a shell would, above all the built one, and reports how they ended.
 #pragma once
 
 #include <sys/types.h>
@@ -13,17 +13,17 @@
 
 namespace tendril::test {
 
-/// Variables to set, or with no value to unset, before the program starts.
+/// Variables to set before the program starts; without a value, to unset.
 using Environment = std::vector<std::pair<std::string, std::optional<std::string>>>;
 
 struct Outcome {
-    int exit_code = -1;  ///< 128 plus the signal where one ended it
+    int exit_code = -1;  ///< 128 plus the signal if one ended it
     std::string out, err;
-    long peak_megabytes = 0;  ///< of memory held at once
-    double seconds = 0.0;     ///< by the clock
+    long peak_megabytes = 0;  ///< peak memory
+    double seconds = 0.0;     ///< wall time
 };
 
-/// A process that runs until it ends, or until this object does.
+/// A process that runs until it ends, or until this object is destroyed.
 class Process {
   public:
     explicit Process(const std::vector<std::string>& command, const Environment& changes = {},
@@ -37,10 +37,10 @@ class Process {
     void signal(int number) const;
     /// Seconds of processor time used so far.
     double cpu_seconds() const;
-    /// What it has said so far.
+    /// Its output so far.
     std::string out() const { return read(texts_ / "out"); }
     std::string err() const { return read(texts_ / "err"); }
-    /// Waits for its end; kills it, and fails the test, when that takes longer than `seconds`.
+    /// Waits for its end; kills it and fails the test after `seconds`.
     Outcome wait(double seconds = 60.0);
 
   private:
@@ -52,27 +52,27 @@ class Process {
     std::optional<Outcome> outcome_;
 };
 
-/// The built program with these arguments. Whatever the tests' own surroundings are, it finds an empty config
-/// folder. It starts in `folder`, or where the tests do.
+/// Runs the built program with these arguments, with an empty config folder whatever the tests' environment
+/// is. It starts in `folder`, or in the tests' own.
 Outcome run_program(const std::vector<std::string>& arguments, const Environment& changes = {},
                     const std::filesystem::path& folder = {});
 
-/// The same in this very process, which is quicker where nothing has to be survived or measured.
+/// The same in this process: faster, if nothing must be survived or measured.
 Outcome run_here(const std::vector<std::string>& arguments, const std::filesystem::path& folder = {});
 
 /// The command that starts the built program.
 std::vector<std::string> program_command(const std::vector<std::string>& arguments);
 
-/// Lines in a text, the last one counted whether or not it ends.
+/// Number of lines in a text, including an unterminated last one.
 int count_lines(const std::string& text);
 
-/// Whether a program found no fault: exit code 0 and nothing on stderr.
+/// Whether a program succeeded: exit code 0 and nothing on stderr.
 testing::AssertionResult succeeded(const Outcome& outcome);
-/// Whether it ended with that code and said why in a single line of stderr that has all of `parts`.
+/// Whether it ended with that code and a one-line message on stderr that contains all `parts`.
 testing::AssertionResult complained(const Outcome& outcome, int exit_code,
                                     const std::vector<std::string>& parts = {});
 
-/// Sanitizers take time and memory of their own: limits are multiplied by this.
+/// Sanitizers take additional time and memory: limits are multiplied by this.
 #if defined(__SANITIZE_ADDRESS__)
 inline constexpr int sanitizer_factor = 6;
 #elif defined(__has_feature)

@@ -15,7 +15,7 @@ class RandomNumbers {
     double uniform(double low, double high) {
         return low + (high - low) * static_cast<double>(random() >> 8) / 16777216.0;
     }
-    /// A unit vector, all alike likely.
+    /// A uniformly distributed unit vector.
     glm::dvec3 direction() {
         for (;;) {
             const double x = uniform(-1, 1), y = uniform(-1, 1), z = uniform(-1, 1);

@@ -1,4 +1,4 @@
-// Scripts, written line by line.
+// Writes scripts line by line.
 #pragma once
 
 #include <glm/vec2.hpp>

@@ -1,4 +1,4 @@
-// A folder of a test's own, gone when the test ends, and small helpers for files in it.
+// A temporary folder for a test, and helpers for files in it.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ class TempFolder {
     const std::filesystem::path& path() const { return path_; }
     std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
 
-    /// Names of what is in it, sorted, hidden ones too.
+    /// The names of its contents, sorted, including hidden ones.
     std::vector<std::string> names() const {
         std::vector<std::string> found;
         for (const auto& entry : std::filesystem::directory_iterator(path_))
@@ -46,7 +46,7 @@ class TempFolder {
     std::filesystem::path path_;
 };
 
-/// While it lives, files without a folder land in this one.
+/// While it exists, it is the current folder.
 class WorkingIn {
   public:
     explicit WorkingIn(const TempFolder& folder) { std::filesystem::current_path(folder.path()); }
@@ -70,14 +70,14 @@ inline std::string read(const std::filesystem::path& path) {
     return std::string(std::istreambuf_iterator<char>(in), {});
 }
 
-/// Whether `part` stands in `text`, telling both where it does not.
+/// Whether `text` contains `part`; prints both if not.
 inline testing::AssertionResult has(std::string_view text, std::string_view part) {
     if (text.find(part) != text.npos)
         return testing::AssertionSuccess() << '"' << text << "\" has \"" << part << '"';
     return testing::AssertionFailure() << '"' << text << "\" does not have \"" << part << '"';
 }
 
-/// What `action` throws says; empty where it throws nothing.
+/// The message that `action` throws; empty if it does not throw.
 template <class Action>
 std::string message_of(const Action& action) {
     try {

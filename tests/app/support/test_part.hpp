@@ -1,4 +1,4 @@
-// A part that no lab has, for tests of what holds for every part.
+// A part of no real lab, for tests of properties of every part.
 #pragma once
 
 #include <memory>
@@ -42,7 +42,7 @@ inline std::shared_ptr<TestPart> make_part(std::string title, std::vector<float>
     return part;
 }
 
-/// Two labs, "arm" and "rope", "arm" open; everything blank.
+/// Two labs, "arm" and "rope", with "arm" open and everything blank.
 inline app::Workspace make_workspace() {
     app::Workspace workspace;
     workspace.blank.set("arm", make_part("blank arm", {1.0f, 2.0f}));

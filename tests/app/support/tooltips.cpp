@@ -1,7 +1,7 @@
 #include "tests/app/support/tooltips.hpp"
 
 #include <imgui.h>
-#include <imgui_internal.h>  // which item is under the mouse, and which windows there are
+#include <imgui_internal.h>  // the item under the mouse, and the windows
 
 #include <algorithm>
 #include <cctype>
@@ -11,7 +11,7 @@
 namespace tendril::test {
 namespace {
 
-/// Scroll bars, and the cross of a window, which mean the same everywhere.
+/// Scroll bars and close buttons, which mean the same everywhere.
 bool of_a_window(ImGuiID id) {
     for (ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {
         if (!window->Active) continue;

@@ -1,5 +1,5 @@
-// Finds what a person can click, drag or type into, and whether it has a tooltip: the mouse visits each item
-// that a frame drew.
+// Finds everything that a user can click, drag or type into, and whether it has a tooltip: moves the mouse to
+// each item that a frame drew.
 #pragma once
 
 #include <deque>
@@ -18,15 +18,15 @@
 
 namespace tendril::test {
 
-/// What was found in a part of the picture.
+/// The result for a part of the picture.
 struct TooltipSearch {
-    std::set<unsigned> items;                 ///< by ImGui's ids
-    std::map<unsigned, std::string> lacking;  ///< those without a tooltip, with the text nearest to each
+    std::set<unsigned> items;                 ///< by ImGui ID
+    std::map<unsigned, std::string> lacking;  ///< those without a tooltip, with the nearest text
 };
 
 class TooltipFinder {
   public:
-    /// In a panel 300 pixels wide, high enough for all that `draw` writes into it.
+    /// In a panel 300 pixels wide, high enough for everything that `draw` writes.
     template <class Draw>
     TooltipSearch search_panel(const Draw& draw) {
         const auto frame = [&](glm::vec2 mouse) {
@@ -34,13 +34,13 @@ class TooltipFinder {
             draw();
             end_panel();
         };
-        // Some sizes are known a frame later; what is above all lies as it does in a panel that is too low.
+        // Some sizes are known one frame later; the first frames are laid out as in a panel that is too low.
         for (int i = 0; i < 3; ++i) frame(nowhere);
         fit_panel();
         for (int i = 0; i < 2; ++i) frame(nowhere);
         return search({{0.0f, 0.0f}, {panel_width, panel_height_}}, frame);
     }
-    /// In a part of a window of its size; `draw` draws all of that.
+    /// In part of a window of its size; `draw` draws the whole window.
     template <class Draw>
     TooltipSearch search_window(const app::Rect& part, const Draw& draw) {
         const auto frame = [&](glm::vec2 mouse) {
@@ -52,11 +52,11 @@ class TooltipFinder {
         return search(part, frame);
     }
     glm::vec2 window_size() const;
-    /// The text that `draw` writes into a panel, and with the mouse on something its tooltip.
+    /// The text that `draw` writes into a panel, and the tooltip under the mouse.
     template <class Draw>
     std::string read(const Draw& draw, glm::vec2 mouse = nowhere) {
         std::string text;
-        for (int i = 0; i < 2; ++i) {  // what the mouse is on is known a frame later
+        for (int i = 0; i < 2; ++i) {  // the item under the mouse is known one frame later
             begin_panel(mouse);
             begin_text();
             draw();
@@ -65,7 +65,7 @@ class TooltipFinder {
         }
         return text;
     }
-    /// The same without numbers: what looks alike is searched once.
+    /// The same without numbers, so that similar panels are searched once.
     template <class Draw>
     std::string text_of(const Draw& draw) {
         return without_numbers(read(draw));
@@ -88,7 +88,7 @@ class TooltipFinder {
         for (std::size_t i = 0; i < items.size(); ++i) {
             for (const glm::vec2 mouse : places_on(items[i], part)) {
                 frame(mouse);
-                for (const DrawnItem& item : recorder.frame().items)  // some show only beneath the mouse
+                for (const DrawnItem& item : recorder.frame().items)  // some appear only under the mouse
                     if (known.insert(item.id).second) items.push_back(item);
                 if (look(items[i], found, silent)) break;
             }
@@ -105,13 +105,13 @@ class TooltipFinder {
     static void begin_text();
     static std::string end_text();
     static std::string without_numbers(std::string text);
-    /// Where the mouse goes to find an item's tooltip: its middle, then all over it, for a plot has one only
-    /// where there is something. None where all of it lies out of `part`.
+    /// Mouse positions to find an item's tooltip: its middle, then all over it, since plots have tooltips
+    /// only in places. None if the item is outside `part`.
     static std::vector<glm::vec2> places_on(const DrawnItem& item, const app::Rect& part);
-    /// Notes what the mouse is on in the frame that has ended. True once `item` is known to have a tooltip.
+    /// Records the item under the mouse in the last frame. True once `item` is known to have a tooltip.
     static bool look(const DrawnItem& item, TooltipSearch& found,
                      std::map<unsigned, const DrawnItem*>& silent);
-    /// The text on an item, else the one nearest to it.
+    /// The text on an item, or else the nearest one.
     static std::string text_at(const FrameRecord& drawn, const DrawnItem& item);
 
     std::unique_ptr<app::Window> window_ = app::open_offscreen({1280, 800});

@@ -1,4 +1,4 @@
-// The camera's mathematics: pixels and rays agree, the moves do what their words say, and no pose breaks it.
+// The camera's mathematics: pixels and rays agree, moves do what they say, and no pose breaks it.
 #include "app/view/camera.hpp"
 
 #include <gtest/gtest.h>
@@ -150,7 +150,7 @@ TEST(Camera, FramedFitsTheWholeSphere) {
             float most = 0.0f;
             for (int i = 0; i < 64; ++i) {
                 const float angle = 0.0981748f * static_cast<float>(i);
-                // Where lines of sight touch the sphere; that is nearer than its middle.
+                // Where lines of sight touch the sphere, which is nearer than its centre.
                 const float nearer = moved.orthographic ? 0.0f : radius * radius / moved.distance;
                 const float rim = std::sqrt(radius * radius - nearer * nearer);
                 const glm::vec3 point =

@@ -1,5 +1,5 @@
-// Gizmos: what a drag of a part does to a frame, from any camera and for any line of sight, and what of a
-// gizmo can be caught.
+// Gizmos: the effect of dragging each part, from any camera and along any line of sight, and picking of
+// parts.
 #include "app/view/gizmo.hpp"
 
 #include <gtest/gtest.h>
@@ -102,7 +102,7 @@ TEST(GizmoDrag, ChangesWhatItsPartSaysAndNothingElse) {
     }
 }
 
-/// What carries the handle may have moved, turned and scaled it since it was caught.
+/// The parent may have moved, rotated and scaled the handle since it was grabbed.
 TEST(GizmoDrag, LeavesWhatItsPartIsNotForAsItIsNow) {
     Chance chance;
     for (int round = 0; round < 2000; ++round) {
@@ -127,7 +127,7 @@ TEST(GizmoDrag, LeavesWhatItsPartIsNotForAsItIsNow) {
         }
         const float size = 1e-4f * (1.0f + glm::length(now.position) + glm::length(dragged.position));
         const glm::vec3 upright = axis(from, part), by = to.position - now.position;
-        const glm::vec3 off = to.position - dragged.position;  // from where the pointer is
+        const glm::vec3 off = to.position - dragged.position;  // from the pointer's position
         const float along = glm::dot(by, upright), missed = glm::dot(off, upright);
         if (is_plane(part)) {
             EXPECT_LE(std::abs(along), size) << name(part);
@@ -149,10 +149,10 @@ TEST(GizmoDrag, WhatWasCaughtStaysUnderThePointer) {
         const glm::vec3 sight =
             camera.pose().orthographic ? camera.forward() : glm::normalize(from.position - camera.eye());
         const float along = std::abs(glm::dot(sight, axis(from, part)));
-        if (is_plane(part) ? along < 0.4f : along > 0.9f) continue;  // evenly there, see below
+        if (is_plane(part) ? along < 0.4f : along > 0.9f) continue;  // not exact there, see below
         const auto middle = camera.project(from.position);
         if (!middle || !viewport.contains(*middle)) continue;
-        // To where that very point of the axis, or of the plane, is seen.
+        // To the pixel of exactly that point of the axis or plane.
         glm::vec3 by = chance.in(-0.8f, 0.8f) * axis(from, part);
         if (is_plane(part)) {
             const glm::vec3 any = chance.point(0.6f);
@@ -176,7 +176,7 @@ TEST(GizmoDrag, ASmallMoveOfThePointerIsASmallMoveOfTheFrame) {
         from.position = camera.pose().target;
         const auto part = static_cast<GizmoPart>(round % gizmo_parts);
         const bool plane = is_plane(part) || changed_by(part) == Drag::Rotation;
-        // Right at the eye, or seen edge on: where a plain intersection jumps.
+        // At the eye, or edge-on: where a plain intersection jumps.
         if (round % 3 == 0) {
             glm::vec3 local(0.0f), seen = plane ? camera.right() : camera.forward();
             local[axis_of(part)] = 1.0f;
@@ -190,11 +190,11 @@ TEST(GizmoDrag, ASmallMoveOfThePointerIsASmallMoveOfTheFrame) {
         for (int i = 1; i <= steps; ++i) {
             const float share = static_cast<float>(i) / steps;
             const glm::vec2 at = start + share * (end - start);
-            // About its own middle a ring may turn fast.
+            // Close to its centre a ring may turn fast.
             if (changed_by(part) == Drag::Rotation && glm::distance(at, {400.0f, 300.0f}) < 60.0f) break;
             const HandleFrame now = drag.to(camera.ray(at));
             const float moved = glm::distance(at, start + (share - 1.0f / steps) * (end - start));
-            // A slant of 0.1 makes ten metres of one, and perspective some more of the far ones.
+            // A slant of 0.1 makes ten metres of one, and perspective adds more for distant ones.
             EXPECT_LT(glm::distance(now.position, last.position), (moved + 0.5f) * pixel * 300.0f)
                 << name(part) << " " << round;
             if (changed_by(part) == Drag::Rotation) {
@@ -229,7 +229,7 @@ TEST(GizmoDrag, ARingCountsWholeTurns) {
 }
 
 TEST(GizmoDrag, ARingSeenEdgeOnTurnsAsItsNearSideIsPulled) {
-    const Camera camera({.distance = 6.0f}, viewport);  // y is up, the ring about it a line
+    const Camera camera({.distance = 6.0f}, viewport);  // y is up, so the ring about it is a line
     const Gizmo gizmo{{}, everything};
     const float radius = gizmo.reach(Drag::Rotation, camera) / camera.metres_per_pixel({});
     GizmoDrag drag = caught(GizmoPart::RotateY, {}, camera, {400.0f, 300.0f});
@@ -291,7 +291,7 @@ TEST(Gizmo, EveryPartThatItHasIsCaughtWhereItsGripIs) {
             bool found = false;
             for (const glm::vec3 grip : gizmo.grips(part, camera))
                 found = found || pick(list, camera, *camera.project(grip), 0.0f) == gizmo_pick(part);
-            // Where axes lie one behind the other on the screen, a box may be behind an arrow.
+            // If axes are behind one another on the screen, a box may be behind an arrow.
             if (changed_by(part) == Drag::Rotation) {
                 EXPECT_TRUE(found) << name(part) << " " << round;
             }

@@ -1,4 +1,4 @@
-// PNG files come back as they were written, and say by name what is wrong.
+// PNG files read back unchanged, and errors name the file.
 #include "app/io/image.hpp"
 
 #include <gtest/gtest.h>

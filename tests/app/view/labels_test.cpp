@@ -1,4 +1,4 @@
-// Labels never overlap and are never cut off, whatever is asked for.
+// Labels never overlap and are never cut off, whatever is requested.
 #include "app/view/labels.hpp"
 
 #include <gtest/gtest.h>
@@ -110,7 +110,7 @@ TEST(Labels, LeaveOutWhatCannotBePlaced) {
     EXPECT_TRUE(place_labels({}, viewport).empty());
 }
 
-/// A ball before the eye of a camera that is nearly in it fills more pixels than an int counts.
+/// A ball in front of a camera that is nearly inside it covers more pixels than an int can count.
 TEST(Labels, AnObstacleOfAnySizeIsJustInTheWay) {
     const std::vector<LabelRequest> requests{{.at = {500, 300}, .size = {40, 14}}};
     const std::vector<Rect> obstacles{{{-1e12f, -1e12f}, {1e12f, 1e12f}},

@@ -1,5 +1,5 @@
-// Triangles as they are drawn: where the camera says, in the strokes' light, before and behind strokes, with
-// clean edges, in one call.
+// Triangles as drawn: where the camera says, lit like strokes, in front of and behind strokes, with smooth
+// edges, in one call.
 #include "app/view/mesh.hpp"
 
 #include <gtest/gtest.h>
@@ -49,7 +49,7 @@ glm::ivec2 pixel_of(const CameraPose& pose, glm::vec3 point) {
     return glm::ivec2(Camera(pose, viewport).project(point).value());
 }
 
-/// A square that faces along the normal.
+/// A square with the given normal.
 void square(Mesh& mesh, glm::vec3 centre, glm::vec3 normal, float half, glm::vec3 front, glm::vec3 back) {
     const glm::vec3 side = std::abs(normal.x) < 0.9f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
     const glm::vec3 u = glm::normalize(glm::cross(side, normal)), v = glm::cross(normal, u);
@@ -76,7 +76,7 @@ TEST_P(Meshes, HideStrokesBehindThemAndAreHiddenByThoseBefore) {
             list.sphere(off * towards, 0.01f, Unit::Metres, glm::vec4(green, 1.0f)).radius_a = 0.02f;
             list.line(off * towards - glm::vec3(0, 1, 0), off * towards + glm::vec3(0, 1, 0), 3.0f,
                       glm::vec4(green, 1.0f));
-            // A line lies eight pixels deeper than it is.
+            // A line is drawn eight pixels deeper than it is.
             const float pixels = off / Camera(pose, viewport).metres_per_pixel({});
             const Image image = draw(list, pose);
             const glm::vec3 ball = colour_at(image, pixel_of(pose, off * towards));
@@ -119,7 +119,7 @@ TEST_P(Meshes, AreDrawnWhereTheCameraProjectsThem) {
 TEST_P(Meshes, AreLitAsStrokesAre) {
     for (const CameraPose& pose : both_projections()) {
         const Camera camera(pose, viewport);
-        // Away from the middle, too, where the line of sight is not the camera's direction.
+        // Also off-centre, where the line of sight is not the camera's direction.
         for (const glm::vec3 at : {glm::vec3(0.2f, 0.1f, 0.0f), glm::vec3(-1.2f, 0.7f, 0.4f)}) {
             const glm::vec3 sight = pose.orthographic ? -camera.forward() : glm::normalize(camera.eye() - at);
             for (const glm::vec3 lean :
@@ -128,7 +128,7 @@ TEST_P(Meshes, AreLitAsStrokesAre) {
                 DrawList flat, ball;
                 square(flat.mesh, at, normal, 0.3f, grey, grey);
                 ball.sphere(at, 0.5f, Unit::Metres, glm::vec4(grey, 1.0f));
-                // The ball's pixel whose surface faces that way.
+                // The ball's pixel with that surface normal.
                 const glm::vec3 across = normal - glm::dot(normal, sight) * sight;
                 const glm::ivec2 there =
                     glm::ivec2(*camera.project(at) + 0.5f / camera.metres_per_pixel(at) *
@@ -197,13 +197,13 @@ TEST_P(Meshes, CallsDoNotGrowWithThem) {
     EXPECT_EQ(renderer_.draw_calls(), 2) << "and none for none";
 }
 
-/// Where each row of pixels goes from background to surface, by how much of the pixel at the edge is covered.
+/// Where each row of pixels changes from background to surface, from the coverage of the pixel at the edge.
 std::vector<float> left_edges(const Image& image, int top, int bottom) {
     std::vector<float> edges;
     for (int y = top; y < bottom; ++y) {
         int x = 41;
         while (x < size.x - 3 && colour_at(image, {x, y}).r < 0.02f) ++x;
-        // The shade of what is covered is that of the pixels right behind.
+        // The shade of the covered part is that of the adjacent inner pixels.
         float covered = 0.0f;
         for (int i = 0; i < 2; ++i)
             covered += std::min(colour_at(image, {x + i, y}).r / colour_at(image, {x + 2, y}).r, 1.0f);
@@ -213,7 +213,7 @@ std::vector<float> left_edges(const Image& image, int top, int bottom) {
 }
 
 TEST_P(Meshes, ATubeLooksAsAStrokeDoes) {
-    // Whose edges are exact. Without outlines the worst pixels would differ by half of the colour and more.
+    // Strokes have exact edges. Without outlines the worst pixels would be off by half the colour.
     for (const CameraPose& pose : both_projections()) {
         const Camera camera(pose, viewport);
         const glm::vec3 low(-0.4f, -0.8f, 0.0f), high(0.5f, 0.9f, 0.2f);
@@ -224,7 +224,7 @@ TEST_P(Meshes, ATubeLooksAsAStrokeDoes) {
             tube(mesh, camera, Points{low, 0.4f * low + 0.6f * high, high}, radius, 32, Points{red});
             stroke.bone(low, high, radius, radius, glm::vec4(red, 1.0f));
             const Image image = draw(mesh, pose), wanted = draw(stroke, pose);
-            // Threads end flat, which nobody sees.
+            // Threads have flat ends, which are invisible.
             const int ends = pixels < 1.0f ? -2 : 20;
             float worst = 0.0f, sum = 0.0f, total = 0.0f;
             for (int y = top.y - ends; y < bottom.y + ends; ++y) {
@@ -285,8 +285,7 @@ TEST_P(Meshes, EdgesOfASheetAreClean) {
 }
 
 TEST_P(Meshes, ThreadsThatGoOnInOneAnotherAreEvenlyDark) {
-    // Thinner than a pixel, so drawn half seen through: where two pieces both covered a pixel it would be
-    // darker.
+    // Thinner than a pixel, so drawn translucent: a pixel covered by two pieces would be darker.
     const CameraPose pose{.distance = 6.0f, .orthographic = true};
     const Camera camera(pose, viewport);
     const float thin = 0.35f * camera.metres_per_pixel({});

@@ -1,4 +1,4 @@
-// Windows without a screen: both kinds open, draw, change size, and refuse what can't be.
+// Windows without a screen: both kinds open, draw, resize, and refuse impossible sizes.
 #include <gtest/gtest.h>
 
 #include <stdexcept>
@@ -13,7 +13,7 @@ namespace {
 
 class Offscreen : public testing::TestWithParam<Backend> {};
 
-/// The colour of every pixel after clearing to it; fails where they differ.
+/// Clears to a colour and expects it in every pixel.
 void expect_clears(Window& window, glm::ivec2 size) {
     EXPECT_EQ(window.framebuffer_size(), size);
     glBindFramebuffer(GL_FRAMEBUFFER, window.framebuffer());

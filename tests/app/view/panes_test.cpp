@@ -1,4 +1,4 @@
-// A view that is divided: where the panes are.
+// A divided view: the rectangles of the panes.
 #include "app/view/panes.hpp"
 
 #include <gtest/gtest.h>

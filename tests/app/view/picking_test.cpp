@@ -1,4 +1,4 @@
-// Which of several things under a pixel is meant.
+// Which of several objects under a pixel is picked.
 #include "app/view/picking.hpp"
 
 #include <gtest/gtest.h>

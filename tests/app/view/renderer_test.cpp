@@ -1,5 +1,4 @@
-// What is drawn is where the camera says it is, costs no more calls for more strokes, and is the same every
-// time.
+// Everything is drawn where the camera says, more strokes need no more draw calls, and output is repeatable.
 #include "app/view/renderer.hpp"
 
 #include <gtest/gtest.h>
@@ -20,7 +19,7 @@ constexpr glm::ivec2 size{320, 240};
 const Rect viewport{{40.0f, 20.0f}, {320.0f, 220.0f}};
 const glm::vec4 red{1.0f, 0.0f, 0.0f, 1.0f};
 
-/// A plain background, so that what a stroke adds to a pixel is its coverage.
+/// A plain background, so that the colour of a pixel is a stroke's coverage.
 Palette black() {
     Palette result = palette(Theme::Dark);
     result.background_top = result.background_bottom = glm::vec3(0.0f);
@@ -56,7 +55,7 @@ DrawList many(int count) {
     return list;
 }
 
-/// Whether a rectangle of window coordinates, with equal pixels, is the same in both pictures.
+/// Whether the pixels in a rectangle of window coordinates are the same in both pictures.
 bool same_within(const Image& a, const Image& b, const Rect& rect) {
     for (int y = static_cast<int>(rect.min.y); y < static_cast<int>(rect.max.y); ++y) {
         for (int x = static_cast<int>(rect.min.x); x < static_cast<int>(rect.max.x); ++x) {
@@ -75,7 +74,7 @@ TEST_P(Drawing, APaneHasWhatItWouldHaveAlone) {
     panes[0].drawn = many(40);
     panes[2].drawn = many(90);
     const Frame frame{window_->framebuffer(), size, 1.0f, true};
-    for (int again = 0; again < 3; ++again) {  // the backdrop is copied the second time
+    for (int again = 0; again < 3; ++again) {  // the second time the background is copied
         renderer_.draw(panes, pose, colours, frame);
         const Image together = read_framebuffer(window_->framebuffer(), size);
         Renderer other;
@@ -170,8 +169,8 @@ TEST_P(Drawing, ThinnerThanAPixelFades) {
 TEST_P(Drawing, PickingAgreesWithTheDrawnPixels) {
     DrawList all;
     all.bone({-1.2f, 0.4f, 0.8f}, {1.1f, -0.3f, -1.0f}, 0.35f, 0.1f, red);
-    all.bone({0.0f, -0.6f, 3.0f}, {0.1f, -0.5f, -2.0f}, 0.1f, 0.3f, red);  // nearly end on
-    all.bone({0.0f, 0.0f, 0.0f}, {0.1f, 0.1f, 0.1f}, 0.1f, 0.5f, red);     // one ball within the other
+    all.bone({0.0f, -0.6f, 3.0f}, {0.1f, -0.5f, -2.0f}, 0.1f, 0.3f, red);  // nearly end-on
+    all.bone({0.0f, 0.0f, 0.0f}, {0.1f, 0.1f, 0.1f}, 0.1f, 0.5f, red);     // one ball inside the other
     all.line({-1.0f, -0.8f, 0.0f}, {0.9f, 0.9f, 0.3f}, 6.0f, red);
     all.line({-1.0f, -0.8f, 0.0f}, {0.9f, 0.9f, 30.0f}, 6.0f, red);  // through the eye
     all.ring({0.8f, 0.7f, 0.0f}, 18.0f, 4.0f, red);

@@ -1,5 +1,5 @@
-// Skins are drawn where their joints are, in the colours of their parts, solid or so that what is inside
-// shows, and the same on every backend.
+// Skins are drawn where their joints are, in the colours of their parts, solid or translucent, and the same
+// with every backend.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -133,10 +133,10 @@ TEST_P(SkinDrawing, WhatIsInsideShowsThroughAndWallsDoNot) {
     list.skins[0].opacity = 1.0f;
     const Image solid = draw(list);
     EXPECT_LT(at(solid, glm::vec3(0.0f)).g, 20) << "nothing but the gloss of a solid wall";
-    // One wall, not two: the far side lies behind the near one, and adds nothing.
+    // One wall, not two: the far side is behind the near one, and adds nothing.
     const int wall = at(solid, {0.4f, 0.4f, 0.0f}).r;
     EXPECT_NEAR(at(through, {0.4f, 0.4f, 0.0f}).r, 0.4 * wall, 3);
-    // What is before the skin is not covered by it.
+    // The skin does not cover what is in front of it.
     list.skins[0].opacity = 0.4f;
     list.strokes[0].a = list.strokes[0].b = glm::vec3(0.0f, 0.0f, 2.0f);
     EXPECT_EQ(at(draw(list), glm::vec3(0.0f)).r, 0);
@@ -180,7 +180,7 @@ TEST_P(SkinDrawing, WhatCannotBeDrawnIsNot) {
     list.skins.push_back({std::make_shared<const SkinnedMesh>(box()), {still}});
     list.skins.push_back({std::make_shared<const SkinnedMesh>(box()), {still, still}, {}, 0.0f});
     EXPECT_EQ(at(draw(list), glm::vec3(0.0f)), glm::ivec3(0));
-    // A mesh that takes the place of one that is gone is sent anew.
+    // A mesh at the address of a deleted one must be uploaded again.
     for (int i = 0; i < 20; ++i) {
         SkinnedMesh mesh = box();
         mesh.parts[0].colour = i % 2 ? glm::vec4(0.0f, 1.0f, 0.0f, 1.0f) : glm::vec4(1.0f, 0.0f, 0.0f, 1.0f);

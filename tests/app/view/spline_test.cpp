@@ -1,4 +1,4 @@
-// The curve goes through its points without kinks, and its frames turn no more than it bends.
+// The curve passes through its points smoothly, and its frames rotate no more than it bends.
 #include "app/view/spline.hpp"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ Points random_walk(std::mt19937& random, int count) {
     return points;
 }
 
-/// Ten curve points a span, with their frames.
+/// Ten curve points per span, with their frames.
 std::vector<CurvePoint> curve_through(const Points& points) {
     std::vector<CurvePoint> curve;
     for (std::size_t i = 0; i + 1 < points.size(); ++i) {
@@ -110,8 +110,8 @@ TEST(Spline, InAPlaneFramesDoNotTwist) {
 }
 
 TEST(Spline, OnALoopInSpaceFramesAreWithinTheMethodsError) {
-    // About a helix a frame that does not twist turns against it by its torsion: t seconds of (cos, sin, c t)
-    // have the angle t c / sqrt(1 + c^2).
+    // Relative to a helix, a frame without twist rotates against its torsion: for (cos t, sin t, c t) the
+    // angle is t c / sqrt(1 + c^2).
     const float c = 0.5f, speed = std::sqrt(1.0f + c * c);
     std::vector<CurvePoint> curve;
     for (int i = 0; i <= 40; ++i) {
@@ -135,7 +135,7 @@ TEST(Spline, FramesMoveSteadilyAsTheCurveDoes) {
     std::normal_distribution<float> small(0.0f, 1e-4f);
     for (int round = 0; round < 50; ++round) {
         Points points = random_walk(random, 20);
-        if (round % 2 == 1)  // as ropes hang
+        if (round % 2 == 1)  // like hanging ropes
             for (glm::vec3& point : points) point = {point.y, -point.x, point.z};
         const std::vector<CurvePoint> before = curve_through(points);
         for (glm::vec3& point : points) point += glm::vec3{small(random), small(random), small(random)};

@@ -1,4 +1,4 @@
-// What surfaces are made of, before anything is drawn: closed, smooth, finite whatever comes in.
+// Surfaces before they are drawn: closed, smooth, and finite for any input.
 #include "app/view/surfaces.hpp"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ std::size_t outlines(const DrawList& list) {
                       [](const Stroke& stroke) { return stroke.shade == Shade::Edge; }));
 }
 
-/// Finite everywhere, indices in range, unit normals, and nothing that could be picked.
+/// Finite everywhere, indices in range, unit normals, and nothing pickable.
 void expect_sound(const DrawList& list) {
     for (const Vertex& vertex : list.mesh.vertices) {
         const glm::vec3 p = vertex.position, c = vertex.colour + vertex.back;
@@ -44,7 +44,7 @@ void expect_sound(const DrawList& list) {
     }
 }
 
-/// Triangles run counter-clockwise seen from the side that their normals point to.
+/// Triangles must be anticlockwise seen from the side of their normals.
 void expect_fronts_agree(const Mesh& mesh) {
     for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
         const Vertex &a = mesh.vertices[mesh.indices[i]], &b = mesh.vertices[mesh.indices[i + 1]],
@@ -90,7 +90,7 @@ TEST(Tube, IsRoundAboutItsAxis) {
             const float radius = 0.1f - 0.5f * camera.metres_per_pixel(axis);
             EXPECT_NEAR(glm::length(out), radius, 1e-5f) << "also at the caps, which are half balls";
             const glm::vec3 sight = orthographic ? -camera.forward() : camera.eye() - vertex.position;
-            if (glm::dot(out, sight) < 0.0f) continue;  // not seen
+            if (glm::dot(out, sight) < 0.0f) continue;  // not visible
             EXPECT_GT(glm::dot(glm::normalize(out), vertex.normal), 0.98f) << "nearly: see tube_skin.cpp";
         }
     }
@@ -193,8 +193,8 @@ TEST(Tube, IsFiniteWhateverComesIn) {
         for (int i = 0; i < count; ++i) {
             const int kind = one_of(random);
             glm::vec3 point{coordinate(random), coordinate(random), coordinate(random)};
-            if (kind < 2 && !centres.empty()) point = centres.back();                  // twice the same
-            if (kind == 2 && centres.size() > 1) point = centres[centres.size() - 2];  // right back
+            if (kind < 2 && !centres.empty()) point = centres.back();                  // the same point twice
+            if (kind == 2 && centres.size() > 1) point = centres[centres.size() - 2];  // straight back
             if (kind == 3 && !centres.empty()) point = centres.back() + 1e-7f * point;
             if (kind == 4) point[one_of(random) % 3] = odd[one_of(random)];
             if (kind == 5 && centres.size() > 1) point = 2.0f * centres.back() - centres[centres.size() - 2];
@@ -302,8 +302,8 @@ TEST(Sheet, LeavesOutWhatIsNotFinite) {
 }
 
 TEST(Sheet, AFoldHasAnOutlineInTheColourOfTheNearerSide) {
-    // A strip that comes towards the eye and turns back: what one sees of it at the fold is its front on the
-    // one half, and behind that its back.
+    // A strip that comes towards the eye and folds back: at the fold its front is visible on one half, and
+    // its back behind that.
     Cloth cloth;
     cloth.columns = 3;
     cloth.rows = 2;
@@ -327,7 +327,7 @@ TEST(Sheet, NormalsWeighTrianglesByTheirArea) {
     Cloth cloth;
     cloth.columns = 3;
     cloth.rows = 2;
-    // A large cell that faces up and a small one that faces the eye meet in the middle.
+    // A large cell facing up and a small one facing the eye meet in the middle.
     cloth.positions = {{0, 0, 0}, {1, 0, 0}, {1, -0.01f, 0}, {0, 0, 1}, {1, 0, 1}, {1, -0.01f, 1}};
     cloth.cells.assign(2, ClothGrid::whole);
     DrawList list;

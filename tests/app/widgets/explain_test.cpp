@@ -1,4 +1,4 @@
-// The unit and the range of a field, as they follow its explanation.
+// The unit and the range of a field, appended to its explanation.
 #include <gtest/gtest.h>
 
 #include "app/widgets/fields.hpp"
@@ -9,7 +9,7 @@ namespace {
 
 class Explained : public testing::Test {
   protected:
-    /// The tooltip at a place of a panel with that row alone.
+    /// The tooltip at a position in a panel with this row alone.
     template <class Row>
     std::string at(glm::vec2 mouse, const Row& row) {
         const auto draw = [&] {

@@ -1,4 +1,4 @@
-// What is typed into a number's field, and what it comes to.
+// Expressions typed into a number field, and their values.
 #include "app/widgets/expression.hpp"
 #include "tests/says.hpp"
 

@@ -21,7 +21,7 @@ int main() {
                 static_cast<double>(head.x), static_cast<double>(head.y), static_cast<double>(head.z),
                 static_cast<double>(tail.x), static_cast<double>(tail.y), static_cast<double>(tail.z));
 
-    // What the library uses inside is linked too: vector units and threads.
+    // Internal dependencies are linked too: vector units and threads.
     tendril::ik::Batch batch = *tendril::ik::Batch::make(8, 4, 2);
     const std::vector<glm::vec3> targets(batch.size(), glm::vec3(1, 2, 1));
     std::vector<tendril::ik::ManyReport> reports(batch.size());
@@ -32,7 +32,7 @@ int main() {
         });
     std::printf("%d of %zu tips arrived\n", static_cast<int>(arrived), batch.size());
 
-    // Springs one by one, by name and by the batch come to the same.
+    // Single springs, by name and in a batch, give the same result.
     tendril::signal::FilterState state;
     const tendril::signal::Filter spring = tendril::signal::find_kind("spring")->blank();
     for (const double target : {0.0, 1.0}) tendril::signal::step(spring, state, target, 0.1);

@@ -1,4 +1,4 @@
-// What hangs on the character: ropes, hair, cloth.
+// Commands on attachments, and attachments in a scene file.
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <stdexcept>
@@ -9,7 +9,6 @@
 #include "app/labs/humanoid/humanoid_commands.hpp"
 #include "app/labs/humanoid/humanoid_part.hpp"
 #include "app/labs/humanoid/ik/ik_commands.hpp"
-#include "app/labs/humanoid/ik/ik_file.hpp"
 #include "app/labs/kit/arguments.hpp"
 #include "app/labs/kit/world_file.hpp"
 
@@ -51,7 +50,7 @@ std::span<const FieldText> field_texts<AttachmentShape>() {
 
 namespace {
 
-/// A bone of the body, as it is mapped, or any node.
+/// A mapped bone of the body, or any node.
 std::size_t holder_named(const HumanoidPart& part, const std::string& name) {
     const auto bone = humanoid::bone_named(name);
     if (bone)
@@ -118,7 +117,7 @@ void add_attachment_commands(CommandTable& table) {
 
 namespace tendril::app {
 
-// What hangs on a character, in a scene file: how each was made, where it is held, and the rope world.
+// Attachments in a scene file: their shapes, where they are attached, and the rope world.
 
 namespace {
 
@@ -149,7 +148,7 @@ Attachment read_attachment(const JsonPlace& place, const humanoid::Skeleton& ske
     place["pins"].for_each("pins", body->count, [&](const JsonPlace& each) {
         attachment.pins.push_back({each["particle"].index(body->count - 1), each["offset"].dpoint()});
     });
-    attachment.frame = {place["frame"]["position"].dpoint(), read_quaternion(place["frame"]["turn"])};
+    attachment.frame = {place["frame"]["position"].dpoint(), place["frame"]["turn"].drotation()};
     return attachment;
 }
 
@@ -164,7 +163,7 @@ Json attachments_json(const Attachments& attachments) {
              {"kind", attachment_kinds.name(each.kind)},
              {"shape", save_fields(each.shape)},
              {"pins", pins_json(each.pins)},
-             {"frame", {{"position", dpoint(each.frame.position)}, {"turn", quaternion(each.frame.turn)}}}});
+             {"frame", {{"position", dpoint(each.frame.position)}, {"turn", dquaternion(each.frame.turn)}}}});
     return Json{{"list", std::move(list)}, {"world", save_world(*attachments.world)}};
 }
 
@@ -177,7 +176,7 @@ Attachments read_attachments(const JsonPlace& place, const humanoid::Skeleton& s
         settings.substep = world.settings().substep;
         world.set_settings(settings);
         attachments.world = std::make_shared<const NamedWorld>(std::move(world));
-    } catch (const std::logic_error& error) {  // the core's own words, told where in the file
+    } catch (const std::logic_error& error) {  // the library's message, with the JSON path
         world_place.fail(error.what());
     }
     const NamedWorld& world = *attachments.world;

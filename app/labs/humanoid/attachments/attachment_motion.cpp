@@ -16,8 +16,8 @@ namespace {
 using glm::dvec3;
 
 constexpr double longest_substep = 1.0 / 240.0;
-/// In a tick: further than this part of the character's height, or turned by more, is a jump: 27 m/s of an
-/// adult.
+/// Per tick, moving farther than this fraction of the character's height, or turning by more, is a jump. For
+/// an adult that is 27 m/s.
 constexpr double longest_way = 0.25, largest_turn = glm::radians(100.0);
 constexpr double resting_speed = 5e-3;  ///< m/s
 
@@ -26,7 +26,7 @@ struct NamedShape {
     rope::Shape shape;
 };
 
-/// The edge of the world, and nothing that is no number.
+/// Clamps to the bounds of the world; replaces values that are not finite by 0.
 dvec3 kept_in(const dvec3& point) {
     constexpr double edge = 0.5 * static_cast<double>(max_magnitude);
     dvec3 kept(0.0);
@@ -43,7 +43,8 @@ std::vector<NamedShape> colliders_of(const Wearer& wearer) {
             {humanoid::name(each.bone), rope::Capsule{glm::vec3(kept_in(at.from)), glm::vec3(kept_in(at.to)),
                                                       static_cast<float>(std::clamp(at.radius, 0.0, 1e6))}});
     }
-    // A slope that rises is all that is below either of two planes; one that falls is no body that bulges.
+    // A rising slope is the union of two half spaces. A falling one is their intersection, which separate
+    // colliders cannot express.
     const GroundSetting& ground = wearer.ground;
     const bool rises = ground.kind == humanoid::GroundKind::Slope && ground.angle_deg >= 0.0;
     if (ground.kind == humanoid::GroundKind::Flat || rises) all.push_back({"ground", rope::Plane{}});
@@ -55,7 +56,7 @@ std::vector<NamedShape> colliders_of(const Wearer& wearer) {
     return all;
 }
 
-/// Whether the world has just these, in their order, if not in their places.
+/// Whether the world has exactly these colliders, in this order. Positions may differ.
 bool has(const NamedWorld& world, const std::vector<NamedShape>& wanted) {
     const std::vector<rope::Collider>& there = world.state().colliders;
     if (there.size() != wanted.size()) return false;
@@ -93,7 +94,7 @@ void move_pins(NamedWorld& world, const Attachment& attachment, const NodeFrame&
         world.pin(first + pin.particle, kept_in(to.apply(pin.offset)), seconds);
 }
 
-/// How far two frames are from each other: metres, and radians.
+/// The distance between two frames, metres, and the angle, radians.
 double way(const NodeFrame& a, const NodeFrame& b) {
     return glm::distance(a.position, b.position);
 }
@@ -109,7 +110,7 @@ NodeFrame frame_of(const Attachment& attachment, const Wearer& wearer) {
     return frame;
 }
 
-/// Whether a node or a part of the body has gone farther than one does in that time.
+/// Whether a node or a capsule moved farther than is plausible in that time.
 bool has_jumped(const Attachments& attachments, const Wearer& wearer,
                 const std::vector<NamedShape>& colliders, double seconds) {
     const double ticks = std::max(1.0, seconds / tick_seconds);
@@ -121,14 +122,14 @@ bool has_jumped(const Attachments& attachments, const Wearer& wearer,
     if (!has(*attachments.world, colliders)) return false;
     for (std::size_t i = 0; i < colliders.size(); ++i) {
         const rope::Shape& before = attachments.world->state().colliders[i].shape;
-        // A hand is fast: it may go twice as far as what hangs on the trunk.
+        // Hands are fast: capsules may move twice as far as the nodes that attachments hang on.
         if (glm::distance(dvec3(rope::centre(before)), dvec3(rope::centre(colliders[i].shape))) > 2.0 * far)
             return true;
     }
     return false;
 }
 
-/// Whether the world has everything where the wearer has it.
+/// Whether everything already is where the wearer has it.
 bool in_place(const Attachments& attachments, const Wearer& wearer,
               const std::vector<NamedShape>& colliders) {
     constexpr double metres = 1e-4, radians = 1e-4;
@@ -171,7 +172,7 @@ void carry_bodies(NamedWorld& world, const Attachments& attachments, const std::
     world.put(std::move(state));
 }
 
-/// The body takes its new pose while everything else stands still: what it meets is pushed aside.
+/// Moves the body to its new pose while all else is frozen, which pushes aside whatever it meets.
 void push_aside(NamedWorld& world, const std::vector<NamedShape>& colliders, rope::Workspace& workspace) {
     constexpr int substeps = 24;
     const rope::State before = world.state();
@@ -193,7 +194,7 @@ void push_aside(NamedWorld& world, const std::vector<NamedShape>& colliders, rop
     place_colliders(world, colliders);
 }
 
-/// What is caught in the body so that it is far too long hangs as it was made.
+/// Resets attachments that are caught in the body and badly stretched to their initial shape.
 void untangle(NamedWorld& world, const Attachments& attachments, const Wearer& wearer) {
     constexpr double largest_error = 0.5;
     for (const Attachment& each : attachments.list) {
@@ -223,7 +224,7 @@ void carry(Attachments& attachments, const Wearer& wearer, rope::Workspace& work
         move_pins(*world, attachments.list[k], carriers[k].to, 0.0);
         attachments.list[k].frame = carriers[k].to;
     }
-    // The body goes along with the first of them, in the pose that it had, and then takes the new one.
+    // The capsules first move rigidly with the first attachment, in their old pose, then to the new pose.
     if (has(*world, colliders)) {
         for (const rope::Collider& each : attachments.world->state().colliders)
             if (const auto* capsule = std::get_if<rope::Capsule>(&each.shape))
@@ -242,7 +243,7 @@ void advance(Attachments& attachments, const Wearer& wearer, rope::Workspace& wo
     const std::vector<NamedShape> colliders = colliders_of(wearer);
     if (has_jumped(attachments, wearer, colliders, seconds)) carry(attachments, wearer, workspace);
     auto world = std::make_shared<NamedWorld>(*attachments.world);
-    // Whole substeps, so that everything is where the character is when the tick ends.
+    // Whole substeps, so that everything is at the character's pose when the tick ends.
     const double substeps = std::ceil(seconds / longest_substep - 1e-6);
     rope::Settings settings = world->settings();
     settings.substep = std::clamp(seconds / substeps, rope::min_substep, longest_substep);

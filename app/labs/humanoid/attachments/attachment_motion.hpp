@@ -1,4 +1,4 @@
-// How what hangs on a character moves with it.
+// Moves a character's attachments with it.
 #pragma once
 
 #include <tendril/rope/workspace.hpp>
@@ -9,27 +9,27 @@
 
 namespace tendril::app {
 
-/// Lets `seconds` pass, over 0: pins and colliders go evenly from where they were to where the wearer has
-/// them now, and the world with them. What goes farther than a body can in that time has jumped.
+/// Advances the attachments by `seconds` > 0. Pins and colliders move evenly to the wearer's current pose
+/// while the world is simulated. A wearer that moved implausibly far is treated as a jump; see carry().
 void advance(Attachments& attachments, const Wearer& wearer, rope::Workspace& workspace, double seconds);
 
-/// The wearer has jumped: everything goes along with its node, rigidly, and keeps its motion; what the body
-/// would be in then is pushed aside. No time passes. Where no node has moved nothing does.
+/// For a wearer that has jumped: moves each attachment rigidly with its node, keeping its motion, and pushes
+/// it out of the body. No time passes. Does nothing if no node moved.
 void carry(Attachments& attachments, const Wearer& wearer, rope::Workspace& workspace);
 
-/// Whether nothing moves to speak of.
+/// Whether everything moves negligibly slowly.
 bool at_rest(const Attachments& attachments);
 
-// What hangs on the lab's character goes along with what commands and ticks do to it.
+// Attachments of the lab's character, for commands and ticks.
 
-/// As long as `shown` is there, and the part is not changed.
+/// Valid while `shown` exists and the part does not change.
 Wearer wearer_of(const HumanoidPart& part, Solvers& solvers, const ShownPose& shown);
 
-/// The same command; whatever it does to the pose, springs and what hangs on the character are carried along
-/// at once. What drags do while time passes is left to the next tick, which swings them.
+/// Wraps a command so that springs and attachments are carried along with whatever it does to the pose. Drags
+/// while the simulation runs are left to the next tick, which swings them.
 Command carrying(Command command);
 
-/// After the character became so many times as large.
+/// Call after the character was scaled by `scale`.
 void remake_attachments(Workspace& workspace, double scale);
 
 }  // namespace tendril::app

@@ -1,4 +1,4 @@
-// The panel's rows of what hangs on the character.
+// The panel's rows about attachments, and their drawing.
 #include "app/labs/humanoid/attachments/attachment_panel.hpp"
 
 #include <imgui.h>
@@ -12,7 +12,7 @@
 namespace tendril::app {
 namespace {
 
-/// The bone that a node is mapped as, or the node's own name.
+/// The bone mapped to the node, or the node's own name.
 std::string holder_name(const HumanoidPart& part, const std::string& node) {
     const auto found = part.skeleton().find(node);
     const auto bone = found ? part.bone_of(*found) : std::nullopt;
@@ -81,7 +81,7 @@ void draw_attachments(const View& view, DrawList& list, const Attachments& attac
     for (std::size_t i = 0; i < world.size(); ++i) positions.push_back(world.position(i));
     std::vector<glm::vec3> colours = particle_colours(world, view.palette, false);
     for (const rope::Body& body : world.state().bodies)
-        if (body.kind == rope::Body::Kind::Rope)  // a tail is no third leg
+        if (body.kind == rope::Body::Kind::Rope)  // a tail should not look like a leg
             std::fill_n(colours.begin() + static_cast<std::ptrdiff_t>(body.first), body.count,
                         attached_colour(view.palette));
     for (const rope::Body& body : world.state().bodies) {

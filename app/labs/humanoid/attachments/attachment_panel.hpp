@@ -1,4 +1,4 @@
-// The picture of what hangs on a character.
+// Drawing of attachments.
 #pragma once
 
 #include "app/labs/humanoid/attachments/attachments.hpp"
@@ -6,7 +6,7 @@
 
 namespace tendril::app {
 
-/// Of ropes and cloth that hang on a character.
+/// The colour of attached ropes and cloth.
 glm::vec3 attached_colour(const Palette& palette);
 void draw_attachments(const View& view, DrawList& list, const Attachments& attachments);
 

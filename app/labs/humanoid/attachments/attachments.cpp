@@ -16,7 +16,7 @@ namespace {
 
 constexpr float rope_density = 0.4f, hair_density = 0.02f, cloth_density = 0.3f;
 
-/// The body as it is when the character rests, and what of it is pinned, as offsets from the node.
+/// The body of an attachment on the character at rest, and which of its particles are pinned.
 struct Made {
     NamedWorld world;
     std::vector<std::size_t> pinned;
@@ -30,7 +30,7 @@ Made make_rope(const AttachmentShape& shape, const Wearer& wearer, const glm::dv
                              .segments = shape.segments,
                              .radius = static_cast<float>(radius),
                              .density = rope_density});
-    // What is inside the body is held, and one more: so a tail keeps its direction where it leaves the body.
+    // Pins the particles inside the body and one more, so that a tail keeps its direction where it emerges.
     made.pinned = {0};
     const auto last = static_cast<std::size_t>(shape.segments);
     for (std::size_t i = 1; i < last; ++i) {
@@ -55,13 +55,13 @@ Made make_hair(const AttachmentShape& shape, const glm::dvec3& root) {
     return made;
 }
 
-/// Each column hangs from its own point of the row, which goes round the body where the cloth is a cape.
+/// Each column hangs from its own point of the row, which for a cape curves around the body.
 Made make_cloth(const AttachmentShape& shape, const Wearer& wearer, const glm::dvec3& middle) {
     Made made;
     const std::vector<glm::dvec3> row = cloth_row(wearer, shape, middle);
     double around = 0.0;
     for (std::size_t i = 1; i < row.size(); ++i) around += glm::distance(row[i], row[i - 1]);
-    // The two directions only have to be square to each other: particles are placed below.
+    // The two directions only need to be perpendicular: particles are positioned below.
     made.world.add_cloth("", {.along = {static_cast<float>(around), 0.0f, 0.0f},
                               .down = {0.0f, -static_cast<float>(shape.length), 0.0f},
                               .columns = static_cast<int>(row.size()),
@@ -78,7 +78,7 @@ Made make_cloth(const AttachmentShape& shape, const Wearer& wearer, const glm::d
         state.position[i] = row[i % row.size()] + wider + (step * down) * shape.direction;
     }
     for (rope::Pin& pin : state.pins) pin.goal = state.position[pin.particle];
-    // Cut to the body: it rests as it is made.
+    // Tailored to the body: the initial shape is the rest shape.
     for (rope::Link& link : state.links)
         link.rest = static_cast<float>(glm::distance(state.position[link.a], state.position[link.b]));
     made.world.put(std::move(state));
@@ -94,7 +94,7 @@ Made make(const Attachment& wanted, const Wearer& wearer, const glm::dvec3& node
     return make_cloth(wanted.shape, wearer, root);
 }
 
-/// Puts the world's one body into another world, each particle where `move` brings it.
+/// Copies the single body of `from` into a world, applying `move` to each particle.
 template <class Move>
 void append(NamedWorld& world, const std::string& name, const rope::State& from, Move move) {
     rope::State all = world.state();
@@ -114,7 +114,7 @@ void append(NamedWorld& world, const std::string& name, const rope::State& from,
         link.b += static_cast<std::uint32_t>(first);
         all.links.push_back(link);
     }
-    // Handles are numbered anew: nothing but the world itself holds any.
+    // New handles are assigned: only the world itself stores any.
     for (rope::Body& each : all.bodies) each.id = {};
     for (rope::Collider& each : all.colliders) each.id = {};
     world = NamedWorld(std::move(all), bodies, colliders);
@@ -209,9 +209,9 @@ namespace {
 using glm::dvec3;
 using humanoid::Bone;
 
-constexpr double clearance = 0.002;  ///< metres between a body at rest and what is held on it
+constexpr double clearance = 0.002;  ///< metres between the body at rest and what is attached to it
 
-/// How far a point is from the body at rest, metres; negative inside.
+/// Distance from a point to the body at rest, metres; negative inside.
 double distance_to_body(const Wearer& wearer, const dvec3& point) {
     double nearest = 1e9;
     for (const humanoid::BodyCapsule& each : wearer.capsules) {
@@ -221,7 +221,7 @@ double distance_to_body(const Wearer& wearer, const dvec3& point) {
     return nearest;
 }
 
-/// How far one goes along `way`, of length 1, until a ball of that radius is off the body.
+/// How far to move along the unit vector `way` until a ball of that radius clears the body.
 double way_off(const Wearer& wearer, const dvec3& from, const dvec3& way, double radius) {
     constexpr int max_steps = 200;
     double far = 0.0;
@@ -258,7 +258,7 @@ int columns_of(const AttachmentShape& shape) {
     return 1 + static_cast<int>(std::clamp(std::round(cells), 1.0, double{max_attached_segments}));
 }
 
-/// So many points of a curve, from end to end, at equal ways along it.
+/// `count` points from end to end of a curve, evenly spaced by arc length.
 std::vector<dvec3> evenly_along(const std::vector<dvec3>& curve, int count) {
     std::vector<double> way{0.0};
     for (std::size_t i = 1; i < curve.size(); ++i)

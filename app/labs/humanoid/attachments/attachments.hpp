@@ -1,8 +1,7 @@
-// What hangs on a character: ropes, hair and cloth, one rope world for all of them. A value, kept in
-// the document.
+// Attachments of a character: ropes, hair and cloth, all in one rope world. A value, stored in the document.
 //
-// An attachment is a body of that world. Its pins move with one node of the character, rigidly, from where
-// the node rests; the character's capsules and the ground, as far as that is flat, are the world's colliders.
+// An attachment is a body of that world. Its pins move rigidly with one node of the character, relative to
+// the node's rest pose. The world's colliders are the character's capsules and the ground, if that is flat.
 #pragma once
 
 #include <memory>
@@ -29,26 +28,26 @@ inline constexpr std::size_t max_attachments = 16, max_attached_particles = 4000
 inline constexpr int max_attached_segments = 200, max_attached_strands = 200;
 inline constexpr double min_attachment = 0.001, max_attachment = 100.0;  ///< metres
 
-/// Of their world: hair and cloth in air, so that what swings comes to rest within seconds.
+/// Settings of their world. Hair and cloth are damped by air, so they come to rest within seconds.
 inline constexpr rope::Settings attachment_settings{.damping = 1.5f};
 
-/// How it is made. Lengths in metres; points along the axes of the character at rest.
+/// How an attachment is made. Lengths in metres; points along the axes of the character at rest.
 struct AttachmentShape {
     double length = 0.7;
-    double width = 0.4;         ///< of a cloth; of the patch that hair grows on. Ropes have none
-    double thickness = 0.03;    ///< of the rope, a hair, the cloth
+    double width = 0.4;         ///< of a cloth, or of the patch that hair grows on; not used by ropes
+    double thickness = 0.03;    ///< of the rope, a hair or the cloth
     int segments = 16;          ///< along its length
     int strands = 1;            ///< of hair
-    glm::dvec3 offset{0.0};     ///< from the node to where it is held; of a cloth: to its first row's middle
-    glm::dvec3 direction{0.0};  ///< of length 1: where it leads to at first
+    glm::dvec3 offset{0.0};     ///< from the node to the root, or to the middle of a cloth's first row
+    glm::dvec3 direction{0.0};  ///< unit vector: the initial direction
     bool operator==(const AttachmentShape&) const = default;
 };
 
-/// Where a node is, and by how much it is turned from its rest.
+/// A node's position, and its rotation from rest.
 struct NodeFrame {
     glm::dvec3 position{0.0};
     glm::dquat turn{1.0, 0.0, 0.0, 0.0};
-    /// Of a point that moves with it: `offset` is from the node at rest.
+    /// A point that moves with the node; `offset` is from the node at rest.
     glm::dvec3 apply(const glm::dvec3& offset) const { return position + turn * offset; }
     bool operator==(const NodeFrame&) const = default;
 };
@@ -60,12 +59,12 @@ struct AttachmentPin {
 };
 
 struct Attachment {
-    std::string name;  ///< its own, and its body's
+    std::string name;  ///< also the name of its body
     std::string node;  ///< by name
     AttachmentKind kind = AttachmentKind::Rope;
     AttachmentShape shape{};
     std::vector<AttachmentPin> pins{};
-    NodeFrame frame{};  ///< where the world has it: time has passed up to there
+    NodeFrame frame{};  ///< where the simulation has brought it
     bool operator==(const Attachment&) const = default;
 };
 
@@ -77,30 +76,30 @@ struct Attachments {
     bool operator==(const Attachments& other) const;
 };
 
-/// The character as far as attachments see it.
+/// What attachments need to know about the character.
 struct Wearer {
     const LoadedCharacter& loaded;
     const humanoid::BoneMap& map;
-    std::span<const humanoid::BodyCapsule> capsules;  ///< of that map
-    std::span<const humanoid::Placement> placed;      ///< as it is shown
+    std::span<const humanoid::BodyCapsule> capsules;  ///< of `map`
+    std::span<const humanoid::Placement> placed;      ///< as displayed
     const GroundSetting& ground;
 
     NodeFrame frame(std::size_t node) const;
 };
 
-/// Makes it so many times as large, within the lengths that an attachment may have.
+/// Scales the lengths, clamped to the permitted range.
 void scale_lengths(AttachmentShape& shape, double by);
-/// One that looks as the node asks for: a tail, a ponytail, a cape; else it hangs.
+/// A shape that suits the node: a tail, a ponytail, a cape; elsewhere it hangs straight down.
 AttachmentShape default_shape(const Wearer& wearer, AttachmentKind kind, std::size_t node);
 
-/// Adds it to the list and its body to the world, where the character is. Throws std::invalid_argument where
-/// there are too many, or the name is another's; an empty one becomes "rope", "rope 2", ...
+/// Adds the attachment to the list, and its body to the world at the character's current pose. Throws
+/// std::invalid_argument if there are too many or the name is taken. An empty name becomes "rope", "rope 2".
 void add_attachment(Attachments& attachments, const Wearer& wearer, Attachment wanted);
-/// Throws std::invalid_argument where there is none of that name.
+/// Throws std::invalid_argument if there is none of that name.
 void remove_attachment(Attachments& attachments, const std::string& name);
-/// Where its particles are as it is made, from the node at rest.
+/// The initial positions of its particles, relative to the node at rest.
 std::vector<glm::dvec3> made_offsets(const Attachment& attachment, const Wearer& wearer);
-/// All of them anew, so many times as large.
+/// All attachments, made anew at `scale` times their size.
 Attachments remade(const Attachments& attachments, const Wearer& wearer, double scale);
 
 }  // namespace tendril::app
@@ -112,17 +111,17 @@ std::span<const tendril::app::FieldText> tendril::app::field_texts<tendril::app:
 
 namespace tendril::app {
 
-// Where attachments sit on a body, and how large they are.
+// Placing attachments on a body.
 
-inline constexpr double flare = 0.7;  ///< by this part of its width a cloth is wider below
+inline constexpr double flare = 0.7;  ///< a cloth widens by this fraction of its width towards the bottom
 
 std::size_t particles_of(AttachmentKind kind, const AttachmentShape& shape);
 
-/// Whether a ball at a point is in the body at rest, or touches it.
+/// Whether a ball at that point touches or intersects the body at rest.
 bool is_in_body(const Wearer& wearer, const glm::dvec3& point, double radius);
 
-/// Points of a cloth's first row as the character rests: from side to side, so that its front is seen from
-/// behind the character; each brought backwards until it is off the body. `middle`: of the row.
+/// The first row of a cloth on the character at rest, centred at `middle` and ordered so that the front of
+/// the cloth faces backwards. Each point is moved backwards until it clears the body.
 std::vector<glm::dvec3> cloth_row(const Wearer& wearer, const AttachmentShape& shape,
                                   const glm::dvec3& middle);
 

@@ -93,7 +93,7 @@ std::vector<Bone> bones_that_differ(const SavedMap& map, const HumanoidPart& par
     return bones;
 }
 
-/// Those that lose their node first: it is free then.
+/// Unmaps the bones that lose their node first, so that the node is free.
 void take_map(HumanoidPart& part, const humanoid::BoneMap& wanted) {
     for (const bool picked : {false, true}) {
         for (std::size_t i = 0; i < humanoid::bone_count; ++i) {
@@ -109,7 +109,7 @@ void keep_correction(Workspace& workspace) {
     if (!workspace.keeps || workspace.config.empty()) return;
     const HumanoidPart& part = humanoid_part(workspace);
     try {
-        // As it was matched it needs no keeping.
+        // A map as matched need not be kept.
         const SavedMap matched = saved_map(part.loaded->matched, part.skeleton());
         if (!bones_that_differ(matched, part).empty()) return keep(workspace);
         humanoid_runtime(workspace).kept_maps.forget();
@@ -148,11 +148,11 @@ void add_kept_map_commands(CommandTable& table) {
                .apply = forget});
 }
 
-// Which character it is, and which of its nodes are which bones.
+// Commands on the character and its bone map.
 
 namespace {
 
-/// The view that the lab has, or will have when it is opened, is on the whole of the character.
+/// Frames the whole character, in the lab's current view or the one that it will open with.
 void show_all(Workspace& workspace, const LoadedCharacter& character) {
     CameraPose& camera = workspace.lab == humanoid_lab ? workspace.camera : workspace.cameras[humanoid_lab];
     camera = workspace.first_view_of(humanoid_lab);
@@ -201,13 +201,13 @@ void rescale(Workspace& workspace, const Arguments& given) {
     const SharedCharacter loaded = rescaled(*before.loaded, metres);
     HumanoidPart& part = workspace.document.edit<HumanoidPart>(humanoid_lab);
     part.loaded = loaded;
-    part.ik_state.springs.clear();  // what swings and what fades out was in the old metres
+    part.ik_state.springs.clear();  // springs and fading are in the old metres
     part.ik_state.release = {};
     remake_attachments(workspace, metres / was);
     show_all(workspace, *loaded);
 }
 
-/// Whether a correction would turn anything: a limb of two bones.
+/// Whether the T-pose correction would turn anything: it needs a limb of two bones.
 bool has_limbs(const HumanoidPart& part) {
     using humanoid::Bone;
     for (const Bone upper :
@@ -233,7 +233,7 @@ void finish_loading(Workspace& workspace) {
     } catch (const std::exception& error) {
         throw Refused(std::string("humanoid.load: ") + error.what());
     }
-    // A step to undo, as if the command had done all of it now.
+    // A single undo step, as if the command had done all of it now.
     const Document before = workspace.document;
     const Place from = workspace.place();
     show(workspace, std::move(character));
@@ -311,8 +311,7 @@ void add_character_commands(CommandTable& table) {
         "Shows the rest pose with its arms straight aside and its legs straight down", set_t_pose));
 }
 
-// What goes to files and comes from them besides characters: bone maps, and clips with all that IK did to
-// them; and the cures of clips.
+// Commands on files: bone maps, clips exported with everything that IK does to them, and cures of clips.
 
 namespace {
 
@@ -333,7 +332,7 @@ void load_map(HumanoidPart& part, const Arguments& given) {
     take_map(part, applied(read_map(given.text("path")), part.skeleton()));
 }
 
-/// The clip that is named, or chosen, or the first.
+/// The named clip, else the chosen one, else the first.
 std::size_t clip_for(const HumanoidPart& part, const Arguments& given) {
     const std::vector<Clip>& clips = part.loaded->clips();
     if (clips.empty()) throw std::invalid_argument("the character has no clips");
@@ -344,7 +343,7 @@ std::size_t clip_for(const HumanoidPart& part, const Arguments& given) {
     return static_cast<std::size_t>(found - clips.begin());
 }
 
-/// The clip as it would be seen, played once from its beginning.
+/// The clip as displayed, played once from its start.
 Clip as_shown(const Workspace& workspace, std::size_t clip, double rate) {
     HumanoidPart part = humanoid_part(workspace);
     part.playback = {.clip = clip, .loop = false};

@@ -1,5 +1,5 @@
-// Bone maps that a person has corrected, kept in the config folder: offered again for a character of the same
-// node names, and never taken without being asked for.
+// Corrected bone maps, kept in the config folder. They are offered again for characters with the same node
+// names, but never applied unasked.
 #pragma once
 
 #include <filesystem>
@@ -11,16 +11,16 @@
 
 namespace tendril::app {
 
-/// What is kept for the lab's character: looked for once for each.
+/// The kept map of the lab's character. Reads the folder once per character.
 class KeptMaps {
   public:
-    /// Null where there is none, or it would change nothing.
+    /// The kept map; null if there is none, or if it would change nothing.
     const SavedMap* offered(const Workspace& workspace);
-    /// Null where there is none.
+    /// Null if there is none.
     const SavedMap* kept(const Workspace& workspace);
-    /// Why the file that is there is left out; empty where it is not.
+    /// Why an existing file was ignored; empty if it was not.
     const std::string& refused(const Workspace& workspace);
-    /// Looks again the next time.
+    /// Reads the folder again next time.
     void forget() { of_ = nullptr; }
 
   private:
@@ -32,11 +32,11 @@ class KeptMaps {
     std::string refused_;
 };
 
-/// The bones for which a map says another node than the character has now.
+/// The bones that `map` assigns to other nodes than the character does now.
 std::vector<humanoid::Bone> bones_that_differ(const SavedMap& map, const HumanoidPart& part);
-/// As if each bone were picked by hand.
+/// Assigns the bones as if picked by hand.
 void take_map(HumanoidPart& part, const humanoid::BoneMap& wanted);
-/// Keeps what a person has just corrected, where the window keeps things. What goes wrong is told, no more.
+/// Keeps a correction, if the window keeps things. Reports errors as a toast only.
 void keep_correction(Workspace& workspace);
 
 }  // namespace tendril::app

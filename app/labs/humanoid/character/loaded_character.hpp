@@ -1,5 +1,4 @@
-// A character as the lab has it: what was read from a file, with what follows from that alone. It never
-// changes, and copies of the document share it.
+// A character read from a file, and the data derived from it. Immutable; copies of the document share it.
 #pragma once
 
 #include <atomic>
@@ -18,7 +17,7 @@
 
 namespace tendril::app {
 
-/// A fault of a clip that was mended: all of that kind, or those of one node, or the one at a frame.
+/// Which faults of a clip were mended: all of one kind, those of one node, or the one at a frame.
 struct ClipCure {
     std::string clip;
     humanoid::Fault fault = humanoid::Fault::SignFlip;
@@ -28,47 +27,46 @@ struct ClipCure {
 };
 
 struct LoadedCharacter {
-    std::string file;  ///< as it was named; empty: the stick figure
-    std::string path;  ///< where that is, whatever the working folder; empty with it
+    std::string file;  ///< as given; empty: the stick figure
+    std::string path;  ///< absolute path; empty for the stick figure
     Character character;
-    std::vector<ClipCure> cures{};          ///< what was done to its clips since, in that order
-    humanoid::BoneMap matched;              ///< as the file names it, or the library matches it
-    std::vector<humanoid::Placement> rest;  ///< of every node
-    glm::dvec3 low{0.0}, high{0.0};         ///< of a box around them and the skin, metres
+    std::vector<ClipCure> cures{};          ///< applied to its clips, in this order
+    humanoid::BoneMap matched;              ///< as named in the file, or as matched by the library
+    std::vector<humanoid::Placement> rest;  ///< of all nodes
+    glm::dvec3 low{0.0}, high{0.0};         ///< bounding box of nodes and skin, metres
     const humanoid::Skeleton& skeleton() const { return character.skeleton; }
     const std::vector<humanoid::Clip>& clips() const { return character.clips; }
     double height() const { return high.y - low.y; }
 };
 using SharedCharacter = std::shared_ptr<const LoadedCharacter>;
 
-/// Without a file name the stick figure. Throws std::runtime_error that begins with the file's name.
+/// An empty file name gives the stick figure. Throws std::runtime_error that begins with the file name.
 SharedCharacter load_character(const std::string& file, LoadProgress* progress = nullptr);
-/// The same character with so many metres to a unit of its file.
+/// The same character with a unit of `metres`.
 SharedCharacter rescaled(const LoadedCharacter& character, double metres);
 
-// A large character file that is read beside the running program: the figure that is there stays until the
-// other has come, and for good where it is refused or cancelled.
+// Loads a large character file in the background. The current figure stays until loading succeeds.
 
 class Loading {
   public:
-    /// Smaller files are read before anybody could look away.
+    /// Smaller files load fast enough to wait for.
     static constexpr std::uintmax_t large_file = 1u << 20;
 
     Loading() = default;
-    /// Waits for the reader to heed its cancelling.
+    /// Cancels, and waits for the reader.
     ~Loading() { cancel(); }
     Loading(const Loading&) = delete;
     Loading& operator=(const Loading&) = delete;
 
-    /// Begins to read; what was being read before is cancelled.
+    /// Starts reading; cancels a read in progress.
     void begin(const std::string& file);
     void cancel();
     bool running() const { return thread_.joinable(); }
     const std::string& file() const { return file_; }
     float part() const { return progress_->part(); }
-    /// Whether take() has something to give at once.
+    /// Whether take() would return without waiting.
     bool done() const { return running() && done_; }
-    /// The character; waits for it. Throws what reading it threw. Then nothing is running.
+    /// Waits for the character and returns it. Throws what reading it threw. Nothing runs afterwards.
     SharedCharacter take();
 
   private:
@@ -80,7 +78,7 @@ class Loading {
     std::thread thread_;
 };
 
-/// Whether it is worth it: in a window, where somebody waits, and a large file.
+/// Whether to load in the background: a large file, and a window whose user waits.
 bool loads_beside(const Workspace& workspace, const std::string& file);
 
 }  // namespace tendril::app

@@ -18,7 +18,7 @@ using humanoid::Clip;
 using humanoid::Finding;
 using humanoid::LintReport;
 
-/// Frames times nodes that are judged within a tick or two.
+/// Frames times nodes that can be judged within a tick or two.
 constexpr double soon_judged = 60'000.0;
 
 std::optional<BodyLimits> limits_for(const HumanoidPart& part) {
@@ -68,7 +68,7 @@ SharedCharacter cured(const HumanoidPart& part, const ClipCure& cure) {
     const auto place = std::ranges::find(clips, cure.clip, &Clip::name);
     if (place == clips.end()) throw std::invalid_argument("the character has no clip \"" + cure.clip + "\"");
     Clip clip = *place;
-    // What is found first is cured first; what a cure does not help is not tried again.
+    // Cures the findings in order. Stops when a cure does not reduce their number.
     std::size_t left = lint_of(part, clip).findings.size() + 1, done = 0;
     while (true) {
         const LintReport report = lint_of(part, clip);
@@ -88,7 +88,7 @@ SharedCharacter cured(const HumanoidPart& part, const ClipCure& cure) {
     return loaded;
 }
 
-// What the lint has found in the clip, each with its cure, and where maps and clips go to.
+// The panel's rows: the findings of the lint with their cures, and where maps and clips are saved.
 
 namespace {
 
@@ -110,7 +110,7 @@ std::string amount(const Finding& finding) {
     return unit == "deg" ? number + "°" : number + (unit == "times" ? " x" : " " + unit);
 }
 
-/// The node's name; nothing for the whole figure.
+/// The node's name; empty for the whole figure.
 std::string node_of(const HumanoidPanel& panel, const Finding& finding) {
     return finding.node < 0 ? std::string()
                             : panel.part.skeleton()[static_cast<std::size_t>(finding.node)].name;
@@ -128,7 +128,7 @@ void cure(const HumanoidPanel& panel, const Finding& finding) {
     panel.emit("humanoid.cure", arguments);
 }
 
-/// What is wrong and by how much; below, where, and the button that mends it.
+/// The fault and its amount; below them its position in the clip, and the button that mends it.
 void finding_row(const HumanoidPanel& panel, const Finding& finding, int id) {
     const float em = ImGui::GetFontSize(), line = ImGui::GetTextLineHeight();
     const ImVec2 at = ImGui::GetCursorPos();
@@ -181,6 +181,10 @@ void lint_rows(const HumanoidPanel& panel) {
 
 void export_rows(const HumanoidPanel& panel) {
     if (!folding_section(panel.workspace, "Export", panel.emit)) return;
+    if (row_button("Copy as C++", 1, true,
+                   "Copies the character and its IK as a C++ program that uses the library"))
+        panel.emit("humanoid.copy");
+    end_row();
     if (panel.part.loaded->clips().empty()) return note("The character has no clips.");
     std::string& path = panel.runtime.panel.export_to;
     text_field("write to", path, "walk.glb");

@@ -1,4 +1,4 @@
-// What is wrong with the chosen clip, worked out once, and its cures.
+// The lint report of the chosen clip, cached, and cures for its faults.
 #pragma once
 
 #include <optional>
@@ -9,13 +9,12 @@
 
 namespace tendril::app {
 
-/// The report on the part's clip: kept until character, bones, clip or limits are others.
+/// The report is kept until character, bone map, clip or limits change.
 class ClipLint {
   public:
-    /// Null without a clip, and for one so long that a frame would wait for it: that is judged when asked
-    /// for.
+    /// Null without a clip, and for clips so long that a frame would stall: those need judge().
     const humanoid::LintReport* report(const HumanoidPart& part);
-    /// Judges it however long it is.
+    /// Judges the clip, however long it is.
     const humanoid::LintReport* judge(const HumanoidPart& part);
 
   private:
@@ -30,8 +29,7 @@ class ClipLint {
     std::optional<humanoid::LintReport> report_;
 };
 
-/// Cures faults of a clip: all of that kind, or those of one node, or the one at a frame. Throws
-/// std::invalid_argument where there is none that has a cure.
+/// Cures the faults of a clip that match `cure`. Throws std::invalid_argument if no such fault has a cure.
 SharedCharacter cured(const HumanoidPart& part, const ClipCure& cure);
 
 }  // namespace tendril::app

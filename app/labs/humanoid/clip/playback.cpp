@@ -21,8 +21,7 @@
 namespace tendril::app {
 namespace {
 
-/// A point on the ground, and an angle about the vertical, as complex numbers: z + i x, so that an angle runs
-/// from +Z to +X.
+/// A point on the ground, or a rotation about the vertical, as z + i x; angles run from +Z to +X.
 using Complex = std::complex<double>;
 
 struct OnGround {
@@ -45,7 +44,7 @@ OnGround hips_at(const humanoid::Skeleton& skeleton, const std::vector<rig::Tran
     return {{placed[hips].position.z, placed[hips].position.x}, 2.0 * std::atan2(rotation.y, rotation.w)};
 }
 
-/// What takes the character from the first round to this one: z -> turn * z + move.
+/// Takes the first round to the current one: z -> turn * z + move.
 struct RoundTurn {
     Complex turn{1.0, 0.0}, move{0.0, 0.0};
 };
@@ -131,11 +130,11 @@ glm::dvec3 missing_velocity(const Playback& playback, const LoadedCharacter& cha
     return {velocity.imag(), 0.0, velocity.real()};
 }
 
-// The strip below the scene: the clip, with what plays and steps it, or the last ten seconds.
+// The strip below the scene: the clip with buttons to play and step it, or the last ten seconds.
 
 namespace {
 
-/// Seconds since the clip began its first round.
+/// Seconds since the start of the first round.
 double since_begin(const Playback& playback, double duration, double time) {
     return static_cast<double>(playback.rounds) * duration + time;
 }
@@ -161,7 +160,7 @@ void buttons(const HumanoidPanel& panel) {
     ImGui::SameLine();
 }
 
-/// Where the lint has found something: low while it lasts, high where it is worst.
+/// Marks of the lint: low bars over the duration of a finding, a full one at its worst frame.
 std::vector<TimeBar> lint_marks(const HumanoidPanel& panel, int ticks) {
     const humanoid::LintReport* const report = panel.runtime.lint.report(panel.part);
     if (!report || report->findings.empty()) return {};
@@ -174,7 +173,7 @@ std::vector<TimeBar> lint_marks(const HumanoidPanel& panel, int ticks) {
         bars[tick] = {panel.colours.limit, std::max(bars[tick].height, height)};
     };
     for (const humanoid::Finding& each : report->findings) {
-        // What lasts for the whole clip says nothing about a moment of it.
+        // A finding that lasts for the whole clip says nothing about any moment of it.
         const bool whole = each.first == 0 && each.last + 1 >= report->frames;
         for (std::size_t i = tick_of(each.first); !whole && i <= tick_of(each.last); ++i) mark(i, 0.35f);
         mark(tick_of(each.frame), 1.0f);
@@ -199,7 +198,7 @@ void clip_strip(const HumanoidPanel& panel) {
     }
 }
 
-/// Where the strip is that of the last ten seconds, its line.
+/// Returns the line of the last ten seconds if the strip shows those.
 std::optional<StripLine> strip(const HumanoidPanel& panel) {
     if (panel.part.clip() == nullptr) return past_strip(panel.workspace, panel.emit);
     bool& past = panel.runtime.panel.past;
@@ -224,7 +223,7 @@ void HumanoidLab::timeline(const Workspace& workspace, Emit& emit) const {
 
 }  // namespace tendril::app
 
-// Clips: which one, which moment of it, and how it plays.
+// Commands on clips: which one, which moment of it, and how it plays.
 
 template <>
 std::span<const tendril::Field> tendril::fields<tendril::app::Playback>() noexcept {
@@ -299,7 +298,7 @@ void set_clip(HumanoidPart& part, const Arguments& given) {
     if (!playback.clip && (play || given.has("time"))) throw std::invalid_argument("no clip is chosen");
     if (given.has("time")) go_to(playback, *part.loaded, given.real("time"));
     if (given.has("play")) playback.playing = play;
-    // Played again from its end, it begins anew.
+    // Playing again from the end starts over.
     if (play && !given.has("time") && !playback.loop && playback.time >= part.clip()->duration)
         go_to(playback, *part.loaded, 0.0);
     if (!(playback == before)) part.quiet_ticks = 0;
@@ -317,14 +316,14 @@ void add_clip_commands(CommandTable& table) {
     Command clip = part_command<HumanoidPart>(
         humanoid_lab, "humanoid.clip", "Choose and play a clip", std::move(arguments),
         "Chooses a clip, its moment and how it plays; what is left out stays", set_clip);
-    // Clips begin anywhere: the camera goes along with the character, as it does while one plays.
+    // Clips may begin anywhere, so the camera follows the character, as it does during playback.
     clip.apply = [set = clip.apply](Workspace& workspace, const Arguments& given) {
         const glm::vec3 before = hips_at(workspace);
         set(workspace, given);
         if (workspace.lab != humanoid_lab || !humanoid_part(workspace).view.follow) return;
         glm::vec3 way = hips_at(workspace) - before;
-        // A captured figure rests with its hips at the origin; one that crouches stays where it is in the
-        // picture.
+        // Ignores small changes of height, so that a figure that crouches stays put in the view. Large ones
+        // count: the hips of captured figures rest at the origin.
         if (std::abs(way.y) < 0.3f) way.y = 0.0f;
         workspace.camera.target += way;
     };

@@ -1,8 +1,8 @@
-// Which moment of which clip is shown, and how it goes on from tick to tick.
+// Playback of a clip: its current moment, and how that advances.
 //
-// A clip that loops goes on from where its last round ended: what moves is the hips, on the ground and about
-// the vertical, from the clip's first moment to its last one. Played in place, the hips stay above the point
-// where the clip begins.
+// A looping clip continues where the previous round ended: each round moves the hips on the ground and turns
+// them about the vertical by the difference between the clip's first and last moment. Played in place, the
+// hips stay above their starting point.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ struct Playback {
     std::optional<std::size_t> clip;  ///< in the character's list; none: the rest pose
     bool playing = false;
     double time = 0.0;        ///< seconds into the clip
-    std::int64_t rounds = 0;  ///< that it has made before this one
+    std::int64_t rounds = 0;  ///< completed rounds
     double speed = 1.0;       ///< 0 to fastest_clip
     bool loop = true;
     bool in_place = false;
@@ -30,18 +30,18 @@ struct Playback {
 
 /// Whether a tick changes anything.
 bool goes_on(const Playback& playback, const LoadedCharacter& character);
-/// Lets so many seconds pass; a clip that does not loop stops at its end.
+/// Advances by `seconds`; a clip that does not loop stops at its end.
 void advance(Playback& playback, const LoadedCharacter& character, double seconds);
-/// `seconds` from where the first round began: over the duration, a clip that loops is in a later round, and
-/// another at its end.
+/// Goes to `seconds` after the start of the first round. Beyond the duration, a looping clip is in a later
+/// round, and another one at its end.
 void go_to(Playback& playback, const LoadedCharacter& character, double seconds);
 
-/// The pose of that moment, local, before anything changes it. `hips`: the node whose way is the character's;
-/// without one it comes back to where it began in each round.
+/// The clip's local pose at that moment, before anything modifies it. `hips`: the node whose motion carries
+/// over from round to round; without it each round restarts at the same position.
 std::vector<rig::Transform> animated_pose(const Playback& playback, const LoadedCharacter& character,
                                           std::optional<std::size_t> hips);
 
-/// What a clip that is played in place has been taken of just then: the hips' velocity over the ground, m/s.
+/// The hips' ground velocity that playing in place removes at that moment, m/s.
 glm::dvec3 missing_velocity(const Playback& playback, const LoadedCharacter& character,
                             std::optional<std::size_t> hips);
 

@@ -59,7 +59,7 @@ Ground make_ground(const GroundSetting& setting) {
 
 namespace {
 
-constexpr float half_width = 0.8f, behind = 4.0f, ahead = 6.0f;  ///< metres that are drawn
+constexpr float half_width = 0.8f, behind = 4.0f, ahead = 6.0f;  ///< extent of the drawing, metres
 
 class GroundDrawing {
   public:
@@ -98,7 +98,7 @@ class GroundDrawing {
         }
     }
 
-    /// The squares of the field that are near, each corner lit by the slopes around it.
+    /// The nearby cells of the height field. Each corner is lit by the slopes around it.
     void hills() const {
         const humanoid::HeightField field = app::hills();
         const std::size_t rows = field.heights.size() / field.columns;

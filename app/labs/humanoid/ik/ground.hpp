@@ -1,4 +1,4 @@
-// The ground that the character walks on, as a person sets it.
+// The user's setting of the ground that the character walks on, and its drawing.
 #pragma once
 
 #include <memory>
@@ -22,33 +22,33 @@ inline constexpr EnumNames<humanoid::GroundKind, 6> ground_kinds{
 
 inline constexpr double steepest_deg = 80.0, highest_step = 2.0, shortest_step = 0.05, longest_step = 10.0;
 
-/// The triangles of a file. It never changes, and copies share it.
+/// The triangles of a file. Immutable; copies share it.
 struct GroundMesh {
     std::string path;
     TriangleMesh triangles;
     humanoid::Ground ground;
 };
-/// Throws std::runtime_error that begins with the file's name.
+/// Throws std::runtime_error that begins with the file name.
 std::shared_ptr<const GroundMesh> read_ground_mesh(const std::string& path);
 
-/// What is of another kind keeps its value.
+/// Values that belong to other kinds are kept.
 struct GroundSetting {
     humanoid::GroundKind kind = humanoid::GroundKind::None;
     double angle_deg = 20.0;                      ///< of the slope, -steepest_deg to steepest_deg
     double step_height = 0.15, step_depth = 0.3;  ///< of the stairs, metres
-    std::shared_ptr<const GroundMesh> mesh{};     ///< never null where the kind is mesh
+    std::shared_ptr<const GroundMesh> mesh{};     ///< never null if the kind is Mesh
     bool operator==(const GroundSetting&) const = default;
 };
 
-/// The hills: 20 m to each side of where the character begins, level there.
+/// The hills: 20 m in each direction from the start of the character, where they are level.
 humanoid::HeightField hills();
 
-/// Throws std::invalid_argument in the library's words.
+/// Throws std::invalid_argument with the library's message.
 humanoid::Ground make_ground(const GroundSetting& setting);
 
-// The ground that the character walks on, where it is more than the level one that the picture has anyway.
+// Drawing of the ground, except for the level ground that every scene shows.
 
-/// A piece of it around a point, whose height does not matter.
+/// Draws the part around a point, whose height is ignored.
 void draw_ground(const View& view, DrawList& list, const GroundSetting& ground, glm::vec3 around);
 
 }  // namespace tendril::app

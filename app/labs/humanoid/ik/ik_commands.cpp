@@ -14,8 +14,8 @@
 namespace tendril::app {
 namespace {
 
-/// Where a target has been let go. `settings` and `pose` are of before. Hand IK that is switched has its
-/// curves and cone of view to ease by, and is at once what it is set to.
+/// Starts the release if a target was removed. `settings` and `pose` are those before the change. Toggling
+/// hand IK takes effect at once: its curves and view cone do the easing.
 void let_go(Workspace& workspace, const IkSettings& settings, const std::vector<rig::Transform>& pose) {
     const HumanoidPart& part = humanoid_part(workspace);
     const bool loses = std::ranges::any_of(all_effectors, [&](humanoid::Effector each) {
@@ -64,13 +64,13 @@ void require_body(const IkNow& now, const HumanoidPart& part) {
     if (!why.empty()) throw std::invalid_argument("the body solve is off: " + why);
 }
 
-// What IK does with the character: targets and limits.
+// Commands on targets, limits, ground and feet.
 
 namespace {
 
 using humanoid::Effector;
 
-/// That of "effector", or those of "effectors", each once.
+/// The effectors given by "effector" or "effectors". Refuses duplicates.
 std::vector<Effector> effectors_named(const Arguments& given) {
     if (gives_one(given, "effector", "effectors")) return {*humanoid::effector_named(given.text("effector"))};
     std::vector<Effector> effectors;
@@ -85,7 +85,7 @@ std::vector<Effector> effectors_named(const Arguments& given) {
     return effectors;
 }
 
-/// Where it is now, if it has no target yet.
+/// The effector's target, which is created at its current position if it has none.
 TargetSetting& target_begun(const IkNow& now, HumanoidPart& part, Effector effector) {
     std::optional<TargetSetting>& target = part.ik.target(effector);
     if (!target) {
@@ -120,7 +120,7 @@ void set_targets(const IkNow& now, HumanoidPart& part, const Arguments& given) {
     }
 }
 
-/// That of "bone", or those of "bones".
+/// The joints given by "bone" or "bones".
 std::vector<std::string> joints_named(const Arguments& given) {
     if (gives_one(given, "bone", "bones")) return {given.text("bone")};
     std::vector<std::string> joints = name_list(given, "bones");
@@ -144,7 +144,7 @@ void set_limits(const IkNow& now, HumanoidPart& part, const Arguments& given) {
     const LimitsFrom from = limits_from.value(given.text("from"));
     if (from == LimitsFrom::Motion && part.loaded->clips().empty())
         throw std::invalid_argument("the character has no clips to learn limits from");
-    part.ik_state.body = {};  // it goes no farther than its targets do: where limits are new, it begins anew
+    part.ik_state.body = {};  // it moves only as far as its targets do, so new limits need a fresh start
     if (!given.has("bone") && !given.has("bones")) {
         part.ik.limits = from;
         part.ik.joint_limits.clear();
@@ -162,14 +162,14 @@ void set_ground(const IkNow& now, HumanoidPart& part, const Arguments& given) {
         throw std::invalid_argument("path is missing: the file with the mesh");
     make_ground(ground);
     part.ik_state.feet = {};
-    // Rising ground would bury a character that has walked far, or whose feet do not follow it.
+    // Rising ground would bury a character that has walked far or has no foot IK.
     const bool level = ground.kind == humanoid::GroundKind::None || ground.kind == humanoid::GroundKind::Flat;
     if (ground.kind == before || level) return;
     part.playback.rounds = 0;
     if (now.solvers.feet(part) != nullptr) part.ik.foot_ik.on = true;
 }
 
-/// From aside: what rises ahead of the character would hide it from the front.
+/// Turns the camera to the side: ground that rises ahead of the character would hide it from the front.
 void look_from_aside(Workspace& workspace) {
     if (workspace.lab == humanoid_lab && std::cos(workspace.camera.yaw) > 0.5f)
         workspace.camera.yaw = glm::radians(62.0f);
@@ -235,11 +235,11 @@ void add_ik_commands(CommandTable& table) {
         "Says where the limits of the joints come from", set_limits));
 }
 
-// Hand IK, self-collision and look-at.
+// Commands on hand IK, self-collision and look-at.
 
 namespace {
 
-/// The curve of one hand, or of both.
+/// Sets the curve of a hand.
 void set_curve(HandIkSetting& setting, std::size_t hand, const Arguments& given) {
     std::optional<HandCurve>& curve = setting.curves[hand];
     if (given.has("curve") && !given.boolean("curve")) {
@@ -267,7 +267,7 @@ void set_hand_ik(const IkNow& now, HumanoidPart& part, const Arguments& given) {
     if (hand != "left") set_curve(setting, 1, given);
 }
 
-/// Ahead of the head, where nothing was looked at yet.
+/// In front of the head, for a look-at that has no position yet.
 glm::dvec3 ahead_of_head(const IkNow& now, const HumanoidPart& part) {
     const glm::dvec3 forward = humanoid::facing(part.skeleton(), *part.map).forward;
     const std::size_t head = *part.node_of(humanoid::Bone::Head);

@@ -1,4 +1,4 @@
-// How a command changes what IK does.
+// Shared by the commands that change IK.
 #pragma once
 
 #include "app/labs/humanoid/humanoid_commands.hpp"
@@ -6,19 +6,19 @@
 
 namespace tendril::app {
 
-/// What a change may look at: the part is not in place yet.
+/// What a change may read while the part is being changed.
 struct IkNow {
     const ShownPose& shown;
     Solvers& solvers;
 };
 
-/// Changes the part; IK then remembers where that brings it.
+/// Changes the part, then solves so that IK remembers the resulting state.
 Command ik_command(const char* name, const char* title, std::vector<Argument> arguments, const char* help,
                    void (*change)(const IkNow&, HumanoidPart&, const Arguments&));
 
-/// Of a Point, with all its digits.
+/// A Point with double precision.
 glm::dvec3 exact_point(const Json& json);
-/// Throws std::invalid_argument that says why there is no body.
+/// Throws std::invalid_argument with the reason if there is no body.
 void require_body(const IkNow& now, const HumanoidPart& part);
 
 void add_hand_commands(CommandTable& table);

@@ -1,13 +1,12 @@
-#include "app/labs/humanoid/ik/ik_file.hpp"
-
 #include "app/document/json_complete.hpp"
 #include "app/document/json_place.hpp"
 #include "app/labs/humanoid/humanoid_part.hpp"
+#include "app/labs/humanoid/ik/ik_members.hpp"
 #include "app/labs/humanoid/ik/shown_pose.hpp"
 
 namespace tendril::app {
 
-// IK in a scene file: what is set, and what is remembered from tick to tick.
+// IK in a scene file: its settings, and what it remembers between ticks.
 
 namespace {
 
@@ -18,7 +17,7 @@ Json targets_json(const IkSettings& ik) {
         if (!target) continue;
         Json& json = targets[humanoid::name(effector)];
         json["position"] = dpoint(target->position);
-        if (target->rotation) json["rotation"] = quaternion(*target->rotation);
+        if (target->rotation) json["rotation"] = dquaternion(*target->rotation);
         json["weight"] = target->weight;
     }
     return targets;
@@ -32,7 +31,7 @@ void read_targets(const JsonPlace& place, IkSettings& ik) {
         const JsonPlace at = place[name.c_str()];
         TargetSetting target;
         target.position = at["position"].dpoint();
-        if (const auto rotation = at.optional("rotation")) target.rotation = read_quaternion(*rotation);
+        if (const auto rotation = at.optional("rotation")) target.rotation = rotation->drotation();
         if (const auto weight = at.optional("weight")) target.weight = weight->real(1e-9, heaviest_target);
         ik.target(*effector) = target;
     }
@@ -40,7 +39,7 @@ void read_targets(const JsonPlace& place, IkSettings& ik) {
 
 Json body_json(const humanoid::BodyState& state) {
     Json turns = Json::array();
-    for (const glm::dquat& turn : state.turns) turns.push_back(quaternion(turn));
+    for (const glm::dquat& turn : state.turns) turns.push_back(dquaternion(turn));
     Json left = Json::array(), clip = Json::array();
     for (const glm::dvec3& each : state.left) left.push_back(dpoint(each));
     for (const glm::dvec3& each : state.clip) clip.push_back(dpoint(each));
@@ -52,7 +51,7 @@ Json body_json(const humanoid::BodyState& state) {
 humanoid::BodyState read_body(const JsonPlace& place) {
     humanoid::BodyState state;
     place["turns"].for_each("turns", humanoid::bone_count,
-                            [&](const JsonPlace& each) { state.turns.push_back(read_quaternion(each)); });
+                            [&](const JsonPlace& each) { state.turns.push_back(each.drotation()); });
     state.shift = place["shift"].dpoint();
     place["left"].check_size(state.left.size(), "points, one an effector");
     place["clip"].check_size(state.clip.size(), "points, one an effector");
@@ -70,86 +69,12 @@ humanoid::BodyState read_body(const JsonPlace& place) {
     return state;
 }
 
-/// Every number of a state, by name: for writing and for reading.
-void each_number(auto& spring, auto visit) requires requires {
-    spring.previous_target;
-}
-{
-    visit("value", spring.value);
-    visit("velocity", spring.velocity);
-    visit("previous", spring.previous_target);
-    visit("started", spring.started);
-}
-
-void each_number(auto& foot, auto visit) requires requires {
-    foot.lock_x;
-}
-{
-    visit("locked", foot.locked);
-    visit("speed_known", foot.speed_known);
-    visit("standing", foot.standing);
-    visit("heel", foot.heel);
-    visit("toe", foot.toe);
-    visit("velocity", foot.velocity);
-    visit("lock_x", foot.lock_x);
-    visit("lock_z", foot.lock_z);
-    visit("shift_x", foot.shift_x);
-    visit("shift_z", foot.shift_z);
-    visit("edges_known", foot.edges_known);
-    visit("offset_x", foot.offset_x);
-    visit("offset_z", foot.offset_z);
-    visit("lift", foot.lift);
-    visit("goal", foot.goal);
-    visit("ease", foot.ease);
-    visit("knee", foot.knee);
-    visit("planting", foot.planting);
-    visit("turn", foot.turn);
-    visit("alone", foot.alone);
-}
-
-void each_number(auto& feet, auto visit) requires requires {
-    feet.pelvis;
-}
-{
-    visit("started", feet.started);
-    visit("hips", feet.hips);
-    visit("base", feet.base);
-    visit("drop", feet.drop);
-    visit("root", feet.root);
-    visit("pelvis", feet.pelvis);
-    visit("left", feet.feet[0]);
-    visit("right", feet.feet[1]);
-}
-
-void each_number(auto& hand, auto visit) requires(
-    requires { hand.in_view; } && !requires { hand.gaze; }) {
-    visit("in_view", hand.in_view);
-    visit("view", hand.view);
-}
-
-void each_number(auto& hands, auto visit) requires requires {
-    hands.hands;
-}
-{
-    visit("left", hands.hands[0]);
-    visit("right", hands.hands[1]);
-}
-
-void each_number(auto& look, auto visit) requires requires {
-    look.gaze;
-}
-{
-    visit("in_view", look.in_view);
-    visit("view", look.view);
-    visit("gaze", look.gaze);
-}
-
 template <class T>
 Json written(const T& value) {
     if constexpr (std::is_same_v<T, glm::dvec3>) {
         return dpoint(value);
     } else if constexpr (std::is_same_v<T, glm::dquat>) {
-        return quaternion(value);
+        return dquaternion(value);
     } else if constexpr (std::is_enum_v<T>) {
         return static_cast<int>(value);
     } else if constexpr (std::is_arithmetic_v<T>) {
@@ -166,7 +91,7 @@ void read_number(const JsonPlace& place, T& value) {
     if constexpr (std::is_same_v<T, glm::dvec3>) {
         value = place.dpoint();
     } else if constexpr (std::is_same_v<T, glm::dquat>) {
-        value = read_quaternion(place);
+        value = place.drotation();
     } else if constexpr (std::is_same_v<T, bool>) {
         value = place.flag();
     } else if constexpr (std::is_same_v<T, humanoid::FootAlone>) {
@@ -180,7 +105,7 @@ void read_number(const JsonPlace& place, T& value) {
 
 Json release_json(const Release& release, const humanoid::Skeleton& skeleton) {
     Json turns = Json::object();
-    for (const auto& [node, turn] : release.turns) turns[skeleton[node].name] = quaternion(turn);
+    for (const auto& [node, turn] : release.turns) turns[skeleton[node].name] = dquaternion(turn);
     return Json{{"left", release.left}, {"shift", dpoint(release.shift)}, {"turns", std::move(turns)}};
 }
 
@@ -191,7 +116,7 @@ Release read_release(const JsonPlace& place, const humanoid::Skeleton& skeleton)
     for (const auto& [name, value] : turns.json().items()) {
         const auto node = skeleton.find(name);
         if (!node) turns.fail("there is no node \"" + name + "\"");
-        release.turns[*node] = read_quaternion(turns[name.c_str()]);
+        release.turns[*node] = turns[name.c_str()].drotation();
     }
     return release;
 }

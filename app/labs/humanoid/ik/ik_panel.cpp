@@ -1,4 +1,4 @@
-// The panel's rows of what the body reaches for.
+// The panel's rows about IK: targets, hands, gaze, ground and feet.
 #include <imgui.h>
 #include <array>
 
@@ -57,7 +57,7 @@ void target_rows(const HumanoidPanel& panel) {
     limit_rows(panel);
 }
 
-// The panel's rows of hands that a clip moves, and of what the head looks at.
+// Hands that a clip moves, and what the head looks at.
 
 namespace {
 
@@ -123,7 +123,7 @@ void hand_rows(const HumanoidPanel& panel) {
     if (shown.look && !shown.look->in_view) note("It is out of the cone of view.");
 }
 
-// The panel's rows of the ground, and of the feet on it.
+// The ground, and the feet on it.
 
 namespace {
 
@@ -136,7 +136,7 @@ void shape_rows(const HumanoidPanel& panel) {
     if (ground.kind == GroundKind::Stairs) rows.rows("step_height", "step_depth");
 }
 
-/// What each foot does, or why it is left alone.
+/// What a foot does, or why it follows the clip.
 void foot_row(const HumanoidPanel& panel, std::size_t side) {
     const ShownPose& shown = panel.runtime.shown(panel.workspace);
     if (!shown.feet) return;

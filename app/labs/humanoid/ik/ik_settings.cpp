@@ -27,7 +27,7 @@ std::string title(humanoid::Effector effector) {
 
 }  // namespace tendril::app
 
-// What a person sets of ground, feet, hands and gaze: its fields, and what they are called.
+// Fields and texts of the settings of ground, feet, hands and gaze.
 
 namespace tendril {
 

@@ -1,4 +1,4 @@
-// What a person sets of a character's IK, and what it and the springs remember from tick to tick: values.
+// A character's IK settings, and what IK and springs remember between ticks. All values.
 #pragma once
 
 #include <array>
@@ -19,11 +19,11 @@ namespace tendril::app {
 
 inline constexpr double heaviest_target = 1e3;
 
-/// Of one effector; metres, in the character's space.
+/// The target of an effector; metres, in the character's space.
 struct TargetSetting {
     glm::dvec3 position{0.0};
-    std::optional<glm::dquat> rotation{};  ///< of the bone
-    double weight = 1.0;                   ///< over 0, to heaviest_target
+    std::optional<glm::dquat> rotation{};  ///< of the bone, if set
+    double weight = 1.0;                   ///< above 0, up to heaviest_target
     bool operator==(const TargetSetting&) const = default;
 };
 
@@ -34,35 +34,35 @@ inline constexpr EnumNames<LimitsFrom, 3> limits_from{
      {"motion", "as in the clips", "Each joint turns as far as the character's clips turn it."},
      {"none", "none", "Joints turn as far as they are asked to."}}};
 
-/// Feet that follow the ground. Speeds in m/s.
+/// Foot IK settings. Speeds in m/s.
 struct FootIkSetting {
     bool on = false;
     double enter_speed = 0.3,
-           leave_speed = 1.0;     ///< a low foot slower than that is planted, and let go over this
-    double max_angle_deg = 35.0;  ///< by which the ground turns a foot at most
+           leave_speed = 1.0;     ///< a low foot is planted below enter_speed, released above leave_speed
+    double max_angle_deg = 35.0;  ///< limit on how far the ground turns a foot
     bool operator==(const FootIkSetting&) const = default;
 };
 inline constexpr double fastest_foot = 100.0, max_foot_angle = 80.0;
 
-/// How much a hand goes to its target over the clip's time: 0 until `begin`, 1 from `full` to `until`, 0 from
-/// `end` on; seconds.
+/// A hand's weight over the clip's time: 0 until `begin`, 1 from `full` to `until`, 0 from `end`; seconds.
 struct HandCurve {
     double begin = 0.3, full = 0.55, until = 0.62, end = 0.85;
     bool operator==(const HandCurve&) const = default;
 };
 inline constexpr double max_curve = 1e4, widest_view_deg = 180.0;
 
-/// Hands that the clip moves, blended to their targets by the arm alone. Half angles of the cone of view.
+/// Hand IK: the clip moves the hands, and each arm alone blends its hand to the target.
+/// View angles, also below, are half angles of a cone.
 struct HandIkSetting {
     bool on = false;
     double view_deg = 115.0;
-    std::array<std::optional<HandCurve>, 2> curves{};  ///< left, right; none: all of the clip
+    std::array<std::optional<HandCurve>, 2> curves{};  ///< left, right; none: weight 1 throughout
     bool operator==(const HandIkSetting&) const = default;
 };
 
 struct LookAtSetting {
     bool on = false;
-    bool placed = false;               ///< a place was given, or found
+    bool placed = false;               ///< a position was given or found
     glm::dvec3 target{0.0, 1.6, 2.0};  ///< metres
     double weight = 1.0;               ///< 0 to 1
     double view_deg = 109.0;
@@ -72,8 +72,8 @@ struct LookAtSetting {
 struct IkSettings {
     std::array<std::optional<TargetSetting>, humanoid::effector_count> targets{};
     LimitsFrom limits = LimitsFrom::Defaults;
-    std::map<humanoid::Bone, LimitsFrom> joint_limits{};  ///< of those that go by another source
-    bool self_collision = false;  ///< hands and lower arms do not pass through the body
+    std::map<humanoid::Bone, LimitsFrom> joint_limits{};  ///< joints with a source of their own
+    bool self_collision = false;                          ///< keeps hands and lower arms out of the body
     GroundSetting ground;
     FootIkSetting foot_ik;
     HandIkSetting hand_ik;
@@ -87,16 +87,16 @@ struct IkSettings {
         return targets[static_cast<std::size_t>(effector)];
     }
     bool has_targets() const;
-    /// Where the limit of that joint comes from.
+    /// The source of that joint's limit.
     LimitsFrom limits_of(humanoid::Bone bone) const;
-    /// Left 0, right 1; null where the hand has no target, or hand IK is off.
+    /// Hand 0 is left, 1 right. Null if the hand has no target, or hand IK is off.
     const TargetSetting* hand_target(std::size_t hand) const;
 };
 
-/// What is left of a target that was let go: see release.hpp.
+/// What still fades out after a target was released; see release_between().
 struct Release {
-    double left = 0.0;  ///< seconds until it is over
-    /// Of nodes, over their own local rotations.
+    double left = 0.0;  ///< seconds until it ends
+    /// By node, relative to its local rotation.
     std::map<std::size_t, glm::dquat> turns{};
     glm::dvec3 shift{0.0};  ///< of the hips, in their parent's space, metres
     bool operator==(const Release&) const = default;
@@ -107,7 +107,7 @@ struct IkState {
     humanoid::FeetState feet{};
     humanoid::HandsState hands{};
     humanoid::LookAtState look{};
-    std::vector<humanoid::SpringChainState> springs{};  ///< in the order of the part's
+    std::vector<humanoid::SpringChainState> springs{};  ///< in the order of the part's springs
     Release release{};
     bool operator==(const IkState&) const = default;
 };
@@ -117,7 +117,7 @@ inline constexpr std::array<humanoid::Effector, humanoid::effector_count> all_ef
     humanoid::Effector::RightHand, humanoid::Effector::LeftFoot, humanoid::Effector::RightFoot};
 inline constexpr std::array<humanoid::Effector, 2> both_hands{humanoid::Effector::LeftHand,
                                                               humanoid::Effector::RightHand};
-/// "left hand", as panels write it.
+/// "left hand", as in panels.
 std::string title(humanoid::Effector effector);
 
 }  // namespace tendril::app
@@ -125,11 +125,11 @@ std::string title(humanoid::Effector effector);
 namespace tendril {
 
 template <>
-std::span<const Field> fields<app::GroundSetting>() noexcept;  ///< of all but its mesh
+std::span<const Field> fields<app::GroundSetting>() noexcept;  ///< except for its mesh
 template <>
 std::span<const Field> fields<app::FootIkSetting>() noexcept;
 template <>
-std::span<const Field> fields<app::HandIkSetting>() noexcept;  ///< of all but its curves
+std::span<const Field> fields<app::HandIkSetting>() noexcept;  ///< except for its curves
 template <>
 std::span<const Field> fields<app::LookAtSetting>() noexcept;
 

@@ -17,17 +17,9 @@ std::vector<humanoid::Placement> placed(const HumanoidPart& part, const std::vec
     return placements;
 }
 
-/// Whether it is one that hand IK moves.
+/// Whether hand IK moves the effector.
 bool is_hand(const IkSettings& ik, humanoid::Effector effector) {
     return ik.hand_ik.on && std::ranges::find(both_hands, effector) != both_hands.end();
-}
-
-std::vector<humanoid::BodyTarget> body_targets(const IkSettings& ik) {
-    std::vector<humanoid::BodyTarget> targets;
-    for (const humanoid::Effector effector : all_effectors)
-        if (const auto& target = ik.target(effector); target && !is_hand(ik, effector))
-            targets.push_back({effector, target->position, target->rotation, target->weight});
-    return targets;
 }
 
 /// Brings the feet to the ground.
@@ -37,20 +29,12 @@ void stand(const HumanoidPart& part, Solvers& solvers, double dt, IkState& state
         state.feet = {};
         return;
     }
-    const FootIkSetting& setting = part.ik.foot_ik;
-    humanoid::FeetOptions options{.floor = solvers.floor(part),
-                                  .enter_speed = setting.enter_speed,
-                                  .leave_speed = setting.leave_speed,
-                                  .max_turn = glm::radians(setting.max_angle_deg)};
-    if (part.playback.in_place)
-        options.root_velocity =
-            missing_velocity(part.playback, *part.loaded, part.node_of(humanoid::Bone::Hips));
     const humanoid::FeetReport report =
-        feet->step(shown.local, solvers.ground(part), dt, state.feet, options);
+        feet->step(shown.local, solvers.ground(part), dt, state.feet, feet_options(part, solvers));
     if (report.valid) shown.feet = report;
 }
 
-/// What the body remembers may be another one's, from a file that was edited: then it begins anew.
+/// The stored state may belong to another body, if a file was edited; then it is reset.
 void reach(humanoid::Body& body, const std::vector<humanoid::BodyTarget>& targets, double dt, IkState& state,
            ShownPose& shown) {
     const humanoid::BodyOptions options{.settle = state.release.left > 0.0 ? std::min(settle_speed * dt, 1.0)
@@ -66,20 +50,20 @@ void reach(humanoid::Body& body, const std::vector<humanoid::BodyTarget>& target
         shown.refused = report.message();
 }
 
-/// Where targets hold the body, neck and head alone turn.
+/// If targets hold the body, only neck and head turn.
 void look(const HumanoidPart& part, Solvers& solvers, double dt, IkState& state, ShownPose& shown) {
-    const LookAtSetting& setting = part.ik.look_at;
-    const humanoid::LookAt* const look_at = setting.on ? solvers.look_at(part) : nullptr;
+    const humanoid::LookAt* const look_at = part.ik.look_at.on ? solvers.look_at(part) : nullptr;
     if (look_at == nullptr) {
         state.look = {};
         return;
     }
-    humanoid::LookAtOptions options{
-        .target = setting.target, .weight = setting.weight, .view = glm::radians(setting.view_deg)};
-    if (shown.body) options.spine_part = 0.0;
-    if (part.ik.target(humanoid::Effector::Head)) options.neck_part = 0.0;
-    const humanoid::LookAtReport report = look_at->step(shown.local, options, dt, state.look);
+    const humanoid::LookAtReport report =
+        look_at->step(shown.local, look_options(part, shown.body.has_value()), dt, state.look);
     if (report.valid) shown.look = report;
+}
+
+std::vector<rig::Transform> clip_pose(const HumanoidPart& part) {
+    return animated_pose(part.playback, *part.loaded, part.node_of(humanoid::Bone::Hips));
 }
 
 double weight_at(const std::optional<HandCurve>& times, double seconds) {
@@ -89,28 +73,63 @@ double weight_at(const std::optional<HandCurve>& times, double seconds) {
 }
 
 void reach_by_hand(const HumanoidPart& part, Solvers& solvers, double dt, IkState& state, ShownPose& shown) {
-    const HandIkSetting& setting = part.ik.hand_ik;
-    const humanoid::Hands* const hands = setting.on ? solvers.hands(part) : nullptr;
+    const humanoid::Hands* const hands = part.ik.hand_ik.on ? solvers.hands(part) : nullptr;
     if (hands == nullptr) {
         state.hands = {};
         return;
     }
-    humanoid::HandTargets targets{};
-    for (std::size_t hand = 0; hand < 2; ++hand) {
-        const TargetSetting* const target = part.ik.hand_target(hand);
-        if (target == nullptr) continue;
-        shown.hand_goes[hand] = true;
-        targets[hand] = {
-            .position = target->position,
-            .rotation = target->rotation,
-            .weight = std::min(target->weight, 1.0) * weight_at(setting.curves[hand], part.playback.time)};
-    }
-    const humanoid::HandsReport report =
-        hands->step(shown.local, targets, dt, state.hands, {.view = glm::radians(setting.view_deg)});
+    for (std::size_t hand = 0; hand < 2; ++hand) shown.hand_goes[hand] = part.ik.hand_target(hand) != nullptr;
+    const humanoid::HandsReport report = hands->step(shown.local, hand_targets(part), dt, state.hands,
+                                                     {.view = glm::radians(part.ik.hand_ik.view_deg)});
     if (report.valid) shown.hands = report;
 }
 
 }  // namespace
+
+std::vector<humanoid::BodyTarget> body_targets(const IkSettings& ik) {
+    std::vector<humanoid::BodyTarget> targets;
+    for (const humanoid::Effector effector : all_effectors)
+        if (const auto& target = ik.target(effector); target && !is_hand(ik, effector))
+            targets.push_back({effector, target->position, target->rotation, target->weight});
+    return targets;
+}
+
+humanoid::FeetOptions feet_options(const HumanoidPart& part, Solvers& solvers) {
+    const FootIkSetting& setting = part.ik.foot_ik;
+    humanoid::FeetOptions options{.floor = solvers.floor(part),
+                                  .enter_speed = setting.enter_speed,
+                                  .leave_speed = setting.leave_speed,
+                                  .max_turn = glm::radians(setting.max_angle_deg)};
+    if (part.playback.in_place)
+        options.root_velocity =
+            missing_velocity(part.playback, *part.loaded, part.node_of(humanoid::Bone::Hips));
+    return options;
+}
+
+humanoid::LookAtOptions look_options(const HumanoidPart& part, bool body_solved) {
+    const LookAtSetting& setting = part.ik.look_at;
+    humanoid::LookAtOptions options{
+        .target = setting.target, .weight = setting.weight, .view = glm::radians(setting.view_deg)};
+    if (body_solved) options.spine_part = 0.0;
+    if (part.ik.target(humanoid::Effector::Head)) options.neck_part = 0.0;
+    return options;
+}
+
+humanoid::HandTargets hand_targets(const HumanoidPart& part) {
+    humanoid::HandTargets targets{};
+    for (std::size_t hand = 0; hand < 2; ++hand)
+        if (const TargetSetting* const target = part.ik.hand_target(hand))
+            targets[hand] = {.position = target->position,
+                             .rotation = target->rotation,
+                             .weight = std::min(target->weight, 1.0) *
+                                       weight_at(part.ik.hand_ik.curves[hand], part.playback.time)};
+    return targets;
+}
+
+std::vector<rig::Transform> unsolved_pose(const HumanoidPart& part) {
+    if (!part.playback.clip && part.t_pose) return humanoid::t_pose(part.skeleton(), *part.map);
+    return animated_pose(part.playback, *part.loaded, part.node_of(humanoid::Bone::Hips));
+}
 
 std::optional<double> ShownPose::residual(humanoid::Effector effector) const {
     for (std::size_t hand = 0; hand < 2; ++hand)
@@ -122,9 +141,8 @@ std::optional<double> ShownPose::residual(humanoid::Effector effector) const {
 
 namespace {
 
-/// All between the clip and the springs.
+/// All steps between the clip and the springs.
 void solve(const HumanoidPart& part, Solvers& solvers, double dt, IkState& state, ShownPose& shown) {
-    if (!part.playback.clip && part.t_pose) shown.local = humanoid::t_pose(part.skeleton(), *part.map);
     stand(part, solvers, dt, state, shown);
     const std::vector<humanoid::BodyTarget> targets = body_targets(part.ik);
     const bool moves = !targets.empty() || part.ik.self_collision;
@@ -133,21 +151,18 @@ void solve(const HumanoidPart& part, Solvers& solvers, double dt, IkState& state
     if (body != nullptr && !targets.empty()) reach(*body, targets, dt, state, shown);
     look(part, solvers, dt, state, shown);
     reach_by_hand(part, solvers, dt, state, shown);
-    // What the clip and its hands alone would bring into the body.
+    // Resolves collisions that the clip or hand IK alone would cause.
     if (body != nullptr && targets.empty()) reach(*body, targets, dt, state, shown);
     pass(state.release, dt);
     apply(state.release, shown.local, part.node_of(humanoid::Bone::Hips));
-}
-
-std::vector<rig::Transform> clip_pose(const HumanoidPart& part) {
-    return animated_pose(part.playback, *part.loaded, part.node_of(humanoid::Bone::Hips));
 }
 
 }  // namespace
 
 ShownPose solve_pose(const HumanoidPart& part, Solvers& solvers, double dt, IkState& state) {
     ShownPose shown;
-    const std::vector<rig::Transform> before = shown.local = clip_pose(part);
+    const std::vector<rig::Transform> before = clip_pose(part);
+    shown.local = unsolved_pose(part);
     solve(part, solvers, dt, state, shown);
     shown.before_springs = shown.local;
     shown.springs = swing(part.springs, solvers.springs(part), dt, shown.local, state.springs);
@@ -166,7 +181,7 @@ void carry_springs(Workspace& workspace) {
     Solvers& solvers = humanoid_runtime(workspace).solvers;
     IkState state = part.ik_state;
     ShownPose shown;
-    shown.local = clip_pose(part);
+    shown.local = unsolved_pose(part);
     solve(part, solvers, 0.0, state, shown);
     state.springs = part.ik_state.springs;
     carry(part.springs, solvers.springs(part), shown.local, state.springs);
@@ -210,7 +225,7 @@ glm::vec3 standing_at(const Workspace& workspace) {
 
 void solve_now(Workspace& workspace) {
     IkState state = humanoid_part(workspace).ik_state;
-    // A solve goes part of a long way: what comes after it is done at once.
+    // A single solve covers only part of a long distance: do the rest at once.
     constexpr int max_solves = 40;
     for (int i = 0; i < max_solves; ++i) {
         const ShownPose shown =
@@ -252,7 +267,7 @@ void pass(Release& release, double seconds) {
 }
 
 void forget_on_the_way_to(Release& release, const humanoid::Skeleton& skeleton, std::size_t node) {
-    release.shift = glm::dvec3(0.0);  // the hips are on every way
+    release.shift = glm::dvec3(0.0);  // the path to every node begins at the hips
     std::erase_if(release.turns, [&](const auto& each) {
         return each.first == node || skeleton.is_below(node, each.first) ||
                skeleton.is_below(each.first, node);

@@ -1,5 +1,5 @@
-// The one way from the lab's part to what is seen: the animation's pose, or the rest pose, and what changes
-// it, in that order. Picture, state and handles all ask here, and a tick goes the same way.
+// Computes the displayed pose from the lab's part: the clip's pose or the rest pose, then everything that
+// modifies it, in order. Drawing, state, handles and ticks all use this.
 #pragma once
 
 #include <optional>
@@ -14,64 +14,73 @@ struct ShownPose {
     std::vector<rig::Transform> local;
     std::vector<rig::Transform> before_springs;
     std::vector<humanoid::Placement> placed;
-    /// Before anything changed it; empty where nothing does.
+    /// Before anything modified the pose; empty if nothing did.
     std::vector<humanoid::Placement> before;
-    std::optional<humanoid::BodyReport> body;     ///< where there is a target
-    std::optional<humanoid::HandsReport> hands;   ///< where hand IK is on
-    std::optional<humanoid::LookAtReport> look;   ///< where look-at is on
-    std::optional<humanoid::FeetReport> feet;     ///< where foot IK is on
-    std::vector<humanoid::SpringReport> springs;  ///< in the order of the part's
+    std::optional<humanoid::BodyReport> body;     ///< if there is a target
+    std::optional<humanoid::HandsReport> hands;   ///< if hand IK is on
+    std::optional<humanoid::LookAtReport> look;   ///< if look-at is on
+    std::optional<humanoid::FeetReport> feet;     ///< if foot IK is on
+    std::vector<humanoid::SpringReport> springs;  ///< in the order of the part's springs
     std::array<humanoid::SolePoints, 2> soles{};  ///< left, right
     bool has_soles = false;
-    std::array<bool, 2> hand_goes{};  ///< to its target by hand IK
-    std::string refused;              ///< why targets are left alone, in the library's words
+    std::array<bool, 2> hand_goes{};  ///< hand IK moves it to its target
+    std::string refused;              ///< why targets are ignored: the library's message
 
-    /// What is left between an effector and its target, metres; nothing without one.
+    /// Distance between an effector and its target, metres; empty if it has none.
     std::optional<double> residual(humanoid::Effector effector) const;
     glm::vec3 point(std::size_t node) const { return glm::vec3(placed[node].position); }
 };
 
-/// `state` is what IK remembers; it becomes what it remembers then, `dt` seconds later. With 0 no time
-/// passes: the same part gives the same pose again.
+/// Solves the pose `dt` seconds after `state` and updates `state`. With 0 no time passes, and the same part
+/// gives the same pose again.
 ShownPose solve_pose(const HumanoidPart& part, Solvers& solvers, double dt, IkState& state);
 
-/// The pose was set, not reached in time: springs go along with it and swing on from there.
+// What the solvers are given, also for exported code.
+
+/// The pose of the clip, or of rest, before anything modifies it.
+std::vector<rig::Transform> unsolved_pose(const HumanoidPart& part);
+/// Without the hands that hand IK moves.
+std::vector<humanoid::BodyTarget> body_targets(const IkSettings& ik);
+humanoid::FeetOptions feet_options(const HumanoidPart& part, Solvers& solvers);
+/// `body_solved`: targets hold the body, so only neck and head turn.
+humanoid::LookAtOptions look_options(const HumanoidPart& part, bool body_solved);
+humanoid::HandTargets hand_targets(const HumanoidPart& part);
+
+/// After the pose was set instead of reached over time: moves the springs along with it.
 void carry_springs(Workspace& workspace);
 
-/// Why a foot keeps to the clip though foot IK is on, in words; empty where it does not. `side`: 0 left.
+/// Why a foot follows the clip although foot IK is on; empty if it does not. `side`: 0 is left.
 std::string why_alone(const HumanoidPart& part, const ShownPose& shown, std::size_t side);
 
-/// The lab's part as it is shown now, worked out once for each of its values. The reference holds until the
-/// next call.
+/// The displayed pose of the lab's part, cached until the part changes. Valid until the next call.
 const ShownPose& shown_pose(const Workspace& workspace);
-/// Where the character stands: below its hips, or its first node.
+/// The point below the hips, or below the first node.
 glm::vec3 standing_at(const Workspace& workspace);
-/// For commands that change what IK does: it remembers where it is now. Throws std::invalid_argument where
-/// the library refuses a target.
+/// For commands that change IK: solves, and stores what IK remembers. Throws std::invalid_argument if the
+/// library refuses a target.
 void solve_now(Workspace& workspace);
 
-// What comes after a target is let go: the limb eases back to the clip, and the rest of the body gives up
-// what only that target has asked of it.
+// Releasing a target: the limb eases back to the clip, and the rest of the body gives up what only that
+// target required.
 //
-// The pose that follows is worked out at once. While a clip plays, what the pose was beyond it is kept and
-// fades out (inertialization: D. Bollo, "Inertialization: High-Performance Animation Transitions in Gears of
-// War", GDC 2018), so that no joint leaps, whatever it was that changed. Where no clip plays the limb is back
-// at once.
+// The new pose is computed at once. While a clip plays, the difference to the old pose is stored and fades
+// out (inertialization: D. Bollo, "Inertialization: High-Performance Animation Transitions in Gears of War",
+// GDC 2018), so that no joint jumps, whatever changed. Without a playing clip the limb returns at once.
 
-inline constexpr double release_seconds = 1.0;  ///< until all is settled
-inline constexpr double fade_seconds = 0.2;     ///< of that, at its beginning: until the limb is back
-/// Of a target, in m/s, with which the rest of the body comes nearer to the clip.
+inline constexpr double release_seconds = 1.0;  ///< until everything has settled
+inline constexpr double fade_seconds = 0.2;     ///< the first part of it: until the limb is back
+/// Speed at which the rest of the body approaches the clip, m/s of a target.
 inline constexpr double settle_speed = 1.2;
 
-/// What fades out: rotations and the hips' way from `now` to `before`, two poses of one character.
+/// The difference that fades out: rotations and hips translation from `now` to `before`.
 Release release_between(const std::vector<rig::Transform>& before, const std::vector<rig::Transform>& now,
                         std::optional<std::size_t> hips);
-/// 1 just after the target was let go, 0 once it has faded out.
+/// 1 right after the release, 0 once it has faded out.
 double fading(const Release& release);
 void apply(const Release& release, std::vector<rig::Transform>& pose, std::optional<std::size_t> hips);
-/// Some seconds later; empty when it is over.
+/// Advances time; becomes empty at the end.
 void pass(Release& release, double seconds);
-/// For a target that is new: what it reaches for is reached at once.
+/// For a new target: drops what would keep its limb from reaching it at once.
 void forget_on_the_way_to(Release& release, const humanoid::Skeleton& skeleton, std::size_t node);
 
 }  // namespace tendril::app

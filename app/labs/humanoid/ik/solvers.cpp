@@ -7,7 +7,7 @@
 namespace tendril::app {
 namespace {
 
-/// Fitted to what the character wears, as it rests.
+/// Fitted to the skin at rest, if there is one.
 std::vector<humanoid::BodyCapsule> capsules_of(const HumanoidPart& part) {
     const Skin& skin = part.loaded->character.skin;
     if (!skin.mesh) return humanoid::default_capsules(part.skeleton(), *part.map);

@@ -1,5 +1,4 @@
-// The library's solvers, made ready for the lab's character: kept until it, its bone map or its limits are
-// others.
+// The library's solvers for the lab's character, cached until character, bone map or limits change.
 #pragma once
 
 #include <map>
@@ -21,28 +20,28 @@ class Solvers {
     Solvers(const Solvers&) = delete;
     Solvers& operator=(const Solvers&) = delete;
 
-    /// Null where there is none for this map; then why_no_body() says why.
+    /// Null if the map allows none; why_no_body() then has the reason.
     humanoid::Body* body(const HumanoidPart& part);
-    /// "LeftHand and RightHand are missing"; empty where there is a body.
+    /// "LeftHand and RightHand are missing"; empty if there is a body.
     const std::string& why_no_body(const HumanoidPart& part);
-    /// Null where the map has no legs that could be solved.
+    /// Null if the map has no legs that can be solved.
     const humanoid::Feet* feet(const HumanoidPart& part);
-    /// Null where the map is not one of a body; then why_no_body() says why.
+    /// Null if the map is not that of a body; why_no_body() then has the reason.
     const humanoid::Hands* hands(const HumanoidPart& part);
     const humanoid::LookAt* look_at(const HumanoidPart& part);
-    /// In the order of the part's springs: null where the bone map leaves no room for one, then
-    /// why_no_spring() of its node says why.
+    /// In the order of the part's springs; null where the bone map leaves no room for one, for which
+    /// why_no_spring() has the reason.
     const SpringChains& springs(const HumanoidPart& part);
-    /// Empty where there are feet.
+    /// Empty if there are feet.
     const std::string& why_no_feet(const HumanoidPart& part);
-    /// How high the clip's own floor is, metres. Of the chosen clip; nothing for the rest pose.
+    /// Height of the clip's own floor, metres; empty for the rest pose.
     std::optional<double> floor(const HumanoidPart& part);
-    /// What self-collision keeps apart; empty where that is off.
+    /// The capsules that self-collision keeps apart; empty if that is off.
     const std::vector<humanoid::BodyCapsule>& capsules(const HumanoidPart& part);
-    /// The body's volume, of the bones that are mapped: what hangs on it lies on that.
+    /// The volume of the mapped bones, on which attachments rest.
     const std::vector<humanoid::BodyCapsule>& volume(const HumanoidPart& part);
     const humanoid::Ground& ground(const HumanoidPart& part);
-    /// What the joints' limits are chosen from.
+    /// The ranges to choose joint limits from.
     const LimitRanges& limits(const HumanoidPart& part);
 
   private:
@@ -72,19 +71,19 @@ class Solvers {
     std::unique_ptr<LimitRanges> ranges_;
 };
 
-// The chains of a body as they are solved: layer 0 the hips, layer 1 legs and spine, layer 2 arms, neck and
-// head.
+// The chains of a body in the order in which they are solved: layer 0 the hips, layer 1 legs and spine, layer
+// 2 arms, neck and head.
 
 struct BodyChain {
     int layer = 0;
-    std::vector<humanoid::Bone> bones;  ///< mapped ones, from the hips out
+    std::vector<humanoid::Bone> bones;  ///< mapped bones, from the hips outwards
     humanoid::Bone end = humanoid::Bone::Hips;
 };
 
-/// None where the map is not usable.
+/// Empty if the map is not usable.
 std::vector<BodyChain> body_chains(const humanoid::BoneMap& map);
 
-/// Why nothing is solved for this map, in words; empty where it is. "LeftHand and RightHand are missing"
+/// Why the map cannot be solved; empty if it can. "LeftHand and RightHand are missing"
 std::string why_unusable(const humanoid::BoneMap& map);
 
 }  // namespace tendril::app

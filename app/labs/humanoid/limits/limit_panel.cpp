@@ -1,5 +1,5 @@
-// The selected joints: the active one in degrees, how it is turned, and how far an adult's goes and the clips
-// take it; which of the two holds is set on all.
+// The inspector and the drawing of joint limits. The table shows the active joint in degrees: its rotation,
+// an adult's range and that of the clips. The range to use is set on all selected joints.
 #include "app/labs/humanoid/limits/limit_panel.hpp"
 
 #include <imgui.h>
@@ -36,7 +36,7 @@ struct Range {
     float low, high;
 };
 
-/// One way in which a joint turns. Titles are about the person's body: the axes of limits.hpp are.
+/// A direction in which a joint turns. Titles are from the user's view; angles are those of limits.hpp.
 struct Way {
     const char* title;
     const char* help;
@@ -68,7 +68,7 @@ std::vector<Way> ways_of(Bone bone, const ik::Limit& limit) {
     const bool right = bone >= Bone::RightShoulder && bone <= Bone::RightHand;
     const bool foot = bone == Bone::LeftFoot || bone == Bone::RightFoot;
     const char* const first = is_arm(bone) || foot ? "up" : "forward";
-    const char* second = "left";  // of a leg: seen by the character
+    const char* second = "left";  // of a leg: as the character sees it
     if (is_arm(bone)) second = right ? "forward" : "back";
     if (bone <= Bone::Head) second = "right";
     return {{first, "From the T-pose; the other way is negative.", &ik::JointAngles::up, first_swing},
@@ -83,7 +83,7 @@ void cell(const std::string& text, glm::vec3 colour) {
     ImGui::PopStyleColor();
 }
 
-/// The head of a column, with the colour that its range has in the picture.
+/// The head of a column, in the colour that its range has in the scene.
 void head(const char* title, glm::vec3 colour, const char* help) {
     cell(title, colour);
     explain(help);
@@ -147,14 +147,14 @@ Json names_of(const Joints& joints) {
     return list;
 }
 
-/// A command's arguments: the limits of which joints come from where.
+/// Arguments of a command that sets the source of the joints' limits.
 ArgumentList taking(LimitsFrom from, const Joints& joints) {
     const NamedArgument which = joints.size() == 1 ? NamedArgument{"bone", humanoid::name(joints.front())}
                                                    : NamedArgument{"bones", SharedJson(names_of(joints))};
     return {{"from", limits_from.name(from)}, which};
 }
 
-/// Where the limits come from: each joint's own range of that kind, about its own axes.
+/// The source of the limits. Each joint uses its own range of that kind, about its own axes.
 void source_row(const HumanoidPanel& panel, const Joints& joints, LimitsFrom shown) {
     const LimitRanges& ranges = panel.runtime.solvers.limits(panel.part);
     Joints turned;
@@ -266,7 +266,7 @@ class LimitDrawing {
                 .layer = Layer::Overlay;
     }
 
-    /// Without what is learned from clips: that takes a while the first time.
+    /// Draws only the limit in force: learning those of the clips takes a while the first time.
     void held_back(Bone bone) {
         const LimitRanges& ranges = solvers_.limits(part_);
         const ik::Limit limit = ranges.in_force(part_.ik)[static_cast<std::size_t>(bone)];
@@ -283,7 +283,7 @@ class LimitDrawing {
     }
 
   private:
-    static constexpr float slack = 0.002f;  // radians; solvers stop as near as that
+    static constexpr float slack = 0.002f;  // radians; solvers stop this close to a limit
 
     void outline(Bone bone, const LimitRanges& ranges, const ik::Limit& limit, glm::vec3 colour) {
         const LimitShape shape = ranges.shape(bone, limit, shown_);
@@ -302,7 +302,7 @@ class LimitDrawing {
                  .strength = strength,
                  .spokes = spokes}};
     }
-    /// So much of the bone, but no more than so many pixels.
+    /// `share` of the bone's length, but at most `pixels` on the screen.
     float radius_of(Bone bone, float share, float pixels) const {
         const std::size_t node = *part_.node_of(bone);
         float length = 0.0f;

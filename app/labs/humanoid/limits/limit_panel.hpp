@@ -1,4 +1,4 @@
-// How far joints may turn, in the picture: an adult's range, and over it the one that the clips really use.
+// Drawing of joint limits: an adult's range, overlaid with the range that the clips use.
 #pragma once
 
 #include <tendril/humanoid/bone_map.hpp>
@@ -13,10 +13,10 @@ namespace tendril::app {
 glm::vec3 adult_colour(const Palette& palette);
 glm::vec3 clips_colour(const Palette& palette);
 
-/// As the view asks for: the active joint's in full, the other selected ones' as outlines with where they are
-/// now, all others' as an outline, and of those that hold the body back only what holds them.
+/// As set in the view: the active joint in full; other selected joints as outlines with their current
+/// rotation; all other joints as outlines. Joints held back by their limits show only those.
 void draw_limits(const View& view, DrawList& list, const HumanoidPart& part, const ShownPose& shown);
-/// What the colours of that mean; nothing where nothing is drawn.
+/// Legend of the limit colours; empty if none are drawn.
 std::vector<LegendRow> limits_legend(const Workspace& workspace);
 
 }  // namespace tendril::app

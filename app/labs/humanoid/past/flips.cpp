@@ -27,7 +27,7 @@ double turn_of(const std::vector<Placement>& was, const std::vector<Placement>& 
     return turn_between(was[node].rotation(), is[node].rotation());
 }
 
-/// From the hips out.
+/// The bones that turned far enough, from the hips outwards.
 std::vector<Turned> turned_bones(const HumanoidMoment& was, const HumanoidMoment& is, Solvers& solvers) {
     const humanoid::Skeleton& skeleton = is.part.skeleton();
     const std::vector<bool> swings = swinging_nodes(is.part, solvers);
@@ -45,12 +45,12 @@ std::vector<Turned> turned_bones(const HumanoidMoment& was, const HumanoidMoment
     return turned;
 }
 
-/// What may have turned a bone, between the two moments.
+/// What may have turned a bone between the two moments.
 class Drivers {
   public:
     Drivers(const HumanoidMoment& was, const HumanoidMoment& is) : was_(was), is_(is) {}
 
-    /// Whether one of them moved so far that it is no wonder that the bone turned.
+    /// Whether any driver moved far enough to explain the bone's turn.
     bool far(const Turned& bone) const {
         const double enough = static_cast<double>(is_.part.flips.angle_share) * bone.radians;
         return clip_turned(bone.node, enough) || hand_blended(bone.node) || looks_elsewhere(bone, enough) ||
@@ -60,7 +60,7 @@ class Drivers {
   private:
     double share() const { return static_cast<double>(is_.part.flips.reach_share); }
 
-    /// It, or a node that it hangs on.
+    /// Whether the clip turned the node or an ancestor.
     bool clip_turned(std::size_t node, double enough) const {
         const humanoid::Skeleton& skeleton = is_.part.skeleton();
         for (auto at = static_cast<std::int32_t>(node); at >= 0;
@@ -70,7 +70,7 @@ class Drivers {
         return false;
     }
 
-    /// By another weight than before; the bone is one of that arm.
+    /// Whether hand IK changed its weight, and the node belongs to that arm.
     bool hand_blended(std::size_t node) const {
         if (!was_.shown.hands || !is_.shown.hands) return false;
         constexpr Bone arms[2][2]{{Bone::LeftShoulder, Bone::LeftUpperArm},
@@ -104,7 +104,7 @@ class Drivers {
         });
     }
 
-    /// As seen from where the clip has the node.
+    /// As seen from where the clip puts the node.
     bool moved(std::size_t node, const glm::dvec3& from, const glm::dvec3& to, double enough) const {
         const glm::dvec3 a = from - was_.clip()[node].position, b = to - is_.clip()[node].position;
         const double distance = glm::distance(a, b),
@@ -123,7 +123,7 @@ std::vector<BodyFlip> body_flips(const HumanoidMoment& was, const HumanoidMoment
     const humanoid::Skeleton& skeleton = is.part.skeleton();
     std::vector<Turned> flipped = turned_bones(was, is, solvers);
     const Drivers drivers(was, is);
-    std::vector<std::size_t> driven;  // nodes: what hangs on them goes along
+    std::vector<std::size_t> driven;  // nodes, whose descendants move with them
     std::erase_if(flipped, [&](const Turned& bone) {
         const bool along =
             std::ranges::any_of(driven, [&](std::size_t each) { return skeleton.is_below(bone.node, each); });
@@ -160,7 +160,7 @@ using Cause = std::optional<std::string>;
 struct Limb {
     std::array<Bone, 3> bones;
     humanoid::Effector effector;
-    const char *root, *middle;  ///< what a person calls its joints
+    const char *root, *middle;  ///< names of its joints for the user
 };
 constexpr std::array<Limb, 4> limbs{{{{Bone::LeftUpperArm, Bone::LeftLowerArm, Bone::LeftHand},
                                       humanoid::Effector::LeftHand,
@@ -179,7 +179,7 @@ constexpr std::array<Limb, 4> limbs{{{{Bone::LeftUpperArm, Bone::LeftLowerArm, B
                                       "right hip",
                                       "right knee"}}};
 
-/// What it reaches for, or, where it has no target, where it ends.
+/// The limb's target, or its end if it has none.
 ReachPose reach_pose(const HumanoidMoment& moment, const Limb& limb) {
     ReachPose pose;
     for (const Bone bone : limb.bones) pose.joints.push_back(moment.shown.point(*moment.part.node_of(bone)));
@@ -201,7 +201,7 @@ Cause by_limb(const HumanoidMoment& was, const HumanoidMoment& is, const Limb& l
     return std::nullopt;
 }
 
-/// Of the bone, or of another one of its chain.
+/// A limit of the bone, or of another one in its chain.
 Cause by_limit(const HumanoidMoment& was, const HumanoidMoment& is, const std::vector<Bone>& chain) {
     if (!was.shown.body || !is.shown.body) return std::nullopt;
     for (const Bone bone : chain) {

@@ -1,4 +1,4 @@
-// Which bones of a body jumped from one pose to the next, while what drives them hardly moved.
+// Which bones of a body jumped from one pose to the next although their drivers hardly moved, and why.
 #pragma once
 
 #include <array>
@@ -13,35 +13,35 @@
 
 namespace tendril::app {
 
-/// A part, and how the character is shown by it.
+/// A part with its displayed pose.
 struct HumanoidMoment {
     const HumanoidPart& part;
     const ShownPose& shown;
 
-    /// What the clip alone makes of it.
+    /// The pose of the clip alone.
     const std::vector<humanoid::Placement>& clip() const {
         return shown.before.empty() ? shown.placed : shown.before;
     }
 };
 
-/// A bone that flipped, by FlipRule: the clip did not turn it or what it hangs on as much, and no target, as
-/// the bone sees it from where the clip has it, moved far. A weight that the solve blends by counts as moved
-/// far where it changed by the rule's share. What hangs on a bone that was driven goes along with it.
+/// A bone that flipped, by FlipRule: the clip did not turn it or an ancestor that much, and no target moved
+/// far, as seen from where the clip puts the bone. A change of a blend weight by the rule's share counts as
+/// moving far. Descendants of a driven bone move with it and do not flip.
 struct BodyFlip {
     humanoid::Bone bone = humanoid::Bone::Hips;
-    double radians = 0.0;  ///< that it turned, in the scene
+    double radians = 0.0;  ///< global rotation
 };
 
-/// The bone that turned the furthest of each limb that jumped; of those that turned together, the one nearest
-/// to the hips. Two moments of one character under the same settings, but for where targets are. None while a
-/// target that was let go fades out, and none of what springs swing.
+/// The bone that turned furthest in each limb that jumped; among equal turns, the one nearest the hips. Both
+/// moments must be of one character under the same settings, except for target positions. Empty while a
+/// released target fades out. Ignores nodes that springs turn.
 std::vector<BodyFlip> body_flips(const HumanoidMoment& was, const HumanoidMoment& is, Solvers& solvers);
 
-/// Why it did, as far as the solves' reports and the poses show it; else "cause not known".
+/// Why the bone flipped, from the solve reports and poses, or "cause not known".
 std::string flip_cause(const HumanoidMoment& was, const HumanoidMoment& is, humanoid::Bone bone);
 
-// The character as it was shown at a moment of the last ten seconds. A part has no pose, it follows from it
-// by the whole of a solve: it is worked out once for each moment.
+// The displayed character at a moment of the last ten seconds. A part stores no pose: it takes a whole solve,
+// so it is computed once per moment.
 
 struct PastPose {
     struct Node {
@@ -49,7 +49,7 @@ struct PastPose {
         glm::quat rotation{1.0f, 0.0f, 0.0f, 0.0f};
     };
     std::vector<Node> nodes;
-    /// To the effectors' targets, metres; NaN of one that has none.
+    /// Distances of effectors to their targets, metres; NaN for those without one.
     std::array<float, humanoid::effector_count> left{};
 };
 inline std::size_t bytes_beyond(const PastPose& pose) {

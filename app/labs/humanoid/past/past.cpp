@@ -1,5 +1,4 @@
-// How a joint is turned, or how far an effector is from its target, over the last ten seconds; and the poses
-// of them.
+// The Humanoid lab's last ten seconds: plots of joint rotations or effector errors, poses, incidents.
 #include "app/labs/humanoid/past/past.hpp"
 
 #include <algorithm>
@@ -51,7 +50,7 @@ const PastPose& pose_of(const Workspace& workspace, const SharedPart& part) {
     });
 }
 
-/// The one that is selected and has a target; nothing where that is none.
+/// The selected effector, if it has a target.
 std::optional<Effector> selected_effector(const HumanoidPart& part) {
     for (const Effector each : all_effectors)
         if (part.ik.target(each) && part.node_of(humanoid::bone_of(each)) == part.selection.active())
@@ -59,16 +58,16 @@ std::optional<Effector> selected_effector(const HumanoidPart& part) {
     return std::nullopt;
 }
 
-/// Without one of the farthest of all.
+/// The error of an effector, or the largest one if none is given.
 double error_of(const PastPose& pose, std::optional<Effector> effector) {
     if (effector) return static_cast<double>(pose.left[static_cast<std::size_t>(*effector)]);
     float farthest = -1.0f;
     for (const float each : pose.left)
-        if (each > farthest) farthest = each;  // not where it is NaN
+        if (each > farthest) farthest = each;  // false for NaN
     return farthest >= 0.0f ? static_cast<double>(farthest) : nothing;
 }
 
-/// Of two nodes, as a list of all has them.
+/// The placements of two nodes, in a list of all nodes.
 std::vector<humanoid::Placement> placed(const PastPose& pose, std::size_t node,
                                         std::optional<std::size_t> other) {
     std::vector<humanoid::Placement> all(pose.nodes.size());
@@ -79,8 +78,8 @@ std::vector<humanoid::Placement> placed(const PastPose& pose, std::size_t node,
     return all;
 }
 
-/// Of a bone from the T-pose, against the bone before it in the body; of any other node within its parent,
-/// from the rest pose.
+/// A bone turns relative to the previous bone of the body, from the T-pose; any other node relative to its
+/// parent, from the rest pose.
 JointTurn turn_of(const HumanoidPart& part, Solvers& solvers, const PastPose& pose, std::size_t node) {
     const auto bone = part.bone_of(node);
     const humanoid::BodyJoints* const joints = bone ? solvers.limits(part).joints() : nullptr;
@@ -186,12 +185,12 @@ PoseLines humanoid_lines(const Workspace& workspace, const SharedPart& part) {
     return lines;
 }
 
-// What a person may ask about that came of a tick or a change: bones that flipped, joints at their limits,
+// Incidents that a user may ask about after a tick or a change: flipped bones, joints at their limits,
 // effectors that fell short of their targets.
 
 namespace {
 
-/// Targets without their places.
+/// The settings without the poses of targets.
 IkSettings without_places(IkSettings settings) {
     for (auto& target : settings.targets)
         if (target) target = TargetSetting{.position = glm::dvec3(0.0), .weight = target->weight};
@@ -199,7 +198,7 @@ IkSettings without_places(IkSettings settings) {
     return settings;
 }
 
-/// The same character under the same settings: what changed came of time and of where targets are.
+/// Whether it is the same character under the same settings: only time passed and targets moved.
 bool comparable(const HumanoidPart& was, const HumanoidPart& is) {
     const Playback &before = was.playback, &after = is.playback;
     const bool plays = before.playing || (before.time == after.time && before.rounds == after.rounds);
@@ -236,7 +235,7 @@ void add_limits(const HumanoidMoment& was, const HumanoidMoment& is, std::vector
     }
 }
 
-/// Metres between an effector and its target; nothing where it is not to get there: a hand that is blended.
+/// Metres between an effector and its target; empty if it is not meant to get there, as a hand being blended.
 std::optional<double> left_of(const HumanoidMoment& moment, humanoid::Effector effector) {
     for (std::size_t hand = 0; hand < 2; ++hand)
         if (both_hands[hand] == effector && moment.shown.hand_goes[hand] &&
@@ -288,7 +287,7 @@ std::vector<Incident> HumanoidLab::review(const Workspace& workspace, const Part
     return incidents;
 }
 
-// The body as it was before an incident, over what came of it.
+// The body before an incident, over the current one.
 
 void draw_humanoid_incident(const View& view, const ShownPose& shown, DrawList& list) {
     const auto& incident = view.workspace.ui.incident;

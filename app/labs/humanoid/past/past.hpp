@@ -1,4 +1,4 @@
-// What the Humanoid lab shows of its last ten seconds.
+// The Humanoid lab's last ten seconds: plots, lines and incidents.
 #pragma once
 
 #include "app/labs/humanoid/ik/shown_pose.hpp"
@@ -7,14 +7,14 @@
 namespace tendril::app {
 
 PastView humanoid_past();
-/// Of the active node, or of the left elbow; of the active effector, or of the one that is farthest from its
-/// target. Nothing while nothing is plotted.
+/// Plots the active node, or the left elbow; or the active effector, or the one farthest from its target.
+/// Empty while nothing is plotted.
 std::optional<PastCurve> humanoid_past_curve(const Workspace& workspace);
-/// Once nothing of the past is shown any more.
+/// Frees the cached poses once nothing of the past is on display.
 void forget_past_poses(const Workspace& workspace);
-/// A line for each bone of the body, as it was shown then.
+/// A line for each bone of the body, as displayed at that moment.
 PoseLines humanoid_lines(const Workspace& workspace, const SharedPart& part);
-/// The body as it was before the incident that is shown, over what came of it.
+/// Draws the body before the incident on display, over the current one.
 void draw_humanoid_incident(const View& view, const ShownPose& shown, DrawList& list);
 
 }  // namespace tendril::app

@@ -1,4 +1,4 @@
-// The panel's rows of springs on the character's own nodes.
+// The panel's rows and the commands about springs on the character's own nodes.
 #include <imgui.h>
 #include <algorithm>
 #include <glm/trigonometric.hpp>
@@ -33,7 +33,7 @@ void spring_row(const HumanoidPanel& panel, std::size_t which) {
     ImGui::PopID();
 }
 
-/// A chooser of the nodes that can have one.
+/// A chooser of the nodes that can have a spring.
 void add_row(const HumanoidPanel& panel) {
     const std::string none = "choose a node";
     SearchText& typed = panel.runtime.panel.spring;
@@ -52,7 +52,7 @@ void add_row(const HumanoidPanel& panel) {
     end_search();
 }
 
-/// Which nodes a command is about: one, or several.
+/// Names the nodes in a command: "node" for one, "nodes" for several.
 NamedArgument of_nodes(const std::vector<std::string>& nodes) {
     if (nodes.size() == 1) return {"node", nodes.front()};
     return {"nodes", SharedJson(Json(nodes))};
@@ -76,7 +76,7 @@ bool same_settings(SpringSetting a, const SpringSetting& b) {
     return a == b;
 }
 
-/// What one sets of the one that is shown, one sets on all.
+/// Shows one spring; editing sets all.
 void setting_rows(const HumanoidPanel& panel, const SpringSetting& spring,
                   const std::vector<std::string>& nodes) {
     FieldRows(spring, "humanoid.spring", panel.emit, {of_nodes(nodes)})
@@ -117,7 +117,7 @@ void spring_inspector(const HumanoidPanel& panel) {
                  " on a bone of the body: it follows the clip.");
 }
 
-// Springs on the character's own nodes.
+// Commands on springs.
 
 namespace {
 
@@ -127,7 +127,7 @@ void drop(HumanoidPart& part, std::size_t which) {
     if (which < part.ik_state.springs.size()) part.ik_state.springs.erase(part.ik_state.springs.begin() + at);
 }
 
-/// The spring from just that node on.
+/// The spring that starts at that node.
 std::optional<std::size_t> spring_from(const HumanoidPart& part, std::size_t from) {
     const std::string& node = part.skeleton()[from].name;
     for (std::size_t i = 0; i < part.springs.size(); ++i)

@@ -44,7 +44,7 @@ std::span<const FieldText> field_texts<SpringSetting>() {
 
 namespace {
 
-/// Which other spring would turn the same nodes, in words; empty: none.
+/// Which other spring would turn the same nodes; empty if none would.
 std::string overlap(const HumanoidPart& part, std::size_t node) {
     const std::string& name = part.skeleton()[node].name;
     if (const auto there = spring_on(part, node))
@@ -148,7 +148,7 @@ void read_springs(const JsonPlace& place, HumanoidPart& part) {
         SpringSetting spring{.node = each["node"].text()};
         const auto node = part.skeleton().find(spring.node);
         if (!node) each["node"].fail("the character has no node \"" + spring.node + "\"");
-        // One whose nodes have become the body's since stays, and does nothing.
+        // A spring whose nodes now belong to the body stays, without effect.
         if (const std::string why = overlap(part, *node); !why.empty()) each["node"].fail(why);
         load_fields(each, spring);
         humanoid::SpringChainState state;

@@ -1,17 +1,17 @@
 // Which node of a skeleton is which bone of a human body.
 //
-// Two readers look at a skeleton apart from each other. One knows the names that people give: Mixamo's,
-// Unreal's mannequin, VRM's, Unity's, Rigify's, 3ds Max's Biped, those of CMU's and of other captures. The
-// other knows no names: it looks for a node from which two equal limbs go down and a column goes up, for two
-// equal limbs at the top of that and a head above them. Where both say the same, the match is nearly certain;
-// where only one finds a bone, or they differ, the confidence says so, and the reasons say why in words.
+// Two independent readers examine a skeleton. One knows common names: Mixamo, Unreal's mannequin, VRM, Unity,
+// Rigify, 3ds Max's Biped, CMU and other captures. The other ignores names: it looks for a node from which
+// two equal limbs go down and a column goes up, for two equal limbs at the top of the column, and for a head
+// above them. If both agree, the match is nearly certain; if they differ, or only one finds the bone, the
+// confidence is lower. The reasons say why in words.
 //
 //     const BoneMap map = match_bones(skeleton);
-//     if (!map.is_usable()) ...                 // map.missing lists the bones that are wanted, or it is not
-//     upright map[Bone::LeftHand].node, .confidence, .reasons
+//     if (!map.is_usable()) ...  // map.missing lists the missing bones, or the map is not upright
+//     map[Bone::LeftHand].node, .confidence, .reasons
 //
-// What does not stand upright in its rest pose, a quadruped say, keeps the bones that were found, but is not
-// usable: nothing is solved for it before a person has said that it is a body after all.
+// A figure that is not upright in its rest pose, such as a quadruped, keeps the bones that were found but is
+// not usable: solvers refuse it until the user confirms that it is a body.
 #pragma once
 
 #include <array>
@@ -53,26 +53,26 @@ inline constexpr std::size_t bone_count = 22;
 /// "LeftUpperArm"
 const char* name(Bone bone) noexcept;
 std::optional<Bone> bone_named(std::string_view name) noexcept;
-/// Whether a body cannot be solved without it: fifteen are.
+/// Whether a body cannot be solved without it: true for fifteen bones.
 bool is_needed(Bone bone) noexcept;
-/// LeftHand for RightHand and the other way round; what has no side is itself.
+/// Swaps left and right: LeftHand for RightHand. A bone without a side is returned unchanged.
 Bone mirrored(Bone bone) noexcept;
 
 struct BoneMatch {
     std::int32_t node = -1;   ///< -1: none
     double confidence = 0.0;  ///< 0 to 1
-    std::string reasons{};    ///< "named mixamorig:LeftArm; second of the four of the left arm"
+    std::string reasons{};    ///< "named mixamorig:LeftArm"
     bool operator==(const BoneMatch&) const = default;
 };
 
-/// How the arms are held at rest: level, down by a quarter to three quarters of a right angle, or otherwise.
+/// How the arms are held at rest. T: within 22.5 degrees of level. A: 22.5 to 67.5 degrees below level.
 enum class RestPose : std::uint8_t { T, A, Other };
 const char* name(RestPose pose) noexcept;
 
 struct BoneMap {
     std::array<BoneMatch, bone_count> bones{};
-    std::vector<Bone> missing{};  ///< of the fifteen, in their order
-    bool upright = true;          ///< from the hips to the head it goes up more than aside
+    std::vector<Bone> missing{};  ///< of the fifteen needed ones, in enum order
+    bool upright = true;          ///< from hips to head, the rise exceeds the horizontal distance
     RestPose rest = RestPose::Other;
 
     /// A body can be solved with it.
@@ -84,13 +84,13 @@ struct BoneMap {
 
 /// Y is up.
 BoneMap match_bones(const Skeleton& skeleton);
-/// After a person has changed `bones`: what is missing, and how it rests.
+/// Updates `missing`, `upright` and `rest` after `bones` has been edited.
 void review(BoneMap& map, const Skeleton& skeleton);
 
-/// Whether the map is of that skeleton. Refuses a bone whose node the skeleton does not have, a node that is
-/// two bones, and a bone above one that it hangs on in a body: "bone map: LeftHand must be a node of the
-/// skeleton, got 77". What needs a map refuses what this refuses; what cannot refuse takes such a map for one
-/// without bones.
+/// Whether the map fits the skeleton. Refuses a node that is not in the skeleton, a node that is two bones,
+/// and a bone whose node is above that of one of its parent bones: "bone map: LeftHand must be a node of the
+/// skeleton, got 77". Functions that take a map refuse what this refuses; those that cannot fail treat such a
+/// map as empty.
 Result check(const BoneMap& map, const Skeleton& skeleton) noexcept;
 
 }  // namespace tendril::humanoid

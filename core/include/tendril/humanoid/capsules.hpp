@@ -1,13 +1,14 @@
-// The volume of a body, bone by bone: what its hands must not pass through, and what ropes and cloth hang on.
+// The volume of a body, one capsule per bone: what its hands must not pass through, and the colliders of
+// ropes and cloth.
 //
 //     const std::vector<BodyCapsule> capsules = default_capsules(skeleton, map);
 //     Expected<Body> body = Body::make(skeleton, map, limits, capsules);  // keeps them apart
-//     const PlacedCapsule there = place(capsules[0], map, placements);    // for a collider, or a picture
+//     const PlacedCapsule there = place(capsules[0], map, placements);    // as a collider, or to draw it
 //
-// Sizes of the defaults are those of an adult of ordinary build, scaled by the lengths of the legs and the
-// spine. Where the character has a skin, the capsules are fitted to it instead:
+// The default sizes are those of an adult of average build, scaled by the lengths of legs and spine. If the
+// character has a skin, the capsules can be fitted to it:
 //
-//     std::vector<SkinPoint> points;  // corners of the mesh at rest, each with the node that it follows most
+//     std::vector<SkinPoint> points;  // vertices of the mesh at rest, each with its most influential node
 //     const std::vector<BodyCapsule> capsules = fitted_capsules(skeleton, map, points);
 #pragma once
 
@@ -25,21 +26,20 @@ struct BodyCapsule {
     bool operator==(const BodyCapsule&) const = default;
 };
 
-/// Trunk, head, arms with hands, and legs, of the bones that are mapped.
+/// One for each mapped bone of trunk, head, arms, hands and legs.
 std::vector<BodyCapsule> default_capsules(const Skeleton& skeleton, const BoneMap& map);
 
-/// A corner of a character's mesh.
+/// A vertex of a character's mesh.
 struct SkinPoint {
     glm::dvec3 position{0.0};  ///< metres, in the character's space, at rest
-    std::size_t node = 0;      ///< that it follows most
+    std::size_t node = 0;      ///< the node with the largest weight
 };
-/// The default capsules with lines and radii that fit the points of their bones. What hangs below a bone and
-/// is none of the body, fingers say, counts as the bone's. Between two joints the line runs along the bone,
-/// through the middle of the points across it; those of head and hands reach as far as the points do. The
-/// radius is the one that four fifths of the points are within: a quantile, so that what stands off, a cloak
-/// or a thumb, does not count as long as it is less than a fifth. A capsule with under 16 points, or that
-/// comes out under 0.4 or over 3 times as thick as the default, stays the default. A point that is not
-/// finite, or of a node that is not there, is left out. O(points).
+/// The default capsules, with axes and radii fitted to the points of their bones. Points of unmapped nodes
+/// below a bone, such as fingers, count as the bone's. Between two joints the axis runs along the bone,
+/// through the middle of the points' cross-section; the axes of head and hands extend as far as the points.
+/// The radius contains four fifths of the points: a quantile ignores a cloak or a thumb that has less than a
+/// fifth of them. A capsule with fewer than 16 points, or a fitted radius under 0.4 or over 3 times the
+/// default, stays the default. Ignores points that are not finite or name an invalid node. O(points).
 std::vector<BodyCapsule> fitted_capsules(const Skeleton& skeleton, const BoneMap& map,
                                          std::span<const SkinPoint> points);
 
@@ -48,17 +48,17 @@ struct PlacedCapsule {
     glm::dvec3 from{0.0}, to{0.0};
     double radius = 0.0;
 };
-/// The bone is mapped; `placements` of all nodes.
+/// The capsule's bone must be mapped. `placements`: of all nodes.
 PlacedCapsule place(const BodyCapsule& capsule, const BoneMap& map,
                     std::span<const Placement> placements) noexcept;
 
-/// Where two lines with ends come nearest.
+/// The nearest points of two line segments.
 struct Nearest {
     glm::dvec3 first{0.0}, second{0.0};
 };
-/// C. Ericson, "Real-Time Collision Detection", 2005, section 5.1.9; lines may have no length.
+/// C. Ericson, "Real-Time Collision Detection", 2005, section 5.1.9; segments may have no length.
 Nearest nearest(const PlacedCapsule& first, const PlacedCapsule& second) noexcept;
-/// From surface to surface, metres; negative: how deep they are in each other.
+/// From surface to surface, metres; negative: the depth of the overlap.
 double gap(const PlacedCapsule& first, const PlacedCapsule& second) noexcept;
 
 }  // namespace tendril::humanoid

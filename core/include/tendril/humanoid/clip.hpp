@@ -1,15 +1,15 @@
-// An animation as files have it: keys of translation, rotation and scale, node by node, each with times of
-// its own.
+// An animation as files store it: tracks of translation, rotation and scale keys for each node, each track
+// with its own times.
 //
 //     std::vector<rig::Transform> pose(skeleton.size());
 //     sample(clip, skeleton, seconds, pose);
 //     place(skeleton, pose, placements);
 //
-// How keys are joined is glTF's, to the letter (glTF 2.0, appendix C, "Animation Sampler Interpolation
-// Modes"): before the first key its value, after the last one that. Rotations go the short way round, along
-// the arc for Linear, by component and made a unit again for Cubic.
+// Keys are interpolated exactly as in glTF (glTF 2.0, appendix C, "Animation Sampler Interpolation Modes"):
+// before the first key and after the last one their values hold. Rotations take the short way: spherically
+// for Linear, by component and renormalised for Cubic.
 //
-// Cost: O(log keys) for each track.
+// Cost: O(log keys) per track.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@
 
 namespace tendril::humanoid {
 
-/// How a track goes on from a key to the next.
+/// How a track gets from one key to the next.
 enum class Interpolation : std::uint8_t {
     Step,  ///< keeps the key's value
     Linear,
@@ -34,9 +34,8 @@ const char* name(Interpolation interpolation) noexcept;
 template <class T>
 struct Track {
     Interpolation interpolation = Interpolation::Linear;
-    std::vector<double>
-        times{};  ///< seconds from 0 up, each over the one before; none: the node keeps its rest
-    /// One a key. Cubic has three: the tangent that arrives, the value, the tangent that leaves, per second.
+    std::vector<double> times{};  ///< seconds, from 0, strictly increasing; empty: the node keeps its rest
+    /// One per key. Cubic has three: in-tangent, value, out-tangent; tangents are per second.
     std::vector<T> values{};
     bool operator==(const Track&) const = default;
 };
@@ -44,7 +43,7 @@ struct Track {
 struct Channel {
     std::size_t node = 0;
     Track<glm::dvec3> translation{};  ///< metres
-    Track<glm::dquat> rotation{};     ///< those that are values are unit quaternions, to 1e-3
+    Track<glm::dquat> rotation{};     ///< values (not tangents) are unit quaternions, to 1e-3
     Track<glm::dvec3> scale{};        ///< a key may be 0
     bool operator==(const Channel&) const = default;
 };
@@ -52,20 +51,19 @@ struct Channel {
 struct Clip {
     std::string name{};
     double duration = 0.0;            ///< seconds, at least the time of the last key
-    std::vector<Channel> channels{};  ///< at most one a node
+    std::vector<Channel> channels{};  ///< at most one per node
     bool operator==(const Clip&) const = default;
 };
 
-/// Refuses a node that is not there or has two channels, lists that do not fit each other, times that are not
-/// finite, not rising or after the duration, numbers that are not finite or over 1e9, and rotations that are
-/// no unit quaternions. "Clip walk: channels[3].rotation.times[7] must be over the time before it, 0.2, got
-/// 0.2"
+/// Refuses an invalid node or one with two channels, lists of mismatched sizes, times that are not finite, do
+/// not increase or exceed the duration, numbers that are not finite or over 1e9, and rotations that are not
+/// unit quaternions. "Clip walk: channels[3].rotation.times[7] must be over the time before it, got 0.2"
 Result check(const Clip& clip, const Skeleton& skeleton);
 
-/// The pose at a time in seconds, local to the parents: a clip that passed check(), size() transforms. A node
-/// without keys keeps its rest transform.
+/// Writes the pose at a time in seconds: skeleton.size() transforms, local to the parents. A node without
+/// keys gets its rest transform. The clip must have passed check().
 void sample(const Clip& clip, const Skeleton& skeleton, double time, std::span<rig::Transform> pose) noexcept;
-/// Of one node alone, over what `local` is.
+/// One node only. Keeps the parts of `local` for which the channel has no keys.
 void sample(const Channel& channel, double time, rig::Transform& local) noexcept;
 
 }  // namespace tendril::humanoid

@@ -1,11 +1,11 @@
 // The feet of many characters in one call, spread over threads.
 //
-//     std::vector<FeetJob> jobs;  // one a character, made once
+//     std::vector<FeetJob> jobs;  // one per character, made once
 //     jobs.push_back({.feet = &feet, .pose = pose, .state = &state});
-//     ... each frame, with the poses as the clips have them:
+//     ... each frame, after sampling the clips into the poses:
 //     step_many(jobs, ground, dt, {.threads = 4});
 //
-// Every character is what Feet::step() makes of it alone, to the bit, on any number of threads.
+// The results are bit-identical to separate calls of Feet::step(), on any number of threads.
 //
 // Cost: that of the steps; 1 000 characters walking on stairs take 4 ms on one core.
 #pragma once
@@ -17,14 +17,14 @@ namespace tendril::humanoid {
 
 struct FeetJob {
     const Feet* feet = nullptr;
-    std::span<rig::Transform> pose{};  ///< of this character alone
-    FeetState* state = nullptr;        ///< too
+    std::span<rig::Transform> pose{};  ///< not shared with another job
+    FeetState* state = nullptr;        ///< not shared with another job
     FeetOptions options{};
-    FeetReport report{};  ///< what came of it; invalid where feet or state are missing
+    FeetReport report{};  ///< the result; invalid if `feet` or `state` is null
 };
 
 struct FeetManyOptions {
-    /// 1 to 256 of the library's own, the caller's among them; where `tasks` is given it decides instead.
+    /// 1 to 256, including the calling thread. Ignored if `tasks` is set.
     int threads = 1;
     Tasks tasks{};
 };

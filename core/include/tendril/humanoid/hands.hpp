@@ -1,4 +1,4 @@
-// Hand IK: the hands of an animation brought to targets, as much as a weight says.
+// Hand IK: moves the hands of an animation to targets, blended by a weight.
 //
 //     Expected<Hands> hands = Hands::make(skeleton, map);
 //     const signal::Curve hook = weight_curve(0.3, 0.55, 0.6, 0.8);        // over the clip's time
@@ -9,14 +9,14 @@
 //     const HandsReport report = hands->step(pose, targets, dt, state);
 //
 // The weight blends position and rotation of the hand from the animation to the target; the arm is then
-// solved in closed form for that. Its elbow stays on the side where the clip has it. Under 0.01 the hand is
-// off, and the pose comes back to the bit; what is left of the weight counts from there, so nothing jumps. A
-// target outside of the cone of view eases off and on again by a critically damped spring.
+// solved in closed form. The elbow stays on the side where the clip has it. Under a weight of 0.01 the hand
+// is off and the pose stays bit-identical; larger weights are rescaled to start from there, so nothing jumps.
+// A target that leaves or enters the cone of view eases off or on by a critically damped spring.
 //
-// Only the arm moves, and, where it is too short and the map has a shoulder, that as far as it must: one
-// hand's target never moves the other hand, nor anything but its own arm.
+// A target moves only its own arm, and the shoulder (if mapped) as far as needed when the arm is too short.
+// It never moves the other hand.
 //
-// Cost: some 2 µs a hand and step. Nothing is allocated.
+// Cost: some 2 µs per hand and step. Allocates nothing.
 #pragma once
 
 #include <array>
@@ -30,25 +30,25 @@ namespace tendril::humanoid {
 
 struct HandTarget {
     glm::dvec3 position{0.0};  ///< of the hand's joint, in the space of `root`
-    /// Of the hand's node, in that space; left out, the hand goes along with the forearm.
+    /// Of the hand's node, in that space; unset: the hand turns with the forearm.
     std::optional<glm::dquat> rotation{};
-    double weight = 0.0;  ///< what is not from 0 to 1 is clamped
+    double weight = 0.0;  ///< clamped to 0 to 1
 };
 using HandTargets = std::array<HandTarget, 2>;  ///< left, right
 
 /// Radians, seconds.
 struct HandsOptions {
-    rig::Transform root{};  ///< where the character stands, as FeetOptions::root
-    double view = 2.0;  ///< half the cone's angle about where the head looks; 0 to 3.15: everything is seen
-    double half_life = 0.1;  ///< in which a target comes into view and out of it; over 0, to 10
+    rig::Transform root{};   ///< where the character stands, as FeetOptions::root
+    double view = 2.0;       ///< half-angle of the view cone of the head; 0 to 3.15, which sees everything
+    double half_life = 0.1;  ///< of the ease when a target enters or leaves the view; 1e-6 to 10
     double shoulder = 0.5;   ///< a shoulder turns by at most this; 0 to 1.5
 };
-/// Names the member that is out of its range.
+/// Names the member that is out of range.
 Result check(const HandsOptions& options) noexcept;
 
 struct HandState {
     bool in_view = false;
-    signal::SpringState<double> view{};  ///< 0 to 1, how much of the weight is left by it
+    signal::SpringState<double> view{};  ///< 0 to 1, a factor of the weight
     bool operator==(const HandState&) const = default;
 };
 struct HandsState {
@@ -57,33 +57,33 @@ struct HandsState {
 };
 
 struct HandReport {
-    double weight = 0.0;  ///< that was applied, 0 where the hand is off
+    double weight = 0.0;  ///< applied; 0: the hand is off
     bool in_view = false;
     double residual = 0.0;     ///< metres from the hand to its target
     glm::dvec3 position{0.0};  ///< of the hand
 };
 struct HandsReport {
-    /// False: a pose, a target or options that are not finite or out of their ranges; nothing has changed.
+    /// False: a pose, a target or options that are not finite or out of range; nothing has changed.
     bool valid = true;
     std::array<HandReport, 2> hands{};  ///< left, right
 };
 
-/// 0 until `begin`, 1 from `full` to `until`, 0 from `end` on, smooth between; seconds, each at least the one
-/// before it. For evaluate_keys().
+/// 0 until `begin`, 1 from `full` to `until`, 0 from `end` on, smooth between; seconds, in ascending order.
+/// For evaluate_keys().
 Expected<signal::Curve> weight_curve(double begin, double full, double until, double end);
 
-/// Made once for a character, then only read.
+/// Made once per character, then immutable.
 class Hands {
   public:
-    /// Refuses a map that is not usable, arms that are no chain, or that have both hands on one, or no
-    /// length.
+    /// Refuses an unusable map, what find_soles() refuses, and an arm that is not a chain, has no length or
+    /// has the other hand on it.
     static Expected<Hands> make(const Skeleton& skeleton, const BoneMap& map);
     ~Hands();
     Hands(Hands&&) noexcept;
     Hands& operator=(Hands&&) noexcept;
 
-    /// `pose` is corrected in place: local transforms of all nodes. A dt that is not over 0 lets no time
-    /// pass. The first step starts with what is in view.
+    /// `pose` holds the local transforms of all nodes and is corrected in place. If dt is not over 0, no time
+    /// passes. On the first step a target in view counts fully at once.
     HandsReport step(std::span<rig::Transform> pose, const HandTargets& targets, double dt, HandsState& state,
                      const HandsOptions& options = {}) const noexcept;
 

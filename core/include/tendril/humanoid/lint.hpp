@@ -1,33 +1,33 @@
-// What is wrong with a clip, each fault with its frame, its node and an amount.
+// Finds the faults of a clip, each with its frame, node and amount.
 //
 //     const LintReport report = lint(skeleton, map, clip);
 //     for (const Finding& finding : report.findings)
-//         log(finding.text);  // "LeftFoot slides 62 mm over the ground while it stands (frame 24 to 41)"
+//         log(finding.text);  // "LeftFoot slides 62 mm over the ground while it stands (frames 24 to 41)"
 //     if (report.findings[0].has_cure) clip = *cure(skeleton, map, clip, report.findings[0]);
 //
-// Made so that a decent clip has no findings: what is fast is compared with the motion around it, what is low
-// with the clip's own floor, and where a foot's sole is not known what follows from it is not judged.
+// A decent clip should have no findings: speeds are compared with the motion around them, heights with the
+// clip's own floor, and if a foot's sole is not known, the tolerances are wider.
 //
 //     kind       what                                                             node          unit
 //     Skating    no point of a standing foot stays where it is                    foot          mm
 //     Floating   a foot stands still above the floor                              foot          mm
 //     Sinking    a foot is below the floor                                        foot          mm
 //     KneePop    a knee jumps, or snaps straight or out of straight               lower leg     deg
-//     SignFlip   a key is the negative of what its neighbours say: programs that
-//                do not take the short way turn by the amount between two keys    its node      deg
+//     SignFlip   a key's quaternion has the opposite sign of its neighbours':
+//                without the short way it turns by the amount between two keys    its node      deg
 //     Limit      a joint is beyond its range                                      its node      deg
-//     Jump       in one frame a joint is elsewhere than before and after          its node      deg or mm
-//     Scale      sizes that cannot be meant: the clip's bones are a multiple of
-//                the skeleton's, a person is no person's size, keys are 0         its node      times or m
+//     Jump       a joint departs for a few frames, or jumps for good              its node      deg or mm
+//     Scale      implausible sizes: the clip's bones are a multiple of the
+//                skeleton's, no human is that tall, scale keys are 0 or mirror    its node      times or m
 //     Axis       the figure lies on its side                                      hips          deg
 //
-// Feet and knees need a map with a leg; without one the rest is judged. Stances are found by the foot's own
-// speed and height, after L. Kovar, J. Schreiner, M. Gleicher, "Footskate Cleanup for Motion Capture Editing"
-// (SCA 2002), whose cure is also this one's model: the leg is solved in closed form and the correction
-// blended out; how far a standing foot slides is the motion of that point of its sole that moves the least,
-// so that rolling from heel to toe and turning on the ball are no sliding.
+// Feet and knees need a map with a leg; without one only the rest is judged. Stances are found from the
+// foot's own speed and height, after L. Kovar, J. Schreiner, M. Gleicher, "Footskate Cleanup for Motion
+// Capture Editing" (SCA 2002). The cure follows the same paper: the leg is solved in closed form and the
+// correction blended out. A standing foot slides as far as the point of its sole that moves the least, so
+// that rolling from heel to toe and turning on the ball do not count.
 //
-// Cost: O(frames * nodes), half a microsecond to one for each; tests/bench/humanoid_lint.cpp measures it.
+// Cost: O(frames * nodes), 0.5 to 1 µs for each; measured by tests/bench/humanoid_lint.cpp.
 #pragma once
 
 #include <cstdint>
@@ -48,60 +48,61 @@ const char* name(Fault fault) noexcept;
 struct Finding {
     Fault fault = Fault::Jump;
     std::int32_t node = -1;  ///< -1: the whole figure
-    std::size_t frame = 0;   ///< where it is worst; 0 is time 0
-    std::size_t first = 0;   ///< frames that it lasts
-    std::size_t last = 0;    ///<
+    std::size_t frame = 0;   ///< the worst one; 0 is time 0
+    std::size_t first = 0;   ///< the first frame affected
+    std::size_t last = 0;    ///< the last frame affected
     double time = 0.0;       ///< of `frame`, seconds
     double amount = 0.0;     ///< see the table above
     const char* unit = "";   ///< "mm", "deg", "m" or "times"
-    bool goes_on = false;    ///< a jump after which the motion goes on from there
-    bool has_cure = false;   ///< cure() can mend it
+    bool goes_on = false;    ///< a jump from which the motion does not come back
+    bool has_cure = false;   ///< cure() can repair it
     std::string text{};      ///< a sentence with all of that
 };
 
 struct LintSettings {
-    double rate = 0.0;        ///< frames a second, up to 1000; 0: the clip's own, which its keys tell
+    double rate = 0.0;        ///< frames per second, up to 1000; 0: the clip's own, from its keys
     double skating = 0.02;    ///< metres that a standing foot may slide
     double floating = 0.025;  ///< metres that a standing foot may be above the floor
     double sinking = 0.02;    ///< metres that a foot may be below it
-    double knee = 6.0;        ///< degrees that a knee may jump, at 60 frames a second
+    double knee = 6.0;        ///< degrees that a knee may jump, at 60 frames per second
     double turn = 15.0;       ///< the same for other joints
     double shift = 0.02;      ///< that positions may jump, times the figure's height at rest
-    /// Of the joints, kept by the caller. Null: the default ones, of which only what no clip of a human
-    /// should do is told, knees that bend the wrong way above all.
+    /// Joint limits, owned by the caller. Null: the default limits with wide tolerances, which report only
+    /// what no clip of a human should do, above all knees that bend the wrong way.
     const BodyLimits* limits = nullptr;
-    double beyond = 2.0;  ///< degrees by which a joint may be beyond limits that are given
+    double beyond = 2.0;  ///< degrees that a joint may exceed `limits`
 };
 
-/// A longer clip is judged up to there.
+/// The rest of a longer clip is not judged.
 inline constexpr std::size_t max_lint_frames = 500'000;
 
 struct LintReport {
-    double rate = 30.0;               ///< frames a second
-    std::size_t frames = 0;           ///< that were judged
+    double rate = 30.0;               ///< frames per second
+    std::size_t frames = 0;           ///< number of frames judged
     bool has_floor = false;           ///< feet stand in this clip, and were judged
     double floor = 0.0;               ///< height of the clip's floor, metres
-    double skating = 0.0;             ///< the furthest that a standing foot slides, metres, however little
+    double skating = 0.0;             ///< maximum slide of a standing foot, metres, even if tolerated
     std::vector<Finding> findings{};  ///< by frame
 };
 
-/// Frames a second as the keys of a clip are spaced: a whole number where it is one to 0.1 %. 60 where keys
-/// do not tell, or stand further apart than a 20th of a second.
+/// Frames per second, from the spacing of the clip's keys; rounded if within 0.1 % of a whole number. 60 if
+/// there are too few keys, or if they give a rate not between 20 and 1000.
 double frame_rate(const Clip& clip) noexcept;
 
-/// `clip` has passed check().
+/// `clip` must have passed check().
 LintReport lint(const Skeleton& skeleton, const BoneMap& map, const Clip& clip,
                 const LintSettings& settings = {});
 
-/// The clip without that fault, and as it was otherwise:
-///   SignFlip: all keys of the track on one hemisphere; it turns as before.
-///   Skating, Floating, Sinking: the foot stands where it stood midway, on the floor, and goes over into its
-///   motion within 0.15 s before and after; the hips are lowered where its leg is too short for that.
-///   Jump, KneePop: keys that stand apart for a frame or two go between their neighbours; a step is spread
-///   over a quarter of a second.
-///   Scale of a clip: its translations take the skeleton's size. Axis of a clip: its roots are turned
-///   upright.
-/// Refuses a finding without a cure, or one that is of another clip.
+/// The clip without that fault, otherwise unchanged:
+///   SignFlip: all keys of the track are brought to one hemisphere; it turns as before.
+///   Skating: the foot stands still, midway along its slide. Floating, Sinking: it is moved vertically onto
+///   the floor. Both blend into the clip within 0.15 s before and after, and the hips are lowered if the leg
+///   is too short.
+///   Jump, KneePop: keys that depart for a few frames are interpolated from their neighbours; a jump that
+///   does not come back is spread over a quarter of a second.
+///   Scale of a clip: its translations are scaled to the skeleton's size. Axis of a clip: its roots are
+///   turned upright.
+/// Refuses a finding without a cure, or of another clip.
 Expected<Clip> cure(const Skeleton& skeleton, const BoneMap& map, const Clip& clip, const Finding& finding,
                     const LintSettings& settings = {});
 

@@ -1,17 +1,15 @@
-// The nodes of a character, as the file that it came from has them, in the file's order: each hangs on a
-// parent, which may stand before it or after it.
+// The nodes of a character, in the order of its file: a parent may come before or after its children.
 //
 //     Expected<Skeleton> skeleton = Skeleton::make(std::move(nodes));
-//     if (!skeleton) return log(skeleton.message());  // "Skeleton: nodes[4].parent closes a circle"
+//     if (!skeleton) return log(skeleton.message());  // "Skeleton: nodes must be at most 4096, got 5000"
 //
 //     std::vector<rig::Transform> pose = rest_pose(*skeleton);
 //     std::vector<Placement> placements(skeleton->size());
 //     place(*skeleton, pose, placements);
 //     placements[hand].position
 //
-// A placement is an affine map, not a translation, a rotation and a scale: files multiply matrices, so where
-// a scale differs from axis to axis and a child is turned, what hangs below is sheared, and its joints are
-// where the shear puts them.
+// A placement is an affine map, not a translation, a rotation and a scale: files multiply matrices, so a
+// rotated child of a node with non-uniform scale is sheared, and its joints are where the shear puts them.
 #pragma once
 
 #include <cstdint>
@@ -28,8 +26,8 @@
 namespace tendril::humanoid {
 
 struct Node {
-    std::string name{};        ///< one of its own, not empty
-    std::int32_t parent = -1;  ///< place in the list; -1: it hangs on nothing
+    std::string name{};        ///< unique, not empty
+    std::int32_t parent = -1;  ///< index into the list; -1: a root
     rig::Transform rest{};     ///< local to the parent; metres
     bool operator==(const Node&) const = default;
 };
@@ -40,8 +38,8 @@ class Skeleton {
 
     /// No nodes.
     Skeleton() = default;
-    /// Refuses more than max_nodes, a name that is empty or another's, a parent that is not there, circles,
-    /// and rest transforms that rig::checked() refuses.
+    /// Refuses more than max_nodes, an empty or duplicate name, a parent out of range, cycles, and rest
+    /// transforms that rig::checked() refuses.
     static Expected<Skeleton> make(std::vector<Node> nodes);
 
     std::size_t size() const noexcept { return nodes_.size(); }
@@ -51,9 +49,8 @@ class Skeleton {
     const std::vector<std::int32_t>& order() const noexcept { return order_; }
     /// In the file's order.
     std::span<const std::int32_t> children(std::size_t node) const noexcept;
-    /// By name.
     std::optional<std::size_t> find(std::string_view name) const noexcept;
-    /// Whether `node` is `above` or hangs below it.
+    /// Whether `node` is `above` or one of its descendants.
     bool is_below(std::size_t node, std::size_t above) const noexcept;
 
     bool operator==(const Skeleton& other) const { return nodes_ == other.nodes_; }
@@ -61,30 +58,28 @@ class Skeleton {
   private:
     std::vector<Node> nodes_;
     std::vector<std::int32_t> order_;
-    std::vector<std::int32_t> children_;  // of all, node by node
-    std::vector<std::uint32_t> first_;    // where a node's begin in children_; one more than there are nodes
+    std::vector<std::int32_t> children_;  // of all nodes, node by node
+    std::vector<std::uint32_t> first_;    // where a node's children begin in children_; size() + 1 elements
 };
 
-/// Where a node is in the character's space: a point p of its own is at axes * p + position.
+/// Where a node is in the character's space: its local point p is at axes * p + position.
 struct Placement {
     glm::dmat3 axes{1.0};
     glm::dvec3 position{0.0};
 
     glm::dvec3 apply(const glm::dvec3& point) const noexcept;
-    /// Without scale and shear: the x axis keeps its direction, the y axis its plane with it. The third one
-    /// follows by the right hand, also where the axes mirror. An axis of length 0 counts as perpendicular to
-    /// the others.
+    /// The rotation without scale and shear: x keeps its direction, y stays in the plane of x and y, and z
+    /// completes a right-handed frame, even if the axes mirror. An axis of length 0 counts as perpendicular
+    /// to the others.
     glm::dquat rotation() const noexcept;
 };
 /// First `child`, then `parent`.
 Placement operator*(const Placement& parent, const Placement& child) noexcept;
 Placement placement(const rig::Transform& transform) noexcept;
 
-/// The rest transforms.
 std::vector<rig::Transform> rest_pose(const Skeleton& skeleton);
 
-/// Where every node is when its local transform is that in `pose`. Both lists have size() elements.
-/// O(size()).
+/// Places every node from its local transform in `pose`. Both lists have size() elements. O(size()).
 void place(const Skeleton& skeleton, std::span<const rig::Transform> pose,
            std::span<Placement> placements) noexcept;
 

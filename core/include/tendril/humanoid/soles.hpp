@@ -1,11 +1,11 @@
-// Where a character's feet touch the ground: a heel and a toe each, worked out from skeleton and bone map.
+// Where a character's feet touch the ground: a heel and a toe each, derived from skeleton and bone map.
 //
-// No mesh is asked. In the rest pose both points lie on the floor: the toe below the joint of the toes, on
-// which the foot rolls off, the heel behind the ankle by a third of the way from there to the toe. Where
-// there is no joint for the toes, what hangs on the foot furthest forward tells where the foot ends, and
-// where nothing does, the length of the leg: a foot's ball is 0.18 of it before the ankle. The floor is y = 0
-// where the feet stand near that, and otherwise a little below the lowest joint of the feet (a BVH rests with
-// its hips at the origin).
+// No mesh is needed. In the rest pose both points lie on the floor: the toe below the joint of the toes, over
+// which the foot rolls, and the heel behind the ankle by a third of the distance from ankle to toe. Without a
+// toe joint, the node below the foot that is farthest from it horizontally marks the foot's end; without such
+// a node, the ball is 0.18 of the leg's length in front of the ankle. The floor is y = 0 if the feet rest
+// near that height, otherwise a little below the lowest joint of the feet (a BVH rests with its hips at the
+// origin).
 //
 //     Expected<Soles> soles = find_soles(skeleton, map);
 //     const double floor = clip_floor(skeleton, *soles, walk);
@@ -19,30 +19,30 @@
 namespace tendril::humanoid {
 
 struct Sole {
-    std::size_t foot = 0, toes = 0;  ///< nodes; the foot twice where there are no toes
-    glm::dvec3 heel{0.0};            ///< in the foot's own space
-    glm::dvec3 toe{0.0};             ///< in that of the toes
+    std::size_t foot = 0, toes = 0;  ///< nodes; both the foot if there are no toes
+    glm::dvec3 heel{0.0};            ///< in the foot's space
+    glm::dvec3 toe{0.0};             ///< in the toes' space
     bool operator==(const Sole&) const = default;
 };
 
 struct Soles {
     std::array<Sole, 2> feet{};         ///< left, right
     double floor = 0.0;                 ///< height of the rest pose's floor, metres
-    glm::dvec3 forward{0.0, 0.0, 1.0};  ///< level and of length 1: where the character faces at rest
-    double leg = 0.0;                   ///< length of thigh and shin, metres; the mean of both legs
+    glm::dvec3 forward{0.0, 0.0, 1.0};  ///< where the character faces at rest; horizontal, unit length
+    double leg = 0.0;                   ///< length of thigh plus shin, metres; the mean of both legs
     bool operator==(const Soles&) const = default;
 };
 
-/// Hips and two legs are enough, arms and head may be missing. Refuses a map without them, one that is not
-/// upright or does not belong to the skeleton, and legs without a length.
+/// Needs only hips and two legs. Refuses a map without them, one that is not upright or fails check(), and
+/// legs without length or without a distance between them.
 Expected<Soles> find_soles(const Skeleton& skeleton, const BoneMap& map);
 
-/// The clip's own floor: how high its soles stand while they are nearly still (under 0.3 m/s), the median;
-/// the lowest that a sole comes to where they never are. Of a clip that passed check(). Samples the clip at
-/// 60 Hz, at most 10 000 times.
+/// The clip's own floor: the median height of its soles while they are nearly still (toe under 0.3 m/s) and
+/// within 0.1 m of the lowest sole; if they never are, the lowest. The clip must have passed check(). It is
+/// sampled at 60 Hz, at most 10 000 times.
 double clip_floor(const Skeleton& skeleton, const Soles& soles, const Clip& clip);
 
-/// Where heel and toe are in a pose.
+/// Positions in a pose, in the character's space.
 struct SolePoints {
     glm::dvec3 heel{0.0}, toe{0.0};
 };

@@ -1,23 +1,23 @@
-// Spring bones: what no bone of the body moves, ears, antennae, a tail, trails behind what it hangs on.
+// Spring bones: ears, antennae or a tail that trail behind the bone they hang on.
 //
 //     Expected<SpringChain> ear = SpringChain::make(skeleton, map, *skeleton.find("ear_l"));
 //     SpringChainState state;                                 // a value: save it, put it back
-//     ... each frame, last of all that changes the pose:
+//     ... each frame, after everything else that changes the pose:
 //     const SpringReport report = ear->step(pose, {.strength = 4.0}, dt, state);
 //
-// Method: the tip of each bone, where its child begins, is a mass on a damped spring towards the place where
-// the pose has it, and the bone turns by the shortest arc to where the masses at its ends lead (the idea of
-// VRM's spring bones: VRM Consortium, "VRMC_springBone-1.0", 2022, which steps bone after bone by Verlet's
-// rule). Here no mass depends on another one, so the swing of a long chain does not grow from bone to bone;
-// the springs are stiffer towards the base, so that a chain whose base speeds up bends as a beam does under
-// its own weight (by Euler's and Bernoulli's formula). Each step is the spring's closed form
-// (signal/spring.hpp) for a place that moves evenly within it, with the damping against that motion: any dt
-// is stable, frame rates make little difference, an even motion is followed without lag, and what swings a
-// chain is that its base speeds up, slows down or turns.
+// Method: the tip of each bone, where its child begins, is a mass on a damped spring attached to its position
+// in the pose, and the bone turns by the shortest arc towards the masses at its ends (the idea of VRM's
+// spring bones: VRM Consortium, "VRMC_springBone-1.0", 2022, which integrates bone after bone by Verlet's
+// method). Here the masses are independent of each other, so the swing of a long chain does not grow from
+// bone to bone. The springs are stiffer towards the base, so that a chain whose base accelerates bends like a
+// beam under its own weight (Euler and Bernoulli). Each step is the spring's closed form (signal/spring.hpp)
+// for a target that moves at constant velocity during the step, with damping relative to that motion: any dt
+// is stable, the frame rate makes little difference, and a chain follows uniform motion without lag and
+// swings only when its base accelerates or turns.
 //
-// Only rotations change: lengths stay as they are. A weight of 0 gives the pose back to the bit.
+// Only rotations change, not lengths. With a weight of 0 the pose stays bit-identical.
 //
-// Cost: some 0.5 µs a bone. Nothing is allocated but the state, in its first step.
+// Cost: some 0.5 µs per bone. Allocates only the state, in its first step.
 #pragma once
 
 #include <memory>
@@ -28,47 +28,47 @@
 namespace tendril::humanoid {
 
 struct SpringOptions {
-    /// Hz: the frequency of the tip without damping; 0.01 to 100. A joint a fraction s along the chain has
+    /// Hz: the undamped frequency of the tip; 0.01 to 100. A joint at a fraction s of the chain has
     /// strength / sqrt(s^2 (6 - 4 s + s^2) / 3).
     double strength = 2.0;
-    double critical_damping = 0.3;  ///< 0 swings for ever, 1 is the fastest that never overshoots; 0 to 10
+    double critical_damping = 0.3;  ///< 0 swings for ever, 1 is the fastest without overshoot; 0 to 10
     double weight = 1.0;            ///< 0 to 1: how much of its swing the chain shows
-    double max_angle =
-        1.0471975511965976;  ///< radians, by which a bone turns against the pose at most; 0 to 3.14
-    rig::Transform root{};   ///< where the character stands, as FeetOptions::root
+    double max_angle = 1.0471975511965976;  ///< radians a bone may turn from its pose; 0 to 3.14
+    rig::Transform root{};                  ///< where the character stands, as FeetOptions::root
     bool operator==(const SpringOptions&) const = default;
 };
-/// Names the member that is out of its range.
+/// Names the member that is out of range.
 Result check(const SpringOptions& options) noexcept;
 
-/// Metres and m/s, in the space that `root` stands in.
+/// Metres and m/s, in the space to which `root` maps the character.
 struct SpringMass {
     glm::dvec3 position{0.0}, velocity{0.0};
-    glm::dvec3 target{0.0};     ///< where the pose had it
-    bool started = false;       ///< false: the next step puts it to its target
-    bool has_velocity = false;  ///< false: the next step gives it its target's
+    glm::dvec3 target{0.0};     ///< its position in the pose of the last step
+    bool started = false;       ///< false: the next step moves it to its target
+    bool has_velocity = false;  ///< false: the next step gives it its target's velocity
     bool operator==(const SpringMass&) const = default;
 };
 struct SpringChainState {
-    std::vector<SpringMass> masses{};  ///< of the tips of bones()
+    std::vector<SpringMass> masses{};  ///< one at the tip of each of bones()
     bool operator==(const SpringChainState&) const = default;
 };
 
 struct SpringReport {
-    /// False: a pose or options that are not finite or out of their ranges; nothing has changed.
+    /// False: a pose or options that are not finite or out of range; nothing has changed.
     bool valid = true;
-    double angle = 0.0;  ///< radians, between the pose and the bone that swings farthest, at weight 1
-    double speed = 0.0;  ///< m/s, of the fastest mass against its target; 0 where no time passes
+    double angle = 0.0;  ///< maximum angle between a bone and its pose, at weight 1, radians
+    double speed = 0.0;  ///< maximum speed of a mass relative to its target, m/s; 0 if no time passes
 };
 
-/// Made once for a character. step() works in memory of its own: one object a thread.
+/// Made once per character. step() uses internal scratch: do not share an object between threads.
 class SpringChain {
   public:
-    /// m/s. What is faster was put elsewhere: it starts anew, at rest against the pose.
+    /// m/s. A faster mass counts as teleported: it restarts at rest relative to the pose.
     static constexpr double max_speed = 1e3;
 
-    /// The node and all that hangs on it; `root` moves too, about its own joint. Refuses a node that is not
-    /// there or hangs on nothing, one that is a bone of the body or above one, and one without any length.
+    /// The node and all its descendants; `root` turns too, about its own joint. Refuses a map that fails
+    /// check(), a node out of range or without a parent, one that is or has below it a bone of the body, and
+    /// a chain without any length.
     static Expected<SpringChain> make(const Skeleton& skeleton, const BoneMap& map, std::size_t root);
     ~SpringChain();
     SpringChain(SpringChain&&) noexcept;
@@ -77,14 +77,14 @@ class SpringChain {
     /// The nodes that turn, each after its parent; one mass each.
     std::span<const std::size_t> bones() const noexcept;
 
-    /// `pose` is corrected in place: local transforms of all nodes. A dt that is not over 0 lets no time
-    /// pass: the masses stay where they are. The first step starts at rest, as does one with a state
-    /// of another size.
+    /// `pose` holds the local transforms of all nodes and is corrected in place. If dt is not over 0, no time
+    /// passes and the masses stay where they are. The first step starts at rest, as does one with a state of
+    /// another size.
     SpringReport step(std::span<rig::Transform> pose, const SpringOptions& options, double dt,
                       SpringChainState& state) noexcept;
-    /// The character was put into another pose or place, in no time: the masses go along,
-    /// as far off their targets as they were, and swing on from there; one whose target has not moved
-    /// keeps its velocity. Else as step().
+    /// Call it instead of step() when the pose or the position of the character jumps. Masses keep their
+    /// offsets from their targets and swing on from there; a mass whose target has not moved keeps its
+    /// velocity.
     SpringReport teleport(std::span<rig::Transform> pose, const SpringOptions& options,
                           SpringChainState& state) noexcept;
 

@@ -1,10 +1,10 @@
-// How far a joint turns: swing (where its bone points) and twist (how the bone is turned about itself).
+// Joint limits: how far a joint may swing (where its bone points) and twist (how the bone turns about
+// itself).
 //
-// A joint's angles are those of its bone against the bone before it (the root's: against the world), both
-// taken from how they lie at rest. Swing is measured about two axes at right angles to the bone at rest:
-// about `axis`, where a positive angle is *up*, and about `axis x bone`, where a positive angle is *left*.
-// With a bone along +X and the axis +Z, up is +Y and left is -Z. Twist is about the bone itself,
-// right-handed.
+// A joint's angles are those of its bone relative to the parent bone (the root's: to the world), measured
+// from the rest pose. Swing is measured about two axes perpendicular to the bone at rest: about `axis`, where
+// a positive angle is *up*, and about `axis x bone`, where a positive angle is *left*. With a bone along +X
+// and the axis +Z, up is +Y and left is -Z. Twist is about the bone itself, right-handed.
 //
 // Source of the decomposition: F. S. Grassia, "Practical parameterization of rotations using the exponential
 // map", Journal of Graphics Tools 3(3), 1998. Joint kinds after Aristidou, Chrysanthou, Lasenby, "Extending
@@ -22,11 +22,11 @@ namespace tendril::ik {
 
 enum class JointKind : std::uint8_t {
     Free,          ///< no limit
-    Suture,        ///< skull: all but fixed
+    Suture,        ///< skull: almost fixed
     Hinge,         ///< elbow, knee, finger: one axis, from `min` to `max`
-    Gliding,       ///< wrist, ankle: two axes, little freedom
-    Saddle,        ///< thumb: two axes, more freedom
-    Pivot,         ///< neck: twist and a little nod
+    Gliding,       ///< wrist, ankle: two axes, small range
+    Saddle,        ///< thumb: two axes, larger range
+    Pivot,         ///< neck: twist and a small nod
     BallAndSocket  ///< hip, shoulder: an elliptic cone and twist
 };
 /// "ball_and_socket"
@@ -35,41 +35,39 @@ const char* name(JointKind kind) noexcept;
 /// All angles in radians.
 struct Limit {
     JointKind kind = JointKind::Free;
-    /// World axes at rest; any length over 1e-6. What lies along the bone is taken away; something must be
-    /// left.
+    /// World axis at rest, longer than 1e-6. Its component along the bone is removed; the rest must not
+    /// vanish.
     glm::vec3 axis{0.0f, 0.0f, 1.0f};
     /// Hinge: the angle about `axis`, -pi <= min <= max <= pi.
     float min = 0.0f, max = 0.0f;
-    /// The others: half-angles of the cone, 0 to pi; an elliptic quadrant lies between each two.
+    /// All other kinds: half-angles of the cone, 0 to pi; each pair of neighbours spans an elliptic quadrant.
     float up = 0.0f, down = 0.0f, left = 0.0f, right = 0.0f;
-    /// The others: -pi <= twist_min <= twist_max <= pi.
+    /// All other kinds: -pi <= twist_min <= twist_max <= pi.
     float twist_min = 0.0f, twist_max = 0.0f;
 
     bool operator==(const Limit&) const = default;
 
-    /// The kinds with the angles that people usually have; change what differs.
+    /// Each kind with typical human angles. Change what differs.
     static Limit of(JointKind kind) noexcept;
     static Limit hinge(glm::vec3 axis, float min, float max) noexcept;
 };
 
-/// What is wrong with a limit in words ("min must be at most max, got 2 and 1"); null when nothing is. The
-/// text is a constant: "the hinge's axis has no length".
+/// What is wrong with a limit, as a constant text ("the hinge's axis has no length"). Null if it is valid.
 const char* fault(const Limit& limit) noexcept;
-/// The same, and for a joint whose bone lies along `rest_direction` at rest: "the hinge's axis lies along the
-/// bone".
+/// Also checks the limit against a bone's rest direction: "the hinge's axis lies along the bone".
 const char* fault(const Limit& limit, glm::vec3 rest_direction) noexcept;
 
-/// A joint's turn in the axes of its limit; radians.
+/// A joint's rotation, measured in the axes of its limit; radians.
 struct JointAngles {
     float up = 0.0f;     ///< about the axis; down is negative
     float left = 0.0f;   ///< right is negative
     float twist = 0.0f;  ///< about the bone
 };
 
-/// `turn`: from the parent bone's frame to this bone's, the unit quaternion that is 1 at rest.
+/// `turn` is the unit quaternion of this bone relative to its parent bone, identity at rest.
 JointAngles measure(const Limit& limit, glm::vec3 rest_direction, glm::quat turn) noexcept;
 
-/// By how much the angles exceed the limit; 0 within it.
+/// By how much the angles exceed the limit, radians; 0 within it.
 float excess(const Limit& limit, const JointAngles& angles) noexcept;
 
 }  // namespace tendril::ik

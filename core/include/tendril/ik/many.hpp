@@ -1,32 +1,32 @@
 // Inverse kinematics of thousands of chains at once: crowds, grass, tentacles, feathers.
 //
-// A Batch keeps chains of the same number of bones side by side, so that one vector register holds the same
-// coordinate of many chains; solve_many iterates them all at once. Each chain has its own lengths, root and
-// target, and ends with its own report.
+// A Batch stores chains with the same number of bones side by side, so that one vector register holds the
+// same coordinate of many chains. solve_many iterates them all at once. Each chain has its own lengths, root
+// and target, and gets its own report.
 //
 // Method: that of Method::Fabrik, which is FABRIK (A. Aristidou, J. Lasenby, Graphical Models 73(5), 2011)
-// with a step that fits the span (core/src/ik/methods/accelerate.hpp), with the widest vector unit that this
-// machine has (Highway chooses it at run time). A pass is one long wait for a square root and a division; so
-// several registers of chains take the same step side by side, and chains that take long are collected and
-// solved together.
+// with an extra step that fits the root-tip span (core/src/ik/methods/accelerate.cpp). It uses the widest
+// vector unit of this machine, chosen by Highway at run time. A pass is bound by the latency of a square root
+// and a division, so several registers of chains take the same step side by side. Chains that take long are
+// gathered and solved together.
 //
-// Answers: bit for bit those of Solver with Method::Fabrik, whatever the vector unit, the number of threads
-// and the company that a chain is in; but for targets out of reach or too close, which are answered in float
-// where Solver takes double (the same to 1e-4 of the reach). Where a target is so near to the rim of what can
-// be reached that floats cannot decide, the scalar solver takes that chain: ManyReport::scalar_fallback.
+// Results: bit for bit those of Solver with Method::Fabrik, whatever the vector unit, the number of threads
+// and the other chains. The exception is targets out of reach or too close, which are solved in float where
+// Solver uses double (equal to 1e-4 of the reach). If a target is so close to the limit of reach that floats
+// cannot decide, the scalar solver takes the chain: ManyReport::scalar_fallback.
 //
-// With limits, one for each bone and the same for all chains, the vector units take damped least-squares
-// steps over the joints' rotations, every joint clamped to its limit (K. Levenberg, "A method for the
-// solution of certain non-linear problems in least squares", 1944). A chain that does not arrive in this way
-// within 30 steps or `max_iterations`, or that stops coming nearer, is solved by the scalar solver from where
-// it was; so is one whose target is out of reach, and all of them with `every_iteration` or where a cone is
-// flat (a suture). Poses differ from the scalar solver's: both arrive, each within the limits to 0.1 degrees.
+// With limits, one per bone and shared by all chains, the vector units take damped least-squares steps over
+// the joint rotations, with every joint clamped to its limit (K. Levenberg, "A method for the solution of
+// certain non-linear problems in least squares", 1944). A chain that does not converge within 30 steps or
+// `max_iterations`, or that stops improving, is solved by the scalar solver from its original pose. So is a
+// chain whose target is out of reach, and every chain with `every_iteration` or with a flat cone (a suture).
+// Poses differ from the scalar solver's: both converge, each within the limits to 0.1 degrees.
 //
-// Cost: O(bones) an iteration and chain. Over as many calls of Solver::solve to tolerance, 1 000 chains, all
-// joints in and out (tests/bench/ik_many.cpp): 8 to 18 times the throughput with AVX-512 and 6 to 15 times
-// with AVX2, the most near full reach; within limits 3 to 20 and 2 to 16 times, the most for hinges, the
-// least for long chains of cones far from full reach. It pays from four chains on, and hardly where most
-// targets fall to the scalar solver.
+// Cost: O(bones) per iteration and chain. Compared with calling Solver::solve per chain, to tolerance, with 1
+// 000 chains and copying all joints in and out (tests/bench/ik_many.cpp), throughput is 8 to 18 times higher
+// with AVX-512 and 6 to 15 times with AVX2, best near full reach. Within limits it is 3 to 20 and 2 to 16
+// times, best for hinges and worst for long chains of cones far from full reach. It pays off from four chains
+// on, but hardly if most targets fall back to the scalar solver.
 #pragma once
 
 #include <cstddef>
@@ -44,24 +44,24 @@
 
 namespace tendril::ik {
 
-/// What Options offers and a batch has; the same names, ranges and defaults.
+/// The subset of Options that a batch supports: same names, ranges and defaults.
 struct ManyOptions {
-    /// Metres, 0 to max_magnitude; 1e-3 of each chain's own reach where left out.
+    /// Metres, 0 to max_magnitude; by default 1e-3 of each chain's own reach.
     std::optional<float> tolerance{};
     /// 1 to 1 000 000.
     int max_iterations = 100;
-    /// Goes on to max_iterations whatever was reached; for measuring, and for comparing solvers.
+    /// Runs all max_iterations even after converging; for measuring and for comparing solvers.
     bool every_iteration = false;
-    /// Of the scalar solver within limits, as Options::restarts.
+    /// For the scalar solver within limits, as Options::restarts.
     std::optional<int> restarts{};
-    /// Who runs the threads' parts (as many as Batch::make was told of, where there is work for them); the
-    /// library's own threads where left out.
+    /// Runs the work of the threads (at most as many as given to Batch::make, fewer if there is little work);
+    /// by default the library's own threads.
     Tasks tasks{};
-    /// One of vector_units(), for comparing; the widest where left empty.
+    /// One of vector_units(), for comparisons; by default the widest.
     std::string_view vector_unit{};
 };
 
-/// What came of one chain.
+/// Result of one chain.
 struct ManyReport {
     Status status = Status::Converged;
     bool scalar_fallback = false;  ///< the scalar solver took this chain
@@ -70,7 +70,7 @@ struct ManyReport {
     bool operator==(const ManyReport&) const = default;
 };
 
-/// What came of all of them, counted.
+/// Counts over all chains.
 struct ManySummary {
     std::size_t invalid = 0;           ///< chains whose status is InvalidInput
     std::size_t scalar_fallbacks = 0;  ///< chains that the scalar solver took
@@ -81,58 +81,58 @@ struct ManySummary {
 /// "SSE4". All give the same bits. There is always at least one.
 std::span<const std::string_view> vector_units() noexcept;
 
-/// Chains side by side. One thread at a time may use it.
+/// Chains stored side by side. Only one thread at a time may use a batch.
 class Batch {
   public:
-    /// `chains`, up to 2^31, of 1 to 1 000 000 bones each. Every chain starts at the origin and lies straight
-    /// along +X; each bone is 1 m long. A solve takes at most `threads`, 1 to 256, the caller's among them;
-    /// what each of them needs is allocated here, and nothing later. InvalidArgument.
+    /// Creates `chains`, up to 2^31, of 1 to 1 000 000 bones each. Every chain starts at the origin and lies
+    /// straight along +X; each bone is 1 m long. A solve uses at most `threads`, 1 to 256, including the
+    /// caller's. Their scratch memory is allocated here and in set_limits, so a solve allocates nothing.
+    /// InvalidArgument.
     static Expected<Batch> make(std::size_t chains, std::size_t bones, int threads = 1);
     ~Batch();
     Batch(Batch&&) noexcept;
     Batch& operator=(Batch&&) noexcept;
 
-    /// Chains.
+    /// Number of chains.
     std::size_t size() const noexcept;
-    /// Of each chain.
+    /// Bones per chain.
     std::size_t bones() const noexcept;
 
-    // ---- Metres. OutOfRange for a bad chain or joint, InvalidArgument for a number that chain.hpp would not
-    // ---- take or a list of the wrong size; nothing is changed then.
+    // ---- Units are metres. OutOfRange for a bad chain or joint; InvalidArgument for a number that chain.hpp
+    // ---- refuses or a list of the wrong size. A call that fails changes nothing.
 
-    /// bones() of them, for one chain or for all. The joints stay where they are until the next solve
-    /// brings the bones to their lengths.
+    /// bones() lengths, for one chain or for all. Joints do not move until the next solve enforces the
+    /// lengths.
     Result set_lengths(std::size_t chain, std::span<const float> lengths);
     Result set_lengths(std::span<const float> lengths);
-    /// bones() + 1 of them, root first. They need not be at their lengths: a solve begins by bringing them
-    /// there.
+    /// bones() + 1 joints, root first. They need not match the lengths: a solve enforces them first.
     Result set_joints(std::size_t chain, std::span<const glm::vec3> joints);
-    /// Of all chains, one after the other: the fast way, some 0.3 ns a coordinate.
+    /// The joints of all chains, chain after chain. The fast path: about 0.3 ns per coordinate.
     Result set_joints(std::span<const glm::vec3> joints);
-    /// The first joint goes there and the others stay; the next solve lets them follow.
+    /// Moves the root only; the other joints follow in the next solve.
     Result set_root(std::size_t chain, glm::vec3 root);
 
-    /// One for each bone, at the joint that it starts from, the same for every chain; none at all takes them
-    /// away. `rest_directions`: where each bone points at rest, unit vectors; all along +X where left out.
-    /// Every bone is turned as at rest again. InvalidArgument.
+    /// One limit per bone, at the joint where the bone starts, shared by all chains. An empty list removes
+    /// the limits. `rest_directions`: where each bone points at rest, unit vectors; by default all along +X.
+    /// Resets all rotations to rest. InvalidArgument.
     Result set_limits(std::span<const Limit> limits, std::span<const glm::vec3> rest_directions = {});
-    /// With limits: how each bone is turned against its rest, in the world, bones() of them a chain, one
-    /// chain after the other; as Solver::rotations. NotFound where the batch has no limits, InvalidArgument
-    /// for what is no unit quaternion.
+    /// With limits only: each bone's world rotation relative to its rest direction, bones() per chain, chain
+    /// after chain; as State::rotations. NotFound if the batch has no limits, InvalidArgument for a
+    /// quaternion that is not a unit quaternion or a list of the wrong size.
     Result set_rotations(std::span<const glm::quat> rotations);
     Result copy_rotations(std::span<glm::quat> out) const;
 
-    /// Writes all bones() + 1 joints of a chain; or those of all chains, one after the other. What was copied
-    /// out and is set again gives the same solves to the bit, so this, and the rotations where there are
-    /// limits, is all that a rollback has to keep.
+    /// Writes the bones() + 1 joints of one chain, or those of all chains, chain after chain. Setting copied
+    /// joints again gives bitwise the same solves, so the joints, and with limits the rotations, are all that
+    /// a rollback has to save.
     Result copy_joints(std::size_t chain, std::span<glm::vec3> out) const;
     Result copy_joints(std::span<glm::vec3> out) const;
 
-    // ---- The indices must be in range.
+    // ---- No range checks: indices must be valid.
 
     float length(std::size_t chain, std::size_t bone) const noexcept;
     glm::vec3 joint(std::size_t chain, std::size_t index) const noexcept;
-    /// Sum of the lengths.
+    /// Sum of the bone lengths, metres.
     float reach(std::size_t chain) const noexcept;
 
   private:
@@ -145,20 +145,20 @@ class Batch {
                                   std::span<ManyReport>, const ManyOptions&) noexcept;
 };
 
-/// Moves all joints but the roots so that every tip comes to its target: one target a chain, metres. Report i
-/// is of chain i; as many as there are chains, or none. Allocates nothing.
+/// Moves all joints but the roots so that every tip reaches its target: one target per chain, metres. Report
+/// i belongs to chain i; pass one report per chain or none. Allocates nothing.
 ///
-/// A target that is not finite or over max_magnitude, or joints that an earlier solve left further out, give
-/// that chain Status::InvalidInput and leave it as it was; the others do not notice. Options out of range or
-/// lists of the wrong size give it to all of them.
+/// A chain gets Status::InvalidInput, and keeps its pose, if its target is not finite or over max_magnitude,
+/// or if an earlier solve left its joints out of that range. Other chains are not affected. Options out of
+/// range or lists of the wrong size give InvalidInput to all of them.
 ManySummary solve_many(Batch& batch, std::span<const glm::vec3> targets, std::span<ManyReport> reports = {},
                        const ManyOptions& options = {}) noexcept;
 
-/// The same for joints that the caller keeps: those of all chains, root first, one chain after the other. The
-/// solve starts from them and writes them; the batch's own stay as they were, and lengths, limits and
-/// rotations are the batch's. Same bits as set_joints, solve_many and copy_joints, in less time than these:
-/// the joints pass through the nearest cache only. A chain with a joint that set_joints would refuse gets
-/// Status::InvalidInput and stays as it was.
+/// The same for joints that the caller owns: those of all chains, root first, chain after chain. The solve
+/// starts from them and writes them back. The batch's own joints do not change; lengths, limits and rotations
+/// are the batch's. Bitwise equal to set_joints, solve_many and copy_joints, but faster, because the joints
+/// only pass through the nearest cache. A chain with a joint that set_joints would refuse gets
+/// Status::InvalidInput and keeps its pose.
 ManySummary solve_many(Batch& batch, std::span<glm::vec3> joints, std::span<const glm::vec3> targets,
                        std::span<ManyReport> reports, const ManyOptions& options = {}) noexcept;
 

@@ -1,7 +1,7 @@
-// The methods that solve a chain, and which of them honours which option.
+// The methods that solve a chain, and which options each of them honours.
 //
-// An option that a method does not honour changes nothing: neither pose nor report. `without` and `within`
-// say without and within joint limits. This is the table of honours(), which a test walks:
+// An option that a method does not honour changes neither pose nor report. `without` and `within` mean
+// without and within joint limits. This is the table of honours(), verified by a test:
 //
 //     option           fabrik       plain     ccd       transpose dls, svd  two_bone
 //     tolerance        both         both      both      both      both      both (1)
@@ -21,16 +21,15 @@
 //     rotations        without (6)  without   without   without   without   without
 //     residuals        both         both      both      both      both      both
 //
-// `plain` is fabrik_plain, `stretch` start_stretch_ratio and max_stretch_scale.
-// (1) Two bones are worked out as exactly as floats allow; the tolerance only decides the status.
-// (2) Within limits a two-bone solve starts from its closed form and goes on as damped least squares.
-// (3) Within limits the whole chain turns to its pole at once, whatever pole_turn says: the joints could not
-//     turn one by one. A chain of two bones has one joint to turn, so both ways are the same.
-// (4) With a tip orientation the last bone is placed as it asks, so a two-bone solve takes three bones, or two
-//     of which one is left to solve for; within limits it is damped least squares from the start, without
-//     twist.
-// (5) Not when a tendril::Chain is solved, which keeps its lengths.
-// (6) Within limits the rotations are always kept up: limits are about them.
+// `plain` is fabrik_plain, `stretch` is start_stretch_ratio and max_stretch_scale.
+// (1) Two bones are solved as exactly as floats allow; the tolerance only decides the status.
+// (2) Within limits, a two-bone solve starts from its closed form and continues with damped least squares.
+// (3) Within limits, the whole chain always turns to its pole at once: turning joints one by one would bend
+//     all of them. A chain of two bones has one joint to turn, so both modes are the same.
+// (4) A tip orientation fixes the last bone, so a two-bone solve takes three bones, or two of which one is
+//     left to solve. Within limits it is damped least squares from the start, without twist.
+// (5) Not if a tendril::Chain is solved, which keeps its lengths.
+// (6) Within limits the rotations are always kept up to date, because limits are defined on them.
 #pragma once
 
 #include <array>
@@ -44,10 +43,10 @@
 namespace tendril::ik {
 
 enum class Method : std::uint8_t {
-    Fabrik,             ///< FABRIK with a step that takes the bend out near full reach: the default
-    FabrikPlain,        ///< as Aristidou and Lasenby published it in 2011, for study; stalls on a line
+    Fabrik,             ///< the default: FABRIK plus a step that removes the bend near full reach
+    FabrikPlain,        ///< as published by Aristidou and Lasenby in 2011, for study; stalls when collinear
     Ccd,                ///< cyclic coordinate descent (Wang and Chen 1991)
-    JacobianTranspose,  ///< with the step that is best along the gradient (Buss 2004)
+    JacobianTranspose,  ///< with the optimal step along the gradient (Buss 2004)
     Dls,                ///< damped least squares (Wampler 1986, Nakamura and Hanafusa 1986)
     SvdDls,             ///< the same, damped singular value by singular value (Maciejewski and Klein 1988)
     TwoBone             ///< law of cosines; two bones only
@@ -55,16 +54,16 @@ enum class Method : std::uint8_t {
 inline constexpr std::array all_methods{
     Method::Fabrik, Method::FabrikPlain, Method::Ccd,    Method::JacobianTranspose,
     Method::Dls,    Method::SvdDls,      Method::TwoBone};
-/// "fabrik_plain": as commands and files name it.
+/// "fabrik_plain": the name in commands and files.
 const char* name(Method method) noexcept;
 /// None for an unknown name.
 std::optional<Method> method_named(std::string_view name) noexcept;
 
-/// Whether a method takes a chain of so many bones: "Two-bone needs exactly two bones, this chain has 5".
-/// (With a tip orientation it takes three as well.)
+/// Whether a method takes a chain of this many bones: "Two-bone needs exactly two bones". (With a tip
+/// orientation Solver::solve also takes three.)
 Result check_takes(Method method, std::size_t bones) noexcept;
 
-/// The members of Options, as the table above has them.
+/// The members of Options, in the order of the table above.
 enum class Option : std::uint8_t {
     Tolerance,
     MaxIterations,
@@ -88,10 +87,10 @@ inline constexpr std::array all_options{
     Option::Pole,      Option::PoleTurn,      Option::SnapBack,       Option::TipOrientation,
     Option::SoftZone,  Option::Damping,       Option::Stretch,        Option::Twist,
     Option::Weight,    Option::Restarts,      Option::Rotations,      Option::Residuals};
-/// "snap_back": the member's name; "start_stretch_ratio" for Stretch.
+/// The name of the member: "snap_back". For Stretch it is "start_stretch_ratio".
 const char* name(Option option) noexcept;
 
-/// The table. `within_limits`: whether joint limits are set beside it.
+/// Looks up the table. `within_limits`: whether joint limits are set as well.
 bool honours(Method method, Option option, bool within_limits) noexcept;
 
 }  // namespace tendril::ik

@@ -1,5 +1,5 @@
-// Every elementary step of a solve, as it happens: for a program that shows or records them. Without an
-// observer this costs nothing: the solvers are compiled once with and once without it.
+// Reports every elementary step of a solve as it happens, for programs that show or record them. Without an
+// observer there is no cost: the solvers are compiled once with and once without one.
 #pragma once
 
 #include <cstddef>
@@ -11,29 +11,29 @@ namespace tendril::ik {
 
 enum class Phase : std::uint8_t {
     Prepare,           ///< lengths restored, blended towards rest, perturbed
-    ForwardReaching,   ///< FABRIK: from the tip, which goes to the target, to the root
-    BackwardReaching,  ///< FABRIK: from the root, which goes back to its place, to the tip
-    Accelerate,        ///< accelerated FABRIK: all bends are made less or more until the root-tip span fits
+    ForwardReaching,   ///< FABRIK: from the tip, which moves to the target, to the root
+    BackwardReaching,  ///< FABRIK: from the root, which moves back to its position, to the tip
+    Accelerate,        ///< accelerated FABRIK: scales all bends until the root-tip span fits
     Rotate,            ///< CCD: everything beyond one joint rotates about it
     Gradient,          ///< Jacobian solvers: all joints rotate a little at once
     Pole,              ///< the bend is swivelled to face the pole
-    Limit,             ///< a joint is brought back into its limit
-    Analytic,          ///< the answer at once: two bones, a target out of reach or too close
-    RestoreBest,       ///< the pose nearest to the target is restored, for the last one was worse
-    Blend              ///< part of the way from the given pose: Options::weight
+    Limit,             ///< a joint is clamped to its limit
+    Analytic,          ///< closed form: two bones, or a target out of reach or too close
+    RestoreBest,       ///< restores the best pose, because the last one was worse
+    Blend              ///< interpolates from the given pose: Options::weight
 };
 /// "forward_reaching"
 const char* name(Phase phase) noexcept;
 
 inline constexpr std::size_t no_joint = static_cast<std::size_t>(-1);
 
-/// One joint goes from one place to another. Steps with the same iteration, phase and `order` happen at once.
+/// One joint moves. Steps with the same iteration, phase and `order` happen at once.
 struct Step {
     int iteration = 0;  ///< from 1; 0 before the first
     Phase phase = Phase::Prepare;
     int order = 0;                     ///< counts the elementary steps of the solve from 0
-    std::size_t joint = 0;             ///< which one moves
-    std::size_t neighbour = no_joint;  ///< at whose distance it is placed, or about which it turns
+    std::size_t joint = 0;             ///< the one that moves
+    std::size_t neighbour = no_joint;  ///< the joint whose distance is kept, or the centre of rotation
     glm::vec3 from{0.0f}, to{0.0f};    ///< metres
 };
 

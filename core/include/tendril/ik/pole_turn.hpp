@@ -1,4 +1,4 @@
-// How a solve turns a chain to its pole: an option, and part of what a state remembers.
+// How a solve turns a chain to its pole: an option, and part of the state.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// What comes out of a solve.
+// Output of a solve.
 #pragma once
 
 #include <cstdint>
@@ -9,28 +9,28 @@ namespace tendril::ik {
 enum class Status : std::uint8_t {
     Converged,       ///< the tip is within tolerance of the target
     Stretched,       ///< the target is out of reach and the chain lies straight towards it; or the soft zone
-                     ///< keeps it short of the target by more than the tolerance
-    TooClose,        ///< the target is nearer than the longest bone lets the tip fold
-    Limited,         ///< the joint limits keep the tip away: a descent within them ends short of the target,
-                     ///< at limits without which it would go on. By another way there may be one that arrives
+                     ///< keeps the tip short of it by more than the tolerance
+    TooClose,        ///< the target is closer than the chain can fold, because of its longest bone
+    Limited,         ///< the joint limits stop the tip: descent ends short of the target, at limits without
+                     ///< which it would continue. A pose elsewhere may still reach it
     Stalled,         ///< further iterations of this method would change nothing, and no limit is to blame
-    IterationLimit,  ///< still on its way when the iterations were used up
-    InvalidInput     ///< a number that is not finite or out of range: nothing was moved
+    IterationLimit,  ///< not converged when the iterations were used up
+    InvalidInput     ///< a number is not finite or out of range: nothing was moved
 };
 /// "Converged"
 const char* name(Status status) noexcept;
 
-/// How a solve ended, and what really ran.
+/// How a solve ended, and what it did.
 struct Report {
     Status status = Status::Converged;
     int iterations = 0;
     float residual = 0.0f;  ///< metres from the tip to the target
-    /// The answer, or what the iterations started from, was worked out in closed form: two bones, or a target
-    /// out of reach or too close.
+    /// The result, or the start of the iterations, was found in closed form: two bones, or a target out of
+    /// reach or too close.
     bool closed_form = false;
-    int perturbations = 0;  ///< times the chain was bent a little, to leave a pose from which no way led on
-    int least_squares_steps = 0;  ///< iterations within limits that took such a step beside the method's own
-    int restarts = 0;             ///< other poses that the solve started from again
+    int perturbations = 0;        ///< times the chain was perturbed to leave a stalled or collinear pose
+    int least_squares_steps = 0;  ///< iterations within limits that took such a step
+    int restarts = 0;             ///< restarts from other poses
     bool operator==(const Report&) const = default;
 };
 

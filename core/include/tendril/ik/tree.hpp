@@ -1,31 +1,31 @@
-// Inverse kinematics of a tree of chains: one root, several effectors, joints that branches share.
+// Inverse kinematics of a tree of chains: one root, several effectors, joints shared by branches.
 //
-// A torso with two arms and a head, a spider, a hand: the joints are given as a list in which every joint
-// names the one that it hangs on, and any number of them, inner ones too, may have a target.
+// A torso with two arms and a head, a spider, a hand: the joints are given as a list in which each joint
+// names its parent. Any number of them, including inner ones, may have a target.
 //
-// Method: FABRIK for several end effectors. Forward reaching, from the effectors inward, gives every joint a
-// place that each of its branches proposes; where branches meet, the proposals are averaged, each by the
-// weight of all effectors on its branch. Backward reaching, from the root outward, then gives every bone its
-// length again. A. Aristidou, J. Lasenby, "FABRIK: A fast, iterative solver for the Inverse Kinematics
-// problem", Graphical Models 73(5), 2011, section on multiple end effectors; A. Aristidou, Y. Chrysanthou, J.
-// Lasenby, "Extending FABRIK with model constraints", Computer Animation and Virtual Worlds 27(1), 2016.
+// Method: FABRIK for several end effectors. Forward reaching, from the effectors inward, proposes a position
+// per branch for every joint; where branches meet, the proposals are averaged, each weighted by all effectors
+// on its branch. Backward reaching, from the root outward, then restores every bone's length. A. Aristidou,
+// J. Lasenby, "FABRIK: A fast, iterative solver for the Inverse Kinematics problem", Graphical Models 73(5),
+// 2011, section on multiple end effectors; A. Aristidou, Y. Chrysanthou, J. Lasenby, "Extending FABRIK with
+// model constraints", Computer Animation and Virtual Worlds 27(1), 2016.
 //
-// From the third iteration on a damped Gauss-Newton step follows each pair of passes, and is kept where it
+// From the third iteration on, a damped Gauss-Newton step follows each pair of passes, and is kept if it
 // brings the effectors nearer: of all moves that keep the lengths and bring the effectors to their targets,
-// each to first order, the one that moves the joints least (Levenberg 1944, Marquardt 1963). On a tree its
-// equations are solved from the leaves inward without fill-in (as D. Baraff, "Linear-time dynamics using
-// Lagrange multipliers", SIGGRAPH 1996, does for forces). Without it reaching converges slowly where branches
-// share joints.
+// both to first order, it takes the one that moves the joints least (Levenberg 1944, Marquardt 1963). On a
+// tree its equations are solved from the leaves inward without fill-in (as D. Baraff, "Linear-time dynamics
+// using Lagrange multipliers", SIGGRAPH 1996, does for forces). Without this step, reaching converges slowly
+// where branches share joints.
 //
-// A Tree holds the joints' list and scratch memory, nothing of the solves before: what goes on from solve to
-// solve are the joints' places and, where they are wanted, the bones' rotations, both the caller's.
+// A Tree holds the list of joints and scratch memory, but nothing of earlier solves: all that persists are
+// the joints' positions and, optionally, the bones' rotations, both owned by the caller.
 //
-// Cost: an iteration is O(joints on the way from the root to an effector), however many effectors there are.
-// Solving allocates nothing, throws nothing and gives the same bits for the same call, in whatever order the
-// effectors are listed.
+// Cost: an iteration is O(joints on the paths from the root to the effectors), however many effectors there
+// are. Solving does not allocate or throw, and gives the same bits for the same call, whatever the order of
+// the effectors in the list.
 //
-// Branches without an effector take no part: each goes along, rigid, with the bone that it hangs on, turned
-// by the minimal rotation of that bone. What hangs on the root itself, or on a joint that stays, stays where
+// Branches without an effector are not solved: each moves rigidly with its parent bone, turned by the minimal
+// rotation of that bone. A branch that hangs on the root itself, or on a bone that does not move, stays where
 // it is.
 //
 // Bones keep their lengths as in chain.hpp.
@@ -45,7 +45,7 @@
 namespace tendril::ik {
 
 struct TreeJoint {
-    std::size_t parent = no_joint;  ///< comes before this joint in the list; the root, the first, has none
+    std::size_t parent = no_joint;  ///< index of an earlier joint; the root, which comes first, has none
     float length = 0.0f;            ///< metres to the parent, 0 to 1e9; the root's has no effect
 };
 
@@ -53,61 +53,61 @@ struct TreeJoint {
 struct Effector {
     std::size_t joint = 0;
     glm::vec3 target{0.0f};  ///< metres, at most max_magnitude
-    /// 0 to max_magnitude; 0 is ignored. Only the weights' ratios count, and only where the effectors cannot
-    /// all be at their targets: then the sum of weight times squared distance is made small. A weight under
+    /// 0 to max_magnitude; 0 is ignored. Only the ratios of weights matter, and only if the effectors cannot
+    /// all reach their targets: then the sum of weight times squared distance is minimised. A weight under
     /// 1e-4 of the heaviest counts as that.
     float weight = 1.0f;
 };
 
 struct TreeOptions {
-    /// Metres, 0 to max_magnitude; 1e-3 of the reach where left out.
+    /// Metres, 0 to max_magnitude; by default 1e-3 of the reach.
     std::optional<float> tolerance{};
     /// 1 to 1 000 000.
     int max_iterations = 100;
-    /// Goes on to max_iterations whatever was reached; for measuring. Not where a single effector is out of
+    /// Runs all max_iterations even after converging; for measuring. Not if a single effector is out of
     /// reach: then there is nothing to iterate.
     bool every_iteration = false;
-    /// The two passes alone, as published, for study: slower, and a straight branch stays on its line.
+    /// Only the two passes, as published, for study: slower, and a straight branch stays on its line.
     bool plain = false;
-    /// Where given, element i receives the worst residual after iteration i + 1, as far as it is long.
+    /// If given, element i receives the worst residual after iteration i + 1, up to its size.
     std::span<float> residuals{};
-    /// Where given, element i receives the metres from effector i's joint to its target when all is done, as
-    /// far as it is long; also for those of weight 0.
+    /// If given, element i receives the final distance of effector i's joint from its target in metres, up to
+    /// its size; also for effectors of weight 0.
     std::span<float> effector_residuals{};
-    /// Where given, one a joint: element k is the rotation, in the world, of the bone that leads to joint k
-    /// (the root's belongs to no bone and stays). Each is turned on by the minimal rotation from where its
-    /// bone was (brought to its length) to where the solve leaves it. Unit quaternions, to 1e-3.
+    /// If given, one per joint: element k is the world rotation of the bone that leads to joint k (the root's
+    /// belongs to no bone and does not change). Each is updated by the minimal rotation from the bone's
+    /// initial direction (at its length) to the solved one. Unit quaternions, to 1e-3.
     std::span<glm::quat> rotations{};
 };
 
 struct TreeReport {
-    /// Converged: every effector is within tolerance. Otherwise Stretched where the way from the root to one
-    /// of them is shorter than to its target by more than the tolerance, or TooClose where it cannot fold
-    /// that far; then Stalled (the effectors disagree, as a rule) or IterationLimit.
+    /// Converged: every effector is within tolerance. Otherwise Stretched if a target is further from the
+    /// root than its effector's path is long, by more than the tolerance, or TooClose if the path cannot fold
+    /// that far; otherwise Stalled (usually because the effectors conflict) or IterationLimit.
     Status status = Status::Converged;
     int iterations = 0;
-    float residual = 0.0f;  ///< metres, the worst of the effectors that weigh something
+    float residual = 0.0f;  ///< metres, the maximum over effectors with a weight
     bool operator==(const TreeReport&) const = default;
 };
 
 class Tree {
   public:
-    /// Refuses an empty list, a first joint that has a parent, another that has none or one that does not
-    /// come before it, and a length out of its range.
+    /// InvalidArgument for an empty list, a first joint with a parent, another joint without one or whose
+    /// parent does not come before it, and a length out of range.
     static Expected<Tree> make(std::span<const TreeJoint> joints);
     ~Tree();
     Tree(Tree&&) noexcept;
     Tree& operator=(Tree&&) noexcept;
 
     std::size_t size() const noexcept;
-    /// The longest way from the root to a joint, metres.
+    /// The longest path from the root to a joint, metres.
     double reach() const noexcept;
 
-    /// Moves the joints (size() of them, metres), all but the root, so that the effectors' come to their
-    /// targets. What it starts from is brought to the bones' lengths first, if it was not. A target that its
-    /// effector cannot reach counts as the nearest point that it can: how far off it lies adds nothing to its
-    /// weight. InvalidInput, and nothing is moved, where a joint's index or a number is out of its range, or
-    /// two effectors that weigh something sit on one joint.
+    /// Moves the joints (size() of them, metres), all but the root, so that the effectors reach their
+    /// targets. If the joints do not match the bones' lengths, they are corrected first. A target out of an
+    /// effector's reach is replaced by the nearest point that it can reach, so a distant target does not gain
+    /// weight. InvalidInput, and nothing is moved, if an index or a number is out of range, or two effectors
+    /// with a weight share a joint.
     TreeReport solve(std::span<glm::vec3> joints, std::span<const Effector> effectors,
                      const TreeOptions& options = {}) noexcept;
 

@@ -1,4 +1,4 @@
-// The elements that a for-each goes through, and what each of its rounds knows of where it is.
+// The elements that a for-each visits, and the position of each visit.
 #pragma once
 
 #include <cstddef>
@@ -14,13 +14,13 @@ struct CollectOptions {
     bool operator==(const CollectOptions&) const = default;
 };
 
-/// Appends what is below `root`, depth first, children in the order in which they were added. Refused where
-/// there is no such element. O(what is appended); allocates only where `elements` has to grow. For several
-/// roots call it once each: index, count and ratio begin anew with each root.
+/// Appends the elements below `root`, depth first, children in the order in which they were added. Refused: a
+/// handle of no element. O(elements appended); allocates only if `elements` has to grow. For several roots
+/// call it once for each: index, count and ratio start anew with each root.
 Result collect_children(const Hierarchy& hierarchy, ElementId root, const CollectOptions& options,
                         std::vector<ElementId>& elements);
 
-/// Where in the list a round is, from 0 to 1: index / (count - 1), 0 where there is only one.
+/// Position in the list from 0 to 1: index / (count - 1); 0 if there is only one element.
 double loop_ratio(std::size_t index, std::size_t count) noexcept;
 
 }  // namespace tendril::rig

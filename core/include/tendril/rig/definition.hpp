@@ -1,5 +1,5 @@
-// A rig as data: elements, named curves, and units in the order in which they run. A plain value, everything
-// in it goes by name; rig.hpp makes something of it that solves.
+// A rig as data: elements, named curves, and units in the order in which they run. A plain value in which
+// everything is referenced by name; Rig::make (rig.hpp) compiles it.
 #pragma once
 
 #include <optional>
@@ -15,13 +15,13 @@ namespace tendril::rig {
 struct Element {
     std::string name{};
     ElementKind kind = ElementKind::Bone;
-    std::string parent{};              ///< empty: it stands in the scene
+    std::string parent{};              ///< empty: a root
     Transform initial{};               ///< within its parent
-    std::optional<Control> control{};  ///< of controls only; Transform where it is left out
+    std::optional<Control> control{};  ///< controls only; default: a Transform control
     bool operator==(const Element&) const = default;
 };
 
-/// A number with a name, which units write and others read: a morph weight, a value of a material.
+/// A named number that units read and write: a morph weight, a material parameter.
 struct NamedCurve {
     std::string name{};
     double value = 0.0;

@@ -1,4 +1,4 @@
-// Why is this element here? What each unit did to its pose in a forward solve, in order.
+// Why an element is where it is: what each unit did to its pose in a forward solve, in order.
 #pragma once
 
 #include <cstddef>
@@ -11,18 +11,18 @@ namespace tendril::rig {
 /// From one global pose to the next: `after` is compose(before, change), to rounding.
 struct Contribution {
     Transform before{}, after{}, change{};
-    double metres = 0.0;   ///< how far it moved
-    double radians = 0.0;  ///< and turned
+    double metres = 0.0;   ///< distance moved
+    double radians = 0.0;  ///< angle turned
 };
 
 struct Explanation {
-    Transform input{};                  ///< where it was before the first unit
-    std::vector<Contribution> units{};  ///< one a unit of Definition::units, in order
-    Transform result{};                 ///< where it is
+    Transform input{};                  ///< before the first unit
+    std::vector<Contribution> units{};  ///< one per unit of Definition::units, in order
+    Transform result{};                 ///< after the last unit
 };
 
-/// Solves a copy of the state without letting time pass. Cost: that of a solve and of one read a unit;
-/// allocates. `element` is an index into Definition::elements.
+/// Solves a copy of the state with dt = 0. Cost: one solve plus one read per unit; allocates. `element` is an
+/// index into Definition::elements.
 Explanation explain(const Rig& rig, const State& state, std::size_t element, Workspace& workspace);
 
 }  // namespace tendril::rig

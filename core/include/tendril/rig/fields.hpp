@@ -1,9 +1,9 @@
-// What every operation is made of, once: readers, writers, checks and panels all go by this list.
+// The fields of every operation, listed once: readers, writers, checks and panels all use this list.
 //
 //     fields(operation, [&](const char* name, auto& field) { ... });
 //
-// calls with every field, const where the operation is. A field is an Input, an Item, a literal, or made of
-// such: AimInputs, ParentInputs, and units in the body of a for-each.
+// calls the function with every field, const if the operation is. A field is an Input, an Item, a literal, or
+// a compound of these: AimInputs, ParentInputs, the units in the body of a for-each.
 #pragma once
 
 #include <type_traits>

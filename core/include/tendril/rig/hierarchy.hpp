@@ -1,13 +1,13 @@
-// Bones, nulls and controls in a tree: each with an initial, an input and a current pose, and of each pose a
-// local and a global transform, of which one may be pending, waiting to be worked out from the other.
+// Bones, nulls and controls in a tree. Each has an initial, an input and a current pose. Each pose has a
+// local and a global transform, one of which may be pending: not yet computed from the other.
 //
 //     rig::Hierarchy tree;
 //     const rig::ElementId arm = *tree.add(rig::ElementKind::Bone, {}, shoulder);
 //     const rig::ElementId hand = *tree.add(rig::ElementKind::Bone, arm, wrist);
 //     if (const Result set = tree.set(arm, rig::Space::Global, raised); !set) return log(set.message());
-//     draw(tree.get(hand, rig::Space::Global));  // worked out now, because the arm has moved
+//     draw(tree.get(hand, rig::Space::Global));  // computed now, because the arm has moved
 //
-// Writing sets one transform and makes the other pending where that follows:
+// Writing sets one transform and makes dependent ones pending:
 //
 //     write                    the element           its children
 //     global, propagating      local pending         keep their local; global pending, and so on down
@@ -16,20 +16,19 @@
 //     local, not propagating   global composed now   keep their global; local pending, no deeper
 //
 // No write walks a subtree. An element stores the version of its parent's global transform that its own was
-// composed with; reading compares versions from the nearest ancestor known to be up to date downwards, and
-// composes anew from the first that differs. A pending local transform is worked out before the parent's
-// stored global is overwritten. So *reading changes no answer*: it only brings forward what would be worked
-// out anyway, to the same bits. As it stores what it worked out, get() is not const; known() is, and
-// pending() tells which of the two it would have to work out.
+// composed with. Reading compares versions, starting below the nearest ancestor known to be up to date, and
+// recomposes from the first that differs. A pending local transform is computed before the parent's stored
+// global is overwritten. So *reading changes no result*: it only computes earlier what would be computed
+// anyway, to the same bits. get() stores what it computes and is therefore not const; known() is const, and
+// pending() tells which of the two transforms would have to be computed.
 //
-// Cost: reading a local transform O(1); a global one O(1) while nothing was written since it or something
-// below it was last read, else O(depth). Writing O(depth), or O(depth + children) where it does not
-// propagate. Nothing recurses: a line of 100 000 elements is as good as any tree. get() and set() allocate
-// nothing.
+// Cost: reading a local transform is O(1). Reading a global one is O(1) if nothing was written since it or a
+// descendant was last read, otherwise O(depth). Writing is O(depth), or O(depth + children) without
+// propagation. Nothing recurses, so a chain of 100 000 elements is fine. get() and set() allocate nothing.
 //
-// A hierarchy is a value: a copy goes on as the original does, bit for bit. About 750 bytes an element.
-// Elements have no names, names are the document's business. A handle that points at nothing is refused where
-// an answer is a Result; given to anything else it is a bug in the calling program, which ends with a
+// A hierarchy is a value: a copy behaves like the original, bit for bit. About 750 bytes per element.
+// Elements have no names; names belong to the document. Functions that return a Result refuse a stale handle;
+// passing one to any other function is a bug in the calling program, which ends with a message.
 // message.
 #pragma once
 
@@ -45,12 +44,12 @@
 namespace tendril::rig {
 
 enum class ElementKind : std::uint8_t { Bone, Null, Control };
-/// At rest; where a solve begins, before anything moved it; and now.
+/// At rest; at the start of a solve; and now.
 enum class Pose : std::uint8_t { Initial, Input, Current };
 enum class Space : std::uint8_t { Local, Global };
-/// Whether the children of what is set move with it (and keep their local transform) or stay where they are.
+/// Whether the children of a written element move with it (and keep their local transform) or stay.
 enum class Propagate : std::uint8_t { No, Yes };
-/// Which transform reading would have to work out.
+/// Which transform would have to be computed on reading.
 enum class Pending : std::uint8_t { None, Local, Global };
 
 /// "bone", "null", "control"
@@ -62,16 +61,16 @@ using ElementId = Handle<struct ElementHandleKind>;
 
 class Hierarchy {
   public:
-    // Elements. Where a parent is asked for, an empty handle means none: what has no parent is a root.
-    // Children are in the order in which they were added.
+    // Elements. An empty parent handle means none: an element without a parent is a root. Children are in the
+    // order in which they were added.
 
-    /// `local` becomes its pose, all three. Refused: a parent that is not there, a transform
+    /// `local` becomes its transform in all three poses. Refused: a parent that does not exist, a transform
     /// that checked() refuses. O(1).
     Expected<ElementId> add(ElementKind kind, ElementId parent, const Transform& local);
-    /// With everything below it. O(what goes).
+    /// Removes the element with everything below it. O(elements removed).
     Result remove(ElementId element) noexcept;
-    /// Puts an element below another parent, after the children that are there; in every pose it keeps its
-    /// transform in that space. Refused: a parent that is the element itself or below it. O(depth).
+    /// Moves an element below another parent, after its existing children. In every pose it keeps its
+    /// transform in the space `keep`. Refused: a parent that is the element itself or below it. O(depth).
     Result set_parent(ElementId element, ElementId parent, Space keep = Space::Global) noexcept;
     void clear() noexcept;
 
@@ -80,11 +79,11 @@ class Hierarchy {
         return element.index < nodes_.size() && nodes_[element.index].generation == element.generation &&
                element.generation % 2 == 1;
     }
-    /// Fine where it is there; else "OPERATION: ARGUMENT must be the handle of an element that is there, got
-    /// slot 7". For what is built upon a hierarchy.
+    /// Success if it exists; otherwise "OPERATION: ARGUMENT must be the handle of an element that is there,
+    /// got slot 7". For code built on a hierarchy.
     Result check(ElementId element, const char* operation, const char* argument) const noexcept;
     ElementKind kind(ElementId element) const noexcept;
-    /// Empty handle where there is none, here and in the next four.
+    /// An empty handle if there is none, here and in the next four.
     ElementId parent(ElementId element) const noexcept;
     ElementId first_child(ElementId parent) const noexcept;  ///< of an empty handle: the first root
     ElementId last_child(ElementId parent) const noexcept;   ///< of an empty handle: the last root
@@ -93,43 +92,42 @@ class Hierarchy {
     std::size_t child_count(ElementId parent) const noexcept;  ///< of an empty handle: the number of roots
     /// Whether `element` is `ancestor` or below it. O(depth).
     bool is_within(ElementId element, ElementId ancestor) const noexcept;
-    /// What follows in a walk through everything below `top`, depth first; empty at its end. Begins with
+    /// The next element in a depth-first walk through everything below `top`; empty at its end. Start with
     /// `top` itself. O(1) on average.
     ElementId next_depth_first(ElementId element, ElementId top) const noexcept;
 
     // Poses.
 
-    /// Works out what is pending and stores it. The reference is valid until something is added or removed,
-    /// and shows what it shows until the next write: other reads leave it as it is, and it may be passed to a
-    /// write.
+    /// Computes what is pending and stores it. The reference is valid until an element is added or removed,
+    /// and its value is unchanged until the next write: other reads do not affect it, and it may be passed to
+    /// a write.
     const Transform& get(ElementId element, Space space, Pose pose = Pose::Current) noexcept;
-    /// Refused: a handle of nothing, a transform that checked() refuses. The rotation is made unit length.
+    /// Refused: a stale handle, a transform that checked() refuses. Normalises the rotation.
     Result set(ElementId element, Space space, const Transform& transform,
                Propagate propagate = Propagate::Yes, Pose pose = Pose::Current) noexcept;
-    /// set() for what the functions of this folder answered with: nothing is checked, so that a scale of 0
-    /// that comes of a blend or a product is taken.
+    /// set() without checks, for transforms computed by functions of this folder: accepts a scale of 0 that
+    /// results from a blend or a product.
     void put(ElementId element, Space space, const Transform& transform, Propagate propagate = Propagate::Yes,
              Pose pose = Pose::Current) noexcept;
 
-    /// What get() would have to work out; changes nothing. A local transform that waits below an ancestor
-    /// that moved since counts as global: the ancestor's global comes first. O(1) where get() is, else
+    /// What get() would have to compute; changes nothing. A pending local transform below an ancestor that
+    /// has moved since counts as global: the ancestor's global comes first. O(1) if get() is, otherwise
     /// O(depth).
     Pending pending(ElementId element, Pose pose = Pose::Current) const noexcept;
-    /// What get() would answer, where it has not got to work out the rest of the tree for it: none where
-    /// pending() names that space. Changes nothing.
+    /// What get() would return; nullopt if pending() names that space. Changes nothing.
     std::optional<Transform> known(ElementId element, Space space, Pose pose = Pose::Current) const noexcept;
-    /// All transforms of one pose become those of another, what is pending with them. O(n), a plain copy of
+    /// Copies all transforms of one pose to another, including which are pending. O(n), a plain copy of
     /// memory.
     void copy_pose(Pose from, Pose to) noexcept;
-    /// Works out all that is pending, in every pose. O(n).
+    /// Computes everything pending, in every pose. O(n).
     void resolve_all() noexcept;
-    /// How many transforms were worked out from others since this hierarchy was made, copies counting on from
-    /// where the original was.
+    /// How many transforms were computed from others since this hierarchy was made; a copy continues the
+    /// count.
     std::uint64_t recomputations() const noexcept { return recomputations_; }
 
-    /// The same elements under the same handles, in the same order, at the same transforms in every pose once
-    /// nothing is pending: whatever is called from here on, both answer the same. O(n); copies both where one
-    /// of them was read and the other was not.
+    /// The same elements under the same handles, in the same order, with the same transforms in every pose
+    /// once nothing is pending: every further call gives the same result on both. O(n); copies both if their
+    /// pending transforms differ.
     friend bool operator==(const Hierarchy& a, const Hierarchy& b);
 
   private:
@@ -144,12 +142,12 @@ class Hierarchy {
         ElementKind kind = ElementKind::Bone;
         bool operator==(const Node&) const = default;
     };
-    /// What is known about one element in one pose.
+    /// The bookkeeping of one element in one pose.
     struct Stamp {
-        std::uint64_t version = 0;         ///< of the stored global; no two are given the same
+        std::uint64_t version = 0;         ///< of the stored global; unique
         std::uint64_t parent_version = 0;  ///< that the stored global was composed with, or set against
-        std::uint64_t verified = 0;        ///< `change` of the pose when the stored global was last true
-        Index first_pending = none;        ///< children whose local is pending, as a list
+        std::uint64_t verified = 0;        ///< `change` at which the stored global was last valid
+        Index first_pending = none;        ///< head of the list of children whose local is pending
         Index previous_pending = none, next_pending = none;  ///< its neighbours in the parent's list
         Index down = none;                                   ///< scratch of refresh()
         bool local_pending = false;                          ///< then parent_version is the parent's version
@@ -159,7 +157,7 @@ class Hierarchy {
         std::vector<Transform> local, global;
         std::vector<Stamp> stamps;
         std::uint64_t change = 1;   ///< counts writes
-        std::uint64_t version = 0;  ///< the last one given out
+        std::uint64_t version = 0;  ///< the last one assigned
         bool operator==(const Values&) const = default;
     };
 
@@ -172,7 +170,7 @@ class Hierarchy {
         if (!contains(element)) stop(operation, element);
         return element.index;
     }
-    [[noreturn]] void stop(const char* operation, ElementId element) const noexcept;  ///< says why, and ends
+    [[noreturn]] void stop(const char* operation, ElementId element) const noexcept;  ///< prints why, ends
     Index required_or_none(const char* operation, ElementId element) const noexcept;
 
     Index take_slot();
@@ -201,7 +199,7 @@ class Hierarchy {
     void write_local(Values& pose, Index at, const Transform& local, Propagate propagate) noexcept;
 
     std::vector<Node> nodes_;
-    Node roots_;         ///< a node that is no element: the roots are its children
+    Node roots_;         ///< not an element: the roots are its children
     Values values_[3];   ///< by Pose
     Index free_ = none;  ///< the first free slot
     std::size_t size_ = 0;

@@ -1,15 +1,14 @@
-// Where a unit takes a value from: a literal, another unit's output, an element of the rig, or what a
-// for-each says about the element at hand.
+// Where a unit takes a value from: a literal, another unit's output, an element of the rig, or the current
+// element of a for-each.
 //
-//     Input<glm::dvec3> target = glm::dvec3(0, 1, 2);                       // a literal
-//     Input<glm::dvec3> target = FromElement{"head"};                       // where "head" is
-//     Input<double> bend = FromElement{.element = "dial", .of = Of::ControlValue}; // what a person has set
-//     Input<double> bend = FromUnit{"curve"};                               // what the unit "curve" hands
-//     out Input<double> bend = Each::Ratio;                                     // 0 at the first, 1 at the
-//     last
+//     Input<glm::dvec3> target = glm::dvec3(0, 1, 2);                               // a literal
+//     Input<glm::dvec3> target = FromElement{"head"};                               // where "head" is
+//     Input<double> bend = FromElement{.element = "dial", .of = Of::ControlValue};  // a control's value
+//     Input<double> bend = FromUnit{"curve"};                                       // output of unit "curve"
+//     Input<double> bend = Each::Ratio;                                             // 0 first, 1 last
 //
-// Names are resolved once, by Rig::make, which also checks that there is such a unit or element and that its
-// value has the type that the input takes; a solve compares no strings.
+// Names are resolved once, by Rig::make, which also checks that the unit or element exists and that its value
+// has the type that the input takes. A solve compares no strings.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +21,7 @@
 
 namespace tendril::rig {
 
-/// What an input takes and an output hands out.
+/// The type of an input or an output.
 enum class Type : std::uint8_t { Bool, Number, Vector, Rotation, Transform };
 /// "number"
 const char* name(Type type) noexcept;
@@ -34,19 +33,19 @@ inline Type type_of(const Value& value) noexcept {
 }
 
 namespace detail {
-/// What Rig::make found for a name. Not part of what an input says: all are equal.
+/// The index that Rig::make found for a name. Not part of an input's value: all compare equal.
 struct Resolved {
     std::int32_t index = -1;
     bool operator==(const Resolved&) const noexcept { return true; }
 };
 }  // namespace detail
 
-/// The element that the for-each around a unit has come to.
+/// The current element of the surrounding for-each.
 struct ThisElement {
     bool operator==(const ThisElement&) const = default;
 };
 
-/// The element that a unit works on: by name, or the one at hand in a for-each.
+/// The element that a unit works on: by name, or the current one of a for-each.
 struct Item {
     std::variant<std::string, ThisElement> which;
     detail::Resolved resolved{};
@@ -58,7 +57,7 @@ struct Item {
     bool operator==(const Item&) const = default;
 };
 
-/// Part of an element's pose, or the value of a control. X, Y and Z are those of its translation.
+/// Part of an element's pose, or the value of a control. X, Y and Z are components of its translation.
 enum class Of : std::uint8_t { Transform, Translation, Rotation, Scale, X, Y, Z, ControlValue };
 struct FromElement {
     Item element{};
@@ -76,11 +75,11 @@ struct FromUnit {
     bool operator==(const FromUnit&) const = default;
 };
 
-/// Of the element at hand in a for-each: its place among `count`, from 0; and index / (count - 1), which is 0
-/// where there is one.
+/// Of the current element in a for-each: its index, from 0 to count - 1; and index / (count - 1), or 0 if
+/// count is 1.
 enum class Each : std::uint8_t { Ratio, Index, Count };
 
-/// T is bool, double, glm::dvec3, glm::dquat, Transform, or Value: of any type.
+/// T is bool, double, glm::dvec3, glm::dquat, Transform, or Value, which takes any type.
 template <class T>
 struct Input {
     using Source = std::variant<T, FromElement, FromUnit, Each>;
@@ -93,7 +92,7 @@ struct Input {
     Input(Each each) : source(each) {}
     bool operator==(const Input&) const = default;
 
-    /// Null where it is not a literal.
+    /// Null if it is not a literal.
     const T* literal() const noexcept { return std::get_if<0>(&source); }
 };
 

@@ -1,19 +1,18 @@
 // A child that follows the weighted mean of several parents, none of which need be its parent in the tree.
 //
-// With an offset each parent's goal for the child is where it would be had it been fastened to that parent in
-// the initial pose, so that only what a parent moved since then passes on; without one the goal is the parent
-// itself. Goals are averaged by weight: translations and scales as they are, rotations as quaternions, each
-// on the hemisphere of the first parent's, and made unit length. So the child moves continuously while
-// weights change, whichever of them is zero at the time, as long as one of them is not.
+// With maintain_offset each parent's goal for the child is where the child would be if attached to that
+// parent in the initial pose, so only the parent's motion since then is passed on. Without it the goal is the
+// parent itself. Goals are averaged by weight: translations and scales linearly; rotations as quaternions in
+// the hemisphere of the first parent's, then normalised. So the child moves continuously while weights
+// change, including through zero, as long as one of them is not zero.
 //
-// The filter lets single axes through, in the child's local space: its translation along, its rotation about
-// and its scale along the axes of its parent in the tree, rotation as Euler angles (euler.hpp). A rotation of
-// which all three angles pass, or none, is not taken apart. At the pole (the second angle at 90 degrees) the
-// first and the third turn about the same line; a filter that tells them apart there jumps, as in every tool
-// of the field.
+// The filter lets single axes through, in the local space of the child's parent in the tree: translation,
+// rotation and scale per axis, rotation as Euler angles (euler.hpp). A rotation with all three angles passed,
+// or none, is not decomposed. At the pole (second angle at 90 degrees) the first and third angles turn about
+// the same line; a filter that separates them jumps there, as in every comparable tool.
 //
-// Everything is in double precision, relative to nothing: ten kilometres out it is exact to 1e-11 m.
-// O(parents), some 60 ns each; a filter on the rotation adds 130 ns.
+// All in double precision and absolute coordinates: exact to 1e-11 m at 10 km from the origin. O(parents),
+// about 60 ns each; a filter on the rotation adds 130 ns.
 #pragma once
 
 #include <array>
@@ -42,7 +41,7 @@ struct TransformFilter {
 struct ParentConstraintOptions {
     bool maintain_offset = true;
     TransformFilter filter{};
-    double weight = 1.0;  ///< 0 to 1, what is outside is clamped; 0: the child stays, to the bit
+    double weight = 1.0;  ///< 0 to 1, clamped; 0: the child stays, bit for bit
 };
 
 /// The child, in global space.
@@ -52,12 +51,12 @@ struct ConstraintChild {
     Transform space{};           ///< global, of its parent in the tree; the identity for a root
 };
 
-/// Where the child goes, in global space. With no parents, all weights 0, or a filter that lets nothing pass
-/// it stays, to the bit.
+/// The child's new global transform. Without parents, with all weights 0, or with a filter that passes
+/// nothing, it is unchanged, bit for bit.
 Transform parent_constraint(const ConstraintChild& child, std::span<const ConstraintParent> parents,
                             const ParentConstraintOptions& options = {}) noexcept;
 
-/// `from` where the filter lets nothing pass, `to` where it does: two transforms of the same space.
+/// `from`, with the components that the filter passes taken from `to`; both in the same space.
 Transform filtered(const Transform& from, const Transform& to, const TransformFilter& filter) noexcept;
 
 }  // namespace tendril::rig

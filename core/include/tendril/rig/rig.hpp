@@ -1,19 +1,19 @@
-// A rig that solves: units run in order, from controls to bones.
+// A compiled rig: solve() runs its units in order, from controls to bones.
 //
-//     Expected<Rig> rig = Rig::make(definition);       // names resolved, types checked, once
-//     State state = rig->initial_state();              // a value: copy it, save it, put it back
+//     Expected<Rig> rig = Rig::make(definition);       // resolves names and checks types, once
+//     State state = rig->initial_state();              // a value: copy it, save it, restore it
 //     Workspace workspace(*rig);                       // scratch, kept from frame to frame
 //     if (Result bad = rig->set_control(state, *rig->element("dial"), 0.5); !bad) return log(bad.message());
 //     rig->solve(state, dt, workspace);                // every frame
 //     Transform hand = state.elements.get(rig->id(*rig->element("hand")), Space::Global);
 //
-// A solve first puts bones and nulls back to their input pose (the initial one, until set_element changes it)
-// and then runs the units, so solving twice gives what solving once gives; what has to be remembered from
-// frame to frame (springs) is in the state, and changes with dt alone. The same state and dt give the same
-// bits. Nothing is thrown, nor allocated but where an IK chain is new, or a bone of it has a new length.
+// A solve first resets bones and nulls to their input pose (the initial one, until set_element changes it)
+// and then runs the units, so solving twice gives the same as solving once. What persists from frame to frame
+// (springs) is in the state and changes only with dt. The same state and dt give the same bits. Nothing is
+// thrown; memory is allocated only if an IK chain is new or one of its bones has a new length.
 //
-// What cannot be computed as asked (an aim whose target is where the item is) is left out with a Warning, and
-// the item stays as it is; nothing that is not finite comes out.
+// What cannot be computed as asked (an aim whose target is at the item) is skipped with a Warning and leaves
+// the item unchanged. All results are finite.
 #pragma once
 
 #include <cstddef>
@@ -34,23 +34,23 @@
 
 namespace tendril::rig {
 
-/// Why a unit, or a part of it, was left out. The first of a solve.
+/// Why a unit, or a part of it, was skipped. The first one of a solve.
 enum class Warning : std::uint8_t {
     None,
-    TargetAtItem,        ///< aim: the target is where the item is, there is no direction to it
-    ZeroAxis,            ///< aim: an axis of no length
-    SecondaryOnPrimary,  ///< aim: the second target is on the primary axis, every roll is as good
-    AxesParallel,        ///< aim: the second axis is the first or its opposite
+    TargetAtItem,        ///< aim: the target is at the item, so there is no direction to it
+    ZeroAxis,            ///< aim: an axis of length 0
+    SecondaryOnPrimary,  ///< aim: the second target is on the primary axis, so any roll fits
+    AxesParallel,        ///< aim: the second axis is parallel to the first
     ZeroWeights,         ///< parent constraint: all weights are 0
-    WeightOutOfRange,    ///< a weight that another unit or a control gave is not in [0, 1], and was clamped
+    WeightOutOfRange,    ///< a weight from another unit or a control is not in [0, 1]; clamped
     OutOfRange,          ///< the result is not finite, or over max_magnitude
-    CannotSolve,         ///< IK: bones of no length
-    ParameterOutOfRange  ///< of a spring, given by another unit or a control: clamped
+    CannotSolve,         ///< IK: a bone has length 0 or is out of range
+    ParameterOutOfRange  ///< of a spring, from another unit or a control: clamped
 };
-/// "the target is where the item is"; empty for None.
+/// "all weights are 0"; empty for None.
 const char* message(Warning warning) noexcept;
 
-/// The rotation that a speed-limited aim ended with.
+/// The last rotation of a speed-limited aim.
 struct Turned {
     glm::dquat rotation{1, 0, 0, 0};
     bool operator==(const Turned&) const = default;
@@ -63,7 +63,7 @@ struct UnitMemory {
     bool operator==(const UnitMemory&) const = default;
 };
 struct UnitState {
-    std::vector<UnitMemory> memory{};  ///< one; in the body of a for-each one an element that it comes to
+    std::vector<UnitMemory> memory{};  ///< one; in the body of a for-each one per visited element
     std::vector<Value> outputs;        ///< of the last solve, in the order of outputs()
     Warning warning = Warning::None;
     bool operator==(const UnitState&) const = default;
@@ -71,9 +71,9 @@ struct UnitState {
 
 struct State {
     Hierarchy elements;                  ///< see Rig::id
-    std::vector<Value> controls{};       ///< one an element; `false` of what is no control
-    std::vector<double> curves{};        ///< in the order of Definition::curves, after the units
-    std::vector<double> input_curves{};  ///< and before them
+    std::vector<Value> controls{};       ///< one per element; `false` if it is no control
+    std::vector<double> curves{};        ///< after the units, in the order of Definition::curves
+    std::vector<double> input_curves{};  ///< before the units
     std::vector<UnitState> units{};      ///< in the order of Rig::unit_names
     bool operator==(const State&) const = default;
 };
@@ -83,12 +83,12 @@ struct Plan;
 }
 class Workspace;
 
-/// Told after each unit of the definition (not of bodies) that it has run or was skipped. The state may be
-/// read.
+/// Called after each unit of the definition (not of bodies), whether it ran or was skipped. May read the
+/// state.
 class Observer {
   public:
     virtual ~Observer() = default;
-    /// Everything has been put back, no unit has run.
+    /// Everything is reset, no unit has run.
     virtual void begin(State&) {}
     /// `unit` is its index in Definition::units.
     virtual void unit_done(std::size_t unit, State& state) = 0;
@@ -96,9 +96,9 @@ class Observer {
 
 class Rig {
   public:
-    /// Refused: a name that is empty or used twice, a parent that is missing or its own child, an input that
-    /// names what is not there, runs later or has another type, a literal out of its range; the message names
-    /// the unit, the input and the value.
+    /// Refused: a name that is empty or used twice, a parent that is missing or below its child, an input
+    /// that names something missing, running later or of another type, a literal out of range. The message
+    /// names the unit, the input and the value.
     static Expected<Rig> make(Definition definition);
     Rig(const Rig&) noexcept;
     Rig(Rig&&) noexcept;
@@ -109,34 +109,34 @@ class Rig {
     const Definition& definition() const noexcept;
 
     State initial_state() const;
-    /// After an edit: what `state` of the rig `before` has of elements, curves and units that are here too
-    /// (by name, and of the same kind), and what units remember of elements, again by name; the rest as
-    /// initial_state.
+    /// After an edit: initial_state() with what still applies of `state`, a state of the rig `before`.
+    /// Matched by name: elements whose kind, initial transform and control settings are unchanged; curves;
+    /// units whose output types are unchanged, with what they remember of each element.
     State adopted(const Rig& before, const State& state) const;
-    /// Whether a state is one of this rig, by its sizes and types; solve takes no other.
+    /// Whether `state` belongs to this rig, by its sizes and types; solve() requires it.
     bool fits(const State& state) const noexcept;
 
     std::optional<std::size_t> element(std::string_view name) const noexcept;
     std::optional<std::size_t> curve(std::string_view name) const noexcept;
     ElementId id(std::size_t element) const noexcept;
-    /// Of every unit, those in bodies after the for-each that has them.
+    /// The names of all units; those in a body follow their for-each.
     std::span<const std::string> unit_names() const noexcept;
 
-    /// What a forward solve takes, roughly, in steps of some 30 ns: for whoever bounds what he asks for.
+    /// Rough cost of a forward solve, in steps of about 30 ns, for callers that limit their work.
     std::uint64_t work() const noexcept;
 
-    /// What a person sets. A value beyond the limits of the control goes to the end of them.
+    /// Sets the value of a control, clamped to its limits.
     Result set_control(State& state, std::size_t element, const Value& value) const;
-    /// Changes the input pose, from which every solve begins, and the current one. For a control: its value
-    /// is then the one that brings it nearest there, within its limits.
+    /// Changes the input pose, from which every solve begins, and the current one. A control gets the value
+    /// that brings it nearest to that pose within its limits.
     Result set_element(State& state, std::size_t element, Space space, const Transform& transform,
                        Propagate propagate = Propagate::Yes) const;
-    /// Where a solve begins with it, global, before any unit has run. O(depth).
+    /// The global transform of an element at the start of a solve, before any unit has run. O(depth).
     Transform start_pose(const State& state, std::size_t element) const;
     Result set_curve(State& state, std::size_t curve, double value) const;
 
-    /// dt in seconds; what remembers stands still where it is not positive. Returns whether anything that
-    /// remembers still moves: then it is worth calling again though nothing was set.
+    /// dt in seconds; units with memory (springs) do not advance if it is not positive. Returns whether any
+    /// of them still moves: then solve again next frame even if nothing else changes.
     bool solve(State& state, double dt, Workspace& workspace, Observer* observer = nullptr) const noexcept;
 
   private:

@@ -1,26 +1,27 @@
-// Units: the small operations of which a rig is made, as data. rig.hpp runs them, in order.
+// Units: the small operations that make up a rig, as data. Rig::solve (rig.hpp) runs them in order.
 //
-// Each operation is one struct of inputs with defaults. Every one hands out a `result`; what it computes:
+// Each operation is one struct of inputs with defaults, and has an output `result`:
 //
-//     Aim                  aim.hpp. The item's transform
-//     AimMath              the same on a transform that it is given; sets nothing
-//     ParentConstraint     parent_constraint.hpp. The item's transform
-//     OffsetTransform      composes an offset onto the item, in its own space. Its transform
+//     Aim                  the item's transform; see aim.hpp
+//     AimMath              the same for a transform input; sets nothing
+//     ParentConstraint     the item's transform; see parent_constraint.hpp
+//     OffsetTransform      the item's transform, after composing an offset in its own space
 //     SetTransform         the item's transform
 //     SetRotation          the item's rotation
-//     ProjectToParent      the child's place at rest in one parent, in another: a transform; sets nothing
-//     FromTwoVectors       the shortest rotation from one direction to another; none where one has no length
-//     TransformLocation    a point out of a transform's space: a vector
-//     TransformDirection   a direction out of it, turned but not moved: a vector
-//     ForEach              runs a body of units on each of a chain of children. Their number
-//     AlphaInterpolate     signal/scale_bias_clamp.hpp: a number
-//     SpringInterpolate    signal/spring.hpp, of numbers, vectors and rotations; also its `velocity`
-//     EvaluateCurve        signal/curve.hpp: a number
-//     SetCurve             writes a named curve, a morph weight or a value of a material: a number
-//     TwoBone, Fabrik      turn the bones from `root` to `tip`. Metres left from the tip to the target
+//     ProjectToParent      transform: the child's initial offset from one parent, on another; sets nothing
+//     FromTwoVectors       the shortest rotation from one direction to another; the identity if one is zero
+//     TransformLocation    vector: a point out of a transform's space
+//     TransformDirection   vector: a direction out of it, rotated but not moved
+//     ForEach              runs a body of units on each element of a list of children. Their number
+//     AlphaInterpolate     number; see signal/scale_bias_clamp.hpp
+//     SpringInterpolate    number, vector or rotation, and its `velocity`; see signal/spring.hpp
+//     EvaluateCurve        number; see signal/curve.hpp
+//     SetCurve             number written to a named curve: a morph weight, a material parameter
+//     TwoBone, Fabrik      rotate the bones from `root` to `tip`. Metres from the tip to the target
 //
-// Every unit has a weight in [0, 1]: at 0 the item stays as it is, to the bit; an operation without an item
-// hands out its input unchanged (identity, for FromTwoVectors). That of a for-each multiplies its body's.
+// Every unit has a weight in [0, 1]. At 0 the item is unchanged, bit for bit; an operation without an item
+// outputs its input unchanged (FromTwoVectors: the identity). A for-each's weight multiplies those of its
+// body.
 #pragma once
 
 #include <array>
@@ -49,7 +50,7 @@ struct Aim {
     Item item{};
     AimInputs primary{};
     std::optional<AimInputs> secondary{};
-    Input<double> max_speed = 0.0;  ///< degrees a second; 0: no limit
+    Input<double> max_speed = 0.0;  ///< degrees per second; 0: no limit
     bool operator==(const Aim&) const = default;
 };
 struct AimMath {
@@ -93,7 +94,7 @@ struct SetRotation {
 };
 struct ProjectToParent {
     Item child{};
-    Item old_parent{}, new_parent{};  ///< the child's place at rest in the one, carried over to the other
+    Item old_parent{}, new_parent{};  ///< the child's initial offset from the one, applied to the other
     bool operator==(const ProjectToParent&) const = default;
 };
 struct FromTwoVectors {
@@ -112,7 +113,7 @@ struct TransformDirection {
 };
 
 struct Unit;
-/// The units of a for-each: a std::vector, but for a Unit that is not known yet.
+/// The units of a for-each: a std::vector that can hold the still incomplete Unit.
 class Body {
   public:
     Body() noexcept;
@@ -132,9 +133,9 @@ class Body {
 };
 struct ForEach {
     std::vector<std::string> roots{};  ///< at least one
-    bool include_parent = true;        ///< the roots themselves too
-    bool recursive = true;             ///< all that is below, not the first level alone
-    Body body{};                       ///< no ForEach among them
+    bool include_parent = true;        ///< the roots too
+    bool recursive = true;             ///< all descendants, not only direct children
+    Body body{};                       ///< must not contain a ForEach
     bool operator==(const ForEach&) const = default;
 };
 
@@ -152,7 +153,7 @@ struct AlphaInterpolate {
 struct SpringInterpolate {
     Input<Value> target = Value(0.0);      ///< a number, a vector or a rotation
     Input<double> strength = 4.0;          ///< Hz
-    Input<double> critical_damping = 1.0;  ///< 1: as fast as without overshoot
+    Input<double> critical_damping = 1.0;  ///< 1: fastest without overshoot
     std::optional<Input<Value>> force{};   ///< a number for numbers, a vector for vectors and rotations
     Input<double> target_velocity_amount = 0.0;
     bool operator==(const SpringInterpolate&) const = default;
@@ -169,7 +170,7 @@ struct SetCurve {
     bool operator==(const SetCurve&) const = default;
 };
 struct TwoBone {
-    Item root{}, tip{};  ///< two bones apart
+    Item root{}, tip{};  ///< tip two bones below root
     Input<glm::dvec3> target = glm::dvec3(0);
     std::optional<Input<glm::dvec3>> pole_target{};
     bool operator==(const TwoBone&) const = default;
@@ -181,8 +182,8 @@ struct Fabrik {
     bool operator==(const Fabrik&) const = default;
 };
 
-/// A variant of all of them. What copying, comparing and destroying one takes is compiled once, in the
-/// library: seventeen structs of inputs are much to ask of every file that has a Unit.
+/// A variant of all of them. Its copying, comparing and destroying is compiled once, in the library: for
+/// seventeen structs that would slow down every file that uses a Unit.
 struct Operation
     : std::variant<Aim, AimMath, ParentConstraint, OffsetTransform, SetTransform, SetRotation,
                    ProjectToParent, FromTwoVectors, TransformLocation, TransformDirection, ForEach,
@@ -198,15 +199,15 @@ struct Operation
     ~Operation();
     bool operator==(const Operation& other) const;
 };
-/// "parent_constraint", as in scene files; in the order of Operation.
+/// "parent_constraint", as in scene files; `index` is that of the Operation variant.
 const char* operation_name(std::size_t index) noexcept;
 
 struct Unit {
-    std::string name{};  ///< one of its own in the whole rig, bodies included
+    std::string name{};  ///< unique in the whole rig, bodies included
     Operation operation{};
     Input<double> weight = 1.0;
-    Input<bool> when = true;  ///< where it is false the unit is skipped
-    bool enabled = true;      ///< switched off by a person
+    Input<bool> when = true;  ///< false: the unit is skipped
+    bool enabled = true;      ///< can be switched off by the user
     bool operator==(const Unit&) const = default;
 };
 
@@ -214,7 +215,7 @@ struct Output {
     const char* name;
     Type type;
 };
-/// What an operation hands out. A spring hands out what it is given: its type is decided by Rig::make.
+/// The outputs of an operation. The types of a spring's outputs depend on its target; Rig::make decides them.
 std::vector<Output> outputs(const Operation& operation);
 
 }  // namespace tendril::rig

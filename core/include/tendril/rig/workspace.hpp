@@ -1,5 +1,5 @@
-// What a rig works in: solvers of its chains and scratch memory. Kept beside the rig from frame to frame;
-// nothing in it is remembered: throw it away at any moment, and no bit of any answer changes.
+// What a rig works in: solvers of its chains and scratch memory. Keep it beside the rig from frame to frame.
+// It holds no state: discarding it at any time changes no bit of any result.
 #pragma once
 
 #include <memory>

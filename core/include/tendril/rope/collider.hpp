@@ -4,6 +4,7 @@
 #include <optional>
 #include <variant>
 
+#include "tendril/fields.hpp"
 #include "tendril/quat.hpp"
 #include "tendril/result.hpp"
 #include "tendril/rope/handle.hpp"
@@ -16,13 +17,13 @@ struct Sphere {
     float radius = 0.5f;  ///< metres, 0 or more
     bool operator==(const Sphere&) const = default;
 };
-/// All within `radius` of the line from a to b.
+/// All points within `radius` of the segment from a to b.
 struct Capsule {
     glm::vec3 a{0.0f}, b{0.0f, 1.0f, 0.0f};
     float radius = 0.25f;
     bool operator==(const Capsule&) const = default;
 };
-/// All behind a plane.
+/// The half space behind a plane.
 struct Plane {
     glm::vec3 point{0.0f};
     glm::vec3 normal{0.0f, 1.0f, 0.0f};  ///< of any length but 0
@@ -36,37 +37,48 @@ struct Box {
 };
 using Shape = std::variant<Sphere, Capsule, Plane, Box>;
 
-/// Point on the surface that is nearest, as seen from a point.
+/// The nearest point of a surface, as seen from a point.
 struct SurfaceDistance {
     double distance = 0.0;             ///< metres, below zero inside
-    glm::dvec3 normal{0.0, 1.0, 0.0};  ///< unit, outwards; a fixed one on a centre or an axis
+    glm::dvec3 normal{0.0, 1.0, 0.0};  ///< unit, outward; a fixed one at a centre or on an axis
 };
-/// For any point and any shape that check() takes; never NaN.
+/// For any point and any shape that check() accepts; never NaN.
 SurfaceDistance surface_distance(const Shape& shape, const glm::dvec3& point) noexcept;
 
 /// The point that moves with a shape: the centre of a sphere or box, the middle of a capsule, a plane's
 /// point.
 glm::vec3 centre(const Shape& shape) noexcept;
-/// The same shape with that point elsewhere.
+/// The same shape with that point moved to `centre`.
 Shape moved(const Shape& shape, const glm::vec3& centre) noexcept;
 /// "sphere", "capsule", "plane", "box"
 const char* kind(const Shape& shape) noexcept;
-/// Half of the smallest extent, metres: a sphere's and capsule's radius, a box's smallest half extent; a
-/// plane has no size, 1.
+/// The fields of the shape's kind; as object pass the variant's alternative.
+std::span<const Field> shape_fields(const Shape& shape) noexcept;
+/// Half of the smallest extent, metres: the radius of a sphere or capsule, a box's smallest half extent; 1
+/// for a plane, which has none.
 float size(const Shape& shape) noexcept;
 
-/// Refuses, naming `operation`, the member and its value, where one is not finite, over max_magnitude, below
-/// zero, or a normal or rotation is zero.
+/// Refuses a number that is not finite or over max_magnitude, a negative size, and a normal or rotation of
+/// length 0. The message names `operation`, the member and its value.
 Result check(const char* operation, const Shape& shape) noexcept;
 
 struct Collider {
     ColliderId id;
-    Shape shape;           ///< where it is now
+    Shape shape;           ///< current
     glm::dvec3 goal{0.0};  ///< where its centre is going
-    double seconds = 0.0;  ///< of simulated time until it is there; 0: it stays
-    /// Of a capsule that turns on its way: half of what leads from `a` to `b` at its goal.
+    double seconds = 0.0;  ///< of simulated time until it arrives; 0: within the next substep
+    /// For a capsule that turns as it moves: half the vector from `a` to `b` at its goal.
     std::optional<glm::dvec3> half_goal{};
     bool operator==(const Collider&) const = default;
 };
 
 }  // namespace tendril::rope
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::rope::Sphere>() noexcept;
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::rope::Capsule>() noexcept;
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::rope::Plane>() noexcept;
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::rope::Box>() noexcept;

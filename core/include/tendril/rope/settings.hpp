@@ -1,31 +1,31 @@
 // How a rope world is simulated.
 //
-// Time runs in fixed substeps, so a second of it has the same result however it was cut into frames. In each
-// substep every free particle moves by Verlet integration, and is then corrected so that distances, pins and
-// colliders are satisfied. There are three solvers for these corrections:
+// Time advances in fixed substeps, so a second has the same result however it is divided into frames. In each
+// substep every free particle moves by Verlet integration, and is then corrected to satisfy distances, pins
+// and colliders. There are three solvers for these corrections:
 //
 // * Relaxation satisfies one distance after the other, `iterations` times (T. Jakobsen, "Advanced Character
 //   Physics", GDC 2001; M. Mueller et al., "Position Based Dynamics", 2007). How far a rope stretches then
 //   depends on the iterations and on the substep.
-// * Xpbd does the same with compliance: the stretch is that of a material (M. Macklin, M. Mueller,
-//   N. Chentanez, "XPBD", 2016), once the iterations suffice.
-// * Direct solves all distances along a rope at once: their linearisation is tridiagonal, O(n) a pass. The
-//   tension of the substep before is applied implicitly, because it makes a fine rope stiff sideways
+// * Xpbd does the same with compliance: with enough iterations the stretch is that of a material (M. Macklin,
+//   M. Mueller, N. Chentanez, "XPBD", 2016).
+// * Direct solves all distances along a rope at once: their linearisation is tridiagonal, O(n) per pass. The
+//   tension of the previous substep is applied implicitly, because it makes a fine rope stiff sideways
 //   (M. Tournier et al., "Stable Constrained Dynamics", 2015), and it acts along the mean of the directions
 //   before and after, which neither adds energy nor removes it (O. Gonzalez, "Mechanical systems subject to
 //   holonomic constraints", 1999). A rope that touches colliders is solved together with its contacts and
 //   their friction, by Newton's method: it keeps its length on a ball as it does in the air, with any number
 //   of segments. A cloth is one system with its contacts: a backward Euler step (D. Baraff, A. Witkin, "Large
 //   Steps in Cloth Simulation", 1998) in which the weight of the whole cloth stretches a link by 0.2 %. Each
-//   step of Newton's method is solved by conjugate gradients with a multigrid cycle, so that the iterations
-//   hardly grow with its resolution. A step that strains links is halved until the incremental potential
-//   does not rise (M. Li et al., "Incremental Potential Contact", 2020). Hair is solved strand by strand, and
-//   its contacts and bending between the passes.
+//   step of Newton's method is solved by conjugate gradients with a multigrid cycle, so the iterations hardly
+//   grow with its resolution. A step that strains links is halved until the incremental potential does not
+//   rise (M. Li et al., "Incremental Potential Contact", 2020). Hair is solved strand by strand, and its
+//   contacts and bending between the passes.
 //
 // Direct adds no energy: a body that gained some in a substep is slowed down until the gain is gone, in its
-// relative motion first, so that it keeps falling freely. Only moving colliders and pins do work. Beside
-// a collider, Relaxation and Xpbd keep this bound too where the collider strikes them or their links are
-// within 0.1 % of their lengths; a link further off holds energy that is not counted.
+// relative motion first, so that it keeps falling freely. Only moving colliders and pins do work. Near a
+// collider, Relaxation and Xpbd keep this bound too if the collider strikes the body or its links are within
+// 0.1 % of their lengths; a link further off holds energy that is not counted.
 #pragma once
 
 #include <cstddef>
@@ -48,21 +48,21 @@ struct Settings {
     /// nothing touches or strains it.
     int iterations = 16;
     Solver solver = Solver::Direct;
-    /// How fast motion dies away, 1/s, 0 to max_rate.
+    /// Decay rate of motion, 1/s, 0 to max_rate.
     float damping = 0.1f;
     /// m/s^2, each coordinate up to max_acceleration.
     glm::vec3 gravity{0.0f, -9.81f, 0.0f};
     float gravity_scale = 1.0f;  ///< -max_scale to max_scale
-    /// Acceleration of everything beside gravity, m/s^2: a wind.
+    /// Acceleration in addition to gravity, m/s^2: a wind.
     glm::vec3 external{0.0f};
-    /// Strain per newton, 1/N, 0 to max_compliance: how much longer a metre of rope gets under one newton.
+    /// Strain per newton, 1/N, 0 to max_compliance: how much a metre of rope stretches under one newton.
     /// Relaxation ignores it.
     float compliance = 0.0f;
-    /// Coulomb's coefficient between rope and colliders, 0 to max_friction. A cloth that it holds on a
-    /// slope still creeps, by some millimetres a second.
+    /// Coulomb's coefficient between rope and colliders, 0 to max_friction. A cloth that it holds on a slope
+    /// still creeps by some millimetres per second.
     float friction = 0.5f;
-    /// Seconds that one call of advance() simulates at most; what is over is dropped. min_longest_frame
-    /// to max_longest_frame.
+    /// Maximum seconds that one call of advance() simulates, min_longest_frame to max_longest_frame; the rest
+    /// is dropped.
     float longest_frame = 0.25f;
 
     bool operator==(const Settings&) const = default;
@@ -70,14 +70,14 @@ struct Settings {
 
 inline constexpr double min_substep = 1e-5, max_substep = 0.1;
 inline constexpr int max_iterations = 10'000;
-/// A substep's work is bounded: passes over the 16th are left out (and counted) where all passes together
-/// would take more links and contacts than this; bodies that no link joins share it by particles and links.
+/// Limits the work of a substep: passes beyond the 16th are skipped (and counted) if all passes together
+/// would take more links and contacts than this. Bodies that no link joins share it by particles and links.
 inline constexpr std::size_t max_pass_work = std::size_t{1} << 16;
 inline constexpr int unbounded_passes = 16;
 inline constexpr float max_rate = 1e3f, max_acceleration = 1e4f, max_scale = 1e3f, max_compliance = 1e3f,
                        max_friction = 100.0f, min_longest_frame = 1e-3f, max_longest_frame = 10.0f;
 
-/// Refuses, naming `operation`, the setting and its value, where one is out of range.
+/// Refuses a setting out of range; the message names `operation`, the setting and its value.
 Result check(const char* operation, const Settings& settings) noexcept;
 
 }  // namespace tendril::rope

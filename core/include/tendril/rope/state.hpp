@@ -13,13 +13,11 @@
 
 namespace tendril::rope {
 
-inline constexpr std::size_t max_particles = 1'000'000;
-
 /// A pinned particle.
 struct Pin {
     std::size_t particle = 0;
-    glm::dvec3 goal{0.0};  ///< where it is going; of one attached to a collider: from the collider's centre
-    double seconds = 0.0;  ///< of simulated time until it is there; 0: it stays there
+    glm::dvec3 goal{0.0};  ///< where it is going; if attached: relative to the collider's centre
+    double seconds = 0.0;  ///< of simulated time until it arrives; 0: within the next substep
     ColliderId collider;   ///< that it moves with; empty: none
     bool operator==(const Pin&) const = default;
 };
@@ -29,21 +27,21 @@ struct State {
     std::vector<Body> bodies;  ///< in the order of their particles
     std::vector<Link> links;
     std::vector<glm::dvec3> position;
-    std::vector<glm::dvec3> displacement;  ///< by the last substep, metres; less where it gained energy
+    std::vector<glm::dvec3> displacement;  ///< in the last substep, metres; reduced if it gained energy
     std::vector<double> mass;              ///< kg, over 0
-    std::vector<Pin> pins;                 ///< by particle
+    std::vector<Pin> pins;                 ///< sorted by particle
     std::vector<Collider> colliders;
     /// How often each slot was taken and freed: odd while it is taken.
     std::vector<std::uint32_t> body_slots, collider_slots;
-    double remainder = 0.0;     ///< seconds that are not simulated yet
+    double remainder = 0.0;     ///< seconds not simulated yet
     double displaced_in = 0.0;  ///< seconds of the last substep; 0: nothing has moved yet
     std::uint64_t substeps = 0, dropped = 0;
 
     bool operator==(const State&) const = default;
 };
 
-/// Gives every body (collider) of a state that was put together by hand a handle, in their order, where the
-/// first has none: slots are numbered from 0.
+/// Assigns handles to the bodies (and colliders) of a hand-made state, in their order, in slots from 0,
+/// unless the first has one.
 void number_slots(State& state);
 
 }  // namespace tendril::rope

@@ -10,21 +10,21 @@
 //         draw(world.state().position);
 //     }
 //
-// A world is a value: a copy of it goes on as the original does, bit for bit, so rollback is a copy and an
-// assignment. Scratch memory is in the workspace, on which no result depends.
+// A world is a value: a copy behaves like the original, bit for bit, so rollback is a copy and an assignment.
+// Scratch memory is in the workspace, on which no result depends.
 //
-// Units are metres, kilograms and seconds. Particles are kept in double precision: a rope a thousand
-// kilometres from the origin moves as it does near it. The world has an edge, max_magnitude from the origin
-// each way, where what flies further stops. The same calls give the same bits with every compiler, every
-// vector unit and any number of threads.
+// Units are metres, kilograms and seconds. Particles are in double precision: a rope a thousand kilometres
+// from the origin moves as it does near it. The world has an edge, max_magnitude from the origin in each
+// coordinate, where particles stop. The same calls give the same bits with every compiler, every vector unit
+// and any number of threads.
 //
-// Editing calls answer with the argument and its value where they refuse, and leave the world as it was.
-// advance() allocates nothing once the workspace has seen the world in its shape, unless more colliders are
-// near than ever before.
+// A refused editing call names the argument and its value, and leaves the world unchanged. advance()
+// allocates nothing once the workspace has seen the world in its shape, unless more colliders are near than
+// ever before.
 //
-// Bodies that no link joins do not notice each other, and threads can share them, and a cloth of 8 192
-// particles or more: Workspace::use_threads. A rope is solved on one thread. Two bounds they share:
-// max_pass_work and that on the search for a way out of colliders, of which each has its part by size.
+// Bodies that no link joins do not affect each other. Threads can share them, and a cloth of 8 192 particles
+// or more: Workspace::use_threads. A rope is solved on one thread. Two limits are shared by such bodies in
+// proportion to size: max_pass_work, and that on searches for a way out of colliders.
 #pragma once
 
 #include "tendril/result.hpp"
@@ -36,102 +36,102 @@ namespace tendril::rope {
 /// What one call of advance() did.
 struct Advance {
     int substeps = 0;
-    std::uint64_t dropped = 0;  ///< substeps that there was no time for
+    std::uint64_t dropped = 0;  ///< substeps over longest_frame or max_substeps, not simulated
     int passes = 0;  ///< of the solver over the linked bodies that took most, summed over substeps; Direct
-                     ///< may solve one chain more often
-    std::uint64_t work = 0;        ///< links solved and distances to colliders taken: what the time goes into
-    int shortened = 0;             ///< substeps in which max_pass_work cut passes
-    std::uint64_t unresolved = 0;  ///< times a particle was left inside colliders: there was no way out, or
-                                   ///< the search for one took too long
-    std::uint64_t unconverged = 0;  ///< times lengths and contacts of a rope were not brought together to
-                                    ///< 0.1 % in the steps there are; what has no solution is stretched,
-                                    ///< and is none of these
-    std::uint64_t fallbacks = 0;    ///< times a body was solved by the fallback, or only part of a step taken
+                     ///< may solve a single chain more often
+    std::uint64_t work = 0;         ///< links solved and distances to colliders computed: where the time goes
+    int shortened = 0;              ///< substeps in which max_pass_work cut passes
+    std::uint64_t unresolved = 0;   ///< times a particle was left inside colliders: no way out exists, or the
+                                    ///< search for one took too long
+    std::uint64_t unconverged = 0;  ///< times lengths and contacts of a rope did not converge to 0.1 % in the
+                                    ///< available steps; what has no solution is stretched, and does not
+                                    ///< count
+    std::uint64_t fallbacks = 0;    ///< times a body used the fallback, or a step was taken only in part
     std::uint64_t suspended = 0;    ///< times a body that nothing holds or touches did not fall freely: it is
                                     ///< at the edge of the world, or the solver held it
-    double contact_loss = 0.0;      ///< joules that bodies near colliders at rest lost beyond damping: to
+    double contact_loss = 0.0;      ///< joules that bodies near resting colliders lost beyond damping: to
                                     ///< contact, friction and the solver. Its rounding depends on threads
-    bool refused = false;           ///< `seconds` was no number from 0 to 1e9: nothing was done
+    bool refused = false;           ///< `seconds` was not a number from 0 to 1e9: nothing was done
 };
 
 struct AdvanceOptions {
-    std::uint64_t max_substeps = std::uint64_t{1} << 40;  ///< what is over is dropped and counted
+    std::uint64_t max_substeps = std::uint64_t{1} << 40;  ///< more are dropped and counted
 };
 
 class World {
   public:
     World() = default;
-    /// Refuses an inconsistent state: lists of different lengths, links to particles that there
-    /// are not, numbers out of range, a handle twice. O(n).
+    /// Refuses an inconsistent state: lists of different lengths, links to missing particles, numbers out of
+    /// range, duplicate handles. O(n).
     static Expected<World> from_state(State state);
 
     const State& state() const noexcept { return state_; }
     const Settings& settings() const noexcept { return state_.settings; }
     Result set_settings(const Settings& settings) noexcept;
 
-    void clear() noexcept;  ///< no body, no collider; the settings stay
+    void clear() noexcept;  ///< removes all bodies and colliders; keeps the settings
     Expected<BodyId> add_rope(const RopeShape& shape);
     Expected<BodyId> add_cloth(const ClothShape& shape);
     Expected<BodyId> add_hair(const HairShape& shape);
     Result remove(BodyId body) noexcept;
 
-    /// Null where there is none. The pointer is valid until the next body comes or goes.
+    /// Null if there is none. The pointer is valid until a body is added or removed.
     const Body* find(BodyId body) const noexcept;
-    /// The number of a body's particle in the world, valid until a body before it goes.
+    /// The index of a body's particle in the world, valid until an earlier body is removed.
     Expected<std::size_t> particle(BodyId body, std::size_t index) const noexcept;
 
-    /// Pins a particle and moves it to `at` evenly in the next `seconds` of simulated time; 0: within the
+    /// Pins a particle and moves it evenly to `at` in the next `seconds` of simulated time; 0: within the
     /// next substep.
     Result pin(std::size_t particle, const glm::dvec3& at, double seconds = 0.0);
-    /// Pins a particle where it is to a collider, with which it moves.
+    /// Pins a particle where it is to a collider, with which it then moves.
     Result attach(std::size_t particle, ColliderId collider);
     Result unpin(std::size_t particle) noexcept;
     bool pinned(std::size_t particle) const noexcept;
 
-    /// Cuts a rope in two: segment `segment` goes, and what is behind it becomes a rope of its own, which is
+    /// Cuts a rope in two: removes segment `segment`. The part behind it becomes a new rope, which is
     /// returned.
     Expected<BodyId> cut(BodyId rope, std::size_t segment);
 
-    // What a body is made of can change while it hangs; it goes on from where it is.
+    // A body's material can change while it hangs; it continues from its current state.
     Result set_radius(BodyId body, float metres) noexcept;
-    /// The sum of its particles' masses, each of which changes in proportion. Kilograms, over 0 to 1e18.
+    /// The sum of its particles' masses, which change in proportion. Kilograms, over 0 to 1e18.
     Result set_mass(BodyId body, double kilograms) noexcept;
     double mass(const Body& body) const noexcept;
     /// Strain at which its links tear; 0: never.
     Result set_tear(BodyId body, float tear) noexcept;
-    /// Of its links of that kind, m/N. Stretch links have it in addition to the settings'.
+    /// Of its links of that kind, m/N; for stretch links in addition to the settings'.
     Result set_compliance(BodyId body, Link::Kind kind, float compliance) noexcept;
-    /// Of a rope, a row of a cloth, a strand of hair: all of its links change in proportion. Metres; a body
-    /// of length 0 cannot be made longer.
+    /// Of a rope, a row of a cloth, a strand of hair: all of its links change in proportion. Metres; refused
+    /// for a body of length 0.
     Result set_length(BodyId body, float metres) noexcept;
 
     Expected<ColliderId> add_collider(const Shape& shape);
-    /// Moves a collider to `to` evenly in the next `seconds` of simulated time, 0: within the next substep;
-    /// it pushes what it meets.
+    /// Moves a collider evenly to `to` in the next `seconds` of simulated time, 0: within the next substep.
+    /// It pushes what it meets.
     Result move_collider(ColliderId collider, const glm::vec3& to, double seconds = 0.0) noexcept;
-    /// The same for both ends of a capsule, each along its own line, so that it turns. Its radius is that of
-    /// `to` at once.
+    /// The same for both ends of a capsule, each along a straight line, so that it turns. Its radius becomes
+    /// that of `to` at once.
     Result move_capsule(ColliderId capsule, const Capsule& to, double seconds = 0.0) noexcept;
-    Result set_collider(ColliderId collider, const Shape& shape) noexcept;  ///< there at once
-    /// What is attached to it is unpinned.
+    Result set_collider(ColliderId collider, const Shape& shape) noexcept;  ///< takes effect at once
+    /// Unpins what is attached to it.
     Result remove_collider(ColliderId collider) noexcept;
     const Collider* find(ColliderId collider) const noexcept;
 
-    /// Lets `seconds` pass, 0 to 1e9; what is over settings().longest_frame is dropped and counted.
+    /// Lets `seconds` pass, 0 to 1e9; time over settings().longest_frame is dropped and counted.
     Advance advance(double seconds, Workspace& workspace, const AdvanceOptions& options = {});
 
     std::size_t size() const noexcept { return state_.position.size(); }
     const glm::dvec3& position(std::size_t particle) const noexcept { return state_.position[particle]; }
     glm::dvec3 velocity(std::size_t particle) const noexcept;  ///< m/s
-    /// The largest relative length error of a body's stretch links as they are now. It includes what
-    /// depenetration added, which Body::stretch does not.
+    /// Maximum relative length error of a body's stretch links as they are now. Includes the effect of
+    /// depenetration, which Body::stretch does not.
     double length_error(const Body& body) const noexcept;
     double length_error() const noexcept;  ///< of all bodies
-    /// Kinetic, potential and elastic energy, joules, halfway through the last substep, where a leapfrog
-    /// step conserves it. Potential is 0 where the coordinates are.
+    /// Kinetic, potential and elastic energy, joules, halfway through the last substep, where a leapfrog step
+    /// conserves it. Potential energy is 0 at the origin.
     double energy(const Body& body) const noexcept;
     double energy() const noexcept;  ///< of all bodies
-    /// The sum of a body's rest lengths, metres; of cloth and hair that of one row or strand.
+    /// The sum of a body's rest lengths, metres; for cloth and hair that of one row or strand.
     double length(const Body& body) const noexcept;
 
   private:

@@ -1,12 +1,12 @@
-// Any filter of this room, chosen at run time: for graphs, panels and files.
+// Any filter of this module, chosen at run time: for graphs, panels and files.
 //
 //     signal::Filter filter = signal::find_kind("one_euro")->blank();
 //     if (const Result bad = signal::check(filter); !bad) return bad;
 //     signal::FilterState state;
 //     output = signal::step(filter, state, input, dt);
 //
-// One table, kinds(), has every kind with the fields of its struct (tendril/fields.hpp): what reads files,
-// draws panels, fits parameters and writes code goes through it and needs no list of its own. A program that
+// One table, kinds(), lists every kind with the fields of its struct (tendril/fields.hpp). Code that reads
+// files, draws panels, fits parameters or generates code uses it and needs no list of its own. A program that
 // knows its filters calls the `step` of their own headers instead.
 #pragma once
 
@@ -31,40 +31,39 @@ using Filter =
     std::variant<InterpTo, InterpToExact, ScaleBiasClamp, Spring<>, ExponentialDecay, RateLimit, SmoothDamp,
                  SpringSemiImplicit, OneEuro, MovingAverage, DeadZone, Hysteresis, Inertialize, Curve>;
 
-/// What a filter remembers. A fresh one suits every filter: the first step gives it the right form. One of
-/// another form, left by a filter that was there before, is taken as fresh; one of the same form goes on.
+/// The state of a filter. A fresh one suits every filter: the first step gives it the right type. A state of
+/// another type, left by a previous filter, counts as fresh; one of the same type continues.
 using FilterState =
     std::variant<OutputState, SpringState<>, MotionState, MovingAverageState, InertializeState>;
 
-/// As input.hpp says. Parameters out of their range are not looked for here: check() does that.
+/// See input.hpp. Does not check that parameters are in range: check() does.
 double step(const Filter& filter, FilterState& state, double input, double dt) noexcept;
 
-/// What the first step after a reset would return: what the input says without any memory. 0 for a refused
-/// input.
+/// The first output after a reset: what the input alone gives, without any memory. 0 for a refused input.
 double immediate(const Filter& filter, double input) noexcept;
 
 /// The last output; 0 before the first step.
 double value(const FilterState& state) noexcept;
 bool started(const FilterState& state) noexcept;
 
-/// Ranges, and what must hold between parameters. InvalidArgument, naming the parameter and its value:
+/// Checks ranges and relations between parameters. InvalidArgument, naming the parameter and its value:
 /// `rate_limit: rise must be 0 to 1e9 1/s, got -1`.
 Result check(const Filter& filter) noexcept;
 
 struct Kind {
     const char* name;            ///< "one_euro"
     Filter (*blank)() noexcept;  ///< with every parameter's default
-    /// Of the struct that a filter of this kind holds, without the keys of a curve.
+    /// Of the struct that a filter of this kind holds; without the keys of a curve.
     std::span<const Field> fields;
 };
 
-/// All of them, in the order of Filter's alternatives.
+/// In the order of Filter's alternatives.
 std::span<const Kind> kinds() noexcept;
 /// Null for an unknown name.
 const Kind* find_kind(std::string_view name) noexcept;
 const Kind& kind_of(const Filter& filter) noexcept;
-/// The struct that the filter holds. Use only with kind_of(filter).fields: a row of another kind would read
-/// or write memory that is not its own.
+/// The struct that the filter holds. Use only with kind_of(filter).fields: a row of another kind would access
+/// memory out of bounds.
 void* fields_in(Filter& filter) noexcept;
 const void* fields_in(const Filter& filter) noexcept;
 /// The name of its kind.

@@ -1,14 +1,14 @@
-// Inertialization: takes the jumps out of an input that is otherwise let through as it is, as where one
-// animation clip is cut to another.
+// Inertialization: passes its input through but smooths its jumps, as at a cut from one animation clip to
+// another.
 //
 // Method: D. Bollo, "Inertialization: High-Performance Animation Transitions in Gears of War", GDC 2018, with
-// the critically damped spring that D. Holden decays the offset by ("Spring-It-On", 2021): where the input
-// jumps by more than the threshold in one step, the output's distance to it and its relative velocity become
-// an offset that decays, w = 2 ln 2 / halflife.
+// the critically damped spring of D. Holden ("Spring-It-On", 2021) to decay the offset. If the input jumps by
+// more than the threshold in one step, the output's distance and velocity relative to it become an offset
+// that decays with w = 2 ln 2 / halflife.
 //
-// What the input's velocity is after a jump is known one step later: until then it counts as 0.
+// The input's velocity after a jump is known only one step later; until then it counts as 0.
 //
-// Cost: an exponential, some 40 ns.
+// Cost: one exponential, about 40 ns.
 #pragma once
 
 #include "tendril/signal/input.hpp"
@@ -17,7 +17,7 @@ namespace tendril::signal {
 
 struct Inertialize {
     double halflife = 0.1;   ///< s, 0 (jumps pass) to 1e4
-    double threshold = 0.5;  ///< 0 to 1e9: a change by more than that in one step is a jump
+    double threshold = 0.5;  ///< 0 to 1e9: a larger change in one step is a jump
     bool operator==(const Inertialize&) const = default;
 };
 

@@ -16,22 +16,22 @@ struct Sample {
     bool operator==(const Sample&) const = default;
 };
 
-/// One step of a list of filters, each on what the one before it puts out. `states` has one for each.
+/// One step of a list of filters, each fed the output of the one before. `states` has one for each.
 double step(std::span<const Filter> filters, std::span<FilterState> states, double input, double dt) noexcept;
 
-/// What all filters together return at their first step.
+/// The output of all filters together at their first step.
 double immediate(std::span<const Filter> filters, double input) noexcept;
 
-/// The output after each sample, from fresh states on.
+/// The output after each sample, starting from fresh states.
 std::vector<double> run(std::span<const Filter> filters, std::span<const Sample> samples);
 
-/// The same after each filter: one list for each filter. Cost as run().
+/// The same after each filter: one list per filter. Cost as run().
 std::vector<std::vector<double>> run_stages(std::span<const Filter> filters, std::span<const Sample> samples);
 
-/// The time after each sample, seconds; a refused dt (input.hpp) takes none.
+/// The time after each sample, in seconds; a refused dt (input.hpp) counts as 0.
 std::vector<double> times_of(std::span<const Sample> samples);
 
-/// A steady frame rate, or one that varies: the same at every run.
+/// A steady frame rate, or a varying one that is the same in every run.
 struct FrameRate {
     double hz = 60.0;       ///< 0.1 to 1e4; others count as 60
     bool jittered = false;  ///< frames last from 0.4 to 1.6 times 1 / hz, pseudo-random
@@ -40,28 +40,29 @@ struct FrameRate {
 /// 15, 30, 60, 144 Hz, and 60 Hz jittered.
 std::span<const FrameRate> usual_rates() noexcept;
 
-// At other frame rates all see the same input, so that what differs is the filters' own: in every frame of
-// the slowest rate the input is what it is at the end of that frame, and the frames of the others are cut
-// where those end. Frames count from time 0, where the first sample's dt begins; no rate has more than 1e6.
+// At all frame rates the filters get the same input, so that any difference is their own. During each frame
+// of the slowest rate the input is constant at its value at the end of that frame, and the frames of the
+// other rates are split there. Frames start at time 0, where the first sample's dt begins; a run has at most
+// 1e6 frames.
 
-/// How the filters look at one frame rate.
+/// The filters at one frame rate.
 struct RateRun {
     FrameRate rate;
-    std::vector<double> time, output;  ///< of its own frames, at their ends
+    std::vector<double> time, output;  ///< per frame, at its end
 };
 struct RateComparison {
     std::vector<RateRun> runs;
-    /// The largest difference between any two of them at the end of a frame of the slowest, and when that is,
-    /// in seconds. 0 for filters that do not depend on the frame rate, but for rounding.
+    /// The largest difference between any two runs at the end of a frame of the slowest rate, and its time in
+    /// seconds. 0, to rounding, for filters that do not depend on the frame rate.
     double difference = 0.0;
     double at = 0.0;
 };
-/// No runs where there is no sample.
+/// No runs if there are no samples.
 RateComparison compare_rates(std::span<const Filter> filters, std::span<const Sample> samples,
                              std::span<const FrameRate> rates = usual_rates());
 
-/// The outputs of the same runs at each of `times`, which ascend: one list for each rate. Between two frames
-/// it is what a frame that ended then would give.
+/// The outputs of the same runs at each of the ascending `times`: one list per rate. Between two frames it is
+/// the output of a frame that would end then.
 std::vector<std::vector<double>> outputs_at(std::span<const Filter> filters, std::span<const Sample> samples,
                                             std::span<const double> times,
                                             std::span<const FrameRate> rates = usual_rates());

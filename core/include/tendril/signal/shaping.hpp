@@ -1,20 +1,20 @@
-// The filters that change a value rather than its motion: dead zone and hysteresis. Curves have a file of
-// their own. Cost: a few ns.
+// The filters that change a value rather than its motion: dead zone and hysteresis. For curves see curve.hpp.
+// Cost: a few ns.
 #pragma once
 
 #include "tendril/signal/input.hpp"
 
 namespace tendril::signal {
 
-/// 0 within `width` of 0, `sign(x) (|x| - width)` outside: a stick's play.
+/// 0 within `width` of 0, `sign(x) (|x| - width)` outside: the play of a stick.
 struct DeadZone {
     double width = 0.1;  ///< 0 to 1e9
     bool operator==(const DeadZone&) const = default;
 };
 double step(const DeadZone& parameters, OutputState& state, double input, double dt) noexcept;
 
-/// 1 from `high` on, 0 from `low` down, in between as before; 0 at first: a switch that does not flicker.
-/// `low` is not over `high`; where they are equal, that value gives 1.
+/// 1 from `high` up, 0 from `low` down, unchanged in between; 0 at first: a switch that does not flicker.
+/// `low` must not exceed `high`; if they are equal, that value gives 1.
 struct Hysteresis {
     double low = 0.4;   ///< -1e9 to 1e9
     double high = 0.6;  ///< -1e9 to 1e9

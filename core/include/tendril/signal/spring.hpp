@@ -5,17 +5,17 @@
 //     hat_position = signal::step(hat, state, head_position, dt);
 //
 // Method: the closed form of x'' = -w^2 (x - target) - 2 z w x', with w = 2 pi strength and z =
-// critical_damping, for each step exactly: any dt is stable, and for a target that stands still half a second
-// in one step or in 500 is the same. Worked out in double whatever the type; one form for all dampings, so it
-// is continuous across critical damping.
+// critical_damping, solved exactly in each step. So any dt is stable, and for a resting target half a second
+// in one step or in 500 gives the same. Computed in double for every type. One formula for all dampings, so
+// the result is continuous across critical damping.
 //
-// A target in steady motion is followed with a lag of 2 z (1 - target_velocity_amount) / w - dt / 2: within a
-// step the target counts as still, which gains half a frame.
+// A target in steady motion is followed with a lag of 2 z (1 - target_velocity_amount) / w - dt / 2: the
+// target counts as still within a step, which gains half a frame.
 //
-// Rotations: the spring works on the rotation vector (axis times angle) from target to value, the short way
-// round; velocity and force are rotation vectors too (rad/s, rad/s^2), in the space of the values.
+// Rotations: the spring acts on the rotation vector (axis times angle) from target to value, the short way
+// round. Velocity and force are rotation vectors too (rad/s, rad/s^2), in the space of the values.
 //
-// Cost: an exponential, a sine and a cosine, some 40 ns; for thousands of springs at once, batch.hpp.
+// Cost: an exponential, a sine and a cosine, about 40 ns; for thousands of springs at once see batch.hpp.
 #pragma once
 
 #include <type_traits>
@@ -25,7 +25,7 @@
 
 namespace tendril::signal {
 
-/// How fast a T changes: a T, but a rotation vector for rotations.
+/// The type of a T's rate of change: T itself, or a rotation vector for rotations.
 template <class T>
 struct RateOf {
     using type = T;
@@ -41,22 +41,22 @@ struct RateOf<glm::dquat> {
 template <class T>
 using Rate = typename RateOf<T>::type;
 
-/// Hz and damping ratio: the ends of their ranges. Under no_strength there is no spring and no damping.
+/// Limits of Hz and damping ratio. Under no_strength there is neither spring nor damping.
 inline constexpr double max_strength = 1e4, max_damping = 1e3, no_strength = 1e-5;
 
-/// T: double, float, glm::dvec3, glm::vec3, glm::dquat or glm::quat. A parameter out of its
-/// range leaves the state alone, as a refused input does.
+/// T: double, float, glm::dvec3, glm::vec3, glm::dquat or glm::quat. A parameter out of range leaves the
+/// state unchanged, as a refused input does.
 template <class T = double>
 struct Spring {
-    /// Undamped frequency in Hz, 0 to 1e4. Under 1e-5 there is no spring and no damping: the value drifts,
+    /// Undamped frequency in Hz, 0 to 1e4. Under 1e-5 there is neither spring nor damping: the value drifts,
     /// and the force adds to its velocity.
     double strength = 4.0;
-    /// Damping ratio, 0 to 1e3: 0 swings for ever, 1 is the fastest that never overshoots.
+    /// Damping ratio, 0 to 1e3: 0 oscillates for ever, 1 is the fastest without overshoot.
     double critical_damping = 1.0;
     /// On a mass of 1, at most max_magnitude: shifts the target by force / w^2.
     Rate<T> force{};
-    /// 0 to 1, how much of the target's velocity is known beforehand: at 1 steady motion is followed without
-    /// lag, and jumps overshoot.
+    /// 0 to 1, how much the target's velocity is anticipated: at 1 steady motion is followed without lag, and
+    /// jumps overshoot.
     double target_velocity_amount = 0.0;
     bool operator==(const Spring&) const = default;
 };
@@ -70,7 +70,7 @@ struct SpringState {
     bool operator==(const SpringState&) const = default;
 };
 
-/// Lets `dt` seconds pass; returns the new value. Refusals as in input.hpp. The first step starts on the
+/// Lets `dt` seconds pass and returns the new value. Refusals as in input.hpp. The first step starts at the
 /// target, shifted by the force, at rest.
 template <class T>
 T step(const Spring<T>& spring, SpringState<T>& state, const std::type_identity_t<T>& target,
@@ -87,15 +87,15 @@ extern template glm::dquat step(const Spring<glm::dquat>&, SpringState<glm::dqua
 extern template glm::quat step(const Spring<glm::quat>&, SpringState<glm::quat>&, const glm::quat&,
                                double) noexcept;
 
-/// What else a spring is described by. All are the same spring: one may set any, and show all.
+/// Other descriptions of the same spring: an editor may set any of them and show all.
 struct SpringFeel {
-    /// Seconds: 2 ln 2 / (z w), the half-life of the filters in this room (D. Holden, "Spring-It-On", 2021).
+    /// Seconds: 2 ln 2 / (z w), the half-life as in the other filters (D. Holden, "Spring-It-On", 2021).
     /// Infinite without damping.
     double half_life = 0.0;
-    /// Seconds: one swing without damping, 1 / strength. Infinite without strength.
+    /// Seconds: one undamped period, 1 / strength. Infinite without strength.
     double duration = 0.0;
-    /// Over -1, up to 1: 0 does not overshoot, 1 swings for ever, under 0 is sluggish. 1 - z for z up to 1,
-    /// 1 / z - 1 from there on (as SwiftUI's springs).
+    /// Over -1, up to 1: 0 does not overshoot, 1 oscillates for ever, under 0 is sluggish. 1 - z for z up to
+    /// 1, 1 / z - 1 above (as in SwiftUI's springs).
     double bounce = 0.0;
 };
 SpringFeel feel_of(double strength, double critical_damping) noexcept;
@@ -104,11 +104,11 @@ SpringFeel feel_of(double strength, double critical_damping) noexcept;
 struct SpringShape {
     double strength = 4.0, critical_damping = 1.0;
 };
-/// The spring of that half-life at that damping; critical damping stays as it is. InvalidArgument where the
-/// half-life or the damping is not over 0, or the strength would be over 1e4 Hz.
+/// The spring with that half-life at that damping, which is kept. InvalidArgument if the damping is not over
+/// 0 and at most 1000, the half-life is not over 0, or the strength would be over 1e4 Hz.
 Expected<SpringShape> of_half_life(double half_life, double critical_damping) noexcept;
-/// The spring of that duration and bounce. InvalidArgument where the duration is under 1e-4 s, or the bounce
-/// not from -0.999 to 1.
+/// The spring with that duration and bounce. InvalidArgument if the duration is not from 1e-4 to 1e9 s, or
+/// the bounce not from -0.999 to 1.
 Expected<SpringShape> of_duration(double duration, double bounce) noexcept;
 
 }  // namespace tendril::signal

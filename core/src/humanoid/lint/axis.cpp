@@ -1,4 +1,4 @@
-// Figures that lie on their side because somebody's up axis is another's.
+// Figures that lie on their side because their file has another up axis.
 #include <algorithm>
 
 #include "humanoid/lint/lint.hpp"
@@ -23,7 +23,7 @@ std::optional<Stance> stance_of(const BoneMap& map, const std::vector<Placement>
     return Stance{*torso, *legs};
 }
 
-/// Of the six directions of the axes, the nearest.
+/// The nearest of the six axis directions.
 glm::dvec3 nearest_axis(const glm::dvec3& direction) {
     int best = 0;
     for (int i = 1; i < 3; ++i)
@@ -33,11 +33,11 @@ glm::dvec3 nearest_axis(const glm::dvec3& direction) {
     return axis;
 }
 
-/// Some forty poses of a clip, and where its feet are in them.
+/// Some forty poses of a clip, and the range of the left foot in them.
 struct Poses {
     std::vector<Stance> stances;
-    double swing = 0.0;  ///< how far the left foot moves against the hips, metres
-    double leg = 0.0;    ///< the furthest that it is from them
+    double swing = 0.0;  ///< diagonal of the foot's bounds relative to the hips, metres
+    double leg = 0.0;    ///< maximum distance of the foot from the hips, metres
 };
 std::optional<Poses> poses_of(const Skeleton& skeleton, const BoneMap& map, const Clip& clip) {
     constexpr int count = 40;
@@ -77,7 +77,7 @@ std::optional<glm::dquat> upright_turn(const Skeleton& skeleton, const BoneMap& 
     if (!mean) return std::nullopt;
     const glm::dvec3 axis = nearest_axis(*mean);
     if (axis.y > 0.5) return std::nullopt;
-    // Who sleeps takes no steps, and who swims or crawls takes small ones or bends the legs.
+    // Sleepers take no steps; swimmers and crawlers take small ones or bend their legs.
     if (poses->swing < 0.45 * poses->leg) return std::nullopt;
     for (const Stance& each : poses->stances)
         if (dot(each.torso, axis) < aligned || dot(each.legs, axis) < aligned) return std::nullopt;
@@ -88,7 +88,7 @@ void check_axis(Check& check) {
     const std::size_t last = check.report.frames - 1;
     const std::int32_t hips = check.map[Bone::Hips].node;
     if (check.map.missing.empty() && !check.map.upright) {
-        // A body whose legs go on where its back ends lies; a quadruped's go aside.
+        // The legs of a lying body continue the line of its back; a quadruped's do not.
         std::vector<Placement> placed(check.skeleton.size());
         place(check.skeleton, rest_pose(check.skeleton), placed);
         const auto rest = stance_of(check.map, placed);

@@ -1,4 +1,4 @@
-// Joints that are turned further than their limits let them.
+// Joints turned beyond their limits.
 #include <algorithm>
 
 #include "humanoid/lint/lint.hpp"
@@ -6,8 +6,8 @@
 namespace tendril::humanoid::lint_detail {
 namespace {
 
-/// Degrees that decent clips go beyond the default limits: heads of captures that are mapped to a neck's end,
-/// forearms that are turned instead of the upper arm. Knees are as the limits have them.
+/// Degrees by which decent clips exceed the default limits: captured heads that are mapped to the end of the
+/// neck, forearms turned instead of the upper arm. Knees exceed them the least.
 double tolerance(Bone bone) noexcept {
     switch (bone) {
         case Bone::LeftLowerLeg:
@@ -22,15 +22,15 @@ double tolerance(Bone bone) noexcept {
     }
 }
 
-/// The frames since a joint went beyond its limit, and where it is furthest.
+/// Since when a joint is beyond its limit, and the worst frame.
 struct Stay {
     bool is_beyond = false;
     std::size_t first = 0, worst = 0;
     double most = 0.0;  // degrees
 };
 
-/// The angle of a hinge that is turned about another axis leaps: default limits are left for longer than
-/// that.
+/// Default limits must be exceeded for longer than this: a hinge's angle jumps when it is turned about
+/// another axis.
 constexpr double shortest = 0.1;  // seconds
 
 void tell(Check& check, Bone bone, const Stay& stay, std::size_t last) {

@@ -11,7 +11,7 @@ namespace {
 using namespace rig::detail;
 using lint_detail::value_at;
 
-constexpr double ease = 0.125;  // seconds before and after a step over which it is spread
+constexpr double ease = 0.125;  // seconds before and after a jump over which it is spread
 
 template <class T>
 std::size_t width_of(const Track<T>& track) {
@@ -37,7 +37,7 @@ glm::dvec3 moved(const glm::dvec3& value, const glm::dvec3& way) {
     return plus(value, way);
 }
 
-/// Keys from `first` to `last` go along the way from what was before to what comes after.
+/// Interpolates the keys from `first` to `last` between the track's values at `before` and `after`.
 template <class T>
 void bridge(const Channel& was, Track<T>& track, double before, double first, double last, double after) {
     const T from = value_at(was, before, track), to = value_at(was, after, track);
@@ -52,8 +52,8 @@ void bridge(const Channel& was, Track<T>& track, double before, double first, do
     }
 }
 
-/// The jump between two times is taken out of the keys around it: those before it go half of the way
-/// beforehand, those after it the other half afterwards.
+/// Spreads the jump between two times over the keys around it: those before it make half of the way early,
+/// those after it the other half late.
 template <class T>
 void spread(const Channel& was, Track<T>& track, double before, double after) {
     const T from = value_at(was, before, track), to = value_at(was, after, track);

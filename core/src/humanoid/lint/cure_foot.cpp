@@ -1,6 +1,6 @@
-// The cure of a foot that slides, floats or sinks: its leg is bent so that it stands, in closed form, and
-// goes over into the clip's motion before and after. Where the leg is too short for that the hips are
-// lowered, and the other foot stays where it is.
+// The cure of a foot that slides, floats or sinks: its leg is solved in closed form so that it stands, and
+// blends into the clip's motion before and after. If the leg is too short, the hips are lowered, and the
+// other foot stays where it is.
 #include "humanoid/lint/cure_foot.hpp"
 
 #include <algorithm>
@@ -15,23 +15,23 @@ namespace {
 
 using namespace rig::detail;
 
-constexpr double ease = 0.15;          // seconds before and after in which the foot goes over into the clip
-constexpr double straightest = 0.995;  // of a leg's full length, where it is not straighter in the clip
-constexpr double deepest = 0.1;        // of a leg's length that hips are lowered by at most
+constexpr double ease = 0.15;          // seconds of blending into the clip before and after
+constexpr double straightest = 0.995;  // of a leg's full length, unless it is straighter in the clip
+constexpr double deepest = 0.1;        // of a leg's length: the hips are lowered by at most this
 
 /// 1 at 0, 0 from 1 on.
 double fading(double u) noexcept {
     return u >= 1.0 ? 0.0 : (1.0 - u) * (1.0 - u) * (1.0 + 2.0 * u);
 }
 
-/// What each frame of a stretch is changed by.
+/// The correction of each frame.
 struct Plan {
     std::size_t first = 0;            ///< frame
     std::vector<glm::dvec3> moves{};  ///< of the foot, metres
     std::vector<double> drops{};      ///< of the hips, metres
 };
 
-/// By frame of the finding, what the foot has to be moved by.
+/// The foot's correction for each frame of the finding.
 std::vector<glm::dvec3> moves_of(const Foot& foot, const Finding& finding, const FeetMotion& motion,
                                  double floor, double rate) {
     std::vector<glm::dvec3> moves;
@@ -48,7 +48,7 @@ std::vector<glm::dvec3> moves_of(const Foot& foot, const Finding& finding, const
         }
         moves.push_back({-slid.x, 0.0, -slid.z});
     }
-    // A foot that slid stands in the middle of its way: so it is moved the least.
+    // A foot that slid stands in the middle of its way, which keeps the correction small.
     for (glm::dvec3& move : moves) move = plus(move, times(plus(low, high), 0.5));
     return moves;
 }
@@ -62,7 +62,7 @@ class Legs {
           hips_(static_cast<std::size_t>(check.map[Bone::Hips].node)),
           pose_(check.skeleton.size()) {}
 
-    /// How much lower the hips have to be for the foot to come to where it is moved, metres.
+    /// How far the hips must be lowered for the foot to reach its corrected position, metres.
     double missing(std::size_t frame, const glm::dvec3& move) {
         sample(check_.clip, check_.skeleton, check_.time_of(frame), pose_);
         const detail::LimbPlacement at = detail::place(foot_, Placement{}, pose_);
@@ -107,7 +107,7 @@ class Legs {
         return std::max(straightest * (at.upper_length() + at.lower_length()),
                         length(minus(at.end.position, at.upper.position)));
     }
-    /// The leg's end to a place; it keeps its rotation, and the knee its side.
+    /// Moves the leg's end to a position; it keeps its rotation, and the knee its side.
     void bring(const Limb& limb, const glm::dvec3& to) {
         detail::LimbPlacement at = detail::place(limb, Placement{}, pose_);
         const glm::dvec3 knee =
@@ -174,12 +174,13 @@ Expected<Clip> cure_foot(const Check& check, const Finding& finding) {
     const auto other_clip = [&] {
         return refused("cure", "finding", "one of this clip", std::string_view(finding.text));
     };
+    if (check.report.frames < 2) return other_clip();
     const double rate = check.report.rate;
     const FeetMotion motion = feet_motion(check);
     const auto foot = std::find_if(motion.feet.begin(), motion.feet.end(),
                                    [&](const Foot& each) { return each.node == finding.node; });
     const auto floor = floor_of(motion, rate);
-    if (!floor || foot == motion.feet.end() || check.report.frames < 2) return other_clip();
+    if (!floor || foot == motion.feet.end()) return other_clip();
     const bool left = finding.node == check.map[Bone::LeftFoot].node;
     std::optional<Limb> leg = leg_of(check.skeleton, check.map, finding.node);
     if (!leg) return other_clip();

@@ -9,8 +9,8 @@ namespace {
 
 using namespace rig::detail;
 
-// Stances: slower than `enter` to begin, over `leave` to end, and lower than `low`. A standing foot that is
-// pulled away for a moment without being lifted has not taken a step.
+// A stance begins under the speed `enter`, ends over `leave`, and stays lower than `low`. A standing foot
+// that is pulled away for a moment without being lifted has not taken a step.
 constexpr double enter = 0.6, leave = 1.2, low = 0.03;  // m/s, m
 constexpr double lifted = 0.025, shortest_step = 0.1;   // m, s
 constexpr double landing = 0.05, min_stance = 0.15;     // s
@@ -23,11 +23,11 @@ struct Stretch {
 std::vector<Stretch> stances_of(const Foot& foot, double floor, double rate) {
     std::vector<Stretch> found;
     bool stands = false, stepped = false;
-    double stood_at = floor;  // height when it was still last
+    double stood_at = floor;  // height when last still
     for (std::size_t i = 0; i < foot.height.size(); ++i) {
         const double height = foot.height[i];
         if (foot.still[i]) stood_at = height;
-        // Who lifts a foot that moves, if only by 8 mm, takes a step.
+        // A moving foot that is lifted, if only by 8 mm, takes a step.
         const bool steps = foot.speed[i] > 0.4 && height > stood_at + 0.008;
         stepped |= steps;
         stands = height - floor < low && !steps && foot.speed[i] < (stands ? leave : enter);
@@ -48,8 +48,8 @@ std::vector<Stretch> stances_of(const Foot& foot, double floor, double rate) {
     return found;
 }
 
-/// A stance without its ends, in which a foot that lands or leaves still moves: from where the foot is still
-/// to where it is that last. One that never is slides all the while.
+/// A stance without its ends, in which the foot lands or leaves: from the first to the last still frame. A
+/// foot that is never still slides throughout: a fixed time is cut from both ends.
 Stretch without_ends(const Stretch& stance, const Foot& foot, double rate) {
     Stretch core = stance;
     while (core.first < core.last && !foot.still[core.first]) ++core.first;
@@ -71,7 +71,7 @@ void check_skating(Check& check, const Foot& foot, const glm::dvec3& treadmill, 
         for (std::size_t i = first + 1; i <= last; ++i) {
             const glm::dvec3 move = smallest_move(foot, i, times(treadmill, 1.0 / rate));
             slid = plus(slid, move);
-            if (foot.jolt[i] > leave) continue;  // what stands apart for a frame is a jump
+            if (foot.jolt[i] > leave) continue;  // a departure of one frame is a jump, not a slide
             farthest = std::max(farthest, level(slid));
             if (level(move) > fastest) fastest = level(move), worst = i;
         }
@@ -82,7 +82,7 @@ void check_skating(Check& check, const Foot& foot, const glm::dvec3& treadmill, 
     }
 }
 
-/// Stretches of frames that `is_wrong` says are so, for at least `shortest` seconds.
+/// Runs of frames for which `is_wrong` is true, of at least `shortest` seconds.
 template <class IsWrong>
 std::vector<Stretch> stretches(std::size_t frames, double rate, double shortest, IsWrong is_wrong) {
     std::vector<Stretch> found;
@@ -101,7 +101,7 @@ std::vector<Stretch> stretches(std::size_t frames, double rate, double shortest,
 
 void check_floating(Check& check, const Foot& foot, double limit) {
     const double floor = check.report.floor, most = 0.08;
-    // Without toes a foot on tiptoe looks as if it floated.
+    // Without toes, a foot on tiptoe seems to float.
     const double tilt = foot.points.size() > 1 ? 20.0 : 8.0;
     for (const Stretch& each :
          stretches(foot.height.size(), check.report.rate, min_stance, [&](std::size_t i) {
@@ -120,7 +120,7 @@ void check_floating(Check& check, const Foot& foot, double limit) {
 void check_sinking(Check& check, const Foot& foot, double limit) {
     const double floor = check.report.floor, most = 0.12;
     for (const Stretch& each : stretches(foot.height.size(), check.report.rate, 0.03, [&](std::size_t i) {
-             // How far a sole reaches below its bones is known of a level foot.
+             // How far a sole reaches below its bones is known only for a level foot.
              const double below = floor - foot.height[i];
              return below > limit + (foot.tilt[i] > 30.0 ? 0.04 : 0.0);
          })) {
@@ -128,7 +128,7 @@ void check_sinking(Check& check, const Foot& foot, double limit) {
         for (std::size_t i = each.first; i <= each.last; ++i)
             if (foot.height[i] < foot.height[worst]) worst = i;
         const double amount = 1000.0 * (floor - foot.height[worst]);
-        if (amount > 1000.0 * most) continue;  // it is over another floor: stairs, a pit
+        if (amount > 1000.0 * most) continue;  // a different floor: stairs, a pit
         check.add(Fault::Sinking, foot.node, worst, each.first, each.last, amount, "mm",
                   "is " + shown(amount) + " mm below the floor");
     }
@@ -136,7 +136,7 @@ void check_sinking(Check& check, const Foot& foot, double limit) {
 
 }  // namespace
 
-/// Between the points too: the motion of a stiff foot is linear in the point.
+/// Includes points in between: the motion of a rigid foot is linear in the point.
 glm::dvec3 smallest_move(const Foot& foot, std::size_t frame, const glm::dvec3& ground) {
     glm::dvec3 best(1e9);
     const auto take = [&](const glm::dvec3& a, const glm::dvec3& b) {
@@ -181,8 +181,8 @@ void check_feet(Check& check) {
     check.report.has_floor = true;
     check.report.floor = *floor;
     const double unknown = motion.knows_soles ? 0.0 : 0.015;
-    // In place the ground's speed is a guess, and real hips go faster and slower within a step. Where no foot
-    // is ever still, nobody can say when it begins to land.
+    // For an in-place clip the ground's speed is a guess, and real hips vary their speed within a step. If no
+    // foot is ever still, the moment of landing is unknown.
     const double slide = std::max(check.settings.skating + unknown + (motion.always_slides ? 0.02 : 0.0),
                                   0.15 * level(motion.treadmill));
     for (const Foot& foot : motion.feet) {

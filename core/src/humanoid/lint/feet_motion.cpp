@@ -9,9 +9,9 @@ namespace {
 
 using namespace rig::detail;
 
-constexpr double slow = 0.2;         // m/s: a foot that is still
-constexpr double never_slow = 0.6;   // the same where feet never are, as they slide all the while
-constexpr double as_it_rests = 8.0;  // degrees by which a foot that stands may be tilted against its rest
+constexpr double slow = 0.2;         // m/s: a slower foot is still
+constexpr double never_slow = 0.6;   // the same if feet slide all the time
+constexpr double as_it_rests = 8.0;  // degrees that a standing foot may tilt from its rest
 constexpr glm::dvec3 up{0.0, 1.0, 0.0};
 
 struct Side {
@@ -43,7 +43,7 @@ Foot foot_of(const Check& check, const Side& side, const std::vector<Placement>&
     return foot;
 }
 
-/// What the rest pose says of the ground: whether both feet are on one level, and that level.
+/// Whether both feet of the rest pose are on one level, and whether that is the ground.
 struct Rest {
     bool is_level = true, is_ground = false;
 };
@@ -60,7 +60,7 @@ Rest look_at_rest(std::vector<Foot>& feet, double hips) {
     if (!rest.is_ground)
         for (Foot& foot : feet)
             for (SolePoint& point : foot.points) point.above -= ground;
-    // The tip of the toes gives way, and dips a little as a foot rolls off: it counts as that much higher.
+    // The tip of the toes yields and dips a little as a foot rolls off: count it as 15 mm higher.
     for (Foot& foot : feet)
         if (foot.points.size() == 3) foot.points.back().above -= 0.015;
     return rest;
@@ -94,8 +94,8 @@ void measure_heights(Foot& foot) {
     }
 }
 
-/// The median velocity of the lowest point of both feet, over the frames in which it is lowest. 0 for a
-/// figure that gets on.
+/// The median velocity of the lowest point of both feet, over the frames in which it is near the ground. 0
+/// for a figure that travels.
 glm::dvec3 treadmill_of(const FeetMotion& motion, double rate) {
     const std::size_t frames = motion.hips.size();
     std::vector<double> lowest(frames, std::numeric_limits<double>::max());
@@ -138,7 +138,7 @@ void measure_speed(Foot& foot, const glm::dvec3& treadmill, double rate) {
     }
 }
 
-/// Says which frames are still; whether there are some.
+/// Marks the still frames; true if there are enough of them.
 bool find_still(std::vector<Foot>& feet, double below) {
     bool any = false;
     for (Foot& foot : feet) {
@@ -152,7 +152,7 @@ bool find_still(std::vector<Foot>& feet, double below) {
     return any;
 }
 
-/// Whether feet that stand are turned as they are at rest.
+/// Whether standing feet are tilted as at rest.
 bool stands_as_it_rests(const std::vector<Foot>& feet) {
     std::vector<double> tilts;
     for (const Foot& foot : feet)
@@ -161,7 +161,7 @@ bool stands_as_it_rests(const std::vector<Foot>& feet) {
     return !tilts.empty() && middle_of(tilts) < as_it_rests;
 }
 
-/// How far the points are above the ground, and which way is up, as feet have it that stand in this clip.
+/// Learns the points' heights above the ground, and the feet's up directions, from the still frames.
 void learn_soles(std::vector<Foot>& feet) {
     double ground = std::numeric_limits<double>::max();
     std::vector<double> heights;

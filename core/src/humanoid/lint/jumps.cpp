@@ -1,4 +1,4 @@
-// Joints that are elsewhere in one frame than before and after, and knees that snap.
+// Joints that depart for a few frames or jump for good, and knees that snap.
 #include <algorithm>
 
 #include "humanoid/lint/lint.hpp"
@@ -15,7 +15,7 @@ glm::dvec3 middle(const glm::dvec3& a, const glm::dvec3& b) noexcept {
     return times(plus(a, b), 0.5);
 }
 
-/// Moves with those at the ends repeated.
+/// Moves, with the first and the last one repeated beyond the ends.
 class Moves {
   public:
     explicit Moves(const std::vector<glm::dvec3>& moves) : moves_(moves) {}
@@ -30,8 +30,8 @@ class Moves {
 
 constexpr double times_the_change = 3.0;
 
-/// How far frames i to i + held - 1 stand apart from those before and after: 0 where the motion says
-/// otherwise. The move into them and the move out of them are each other's opposite, but for the motion.
+/// How far frames i to i + held - 1 depart from those before and after; 0 if they do not. Apart from the
+/// usual motion, the move into them and the move out of them are opposite.
 double spike(const Moves& moves, std::ptrdiff_t i, std::ptrdiff_t held, double minimum) {
     const glm::dvec3 &before = moves[i - 1], &after = moves[i + held + 1];
     const glm::dvec3 usual = middle(before, after);
@@ -44,7 +44,7 @@ double spike(const Moves& moves, std::ptrdiff_t i, std::ptrdiff_t held, double m
     return far > times_the_change * change ? far : 0.0;
 }
 
-/// How far the figure goes on from somewhere else, from frame i on.
+/// How far the motion jumps at frame i without coming back; 0 if it does not.
 double step(const Moves& moves, std::ptrdiff_t i, double minimum) {
     const glm::dvec3 &before = moves[i - 1], &after = moves[i + 1];
     const double far = apart(moves[i], middle(before, after));
@@ -54,7 +54,7 @@ double step(const Moves& moves, std::ptrdiff_t i, double minimum) {
     return far > times_the_change * change ? far : 0.0;
 }
 
-/// Of channels with keys of their own at every frame or so; what is held from key to key on purpose is left.
+/// Step tracks are not judged: they hold their keys on purpose.
 template <class T>
 bool is_judged(const Track<T>& track) {
     return track.times.size() > 2 && track.interpolation != Interpolation::Step;
@@ -88,7 +88,7 @@ void check_track(Check& check, const Channel& channel, const Track<T>& track, Me
     }
 }
 
-/// At fewer frames a second more happens within one: limits are those of 60.
+/// A factor for thresholds that are given for 60 frames per second: at fewer, more happens in each frame.
 double slower(const Check& check) {
     return (2.0 + 60.0 / check.report.rate) / 3.0;
 }
@@ -99,7 +99,7 @@ struct Leg {
 constexpr Leg legs[]{{Bone::LeftUpperLeg, Bone::LeftLowerLeg, Bone::LeftFoot},
                      {Bone::RightUpperLeg, Bone::RightLowerLeg, Bone::RightFoot}};
 
-/// Degrees by which the knee is bent; 0 where the leg is straight.
+/// Degrees by which the knee is bent; 0: straight.
 double bend_of(const Check& check, const Leg& leg, const std::vector<Placement>& placed) {
     const auto at = [&](Bone bone) {
         return placed[static_cast<std::size_t>(check.map[bone].node)].position;
@@ -108,8 +108,8 @@ double bend_of(const Check& check, const Leg& leg, const std::vector<Placement>&
     return arctangent(length(cross(thigh, shin)), dot(thigh, shin)) * degrees;
 }
 
-/// A leg that is pulled straight within a frame and then stays so, or leaves that way: its knee is faster the
-/// nearer it comes, and stops at once.
+/// A leg that snaps straight within a frame and stays so, or the reverse: its knee accelerates towards
+/// straight and stops at once.
 void check_snaps(Check& check, std::int32_t node, const std::vector<double>& bends) {
     const double minimum = check.settings.knee * slower(check);
     const auto snap = [&](double from, double before, double straight, double after) {
@@ -149,7 +149,7 @@ std::vector<Outlier> outliers(const std::vector<glm::dvec3>& list, double minimu
     if (count < 6) return found;
     const Moves moves(list);
     for (std::ptrdiff_t i = 1; i < count; ++i) {
-        // What stands apart for one, two or three frames comes first: it would be two steps.
+        // Look for departures of one to three frames first: they would also count as two jumps.
         double amount = 0.0;
         std::ptrdiff_t until = count;
         for (std::ptrdiff_t held = 1; held <= 3 && amount == 0.0 && i + held < count; ++held) {

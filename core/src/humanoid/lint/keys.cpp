@@ -1,4 +1,4 @@
-// Faults that keys have by themselves: signs of quaternions, and sizes.
+// Faults of the keys themselves: signs of quaternions, and sizes.
 #include <algorithm>
 
 #include "humanoid/lint/lint.hpp"
@@ -13,14 +13,14 @@ std::size_t frame_of(const Check& check, double time) {
     return std::min(frame, check.report.frames - 1);
 }
 
-/// One finding for each stretch of keys on the other side of the first key's hemisphere.
+/// One finding for each run of keys in the hemisphere opposite to the first key's.
 void check_signs_of(Check& check, const Channel& channel) {
     const Track<glm::dquat>& track = channel.rotation;
     if (track.interpolation == Interpolation::Step) return;
     const bool cubic = track.interpolation == Interpolation::Cubic;
     const auto key = [&](std::size_t i) -> const glm::dquat& { return track.values[cubic ? 3 * i + 1 : i]; };
     const std::size_t count = track.times.size();
-    std::vector<std::size_t> flips;  // keys that are the negative of what the one before them says
+    std::vector<std::size_t> flips;  // keys in the hemisphere opposite to the key before
     for (std::size_t i = 1; i < count; ++i)
         if (dot(key(i - 1), key(i)) < 0.0) flips.push_back(i);
     for (std::size_t i = 0; i < flips.size(); i += 2) {
@@ -37,8 +37,8 @@ void check_signs_of(Check& check, const Channel& channel) {
     }
 }
 
-/// The first stretch of keys that make the node a point, a plane or a line, or mirror it, where at rest it
-/// is none of that.
+/// Reports the first key that flattens the node to a plane, a line or a point, or mirrors it, relative to its
+/// rest.
 void check_scale_keys(Check& check, const Channel& channel) {
     const Track<glm::dvec3>& track = channel.scale;
     const bool cubic = track.interpolation == Interpolation::Cubic;
@@ -58,7 +58,7 @@ void check_scale_keys(Check& check, const Channel& channel) {
     }
 }
 
-/// A person whose size no person has.
+/// A figure of implausible height.
 void check_height(Check& check) {
     if (!check.map.is_usable() || check.report.frames == 0) return;
     const double height = check.height;
@@ -76,7 +76,7 @@ void negate(std::vector<T>& values, std::size_t first, std::size_t count) {
 }  // namespace
 
 std::optional<double> size_of_clip(const Skeleton& skeleton, const Clip& clip) {
-    // How long bones are in the clip, of how long they are at rest. Roots go where they want to.
+    // Lengths of bones in the clip relative to rest. Roots move freely and do not count.
     std::vector<double> ratios;
     for (const Channel& channel : clip.channels) {
         const Track<glm::dvec3>& track = channel.translation;

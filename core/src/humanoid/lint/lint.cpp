@@ -44,7 +44,7 @@ LintReport blank_report(const Clip& clip, const LintSettings& settings) {
 
 namespace {
 
-/// From the lowest node at rest to the highest; of one that lies, its length.
+/// The largest extent of the nodes at rest, which for a lying figure is its length.
 double height_of(const Skeleton& skeleton) {
     std::vector<Placement> placements(skeleton.size());
     place(skeleton, rest_pose(skeleton), placements);
@@ -78,13 +78,13 @@ double frame_rate(const Clip& clip) noexcept {
         look_at(channel.scale.times);
     }
     if (!densest) return otherwise;
-    // The commonest step: keys that were left out make others longer, and a clip's end may make one shorter.
+    // The median step: missing keys make some longer, and a clip's end may make one shorter.
     std::vector<double> steps;
     for (std::size_t i = 1; i < densest->size(); ++i) steps.push_back((*densest)[i] - (*densest)[i - 1]);
     std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2),
                      steps.end());
     double step = steps[steps.size() / 2];
-    // Times in files are rounded: the whole stretch tells the step better, if it is that many steps long.
+    // Times in files are rounded: the whole range gives a better step, if it is a whole number of steps.
     const double whole = densest->back() - densest->front(), count = std::floor(whole / step + 0.5);
     if (count > 0.0 && std::abs(whole / count - step) < 0.01 * step) step = whole / count;
     const double rate = 1.0 / step;

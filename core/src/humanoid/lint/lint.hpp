@@ -1,4 +1,4 @@
-// What the parts of the lint share. Not installed.
+// Shared by the checks of the lint. Not installed.
 #pragma once
 
 #include <optional>
@@ -12,10 +12,10 @@ namespace tendril::humanoid::lint_detail {
 
 inline constexpr double degrees = 180.0 / rig::detail::pi;
 
-/// Numbers of a sentence: "62", "1.5"
+/// "62", "1.5"
 std::string shown(double value, int decimals = 0);
 
-/// What every check is given, and where it puts what it finds.
+/// The input of every check, and the report to which it adds findings.
 struct Check {
     const Skeleton& skeleton;
     const BoneMap& map;
@@ -25,14 +25,14 @@ struct Check {
     LintReport& report;
 
     double time_of(std::size_t frame) const noexcept;
-    /// "LeftFoot"; "the figure" where there is no node.
+    /// "LeftFoot"; "The figure" if `node` is negative.
     std::string name_of(std::int32_t node) const;
-    /// `text` is put after the node's name: "LeftFoot slides 62 mm".
+    /// `text` follows the node's name: "LeftFoot slides 62 mm".
     Finding& add(Fault fault, std::int32_t node, std::size_t frame, std::size_t first, std::size_t last,
                  double amount, const char* unit, const std::string& text);
 };
 
-/// Of a clip before anything was found in it.
+/// A clip's report before any check: only rate and frames are set.
 LintReport blank_report(const Clip& clip, const LintSettings& settings);
 
 void check_feet(Check& check);
@@ -43,23 +43,23 @@ void check_signs(Check& check);
 void check_sizes(Check& check);
 void check_axis(Check& check);
 
-// Outliers in the motion of one thing from frame to frame.
 struct Outlier {
-    std::size_t frame;  ///< the first that is elsewhere
-    std::size_t until;  ///< the first after that which is back; the number of frames: none is
-    double amount;      ///< how far
+    std::size_t frame;  ///< the first that departs from the motion
+    std::size_t until;  ///< the first that is back; the number of frames if none is
+    double amount;      ///< how far it departs
 };
-/// `moves[i]` is the way from frame i - 1 to frame i, moves[0] is not read. One that is over `minimum` and
-/// over three times what the motion changes by from frame to frame around it.
+/// Finds departures over `minimum` and over three times the change of the motion around them. `moves[i]` is
+/// the motion from frame i - 1 to frame i; moves[0] is not read.
 std::vector<Outlier> outliers(const std::vector<glm::dvec3>& moves, double minimum);
 
-/// The way from a value to the next: in degrees about each axis for rotations.
+/// The motion from one value to the next; for rotations a rotation vector in degrees.
 glm::dvec3 step_between(const glm::dvec3& from, const glm::dvec3& to) noexcept;
 glm::dvec3 step_between(const glm::dquat& from, const glm::dquat& to) noexcept;
 
-/// What the translations of a clip are of the skeleton's, nearly all of them alike; none where they are not.
+/// The ratio of the clip's bone lengths to the skeleton's, if most bones agree and it is not between 0.5 and
+/// 2; otherwise nullopt.
 std::optional<double> size_of_clip(const Skeleton& skeleton, const Clip& clip);
-/// The turn that sets a clip upright of which every frame lies; none where it need not.
+/// The rotation that turns a clip upright, if its figure walks lying on its side; otherwise nullopt.
 std::optional<glm::dquat> upright_turn(const Skeleton& skeleton, const BoneMap& map, const Clip& clip);
 
 }  // namespace tendril::humanoid::lint_detail

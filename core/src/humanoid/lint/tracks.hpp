@@ -1,4 +1,4 @@
-// What a track of a node says at a time, and a stretch of it written anew. Not installed.
+// Sampling a track of a node, and replacing a range of its keys. Not installed.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace tendril::humanoid::lint_detail {
 
-/// What a node's track, of that type, says at a time.
+/// The value at a time of the channel's track of that type: translation or rotation.
 inline glm::dvec3 value_at(const Channel& channel, double time, const Track<glm::dvec3>&) {
     rig::Transform local;
     sample(channel, time, local);
@@ -23,7 +23,7 @@ inline glm::dquat value_at(const Channel& channel, double time, const Track<glm:
 
 namespace tracks_detail {
 
-/// That one of a rotation's two quaternions which is nearer to the other rotation's.
+/// Of a rotation's two quaternions, the one nearer to `other`; a vector is returned unchanged.
 inline glm::dvec3 near_to(const glm::dvec3&, const glm::dvec3& value) noexcept {
     return value;
 }
@@ -33,9 +33,9 @@ inline glm::dquat near_to(const glm::dquat& other, const glm::dquat& value) noex
 
 }  // namespace tracks_detail
 
-/// In place of the keys that `track`, of `was`, has from the first to the last of `times`: these. What the
-/// track says before and after stays as it is; its interpolation stays, and cubic keys are given tangents.
-/// `times` are two or more and rise.
+/// Replaces the keys of `track` from times.front() to times.back(). Outside that range its values stay the
+/// same. Its interpolation stays, and cubic keys get tangents. `times`: two or more, increasing. `was`: the
+/// channel before the change.
 template <class T>
 void replace_keys(const Channel& was, Track<T>& track, const std::vector<double>& times,
                   std::vector<T> values) {
@@ -57,7 +57,7 @@ void replace_keys(const Channel& was, Track<T>& track, const std::vector<double>
     for (std::size_t i = 0; i < times.size(); ++i) {
         const std::size_t from = i > 0 ? i - 1 : 0, to = std::min(i + 1, times.size() - 1);
         const T slope = (values[to] - values[from]) / (times[to] - times[from]);
-        // Where the stretch begins and ends the track goes on as it did.
+        // At the ends of the range the track keeps its own slope.
         const auto own_slope = [&] {
             constexpr double step = 1e-4;
             const T a = near_to(values[i], value_at(was, times[i] - step, track)),

@@ -1,7 +1,7 @@
-// How a Batch keeps its chains: in blocks of 80, each a table of floats with a row for every coordinate of
-// every joint and a column ("lane") for every chain, so that one register holds the same coordinate of many
-// chains. What only a solve needs (residuals, counts, the best pose) is in a second table that a thread uses
-// for one block after the other: it stays in the nearest cache. Not installed.
+// Storage of a Batch: blocks of 80 chains, each a table of floats with a row per coordinate of each joint and
+// a column ("lane") per chain, so that one register holds the same coordinate of many chains. Data that only
+// a solve needs (residuals, counts, the best pose) is in a second table that a thread reuses for one block
+// after the other, so it stays in the nearest cache. Not installed.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ namespace tendril::ik::detail {
 inline constexpr std::size_t block_lanes = 80;
 static_assert(block_lanes % 16 == 0, "whole registers fill a block");
 
-/// What a solve knows of a chain besides its joints and lengths: one row each.
+/// State of a chain during a solve, besides joints and lengths: one row each.
 enum class Row : std::size_t {
     TargetX,
     TargetY,
@@ -27,10 +27,10 @@ enum class Row : std::size_t {
     Tolerance,
     Residual,
     Best,     ///< the smallest residual of the whole solve
-    Saved,    ///< 1 where the rows of the best pose have its joints; 0 where they are the chain's own
-    Nearest,  ///< the smallest since the last perturbation
-    Last,     ///< the one before
-    Idle,     ///< iterations that gained nothing, and little: as in convergence.hpp
+    Saved,    ///< 1 if the rows of the best pose are valid; 0 if the chain's joints are the best
+    Nearest,  ///< minimum residual since the last perturbation
+    Last,     ///< the previous residual
+    Idle,     ///< successive iterations without gain, and slow ones; see convergence.hpp
     Slow,
     Perturbations,  ///< how many so far
     Iterations,     ///< whole numbers up to 1 000 000, which a float holds
@@ -41,27 +41,27 @@ inline constexpr std::size_t state_rows = 15;
 
 /// In Row::Activity.
 enum class Activity : std::uint8_t {
-    Done,     ///< left alone
+    Done,     ///< finished
     Active,   ///< iterates
-    Perturb,  ///< waits for a perturbation, then iterates
+    Perturb,  ///< to be perturbed, then iterates
 };
 
-/// In Row::Class: what a chain was found to be before its first iteration.
+/// In Row::Class: the result of classifying a chain before its first iteration.
 enum class Class : std::uint8_t {
     Reachable,  ///< iterates
-    Straight,   ///< out of reach, and already straightened
-    Folded,     ///< too close, and already folded back along its longest bone
-    Collinear,  ///< reachable, but maybe on one line with its target: the scalar code decides and perturbs
-    Scalar,     ///< too near to some bound for floats to decide: the scalar solver takes it
-    Invalid     ///< some coordinate is out of range
+    Straight,   ///< out of reach, already straightened
+    Folded,     ///< too close, already folded back along its longest bone
+    Collinear,  ///< reachable, but maybe collinear with its target: the scalar code decides and perturbs
+    Scalar,     ///< too close to a threshold for floats: the scalar solver takes it
+    Invalid     ///< a coordinate is out of range
 };
 
-/// One block; the rows belong to somebody else.
+/// A view of one block; does not own the rows.
 class Block {
   public:
     Block(float* joints, float* lengths, float* state, std::size_t bones) noexcept
         : joints_(joints), lengths_(lengths), state_(state), bones_(bones) {}
-    /// The rows of joints and of lengths one after the other.
+    /// With the rows of joints and lengths contiguous.
     Block(float* rows, float* state, std::size_t bones) noexcept
         : Block(rows, rows + joint_rows(bones) * block_lanes, state, bones) {}
 
@@ -112,7 +112,7 @@ class Block {
         at(Row::Activity, lane) = static_cast<float>(to);
     }
 
-    /// Before the joints become worse.
+    /// Call before the joints get worse.
     void save_best(std::size_t lane) const noexcept;
 
   private:
@@ -122,14 +122,14 @@ class Block {
     std::size_t bones_;
 };
 
-/// Some lanes of rows, side by side; in place where `to` is `from` and the lanes ascend.
+/// Gathers lanes of rows side by side; works in place if `to` is `from` and the lanes ascend.
 inline void gather_lanes(const float* from, std::span<const std::uint8_t> lanes, float* to,
                          std::size_t rows) noexcept {
     for (std::size_t row = 0; row < rows; ++row, from += block_lanes, to += block_lanes) {
         for (std::size_t k = 0; k < lanes.size(); ++k) to[k] = from[lanes[k]];
     }
 }
-/// The other way.
+/// The inverse of gather_lanes.
 inline void scatter_lanes(const float* from, std::span<const std::uint8_t> lanes, float* to,
                           std::size_t rows) noexcept {
     for (std::size_t row = 0; row < rows; ++row, from += block_lanes, to += block_lanes) {
@@ -145,7 +145,7 @@ inline void Block::save_best(std::size_t lane) const noexcept {
         copy_lane(joint(1) + lane, best(1) + lane, 3 * bones_);
 }
 
-/// Lanes of a block, ascending as a rule.
+/// Lanes of a block, usually ascending.
 struct LaneList {
     std::array<std::uint8_t, block_lanes> lanes;
     std::size_t count = 0;
@@ -154,7 +154,7 @@ struct LaneList {
     std::span<const std::uint8_t> span() const noexcept { return {lanes.data(), count}; }
 };
 
-/// Memory for rows, aligned as the widest register wants it.
+/// Memory for rows, aligned for the widest register.
 class Rows {
   public:
     Rows() = default;

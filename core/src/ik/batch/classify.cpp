@@ -1,16 +1,9 @@
-// What solve_many does before the first iteration: which chains can iterate at all, and which must be put
-// first.
-//
-// Highway compiles this file once for each vector unit: it includes it again and again, each time with
-// another HWY_NAMESPACE.
+// Prepares solve_many: decides which chains can iterate, and corrects those that need it.
 #include "ik/batch/vector.hpp"
-#include "math/dispatch.hpp"
 #include "tendril/chain/segment.hpp"
 
-#undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "ik/batch/classify.cpp"
-#include <hwy/foreach_target.h>  // before highway.h
-#include <hwy/highway.h>
+#include "math/each_target-inl.hpp"
 
 #include "ik/batch/step-inl.hpp"
 
@@ -18,12 +11,12 @@ HWY_BEFORE_NAMESPACE();
 namespace tendril::ik::detail {
 namespace HWY_NAMESPACE {
 
-/// Metres: from there on floats stand too far apart for the invariant of chain.hpp.
+/// Metres: beyond this, floats are too coarse for the invariant of chain.hpp.
 constexpr float far_out = 1e3f;
-// Of what a bone may be off: between these two a float cannot tell, for rounding is a three-hundredth of it.
+// Fractions of the allowed length error: between them a float cannot decide; rounding is 1/300 of it.
 constexpr float surely_fits = 0.95f, surely_loose = 1.05f;
 
-/// No for what is not a number.
+/// False for NaN.
 HWY_INLINE Mask are_valid(const Points& p) {
     const auto is_valid = [](Lanes x) { return hn::Le(hn::Abs(x), all(max_magnitude)); };
     return hn::And(is_valid(p.x), hn::And(is_valid(p.y), is_valid(p.z)));
@@ -33,9 +26,9 @@ HWY_INLINE Lanes largest(const Points& p, Lanes so_far) {
     return hn::Max(hn::Max(so_far, hn::Abs(p.x)), hn::Max(hn::Abs(p.y), hn::Abs(p.z)));
 }
 
-/// Whether every bone of a register of chains is surely at its length, and no joint too far out, which
+/// Whether every bone of a register of chains is certainly at its length, and no joint too far out, which
 /// follows from the root and the reach. One pass without a root: |d^2 - l^2| <= 0.9 l a means that d is
-/// within 0.9 a of l. False where some coordinate is not finite.
+/// within 0.9 a of l. False if a coordinate is not finite.
 HWY_INLINE bool surely_fit(const Block& block, std::size_t i) {
     Points from = load_points(block.joint(0) + i);
     const Lanes furthest = hn::Add(largest(from, zero()), load(block.reach() + i));
@@ -51,7 +44,7 @@ HWY_INLINE bool surely_fit(const Block& block, std::size_t i) {
     return hn::AllTrue(Floats(), fits);
 }
 
-/// By how much a bone is off its length, and how much enforce_lengths (prepare.cpp) lets pass.
+/// How far a bone is from its length, and how much enforce_lengths (prepare.cpp) tolerates.
 HWY_INLINE void compare(const Block& block, std::size_t bone, std::size_t i, Lanes& off, Lanes& allowed) {
     const float *const from = block.joint(bone) + i, *const to = block.joint(bone + 1) + i;
     const Lanes size = load(block.length(bone) + i);
@@ -65,7 +58,7 @@ HWY_INLINE void compare(const Block& block, std::size_t bone, std::size_t i, Lan
 struct Fit {
     Mask valid, loose, unclear;
 };
-/// The same bone by bone, where some bone does not surely fit.
+/// Checks bone by bone, if surely_fit fails.
 HWY_INLINE Fit fit_of(const Block& block, std::size_t i) {
     Fit fit{are_valid(load_points(block.joint(0) + i)), none(), none()};
     for (std::size_t bone = 0; bone < block.bones(); ++bone) {
@@ -81,19 +74,20 @@ HWY_INLINE Fit fit_of(const Block& block, std::size_t i) {
     return fit;
 }
 
-/// Writes Row::Class for one register of chains. All thresholds allow for the rounding of floats: what
-/// is nearer than that is left to the scalar code. True where some bone of a reachable chain is loose.
+/// Writes Row::Class for one register of chains. All thresholds allow for float rounding: closer cases are
+/// left to the scalar code. Returns whether a bone of a reachable chain is loose.
 HWY_INLINE bool classify_register(const Block& block, std::size_t i, Mask used) {
     const Lanes reach = load(block.reach() + i), longest = load(block.longest() + i);
     const Lanes rim = hn::Mul(reach, all(1e-5f));
     const Points target = load_points(block.target() + i);
     const Lanes distance = hn::Sqrt(squared_distance(block.joint(0) + i, block.target() + i));
-    // So far out that no joint comes to coincide with the target.
+    // Far enough that no joint coincides with the target.
     const Mask beyond = hn::Gt(distance, hn::Add(hn::Add(reach, rim), all(1e-3f)));
     const Mask within = hn::Lt(distance, hn::Sub(reach, rim));
     const Lanes nearest = hn::Sub(hn::Add(longest, longest), reach);
     const Mask unfolded = hn::Gt(distance, hn::Add(nearest, rim));
-    // Nearer to the root than a thousandth of what is left, the line to fold along is the chain's own.
+    // Closer to the root than a thousandth of `nearest`, the fold line depends on the chain: left to the
+    // scalar code.
     const Mask folded =
         hn::And(hn::Lt(distance, hn::Sub(nearest, rim)), hn::Gt(distance, hn::Mul(nearest, all(1.1e-3f))));
     Mask valid = hn::And(used, are_valid(target));
@@ -113,7 +107,8 @@ HWY_INLINE bool classify_register(const Block& block, std::size_t i, Mask used) 
     return any(hn::And(loose, equals(block.row(Row::Class) + i, Class::Reachable)));
 }
 
-/// From the first loose bone on, where the target is reachable; as enforce_lengths in prepare.cpp.
+/// Enforces lengths from the first loose bone on, if the target is reachable; like enforce_lengths in
+/// prepare.cpp.
 HWY_INLINE void enforce_lengths(const Block& block, std::size_t i) {
     float* const activity = block.row(Row::Activity);
     store(zero(), activity + i);
@@ -129,9 +124,9 @@ HWY_INLINE void enforce_lengths(const Block& block, std::size_t i) {
     }
 }
 
-/// Every joint straight towards the target from where the one before has come to be, so that the roundings
-/// of many joints do not add up to a bend. The registers take each joint side by side, so that none waits for
-/// its own square root.
+/// Places each joint towards the target from the rounded position of the previous one, so that rounding does
+/// not add up to a bend. All registers take each joint side by side, so that none waits for its own square
+/// root.
 HWY_INLINE void straighten(const Block& block, std::size_t lanes) {
     for (std::size_t bone = 0; bone < block.bones(); ++bone) {
         for (std::size_t i = 0; i < lanes; i += hn::Lanes(Floats())) {
@@ -147,7 +142,7 @@ HWY_INLINE void straighten(const Block& block, std::size_t lanes) {
     }
 }
 
-/// The longest bone towards the target, all others back.
+/// Points the longest bone at the target and all others back.
 HWY_INLINE void fold(const Block& block, std::size_t i, Mask lanes) {
     Points at = load_points(block.joint(0) + i);
     Points along = minus(load_points(block.target() + i), at);
@@ -164,9 +159,9 @@ HWY_INLINE void fold(const Block& block, std::size_t i, Mask lanes) {
     }
 }
 
-/// Whether all joints of a chain may lie on one line with its target. Where they do, to 1e-5 of the reach
-/// (perturbation.cpp), the product of no arm with the target's arm is over twice that and what rounding adds.
-/// One joint off the line is enough, so as a rule a look at the last two or three ends it.
+/// Whether all joints of a chain may lie on one line with its target. If they do, to 1e-5 of the reach
+/// (perturbation.cpp), no arm's cross product with the target's arm exceeds twice that plus rounding. One
+/// joint off the line is enough, so checking the last two or three usually suffices.
 HWY_INLINE Mask may_be_collinear(const Block& block, std::size_t i, Mask lanes) {
     const Points root = load_points(block.joint(0) + i);
     const Points target = minus(load_points(block.target() + i), root);
@@ -178,7 +173,7 @@ HWY_INLINE Mask may_be_collinear(const Block& block, std::size_t i, Mask lanes) 
     return lanes;
 }
 
-/// The state that a register's chains begin with.
+/// Initialises the state of a register's chains.
 HWY_INLINE void begin(const Block& block, std::size_t i) {
     const Lanes residual = residual_of(block, i);
     for (const Row row : {Row::Residual, Row::Best, Row::Nearest, Row::Last}) {
@@ -194,7 +189,7 @@ Left classify(const Block& block, std::size_t lanes, bool every) {
     Left left;
     bool out_of_reach = false;
     for (std::size_t i = 0; i < lanes; i += hn::Lanes(d)) {
-        const Mask used = hn::FirstN(d, lanes - i);  // the lanes beyond count as invalid
+        const Mask used = hn::FirstN(d, lanes - i);  // lanes beyond count as invalid
         if (classify_register(block, i, used)) enforce_lengths(block, i);
         out_of_reach = out_of_reach || any(equals(block.row(Row::Class) + i, Class::Straight));
     }

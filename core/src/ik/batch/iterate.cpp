@@ -1,17 +1,11 @@
-// The iterations of solve_many, block by block: FABRIK's two passes, the step of shape-inl.hpp, and how each
-// chain goes on, as solve/loop.cpp and solve/convergence.hpp have it.
-//
-// Highway compiles this file once for each vector unit: it includes it again and again, each time with
-// another HWY_NAMESPACE.
+// The iterations of solve_many, block by block: FABRIK's two passes, the step of shape-inl.hpp, and the
+// decision how each chain continues, as in solve/loop.cpp and solve/convergence.hpp.
 #include <array>
 
 #include "ik/batch/vector.hpp"
-#include "math/dispatch.hpp"
 
-#undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "ik/batch/iterate.cpp"
-#include <hwy/foreach_target.h>  // before highway.h
-#include <hwy/highway.h>
+#include "math/each_target-inl.hpp"
 
 #include "ik/batch/shape-inl.hpp"
 #include "ik/batch/step-inl.hpp"
@@ -26,7 +20,7 @@ HWY_INLINE Lanes all(int value) {
     return all(static_cast<float>(value));
 }
 
-/// Which registers of a block have chains to iterate, and whether in each of these all lanes do.
+/// The registers of a block with active chains, and whether all lanes of these registers are active.
 struct Registers {
     std::array<std::uint16_t, block_lanes> first;
     std::size_t count = 0;
@@ -49,7 +43,7 @@ HWY_INLINE Registers active_registers(const Block& block, std::size_t lanes) {
     return registers;
 }
 
-/// Forward reaching, then backward reaching. The registers take each step side by side, so that none waits
+/// Forward reaching, then backward reaching. All registers take each step side by side, so that none waits
 /// for its own square root.
 template <bool some>
 HWY_INLINE void reach_both_ways(const Block& block, const Registers& registers) {
@@ -61,7 +55,7 @@ HWY_INLINE void reach_both_ways(const Block& block, const Registers& registers) 
         const Points target = load_points(block.target() + i);
         store_points(some ? select(active_lanes(block, i), target, load_points(tip)) : target, tip);
     }
-    // Where the root would be drawn to does not matter: it stays.
+    // Forward reaching skips the root: it stays.
     for (std::size_t bone = bones; bone-- > 1;) {
         const StepRows rows{block.joint(bone + 1), block.joint(bone), block.length(bone)};
         for (std::size_t k = 0; k < registers.count; ++k) step<some>(rows, activity, registers.first[k]);
@@ -72,8 +66,8 @@ HWY_INLINE void reach_both_ways(const Block& block, const Registers& registers) 
     }
 }
 
-/// Where the accelerated step has its turn: with few bones it costs more than the passes, so every other
-/// iteration does without.
+/// Lanes that take the accelerated step in this iteration: with few bones it costs more than the passes, so
+/// every other iteration skips it.
 HWY_INLINE Mask has_its_turn(const Block& block, std::size_t i) {
     if (block.bones() >= few_bones) return hn::Not(none());
     const Lanes iteration = hn::Add(load(block.row(Row::Iterations) + i), all(1.0f));
@@ -81,14 +75,14 @@ HWY_INLINE Mask has_its_turn(const Block& block, std::size_t i) {
     return hn::Eq(hn::Floor(half), half);
 }
 
-/// Some lanes of a block, side by side in another one.
+/// Some lanes of a block, side by side in another block.
 struct Gathered {
     Block block;
-    LaneList home;  ///< the lane that each comes from
+    LaneList home;  ///< the lane that each came from
 
     explicit Gathered(const Block& in) : block(in) {}
 
-    /// What the accelerated step reads. `home_of` says which lane each of them comes from.
+    /// Adds what the accelerated step reads. `home_of` maps each lane to its original lane.
     template <class Home>
     void add(const Block& from, const LaneList& lanes, Home home_of) {
         const std::size_t bones = from.bones(), at = home.count;
@@ -114,8 +108,9 @@ HWY_INLINE Family whole_family(const Block& block, std::size_t i, Points& span) 
     return blend_of(span, minus(load_points(block.target() + i), root), load(block.reach() + i));
 }
 
-/// The accelerated step, in those of `lanes` where it brings the tip nearer. Where the first family of shapes
-/// falls short, the chain is added to `second` as it was. `home` says which lane of the block that is.
+/// The accelerated step, applied to those of `lanes` where it brings the tip nearer. If the first family of
+/// shapes is not good enough, the unchanged chain is added to `second`. `home` maps a lane to its original
+/// lane.
 template <class Home>
 HWY_INLINE void reshape(const Block& block, std::size_t i, Mask lanes, float* shapes, Gathered& second,
                         Home home) {
@@ -138,7 +133,7 @@ HWY_INLINE void reshape(const Block& block, std::size_t i, Mask lanes, float* sh
     place_shape<false>(block, i, hn::And(lanes, hn::Lt(best.error, residual)), family, best, one, two);
 }
 
-/// The second family, where it comes nearer than the first did.
+/// Applies the second family where it is better than the first.
 HWY_INLINE void reshape_around_longest(const Gathered& second, const Block& to, float* shapes) {
     const Block& block = second.block;
     const Shape one(shapes), two(shapes + Shape::floats(block.bones()));
@@ -155,7 +150,7 @@ HWY_INLINE void reshape_around_longest(const Gathered& second, const Block& to, 
     }
 }
 
-/// The chains of a block that take the accelerated step now.
+/// The chains of a block that take the accelerated step in this iteration.
 struct Takers {
     std::array<Mask, block_lanes> lanes;  ///< of each active register
     std::size_t count = 0, registers = 0;
@@ -178,15 +173,15 @@ HWY_INLINE Takers find_takers(const Block& block, const Registers& registers) {
     return takers;
 }
 
-/// Whether to take the step with chains side by side costs less than with their registers as they are. To
-/// move a chain there and back takes about as long as the step of a register for one bone in eight.
+/// Whether gathering the chains side by side costs less than using their registers as they are. Moving a
+/// chain there and back takes about as long as the step of a register for one bone in eight.
 HWY_INLINE bool pays_to_gather(const Takers& takers) {
     const std::size_t width = hn::Lanes(Floats());
     const std::size_t saved = takers.registers - (takers.count + width - 1) / width;
     return 8 * saved > takers.count;
 }
 
-/// After it Row::Residual is that of the chains that did not take it.
+/// Also sets Row::Residual of active chains, after the passes and before this step.
 HWY_INLINE Takers take_step(const Block& block, const Registers& registers, const StepScratch& scratch) {
     const Takers takers = find_takers(block, registers);
     if (takers.count == 0) return takers;
@@ -216,7 +211,7 @@ HWY_INLINE Takers take_step(const Block& block, const Registers& registers, cons
     return takers;
 }
 
-/// The best poses of active chains, before the joints move on.
+/// Saves the best poses of active chains before the joints change.
 HWY_INLINE void save_best(const Block& block, std::size_t i) {
     float* const saved = block.row(Row::Saved) + i;
     const Mask lanes = hn::And(active_lanes(block, i), hn::Eq(load(saved), zero()));
@@ -227,12 +222,12 @@ HWY_INLINE void save_best(const Block& block, std::size_t i) {
     store(hn::IfThenElse(lanes, all(1.0f), load(saved)), saved);
 }
 
-/// What of the chains of a register is left to do after an iteration.
+/// What the chains of a register do after an iteration.
 struct Verdict {
     Mask goes_on, perturb;
 };
 
-/// Counts the iteration and keeps what convergence.hpp keeps.
+/// Counts the iteration and updates the state that convergence.hpp keeps.
 HWY_INLINE Verdict note(const Block& block, std::size_t i, Mask active, Lanes residual, const Order& order) {
     const auto row = [&](Row which) { return block.row(which) + i; };
     const auto update = [&](Row which, Lanes value) {
@@ -267,7 +262,7 @@ HWY_INLINE Verdict note(const Block& block, std::size_t i, Mask active, Lanes re
     return verdict;
 }
 
-/// Chains that are done without having arrived go back to their best pose.
+/// Restores the best pose of chains that are done without having arrived.
 HWY_INLINE void restore_best(const Block& block, std::size_t i, Mask done) {
     float* const residual = block.row(Row::Residual) + i;
     const Lanes now = load(residual), best = load(block.row(Row::Best) + i);
@@ -280,7 +275,7 @@ HWY_INLINE void restore_best(const Block& block, std::size_t i, Mask done) {
     store(hn::IfThenElse(worse, best, now), residual);
 }
 
-/// What comes after passes and step, for one register.
+/// Completes an iteration after passes and step, for one register.
 HWY_INLINE void finish_iteration(const Block& block, std::size_t i, bool stepped, const Order& order,
                                  Left& left) {
     const Mask active = active_lanes(block, i);

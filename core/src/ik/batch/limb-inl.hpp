@@ -1,5 +1,5 @@
-// A register of chains within limits: forward kinematics, how the tip moves as the joints turn, and one
-// damped step of all joints. Not installed; it is included once for each vector unit.
+// A register of chains within limits: forward kinematics, linearisation, and one damped step of all joints.
+// Not installed; included once per vector unit.
 #if defined(TENDRIL_IK_BATCH_LIMB_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef TENDRIL_IK_BATCH_LIMB_INL
 #undef TENDRIL_IK_BATCH_LIMB_INL
@@ -17,9 +17,9 @@ HWY_BEFORE_NAMESPACE();
 namespace tendril::ik::detail {
 namespace HWY_NAMESPACE {
 
-constexpr float violation = 1.9e-7f;  ///< squared, of half an angle: 0.05 degrees
+constexpr float violation = 1.9e-7f;  ///< (half-angle)^2 of 0.05 degrees
 
-/// Registers, one after the other.
+/// An array of registers.
 class Column {
   public:
     explicit Column(float* first) : first_(first) {}
@@ -43,8 +43,8 @@ class Column {
     float* first_;
 };
 
-/// How each bone is turned against its parent and which limits it stands at; and what follows from that: the
-/// joints, and how each bone is turned in the world.
+/// Each bone's rotation relative to its parent and the limits that it is at, and the resulting joints and
+/// world rotations.
 struct Pose {
     Column local;
     Column outward;  ///< points: Standing::outward
@@ -56,7 +56,7 @@ struct Pose {
           ends(outward.after(3 * bones)),
           joints(ends.after(2 * bones)),
           world(joints.after(3 * (bones + 1))) {}
-    /// All of it: full_pose_rows registers, of which the first pose_rows are what it consists of.
+    /// All of it: full_pose_rows registers, of which the first pose_rows are independent.
     const Column& rows() const { return local; }
 
     void set(std::size_t bone, const Rotations& turn, const Standing& standing) const {
@@ -71,11 +71,11 @@ struct Limb {
     std::size_t i;  ///< the register's first lane
     std::span<const BatchLimit> limits;
     Pose pose, trial;
-    Column arms;     ///< points: from each joint to the tip, in parts of the reach
-    Column axes;     ///< points: the hinge's axis, or the way out of the cone where the joint lies on its rim
+    Column arms;     ///< points: from each joint to the tip, in units of the reach
+    Column axes;     ///< points: the hinge's axis, or the outward axis of a swing on the rim
     Column bones;    ///< points: unit vectors along the bones
-    Column changes;  ///< points: how far each joint is to turn; x alone for a hinge
-    Column stopped;  ///< 2 a bone: 1 where swing, and hinge or twist, are stopped in this step
+    Column changes;  ///< points: rotation vector of each joint in this step; only x for a hinge
+    Column stopped;  ///< 2 per bone: 1 if the swing, and the hinge or twist, is stopped in this step
 
     Limb(const Block& of, std::size_t lane, const LimitedOrder& order)
         : block(of),
@@ -94,7 +94,7 @@ struct Limb {
     float* row(Row which) const { return block.row(which) + i; }
 };
 
-/// In the order that glm::quat has its components in.
+/// Rows of the components of a glm::quat, in its memory order.
 #ifdef GLM_FORCE_QUAT_DATA_WXYZ
 constexpr std::size_t row_of_w = 0, row_of_v = block_lanes;
 #else
@@ -111,7 +111,7 @@ HWY_INLINE Rotations no_rotation() {
     return {all(1.0f), {zero(), zero(), zero()}};
 }
 
-/// Where the joints lie, from how the bones are turned.
+/// Joints and world rotations from the local rotations.
 HWY_INLINE void forward_kinematics(const Limb& limb, const Pose& pose) {
     Rotations world = no_rotation();
     Points at = load_points(limb.block.joint(0) + limb.i);
@@ -124,8 +124,7 @@ HWY_INLINE void forward_kinematics(const Limb& limb, const Pose& pose) {
     }
 }
 
-/// The smallest rotation from one unit vector to another; half a turn about some axis where they are
-/// opposite.
+/// The minimal rotation from one unit vector to another; half a turn about some axis if they are opposite.
 HWY_INLINE Rotations smallest_rotation(const Points& from, const Points& to) {
     const Lanes w = hn::Add(all(1.0f), dot(from, to));
     const Mask opposite = hn::Lt(w, all(1e-6f));
@@ -134,8 +133,8 @@ HWY_INLINE Rotations smallest_rotation(const Points& from, const Points& to) {
     return normalized(select(opposite, Rotations{zero(), cross(from, away)}, Rotations{w, cross(from, to)}));
 }
 
-/// How a bone is turned in the world: as its rows say, transported by the smallest rotation to where the
-/// joints are. `turned`: where that is more than rounding.
+/// A bone's world rotation, transported by the minimal rotation to where the joints are. `turned`: lanes in
+/// which that is more than rounding.
 HWY_INLINE Rotations transported(const Limb& limb, std::size_t bone, const float* rotations, Mask& turned) {
     const Rotations world = load_rotations(rotations + 4 * bone * block_lanes + limb.i);
     const Points apart =
@@ -149,7 +148,7 @@ HWY_INLINE Rotations transported(const Limb& limb, std::size_t bone, const float
     return select(turned, normalized(compose(smallest_rotation(before, along), world)), world);
 }
 
-/// Chains that stay where they are: only their rotations follow the joints.
+/// For chains that do not move: updates only their rotations.
 HWY_INLINE void transport(const Limb& limb, Mask lanes, float* rotations) {
     for (std::size_t bone = 0; bone < limb.count(); ++bone) {
         Mask turned = none();
@@ -161,8 +160,8 @@ HWY_INLINE void transport(const Limb& limb, Mask lanes, float* rotations) {
     }
 }
 
-/// Transports the rotations to where the joints are and clamps them. Returns the lanes in which a limit was
-/// violated; `pose` is the clamped one.
+/// Transports the rotations to the joints and clamps them into limb.pose. Returns the lanes in which a limit
+/// was violated.
 HWY_INLINE Mask take_pose(const Limb& limb, const float* rotations) {
     Mask violated = none(), turned = none();
     Rotations parent = no_rotation();
@@ -183,7 +182,7 @@ HWY_INLINE Mask take_pose(const Limb& limb, const float* rotations) {
     return violated;
 }
 
-/// A symmetric matrix.
+/// Symmetric 3x3 matrix.
 struct Matrix {
     Lanes xx, yy, zz, xy, xz, yz;
     explicit Matrix(Lanes diagonal)
@@ -196,7 +195,7 @@ struct Matrix {
         xz = hn::Add(xz, hn::Mul(c.x, scaled.z)), yz = hn::Add(yz, hn::Mul(c.y, scaled.z));
     }
     void add_diagonal(Lanes by) { xx = hn::Add(xx, by), yy = hn::Add(yy, by), zz = hn::Add(zz, by); }
-    /// The x for which this times x is `of`.
+    /// Solves (this) x = of.
     Points solved(const Points& of) const {
         const auto minor = [](Lanes a, Lanes b, Lanes c, Lanes d) {
             return hn::Sub(hn::Mul(a, b), hn::Mul(c, d));
@@ -209,7 +208,7 @@ struct Matrix {
     }
 };
 
-/// Arms, axes and what stands at its limit, of the pose.
+/// Computes arms, axes and stopped bounds of the pose.
 HWY_INLINE void linearize(const Limb& limb) {
     const Lanes unit = hn::Div(all(1.0f), load(limb.block.reach() + limb.i));
     const Points tip = limb.tip(limb.pose);
@@ -223,7 +222,7 @@ HWY_INLINE void linearize(const Limb& limb) {
         limb.axes.set(bone, rotated(parent, axis));
         if (!hinge) limb.bones.set(bone, rotated(world, all(limit.bone)));
         limb.stopped.set(2 * bone, zero());
-        // No freedom at all: stopped both ways.
+        // Without any range: stopped both ways.
         limb.stopped.set(2 * bone + 1,
                          hn::Mul(limb.pose.ends.lanes(2 * bone), limb.pose.ends.lanes(2 * bone + 1)));
         parent = world;
@@ -250,7 +249,8 @@ HWY_INLINE Matrix matrix_of(const Limb& limb, Lanes damping) {
     return matrix;
 }
 
-/// How far each joint turns for it. Stops those that would leave their limits; true if there was one.
+/// Computes the rotation of each joint in a step. Stops those that would leave their limits; true if there
+/// were any.
 HWY_INLINE bool change_joints(const Limb& limb, const Points& by, Mask lanes) {
     Mask found = none();
     const auto stop = [&](std::size_t which, Mask here) {
@@ -283,7 +283,7 @@ HWY_INLINE bool change_joints(const Limb& limb, const Points& by, Mask lanes) {
     return any(found);
 }
 
-/// The trial pose: each joint turned as it should, by a radian at most, and clamped.
+/// Computes the trial pose: each joint rotated by its change, scaled to at most a radian, and clamped.
 HWY_INLINE void turn_joints(const Limb& limb) {
     Lanes most = all(1.0f);
     for (std::size_t bone = 0; bone < limb.count(); ++bone) {
@@ -302,7 +302,7 @@ HWY_INLINE void turn_joints(const Limb& limb) {
             turned = {hn::Sub(local.w, hn::Mul(change.x, dot(axis, local.v))),
                       plus(local.v, times(axis, hn::Mul(change.x, local.w)))};
         } else {
-            // Brought to length 1, as the other one is.
+            // Normalised here, because the clamp normalises only hinges.
             const Lanes squared = hn::Add(all(1.0f), dot(change, change));
             const Lanes scale = hn::Div(all(1.0f), hn::Sqrt(squared));
             turned = compose(Rotations{scale, times(rotated(conjugate(parent), change), scale)}, local);
@@ -315,7 +315,7 @@ HWY_INLINE void turn_joints(const Limb& limb) {
     forward_kinematics(limb, limb.trial);
 }
 
-/// The trial becomes the pose.
+/// Replaces the pose with the trial.
 HWY_INLINE void accept(Limb& limb, Mask lanes) {
     if (hn::AllTrue(Floats(), lanes)) return std::swap(limb.pose, limb.trial);
     const Column pose = limb.pose.rows(), trial = limb.trial.rows();

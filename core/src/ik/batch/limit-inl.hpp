@@ -1,5 +1,5 @@
-// Quaternions of a whole register of chains, and the clamp of a joint to its limit. Not installed; it is
-// included once for each vector unit.
+// Quaternions of a register of chains, and the clamp of a joint to its limit. Not installed; included once
+// per vector unit.
 #if defined(TENDRIL_IK_BATCH_LIMIT_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef TENDRIL_IK_BATCH_LIMIT_INL
 #undef TENDRIL_IK_BATCH_LIMIT_INL
@@ -27,7 +27,7 @@ HWY_INLINE Points all(const glm::vec3& p) {
 HWY_INLINE Rotations conjugate(const Rotations& q) {
     return {q.w, {hn::Neg(q.v.x), hn::Neg(q.v.y), hn::Neg(q.v.z)}};
 }
-/// First `b`, then `a`.
+/// Applies `b` first, then `a`.
 HWY_INLINE Rotations compose(const Rotations& a, const Rotations& b) {
     return {hn::Sub(hn::Mul(a.w, b.w), dot(a.v, b.v)),
             plus(plus(times(b.v, a.w), times(a.v, b.w)), cross(a.v, b.v))};
@@ -42,7 +42,7 @@ HWY_INLINE Points rotated(const Rotations& q, const Points& p) {
     return plus(plus(p, times(twice, q.w)), cross(q.v, twice));
 }
 
-/// sin(x) / x of the square of an angle from 0 to pi/2, to 1e-7: the Taylor series.
+/// sin(x) / x from x^2, for x from 0 to pi/2, to 1e-7: the Taylor series.
 HWY_INLINE Lanes sinc_of(Lanes squared) {
     Lanes sum = all(-1.0f / 39916800.0f);
     for (const float factor : {1.0f / 362880.0f, -1.0f / 5040.0f, 1.0f / 120.0f, -1.0f / 6.0f, 1.0f}) {
@@ -54,19 +54,19 @@ HWY_INLINE Lanes other_leg(Lanes sine) {
     return hn::Sqrt(hn::Max(hn::Sub(all(1.0f), hn::Mul(sine, sine)), zero()));
 }
 
-/// Where a joint stands against its limit.
+/// Which bounds a joint is at.
 struct Standing {
-    Points outward;      ///< the axis of a swing that lies on the rim; zero inside
-    Lanes upper, lower;  ///< 1 where the hinge or the twist is at that end of its range
+    Points outward;      ///< axis of a swing on the rim; zero inside
+    Lanes upper, lower;  ///< 1 if the hinge or twist is at that end of its range
     Standing() : outward{zero(), zero(), zero()}, upper(zero()), lower(zero()) {}
 };
 
-/// Half an angle, by its cosine, which is not negative, and its sine.
+/// Cosine and sine of a half-angle. The cosine is not negative.
 struct HalfAngles {
     Lanes cosine, sine;
 };
 
-/// Brought into the range.
+/// Clamps to the range.
 HWY_INLINE HalfAngles clamp(const HalfRange& range, const HalfAngles& half, Standing& standing) {
     if (range.whole) return half;
     const Lanes sine = hn::Min(hn::Max(half.sine, all(range.min)), all(range.max));
@@ -78,7 +78,7 @@ HWY_INLINE HalfAngles clamp(const HalfRange& range, const HalfAngles& half, Stan
     return {hn::IfThenElse(stays, half.cosine, other_leg(sine)), sine};
 }
 
-/// The part of a unit quaternion about an axis: `along` is its vector's component there.
+/// The twist of a unit quaternion about an axis: `along` is its vector's component along the axis.
 HWY_INLINE HalfAngles twist_of(Lanes w, Lanes along) {
     const Lanes size = hn::Sqrt(hn::Add(hn::Mul(w, w), hn::Mul(along, along)));
     const Mask shows = hn::Gt(size, all(1e-6f));
@@ -87,19 +87,19 @@ HWY_INLINE HalfAngles twist_of(Lanes w, Lanes along) {
             hn::IfThenElseZero(shows, hn::Mul(along, scale))};
 }
 
-/// A swing: the cosine of half its angle, and its quaternion's vector, which lies across the bone.
+/// A swing: the cosine of its half-angle, and the vector of its quaternion, perpendicular to the bone.
 struct Swings {
     Lanes cosine, up, left;
 };
 
-/// Brought into its cone: along its own direction, to the rim. The sines of half angles are compared, so no
+/// Clamps to the cone: along the swing's own direction, to the rim. Compares sines of half-angles, so no
 /// angle is measured.
 HWY_INLINE Swings clamp(const BatchLimit& limit, const Swings& swing, Standing& standing) {
     const Mask upward = hn::Ge(swing.up, zero()), leftward = hn::Ge(swing.left, zero());
     const Lanes a = hn::IfThenElse(upward, all(limit.up), all(limit.down)),
                 b = hn::IfThenElse(leftward, all(limit.left), all(limit.right));
     const Lanes up2 = hn::Mul(swing.up, swing.up), left2 = hn::Mul(swing.left, swing.left);
-    // In units of the rim at that direction, squared, but for what the sine is less than the angle.
+    // Relative to the rim in that direction, squared, but with the sine instead of the angle.
     const Lanes outside = hn::Add(hn::Mul(up2, a), hn::Mul(left2, b));
     constexpr float pi = 3.14159265f;
     const Mask surely_inside = hn::Lt(hn::Mul(outside, all(pi * pi)), all(1.0f));
@@ -116,7 +116,7 @@ HWY_INLINE Swings clamp(const BatchLimit& limit, const Swings& swing, Standing& 
                          hn::IfThenElse(beyond, hn::Mul(swing.left, scale), swing.left)};
     const Mask on_rim = hn::AndNot(surely_inside, hn::Lt(scale, all(1.0f + 1e-4f)));
     if (!any(on_rim)) return clamped;
-    // Outward is where the ellipse's normal points.
+    // Outward is the normal of the ellipse.
     const Lanes nu = hn::Mul(swing.up, a), nl = hn::Mul(swing.left, b);
     const Lanes size = hn::Add(hn::Mul(nu, nu), hn::Mul(nl, nl));
     const Lanes unit = hn::Div(all(1.0f), hn::Sqrt(hn::Max(size, all(1e-20f))));
@@ -125,8 +125,8 @@ HWY_INLINE Swings clamp(const BatchLimit& limit, const Swings& swing, Standing& 
     return clamped;
 }
 
-/// The rotation of a bone against its parent, a unit quaternion, brought within its limit. A cone's is split
-/// as LimitedJoint has it: first the twist about the bone, then the swing.
+/// Clamps the rotation of a bone relative to its parent, a unit quaternion. A cone's is split as in
+/// LimitedJoint: first the twist about the bone, then the swing.
 HWY_INLINE Rotations clamp(const BatchLimit& limit, const Rotations& turn, Standing& standing) {
     if (limit.kind == BatchLimit::Kind::Free) return turn;
     const Lanes up = dot(turn.v, all(limit.axis));
@@ -136,7 +136,7 @@ HWY_INLINE Rotations clamp(const BatchLimit& limit, const Rotations& turn, Stand
     }
     const Lanes along = dot(turn.v, all(limit.bone)), left = dot(turn.v, all(limit.side));
     const HalfAngles twist = twist_of(turn.w, along);
-    // The rotation after the twist's inverse: with w of no sign, so without a sign itself.
+    // The rotation after the inverse twist, with the sign chosen so that w is positive.
     const Lanes sign = hn::CopySign(all(1.0f), turn.w);
     const Lanes c = hn::Mul(twist.cosine, sign), s = hn::Mul(twist.sine, sign);
     const Lanes cosine = hn::Add(hn::Mul(turn.w, c), hn::Mul(along, s));

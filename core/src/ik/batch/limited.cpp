@@ -1,23 +1,17 @@
 // Chains within limits: damped least squares over the joints' rotations, a register of chains at a time.
 //
-// The scalar solver alternates FABRIK's passes with such steps and starts again elsewhere where both end;
-// what it converges by, as a rule, are the steps. Here there is nothing else: from the pose that a chain has,
-// the tip goes to its target by Levenberg's steps (K. Levenberg 1944; damping by whether the last step
-// brought the tip nearer), with what a limit stops taken out of the matrix, and every joint clamped. A chain
-// that does not arrive so is left as it was, for the scalar solver.
-//
-// Highway compiles this file once for each vector unit: it includes it again and again, each time with
-// another HWY_NAMESPACE.
+// The scalar solver alternates FABRIK's passes with such steps and restarts elsewhere if both stall; usually
+// the steps are what converges. Here there are only steps: from a chain's given pose, the tip moves to its
+// target by Levenberg's method (K. Levenberg 1944; damping by whether the last step brought the tip nearer),
+// with the directions that a limit stops removed from the matrix, and every joint clamped. A chain that does
+// not converge this way is left unchanged, for the scalar solver.
 #include <algorithm>
 
 #include "ik/batch/vector.hpp"
 #include "ik/tunables.hpp"
-#include "math/dispatch.hpp"
 
-#undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "ik/batch/limited.cpp"
-#include <hwy/foreach_target.h>  // before highway.h
-#include <hwy/highway.h>
+#include "math/each_target-inl.hpp"
 
 #include "ik/batch/limb-inl.hpp"
 
@@ -25,12 +19,12 @@ HWY_BEFORE_NAMESPACE();
 namespace tendril::ik::detail {
 namespace HWY_NAMESPACE {
 
-// What each chain's solve keeps between two steps, in the tile's rows of state.
+// State of each chain between two steps, in the tile's rows.
 constexpr Row row_of_error = Row::Residual, row_of_damping = Row::Best, row_of_move = Row::Nearest,
               row_of_slow = Row::Slow;
 
-/// The state that a register's chains begin with. Chains that have arrived and violate nothing are done as
-/// they are.
+/// Initialises the state of a register's chains. Chains that have arrived and violate no limit are done
+/// already.
 HWY_INLINE void begin(const Limb& limb, float* rotations) {
     const Mask asked = equals(limb.row(Row::Class), Class::Reachable);
     const Mask violated = take_pose(limb, rotations);
@@ -82,8 +76,8 @@ HWY_INLINE void take_step(Limb& limb, Mask left, float last) {
     store(hn::IfThenZeroElse(ends, load(limb.row(Row::Activity))), limb.row(Row::Activity));
 }
 
-/// Writes joints and rotations of the chains that have arrived. The others stay as they were, and those that
-/// have ended without are the scalar solver's.
+/// Writes joints and rotations of the chains that converged. The others stay unchanged; those that ended
+/// without converging are left to the scalar solver.
 HWY_INLINE void write_back(const Limb& limb, Mask left, float* rotations) {
     const Mask taken = hn::AndNot(left, hn::Gt(load(limb.row(Row::Iterations)), zero()));
     const Mask there = hn::Le(load(limb.row(row_of_error)), load(limb.row(Row::Tolerance)));
@@ -100,7 +94,7 @@ HWY_INLINE void write_back(const Limb& limb, Mask left, float* rotations) {
     }
 }
 
-/// To a lane of the tile.
+/// Moves a chain to a lane of the tile.
 HWY_INLINE void move_chain(const Limb& limb, std::size_t lane, std::size_t to, const LimitedOrder& order) {
     const Block &block = limb.block, &tile = order.tile;
     const std::size_t from = limb.i + lane, bones = block.bones();

@@ -36,7 +36,7 @@ void Work::solve_limited_block(const Block& block, std::size_t index, std::size_
     if (in_.joints != nullptr) return_joints(block, index, lanes);
 }
 
-/// As Solver::solve with these limits, from the joints and rotations that the chain has.
+/// Same as Solver::solve with these limits, from the chain's joints and rotations.
 void Work::solve_scalar_limited(const Block& block, std::size_t lane, std::size_t chain,
                                 Scratch& scratch) noexcept {
     Workspace& scalar = scratch.scalar;
@@ -44,7 +44,7 @@ void Work::solve_scalar_limited(const Block& block, std::size_t lane, std::size_
     const auto component = [&](std::size_t i, int k) -> float& {
         return rows[(4 * i + static_cast<std::size_t>(k)) * block_lanes];
     };
-    scalar.saved.reset();  // of the chain before, which must not matter
+    scalar.saved.reset();  // results must not depend on the previous chain
     for (std::size_t i = 0; i < in_.bones; ++i) {
         for (int k = 0; k < 4; ++k) scalar.saved.rotations[i][k] = component(i, k);
         scalar.rest_directions[i] = in_.limits->rest_directions[i];
@@ -59,7 +59,7 @@ void Work::solve_scalar_limited(const Block& block, std::size_t lane, std::size_
     report_fallback(chain, answer);
 }
 
-/// Until no more than so many of its chains are left.
+/// Steps until at most `most_left` chains are in the tile.
 void Work::run_limited_tile(std::size_t most_left, Scratch& scratch) noexcept {
     Tile& tile = scratch.tile;
     const auto done = [&](std::size_t lane) { return tile.block.activity(lane) == Activity::Done; };
@@ -68,14 +68,14 @@ void Work::run_limited_tile(std::size_t most_left, Scratch& scratch) noexcept {
         for (std::size_t lane = 0; lane < tile.used; ++lane) {
             if (!done(lane)) continue;
             end_limited(lane, scratch);
-            // The last one that goes on takes its place.
+            // Move the last active chain into the gap.
             while (--tile.used > lane && done(tile.used)) end_limited(tile.used, scratch);
             if (tile.used > lane) move_limited(tile.used, lane, scratch);
         }
     }
 }
 
-/// From lane to lane of the tile.
+/// Moves a chain between lanes of the tile.
 void Work::move_limited(std::size_t from, std::size_t to, Scratch& scratch) const noexcept {
     Tile& tile = scratch.tile;
     const auto move = [&](float* rows, std::size_t count) { copy_lane(rows + from, rows + to, count); };
@@ -87,7 +87,7 @@ void Work::move_limited(std::size_t from, std::size_t to, Scratch& scratch) cons
     tile.block.set_activity(from, Activity::Done);
 }
 
-/// A chain of the tile goes home: from where it has come to, or from where it was and with the scalar solver.
+/// Writes back a chain of the tile: its result, or what the scalar solver makes of its original pose.
 void Work::end_limited(std::size_t lane, Scratch& scratch) noexcept {
     const Tile& tile = scratch.tile;
     const std::size_t chain = tile.chains[lane];

@@ -8,7 +8,7 @@
 namespace tendril::ik::detail {
 namespace {
 
-/// Half-angles under this are left to the scalar solver: its cone is then flat.
+/// With smaller half-angles the cone counts as flat and is left to the scalar solver.
 constexpr float min_half_angle = 1e-3f;
 
 HalfRange half_range(float min, float max) noexcept {
@@ -16,8 +16,8 @@ HalfRange half_range(float min, float max) noexcept {
     return {std::sin(0.5f * std::clamp(min, -pi, pi)), std::sin(0.5f * std::clamp(max, -pi, pi)), whole};
 }
 
-/// As solvable_joint (limits/joint.cpp): a bone that points straight back shows neither its twist nor to
-/// which side it swung.
+/// As in solvable_joint (limits/joint.cpp): straight back, neither the twist nor the side of the swing is
+/// defined.
 float inverse_square(float half_angle) noexcept {
     const float angle = std::min(half_angle, pi - 0.02f);
     return 1.0f / (angle * angle);

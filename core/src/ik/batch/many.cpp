@@ -1,5 +1,5 @@
-// What a Batch holds, and the door of solve_many: what is checked, and how the work is shared. The solve
-// itself is in work.cpp, its iterations in iterate.cpp.
+// The contents of a Batch and the entry points of solve_many: validation and distribution of the work. The
+// solve itself is in work.cpp, its iterations in iterate.cpp.
 #include "tendril/ik/many.hpp"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ using tendril::detail::check_point;
 namespace {
 
 constexpr std::size_t max_chains = std::size_t{1} << 31, max_bones = 1'000'000;
-/// Starting a thread takes as long as some ten thousand bones do.
+/// Starting a thread takes as long as solving about ten thousand bones.
 constexpr std::size_t bones_a_thread = 8192;
 
 const VectorUnit& widest() noexcept {
@@ -40,23 +40,23 @@ struct Batch::Parts {
         for (std::size_t i = 0; i < block_count(); ++i) fill(block(i * block_lanes));
     }
 
-    /// Straight along +X: also the lanes that stay unused, for they take part in the passes.
+    /// Straight along +X, including unused lanes, which take part in the passes.
     static void fill(const Block& block) noexcept;
 
     std::size_t block_count() const noexcept { return (chains + block_lanes - 1) / block_lanes; }
-    /// The one that a chain is in.
+    /// The block of a chain.
     Block block(std::size_t chain) const noexcept {
         return {blocks.get() + chain / block_lanes * Block::chain_floats(bones), nullptr, bones};
     }
     void set_lengths(std::size_t chain, std::span<const float> lengths) noexcept;
-    /// Of the block that a chain is in.
+    /// The rotations of a chain's block.
     float* rotation_rows(std::size_t chain) const noexcept {
         return rotations.get() + chain / block_lanes * 4 * bones * block_lanes;
     }
     void forget_rotations() noexcept;
     static ManySummary solve(Parts& parts, std::span<const glm::vec3> targets, glm::vec3* joints,
                              std::span<ManyReport> reports, const ManyOptions& options) noexcept;
-    /// Calls it with each block, the index of its first chain and how many it has.
+    /// Calls `call` with each block, the index of its first chain and its number of chains.
     template <class Call>
     void for_each_block(Call call) const noexcept {
         for (std::size_t first = 0; first < chains; first += block_lanes) {
@@ -66,7 +66,7 @@ struct Batch::Parts {
 
     std::size_t chains, bones;
     Rows blocks;
-    std::vector<std::unique_ptr<Scratch>> scratch;  ///< one a thread
+    std::vector<std::unique_ptr<Scratch>> scratch;  ///< one per thread
     std::unique_ptr<BatchLimits> limits;
     Rows rotations;  ///< with limits
 };
@@ -218,7 +218,7 @@ Result Batch::set_limits(std::span<const Limit> limits, std::span<const glm::vec
     }
     parts_->limits = std::make_unique<BatchLimits>(batch_limits(limits, rest));
     for (const std::unique_ptr<Scratch>& scratch : parts_->scratch) {
-        scratch->scalar.limited.made = false;  // the same limits, but other rest directions
+        scratch->scalar.limited.made = false;  // the cached limits may be for other rest directions
         if (scratch->limited.get() != nullptr) continue;
         scratch->limited = Rows(limited_floats(bones()));
         const auto zeros = [](std::size_t rows) {
@@ -303,7 +303,7 @@ ManySummary solve_many(Batch& batch, std::span<glm::vec3> joints, std::span<cons
     return Batch::Parts::solve(*batch.parts_, targets, joints.data(), reports, options);
 }
 
-/// `joints` is null for those that the batch has.
+/// `joints` is null to use the batch's own.
 ManySummary Batch::Parts::solve(Parts& parts, std::span<const glm::vec3> targets, glm::vec3* joints,
                                 std::span<ManyReport> reports, const ManyOptions& options) noexcept {
     const VectorUnit* const unit =

@@ -1,7 +1,6 @@
 // The step that makes FABRIK fast near full reach (methods/accelerate.cpp) for a register of chains: the same
-// operations in the same order as there, so the same bits. Where the scalar code branches, each lane takes
-// its own side by a mask; and what only some chains need is run where a register has one of them. Not
-// installed; it is included once for each vector unit.
+// operations in the same order, so the same bits. Branches of the scalar code become masks; rare cases run
+// only if a register has one. Not installed; included once per vector unit.
 #if defined(TENDRIL_IK_BATCH_SHAPE_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef TENDRIL_IK_BATCH_SHAPE_INL
 #undef TENDRIL_IK_BATCH_SHAPE_INL
@@ -19,14 +18,14 @@ HWY_BEFORE_NAMESPACE();
 namespace tendril::ik::detail {
 namespace HWY_NAMESPACE {
 
-/// Shapes that differ by t, of each chain; see accelerate.cpp.
+/// A family of shapes per chain, parametrised by t; see accelerate.cpp.
 struct Family {
     Points line, first, aim;
     Lanes wanted, straight, now;
     Mask turns_longest;
 };
 
-/// The bones of a shape, a register a coordinate, one bone after the other.
+/// The bones of a shape, bone after bone, one register per coordinate.
 class Shape {
   public:
     explicit Shape(float* bones) : bones_(bones) {}
@@ -45,7 +44,7 @@ class Shape {
     float* bones_;
 };
 
-/// The first of the longest bones of each chain, as the bones are gone through.
+/// Finds the first of the longest bones of each chain; call `is` once per bone, in order.
 class LongestBone {
   public:
     LongestBone(const Block& block, std::size_t i) : longest_(load(block.longest() + i)), passed_(none()) {}
@@ -60,7 +59,7 @@ class LongestBone {
     Mask passed_;
 };
 
-/// Writes the bones of a shape and returns their span. `keeps_longest`: the longest bone stays as it is.
+/// Writes the bones of a shape and returns their span. `keeps_longest`: does not change the longest bone.
 template <bool keeps_longest>
 HWY_INLINE Points write_shape(const Block& block, std::size_t i, const Family& family, Lanes t,
                               const Shape& out) {
@@ -93,17 +92,17 @@ HWY_INLINE Points write_shape(const Block& block, std::size_t i, const Family& f
 struct BestShape {
     Points span;
     Lanes size, error;
-    Mask found;   ///< whether one side of the target's distance was seen to be too much, the other too little
-    Mask second;  ///< whether the second try is the better one
+    Mask found;   ///< whether the wanted length was bracketed
+    Mask second;  ///< whether the second try is better
 };
 
-/// Two tries at the t^2 where the span is as wanted: regula falsi.
+/// Finds the t^2 at which the span has the wanted length, in two tries: regula falsi.
 template <bool keeps_longest>
 HWY_INLINE BestShape fit_shape(const Block& block, std::size_t i, const Family& family, Lanes near,
                                Mask lanes, const Shape& one, const Shape& two) {
     const auto bounded = [](Lanes next) {
         const Mask fine = hn::And(hn::Ge(next, zero()), hn::Le(next, all(tune::chain::max_bend)));
-        return hn::IfThenElse(fine, next, all(tune::chain::max_bend));  // and not a number: 0 / 0
+        return hn::IfThenElse(fine, next, all(tune::chain::max_bend));  // also for NaN: 0 / 0
     };
     Lanes low = zero(), at_low = hn::Sub(family.straight, family.wanted);
     Lanes high = all(1.0f), at_high = hn::Sub(family.now, family.wanted);
@@ -126,7 +125,7 @@ HWY_INLINE BestShape fit_shape(const Block& block, std::size_t i, const Family& 
     high = hn::IfThenElse(crosses, next, high), at_high = hn::IfThenElse(crosses, off, at_high);
     const Lanes between =
         hn::Add(low, hn::Mul(hn::Sub(high, low), hn::Div(at_low, hn::Sub(at_low, at_high))));
-    // Bent as far as seemed enough, and it was not.
+    // Still too short at the estimated bend.
     const Lanes strong = hn::Max(next, all(tune::chain::strong_bend));
     next = bounded(hn::IfThenElse(bracketed, between, strong));
     best.found = hn::Or(best.found, hn::And(again, crosses));
@@ -144,7 +143,7 @@ HWY_INLINE BestShape fit_shape(const Block& block, std::size_t i, const Family& 
     return best;
 }
 
-/// All bones, or all but the longest, bend or straighten; `span` is theirs.
+/// All bones, or all but the longest, bend or straighten; `span` is their span.
 HWY_INLINE Family blend_of(const Points& span, const Points& aim, Lanes reach) {
     Family family;
     family.aim = aim;
@@ -152,7 +151,7 @@ HWY_INLINE Family blend_of(const Points& span, const Points& aim, Lanes reach) {
     family.wanted = length(aim);
     family.straight = reach;
     family.now = length(span);
-    // Ends that meet show no line.
+    // If the ends meet, they define no line.
     const Mask open = hn::Gt(family.now, hn::Mul(all(1e-6f), reach));
     const Lanes size = hn::IfThenElse(open, family.now, family.wanted);
     const Mask shows = hn::Gt(size, all(FLT_MIN));
@@ -162,8 +161,8 @@ HWY_INLINE Family blend_of(const Points& span, const Points& aim, Lanes reach) {
     return family;
 }
 
-/// The longest bone stays, and the others make up for it: by bending, or where they are too short for what is
-/// left of the way, by folding back along it.
+/// Keeps the longest bone and lets the others compensate: by bending, or if they are too short for the
+/// remaining distance, by folding back along it.
 HWY_INLINE Family family_around_longest(const Block& block, std::size_t i, const Points& span,
                                         const Family& whole) {
     LongestBone longest(block, i);
@@ -189,7 +188,7 @@ HWY_INLINE Family family_around_longest(const Block& block, std::size_t i, const
     return family;
 }
 
-/// The smallest rotation from one direction to another, by two reflections. None where one of them has no
+/// The minimal rotation from one direction to another, as two reflections. Identity if one of them has no
 /// direction.
 class Turn {
   public:
@@ -212,7 +211,7 @@ class Turn {
     }
 
   private:
-    /// Rare, so lane by lane.
+    /// Rare, so computed lane by lane.
     static Points perpendicular(const Points& to) {
         HWY_ALIGN float x[16], y[16], z[16];
         store(to.x, x), store(to.y, y), store(to.z, z);
@@ -226,7 +225,7 @@ class Turn {
     Points first_, second_, twice_first_, twice_second_;
 };
 
-/// Places the chains of `lanes` with the bones of their best shape, turned onto the aim.
+/// Places the chains in `lanes` with the bones of their best shape, turned onto the aim.
 template <bool keeps_longest>
 HWY_INLINE void place_shape(const Block& block, std::size_t i, Mask lanes, const Family& family,
                             const BestShape& best, const Shape& one, const Shape& two) {

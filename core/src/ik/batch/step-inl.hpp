@@ -1,9 +1,9 @@
-// Points of a whole register of chains, and the step of FABRIK for the rows of a block. Not installed; it is
-// included once for each vector unit.
+// Points of a register of chains, and the step of FABRIK for the rows of a block. Not installed; included
+// once per vector unit.
 //
 // Every operation is the scalar one of math/point.hpp, in the same order: no fused multiply-add, no
-// approximated root. So each lane has the bits that the scalar solver gives. It costs little: while the
-// divider works on one register, the other operations are done for the next.
+// approximate root. So each lane has the same bits as the scalar solver. This costs little: while the divider
+// works on one register, the other operations run for the next.
 #if defined(TENDRIL_IK_BATCH_STEP_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef TENDRIL_IK_BATCH_STEP_INL
 #undef TENDRIL_IK_BATCH_STEP_INL
@@ -50,7 +50,7 @@ HWY_INLINE Mask equals(const float* row, Enum value) {
     return hn::Eq(load(row), all(static_cast<float>(value)));
 }
 
-/// Calls it with each lane of a mask.
+/// Calls `call` with each lane in the mask.
 template <class Call>
 HWY_INLINE void for_each_lane(Mask lanes, Call call) {
     std::uint8_t bytes[8] = {};
@@ -59,7 +59,7 @@ HWY_INLINE void for_each_lane(Mask lanes, Call call) {
     for (; bits != 0; bits &= bits - 1) call(static_cast<std::size_t>(std::countr_zero(bits)));
 }
 
-/// A point or direction of each chain of a register.
+/// One point or direction per chain of a register.
 struct Points {
     Lanes x, y, z;
 };
@@ -99,13 +99,13 @@ HWY_INLINE Lanes squared_distance(const float* from, const float* to) {
     const Points apart = minus(load_points(to), load_points(from));
     return dot(apart, apart);
 }
-/// From the tip to the target.
+/// Distance from tip to target.
 HWY_INLINE Lanes residual_of(const Block& block, std::size_t i) {
     return hn::Sqrt(squared_distance(block.joint(block.bones()) + i, block.target() + i));
 }
 
-/// Where there is no direction between two joints: that of the bone before, or +X where that has none either.
-/// `before` is null where there is none.
+/// Handles coinciding joints: continues in the direction of the previous bone, or +X if that has none.
+/// `before` is null for the first bone.
 HWY_INLINE Points straight_on(const float* before, const Points& from, Mask close, Lanes size,
                               const Points& otherwise) {
     Points along{all(1.0f), zero(), zero()};
@@ -120,13 +120,13 @@ HWY_INLINE Points straight_on(const float* before, const Points& from, Mask clos
 
 /// The rows that a step reads and writes.
 struct StepRows {
-    const float* from;    ///< the joint that is placed already
-    float* to;            ///< the one that is drawn to it
+    const float* from;    ///< the joint already placed
+    float* to;            ///< the joint to place
     const float* length;  ///< of the bone between them
     const float* before = nullptr;
 };
 
-/// In all lanes of a register, or in those that are active.
+/// In all lanes of a register, or (`some`) only in active ones.
 template <bool some>
 HWY_INLINE void step(const StepRows& rows, const float* activity, std::size_t i) {
     const Lanes coincidence = all(math::coincidence);

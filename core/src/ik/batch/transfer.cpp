@@ -1,17 +1,11 @@
-// Between points one after the other, as programs keep them, and the rows of a block.
-//
-// Highway compiles this file once for each vector unit: it includes it again and again, each time with
-// another HWY_NAMESPACE.
+// Copies between lists of points, as programs store them, and the rows of a block.
 #include <glm/gtc/quaternion.hpp>
 
 #include "ik/batch/vector.hpp"
-#include "math/dispatch.hpp"
 #include "tendril/chain/segment.hpp"
 
-#undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "ik/batch/transfer.cpp"
-#include <hwy/foreach_target.h>  // before highway.h
-#include <hwy/highway.h>
+#include "math/each_target-inl.hpp"
 
 #include "ik/batch/step-inl.hpp"
 
@@ -21,7 +15,7 @@ namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
 
-/// Four floats of every fourth list (or row): of 0, 4, 8 and so on, as many as fill a register.
+/// Four floats of every fourth list (or row): 0, 4, 8 and so on, until a register is full.
 template <class D>
 HWY_INLINE hn::Vec<D> load_quads(D d, const float* from, std::size_t stride) {
     if constexpr (hn::MaxLanes(D()) <= 4) {
@@ -34,7 +28,7 @@ HWY_INLINE hn::Vec<D> load_quads(D d, const float* from, std::size_t stride) {
     }
 }
 
-/// Four registers; each block of four lanes is a matrix of which they are the rows.
+/// Four registers; each block of four lanes is a matrix with these as rows.
 template <class D>
 struct Quads {
     hn::Vec<D> a, b, c, e;
@@ -55,7 +49,7 @@ HWY_INLINE void quads_in(D d, const float* from, std::size_t stride, float* to) 
     hn::Store(quads.a, d, to), hn::Store(quads.b, d, to + block_lanes);
     hn::Store(quads.c, d, to + 2 * block_lanes), hn::Store(quads.e, d, to + 3 * block_lanes);
 }
-/// Of four lists as much as fills a register.
+/// Writes a register's worth of each of four lists.
 template <class D>
 HWY_INLINE void quads_out(D d, const float* from, std::size_t stride, float* to) {
     const auto quads_of = [&](std::size_t row) {
@@ -67,7 +61,7 @@ HWY_INLINE void quads_out(D d, const float* from, std::size_t stride, float* to)
     hn::StoreU(quads.c, d, to + 2 * stride), hn::StoreU(quads.e, d, to + 3 * stride);
 }
 
-/// Four lists, from `done` floats on; at the end some floats are written again rather than one by one.
+/// Four lists, from `done` floats on. At the end, some floats are written twice rather than one by one.
 template <class D>
 HWY_INLINE void lists_out(D d, const float* rows, std::size_t count, float* lists, std::size_t done = 0) {
     const auto out = [&](std::size_t i) { quads_out(d, rows + i * block_lanes, count, lists + i); };
@@ -81,7 +75,7 @@ HWY_INLINE void lists_out(D d, const float* rows, std::size_t count, float* list
     out(count - size);
 }
 
-/// Calls `quad` with each four of `count` floats; the last four may be of those before too.
+/// Calls `quad` with every four of `count` floats; the last four may overlap the previous ones.
 template <class Quad>
 HWY_INLINE void for_each_quad(std::size_t count, Quad quad) {
     for (std::size_t i = 0; i + 4 <= count; i += 4) quad(i);
@@ -108,7 +102,7 @@ void copy_in(const float* lists, std::size_t lanes, std::size_t count, float* ro
     }
 }
 
-/// The other way.
+/// From rows to `lanes` lists of `count` floats.
 void copy_out(const float* rows, std::size_t lanes, std::size_t count, float* lists) {
     std::size_t lane = 0;
 #if HWY_TARGET != HWY_SCALAR

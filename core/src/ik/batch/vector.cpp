@@ -1,4 +1,4 @@
-// Which vector units there are.
+// The available vector units.
 #include "ik/batch/vector.hpp"
 
 #include <array>
@@ -10,7 +10,7 @@ namespace tendril::ik {
 namespace detail {
 namespace {
 
-/// Those that both the machine has and this file was compiled for.
+/// Units that the machine has and this file was compiled for.
 struct Units {
     std::array<VectorUnit, 16> units{};
     std::array<std::string_view, 16> names{};

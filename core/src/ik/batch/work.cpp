@@ -12,7 +12,7 @@ namespace {
 
 constexpr auto few = static_cast<std::size_t>(static_cast<double>(block_lanes) * tune::batch::block_part);
 
-/// Whole chains, side by side from a lane on.
+/// Copies whole chains to consecutive lanes from `at` on.
 void gather_chains(const Block& from, const LaneList& lanes, const Block& to, std::size_t at) noexcept {
     const std::size_t bones = from.bones();
     gather_lanes(from.joint(0), lanes.span(), to.joint(0) + at, Block::joint_rows(bones));
@@ -24,7 +24,7 @@ void gather_chains(const Block& from, const LaneList& lanes, const Block& to, st
     }
 }
 
-/// After a perturbation: as Convergence::restart (convergence.hpp).
+/// After a perturbation: like Convergence::restart (convergence.hpp).
 void restart(const Block& block, std::size_t lane, const Problem& problem) noexcept {
     const float residual = problem.residual();
     block.save_best(lane);
@@ -42,7 +42,7 @@ Scratch::Scratch(std::size_t bones)
       gathered(bones),
       second(bones),
       tile(bones) {
-    // Lanes that are not used take part in the passes: nothing in them may be what is not a number.
+    // Unused lanes take part in the passes, so they must not contain NaN.
     std::fill_n(joints.get(), Block::joint_floats(bones), 0.0f);
     std::fill_n(state.get(), Block::state_floats(bones), 0.0f);
     for (Tile* each : {&tile, &gathered, &second}) {
@@ -75,9 +75,9 @@ void Work::solve_block(std::size_t index, Scratch& scratch) noexcept {
         if (scalar) {
             solve_scalar(block, lane, first + lane, scratch);
         } else {
-            report(block, lane, first + lane);  // of active chains again, when they are done
+            report(block, lane, first + lane);  // for active chains again, when they are done
         }
-        // No branch: it would be mispredicted.
+        // Without a branch, which would be mispredicted.
         active.lanes[active.count] = static_cast<std::uint8_t>(lane);
         active.count += !scalar && block.activity(lane) != Activity::Done ? 1 : 0;
     }
@@ -95,8 +95,8 @@ void Work::return_joints(const Block& block, std::size_t index, std::size_t lane
     in_.unit.copy_out(block.joint(0), lanes, 3 * each, &in_.joints[index * block_lanes * each].x);
 }
 
-/// Where a few keep a whole block waiting they are left active: they go on elsewhere, together with those of
-/// other blocks.
+/// If only a few chains are still active, leaves them so: they continue in the tile, with those of other
+/// blocks.
 void Work::iterate_block(const Block& block, std::size_t lanes, Scratch& scratch) const noexcept {
     const bool alone = in_.options.every_iteration || in_.chains <= block_lanes;
     const int burst =
@@ -107,7 +107,7 @@ void Work::iterate_block(const Block& block, std::size_t lanes, Scratch& scratch
     } while (active > (alone ? 0 : few));
 }
 
-/// Iterations of a block or a tile, perturbations among them.
+/// Iterates a block or a tile, including perturbations.
 Left Work::iterate(const Block& block, std::size_t lanes, int iterations, Scratch& scratch) const noexcept {
     const Order order{iterations,
                       in_.options.max_iterations,
@@ -120,7 +120,7 @@ Left Work::iterate(const Block& block, std::size_t lanes, int iterations, Scratc
     return left;
 }
 
-/// One chain, as the scalar code takes it.
+/// Copies one chain to the scalar workspace.
 Problem Work::take_out(const Block& block, std::size_t lane, Workspace& scalar) const noexcept {
     for (std::size_t i = 0; i <= in_.bones; ++i) scalar.joints[i] = block.point(i, lane);
     for (std::size_t i = 0; i < in_.bones; ++i) scalar.lengths[i] = block.length(i)[lane];
@@ -130,7 +130,7 @@ Problem Work::take_out(const Block& block, std::size_t lane, Workspace& scalar) 
             scalar,        scalar.saved};
 }
 
-/// What loop.cpp does with a chain that stalls.
+/// Same as loop.cpp does with a stalled chain.
 void Work::perturb(const Block& block, std::size_t lane, Scratch& scratch) const noexcept {
     Problem problem = take_out(block, lane, scratch.scalar);
     float& count = block.at(Row::Perturbations, lane);
@@ -140,7 +140,7 @@ void Work::perturb(const Block& block, std::size_t lane, Scratch& scratch) const
     block.set_activity(lane, Activity::Active);
 }
 
-/// What loop.cpp does before the first iteration with a chain that lies on one line with its target.
+/// Same as loop.cpp does before the first iteration with a chain collinear with its target.
 void Work::leave_line(const Block& block, std::size_t lane, Scratch& scratch) const noexcept {
     Problem problem = take_out(block, lane, scratch.scalar);
     if (!is_collinear(problem)) return;
@@ -174,7 +174,7 @@ void Work::put_into_tile(const Block& from, const LaneList& lanes, std::size_t f
     }
 }
 
-/// Until no more than so many of its chains are left.
+/// Iterates until at most `most_left` chains are in the tile.
 void Work::run_tile(std::size_t most_left, Scratch& scratch) noexcept {
     Tile& tile = scratch.tile;
     while (tile.used > most_left) {
@@ -183,7 +183,7 @@ void Work::run_tile(std::size_t most_left, Scratch& scratch) noexcept {
     }
 }
 
-/// Chains that are done go home, and the others close the gaps.
+/// Writes back the finished chains and closes the gaps.
 void Work::clear_done(Tile& tile) noexcept {
     LaneList left, done;
     for (std::size_t lane = 0; lane < tile.used; ++lane) {
@@ -202,7 +202,7 @@ void Work::clear_done(Tile& tile) noexcept {
     tile.used = left.count;
 }
 
-/// The joints of a chain of the tile.
+/// Writes the joints of a chain in the tile back to its block or to the caller.
 void Work::write_home(const Tile& tile, std::size_t lane) const noexcept {
     const std::size_t chain = tile.chains[lane], each = in_.bones + 1;
     if (in_.joints != nullptr) {
@@ -213,7 +213,7 @@ void Work::write_home(const Tile& tile, std::size_t lane) const noexcept {
     }
 }
 
-/// The other way.
+/// The inverse of write_home.
 void Work::fetch_joints(const Tile& tile, std::size_t lane) const noexcept {
     const std::size_t chain = tile.chains[lane], each = in_.bones + 1;
     if (in_.joints != nullptr) {

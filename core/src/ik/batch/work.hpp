@@ -1,4 +1,4 @@
-// One solve of a Batch, as the threads that share it see it. Not installed.
+// One solve of a Batch, shared by its threads. Not installed.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace tendril::ik::detail {
 
-/// A block of chains that take long, from anywhere: the first `used` lanes.
+/// A block for slow chains gathered from other blocks: the first `used` lanes.
 struct Tile {
     explicit Tile(std::size_t bones)
         : rows(Block::chain_floats(bones)),
@@ -23,21 +23,21 @@ struct Tile {
 
     Rows rows, state;
     Block block;
-    std::array<std::uint32_t, block_lanes> chains{};  ///< which chain is in which lane
+    std::array<std::uint32_t, block_lanes> chains{};  ///< index of the chain in each lane
     std::size_t used = 0;
 };
 
-/// What a thread works with; made once.
+/// Scratch memory of one thread; allocated once.
 struct Scratch {
     explicit Scratch(std::size_t bones);
 
-    Rows joints;  ///< of the block that is solved, where the caller has them
-    Rows state;   ///< of that block
-    Rows shapes;  ///< see StepScratch, with the next two
+    Rows joints;  ///< of the current block, if the caller owns the joints
+    Rows state;   ///< of the current block
+    Rows shapes;  ///< shapes, gathered and second: see StepScratch
     Tile gathered, second;
     Tile tile;
-    Rows poses, rotations, limited;  ///< see LimitedOrder; only once there are limits
-    Workspace scalar;                ///< for what the scalar code does
+    Rows poses, rotations, limited;  ///< see LimitedOrder; allocated with limits
+    Workspace scalar;                ///< for the scalar code
 };
 
 class Work {
@@ -46,18 +46,17 @@ class Work {
         float* blocks;
         std::size_t chains, bones;
         std::span<const glm::vec3> targets;
-        glm::vec3* joints;  ///< the caller's, one chain's after the other's; null for those in the blocks
+        glm::vec3* joints;  ///< the caller's, chain after chain; null to use those in the blocks
         std::span<ManyReport> reports;
         const Options& options;
         const VectorUnit& unit;
-        const BatchLimits* limits;  ///< null for none
-        float* rotations;           ///< with limits: a block's rows after the other's
+        const BatchLimits* limits;  ///< null if none
+        float* rotations;           ///< with limits: rows of one block after the other
     };
-    /// All has been checked.
+    /// The input must be validated.
     explicit Work(const Input& input) noexcept : in_(input) {}
 
-    /// Takes blocks until there are none left. Threads may call it side by side, each with scratch of its
-    /// own.
+    /// Processes blocks until none are left. Threads may call it concurrently, each with its own scratch.
     void run(Scratch& scratch) noexcept;
     ManySummary summary() const noexcept { return {invalid_.load(), scalar_fallbacks_.load()}; }
 

@@ -1,5 +1,5 @@
-// Whether a rotation is within its limit, and the nearest that is: the part that every joint goes through in
-// every iteration, and nearly always without an angle being measured. Not installed.
+// Checks a rotation against its limit and clamps it. Every joint goes through this in every iteration, nearly
+// always without measuring an angle. Not installed.
 #pragma once
 
 #include <cmath>
@@ -9,7 +9,7 @@
 
 namespace tendril::ik::detail {
 
-/// The sine of half the angle from b to a; a need not have length 1.
+/// sin of half the angle from b to a; a need not have length 1.
 static inline float beyond(const HalfAngle& a, const HalfAngle& b) noexcept {
     return a.sine * b.cosine - a.cosine * b.sine;
 }
@@ -18,7 +18,7 @@ static inline bool in_range(const LimitedJoint& joint, const HalfAngle& a, float
     return beyond(a, joint.high) <= half_slack && beyond(joint.low, a) <= half_slack;
 }
 
-/// The bound that is nearer the shorter way round the circle.
+/// The nearer bound, the shorter way round the circle.
 static inline HalfAngle nearer_bound(const LimitedJoint& joint, const HalfAngle& a) noexcept {
     const auto near = [&](const HalfAngle& b) { return std::abs(a.cosine * b.cosine + a.sine * b.sine); };
     return near(joint.high) >= near(joint.low) ? joint.high : joint.low;
@@ -44,7 +44,7 @@ static inline bool clamp_hinge(const LimitedJoint& joint, glm::quat& rotation, f
     return true;
 }
 
-/// Whether a rotation is clear of every bound. Where it is not sure, which is seldom, false.
+/// Whether a rotation is certainly clear of every bound. May be false, rarely, for one that is.
 static inline bool is_inside(const LimitedJoint& joint, const glm::quat& rotation) noexcept {
     if (joint.free()) return true;
     const glm::vec3 vector{rotation.x, rotation.y, rotation.z};
@@ -56,11 +56,11 @@ static inline bool is_inside(const LimitedJoint& joint, const glm::quat& rotatio
     return x * x + y * y <= joint.round;
 }
 
-/// For a joint other than a hinge, where is_inside is not sure.
+/// For a joint other than a hinge, if is_inside is false.
 bool clamp_cone(const LimitedJoint& joint, glm::quat& rotation, float slack) noexcept;
 
-/// Brings a rotation to the nearest within; false, and it is left bit for bit, where it is over by no more
-/// than `slack`.
+/// Moves a rotation to the nearest within its limit. Returns false, leaving it bit for bit, if it exceeds the
+/// limit by no more than `slack`, radians.
 static inline bool clamp(const LimitedJoint& joint, glm::quat& rotation, float slack = at_bound) noexcept {
     if (joint.free()) return false;
     if (joint.hinge()) return clamp_hinge(joint, rotation, slack);

@@ -49,7 +49,7 @@ void LimitedDescent::reach(Problem& problem, Watch watch) noexcept {
     convergence_.restart(error_);
 }
 
-/// A damped step, taken where it brings the tip nearer, or else one with more damping.
+/// One damped step, kept if it brings the tip nearer; otherwise one retry with more damping.
 template <class Watch>
 void LimitedDescent::step(Problem& problem, Watch watch) noexcept {
     const Wanted wanted = wanted_of(problem);

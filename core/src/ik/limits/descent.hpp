@@ -1,9 +1,9 @@
-// How the default method goes down to its target where FABRIK's passes within limits alone get stuck, which
-// they do in about half of all cases. Not installed.
+// Descent of the default method within limits. FABRIK's passes alone get stuck in about half of all cases.
+// Not installed.
 //
-// FABRIK's passes go on as long as a pair brings the tip half way or more. Damped least-squares steps over
-// what the limits leave free do the rest; their damping falls with success and grows with failure (Levenberg
-// 1944, Marquardt 1963). Passes after these gain nothing and cost twice as much.
+// FABRIK's passes continue while a pair at least halves the error. Then damped least-squares steps on the
+// remaining degrees of freedom take over; their damping falls with success and grows with failure (Levenberg
+// 1944, Marquardt 1963). More passes after these gain nothing and cost twice as much.
 #pragma once
 
 #include "ik/solve/convergence.hpp"
@@ -12,26 +12,27 @@
 
 namespace tendril::ik::detail {
 
-/// Where and how a start begins, and how it goes on.
+/// State of one descent from one start pose.
 class LimitedDescent {
   public:
-    /// `allowance`: no joint goes further than this from where scratch.start has it, metres.
+    /// `allowance`: how far a joint may move from its position in scratch.start, metres.
     LimitedDescent(const Problem& problem, float allowance) noexcept;
 
-    /// FABRIK's passes or a least-squares step, taken only where the tip comes nearer.
+    /// FABRIK's passes or a least-squares step, kept only if the tip comes nearer.
     template <class Watch>
     void iterate(Problem& problem, Watch watch) noexcept;
 
-    /// From another pose, as far as it takes: what was singular cannot be left by a little.
+    /// Starts over from another pose, without an allowance: small moves cannot leave a singular pose.
     void restart(const Problem& problem) noexcept;
-    /// Least squares at once, for near the target a step does what FABRIK's passes take several for; with the
-    /// damping of a descent that ended here, and if that had stalled, only as long as every step gains.
+    /// Continues an earlier descent, which ended with this damping. Uses least squares at once, because near
+    /// the target one step does as much as several passes. If the earlier descent had stalled, continues only
+    /// while every step gains.
     void continue_from(float damping, bool stalled) noexcept;
 
     bool stalled() const noexcept { return convergence_.stalled(); }
     float error() const noexcept { return error_; }
     float damping() const noexcept { return damping_; }
-    /// The last step was longer than the allowance.
+    /// Whether the last step was rejected because it exceeded the allowance.
     bool exceeds_allowance() const noexcept { return exceeds_allowance_; }
 
   private:
@@ -42,10 +43,10 @@ class LimitedDescent {
     void step(Problem& problem, Watch watch) noexcept;
 
     float damping_ = tune::limits::first_damping;  ///< in reach squared
-    float error_;                                  ///< of the pose
+    float error_;                                  ///< of the current pose
     float allowance_;
     Convergence convergence_;  ///< of the least-squares steps
-    bool reaches_ = true;      ///< FABRIK's passes bring the tip half way or more
+    bool reaches_ = true;      ///< whether FABRIK's passes still at least halve the error
     bool exceeds_allowance_ = false;
 };
 

@@ -1,6 +1,6 @@
-// Which joint limit stops the tip. From the best pose within all limits the few joints whose limits stop
-// most of the descent towards the target are freed in turn. For the one that helps most, the range that it
-// needs is then found by halving.
+// Which joint limit stops the tip. From the best pose within all limits, frees in turn the few joints whose
+// limits stop most of the descent towards the target. For the one that helps most, bisects the range that it
+// needs.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,8 +20,8 @@ using namespace detail::tune::explain;
 
 namespace {
 
-/// What freeing a joint leads to: how far the tip is then, how the joint stands, and by how much that leaves
-/// its own limit.
+/// Result of freeing a joint: the remaining error, the joint's angles, and by how much they exceed its own
+/// limit.
 struct Outcome {
     std::size_t joint = no_joint;
     float error = 0.0f;
@@ -31,7 +31,7 @@ struct Outcome {
 
 class Explanation {
   public:
-    /// `joints` are scratch too; the solver's `saved` is the state.
+    /// `joints` are used as scratch; scratch.saved holds the state.
     Explanation(Workspace& scratch, std::span<glm::vec3> joints, const glm::vec3& target,
                 const Options& options) noexcept
         : scratch_(scratch), limited_(scratch.limited), joints_(joints), target_(target), options_(options) {}
@@ -49,7 +49,7 @@ class Explanation {
     LimitedJoint limit_of(std::size_t joint) const noexcept {
         return limited_joint(options_.limits[joint], scratch_.rest_directions[joint]);
     }
-    /// Errors up to this count as there.
+    /// Errors up to this count as arrived.
     float there() const noexcept { return fine * scratch_.reach; }
 
     Workspace& scratch_;
@@ -62,10 +62,10 @@ class Explanation {
         std::size_t joint = no_joint;
         float stopped = 0.0f;
     };
-    std::array<Candidate, max_candidates> candidates_{};  ///< those that stop most first
+    std::array<Candidate, max_candidates> candidates_{};  ///< sorted, those that stop most first
 };
 
-/// By the default method; the error that is left.
+/// Solves with the default method and returns the remaining error.
 float Explanation::solve_on(std::span<const Limit> limits) noexcept {
     Options options;
     options.max_iterations = iterations;
@@ -78,7 +78,7 @@ float Explanation::solve_on(std::span<const Limit> limits) noexcept {
     return error_of(problem, limited_.pose);
 }
 
-/// Solves on from the best pose within all limits with one limit replaced.
+/// Solves from the best pose within all limits, with one limit replaced.
 Outcome Explanation::with(std::size_t joint, const Limit& limit) noexcept {
     std::copy(limited_.saved.joints.begin(), limited_.saved.joints.end(), joints_.begin());
     std::copy(limited_.saved.rotations.begin(), limited_.saved.rotations.end(),
@@ -90,7 +90,7 @@ Outcome Explanation::with(std::size_t joint, const Limit& limit) noexcept {
     return {joint, error, angles, excess_of(limit_of(joint), angles)};
 }
 
-/// The outcome of freeing a joint; of its two sides, where it stands at both.
+/// The outcome of freeing a joint; the better of its two sides if it is at both bounds.
 Outcome Explanation::freed(std::size_t joint) noexcept {
     const Limit& limit = options_.limits[joint];
     const JointAngles angles = angles_of(limit_of(joint), limited_.saved.local[joint]);
@@ -100,10 +100,10 @@ Outcome Explanation::freed(std::size_t joint) noexcept {
     return other.error < one.error ? other : one;
 }
 
-/// How much of a joint's part in the descent its limit stops: the fall of half the error's square for a turn
-/// of this joint alone, as far as that turn leaves the limit. 0 within the limit.
+/// How much of a joint's descent its limit stops: half the squared error's decrease per turn of this joint
+/// alone, times the fraction of that turn that leaves the limit. 0 within the limit.
 float Explanation::stopped(std::size_t joint) const noexcept {
-    constexpr float small_turn = 1e-2f;  // radians: well over what counts as at the limit
+    constexpr float small_turn = 1e-2f;  // radians: well over the tolerance for being at the limit
     const LimitedJoint limit = limit_of(joint);
     const LimitedPose& pose = limited_.saved;
     const glm::quat rotation = pose.local[joint];
@@ -122,7 +122,7 @@ float Explanation::stopped(std::size_t joint) const noexcept {
     return size * excess_of(limit, angles_of(limit, turned)) / small_turn;
 }
 
-/// Of equals the one nearer to the root comes first.
+/// Of equal joints, the one nearer to the root comes first.
 void Explanation::find_candidates() noexcept {
     for (std::size_t joint = 0; joint < options_.limits.size(); ++joint) {
         const Candidate next{joint, stopped(joint)};
@@ -134,7 +134,8 @@ void Explanation::find_candidates() noexcept {
     }
 }
 
-/// The joint whose freeing brings the tip nearest; where several bring it there, the one that needs least.
+/// The joint that brings the tip nearest when freed; if several let it arrive, the one that needs the least
+/// range.
 Outcome Explanation::best_freed() noexcept {
     Outcome best;
     for (const Candidate& each : candidates_) {
@@ -148,14 +149,15 @@ Outcome Explanation::best_freed() noexcept {
     return best;
 }
 
-/// Those of the smallest range with which the tip still comes as near as with all of it.
+/// The angles for the smallest range with which the tip comes as near as with the full range.
 JointAngles Explanation::needed_angles(const Outcome& freed) noexcept {
     float low = 0.0f, high = 1.0f;
     JointAngles needed = freed.angles;
     for (int i = 0; i < halvings; ++i) {
         const float part = 0.5f * (low + high);
         const Outcome some = with(freed.joint, widened(options_.limits[freed.joint], freed.angles, part));
-        // Another start may arrive within the joint's own limit: that says nothing of the range it needs.
+        // A different start may arrive within the joint's own limit: that says nothing about the range it
+        // needs.
         const bool enough =
             some.over > 2.0f * at_bound && some.error <= std::max(freed.error, 2.0f * there());
         (enough ? high : low) = part;
@@ -165,8 +167,8 @@ JointAngles Explanation::needed_angles(const Outcome& freed) noexcept {
 }
 
 std::optional<ActiveLimit> Explanation::find() noexcept {
-    // A method that gave up early may stand at limits that stop nothing. So the default one goes on first, as
-    // far as the limits let it; from there on they are freed.
+    // A method that gave up early may be at limits that stop nothing. So the default method continues first,
+    // as far as the limits allow, and the limits are freed from there.
     start_ = solve_on(options_.limits);
     limited_.saved = limited_.pose;
     find_candidates();

@@ -8,18 +8,18 @@
 namespace tendril::ik::detail {
 namespace {
 
-constexpr float min_freedom = 1e-5f;  ///< half-angles under this leave no freedom
+constexpr float min_freedom = 1e-5f;  ///< half-angles under this count as no range
 
 HalfAngle half_of(float angle) noexcept {
     return {std::max(std::cos(0.5f * angle), 0.0f), std::sin(0.5f * angle)};
 }
 
-/// A rotation split into one about a main axis (a hinge's own, or the bone for a twist), which comes first,
-/// and one about an axis (first, second) at right angles to it.
+/// A rotation split into one about a main axis (a hinge's own, or the bone for a twist), applied first, and
+/// one about an axis (first, second) perpendicular to it.
 struct Split {
     HalfAngle about;
-    float first, second;  ///< the other's axis times the sine of half its angle
-    float cosine;         ///< of half its angle
+    float first, second;  ///< axis of the second rotation times the sine of its half-angle
+    float cosine;         ///< of the half-angle
 };
 
 Split split(const LimitedJoint& joint, const glm::quat& rotation) noexcept {
@@ -27,7 +27,7 @@ Split split(const LimitedJoint& joint, const glm::quat& rotation) noexcept {
     const float part = dot(vector, joint.hinge() ? joint.axis : joint.bone),
                 sign = rotation.w < 0 ? -1.0f : 1.0f;
     const float size = std::sqrt(rotation.w * rotation.w + part * part);
-    const float scale = size >= 1e-6f ? sign / size : 0.0f;  // 0 after half a turn about the other
+    const float scale = size >= 1e-6f ? sign / size : 0.0f;  // 0 if the second rotation is half a turn
     const float c = size >= 1e-6f ? scale * rotation.w : 1.0f, s = scale * part;
     const float x = sign * dot(vector, joint.hinge() ? joint.side : joint.axis);
     const float y = sign * dot(vector, joint.hinge() ? joint.bone : joint.side);
@@ -35,9 +35,9 @@ Split split(const LimitedJoint& joint, const glm::quat& rotation) noexcept {
     return {{c, s}, c * x + s * y, c * y - s * x, size};
 }
 
-/// angle / sin(angle / 2) of a swing, from the cosine of half its angle and the squared sine: no arc
-/// function. With y the squared sine of a quarter of the angle, angle^2 = 16 y (asin(sqrt y))^2 / y; the
-/// polynomial is that quotient's for 0 <= y <= 1/2, to 5e-7, by interpolation at Chebyshev's points.
+/// angle / sin(angle / 2) of a swing, from cosine and squared sine of its half-angle, without arc functions.
+/// With y the squared sine of a quarter of the angle, angle^2 = 16 y (asin(sqrt y))^2 / y; the polynomial
+/// approximates that quotient for 0 <= y <= 1/2, to 5e-7, by interpolation at Chebyshev points.
 float angle_per_sine(float cosine, float squared_sine) noexcept {
     const float inverse = 1.0f / (1.0f + cosine), y = 0.5f * squared_sine * inverse;
     float p = 0.28755694f;
@@ -47,10 +47,10 @@ float angle_per_sine(float cosine, float squared_sine) noexcept {
     return std::sqrt(8.0f * p * inverse);
 }
 
-/// The point of an ellipse that is nearest to (x, y), which lies outside; all of them positive or zero, the
-/// half-axes positive. It is (a a x / (t + a a), b b y / (t + b b)) for the one t >= 0 that puts it on the
-/// ellipse. Newton's steps on one over the distance from the centre (in the ellipse's units), which is all
-/// but straight in t: two or three are enough (More and Sorensen 1983).
+/// The point of an ellipse nearest to (x, y), which lies outside; all numbers positive or zero, the half-axes
+/// positive. It is (a a x / (t + a a), b b y / (t + b b)) for the one t >= 0 that puts it on the ellipse.
+/// Newton's method on one over the distance from the centre (in units of the ellipse), which is nearly linear
+/// in t: two or three steps are enough (More and Sorensen 1983).
 void nearest_on_ellipse(float a, float b, float& x, float& y) noexcept {
     float t = std::max({a * x - a * a, b * y - b * b, 0.0f}), scale = 1.0f, u = 0.0f, v = 0.0f;
     for (int i = 0; i < 10; ++i) {
@@ -89,7 +89,7 @@ Swing within_cone(const LimitedJoint& joint, const Swing& swing) noexcept {
     return {swing.up >= 0.0f ? x : -x, swing.left >= 0.0f ? y : -y};
 }
 
-/// By how much an angle is over a range, the shorter way round the circle; negative below it.
+/// Signed excess of an angle over a range, the shorter way round the circle; negative below the range.
 float over(float angle, float min, float max) noexcept {
     if (angle >= min && angle <= max) return 0.0f;
     const float above = angle > max ? angle - max : angle - max + 2.0f * pi;
@@ -102,7 +102,7 @@ float clamped(float angle, float min, float max) noexcept {
     return by > 0.0f ? max : by < 0.0f ? min : angle;
 }
 
-/// Twist first, then swing.
+/// Applies twist first, then swing.
 glm::quat joined(const LimitedJoint& joint, const Split& parts) noexcept {
     const float a = parts.first, b = parts.second, c = parts.about.cosine, s = parts.about.sine;
     const glm::vec3 vector = plus(plus(times(joint.axis, a * c - b * s), times(joint.side, b * c + a * s)),
@@ -124,13 +124,13 @@ Swing swing_of(const Split& parts) noexcept {
     return {parts.first * scale, parts.second * scale};
 }
 
-/// The axis, in the parent's frame, about which to turn takes the swing along (up, left) fastest.
+/// The rotation axis, in the parent's frame, that moves the swing along (up, left) fastest.
 glm::vec3 axis_along(const LimitedJoint& joint, const Split& parts, float up, float left) noexcept {
     const float squared = parts.first * parts.first + parts.second * parts.second;
     const glm::vec3 plain = plus(times(joint.axis, up), times(joint.side, left));
     if (squared < 1e-10f) return plain;
     const float sine = std::sqrt(squared), x = parts.first / sine, y = parts.second / sine;
-    const float out = up * x + left * y, round = left * x - up * y;  // along the swing and across it
+    const float out = up * x + left * y, round = left * x - up * y;  // along the swing, and across it
     const glm::vec3 about = plus(times(joint.axis, x), times(joint.side, y)),
                     ahead = minus(times(joint.side, x), times(joint.axis, y));
     const float angle = angle_per_sine(parts.cosine, squared) * sine;
@@ -154,7 +154,7 @@ void add_swing_bounds(const LimitedJoint& joint, const Split& parts, Bounds& bou
         const float x = swing.up / a, y = swing.left / b, size = std::sqrt(x * x / (a * a) + y * y / (b * b));
         if (x * x + y * y > 1.0f - 2.0f * at_bound) return add(x / (a * size), y / (b * size), false);
     }
-    // Quarters without freedom have edges instead of a rim.
+    // Quadrants without range have edges instead of a rim.
     if (a < min_freedom || b < min_freedom || std::min(joint.up, joint.down) < min_freedom) {
         add_edges(swing.up, joint.up, joint.down, 1.0f, 0.0f);
     }
@@ -179,7 +179,7 @@ LimitedJoint limited_joint(const Limit& limit, const glm::vec3& rest_direction) 
     joint.bone = times(rest_direction, 1.0f / length(rest_direction));
     const glm::vec3 across = across_of(limit, joint.bone);
     const float size = length(across);
-    // A free joint asks for nothing, so its axis may be anything.
+    // A free joint's axis is unused, so any will do.
     joint.axis = size > 0.0f ? times(across, 1.0f / size) : perpendicular(joint.bone);
     joint.side = cross(joint.axis, joint.bone);
     joint.min = limit.min, joint.max = limit.max;
@@ -269,7 +269,7 @@ Bounds bounds_of(const LimitedJoint& joint, const glm::quat& rotation) noexcept 
     const bool under = !whole && beyond(joint.low, parts.about) >= -0.5f * at_bound;
     if (over || under) {
         glm::vec3 axis = joint.axis;
-        if (!joint.hinge()) {  // twist alone changes about the line halfway between the bone and its rest
+        if (!joint.hinge()) {  // changing only the twist rotates about the bisector of the bone and its rest
             axis = plus(joint.bone, rotated(rotation, joint.bone));
             axis = times(axis, 1.0f / length(axis));
         }

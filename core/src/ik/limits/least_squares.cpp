@@ -8,7 +8,7 @@
 namespace tendril::ik::detail {
 namespace {
 
-/// What turning about a unit axis adds.
+/// Adds the contribution of rotating about a unit axis.
 void add_axis(Normal& normal, const glm::vec3& axis, const glm::vec3& arm, float scale, double by) noexcept {
     const glm::dvec3 about = wide(axis), column = cross(about, wide(arm));
     add_square(normal.moves, column, by);
@@ -19,7 +19,7 @@ void add_axis(Normal& normal, const glm::vec3& axis, const glm::vec3& arm, float
     for (std::size_t k = 0; k < 3; ++k) normal.both[k] = plus(normal.both[k], times(column, weights[k]));
 }
 
-/// The same for all three axes.
+/// Adds the contribution of all three axes.
 void add_ball(Normal& normal, const glm::vec3& arm, float scale) noexcept {
     const glm::dvec3 r = wide(arm);
     add_ball_joint(normal.moves, r);
@@ -31,7 +31,7 @@ void add_ball(Normal& normal, const glm::vec3& arm, float scale) noexcept {
     normal.both[2] = plus(normal.both[2], {-s * r.y, s * r.x, 0.0});
 }
 
-/// Takes an axis from what the joint may do, and from the matrix; whether there was any of it.
+/// Removes an axis from a joint's freedoms and from the matrix. Returns whether any of it was left.
 bool forbid(JointFreedom& freedom, const glm::vec3& axis, float scale, Normal& normal) noexcept {
     if (!freedom.ball) {
         if (freedom.count == 0) return false;
@@ -52,9 +52,9 @@ bool forbid(JointFreedom& freedom, const glm::vec3& axis, float scale, Normal& n
     return true;
 }
 
-constexpr double min_inverse = 1e-9;  ///< under this a squared singular value is rounding
+constexpr double min_inverse = 1e-9;  ///< squared singular values under this are rounding
 
-/// A linear combination of the block's columns; and what each column has of a vector.
+/// Linear combination of the block's columns; and the dot product of each column with a vector.
 glm::dvec3 combined(const Normal& normal, const glm::dvec3& by) noexcept {
     const auto& both = normal.both;
     return plus(plus(times(both[0], by.x), times(both[1], by.y)), times(both[2], by.z));
@@ -68,7 +68,7 @@ Wanted damped_step(const Normal& normal, const Wanted& wanted, float damping) no
     const Factors3 factors(normal.moves, diagonal);
     const glm::dvec3 move = wide(wanted.move);
     if (wanted.scale == 0.0f) return {narrow(factors.solve(move)), glm::vec3(0.0f), 0.0f};
-    // [moves both; both' rotations] [by.move; by.rotation] = wanted, with by.move eliminated.
+    // Solves [moves both; both' rotations] [by.move; by.rotation] = wanted by eliminating by.move.
     Symmetric3 rest = normal.rotations;
     const glm::dvec3 x = parts_of(normal, factors.solve(normal.both[0])),
                      y = parts_of(normal, factors.solve(normal.both[1])),
@@ -79,8 +79,8 @@ Wanted damped_step(const Normal& normal, const Wanted& wanted, float damping) no
     return {narrow(factors.solve(minus(move, combined(normal, rotation)))), narrow(rotation), wanted.scale};
 }
 
-/// Damped only along eigenvectors of J J' whose singular value is small, as the solver without limits has it;
-/// with an orientation there are six rows, and all are damped.
+/// Damps only eigenvectors of J J' with small singular values, like the solver without limits. With an
+/// orientation there are six rows, and all are damped.
 Wanted filtered_step(const Normal& normal, const Wanted& wanted, float damping) noexcept {
     if (wanted.scale != 0.0f) return damped_step(normal, wanted, damping);
     const glm::dvec3 by = filtered_solution(normal.moves, wide(wanted.move), static_cast<double>(damping),
@@ -88,7 +88,7 @@ Wanted filtered_step(const Normal& normal, const Wanted& wanted, float damping) 
     return {narrow(by), glm::vec3(0.0f), 0.0f};
 }
 
-/// The step along the gradient after which the error, were it linear, would be smallest.
+/// The optimal step along the gradient, according to the linear model.
 Wanted steepest_step(const Normal& normal, const Wanted& wanted) noexcept {
     const glm::dvec3 m = wide(wanted.move), r = wide(wanted.rotation);
     const glm::dvec3 move = plus(product(normal.moves, m), combined(normal, r)),
@@ -105,7 +105,7 @@ Wanted wanted_of(const Problem& problem) noexcept {
     const LimitedPose& pose = problem.scratch.limited.pose;
     const float unit_length = 1.0f / problem.scratch.reach;
     wanted.move = times(minus(problem.target, pose.joints[problem.bones()]), unit_length);
-    // A target far out of reach says no more than its direction.
+    // Of a target far out of reach only the direction matters.
     if (const float far = length(wanted.move); far > 1.0f) wanted.move = times(wanted.move, 1.0f / far);
     if (const std::optional<glm::vec3> error = orientation_error(problem, pose)) {
         wanted.rotation = times(*error, unit_length);
@@ -146,7 +146,7 @@ Normal linearize(Problem& problem, const Wanted& wanted) noexcept {
         }
         if (is_inside(joint, pose.local[i])) continue;
         freedom.bounds = bounds_of(joint, pose.local[i]);
-        int open = 0;  // bounds on one side only
+        int open = 0;  // one-sided bounds
         for (int k = 0; k < freedom.bounds.count; ++k) {
             Bounds::Bound bound = freedom.bounds.at[k];
             bound.outward = rotated(parent, bound.outward);

@@ -1,4 +1,4 @@
-// Limits as people write them: presets, what is wrong with one, a joint's angles.
+// Limits as user input: presets, validation, a joint's angles.
 #include "tendril/ik/limit.hpp"
 
 #include <cmath>
@@ -15,7 +15,7 @@ constexpr float degrees(float angle) noexcept {
     return angle * (pi / 180.0f);
 }
 
-constexpr float largest_angle = pi + 1e-6f;  ///< pi as doubles and floats round it
+constexpr float largest_angle = pi + 1e-6f;  ///< allows for pi rounded as double or float
 
 bool is_angle(float angle) noexcept {
     return angle >= -largest_angle && angle <= largest_angle;
@@ -89,7 +89,7 @@ const char* fault(const Limit& limit) noexcept {
     }
     if (limit.kind == JointKind::Free) return nullptr;
     const bool hinge = limit.kind == JointKind::Hinge;
-    const auto beyond = [](float x) { return !(std::abs(x) <= 1e9f); };  // true for what is no number
+    const auto beyond = [](float x) { return !(std::abs(x) <= 1e9f); };  // true for NaN
     if (beyond(limit.axis.x) || beyond(limit.axis.y) || beyond(limit.axis.z)) {
         return hinge ? "the hinge's axis is not finite" : "the limit's axis is not finite";
     }

@@ -1,4 +1,4 @@
-// The loop around solves with limits.
+// The main loop of solves with limits.
 #include "ik/limits/loop.hpp"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ namespace {
 
 using namespace tune::limits;
 
-/// Whether the target is out of reach, and what no pose can better.
+/// Whether the target is within reach, ignoring limits, and a lower bound of the residual.
 struct Reachable {
     Status status = Status::Converged;
     float residual = 0.0f;
@@ -42,15 +42,15 @@ bool is_turned(const Problem& problem) noexcept {
     return !rotation || length(*rotation) <= orientation_tolerance * orientation_arm * problem.scratch.reach;
 }
 
-/// The tip is where it should be, or as near as any pose brings it.
+/// Whether the tip is at the target, or as near as any pose brings it.
 bool arrived(const Problem& problem, const Reachable& can) noexcept {
     const float residual = limited_residual(problem);
     const float more = can.status == Status::Converged ? 0.0f : straight_tolerance * problem.scratch.reach;
     return residual <= std::max(problem.tolerance, can.residual + more) && is_turned(problem);
 }
 
-/// Straightens the chain towards the target, or folds it back along its longest bone, where the limits allow
-/// that. Whether they do.
+/// Straightens the chain towards the target, or folds it back along its longest bone, if the limits allow it.
+/// Returns whether they do.
 template <class Watch>
 bool straighten_within_limits(Problem& problem, const Reachable& can, float allowance, Watch watch) noexcept {
     if (can.status == Status::Converged || problem.options.tip_orientation) return false;
@@ -59,8 +59,8 @@ bool straighten_within_limits(Problem& problem, const Reachable& can, float allo
     pose.joints[0] = problem.root();
     const glm::vec3 ahead = math::direction(problem.root(), problem.target, scratch.pose.directions[0]);
     const float allowed = straight_tolerance * problem.scratch.reach;
-    float lost = 0.0f;     // of the way ahead, to joints that cannot be straight
-    bool pointed = false;  // whether a longest bone has been met: the one that points ahead
+    float lost = 0.0f;     // distance lost to joints that cannot be straight
+    bool pointed = false;  // whether a longest bone has been found: the one that points ahead
     for (std::size_t i = 0; i < problem.bones(); ++i) {
         const bool longest = !pointed && problem.lengths()[i] == problem.scratch.longest;
         pointed = pointed || longest;
@@ -80,13 +80,13 @@ bool straighten_within_limits(Problem& problem, const Reachable& can, float allo
     return true;
 }
 
-/// What the last iteration says of a pose that has not arrived.
+/// How the iterations ended for a pose that has not arrived.
 enum class End { Stalled, StalledInDescent, StalledAtOnce, StillOnItsWay };
 
 Status status_of(Problem& problem, const Reachable& can, End end) noexcept {
     if (arrived(problem, can)) return can.status;
     if (end == End::StillOnItsWay) return Status::IterationLimit;
-    // As near as floats come, and out of reach about as near as a chain comes that is still straightening.
+    // As near as floats can resolve. Out of reach: about as near as a chain that is still straightening.
     const float reach = problem.scratch.reach;
     const float there = std::max(
         problem.tolerance, can.status == Status::Converged ? 1e-5f * reach : can.residual + 1e-3f * reach);
@@ -96,12 +96,12 @@ Status status_of(Problem& problem, const Reachable& can, End end) noexcept {
     return is_stopped_by_limits(problem, seen) ? Status::Limited : Status::Stalled;
 }
 
-/// What the loop knows besides the pose: scratch.best has the error `best`.
+/// The loop's state besides the pose: `best` is the error of scratch.best.
 struct Attempt {
     Reachable can;
     float best = 0.0f;
-    bool dragged = false;  ///< the chain goes on from the last solve, for a target that moved little
-    float allowance = std::numeric_limits<float>::infinity();  ///< how far a joint may go, metres
+    bool dragged = false;  ///< continues the last solve, for a target that moved little
+    float allowance = std::numeric_limits<float>::infinity();  ///< how far a joint may move, metres
 };
 
 void save_if_nearer(Problem& problem, Attempt& attempt) noexcept {
@@ -111,7 +111,7 @@ void save_if_nearer(Problem& problem, Attempt& attempt) noexcept {
     problem.scratch.limited.best = problem.scratch.limited.pose;
 }
 
-/// Whether the last solve by this method goes on: from where it left the chain, for a target nearby.
+/// Detects whether the last solve by this method continues: unchanged chain, target nearby.
 void detect_drag(Method method, const Problem& problem, bool as_left, Attempt& attempt) noexcept {
     const LimitMemory& memory = problem.state.limits;
     if (method != Method::Fabrik || !memory.valid || !as_left || problem.options.restarts) return;
@@ -148,7 +148,7 @@ void report_iteration(const Problem& problem, Watch watch) noexcept {
     watch.iteration_done(problem.iteration, residual);
 }
 
-/// Bends a chain from which no way leads on, once in a solve. Whether it was bent.
+/// Bends a chain in a singular pose, at most once per solve. Returns whether it was bent.
 template <class Watch>
 bool bend_if_singular(Problem& problem, Watch watch) noexcept {
     if (problem.perturbations > 0 || !is_singular(problem)) return false;
@@ -157,11 +157,12 @@ bool bend_if_singular(Problem& problem, Watch watch) noexcept {
     return true;
 }
 
-/// Another pose to go on from, where a descent has stalled; whether there is one.
+/// Selects another pose after a stalled descent. Returns whether there is one.
 template <class Watch>
 bool next_start(Problem& problem, Attempt& attempt, Watch watch) noexcept {
     save_if_nearer(problem, attempt);
-    // A chain that its limits keep stretched towards a dragged target was bent in vain when it came there.
+    // A chain that its limits keep stretched towards a dragged target was already bent in vain in an earlier
+    // solve.
     const bool fixed = attempt.dragged && problem.state.limits.limited;
     if (!fixed && bend_if_singular(problem, watch)) return true;
     const int maximum = problem.options.restarts.value_or(attempt.dragged ? 0 : default_restarts);
@@ -171,12 +172,12 @@ bool next_start(Problem& problem, Attempt& attempt, Watch watch) noexcept {
     return true;
 }
 
-/// FABRIK, least squares and multistart.
+/// Descent (FABRIK and least squares) with restarts.
 template <class Watch>
 End solve_with_restarts(Problem& problem, Attempt& attempt, Watch watch) noexcept {
     LimitMemory& memory = problem.state.limits;
     LimitedDescent descent(problem, attempt.allowance);
-    const bool continued = attempt.dragged && memory.limited;  // from where it had stalled
+    const bool continued = attempt.dragged && memory.limited;  // continues a stalled descent
     if (attempt.dragged) descent.continue_from(memory.damping, continued);
     bool over = false;
     while (problem.iteration < problem.options.max_iterations) {
@@ -197,7 +198,7 @@ End solve_with_restarts(Problem& problem, Attempt& attempt, Watch watch) noexcep
     return continued && problem.iteration == 1 ? End::StalledAtOnce : End::StalledInDescent;
 }
 
-/// A method that has no second try.
+/// A method without restarts.
 template <class Watch>
 End continue_from(Method method, Problem& problem, Attempt& attempt, Watch watch) noexcept {
     problem.state.limits.valid = false;

@@ -7,9 +7,8 @@
 
 namespace tendril::ik::detail {
 
-/// options.limits has one limit for each bone, each without fault. Moves the joints and the state's
-/// rotations; after it every joint is within its limit, and the tip no further from the target than at the
-/// start.
+/// Requires one valid limit per bone in options.limits. Moves the joints and the state's rotations.
+/// Afterwards every joint is within its limit, and the tip no further from the target than at the start.
 template <class Watch>
 Report run_limited(Method method, Problem& problem, Watch watch) noexcept;
 

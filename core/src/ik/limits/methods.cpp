@@ -19,7 +19,7 @@ void place(const Problem& problem, Phase phase, std::size_t joint, std::size_t n
     place = to;
 }
 
-/// From the tip, which goes to the target, to the root, which is left.
+/// From the tip, which moves to the target, to the root, which leaves its position.
 template <class Watch>
 void limited_forward_reaching(Problem& problem, Watch watch) noexcept {
     const LimitedPose& from = problem.scratch.limited.pose;
@@ -79,9 +79,9 @@ void limited_backward_reaching(Problem& problem, Watch watch) noexcept {
     }
 }
 
-/// Cyclic coordinate descent: from the tip's joint to the root's, each turns by the minimal rotation that
-/// brings the tip onto the line to the target, as far as its limit lets it. The joints nearer to the root
-/// stand still meanwhile, so all turns can be applied at the end, in O(n).
+/// Cyclic coordinate descent: from the last joint to the root, each turns by the minimal rotation that brings
+/// the tip onto the line to the target, as far as its limit allows. Joints nearer to the root do not move
+/// meanwhile, so all rotations can be applied at the end, in O(n).
 template <class Watch>
 void ccd_sweep(Problem& problem, Watch watch) noexcept {
     LimitedScratch& scratch = problem.scratch.limited;
@@ -102,8 +102,7 @@ void ccd_sweep(Problem& problem, Watch watch) noexcept {
     accept_trial(problem, Phase::Rotate, watch);
 }
 
-/// The closed form, as if there were no limits, and then brought within them: the iterations that follow go
-/// on from there. The bones keep their lengths.
+/// The closed form without limits, then clamped: the start of the iterations. The bones keep their lengths.
 template <class Watch>
 void solve_closed_form(Problem& problem, Watch watch) noexcept {
     commit(problem);
@@ -139,7 +138,7 @@ void limited_iteration(Method method, Problem& problem, Watch watch) noexcept {
     const bool closed = method == Method::TwoBone && problem.bones() == 2;
     if (closed && problem.iteration == 1 && !problem.options.tip_orientation)
         return solve_closed_form(problem, watch);
-    // Under this the matrix, which limits may leave singular, could not be inverted.
+    // With less damping the matrix, which limits may make singular, could not be inverted.
     const float damping = std::max(problem.options.damping * problem.options.damping, 1e-9f);
     const Descent descent = method == Method::JacobianTranspose ? Descent::Transpose
                             : method == Method::SvdDls          ? Descent::Filtered

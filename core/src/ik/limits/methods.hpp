@@ -1,5 +1,4 @@
-// The methods within limits: each elementary step is followed by bringing what it moved within the limits.
-// Not installed.
+// The methods within limits: each elementary step is followed by a clamp of what it moved. Not installed.
 #pragma once
 
 #include "ik/solve/problem.hpp"
@@ -7,10 +6,10 @@
 
 namespace tendril::ik::detail {
 
-/// FABRIK's forward and backward reaching, from scratch.pose to scratch.trial, of which every joint is within
-/// its limit. After Aristidou, Chrysanthou and Lasenby (2016): wherever a bone is placed, the rotation
-/// between it and the bone that was placed before it is clamped to the limit of their joint, so forward
-/// reaching hands on to the root how the bones must be twisted.
+/// FABRIK's forward and backward reaching, from scratch.pose to scratch.trial, with every joint within its
+/// limit. After Aristidou, Chrysanthou and Lasenby (2016): whenever a bone is placed, the rotation between it
+/// and the previously placed bone is clamped to the limit of their joint, so forward reaching propagates the
+/// required twist to the root.
 template <class Watch>
 void limited_reaching(Problem& problem, Watch watch) noexcept;
 

@@ -7,8 +7,8 @@
 namespace tendril::ik::detail {
 namespace {
 
-/// By how much a pose was turned about a line through the root to become another: seen at the joint that is
-/// furthest off the line.
+/// Angle by which a pose was turned about a line through the root, measured at the joint furthest off the
+/// line.
 float angle_between(const Problem& problem, const LimitedPose& before, const glm::vec3& line) noexcept {
     float furthest = 0.0f, angle = 0.0f;
     for (std::size_t i = 1; i < problem.bones(); ++i) {
@@ -22,7 +22,8 @@ float angle_between(const Problem& problem, const LimitedPose& before, const glm
     return angle;
 }
 
-/// Turns the pose in `pose` about the line, into `trial`; whether the root's joint allows it.
+/// Turns scratch.pose about the line, into the rotations of scratch.trial. Returns whether the root's joint
+/// allows it.
 bool swivels(Problem& problem, const glm::vec3& line, float angle) noexcept {
     LimitedScratch& scratch = problem.scratch.limited;
     const glm::quat by = rotation_about(line, angle);
@@ -63,7 +64,7 @@ void face_pole_within_limits(Problem& problem, Watch watch) noexcept {
     if (std::abs(angle) <= at_bound) return;
     swivel_as_far_as_allowed(problem, line, angle);
     forward_kinematics(problem, scratch.trial);
-    // After forward kinematics the tip is off by rounding; no turn is worth more than that.
+    // Forward kinematics moves the tip by rounding; a turn must not cost more than that.
     const float allowed = std::max(error_of(problem, scratch.pose), problem.tolerance);
     if (error_of(problem, scratch.trial) > allowed + 1e-6f * problem.scratch.reach) return;
     accept_trial(problem, Phase::Pole, watch);

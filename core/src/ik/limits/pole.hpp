@@ -1,16 +1,16 @@
-// Facing the pole within limits: the whole chain turns about the line from root to tip, as pole.hpp has it,
-// but only as far as the root's joint lets it; the other joints are not bent by that. PoleTurn::EachJoint
-// would bend them all, so with limits it means the same. Not installed.
+// Facing the pole within limits: the whole chain turns about the line from root to tip, as in pole.hpp, but
+// only as far as the root's joint allows; the other joints do not bend. PoleTurn::EachJoint would bend them
+// all, so with limits it is the same as WholeChain. Not installed.
 #pragma once
 
 #include "ik/solve/problem.hpp"
 
 namespace tendril::ik::detail {
 
-/// Before the first iteration: how far the chain may turn in this solve.
+/// Before the first iteration: sets how far the chain may turn in this solve.
 void set_pole_allowance(Problem& problem) noexcept;
 
-/// After the last. The tip stays, to rounding.
+/// After the last iteration: turns the chain. The tip stays, to rounding.
 template <class Watch>
 void face_pole_within_limits(Problem& problem, Watch watch) noexcept;
 

@@ -63,21 +63,21 @@ bool load_pose(Problem& problem, Watch watch) noexcept {
     LimitedPose& pose = scratch.limited.pose;
     scratch.limited.linearized = false;
     pose.joints[0] = problem.root();
-    bool same = true;  // so far nothing had to move
+    bool same = true;  // so far no joint was clamped
     float furthest = 0.0f;
     for (std::size_t i = 0; i < problem.bones(); ++i) {
         glm::quat rotation = problem.state.rotations[i];
         glm::vec3 bone = bone_direction(problem, rotation, i);
         if (problem.joints[i + 1] != moved(problem.joints[i], bone, problem.lengths()[i])) {
             const glm::vec3 along = math::direction(problem.joints[i], problem.joints[i + 1], bone);
-            // A rotation that agrees to rounding stays as it is, or each solve would change it a little.
+            // A rotation that agrees to rounding is kept; otherwise each solve would change it a little.
             const float off = squared_distance(bone, along);
             furthest = std::max(furthest, off);
             if (off > 1e-10f) rotation = transported(rotation, bone, along), bone = along;
         }
         const glm::quat parent = parent_of(pose.rotations, i);
         glm::quat local = compose(conjugate(parent), rotation);
-        // More than a solve leaves, or the next one would begin by moving what the last has left.
+        // The slack exceeds the error of a solve, so that the next one does not begin by moving its result.
         if (clamp(scratch.limited.limits[i], local, 5.0f * at_bound)) {
             rotation = unit(compose(parent, local));
             bone = bone_direction(problem, rotation, i);

@@ -1,5 +1,5 @@
-// The pose that a solve with limits works on: joints and rotations that agree, and every joint within its
-// limit. Not installed.
+// The pose of a solve with limits: consistent joints and rotations, every joint within its limit. Not
+// installed.
 #pragma once
 
 #include <algorithm>
@@ -13,31 +13,31 @@
 
 namespace tendril::ik::detail {
 
-/// A rotation brought to length 1 again, which products lose slowly.
+/// Normalises a rotation; products slowly lose unit length.
 static inline glm::quat unit(const glm::quat& q) noexcept {
     return unit_quaternion(q.w, q.x, q.y, q.z);
 }
-/// The same for one that has lost no more than a few products' rounding: a step of Newton's for the root.
+/// The same after only a few products: one Newton step for the inverse root.
 static inline glm::quat nearly_unit(const glm::quat& q) noexcept {
     const float scale = 1.5f - 0.5f * (q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
     return {q.w * scale, q.x * scale, q.y * scale, q.z * scale};
 }
 
-/// How the bone before is turned; the root's is the world.
+/// World rotation of the parent bone; identity for the root.
 static inline glm::quat parent_of(const std::vector<glm::quat>& rotations, std::size_t bone) noexcept {
     return bone == 0 ? glm::quat(1.0f, 0.0f, 0.0f, 0.0f) : rotations[bone - 1];
 }
 
-/// How a bone is turned against the one before.
+/// Rotation relative to the parent bone.
 static inline glm::quat local_rotation(const std::vector<glm::quat>& rotations, std::size_t bone) noexcept {
     return compose(conjugate(parent_of(rotations, bone)), rotations[bone]);
 }
 
-/// Turned on by the minimal rotation that takes one unit vector to another.
+/// Applies the minimal rotation that takes one unit vector to another.
 static inline glm::quat transported(const glm::quat& rotation, const glm::vec3& from,
                                     const glm::vec3& to) noexcept {
     const float w = 1.0f + dot(from, to);
-    if (w < 1e-3f) {  // all but opposite: half a turn, and on from there
+    if (w < 1e-3f) {  // almost opposite: half a turn first, then the rest
         const glm::vec3 half = perpendicular(from);
         return transported(compose({0.0f, half.x, half.y, half.z}, rotation), times(from, -1.0f), to);
     }
@@ -50,44 +50,44 @@ static inline glm::vec3 bone_direction(const Problem& problem, const glm::quat& 
     return rotated(rotation, problem.scratch.limited.limits[bone].bone);
 }
 
-/// The vector along a rotation's axis whose length is its angle, the shorter way round.
+/// The rotation's unit axis times its angle, the shorter way round.
 glm::vec3 rotation_vector(const glm::quat& rotation) noexcept;
 
-/// How far the pose is from what is asked, metres: the distance of the tip, and with a tip orientation also
-/// the angle of the last bone, as if seen at a quarter of the reach.
+/// Distance of the pose from the request, metres: that of the tip and, with a tip orientation, also the angle
+/// of the last bone times a quarter of the reach.
 float error_of(const Problem& problem, const LimitedPose& pose) noexcept;
-/// How the last bone must be turned in the end; none where no tip orientation is asked for.
+/// The requested tip orientation, normalised; none without one.
 std::optional<glm::quat> asked_orientation(const Problem& problem) noexcept;
-/// The rotation from how the last bone is turned to how it should be, times that quarter of the reach; none
-/// where no tip orientation is asked for.
+/// Rotation vector from the last bone's orientation to the requested one, times a quarter of the reach; none
+/// without a tip orientation.
 std::optional<glm::vec3> orientation_error(const Problem& problem, const LimitedPose& pose) noexcept;
 
-/// How far the joint that moved most is from where it was in another pose, metres.
+/// Maximum distance of a joint from its position in another pose, metres.
 float furthest_moved(const Problem& problem, const LimitedPose& from, const LimitedPose& to) noexcept;
 
-/// Forward kinematics: rotations, directions and joints from `turns`. The root is the problem's.
+/// Forward kinematics: rotations, directions and joints from `local`. The root is the problem's.
 void forward_kinematics(const Problem& problem, LimitedPose& pose) noexcept;
-/// One bone of it; those before it are done.
+/// Places one bone; those before it are done.
 static inline void place_bone(const Problem& problem, LimitedPose& pose, std::size_t bone) noexcept {
     pose.rotations[bone] = nearly_unit(compose(parent_of(pose.rotations, bone), pose.local[bone]));
     pose.directions[bone] = bone_direction(problem, pose.rotations[bone], bone);
     pose.joints[bone + 1] = moved(pose.joints[bone], pose.directions[bone], problem.lengths()[bone]);
 }
 
-/// Before a solve: makes the limits ready for it that are not those of the last one. One a bone, or none;
-/// false where one has a fault for its bone.
+/// Before a solve: prepares the limits that differ from those of the last one. One per bone, or none; false
+/// if a limit is invalid for its bone.
 bool load_limits(Workspace& scratch, std::span<const Limit> limits) noexcept;
 
-/// Takes the problem's joints and rotations into scratch.pose. Where joints were moved and rotations were
-/// not, the rotations are transported to where the joints are, each joint is clamped from the root on, and
-/// what follows it placed anew. What holds already is left as it is to the bit; true where all does, but for
-/// 0.01 radians.
+/// Loads the problem's joints and rotations into scratch.pose. If joints moved and rotations did not,
+/// transports the rotations to the joints, clamps each joint from the root on and places what follows it.
+/// Whatever is already consistent is kept bit for bit. Returns true if nothing was clamped and no rotation
+/// was off by more than 0.01 radians.
 template <class Watch>
 bool load_pose(Problem& problem, Watch watch) noexcept;
-/// Hands scratch.pose back to the problem.
+/// Writes scratch.pose back to the problem.
 void commit(Problem& problem) noexcept;
 
-/// The joints that are elsewhere in another pose go there, as one step.
+/// Reports the joints that differ between two poses, as one step.
 template <class Watch>
 void report_moves(const Problem& problem, const LimitedPose& from, const LimitedPose& to, Phase phase,
                   Watch watch) noexcept {
@@ -100,7 +100,7 @@ void report_moves(const Problem& problem, const LimitedPose& from, const Limited
     }
 }
 
-/// The pose becomes what `trial` holds.
+/// Replaces the pose with `trial`.
 template <class Watch>
 void accept_trial(Problem& problem, Phase phase, Watch watch) noexcept {
     LimitedScratch& scratch = problem.scratch.limited;

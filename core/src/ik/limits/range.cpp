@@ -14,7 +14,7 @@ ActiveLimit exceeded_range(Bound low, Bound high, float min, float max, float an
     return active;
 }
 
-/// Of a half-angle; those are told without a sign.
+/// For half-angles, which are reported without a sign.
 ActiveLimit exceeded_half_angle(Bound positive, Bound negative, float inside, float angle) noexcept {
     ActiveLimit active;
     active.bound = angle > inside ? positive : negative;
@@ -62,7 +62,7 @@ Limit widened(Limit limit, const JointAngles& angles, float part) noexcept {
         down_to(limit.min, angles.up);
         return limit;
     }
-    constexpr float diagonal = 1.42f;  // an ellipse with these half-axes has the angles inside
+    constexpr float diagonal = 1.42f;  // so that the ellipse with these half-axes contains the angles
     up_to(limit.up, diagonal * angles.up);
     up_to(limit.down, -diagonal * angles.up);
     up_to(limit.left, diagonal * angles.left);

@@ -1,5 +1,4 @@
-// A limit with more range than it has, and which of its bounds angles exceed: what an explanation tries and
-// tells. Not installed.
+// Widened limits, and which bounds some angles exceed: used to explain a limit. Not installed.
 #pragma once
 
 #include "ik/limits/joint.hpp"
@@ -7,19 +6,18 @@
 
 namespace tendril::ik::detail {
 
-/// All the freedom that a joint can have on the side on which it stands at its limit. Both sides at once
-/// would let it turn the other way round to the same place.
+/// Opens the side on which the joint is at its limit. Opening both sides would let it turn the other way
+/// round to the same pose.
 Limit opened(Limit limit, const JointAngles& angles) noexcept;
-/// For a joint without any freedom, the other side.
+/// The other side, for a joint without any range.
 Limit mirrored(Limit limit) noexcept;
-/// Whether it has none: no range of its hinge's angle, or of its twist.
+/// Whether its hinge angle, or its twist, has no range.
 bool has_no_range(const Limit& limit) noexcept;
 
-/// Range for these angles: all of it for `part` = 1, none beyond the limit's own for 0.
+/// Widens the limit towards these angles: fully for `part` = 1, not at all for 0.
 Limit widened(Limit limit, const JointAngles& angles, float part) noexcept;
 
-/// Which bound the angles exceed (of a cone's the one that they exceed most), and by how much: bound, limit
-/// and needed.
+/// Which bound the angles exceed most. Fills in bound, limit and needed.
 ActiveLimit exceeded_bound(const LimitedJoint& joint, const JointAngles& angles) noexcept;
 
 }  // namespace tendril::ik::detail

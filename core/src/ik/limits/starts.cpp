@@ -14,9 +14,8 @@ namespace {
 
 using namespace tune::limits;
 
-/// A joint's rotation against the one before it, bent by `by`, a rotation vector in the world, as far as its
-/// limit lets it. A hinge has one way to bend: it goes there whatever the plane of the arc, which gives only
-/// the side.
+/// A joint's rotation relative to its parent, bent by the world rotation vector `by`, as far as its limit
+/// allows. A hinge bends by the full angle about its own axis; the plane of the arc only chooses the side.
 glm::quat bent_rotation(const Problem& problem, std::size_t i, const glm::vec3& by) noexcept {
     const LimitedScratch& scratch = problem.scratch.limited;
     const LimitedJoint& joint = scratch.limits[i];
@@ -27,7 +26,7 @@ glm::quat bent_rotation(const Problem& problem, std::size_t i, const glm::vec3& 
     return rotation;
 }
 
-/// From the root to the tip; a chain that ends where it begins shows the line to its target instead.
+/// Direction from root to tip; for a closed chain, from root to target.
 glm::vec3 line_to_bend(const Problem& problem) noexcept {
     const LimitedPose& pose = problem.scratch.limited.pose;
     for (const glm::vec3& end : {pose.joints[problem.bones()], problem.target}) {
@@ -38,7 +37,7 @@ glm::vec3 line_to_bend(const Problem& problem) noexcept {
     return pose.directions[0];
 }
 
-/// The first bone one way, the others back, so that the tip stays near the line. The error that it leaves.
+/// Bends the first bone one way and the others back, so that the tip stays near the line. Returns the error.
 float bend_in_arc(const Problem& problem, const glm::vec3& about) noexcept {
     LimitedScratch& scratch = problem.scratch.limited;
     for (std::size_t i = 0; i < problem.bones(); ++i) {
@@ -50,7 +49,7 @@ float bend_in_arc(const Problem& problem, const glm::vec3& about) noexcept {
     return error_of(problem, scratch.trial);
 }
 
-/// SplitMix64 (Steele, Lea, Flood 2014), from 0 to under 1.
+/// SplitMix64 (Steele, Lea, Flood 2014), in [0, 1).
 float random_unit(std::uint64_t& state) noexcept {
     std::uint64_t z = (state += 0x9e3779b97f4a7c15u);
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
@@ -92,7 +91,7 @@ void bend_within_limits(Problem& problem, Watch watch) noexcept {
     std::size_t best = 0;
     float minimum = bend_in_arc(problem, abouts[0]);
     for (std::size_t way = 1; way < 4; ++way) {
-        // Of ways that are as good the first is taken: rounding must not choose the side.
+        // Of equally good ways, the first is taken: rounding must not choose the side.
         const float error = bend_in_arc(problem, abouts[way]);
         if (error < minimum - alike * problem.scratch.reach) best = way, minimum = error;
     }

@@ -20,7 +20,7 @@ bool all_free(const Problem& problem) noexcept {
                        [](const LimitedJoint& joint) { return joint.free(); });
 }
 
-/// Down the error within the limits, until it stalls.
+/// Descends within the limits until it stalls and returns the error.
 float descend_to_stall(Problem& problem, float there) noexcept {
     LimitedDescent descent(problem, std::numeric_limits<float>::infinity());
     descent.continue_from(tune::limits::first_damping, false);
@@ -30,9 +30,9 @@ float descend_to_stall(Problem& problem, float there) noexcept {
     return descent.error();
 }
 
-/// The same, and on from a singular pose where a bend leads on. The error that is left. Of 730 straight arms
-/// with a target ahead that they can reach, 338 more that plain FABRIK leaves on the line would blame a limit
-/// without this; for the other methods it changes nothing.
+/// The same, but if it ends in a singular pose, bends the chain and continues. Of 730 straight arms whose
+/// target ahead is reachable, 338 more that plain FABRIK leaves on the line would blame a limit without this;
+/// for the other methods it changes nothing.
 float descend_past_singularity(Problem& problem, float there) noexcept {
     LimitedScratch& scratch = problem.scratch.limited;
     const float error = descend_to_stall(problem, there);
@@ -61,7 +61,7 @@ bool is_stopped_by_limits(Problem& problem, Seen seen) noexcept {
         allowed += dot(rotation, rotation);
     }
     const float asked = dot(wanted.move, wanted.move) + dot(wanted.rotation, wanted.rotation);
-    // On a line with its target every chain of ball joints would have bent.
+    // On a line with its target, every chain of ball joints would have bent.
     if (free <= singular * singular * asked) return !all_free(problem);
     return free - allowed >= blamed_part * free;
 }
@@ -72,7 +72,7 @@ bool limits_stop_tip(Problem& problem, float there) noexcept {
     scratch.start = scratch.pose;
     const bool holds = descend_past_singularity(problem, there) > there && is_stopped_by_limits(problem);
     scratch.swap_pose(scratch.start);
-    problem.least_squares_steps = steps;  // these are not the method's
+    problem.least_squares_steps = steps;  // do not count these as the method's
     return holds;
 }
 

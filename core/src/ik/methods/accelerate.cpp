@@ -1,23 +1,23 @@
-// The step that makes FABRIK fast near full reach, and wherever else it crawls.
+// The step that makes FABRIK fast near full reach, and wherever else it converges slowly.
 //
-// A pass hands a bend on from joint to joint and takes little of it away; so a chain whose tip falls short by
-// one in a thousand needs hundreds of passes to straighten that much. Here the shape that the passes found is
-// preserved and its bend as a whole made less or more. With u a bone's direction and l that of the line from
-// root to tip, every bone is given the direction of
+// A pass hands a bend on from joint to joint and removes little of it, so a chain whose tip falls short by
+// one in a thousand needs hundreds of passes to straighten that much. This step keeps the shape that the
+// passes found and scales its bend as a whole. With u a bone's direction and l that of the line from root to
+// tip, every bone gets the direction of
 //
-//     l + t (u - l)
+// l + t (u - l)
 //
-// with one t for all: at 0 the chain is straight, at 1 it is as it was, over 1 it bends more. The span from
-// root to tip is nearly linear in t^2, so two tries come near to the t where the span is the target's
-// distance (regula falsi: between 0 and 1 there always is one where the chain falls short). Then the chain is
-// turned as a whole towards the target.
+// with one t for all: at 0 the chain is straight, at 1 unchanged, and over 1 it bends more. The span from
+// root to tip is nearly linear in t^2, so two tries come close to the t at which the span equals the target's
+// distance (regula falsi: if the chain falls short, there always is one between 0 and 1). Then the whole
+// chain is turned towards the target.
 //
-// Where bending cannot bring the ends near enough to each other, the longest bone stays and the others do the
-// same with what is left of the way to the target; or, where they are too short for that, they fold back
-// along the longest.
+// If bending cannot bring the ends close enough together, the longest bone is kept and the others do the same
+// for the remaining distance to the target; or, if they are too short for that, they fold back along the
+// longest.
 //
-// Cost: O(n), as a rule one or two square roots a bone, none of which waits for the one before it as those of
-// a pass do: about as much as the passes.
+// Cost: O(n), usually one or two square roots per bone. Unlike those of a pass they do not depend on each
+// other, so the step takes about as long as the passes.
 #include "ik/methods/methods.hpp"
 
 #include <algorithm>
@@ -32,25 +32,25 @@ namespace {
 
 using namespace tune::chain;
 
-/// Shapes that differ by t. The longest bone may be left out of it.
+/// A family of shapes, parametrised by t. May exclude the longest bone.
 struct Family {
-    glm::vec3 line{0.0f};       ///< towards which the bones turn, a unit vector
-    std::size_t fixed = 0;      ///< the bone that does not turn; the number of bones for none
-    glm::vec3 first{0.0f};      ///< what the span starts with: the fixed bone, or nothing
-    glm::vec3 aim{0.0f};        ///< where the span is to end: so it is turned in the end
-    bool rotates_fixed = true;  ///< then too
-    float wanted = 0.0f;        ///< the size of `aim`
-    float straight = 0.0f;      ///< the size of the span at t = 0
-    float now = 0.0f;           ///< at t = 1
+    glm::vec3 line{0.0f};       ///< unit vector towards which the bones turn
+    std::size_t fixed = 0;      ///< index of the bone that does not turn; the number of bones if none
+    glm::vec3 first{0.0f};      ///< start of the span: the fixed bone, or zero
+    glm::vec3 aim{0.0f};        ///< required end of the span, after turning it
+    bool rotates_fixed = true;  ///< whether that turns the fixed bone too
+    float wanted = 0.0f;        ///< length of `aim`
+    float straight = 0.0f;      ///< length of the span at t = 0
+    float now = 0.0f;           ///< length of the span at t = 1
 };
 
 struct FamilyFit {
     float t = 1.0f;
     glm::vec3 span{0.0f};
-    float size = 0.0f;       ///< of the span
-    float error = FLT_MAX;   ///< by how much that misses
-    bool found = false;      ///< whether one side of it was seen to be too much and the other too little
-    bool is_shaped = false;  ///< whether scratch.old holds this one
+    float size = 0.0f;       ///< length of `span`
+    float error = FLT_MAX;   ///< deviation from the wanted length
+    bool found = false;      ///< whether the wanted length was bracketed
+    bool is_shaped = false;  ///< whether scratch.old holds this shape
 };
 
 /// Writes the bones of a shape into scratch.old and returns their span.
@@ -63,7 +63,7 @@ glm::vec3 shape(Problem& problem, const Family& family, float t) noexcept {
         for (std::size_t i = from; i < to; ++i) {
             const glm::vec3 blend = moved(times(minus(joints[i + 1], joints[i]), t), towards, lengths[i]);
             const float squared = dot(blend, blend);
-            // One that is just opposite to the line has no direction on its way.
+            // A bone exactly opposite to the line vanishes halfway.
             bones[i] = squared > FLT_MIN ? times(blend, lengths[i] / std::sqrt(squared))
                                          : times(family.line, lengths[i]);
             span = plus(span, bones[i]);
@@ -77,7 +77,7 @@ glm::vec3 shape(Problem& problem, const Family& family, float t) noexcept {
     return part(family.fixed + 1, count, span);
 }
 
-/// The best of a few tries at the t^2 where the span is as wanted: regula falsi.
+/// Finds the t^2 at which the span has the wanted length, in a few tries of regula falsi; returns the best.
 FamilyFit fit_family(Problem& problem, const Family& family, float near) noexcept {
     float low = 0.0f, at_low = family.straight - family.wanted;
     float high = 1.0f, at_high = family.now - family.wanted;
@@ -85,7 +85,7 @@ FamilyFit fit_family(Problem& problem, const Family& family, float near) noexcep
     best.found = (at_low < 0.0f) != (at_high < 0.0f);
     float next = at_low / (at_low - at_high);
     for (int i = 0; i < tries; ++i) {
-        if (!(next >= 0.0f && next <= max_bend)) next = max_bend;  // and not a number: 0 / 0
+        if (!(next >= 0.0f && next <= max_bend)) next = max_bend;  // also for NaN: 0 / 0
         const float t = std::sqrt(next);
         const glm::vec3 span = shape(problem, family, t);
         const float size = length(span), off = size - family.wanted;
@@ -98,7 +98,7 @@ FamilyFit fit_family(Problem& problem, const Family& family, float near) noexcep
             high = next, at_high = off;
         } else if (best.found) {
             low = next, at_low = off;
-        } else {  // bent as far as seemed enough, and it was not
+        } else {  // still too short at the estimated bend
             next = std::max(next, strong_bend);
             continue;
         }
@@ -107,7 +107,7 @@ FamilyFit fit_family(Problem& problem, const Family& family, float near) noexcep
     return best;
 }
 
-/// All bones but the fixed one bend or straighten; `span` is theirs.
+/// All bones but the fixed one bend or straighten; `span` is their span.
 Family blend_of(const glm::vec3& span, const glm::vec3& aim, float reach, std::size_t fixed) noexcept {
     Family family;
     family.fixed = fixed;
@@ -115,15 +115,15 @@ Family blend_of(const glm::vec3& span, const glm::vec3& aim, float reach, std::s
     family.wanted = length(aim);
     family.straight = reach;
     family.now = length(span);
-    // Ends that meet show no line.
+    // If the ends meet, they define no line.
     const bool open = family.now > 1e-6f * reach;
     const float size = open ? family.now : family.wanted;
     if (size > FLT_MIN) family.line = times(open ? span : aim, 1.0f / size);
     return family;
 }
 
-/// The longest bone stays, and the others make up for it: by bending, or where they are too short for what is
-/// left of the way, by folding back along it.
+/// Keeps the longest bone and lets the others compensate: by bending, or if they are too short for the
+/// remaining distance, by folding back along it.
 Family family_around_longest(const Problem& problem, const glm::vec3& span, const Family& all) noexcept {
     const auto lengths = problem.lengths();
     const auto longest =
@@ -144,8 +144,8 @@ Family family_around_longest(const Problem& problem, const glm::vec3& span, cons
     return family;
 }
 
-/// The minimal rotation from one direction to another: a reflection that takes the one to the opposite of the
-/// other, then one that takes it back. None where one of them has no direction.
+/// The minimal rotation from one direction to another, as two reflections: one that takes the first direction
+/// to the opposite of the second, then one that reverses it. Identity if one of them has no direction.
 class ShortestRotation {
   public:
     ShortestRotation(const glm::vec3& from, float from_size, const glm::vec3& to, float to_size) noexcept {
@@ -166,7 +166,7 @@ class ShortestRotation {
     glm::vec3 first_{0.0f}, second_{0.0f}, twice_first_{0.0f}, twice_second_{0.0f};
 };
 
-/// Places the chain with the bones of scratch.old, turned so that `span` ends on the family's aim.
+/// Places the chain with the bones in scratch.old, turned so that `span` ends at the family's aim.
 template <class Watch>
 void place_shape(Problem& problem, const Family& family, const ShortestRotation& rotation,
                  Watch watch) noexcept {

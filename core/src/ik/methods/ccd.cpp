@@ -1,14 +1,14 @@
-// Cyclic coordinate descent: one joint after the other, from the tip's side to the root, turns so that the
-// tip lies on its line to the target.
+// Cyclic coordinate descent: one joint after the other, from the tip to the root, turns so that the tip lies
+// on its line to the target.
 //
 // Source: L.-C. T. Wang, C. C. Chen, "A combined optimization method for solving the inverse kinematics
 // problem of mechanical manipulators", IEEE Transactions on Robotics and Automation 7(4), 1991.
 //
-// Cost: O(n) an iteration. While a joint turns, those nearer to the root stand still; so the pass that finds
-// the turns moves nothing but the tip, and a second one applies all of them.
+// Cost: O(n) per iteration. While a joint turns, those nearer to the root do not move; so the pass that finds
+// the rotations moves only the tip, and a second one applies all rotations.
 //
-// It converges to any target within reach, but near full reach it crawls, and it curls the bones near the tip
-// first: a joint there turns as willingly as one at the root, and gets to go first.
+// It converges to any target within reach, but slowly near full reach, and it curls the bones near the tip
+// first: a joint there rotates as freely as one at the root, and comes first.
 #include "ik/methods/methods.hpp"
 
 #include <algorithm>
@@ -20,7 +20,8 @@ namespace {
 
 constexpr glm::quat no_rotation{1.0f, 0.0f, 0.0f, 0.0f};
 
-/// Shows the turn of one joint while the others wait for theirs: scratch.old is what the observer has seen.
+/// Reports the rotation of one joint before the others follow: scratch.old is the pose that the observer has
+/// seen.
 template <class Watch>
 void show_rotation(Problem& problem, std::size_t joint, Watch watch) noexcept {
     std::vector<glm::vec3>& seen = problem.scratch.old;
@@ -33,7 +34,7 @@ void show_rotation(Problem& problem, std::size_t joint, Watch watch) noexcept {
     watch.next_step();
 }
 
-/// The root's turn is the last: it brings every joint to where it really ends.
+/// The root's rotation comes last: it moves every joint to its exact final position.
 template <class Watch>
 void show_last_rotation(Problem& problem, Watch watch) noexcept {
     for (std::size_t i = 1; i < problem.joints.size(); ++i) {
@@ -45,7 +46,8 @@ void show_last_rotation(Problem& problem, Watch watch) noexcept {
 }  // namespace
 
 glm::quat rotation_towards(const Problem& problem, const glm::vec3& at, const glm::vec3& tip) noexcept {
-    // Differences of coordinates carry some 1e-7 of the reach in error; a tenth of that here would be noise.
+    // Differences of coordinates have an error of about 1e-7 of the reach; an arm of a tenth of this would be
+    // noise.
     const float nothing = std::max(1e-6f * problem.scratch.reach, FLT_MIN);
     const glm::vec3 to_tip = minus(tip, at), to_target = minus(problem.target, at);
     const float a = length(to_tip), b = length(to_target);

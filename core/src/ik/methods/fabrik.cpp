@@ -10,7 +10,7 @@ namespace {
 
 using namespace tune::chain;
 
-constexpr glm::vec3 fallback{1.0f, 0.0f, 0.0f};  ///< where two joints coincide and show no direction
+constexpr glm::vec3 fallback{1.0f, 0.0f, 0.0f};  ///< direction if two joints coincide
 
 template <class Watch>
 void forward_reaching(Problem& problem, Watch watch) noexcept {

@@ -1,4 +1,4 @@
-// The table of method.hpp: which method honours which option.
+// The table in method.hpp: which method honours which option.
 #include <cstdint>
 
 #include "math/checks.hpp"

@@ -1,5 +1,5 @@
-// The solvers that follow the Jacobian J, the matrix of how far each small turn of a joint moves the tip.
-// Ball joints: three columns a joint, axis x (tip - joint) for the three axes of the world.
+// Solvers that use the Jacobian J, the matrix of how far each small joint rotation moves the tip. Ball
+// joints: three columns per joint, axis x (tip - joint) for the three world axes.
 //
 //     jacobian transpose   turns = a J' e              W. A. Wolovich, H. Elliott, "A computational technique
 //                                                      for inverse kinematics", 23rd IEEE Conference on
@@ -10,30 +10,30 @@
 //                                                      manipulators through kinematically singular
 //                                                      configurations", Journal of Robotic Systems 5(6), 1988
 //
-// e is what the tip lacks to the target, s^2 and the columns of U eigenvalues and eigenvectors of J J'. All
-// three only need J J', which is 3x3 however many joints there are: J is never built, and an iteration is
-// O(n). Whatever they find at the tip, joint i turns by r x f, with r from the joint to the tip and f a
-// vector that is the same for all joints. Turns are applied as exponentials, from root to tip.
+// e is the vector from tip to target; s^2 and the columns of U are eigenvalues and eigenvectors of J J'. All
+// three methods only need J J', which is 3x3 for any number of joints: J is never built, and an iteration is
+// O(n). Joint i then turns by r x f, with r from the joint to the tip and f a vector that is the same for all
+// joints. Rotations are applied as exponentials, from root to tip.
 //
-// The transpose has the step that would be best if the tip moved as J says (S. R. Buss, "Introduction to
-// inverse kinematics with Jacobian transpose, pseudoinverse and damped least squares methods", 2004):
-// a = e . JJ'e / |JJ'e|^2. It takes hundreds of iterations near full reach.
+// The transpose uses the optimal step if the tip moved as J says (S. R. Buss, "Introduction to inverse
+// kinematics with Jacobian transpose, pseudoinverse and damped least squares methods", 2004): a = e . JJ'e /
+// |JJ'e|^2. It takes hundreds of iterations near full reach.
 //
-// How the others are damped. l^2 = damping^2 * reach * |e|: damping * reach at most, and it fades as the tip
-// comes near. So it is a Levenberg-Marquardt method whose damping is a power of the residual, and converges
-// fast to the end, also where J is singular (J. Fan, Y. Yuan, "On the quadratic convergence of the
+// Damping of the others: l^2 = damping^2 * reach * |e|. So l is at most damping * reach, and fades as the tip
+// approaches. That makes it a Levenberg-Marquardt method whose damping is a power of the residual, which
+// converges fast to the end, even where J is singular (J. Fan, Y. Yuan, "On the quadratic convergence of the
 // Levenberg-Marquardt method without nonsingularity assumption", Computing 74, 2005; T. Sugihara,
-// "Solvability- unconcerned inverse kinematics by the Levenberg-Marquardt method", IEEE Transactions on
+// "Solvability-unconcerned inverse kinematics by the Levenberg-Marquardt method", IEEE Transactions on
 // Robotics 27(5), 2011). With a constant l the last part of the way near full reach takes 10 times as long.
 //
-// With one l for all singular values the SVD would give the same turns as plain damping. It is there to damp
-// only the directions in which the tip can hardly be moved, and leave the good ones alone: l_s^2 = l^2
-// (1 - (s / reach)^2 / 0.16) for s < 0.4 reach, and nothing from there on (the law of S. Chiaverini,
-// B. Siciliano, O. Egeland, "Review of the damped least-squares inverse kinematics with experiments on an
-// industrial robot manipulator", IEEE Transactions on Control Systems Technology 2(2), 1994).
+// With one l for all singular values the SVD would give the same rotations as plain damping. Its purpose is
+// to damp only the directions in which the tip can hardly move: l_s^2 = l^2 (1 - (s / reach)^2 / 0.16) for s
+// < 0.4 reach, and 0 from there on (after S. Chiaverini, B. Siciliano, O. Egeland, "Review of the damped
+// least-squares inverse kinematics with experiments on an industrial robot manipulator", IEEE Transactions on
+// Control Systems Technology 2(2), 1994).
 //
-// What keeps them sane far from the target, where the tip does not move as J says: e is cut to half the reach
-// (after Buss 2004), and all turns are scaled by one number so that none exceeds 1 radian.
+// Far from the target the tip does not move as J says. So e is clamped to half the reach (after Buss 2004),
+// and all rotations are scaled by one factor so that none exceeds 1 radian.
 #include "ik/methods/methods.hpp"
 
 #include <algorithm>
@@ -49,12 +49,12 @@ namespace {
 
 using namespace tune::jacobian;
 
-constexpr double min_damping = 1e-12;  ///< of the trace of J J', so that it can be inverted
+constexpr double min_damping = 1e-12;  ///< fraction of the trace of J J', to keep it invertible
 
 /// All in units of the reach, so that no size of chain overflows.
 struct Linear {
     Symmetric3 jj;     ///< J J', the sum of |r|^2 I - r r' over the joints
-    glm::dvec3 error;  ///< from tip to target, cut
+    glm::dvec3 error;  ///< from tip to target, clamped
     double damping;    ///< l^2
 };
 
@@ -85,8 +85,8 @@ glm::dvec3 filtered(const Linear& at) noexcept {
     return filtered_solution(at.jj, at.error, at.damping, small_singular, 0.0);
 }
 
-/// The rotation by |vector| radians about `vector`, at most max_rotation. Series instead of sine and cosine:
-/// exact to a float this near to zero, and the same with every C library.
+/// The rotation about `vector` by its length in radians, at most max_rotation. Uses series instead of sine
+/// and cosine: exact to float precision at such angles, and the same with every C library.
 glm::quat exponential(const glm::dvec3& vector) noexcept {
     const double h = 0.25 * dot(vector, vector);  // square of half the angle
     const double sine = 0.5 * (1.0 - h / 6.0 * (1.0 - h / 20.0 * (1.0 - h / 42.0 * (1.0 - h / 72.0))));
@@ -95,7 +95,7 @@ glm::quat exponential(const glm::dvec3& vector) noexcept {
     return unit_quaternion(static_cast<float>(cosine), axis.x, axis.y, axis.z);
 }
 
-/// Joint i turns by r x force.
+/// Sets the rotation of joint i to r x force, scaled to max_rotation.
 void find_rotations(Problem& problem, const glm::dvec3& force, double unit) noexcept {
     const glm::dvec3 tip = wide(problem.joints.back());
     const auto rotation_at = [&](std::size_t i) {

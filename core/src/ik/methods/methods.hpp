@@ -1,5 +1,5 @@
-// The methods without limits: one function an iteration, compiled for Unwatched and Watched. Each file begins
-// with its method's source, what it computes and its cost; all are O(n). Not installed.
+// The methods without limits: one function per iteration, compiled for Unwatched and Watched. Each file
+// begins with its method's source, what it computes and its cost; all are O(n). Not installed.
 #pragma once
 
 #include "ik/solve/problem.hpp"
@@ -11,14 +11,14 @@ namespace tendril::ik::detail {
 /// Forward reaching (from the tip), then backward reaching (from the root).
 template <class Watch>
 void fabrik_iteration(Problem& problem, Watch watch) noexcept;
-/// The same, and a step that fits the span from root to tip.
+/// The same, plus a step that fits the span from root to tip.
 template <class Watch>
 void accelerated_fabrik_iteration(Problem& problem, Watch watch) noexcept;
 
 // accelerate.cpp
 
-/// That step, after a pair of passes that left the tip `residual` from the target. Moves nothing unless that
-/// gets less.
+/// That step, after a pair of passes that left the tip `residual` from the target. Moves nothing unless it
+/// reduces the residual.
 template <class Watch>
 void accelerate(Problem& problem, float residual, Watch watch) noexcept;
 
@@ -27,14 +27,14 @@ void accelerate(Problem& problem, float residual, Watch watch) noexcept;
 template <class Watch>
 void ccd_iteration(Problem& problem, Watch watch) noexcept;
 /// CCD's rotation of one joint: the minimal one about `at` that brings the tip onto the line to the target.
-/// None where the tip or the target is so near to `at` that there is no line.
+/// Identity if the tip or the target is too close to `at` to define a line.
 glm::quat rotation_towards(const Problem& problem, const glm::vec3& at, const glm::vec3& tip) noexcept;
 
 // jacobian.cpp
 
 template <class Watch>
 void jacobian_transpose_iteration(Problem& problem, Watch watch) noexcept;
-/// `damping`: that of the options, as part of the reach.
+/// `damping` is that of the options, as a fraction of the reach.
 template <class Watch>
 void dls_iteration(Problem& problem, float damping, Watch watch) noexcept;
 template <class Watch>
@@ -42,8 +42,8 @@ void svd_dls_iteration(Problem& problem, float damping, Watch watch) noexcept;
 
 // two_bone.cpp; the closed form itself is in tendril/ik/two_bone.hpp
 
-/// Only for two bones, InvalidInput for others. Faces the pole by itself, no faster than pole.hpp allows, and
-/// remembers the pose as face_pole does. Calls no iteration_done: that is the loop's.
+/// For two bones only, otherwise InvalidInput. Faces the pole itself, no faster than pole.hpp allows, and
+/// remembers the pose as face_pole does. Does not call iteration_done: the loop does.
 template <class Watch>
 Report two_bone_solve(Problem& problem, Watch watch) noexcept;
 

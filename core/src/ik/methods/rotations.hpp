@@ -1,5 +1,5 @@
-// What CCD and the Jacobian solvers end an iteration with: every joint has found its rotation, and now all of
-// them are applied in one sweep from root to tip. O(n). Not installed.
+// The end of an iteration of CCD and the Jacobian solvers: once every joint's rotation is known, all of them
+// are applied in one sweep from root to tip. O(n). Not installed.
 #pragma once
 
 #include <cfloat>
@@ -9,16 +9,15 @@
 
 namespace tendril::ik::detail {
 
-/// A bone of this length along `bone`; along +X where that has no direction.
+/// Scales `bone` to a length; along +X if it has no direction.
 static inline glm::vec3 with_length(const glm::vec3& bone, float length) noexcept {
     const float squared = dot(bone, bone);
     if (squared < FLT_MIN) return {length, 0.0f, 0.0f};
     return times(bone, length / std::sqrt(squared));
 }
 
-/// Turns everything beyond joint i by scratch.rotations[i], for every i. The rotations are in the world, each
-/// as it is before any joint nearer to the root has turned. Bones come out at their lengths, so nothing
-/// drifts.
+/// Rotates everything beyond joint i by scratch.rotations[i], for every i. The rotations are in the world, as
+/// if no joint nearer to the root had rotated. Bones are set to their lengths, so nothing drifts.
 static inline void apply_rotations(Problem& problem) noexcept {
     const std::span<glm::vec3> joints = problem.joints;
     const std::span<const float> lengths = problem.lengths();

@@ -1,4 +1,4 @@
-// Method::TwoBone: law of cosines, the side to bend to, stretch.
+// Method::TwoBone: law of cosines, bend side, stretch.
 #include "ik/methods/methods.hpp"
 
 #include <algorithm>
@@ -17,16 +17,16 @@ namespace {
 
 using namespace detail;
 
-constexpr double equal = 1e-6;    ///< of the reach: what floats leave of a sum of lengths
-constexpr double no_side = 1e-6;  ///< of the reach: offsets below it are rounding
+constexpr double equal = 1e-6;    ///< fraction of the reach: the precision of a sum of lengths in floats
+constexpr double no_side = 1e-6;  ///< fraction of the reach: smaller offsets are rounding
 
 /// The triangle of root, mid and tip, in metres.
 struct Triangle {
     double scale = 1.0;   ///< of both bones
     double along = 0.0;   ///< from root to mid, on the line to the target
     double height = 0.0;  ///< of mid above that line
-    double span = 0.0;    ///< from root to tip, on that line
-    bool reaches = true;  ///< whether that is all the way
+    double span = 0.0;    ///< from root to tip, along that line
+    bool reaches = true;  ///< whether the tip is exactly at the target
     Status status = Status::Converged;
 };
 
@@ -36,7 +36,8 @@ Triangle triangle(double upper, double lower, double distance, const TwoBoneOpti
     const double start = static_cast<double>(options.start_stretch_ratio) * reach;
     if (distance > start && start > 0.0) {
         t.scale = std::min(distance / start, static_cast<double>(options.max_stretch_scale));
-        // Bones that differ in length grow apart too: not so far that they fold no nearer than the target.
+        // Bones of different lengths grow in difference too: limits the scale so that they still fold to the
+        // target.
         const double folded = std::abs(upper - lower);
         if (folded <= distance && folded * t.scale > distance) t.scale = distance / folded;
     }
@@ -46,36 +47,36 @@ Triangle triangle(double upper, double lower, double distance, const TwoBoneOpti
     t.reaches = t.span == distance;
     if (distance > maximum + equal * reach) t.status = Status::Stretched;
     if (distance < minimum - equal * reach) t.status = Status::TooClose;
-    // Both as products of differences, so that nothing cancels out near full reach or when folded.
+    // As products of differences, to avoid cancellation near full reach and when folded.
     t.along = t.span > 0.0 ? 0.5 * (t.span + (a - b) * (a + b) / t.span) : 0.0;
     const double squared = (a - t.along) * (a + t.along);
     t.height = t.span > 0.0 ? std::sqrt(std::max(squared, 0.0)) : a;
     return t;
 }
 
-/// The limb as given, from its root.
+/// The limb as given, relative to its root.
 struct Given {
     glm::dvec3 mid, tip, target;
     double reach;
 };
 
-/// Where the limb points: at the target, or, where that is the root, to where it did.
+/// The limb's direction: to the target, or if that is at the root, its current one.
 glm::dvec3 line_of(const Given& given) noexcept {
     if (const auto ahead = direction_of(given.target, 0.0)) return *ahead;
     if (const auto present = direction_of(given.tip, no_side * given.reach)) return *present;
-    // Folded upon itself: any line at right angles to the bones.
+    // Folded upon itself: any line perpendicular to the bones.
     if (const auto bone = direction_of(given.mid, 0.0)) return perpendicular(*bone);
     return {1.0, 0.0, 0.0};
 }
 
-/// `v` at right angles to `from`, turned by the minimal rotation that takes `from` to `to`.
+/// Applies the minimal rotation that takes `from` to `to` to `v`, which is perpendicular to `from`.
 glm::dvec3 transported(const glm::dvec3& v, const glm::dvec3& from, const glm::dvec3& to) noexcept {
     const double w = 1.0 + dot(from, to);
     if (w < 1e-12) return v;  // half a turn, about v itself
     return minus(v, times(plus(from, to), dot(v, to) / w));
 }
 
-/// The side to which the limb bends now, transported to its new line; none for a straight one.
+/// The current bend side, transported to the new line; none for a straight limb.
 std::optional<glm::dvec3> present_side(const Given& given, const glm::dvec3& line) noexcept {
     const double minimum = no_side * given.reach;
     const auto from = direction_of(given.tip, minimum);
@@ -89,8 +90,7 @@ glm::dvec3 turned(const glm::dvec3& side, const glm::dvec3& line, double angle) 
     return plus(times(side, std::cos(angle)), times(cross(line, side), std::sin(angle)));
 }
 
-/// The side to which the limb shall bend. `maximum`: by how many radians it may differ from the present one
-/// when there is a pole.
+/// The new bend side. `maximum`: how far it may differ from the current one if there is a pole, radians.
 glm::dvec3 side_of(const Given& given, const glm::dvec3& line, const TwoBoneOptions& options,
                    const glm::dvec3& root, double maximum) noexcept {
     const auto present = present_side(given, line);
@@ -100,7 +100,7 @@ glm::dvec3 side_of(const Given& given, const glm::dvec3& line, const TwoBoneOpti
         const glm::dvec3 arm = minus(wide(*options.pole), root);
         pole = direction_of(across(arm, line), no_side * std::max(given.reach, length(arm)));
     }
-    // A pole on the line has been faced before, and turned by the twist then.
+    // A pole on the line shows no side: keep the current one, which already includes the twist.
     if (options.pole && !pole && present) return *present;
     const glm::dvec3 start = pole ? *pole : present ? *present : perpendicular(line);
     const glm::dvec3 wanted = twist != 0.0 ? turned(start, line, twist) : start;

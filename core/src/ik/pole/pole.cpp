@@ -16,11 +16,11 @@ using namespace tune::pole;
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
-constexpr double no_side = 1e-6;  ///< of the reach: offsets below it are rounding
+constexpr double no_side = 1e-6;  ///< fraction of the reach: smaller offsets are rounding
 
-/// Which way, and how far, the chain is off a line through its root.
+/// Direction and size of the chain's offset from a line through its root.
 struct Bend {
-    glm::dvec3 side{0.0};  ///< sum of the offsets, each weighted by its part of the chain
+    glm::dvec3 side{0.0};  ///< sum of the offsets, weighted by the adjacent lengths
     double furthest = 0.0;
 };
 
@@ -38,12 +38,12 @@ Bend bend_of(const Problem& problem, const glm::dvec3& line) noexcept {
     return bend;
 }
 
-/// The angle about `line` from one side to another, -pi to pi; what lies along the line is left out.
+/// The angle about `line` from one vector to another, -pi to pi, ignoring their components along the line.
 double angle_about(const glm::dvec3& line, const glm::dvec3& from, const glm::dvec3& to) noexcept {
     return std::atan2(dot(cross(from, to), line), dot(from, to) - dot(from, line) * dot(to, line));
 }
 
-/// `v` turned about a unit axis.
+/// Rotates a vector about a unit axis.
 struct AxisAngle {
     glm::dvec3 axis;
     double sine, cosine;
@@ -56,14 +56,14 @@ struct AxisAngle {
     }
 };
 
-/// No further than the allowance lets a point at `arm` from the axis go.
+/// Limits the angle so that a point at distance `arm` from the axis moves no further than the allowance.
 double limited(double angle, double arm, double allowance) noexcept {
     if (std::abs(angle) * arm <= allowance) return angle;
     return std::copysign(allowance / arm, angle);
 }
 
-/// The arc of length 1 and radius 1 / 2h spans sin(h) / h; h for a span of 0 to 1. Newton's steps on a
-/// function that is convex from the start on to the root.
+/// Half-angle h, for which an arc of length 1 and radius 1 / 2h spans sin(h) / h = `span`, 0 to 1. Newton's
+/// method on a function that is convex between the start and the root.
 double half_angle_of_arc(double span) noexcept {
     double h = std::sqrt(6.0 * std::max(1.0 - span, 0.0));
     for (int step = 0; step < 6 && h > 1e-6; ++step) {
@@ -72,7 +72,8 @@ double half_angle_of_arc(double span) noexcept {
     return h;
 }
 
-/// The pole as seen from `from`; none where it is on the line, as far as one can tell.
+/// Direction of the pole from `from`, perpendicular to the line; none if the pole is on the line, to
+/// precision.
 std::optional<glm::dvec3> pole_side(const Problem& problem, const glm::dvec3& from,
                                     const glm::dvec3& line) noexcept {
     const glm::dvec3 arm = minus(wide(*problem.options.pole), from);
@@ -80,7 +81,8 @@ std::optional<glm::dvec3> pole_side(const Problem& problem, const glm::dvec3& fr
     return direction_of(across(arm, line), std::max(minimum, no_side * length(arm)));
 }
 
-/// The angle about `line` by which the whole chain faces its pole, as far as the allowance goes.
+/// The angle about `line` by which the whole chain faces its pole, limited by the allowance, which it uses
+/// up.
 double whole_angle(Problem& problem, const glm::dvec3& line) noexcept {
     const Bend bend = bend_of(problem, line);
     const double minimum = no_side * static_cast<double>(problem.scratch.reach);
@@ -100,8 +102,8 @@ void place(Problem& problem, std::size_t joint, std::size_t about, const glm::dv
     watch.moved(problem.iteration, Phase::Pole, joint, about, from, problem.joints[joint]);
 }
 
-/// The chain as one stiff piece about its root. Bones are brought to their lengths on the way: solves that
-/// move a chain in no other way would let them drift.
+/// Rotates the chain rigidly about its root. Restores the lengths of bones on the way: solves that move a
+/// chain in no other way would let them drift.
 template <class Watch>
 void rotate_chain(Problem& problem, const AxisAngle& rotation, Watch watch) noexcept {
     glm::vec3 before = problem.root();
@@ -115,7 +117,7 @@ void rotate_chain(Problem& problem, const AxisAngle& rotation, Watch watch) noex
     watch.next_step();
 }
 
-/// All but root and tip about a line through the root.
+/// Rotates all joints but root and tip about a line through the root.
 template <class Watch>
 void swivel(Problem& problem, const AxisAngle& rotation, Watch watch) noexcept {
     const glm::dvec3 root = wide(problem.root());
@@ -135,7 +137,7 @@ void face_with_whole_chain(Problem& problem, Watch watch) noexcept {
     if (angle != 0.0) swivel(problem, AxisAngle(*line, angle), watch);
 }
 
-/// One joint about the line through its neighbours; how far it was turned, radians.
+/// Turns one joint about the line through its neighbours. Returns the angle, radians.
 template <class Watch>
 double face_with_joint(Problem& problem, std::size_t joint, Watch watch) noexcept {
     const double minimum = no_side * static_cast<double>(problem.scratch.reach);
@@ -157,7 +159,7 @@ double face_with_joint(Problem& problem, std::size_t joint, Watch watch) noexcep
 
 template <class Watch>
 void face_with_each_joint(Problem& problem, Watch watch) noexcept {
-    // In double throughout: a float would be rounded in every sweep, and bones would drift.
+    // In double throughout: floats would be rounded in every sweep, and bones would drift.
     std::transform(problem.joints.begin(), problem.joints.end(), problem.scratch.pole.wide_joints.begin(),
                    wide);
     const int sweeps = problem.scratch.pole.allowance < unlimited ? 1 : max_sweeps;
@@ -240,7 +242,7 @@ void transport_to_pole(Problem& problem, Watch watch) noexcept {
     if (!from || !to) return;
     const glm::dvec3 normal = cross(*from, *to);
     const double sine = length(normal);
-    // Opposite directions: any axis at right angles will do, and rounding has chosen one.
+    // For opposite directions any perpendicular axis will do.
     const glm::dvec3 axis = sine > 1e-9 ? times(normal, 1.0 / sine) : perpendicular(*from);
     const double angle = std::atan2(sine, dot(*from, *to));
     if (angle > 1e-9) rotate_chain(problem, AxisAngle(axis, angle), watch);

@@ -1,5 +1,4 @@
-// Scratch memory of a solve with a pole. What is remembered from solve to solve is in the State. Not
-// installed.
+// Scratch memory of a solve with a pole. Its persistent memory is in the State. Not installed.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +8,8 @@
 namespace tendril::ik::detail {
 
 struct PoleScratch {
-    double allowance = 0.0;  ///< how far the solve that runs may still move a joint to face its pole
-    std::vector<glm::dvec3> wide_joints;  ///< n + 1: those of the solve, while each joint turns by itself
+    double allowance = 0.0;  ///< how far this solve may still move a joint to face its pole, metres
+    std::vector<glm::dvec3> wide_joints;  ///< n + 1: the joints in double, for PoleTurn::EachJoint
 
     void resize(std::size_t bones) { wide_joints.resize(bones + 1); }
 };

@@ -15,7 +15,7 @@ JointAngles blended_angles(const JointAngles& a, const JointAngles& b, float par
             a.twist + part * (b.twist - a.twist)};
 }
 
-/// A limit's angles are convex, so what lies between two poses within it is within it.
+/// A limit is convex in its angles, so a blend of two poses within it is within it too.
 glm::quat blended_rotation(const LimitedJoint& joint, const glm::quat& from, const glm::quat& to,
                            float part) noexcept {
     if (joint.free()) return math::slerp(from, to, part);
@@ -42,7 +42,7 @@ void blend_rotations(const Problem& problem) noexcept {
     for (std::size_t i = 0; i < problem.bones(); ++i) {
         pose.rotations[i] =
             math::slerp(problem.scratch.given.rotations[i], problem.state.rotations[i], weight);
-        const bool last = i + 1 == problem.bones();  // placed by itself where its orientation is asked for
+        const bool last = i + 1 == problem.bones();  // a requested tip orientation places it separately
         const float by = last && problem.options.tip_orientation ? 1.0f : stretch;
         pose.joints[i + 1] =
             moved(pose.joints[i], rotated(pose.rotations[i], problem.scratch.rest_directions[i]),

@@ -1,4 +1,4 @@
-// Whether an iteration still gets anywhere: one rule for all loops. Not installed.
+// Detects when iterations no longer converge: one rule for all loops. Not installed.
 #pragma once
 
 #include <algorithm>
@@ -7,14 +7,14 @@
 
 namespace tendril::ik::detail {
 
-/// When a loop has stalled: after `window` iterations in which the error neither fell, by both of these since
-/// it last did so, nor moved.
+/// A loop has stalled after `window` iterations in which the error neither moved nor fell below its last mark
+/// by both of these amounts.
 struct StallRule {
     int window;
-    float relative = 0.0f;  ///< of the error, or of a tenth of the reach where that is less
+    float relative = 0.0f;  ///< fraction of the error, or of a tenth of the reach if that is less
     float absolute = 0.0f;  ///< metres
-    /// Metres: an error that changes by more in an iteration moves. A method that overshoots and comes back
-    /// has not stalled.
+    /// Metres: an error that changes by more than this in an iteration is moving. A method that overshoots
+    /// and recovers has not stalled.
     float moves = std::numeric_limits<float>::infinity();
 };
 
@@ -23,18 +23,18 @@ class Convergence {
     Convergence(const StallRule& rule, float error, float reach) noexcept
         : rule_(rule), scale_(0.1f * reach), best_(error), mark_(error), last_(error) {}
 
-    /// After a perturbation: what came before no longer counts, but for `best`.
+    /// After a perturbation: forgets everything but `best`.
     void restart(float error) noexcept {
         mark_ = last_ = error;
         idle_ = 0;
     }
-    /// Of a loop that goes on from one that had stalled: the next iteration that gains nothing is the last.
+    /// For a loop that continues from a stalled one: the next iteration without gain is the last.
     void resume_stalled() noexcept { idle_ = rule_.window - 1; }
-    /// Nothing can be gained any more.
+    /// Marks the loop as stalled: nothing more can be gained.
     void end() noexcept { idle_ = rule_.window; }
-    /// After an iteration. True where the error has never been smaller.
+    /// Call after each iteration. True if the error is a new minimum.
     bool record(float error) noexcept {
-        // Far from a target that cannot be reached only so much may still be gained.
+        // Far from an unreachable target, the gain still possible is bounded.
         const float gain = std::max(rule_.relative * std::min(mark_, scale_), rule_.absolute);
         const bool fell = error<mark_ - gain, moved = std::abs(error - last_)> rule_.moves;
         idle_ = fell || moved ? 0 : idle_ + 1;
@@ -46,13 +46,13 @@ class Convergence {
     }
     bool stalled() const noexcept { return idle_ >= rule_.window; }
     float last() const noexcept { return last_; }
-    /// The smallest error of the whole solve.
+    /// The minimum error of the whole solve.
     float best() const noexcept { return best_; }
 
   private:
     StallRule rule_;
     float scale_, best_;
-    float mark_;  ///< where the error last fell to
+    float mark_;  ///< the error when it last fell
     float last_;
     int idle_ = 0;
 };

@@ -1,4 +1,3 @@
-// One solve: prepared, iterated by its method, turned to its pole, reported.
 #include "ik/solve/loop.hpp"
 
 #include <algorithm>
@@ -55,7 +54,7 @@ void restore(Problem& problem, Watch watch) noexcept {
     watch.next_step();
 }
 
-/// `goal` is the target that was asked for; where the reach is soft the chain follows another.
+/// `goal` is the requested target; with a soft zone, problem.target differs from it.
 template <class Watch>
 void report_iteration(const Problem& problem, const glm::vec3& goal, float residual, Watch watch) noexcept {
     const std::span<float> residuals = problem.options.residuals;
@@ -138,11 +137,11 @@ Report solve_reached(Method method, Problem& problem, const glm::vec3& goal, Wat
         transport_to_pole(problem, watch);
         report = iterations(method, problem, goal, watch);
     }
-    face_pole(problem, watch);  // about the line from root to tip, so the residual stays
+    face_pole(problem, watch);  // turns about the line from root to tip, so the residual stays
     return *report;
 }
 
-/// Where the chain goes if the reach is soft. Two bones that may stretch reach further.
+/// The target with the soft zone applied. Two bones that may stretch reach further.
 glm::vec3 eased_target(Method method, const Problem& problem) noexcept {
     const float zone = problem.options.soft_zone;
     if (zone == 0.0f) return problem.target;
@@ -168,7 +167,7 @@ Report run(Method method, Problem& problem, Watch watch) noexcept {
     if (problem.target != goal) {
         report.residual = exact_distance(problem.joints.back(), goal);
         const bool there = report.residual <= problem.tolerance;
-        // What it was asked for is what counts, not the eased target that it came to.
+        // The requested target decides, not the eased one that was reached.
         const bool eased = report.status == Status::Converged || report.status == Status::TooClose;
         if (there) report.status = Status::Converged;
         if (!there && eased) report.status = Status::Stretched;

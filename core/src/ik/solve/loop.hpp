@@ -1,4 +1,4 @@
-// A solve from start to end: reachability, preparations, the iterations, the pole, the report. Not installed.
+// A solve from start to end: reachability, preparation, iterations, pole, report. Not installed.
 #pragma once
 
 #include "ik/solve/problem.hpp"
@@ -7,12 +7,11 @@
 
 namespace tendril::ik::detail {
 
-/// All input has been checked. Moves the joints, updates the state, and says how it ended. Takes
-/// options.weight for 1.
+/// Solves a validated problem: moves the joints, updates the state and reports. Ignores options.weight.
 template <class Watch>
 Report run(Method method, Problem& problem, Watch watch) noexcept;
 
-/// The same with options.weight.
+/// The same, with options.weight.
 template <class Watch>
 Report run_weighted(Method method, Problem& problem, Watch watch) noexcept;
 

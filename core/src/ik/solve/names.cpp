@@ -1,4 +1,4 @@
-// What things are called in commands, files and messages.
+// Names used in commands, files and messages.
 #include <cstddef>
 
 #include "tendril/ik/active_limit.hpp"

@@ -1,4 +1,4 @@
-// What is inside a Solver. Not installed.
+// The internals of a Solver. Not installed.
 #pragma once
 
 #include "ik/solve/problem.hpp"

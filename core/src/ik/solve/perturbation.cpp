@@ -17,7 +17,7 @@ bool is_near_line(const glm::vec3& arm, const glm::vec3& line, float near) noexc
     return dot(off, off) <= near * near;
 }
 
-/// Each bone is turned towards `by(i)`, given for a bone of length 1, and placed from the root on.
+/// Turns each bone towards `by(i)`, scaled to its length, and places the bones from the root on.
 template <class Watch, class By>
 void bend_bones(Problem& problem, int iteration, Watch watch, By by) noexcept {
     const std::span<glm::vec3> joints = problem.joints;
@@ -57,11 +57,11 @@ float scattered(std::size_t bone, std::uint32_t salt) noexcept {
 bool is_collinear(const Problem& problem) noexcept {
     const float near = 1e-5f * problem.scratch.reach;
     const glm::vec3 first = minus(problem.target, problem.root());
-    // Most chains are bent: three points tell, the line through the others is not needed.
+    // Most chains are bent: three points usually show it, without computing the longest line.
     if (const float far = length(first); far > 0.1f * problem.scratch.reach) {
         const glm::vec3 line = times(first, 1.0f / far);
         for (const glm::vec3& joint : problem.joints) {
-            // Measured against a shorter line the same joints may seem further off.
+            // Measured against a shorter line, the same joints may seem further off.
             if (!is_near_line(minus(joint, problem.root()), line, 20.0f * near)) return false;
         }
     }

@@ -1,5 +1,5 @@
-// The collinear singularity: a chain that lies on a line with its target gets no hint from any method which
-// way to bend. It is bent a little, always in the same way. Not installed.
+// The collinear singularity: if a chain lies on a line with its target, no method can tell which way to bend
+// it. It is bent a little, deterministically. Not installed.
 #pragma once
 
 #include <cstdint>
@@ -8,23 +8,23 @@
 
 namespace tendril::ik::detail {
 
-/// From the root to what is furthest from it: no other choice is as little bent by rounding.
+/// Unit vector from the root towards the point furthest from it, the choice that rounding affects least.
 glm::vec3 line_of(const Problem& problem) noexcept;
 
-/// -1 to 1, without a pattern that a shape could fit.
+/// Pseudo-random, -1 to 1, without a regular pattern.
 float scattered(std::size_t bone, std::uint32_t salt) noexcept;
 
-/// Whether root, joints and target lie on one line, to 1e-5 of the reach. O(n), and O(1) as a rule: it ends
-/// at the first that does not.
+/// Whether root, joints and target lie on one line, to 1e-5 of the reach. O(n) at worst, usually O(1): it
+/// stops at the first point off the line.
 bool is_collinear(const Problem& problem) noexcept;
 
-/// Bends the chain into a shallow arc, towards the pole where there is one that is off the line, else towards
-/// a fixed side of it.
+/// Bends the chain into a shallow arc, towards the pole if there is one off the line, otherwise towards a
+/// fixed side.
 template <class Watch>
 void bend_collinear_chain(Problem& problem, Watch watch) noexcept;
 
-/// For a chain that stalled in some other way: every bone is turned a little, each in its own direction;
-/// another one for each `number`, the same for the same.
+/// For a chain that stalled in another way: turns every bone a little, each in its own direction.
+/// Deterministic: `number` selects the directions.
 template <class Watch>
 void perturb(Problem& problem, int number, Watch watch) noexcept;
 

@@ -10,7 +10,7 @@
 namespace tendril::ik::detail {
 namespace {
 
-/// As exactly as a Chain keeps it: to the invariant of chain.hpp, further out to the spacing of floats.
+/// Same tolerance as a Chain: the invariant of chain.hpp plus, further out, the spacing of floats.
 bool is_at_length(const glm::vec3& from, const glm::vec3& to, float length) noexcept {
     const double x = static_cast<double>(to.x) - static_cast<double>(from.x);
     const double y = static_cast<double>(to.y) - static_cast<double>(from.y);
@@ -31,7 +31,8 @@ void place(Problem& problem, std::size_t joint, const glm::vec3& to, Watch watch
     problem.joints[joint] = to;
 }
 
-/// `q` turned on by the minimal rotation from the unit vector `from` to the direction of `bone`, of `size`.
+/// Applies the minimal rotation from the unit vector `from` to the direction of `bone`, of length `size`, to
+/// `q`.
 glm::quat transported(const glm::quat& q, const glm::vec3& from, const glm::vec3& bone, float size) noexcept {
     const float w = size + dot(from, bone);
     const glm::vec3 axis = w < 1e-6f * size ? perpendicular(from) : cross(from, bone);
@@ -72,7 +73,7 @@ void snap_back(Problem& problem, float part, Watch watch) noexcept {
 }
 
 void transport_rotations(Problem& problem) noexcept {
-    constexpr float agrees = 1e-10f;  ///< square of the sine of the angle that is rounding
+    constexpr float agrees = 1e-10f;  ///< square of the sine of an angle that is rounding
     for (std::size_t i = 0; i < problem.bones(); ++i) {
         glm::quat& rotation = problem.state.rotations[i];
         const glm::vec3 before = rotated(rotation, problem.scratch.rest_directions[i]);

@@ -1,8 +1,8 @@
-// One solve, as the methods see it. Not installed.
+// The state of one solve, shared by all methods. Not installed.
 //
-// A method is a function `void iteration(Problem&, Watch)`, compiled twice: with Unwatched, where the calls
-// to the observer vanish, and with Watched. The loop around it (solver.cpp) checks input and reachability,
-// perturbs, counts, and says how it ended.
+// A method is a function `void iteration(Problem&, Watch)`, compiled twice: with Unwatched, whose observer
+// calls vanish, and with Watched. The loop around it (loop.cpp) checks reachability, perturbs, counts, and
+// reports.
 #pragma once
 
 #include <cstddef>
@@ -24,22 +24,23 @@ struct Options;
 
 namespace tendril::ik::detail {
 
-/// What is made when the solver is, so that nothing is made later.
+/// Memory of a solver, allocated once, so that solves do not allocate.
 struct Workspace {
     std::vector<float> lengths;              ///< n
     std::vector<glm::vec3> rest_directions;  ///< n, unit vectors
-    std::vector<glm::vec3> best;             ///< n + 1: the nearest to the target that the loop has seen
-    std::vector<glm::vec3> old;              ///< n + 1: for a method's own use
-    std::vector<glm::quat> rotations;        ///< n: the same
-    std::vector<glm::vec3> joints;           ///< n + 1: those of a Chain while it is solved
+    std::vector<glm::vec3> best;             ///< n + 1: the best pose so far
+    std::vector<glm::vec3> old;              ///< n + 1: scratch of the methods
+    std::vector<glm::quat> rotations;        ///< n: scratch of the methods
+    std::vector<glm::vec3> joints;           ///< n + 1: the joints of a Chain while it is solved
     LimitedScratch limited;                  ///< for solves with limits
     PoleScratch pole;                        ///< for solves with a pole
-    LimitedPose given;                       ///< for solves with a weight under 1: what it blends from
-    State saved;                             ///< what a refused solve, or an explanation, goes back to
+    LimitedPose given;                       ///< for solves with a weight under 1: the pose to blend from
+    State saved;                             ///< restored after a refused solve; state of explain and of a
+                                             ///< batch's chain
     float reach = 0.0f;
     float longest = 0.0f;
 
-    /// For so many bones; they rest along +X and are not turned.
+    /// Sizes everything for so many bones, at rest along +X with identity rotations.
     void resize(std::size_t bones) {
         lengths.resize(bones);
         rest_directions.resize(bones, glm::vec3(1.0f, 0.0f, 0.0f));
@@ -61,8 +62,8 @@ struct Problem {
     const Options& options;
     Workspace& scratch;
     State& state;
-    glm::vec3 goal = target;  ///< what was asked for; the target is nearer where the reach is soft
-    int iteration = 0;        ///< the one that runs, from 1
+    glm::vec3 goal = target;  ///< the requested target; with a soft zone `target` is nearer
+    int iteration = 0;        ///< current, from 1
 
     float stretch = 1.0f;  ///< of the bones, by Method::TwoBone
 
@@ -94,12 +95,12 @@ class Watched {
   public:
     static constexpr bool watching = true;
     Watched(Observer& observer, int& order) noexcept : observer_(&observer), order_(&order) {}
-    /// Part of the step that is being taken; see next_step.
+    /// Reports one joint's move in the current step; see next_step.
     void moved(int iteration, Phase phase, std::size_t joint, std::size_t neighbour, const glm::vec3& from,
                const glm::vec3& to) noexcept {
         observer_->step({iteration, phase, *order_, joint, neighbour, from, to});
     }
-    /// What was reported since the last call was one step.
+    /// Ends the current step: all moves reported since the last call belong to it.
     void next_step() noexcept { ++*order_; }
     void iteration_done(int iteration, float residual) noexcept {
         observer_->iteration_done(iteration, residual);

@@ -14,7 +14,7 @@ template <class Watch>
 std::optional<Report> answer_beyond_reach(Problem& problem, Watch watch) noexcept {
     const Reachability can = reachability_of(problem);
     const double distance = length(between(problem.root(), problem.target));
-    const double equal = std::max(1e-6 * can.furthest, DBL_MIN);  // over 0 for a chain of no length too
+    const double equal = std::max(1e-6 * can.furthest, DBL_MIN);  // over 0 even for a chain of zero length
     Status status = can.status(distance, -equal);
     if (status == Status::Converged) return std::nullopt;
     const auto length_of = [&](std::size_t i) { return problem.lengths()[i]; };

@@ -1,5 +1,5 @@
-// Which targets a chain can reach, and the poses for those that it cannot, found without iterating. Chains,
-// chains within limits and trees share it. Not installed.
+// Which targets a chain can reach, and the closed-form poses for those out of reach. Shared by chains, chains
+// within limits and trees. Not installed.
 #pragma once
 
 #include <algorithm>
@@ -11,26 +11,26 @@
 
 namespace tendril::ik::detail {
 
-/// Which distances from the root a tip can have, metres.
+/// The range of distances that a tip can have from the root, metres.
 struct Reachability {
-    double nearest = 0.0;   ///< where the other bones fold back along the longest; 0 where they can fold
-    double furthest = 0.0;  ///< the sum of the bones
+    double nearest = 0.0;   ///< the others folded back along the longest bone; 0 if they are longer
+    double furthest = 0.0;  ///< sum of the lengths
 
     static Reachability of(double reach, double longest) noexcept {
         return {std::max(2.0 * longest - reach, 0.0), reach};
     }
     double clamped(double distance) const noexcept { return std::clamp(distance, nearest, furthest); }
-    /// How far from a target at `distance` the best pose leaves the tip.
+    /// Distance of the tip from a target at `distance`, in the best pose.
     double residual(double distance) const noexcept { return std::abs(distance - clamped(distance)); }
-    /// Stretched or TooClose where a target is out of reach by more than `slack`, else Converged.
+    /// Stretched or TooClose if a target is out of reach by more than `slack`, else Converged.
     Status status(double distance, double slack) const noexcept {
         if (distance > furthest + slack) return Status::Stretched;
         return nearest > 0.0 && distance < nearest - slack ? Status::TooClose : Status::Converged;
     }
-    /// How far out the chain goes for a target at `distance` with a soft zone, part of the reach: with z its
-    /// width, a = R - z its start and x = (D - a) / z for a target at distance D > a, out to
-    /// a + z x / sqrt(1 + x^2). That joins the part before the zone with the same slope and the same
-    /// curvature, and comes near to R without reaching it; never nearer than the chain can fold.
+    /// Distance to which the chain extends for a target at `distance`, with a soft zone given as a fraction
+    /// of the reach: with z its width, a = R - z its start and x = (D - a) / z for a target at distance D >
+    /// a, it is a + z x / sqrt(1 + x^2). Slope and curvature are continuous at the start of the zone, and R
+    /// is approached but never reached. Never less than the chain can fold.
     double eased(double distance, double zone) const noexcept {
         const double width = zone * furthest, start = furthest - width, beyond = distance - start;
         if (!(beyond > 0.0) || !(width > 0.0)) return distance;
@@ -44,11 +44,11 @@ static inline float exact_distance(const glm::vec3& a, const glm::vec3& b) noexc
     return static_cast<float>(length(between(a, b)));
 }
 
-/// The pose of a chain whose target is out of reach: `joints`, of which the first stays, go by `place(i, to)`
-/// onto one line. `length_of(i)` is the bone from joint i to the next, metres.
+/// The pose of a chain whose target is out of reach: calls `place(i, to)` to move each of `joints`, except
+/// the first, onto one line. `length_of(i)` is the length of the bone from joint i to the next, metres.
 ///
-/// Straight: each joint straight towards the target from where the one before has really come to lie, so that
-/// the roundings of many joints do not add up to a bend.
+/// Straightened: each joint is placed towards the target from the rounded position of the previous joint, so
+/// that rounding does not add up to a bend.
 template <class Length, class Place>
 void straighten(std::span<const glm::vec3> joints, const glm::vec3& target, Length length_of,
                 Place place) noexcept {
@@ -59,10 +59,11 @@ void straighten(std::span<const glm::vec3> joints, const glm::vec3& target, Leng
     }
 }
 
-/// Folded: the longest bone points at the target and the others back. A target so near to the root that every
-/// line leaves the same residual, to a part in 500 of `nearest`, has no say in which: it would turn the chain
-/// about for nothing. Then it is the line along which the folded chain lies nearest to where it is: with c
-/// the place of each joint on it, the direction of the sum of c * (joint - root).
+/// Folded: the longest bone points at the target and the others back. If the target is so close to the root
+/// that every line gives the same residual, to a part in 500 of `nearest`, its direction is ignored:
+/// following it would turn the chain about for nothing. Instead the line is the one on which the folded chain
+/// lies nearest to its current pose: with c the position of each joint on it, the direction of the sum of c *
+/// (joint - root).
 template <class Length, class Place>
 void fold(std::span<const glm::vec3> joints, const glm::vec3& target, double nearest, Length length_of,
           Place place) noexcept {
@@ -89,9 +90,9 @@ void fold(std::span<const glm::vec3> joints, const glm::vec3& target, double nea
 
 Reachability reachability_of(const Problem& problem) noexcept;
 
-/// Where the target is out of reach, the chain straightened towards it (Stretched) or folded (TooClose).
-/// Nothing, and none is moved, where it can be reached. Distances within a millionth of the reach count as
-/// equal: that is what floats leave of the sums.
+/// If the target is out of reach, straightens the chain towards it (Stretched) or folds it (TooClose).
+/// Otherwise returns nothing and moves nothing. Distances within a millionth of the reach count as equal:
+/// that is the precision of the sums in floats.
 template <class Watch>
 std::optional<Report> answer_beyond_reach(Problem& problem, Watch watch) noexcept;
 

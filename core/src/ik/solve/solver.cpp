@@ -1,5 +1,4 @@
-// What a solver contains, and its entry point: what is checked before a solve. The solve itself is in
-// loop.cpp.
+// Solver's entry points: checks input, then calls the solve in loop.cpp.
 #include "tendril/ik/solver.hpp"
 
 #include <algorithm>
@@ -45,7 +44,7 @@ Result check_bones(std::span<const float> lengths, std::span<const glm::vec3> re
     return {};
 }
 
-/// Makes the workspace for bones that have been checked.
+/// Sizes and fills the workspace for validated bones.
 void fill(Workspace& scratch, std::span<const float> lengths, std::span<const glm::vec3> rest_directions) {
     double reach = 0.0;
     for (const float length : lengths) {
@@ -60,7 +59,7 @@ void fill(Workspace& scratch, std::span<const float> lengths, std::span<const gl
     }
 }
 
-/// Whether a solve may end with a joint that is further out than a Chain takes.
+/// Whether a solve could move a joint further out than a Chain accepts.
 bool may_leave_range(const Chain& chain, float reach) noexcept {
     const glm::vec3& root = chain.segments()[0].position;
     return std::max({std::abs(root.x), std::abs(root.y), std::abs(root.z)}) + 2.0f * reach > max_magnitude;
@@ -97,7 +96,7 @@ float Solver::reach() const noexcept {
 
 Report Solver::solve(Method method, std::span<glm::vec3> joints, State& state, glm::vec3 target,
                      const Options& options, Observer* observer) noexcept {
-    // With a tip orientation the last bone is placed by itself.
+    // With a tip orientation the last bone is placed separately.
     const bool taken = takes(method, bones()) || (options.tip_orientation && takes(method, bones() - 1));
     if (joints.size() != bones() + 1 || !taken) return invalid_input;
     if (!are_points(joints) || !are_points({&target, 1}) || !are_valid(options, bones()))
@@ -116,13 +115,13 @@ Report Solver::solve(Method method, Chain& chain, State& state, glm::vec3 target
     std::vector<glm::vec3>& joints = parts_->scratch.joints;
     for (std::size_t i = 0; i < joints.size(); ++i) joints[i] = chain.segments()[i].position;
     Options saved = options;
-    // Checked first, so that what is wrong with it is not hidden.
+    // Checked first, so that overriding it does not hide an invalid value.
     if (are_valid(options, bones())) saved.max_stretch_scale = 1.0f;
     const bool risky = may_leave_range(chain, reach()) && state.bones() == bones();
     if (risky) parts_->scratch.saved = state;
     const Report report = solve(method, joints, state, target, saved, observer);
     if (report.status == Status::InvalidInput) return report;
-    if (!chain.set_positions(joints)) {  // a chain takes no joint that far out
+    if (!chain.set_positions(joints)) {  // a joint is over max_magnitude
         if (risky) state = parts_->scratch.saved;
         return invalid_input;
     }

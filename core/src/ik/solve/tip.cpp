@@ -11,7 +11,7 @@
 namespace tendril::ik::detail {
 namespace {
 
-/// While it lives the workspace is that of the chain without its last bone.
+/// During its lifetime the workspace describes the chain without its last bone.
 class WithoutLastBone {
   public:
     explicit WithoutLastBone(Workspace& scratch) noexcept
@@ -33,14 +33,14 @@ class WithoutLastBone {
     float reach_, longest_;
 };
 
-/// What the last bone is, from its start to the tip.
+/// Vector from the start of the last bone to the tip.
 glm::vec3 last_bone(const Problem& problem, const glm::quat& orientation) noexcept {
     const std::size_t last = problem.bones() - 1;
     const glm::vec3 along = rotated(orientation, problem.scratch.rest_directions[last]);
     return times(along, problem.lengths()[last] / length(along));
 }
 
-/// Nothing is left to solve for: one bone, or others without length.
+/// For chains with nothing left to solve: only one bone, or the others have no length.
 template <class Watch>
 Report only_last(Problem& rest, Watch watch) noexcept {
     enforce_lengths(rest, watch);
@@ -70,7 +70,7 @@ Report run_with_tip_orientation(Method method, Problem& problem, Watch watch) no
                      options,
                      problem.scratch,
                      problem.state};
-        // A single bone is placed as well by any method; the two-bone one would not take it.
+        // One bone is solved equally well by any method; the two-bone solver would refuse it.
         const bool fits = method != Method::TwoBone || rest.bones() == 2;
         report = problem.scratch.reach > 0.0f ? run(fits ? method : Method::Fabrik, rest, watch)
                                               : only_last(rest, watch);

@@ -39,6 +39,7 @@ bool are_valid(const Options& options, std::size_t bones) noexcept {
 bool is_valid(const State& state, std::size_t bones) noexcept {
     if (state.rotations.size() != bones || state.pole.joints.size() != bones + 1) return false;
     if (!std::all_of(state.rotations.begin(), state.rotations.end(), is_unit)) return false;
+    if (state.limits.valid && !within(state.limits.damping, 0.0f, 100.0f)) return false;
     return !state.pole.valid || static_cast<bool>(check(state, bones));
 }
 

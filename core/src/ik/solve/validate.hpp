@@ -1,4 +1,4 @@
-// Whether a solve may begin. Not installed.
+// Validates the input of a solve. Not installed.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -15,26 +15,26 @@ struct Options;
 
 namespace tendril::ik::detail {
 
-/// Every coordinate a number and at most max_magnitude.
+/// Whether every coordinate is finite and at most max_magnitude.
 bool are_points(std::span<const glm::vec3> points) noexcept;
 
-/// False for NaN too.
+/// False for NaN.
 inline bool within(float value, float minimum, float maximum) noexcept {
     return value >= minimum && value <= maximum;
 }
 
-/// Unit to 1e-3.
+/// Unit length to 1e-3.
 inline bool is_unit(const glm::quat& q) noexcept {
     return within(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z, 0.998f, 1.002f);
 }
 
-/// Every option in the range that options.hpp gives, for a chain of so many bones.
+/// Whether every option is in the range given in options.hpp, for a chain of so many bones.
 bool are_valid(const Options& options, std::size_t bones) noexcept;
 
-/// A state for so many bones, with unit quaternions and finite numbers.
+/// Whether the state has the right sizes and unit quaternions. Other numbers are only checked if pole.valid.
 bool is_valid(const State& state, std::size_t bones) noexcept;
 
-/// A method that there is, and that takes so many bones.
+/// Whether the method exists and takes so many bones.
 bool takes(Method method, std::size_t bones) noexcept;
 
 }  // namespace tendril::ik::detail

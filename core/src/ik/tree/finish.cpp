@@ -1,4 +1,4 @@
-// After the last iteration: back to the caller's joints, with the branches that go along.
+// After the last iteration: writes the caller's joints, including branches without effectors.
 #include "ik/math.hpp"
 #include "ik/tree/workspace.hpp"
 
@@ -15,7 +15,7 @@ glm::quat rotation_between(const glm::vec3& from, const glm::vec3& to) noexcept 
     return minimal_rotation(times(from, 1.0f / a), times(to, 1.0f / b));
 }
 
-/// How the bone that `joint` ends has turned since the start. What sits on the root has no such bone.
+/// The rotation of the bone that ends at `joint` since the start. Identity for joints at the root.
 glm::quat rotation_of(const TreeScratch& scratch, std::span<const glm::vec3> joints,
                       std::size_t joint) noexcept {
     const Node& node = scratch.nodes[scratch.node_of[joint]];

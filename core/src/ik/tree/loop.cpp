@@ -1,4 +1,4 @@
-// Iterations on a tree: reaching, the Newton step, which of them is accepted, and when it is over.
+// Iterations on a tree: reaching, the Newton step, which result is accepted, and when to stop.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -13,7 +13,7 @@ namespace {
 
 using namespace tune::tree;
 
-/// Rotates every bone a little, each to a side of its own: out of where nothing moves any more.
+/// Turns every bone a little, each in its own direction, to leave a stall.
 void perturb_all(TreeScratch& scratch) noexcept {
     for (std::size_t k = 1; k < scratch.used; ++k) {
         const Node& node = scratch.nodes[k];
@@ -63,7 +63,7 @@ class Iteration {
         damping_ = tune::tree::first_damping;
     }
 
-    /// What would end worse than it once was goes back there.
+    /// Restores the best pose if the current one is worse.
     void restore_best() noexcept {
         if (best_.cost < now_.cost) {
             std::copy_n(scratch_.best.begin(), scratch_.used, scratch_.at.begin());
@@ -88,7 +88,7 @@ class Iteration {
     double tolerance_;
     bool plain_;
     Fit now_, best_;
-    bool saved_ = false;  ///< scratch.best holds something
+    bool saved_ = false;  ///< whether scratch.best is valid
     double damping_ = tune::tree::first_damping;
 };
 
@@ -107,7 +107,7 @@ TreeRun iterate(TreeScratch& scratch, std::span<const Effector> effectors, const
                 double tolerance) noexcept {
     TreeRun run;
     Iteration iteration(scratch, options, tolerance);
-    // The effectors may come nearer taken together, or the one that is furthest off.
+    // Either the sum over the effectors or the worst one may still converge.
     const StallRule rule{.window = tune::tree::stall_window,
                          .absolute = static_cast<float>(std::max(0.01 * tolerance, 1e-6 * scratch.reach))};
     const auto cost = [&] { return static_cast<float>(std::sqrt(iteration.now().cost)); };

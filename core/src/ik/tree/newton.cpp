@@ -1,11 +1,11 @@
 // The damped Gauss-Newton step on a tree.
 //
-// Wanted are moves d of all places that make
+// Finds the moves d of all nodes that minimise
 //     sum over effectors of weight * |place + d - goal|^2  +  damping * sum over all of |d|^2
-// least, where no bone changes its length to first order: along . (d - d of the parent) = 0, with `along` the
-// bone's direction. What a whole branch adds to that sum depends on the parent's move only through
-// s = along . (d of the parent), and is a parabola in it: stiffness/2 * s^2 - wish * s. So one pass from the
-// leaves in collects the parabolas, and one from the root out reads off the moves.
+// such that no bone changes its length to first order: along . (d - d of the parent) = 0, with `along` the
+// bone's direction. A whole branch's contribution to that sum depends on the parent's move only through s =
+// along . (d of the parent), and is a parabola in it: stiffness/2 * s^2 - wish * s. So one pass from the
+// leaves inward collects the parabolas, and one from the root outward computes the moves.
 #include <cmath>
 
 #include "ik/tree/workspace.hpp"
@@ -13,12 +13,12 @@
 namespace tendril::ik::detail {
 namespace {
 
-/// The bone's direction; along X where the bone is too short to show one.
+/// The bone's direction; along X if the bone is too short to have one.
 glm::dvec3 unit_or_x(const glm::dvec3& bone) noexcept {
     return direction_of(bone, 1e-30).value_or(glm::dvec3(1.0, 0.0, 0.0));
 }
 
-/// Adds the branch's parabola to what the parent feels.
+/// Adds the branch's parabola to its parent.
 void add_branch(Response& parent, const Response& branch) noexcept {
     add_square(parent.branches, branch.along, branch.stiffness);
     parent.force = plus(parent.force, times(branch.along, branch.wish));

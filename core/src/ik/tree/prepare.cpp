@@ -1,4 +1,4 @@
-// Before the first iteration: who takes part, where the effectors can get to, and how means are made.
+// Before the first iteration: which joints take part, reachable goals, and the weights of means.
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
@@ -12,8 +12,8 @@ namespace {
 
 using namespace tune::tree;
 
-/// Whether the bone is at its length but for rounding, so that it can be left as it is. The same as a chain
-/// allows, but for bones under a metre, which are held to their own scale.
+/// Whether the bone is at its length up to rounding and can be kept. Same tolerance as a chain, except that
+/// it is relative for bones under a metre.
 bool holds(const glm::vec3& from, const glm::vec3& to, float length) noexcept {
     const double wanted = static_cast<double>(length);
     const double furthest = std::max<double>(largest_coordinate(from), largest_coordinate(to));
@@ -32,7 +32,7 @@ void load_start(TreeScratch& scratch, std::span<const glm::vec3> joints) noexcep
     }
 }
 
-/// Gives every joint on the way to an effector its node.
+/// Assigns a node to every joint on a path to an effector.
 void assign_nodes(TreeScratch& scratch) noexcept {
     const std::size_t count = scratch.joints.size();
     for (std::size_t k = 0; k < count; ++k)
@@ -63,13 +63,13 @@ void assign_nodes(TreeScratch& scratch) noexcept {
     }
 }
 
-/// The place nearest to the effector's target that it can reach by itself.
+/// The point nearest to the effector's target that it can reach alone.
 glm::dvec3 reachable(const TreeScratch& scratch, const Effector& effector) noexcept {
     const glm::vec3& root = scratch.start[0];
     glm::dvec3 way = between(root, effector.target);
     const double far = length(way), wanted = scratch.path[effector.joint].clamped(far);
     if (wanted == far) return wide(effector.target);
-    // A target on the root may be on any side, so it is the one that the joint is on.
+    // A target at the root has no direction: uses that of the joint.
     if (far < 1e-6 * wanted) way = between(root, scratch.start[effector.joint]);
     const glm::dvec3 along = direction_of(way, 1e-6 * wanted).value_or(glm::dvec3(1.0, 0.0, 0.0));
     return plus(wide(root), times(along, wanted));
@@ -82,7 +82,7 @@ void collect_goals(TreeScratch& scratch, std::span<const Effector> effectors) no
         if (scratch.path[effector.joint].furthest == 0.0) continue;  // it cannot move
         heaviest = std::max(heaviest, static_cast<double>(effector.weight));
     }
-    // By joint and not by the list: what is at one node is summed in an order of its own.
+    // By joint, not by list order: sums at one node must not depend on the list.
     for (std::size_t k = 1; k < scratch.joints.size(); ++k) {
         if (scratch.effector_at[k] == no_joint || scratch.node_of[k] == 0) continue;
         const Effector& effector = effectors[scratch.effector_at[k]];
@@ -113,7 +113,7 @@ void assign_centroid_weights(TreeScratch& scratch) noexcept {
     }
 }
 
-/// The only effector with any weight; null where there are more.
+/// The only effector with a weight that can move; null if there is none or more than one.
 const Effector* only_one(const TreeScratch& scratch, std::span<const Effector> effectors) noexcept {
     const Effector* only = nullptr;
     for (const Effector& effector : effectors) {

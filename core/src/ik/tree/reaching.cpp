@@ -11,8 +11,8 @@ void forward_reaching(TreeScratch& scratch) noexcept {
         const Node& node = scratch.nodes[k];
         scratch.proposed[k] = times(node.goal, node.own_weight);
     }
-    // Always from the last joint to the first, so that a mean's rounding does not depend on who is listed
-    // when.
+    // Always from the last node to the first, so that the rounding of a mean does not depend on the
+    // effectors' order.
     for (std::size_t k = scratch.used; k-- > 1;) {
         const Node& node = scratch.nodes[k];
         if (node.parent == 0) continue;

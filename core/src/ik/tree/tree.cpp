@@ -1,4 +1,4 @@
-// The tree's doors: what may come in, what is said when it is done.
+// Tree's entry points: checks input and writes the report.
 #include "tendril/ik/tree.hpp"
 
 #include <algorithm>
@@ -36,7 +36,7 @@ bool is_valid(const Effector& effector, std::size_t joints) noexcept {
            tendril::detail::is_length(effector.weight);
 }
 
-/// Marks the joints that have an effector; false where one has two.
+/// Whether no two effectors with a weight share a joint.
 bool are_apart(TreeScratch& scratch, std::span<const Effector> effectors) noexcept {
     std::fill(scratch.effector_at.begin(), scratch.effector_at.end(), no_joint);
     for (std::size_t i = 0; i < effectors.size(); ++i) {
@@ -63,7 +63,7 @@ bool is_valid(TreeScratch& scratch, std::span<const glm::vec3> joints, std::span
     return are_apart(scratch, effectors);
 }
 
-/// What keeps the effectors from their targets, where one of them could not even get there by itself.
+/// Stretched or TooClose if an effector could not reach its target even alone; else `otherwise`.
 Status out_of_reach(const TreeScratch& scratch, std::span<const Effector> effectors, double tolerance,
                     Status otherwise) noexcept {
     Status status = otherwise;

@@ -34,7 +34,7 @@ class File:
         width = sum(map(len, self.channels))
         self.rows = [values[i * width:(i + 1) * width] for i in range(self.frames)]
         self.clips = ["motion"]
-        self.metres = None  # a BVH does not say
+        self.metres = None  # a BVH has no unit
 
     def _local(self, joint, values):
         m, position = translation((0, 0, 0)), None

@@ -113,7 +113,7 @@ class File:
             key = values[3 * k + 1 if kind == "CUBICSPLINE" else k]
             if path != "rotation":
                 return key
-            size = math.sqrt(sum(c * c for c in key))  # keys that are rounded to bytes stand for unit quaternions
+            size = math.sqrt(sum(c * c for c in key))  # keys rounded to bytes represent unit quaternions
             return [c / size for c in key]
 
         if time <= times[0]:
@@ -160,7 +160,7 @@ class File:
         found, first = {}, 0
         for i, node in enumerate(self.json["nodes"]):
             if "mesh" not in node or ("skin" not in node and i not in placed):
-                continue  # the program's own rule: what hangs on no node of the skeleton is not there
+                continue  # the program's rule: ignore meshes that hang on no node of the skeleton
             joints = None
             if "skin" in node:
                 skin = self.json["skins"][node["skin"]]

@@ -1,4 +1,4 @@
-// What the tests of ropes, hair and cloth on a character share: how far they are off the body.
+// Shared by tests of ropes, hair and cloth on a character: their distance from the body.
 #pragma once
 
 #include <algorithm>
@@ -33,7 +33,7 @@ class HumanoidAttach : public HumanoidTest {
             deepest = std::max(deepest, -humanoid::gap(each, {from, to, 0.0}));
         return deepest;
     }
-    /// Metres that free particles are inside the body.
+    /// The depth of free particles inside the body, metres.
     double particle_depth() const {
         const auto all = capsules();
         double deepest = 0.0;
@@ -42,7 +42,7 @@ class HumanoidAttach : public HumanoidTest {
                 deepest = std::max(deepest, depth(all, at, at));
         return deepest;
     }
-    /// And links between them.
+    /// The same for links between them.
     double link_depth() const {
         const auto all = capsules();
         const rope::State& state = world().state();

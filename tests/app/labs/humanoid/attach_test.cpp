@@ -1,4 +1,4 @@
-// What hangs on a character: where it is made, that it stays off the body, and how it comes to rest.
+// Attachments of a character: their initial pose, their distance from the body, and how they come to rest.
 #include "attach_support.hpp"
 #include "tests/app/support/temp_folder.hpp"
 
@@ -35,7 +35,7 @@ TEST_F(HumanoidAttach, MakesATailAPonytailAndACape) {
     EXPECT_EQ(all[0].at("bone"), "UpperChest");
     EXPECT_EQ(all[2].at("positions").size(), 21u);
     EXPECT_EQ(state().at("order"), Json({"clip", "IK", "rig", "ropes"}));
-    // The figure faces +Z, its left is +X.
+    // The figure faces +Z, with its left at +X.
     EXPECT_EQ(particle("tail", 0), bone("Hips"));
     EXPECT_LT(last("tail").z, -0.4) << "it leaves the body backwards";
     EXPECT_LT(particle("ponytail", 0).z, -0.08);
@@ -64,7 +64,7 @@ TEST_F(HumanoidAttach, HangsBehindTheBodyAndComesToRest) {
     EXPECT_TRUE(lab().moving(workspace)) << "what moves the body lets time pass again";
 }
 
-/// Over the walk and the punch, at their own speed and faster.
+/// During walk and punch, at normal and double speed.
 TEST_F(HumanoidAttach, StaysOffTheBody) {
     dress();
     for (const auto& [clip, speed] :
@@ -85,7 +85,7 @@ TEST_F(HumanoidAttach, StaysOffTheBody) {
         EXPECT_LT(deepest_link, 0.005) << which;
         EXPECT_LT(stretch, speed > 1.0 ? 0.05 : 0.02) << which << ": as the solver left it";
         EXPECT_LT(error, 0.08) << which << ": with what the body pushed aside";
-        // Nothing has slipped through: the cape is behind the trunk still.
+        // Nothing has slipped through: the cape is still behind the trunk.
         const std::size_t row = body("cape").row, middle = row / 2;
         for (std::size_t r = 0; r < 8; ++r)
             EXPECT_LT(particle("cape", r * row + middle).z, bone("UpperChest").z) << which << ", row " << r;

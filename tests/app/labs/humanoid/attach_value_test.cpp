@@ -1,5 +1,4 @@
-// Attachments are part of the document's values: undone, saved, replayed; and a character that jumps takes
-// them along.
+// Attachments are values in the document: undone, saved, replayed; a jumping character takes them along.
 #include <fstream>
 #include <random>
 
@@ -83,7 +82,7 @@ TEST_F(HumanoidAttach, IsRefusedFromAFileThatWasBroken) {
     says(broken([](Json&) {}), "accepted");
 }
 
-/// Scrubbed by hand, another clip chosen: everything is where it was as its bone sees it, and nothing flies.
+/// After scrubbing, or choosing another clip, everything is where it was relative to its bone.
 TEST_F(HumanoidAttach, IsCarriedAlongWhereTheCharacterJumps) {
     dress();
     run("humanoid.clip", {{"name", "walk"}, {"play", true}});
@@ -123,7 +122,7 @@ TEST_F(HumanoidAttach, IsCarriedAlongWhileTheSimulationIsPaused) {
     EXPECT_GT(particle("rope", 0).z, 0.2);
 }
 
-/// A clip that jumps, a kilometre and back, in the middle of it.
+/// A clip that jumps by a kilometre and back, in its middle.
 TEST_F(HumanoidAttach, SurvivesAClipThatJumps) {
     test::TempFolder folder;
     std::string text = bvh_figure();
@@ -157,7 +156,7 @@ TEST_F(HumanoidAttach, SurvivesAClipThatJumps) {
     EXPECT_LT(glm::distance(particle("cape", 0), bone("Chest")), 1.0);
 }
 
-/// Nodes anywhere, of scale 0, mirrored, a million metres away.
+/// Nodes anywhere, with scale 0, mirrored, a thousand kilometres away.
 TEST(HumanoidAttachments, NeverBecomeNumbersThatAreNone) {
     const HumanoidPart part;
     const std::vector<humanoid::BodyCapsule> capsules =

@@ -1,4 +1,4 @@
-// Loading a character, its bone map and its rest pose, by the lab's commands and its state.
+// Loading a character, its bone map and its rest pose, by the lab's commands and --state.
 #include <fstream>
 
 #include "humanoid_support.hpp"
@@ -66,7 +66,7 @@ TEST_F(HumanoidCharacter, ComesFromAFileAsItRests) {
 TEST_F(HumanoidCharacter, WithoutAHandIsNotSolvedAndSaysSo) {
     run("humanoid.load", {{"path", write("figure.bvh", bvh_figure("LeftHand"))}});
     const Json now = state();
-    // What is at the end of the forearm may be taken for the hand, but not in silence.
+    // The node at the end of the forearm may be matched as the hand, but only with low confidence.
     if (now.at("body").at("usable").get<bool>()) {
         EXPECT_LT(now.at("character").at("bones").at("LeftHand").at("confidence").get<double>(), 0.8);
     } else {

@@ -1,4 +1,4 @@
-// Clips: what a moment shows, and how it goes on.
+// Clips: the pose at a moment, and how they continue.
 #include <fstream>
 
 #include "humanoid_support.hpp"
@@ -43,7 +43,7 @@ TEST_F(HumanoidClips, ThatLoopGoOnForwards) {
     for (int i = 0; i < 300; ++i) {
         tick();
         const double now = bone("Hips").z;
-        EXPECT_NEAR(now - last, 1.0 / 60.0, 1e-6) << i;  // the walk goes at 1 m/s, all the time
+        EXPECT_NEAR(now - last, 1.0 / 60.0, 1e-6) << i;  // the walk advances at 1 m/s throughout
         last = now;
     }
     EXPECT_NEAR(last, 5.0, 1e-6);

@@ -1,4 +1,4 @@
-// Self-collision in the Humanoid lab: hands that a clip or a target would bring into the body stay out of it.
+// Self-collision in the Humanoid lab: hands that a clip or target would move into the body stay outside.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 
 class HumanoidContacts : public HumanoidTest {
   protected:
-    /// Of hands and lower arms in trunk and head, as they are drawn; metres.
+    /// The depth of hands and lower arms in trunk and head, as drawn; metres.
     double penetration() { return penetration(humanoid::default_capsules(part().skeleton(), *part().map)); }
     double penetration(const std::vector<humanoid::BodyCapsule>& capsules) {
         const auto& placed = shown_pose(workspace).placed;
@@ -41,7 +41,7 @@ TEST_F(HumanoidContacts, APunchWhoseFistPassesTheWaistSlidesAroundIt) {
         tick();
         without = std::max(without, penetration());
     }
-    EXPECT_GT(without, 0.05);  // it does pass through
+    EXPECT_GT(without, 0.05);  // without it, they pass through
     run("humanoid.self_collision", {{"on", true}});
     for (int i = 0; i < 144; ++i) {
         tick();
@@ -75,7 +75,7 @@ TEST_F(HumanoidContacts, WhatACharacterWearsIsKeptApart) {
         run("humanoid.target", {{"effector", "left_hand"}, {"to", {0.1, 1.15, 0.5 - 0.01 * i}}});
         ASSERT_LT(penetration(capsules), 5e-3) << i;
     }
-    // A fist through the waist and back, as hand IK has it.
+    // A fist through the waist and back, by hand IK.
     run("humanoid.target", {{"effector", "left_hand"}, {"weight", 0}});
     run("humanoid.hand_ik", {{"on", true}});
     for (int i = 0; i <= 120; ++i) {

@@ -1,4 +1,4 @@
-// Grounds, and feet on them, by the lab's commands and its state.
+// Grounds, and feet on them, by the lab's commands and --state.
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -15,7 +15,7 @@ class HumanoidFeet : public HumanoidTest {
   protected:
     Json foot(std::size_t side) const { return state().at("feet").at(side); }
 
-    /// A whole walk of four rounds: no foot that is planted sinks into `height`, floats over it or skates.
+    /// A walk of four rounds: no planted foot sinks into `height`, floats above it or skates.
     void expect_walks_on(double (*height)(double z)) {
         run("humanoid.foot_ik", {{"on", true}});
         run("humanoid.clip", {{"name", "walk"}, {"play", true}});
@@ -74,7 +74,7 @@ TEST_F(HumanoidFeet, WithoutIkKeepToTheClip) {
     EXPECT_EQ(state().at("character"), before);
 }
 
-/// What rises from the origin buries nobody who has walked far, and the camera stays with the character.
+/// Rising ground must not bury a character that has walked far, and the camera follows it.
 TEST_F(HumanoidFeet, WalkAnewWhereTheGroundRises) {
     for (const char* kind : {"stairs", "slope", "terrain"}) {
         run("humanoid.ground", {{"kind", "flat"}});
@@ -127,7 +127,7 @@ TEST_F(HumanoidFeet, StandOnHills) {
     EXPECT_TRUE(lab().moving(workspace));
 }
 
-/// Two triangles, 40 m wide, that rise by 0.2 m from z = -20 to z = 20, in a text glTF.
+/// Two triangles, 40 m wide, rising by 0.2 m from z = -20 to z = 20, as a text glTF.
 std::string ramp() {
     const float corners[]{-20, 0, -20, 20, 0, -20, -20, 0.2f, 20, 20, 0.2f, 20};
     const std::uint16_t indices[]{0, 2, 1, 1, 2, 3};
@@ -135,7 +135,7 @@ std::string ramp() {
     bytes.append(reinterpret_cast<const char*>(indices), sizeof indices);
     static constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     std::string text;
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {  // of 60 bytes: no rest
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {  // 60 bytes: no remainder
         std::uint32_t bits = 0;
         for (std::size_t k = 0; k < 3; ++k) bits = bits << 8 | static_cast<unsigned char>(bytes[i + k]);
         for (int k = 18; k >= 0; k -= 6) text += digits[bits >> k & 63];

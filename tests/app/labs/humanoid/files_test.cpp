@@ -1,5 +1,4 @@
-// Bone maps that are saved and loaded, clips that are exported as they are seen, faults that are found and
-// mended.
+// Saving and loading bone maps, exporting clips as shown, finding and fixing faults.
 #include "app/io/character/export.hpp"
 #include "app/io/character/map_file.hpp"
 #include "app/io/character/read.hpp"
@@ -23,7 +22,7 @@ class HumanoidFiles : public HumanoidTest {
         static const humanoid::LintReport none;
         return found ? *found : none;
     }
-    /// The figure with its walk, of which the right knee pops in frame 20.
+    /// The figure with its walk, in which the right knee pops in frame 20.
     std::string faulty() const {
         const Character figure = stick_figure();
         humanoid::Clip clip = figure.clips[0];
@@ -82,7 +81,7 @@ TEST_F(HumanoidFiles, AClipIsExportedWithWhatIkDoesToIt) {
     run("humanoid.foot_ik", {{"on", true}});
     run("humanoid.clip", {{"name", "walk"}, {"play", false}});
     run("humanoid.export", {{"path", path("stairs.glb")}});
-    // Played from its beginning, the lab shows what the file has, frame by frame.
+    // Played from the start, the lab shows the file's poses frame by frame.
     const Character read = read_character(path("stairs.glb"));
     const humanoid::Clip& clip = read.clips.at(0);
     std::vector<rig::Transform> pose(read.skeleton.size());

@@ -1,4 +1,4 @@
-// Hand IK, look-at and self-collision, by the lab's commands and its state.
+// Hand IK, look-at and self-collision, by the lab's commands and --state.
 #include <algorithm>
 #include <glm/gtc/quaternion.hpp>
 #include <tendril/humanoid/capsules.hpp>
@@ -121,7 +121,7 @@ TEST_F(HumanoidLook, LeavesTheHandsOnTheirTargets) {
 
 class HumanoidSelfCollision : public HumanoidTest {
   protected:
-    /// Metres that the right hand is in the trunk.
+    /// The depth of the right hand in the trunk, metres.
     double depth() {
         const auto capsules = humanoid::default_capsules(part().skeleton(), *part().map);
         const ShownPose& shown = shown_pose(workspace);

@@ -1,4 +1,4 @@
-// What the tests of the Humanoid lab share.
+// Shared by tests of the Humanoid lab.
 #pragma once
 
 #include <filesystem>
@@ -37,7 +37,7 @@ class HumanoidTest : public LabTest {
     }
 
     Json saved() const { return save_scene(workspace).at("labs").at(humanoid_lab); }
-    /// As a file gives it back, in a workspace that has never seen it.
+    /// The lab after saving and loading, in a new workspace.
     Workspace reopened() const {
         Workspace other = make_blank_workspace(labs);
         load_scene(other, save_scene(workspace));
@@ -45,8 +45,8 @@ class HumanoidTest : public LabTest {
     }
 };
 
-/// A figure with A-pose arms, in centimetres, as a BVH: two frames in which it goes 50 cm towards +Z.
-/// `without`: this joint, and what hangs on it, is left out.
+/// A figure with A-pose arms as a BVH in centimetres: two frames in which it moves 50 cm towards +Z.
+/// `without`: a joint to omit with all its children.
 std::string bvh_figure(const std::string& without = "");
 
 }  // namespace tendril::app

@@ -1,5 +1,4 @@
-// What the Humanoid lab marks on its strip: bones that flip, each with its bone and why, and nothing that
-// moves as it should.
+// The Humanoid lab's marks on its strip: flips, with bone and cause, and none for correct motion.
 #include <algorithm>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/trigonometric.hpp>
@@ -33,13 +32,13 @@ class HumanoidIncidents : public HumanoidTest {
     void target(const char* effector, const glm::dvec3& to) {
         run("humanoid.target", {{"effector", effector}, {"to", {to.x, to.y, to.z}}});
     }
-    /// Moves it there, and says what is marked.
+    /// Moves it there and returns the new marks.
     std::vector<Incident> moved(const char* effector, const glm::dvec3& to) {
         const auto before = now();
         target(effector, to);
         return since(before);
     }
-    /// How far each bone has turned, in the scene, in degrees; by this test's own count.
+    /// The global rotation of each bone in degrees, computed independently.
     static std::map<std::string, double> turns(const Json& was, const Json& is) {
         std::map<std::string, double> turns;
         for (const auto& [name, bone] : is.items()) {
@@ -48,7 +47,7 @@ class HumanoidIncidents : public HumanoidTest {
         }
         return turns;
     }
-    /// Left hand in front of the shoulder, so close that a hair's breadth takes it behind it.
+    /// The left hand in front of the shoulder, so close that a tiny motion moves it behind.
     glm::dvec3 fold_left_arm() {
         const glm::dvec3 shoulder = bone("LeftUpperArm");
         target("left_hand", shoulder + glm::dvec3(0, 0, 0.012));
@@ -73,7 +72,7 @@ TEST_F(HumanoidIncidents, AnArmThatTurnsOverIsMarkedWithItsBoneAndWhy) {
     EXPECT_TRUE(test::says(flips[0].cause, "target left shoulder"));
 }
 
-/// Whatever makes a body's memory another one: what turned the furthest is marked, and no other limb is.
+/// After any change of the body's state: the bone that turned the furthest is marked, and no other limb.
 TEST_F(HumanoidIncidents, PlantedFlipsAreMarkedWithTheBoneThatTurnedTheFurthest) {
     target("left_hand", {0.35, 1.3, 0.35});
     target("right_foot", {-0.15, 0.25, 0.3});

@@ -1,4 +1,4 @@
-// Bone maps that a person corrects: kept for a character's node names, offered again, never taken unasked.
+// Bone maps corrected by the user: stored for a character's node names, offered again, never applied unasked.
 #include "app/io/character/map_file.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "humanoid_support.hpp"
@@ -59,7 +59,7 @@ TEST_F(HumanoidKeptMaps, AreKeptByThemselvesInAWindow) {
     EXPECT_EQ(find_kept_map(config_.path(), part().skeleton()), saved_map(*part().map, part().skeleton()));
     run("humanoid.map", {{"bone", "LeftHand"}, {"node", "LeftHand"}});
     EXPECT_FALSE(fs::exists(file())) << "it is as it was matched";
-    // A folder that cannot be written to does not stop the correction.
+    // A read-only folder does not prevent the correction.
     test::write(config_ / "no folder", "");
     workspace.config = config_ / "no folder";
     correct();

@@ -1,4 +1,4 @@
-// Limits of joints: drawn as the solver has them, learned from clips, taken over for all joints or for one.
+// Joint limits: drawn as the solver uses them, learned from clips, adopted for all joints or one.
 #include <glm/gtc/quaternion.hpp>
 
 #include "app/labs/humanoid/humanoid_runtime.hpp"
@@ -25,7 +25,7 @@ class HumanoidLimits : public HumanoidTest {
         lab().draw({.workspace = workspace, .camera = camera, .palette = colours_}, list);
         return list;
     }
-    /// Where the bone points along the outlines of that colour, in the world.
+    /// Directions of the bone along the outlines of that colour, in the world.
     std::vector<glm::dvec3> outline(glm::vec3 colour) {
         const DrawList list = drawn();
         std::vector<glm::dvec3> directions;
@@ -37,8 +37,7 @@ class HumanoidLimits : public HumanoidTest {
         }
         return directions;
     }
-    /// By how much a limit says that a bone is turned too far that is swung from rest so that it points
-    /// there, or `times` as far.
+    /// The excess over a limit of a bone that is swung from rest to this direction, or `times` as far.
     double excess(const BodyJoints& joints, Bone bone, const glm::dvec3& direction, double times) {
         std::vector<humanoid::Placement> placed = shown_pose(workspace).placed;
         const Bone above = *joints.parent(bone);
@@ -56,7 +55,7 @@ class HumanoidLimits : public HumanoidTest {
         ASSERT_FALSE(points.empty()) << humanoid::name(bone);
         for (const glm::dvec3& direction : points) {
             EXPECT_LT(excess(joints, bone, direction, 1.0), 1e-4) << humanoid::name(bone);
-            if (!swings) continue;  // all of a fan but its ends lies within
+            if (!swings) continue;  // only the ends of a fan are on the bound
             EXPECT_EQ(excess(joints, bone, direction, 0.99), 0.0) << humanoid::name(bone);
             EXPECT_GT(excess(joints, bone, direction, 1.01), 1e-4) << humanoid::name(bone);
         }
@@ -79,7 +78,7 @@ TEST_F(HumanoidLimits, AreDrawnWhereTheSolverHasThem) {
         select(humanoid::name(bone));
         ASSERT_FALSE(joint().is_null());
         const bool swings = bone != Bone::RightLowerArm;
-        // What is beyond what holds is red.
+        // Beyond the limits in force it is red.
         const bool beyond = joint().at("excess_deg").get<double>() > 0.1;
         expect_outline(adult, bone, beyond ? colours_.limit : adult_colour(colours_), swings);
         if (!joint().at("clips").is_null()) expect_outline(clips, bone, clips_colour(colours_), swings);

@@ -1,5 +1,4 @@
-// Large files are read beside the running program: what is there stays until they have come, and a script
-// does not wait for ticks.
+// Large files load in the background: the old character stays until then; scripts need no ticks.
 #include <chrono>
 #include <thread>
 
@@ -12,7 +11,7 @@
 namespace tendril::app {
 namespace {
 
-/// A BVH of so many joints in a row, over 1 MB.
+/// A BVH of `joints` joints in a row, over 1 MB.
 std::string large_bvh(int joints, const std::string& last_number = "0") {
     std::string text = "HIERARCHY\nROOT Hips\n{\nOFFSET 0 0 0\nCHANNELS 3 Zrotation Xrotation Yrotation\n";
     for (int i = 1; i < joints; ++i)
@@ -40,7 +39,7 @@ class HumanoidLoading : public testing::Test {
         table_.run(workspace_, "humanoid.load", {{"path", (folder_ / "large.bvh").string()}});
     }
     bool is_stick_figure() const { return humanoid_part(workspace_).loaded->file.empty(); }
-    /// Ticks, as the frame has them, until nothing is being read.
+    /// Runs ticks until nothing is being read.
     void wait() {
         for (int i = 0; i < 2000 && lab_.working(workspace_); ++i) {
             lab_.work(workspace_);
@@ -73,7 +72,7 @@ TEST_F(HumanoidLoading, a_script_finds_it_done) {
     table_.find("humanoid.load")->finish(workspace_);
     EXPECT_FALSE(lab_.working(workspace_));
     EXPECT_EQ(humanoid_part(workspace_).skeleton().size(), 20u);
-    workspace_.clock.measured = false;  // without a window it does not even begin to wait
+    workspace_.clock.measured = false;  // without a window it loads at once
     load(large_bvh(12));
     EXPECT_EQ(humanoid_part(workspace_).skeleton().size(), 12u);
 }

@@ -1,4 +1,4 @@
-// The Humanoid lab under the mouse, in the running program: real events, through picking.
+// The mouse in the Humanoid lab, in the running program: real events, with picking.
 #include <gtest/gtest.h>
 
 #include <fstream>

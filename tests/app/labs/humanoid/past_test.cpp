@@ -1,5 +1,5 @@
-// How a joint was turned and how far an effector was from its target at each moment that is remembered,
-// against what the lab shows when one goes back there.
+// A joint's rotation and an effector's distance to its target at each remembered moment, compared with what
+// the lab shows after seeking there.
 #include "app/labs/humanoid/past/past.hpp"
 
 #include <glm/trigonometric.hpp>
@@ -17,7 +17,7 @@ using humanoid::Bone;
 
 class HumanoidPast : public HumanoidTest {
   protected:
-    /// Walks and reaches, `count` ticks that are remembered.
+    /// Walks and reaches for `count` remembered ticks.
     void walk(int count) {
         run("humanoid.clip", {{"name", "walk"}, {"play", true}});
         run("humanoid.target", {{"effector", "left_hand"}, {"to", {0.6, 1.5, 0.9}}});
@@ -38,7 +38,7 @@ class HumanoidPast : public HumanoidTest {
             by_tick[each.tick] = static_cast<double>(each.value);
         return by_tick;
     }
-    /// In a copy of the workspace, which makes its own solvers: what is shown after going back to a tick.
+    /// The value after seeking to a tick in a copy of the workspace, which makes its own solvers.
     template <class Read>
     double back_at(std::uint64_t tick, const Read& read) const {
         Workspace there = workspace;

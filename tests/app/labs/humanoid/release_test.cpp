@@ -1,4 +1,4 @@
-// Targets that are let go, or get another weight or rotation: nothing leaps that they do not hold.
+// Targets that are released, or change weight or rotation: nothing that they do not hold jumps.
 #include <random>
 
 #include "app/labs/humanoid/humanoid_commands.hpp"
@@ -22,7 +22,7 @@ class HumanoidRelease : public HumanoidTest {
         run("humanoid.target", {{"effector", effector}, {"to", to}});
     }
     void let_go(const char* effector) { run("humanoid.target", {{"effector", effector}, {"weight", 0}}); }
-    /// Of the clip, `from` the hips.
+    /// A random point within `size` of the clip's hips plus `from`.
     Json near(const glm::dvec3& from, double size) {
         const glm::dvec3 at = bone("Hips") + from;
         const double x = any(-size, size), y = any(-size, size), z = any(-size, size);

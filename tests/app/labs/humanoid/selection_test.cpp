@@ -1,4 +1,4 @@
-// Several nodes of a character selected: by command, and what is set on all of them.
+// Several selected nodes of a character: by command, and edits of all of them.
 #include <imgui_internal.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ using Names = std::vector<std::string>;
 class HumanoidSelection : public HumanoidTest {
   protected:
     void select(const Names& nodes) { run("humanoid.select", {{"nodes", nodes}}); }
-    /// Without regard to the skeleton's order.
+    /// In alphabetical order.
     Names selected() const {
         Names names = names_of(part().selection, part().skeleton());
         std::sort(names.begin(), names.end());
@@ -109,7 +109,7 @@ TEST_F(HumanoidSelection, TheInspectorSaysHowManyAndWhichIsShown) {
                               "Shown is Head; what you set, you set on all."});
     run("humanoid.limits", {{"from", "none"}, {"bone", "LeftUpperArm"}});
     expect_says(inspector(), {"They differ. Shown is Head"});
-    // The active one has no limits: another is shown, here and in the state.
+    // The active one has no limits: another is shown, here and in --state.
     select({"LeftUpperArm", "RightUpperArm", "Hips"});
     expect_says(inspector(), {"Shown is Hips.", "1 selected node has no limits.", "Limits of 2 joints",
                               "Shown is RightUpperArm; what you set"});
@@ -139,7 +139,7 @@ TEST_F(HumanoidSelection, ComesFirstInTheInspectorOnceThereIsOne) {
     EXPECT_LT(inspector().find("Selection"), inspector().find("Targets"));
 }
 
-/// In how many strengths the colour of what is selected lies behind rows.
+/// The number of strengths of the selection colour behind rows.
 TEST_F(HumanoidSelection, RowsOfTheBoneMapThatAreSelectedStandOut) {
     const auto filled = [&](glm::vec3 colour) {
         const ImU32 wanted = ImGui::ColorConvertFloat4ToU32({colour.r, colour.g, colour.b, 0.0f});
@@ -183,7 +183,7 @@ TEST_F(HumanoidSelection, AreMarkedTheActiveOneStrongest) {
 
 TEST_F(HumanoidSelection, SpringsAreSetOnAll) {
     run("humanoid.load", {{"path", tendril::test::source_path("tests/app/golden/antennae.bvh")}});
-    // The body, and what hangs on another one that is selected, gets none.
+    // The body, and nodes below another selected one, get none.
     select({"Head", "antenna_l_1", "antenna_l_3", "antenna_r_2", "tail_1"});
     const auto names = [&](const std::vector<std::size_t>& nodes) {
         Names all;
@@ -278,7 +278,7 @@ TEST_F(HumanoidSelection, StaysOverTheSecondsAndThroughOtherCharacters) {
     EXPECT_EQ(names_of(figure.selection, figure.skeleton()), Names{"Head"});
 }
 
-/// Against what commands say that they do, kept as a plain list.
+/// Compared with a plain list that follows the commands' documentation.
 TEST_F(HumanoidSelection, AnyOrderOfCommandsComesToWhatTheySay) {
     std::mt19937 random(7);
     const auto below = [&](std::size_t n) {

@@ -1,5 +1,4 @@
-// How a character's skin follows twisted arms: a way of showing, chosen, saved, and no part of what is
-// written.
+// How a character's skin follows twisted arms: a saved setting of the view that is not exported.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,7 +26,7 @@ class HumanoidSkinning : public HumanoidTest {
         EXPECT_EQ(list.skins.size(), 1u);
         return list.skins.at(0);
     }
-    /// The forearm's corners at its wrist: how far the nearest is from the arm's line, metres.
+    /// The minimum distance from the arm's line of the forearm's vertices at the wrist, metres.
     static float girth(const SkinDraw& draw) {
         float least = 1.0f;
         for (std::size_t i = 0; i < draw.mesh->positions.size(); ++i) {

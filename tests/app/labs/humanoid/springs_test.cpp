@@ -1,4 +1,4 @@
-// Springs on a character's own nodes: they trail what it does, and are values of the document like all else.
+// Springs on a character's nodes: they trail its motion, and are values of the document like everything else.
 #include <cmath>
 #include <random>
 
@@ -23,7 +23,7 @@ class HumanoidSprings : public HumanoidTest {
             run("humanoid.spring", {{"node", node}});
     }
     void dance() { run("humanoid.clip", {{"index", 0}, {"play", true}}); }
-    /// How far a node is from where the clip has it, metres.
+    /// The distance of a node from its position in the clip, metres.
     double aside(const std::string& name) const {
         const ShownPose& shown = shown_pose(workspace);
         const std::size_t node = *part().skeleton().find(name);
@@ -91,7 +91,7 @@ TEST_F(HumanoidSprings, SwingWithADragAndAreCarriedByAJump) {
     EXPECT_LT(aside("tail_6"), 0.4);
     run("humanoid.target", {{"effector", "hips"}, {"weight", 0}});
     for (int i = 0; i < 1000 && lab().moving(workspace); ++i) tick();
-    // A jump of the clip, and a drag in a pause.
+    // A jump of the clip, and a drag while paused.
     run("time.pause");
     const double still = aside("tail_6");
     run("humanoid.target", {{"effector", "hips"}, {"to", {0.3, 0.95, 0.0}}});
@@ -137,7 +137,7 @@ TEST_F(HumanoidSprings, RefuseWhatTheyCannotHold) {
     expect_refused("humanoid.spring", {{"node", "antenna_l_3"}}, {"antenna_l_3", "antenna_l_2"});
     expect_refused("humanoid.spring", {{"node", "antenna_l_1"}}, {"antenna_l_2", "hangs on antenna_l_1"});
     EXPECT_EQ(part().springs.size(), 1u);
-    // A node of it that is made a bone of the body is the body's.
+    // A spring node that becomes a bone of the body no longer swings.
     dance();
     tick(20);
     EXPECT_GT(aside("antenna_l_5"), 0.0);
@@ -150,7 +150,7 @@ TEST_F(HumanoidSprings, RefuseWhatTheyCannotHold) {
     expect_refused("humanoid.spring", {{"node", "HeadTop"}}, {"HeadTop"});
 }
 
-/// Commands that leave the pose where it is do not disturb what swings, nor leave a step to undo.
+/// Commands that do not move the pose neither disturb the springs nor leave an undo step.
 TEST_F(HumanoidSprings, SwingOnUnderCommands) {
     put_on_springs();
     dance();

@@ -1,4 +1,4 @@
-// Targets and limits: the body reaches for them, by the lab's commands and its state.
+// Targets and limits: the body reaches for its targets, by the lab's commands and --state.
 #include <algorithm>
 #include <glm/gtc/quaternion.hpp>
 
@@ -140,7 +140,7 @@ TEST_F(HumanoidTargets, ShareByWeight) {
 TEST_F(HumanoidTargets, StopAtLimitsWhichSaySo) {
     target("hips", 0.0, 1.0, 0.0);
     target("head", 0.0, 1.6, 0.0);
-    target("left_hand", -0.2, 1.4, -0.5);  // behind the back, where no arm goes
+    target("left_hand", -0.2, 1.4, -0.5);  // behind the back, where no arm can go
     const double limited = residual("LeftHand");
     const Json active = chain("LeftHand").at("active_limits");
     EXPECT_NE(std::ranges::find(active, Json("LeftUpperArm")), active.end()) << active;
@@ -222,7 +222,7 @@ TEST_F(HumanoidTargets, AFileThatIsWrongIsRefusedWithItsPlace) {
     says(refusal([](Json& ik) { ik["targets"]["left_hand"]["rotation"] = {0, 0, 0, 0}; }), "length 1");
     says(refusal([](Json& ik) { ik["limits"] = "dreams"; }), "unknown source of limits \"dreams\"");
     says(refusal([](Json& ik) { ik["body"]["turns"][0] = {0, 0, 0}; }), "labs.humanoid.ik.body.turns");
-    // What the body remembers of another one is left alone.
+    // State of another body is ignored.
     Json scene = good;
     scene["labs"][humanoid_lab]["ik"]["body"]["turns"].erase(0);
     Workspace other = make_blank_workspace(labs);

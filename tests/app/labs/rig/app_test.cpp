@@ -1,4 +1,4 @@
-// The Rig lab in the running program: controls are dragged, and time goes back.
+// The Rig lab in the running program: dragging controls, and seeking in time.
 #include <glm/geometric.hpp>
 
 #include "app/labs/rig/rig_lab.hpp"
@@ -30,7 +30,7 @@ class RigApp : public testing::Test {
             if (each.at("name") == name) return each;
         return nullptr;
     }
-    /// What time changes: all but the clock.
+    /// The state without the clock.
     Json now() {
         Json state = app_.state();
         state.erase("time");
@@ -61,7 +61,7 @@ TEST_F(RigApp, ADragInItsRectangleGoesWhereThePointerGoes) {
     EXPECT_LT(glm::distance(to, from + by), 1.0f) << "it moves in its own plane, under the pointer";
 }
 
-/// Its field is opened, a part of a name typed, and the row that is left clicked.
+/// Opens its field, types part of a name, and clicks the remaining row.
 TEST_F(RigApp, AnInputIsChosenFromElementsThatAreFoundByName) {
     app_.run({"rig.select", Json{{"element", "head"}, {"unit", "aim"}}});
     for (int i = 0; i < 3; ++i) app_.tick(nullptr);
@@ -88,7 +88,7 @@ TEST_F(RigApp, AnInputIsChosenFromElementsThatAreFoundByName) {
     EXPECT_EQ(app_.workspace().history.size(), steps + 1) << "one choice, one step, though time is paused";
     app_.run({"undo"});
     EXPECT_EQ(target(), before);
-    // Escape leaves it as it is.
+    // Escape leaves it unchanged.
     click({1190.0f, 352.0f});
     send(KeyTap{*chord_from_name("escape")});
     click({1000.0f, 416.0f});
@@ -118,7 +118,7 @@ TEST_F(RigApp, DeleteRemovesWhatWasSelectedLast) {
     EXPECT_EQ(app_.workspace().ui.toasts.back().kind, ToastKind::Refusal);
 }
 
-/// In any order, to the bit: the springs' states are part of what is remembered.
+/// In any order, bitwise: the springs' states are remembered too.
 TEST_F(RigApp, GoingBackInTimeShowsWhatPlayingShowed) {
     app_.run({"rig.preset", Json{{"name", "secondary"}}});
     for (int i = 0; i < 5; ++i) app_.run({"time.step"}), app_.tick(nullptr);

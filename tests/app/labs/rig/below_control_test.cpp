@@ -1,5 +1,5 @@
-// Bones below a control that is not at rest: where a solve begins with them is where the control has taken
-// them, for commands, gizmos and ghosts alike.
+// Bones below a control that is not at rest: a solve starts with them where the control has moved them, for
+// commands, gizmos and ghosts alike.
 #include "app/view/palette.hpp"
 #include "rig_support.hpp"
 
@@ -10,7 +10,7 @@ const glm::dvec3 arm_start(0, 2, -1), hand_start(0, 2, -2);
 
 class RigBelowControl : public RigTest {
   protected:
-    /// `mover` has gone up and a quarter turn about y: its x axis is now -z. A unit moves the arm on.
+    /// `mover` has moved up and turned by 90 degrees about y: its x axis is now -z. A unit moves the arm.
     RigBelowControl() {
         control("mover", "transform");
         element("arm", "mover", transform(1, 0, 0));
@@ -50,7 +50,7 @@ TEST_F(RigBelowControl, AGlobalPoseIsTheOneAsked) {
     expect_near(translation("hand"), {3, 4, 4});  // below the arm, turned as before
     set("mover", {{"translation", {0, 3, 0}}});
     tick();
-    expect_near(translation("arm"), {3, 5, 5});  // and it goes on with the control
+    expect_near(translation("arm"), {3, 5, 5});  // and it follows the control
 }
 
 TEST_F(RigBelowControl, WhatIsLeftOutOfAGlobalPoseStaysWhereTheControlHasIt) {
@@ -71,7 +71,7 @@ TEST_F(RigBelowControl, TheGizmoStandsWhereASolveBeginsWithTheBone) {
     expect_near(translation("arm"), arm_start + glm::dvec3(0, 0.25, 0), 1e-6);
 }
 
-/// A control in the space of another has its gizmo where it is, and goes where it is dragged.
+/// A control in the space of another has its gizmo at its position, and follows the drag.
 TEST_F(RigBelowControl, TheGizmoOfAControlThere) {
     control("grip", "transform", {{"space", "hand"}, {"local", transform(1, 0, 0)}});
     tick();

@@ -1,4 +1,4 @@
-// Clips in the Rig lab: what is recorded, and which of its frames a rig can express.
+// Clips in the Rig lab: recording, and which frames the rig can express.
 #include <random>
 
 #include "app/labs/rig/clip.hpp"
@@ -12,7 +12,7 @@ class RigClips : public RigTest {
     void play(int ticks) {
         for (int i = 0; i < ticks; ++i) lab().step(workspace);
     }
-    /// The whole of it, as ticks take it further.
+    /// Runs the whole solve tick by tick.
     int solve_clip() {
         run("rig.clip.solve");
         int ticks = 0;
@@ -46,7 +46,7 @@ TEST_F(RigClips, ADialThatTurnsIsExpressedInEveryFrame) {
     EXPECT_TRUE(state().at("clip").at("not_expressed").empty());
 }
 
-/// The antennae lag behind, and no value of the head's gives that.
+/// The antennae lag behind, which no value of the head's control can produce.
 TEST_F(RigClips, WhatSpringsAddCannotBeExpressed) {
     walking_head();
     run("rig.clip.record", {{"seconds", 1}});
@@ -117,7 +117,7 @@ TEST_F(RigClips, AScaleThatTheRigDoesNotHaveIsNotExpressed) {
     EXPECT_NEAR(runs[0].at("scale").get<double>(), 0.25, 1e-4);
     EXPECT_EQ(runs[0].at("stopped"), false);
     EXPECT_EQ(Workspace(reopened()).document.get<RigPart>(rig_lab).clip_left->left, left().left);
-    // As the program wrote it before it knew of scales.
+    // As written by versions without scales.
     Json scene = save_scene(workspace);
     for (Json& each : scene["labs"]["rig"]["state"]["clip"]["solve"]["left"]) each.erase(4), each.erase(3);
     load_scene(workspace, scene);
@@ -203,8 +203,7 @@ class RigBackward : public RigTest {
         q.push_back(1.0);
         run("rig.control.set", {{"name", name}, {"value", q}});
     }
-    /// The bones keep their poses, the controls forget their values; a backward solve has to find some that
-    /// lead to the same poses.
+    /// The bones keep their poses and the controls are reset; a backward solve must restore the poses.
     void expect_there_and_back(int i) {
         solve();
         rig::State wanted = part().state;
@@ -251,7 +250,7 @@ TEST_F(RigBackward, LoopGivesEveryPoseBack) {
     }
 }
 
-/// One bone of a tentacle is pulled off: no value of any control gives that.
+/// One bone of a tentacle is pulled off, which no value of any control can produce.
 TEST_F(RigBackward, WhatItCannotExpressIsSaidWithBoneAndAmount) {
     run("rig.preset", {{"name", "loop"}});
     for (int i = 0; i < 100; ++i) {

@@ -1,5 +1,5 @@
-// A rig as a C++ program: what stands in it. That it compiles and poses every element as the lab does is held
-// by tests/package/code.cmake.
+// A rig as a C++ program: its text. tests/package/code.cmake checks that it compiles and poses every element
+// as the lab does.
 #include "app/labs/rig/code.hpp"
 
 #include "app/labs/rig/presets.hpp"

@@ -1,4 +1,4 @@
-// What the commands of the Rig lab do, when the lab solves, and what --state says of it.
+// The Rig lab's commands: their effects, when the lab solves, and --state.
 #include <glm/gtc/quaternion.hpp>
 
 #include "rig_support.hpp"
@@ -14,7 +14,7 @@ void expect_near(const glm::dvec3& a, const glm::dvec3& b, double within = 1e-9)
 
 class RigCommands : public RigTest {
   protected:
-    /// A bone that a dial turns, and one below it.
+    /// A bone that a dial turns, and a child.
     void build_arm() {
         element("arm");
         element("hand", "arm", transform(1, 0, 0));
@@ -53,7 +53,7 @@ TEST_F(RigCommands, SetsInputsOfAUnitAndLeavesTheOthers) {
     EXPECT_EQ(saved().at("units").at(0), before);
 }
 
-/// A part of an aim, and a filter, are changed as the unit is: what is not given stays.
+/// Part of an aim, or a filter, is edited like a unit: members that are not given stay.
 TEST_F(RigCommands, SetsMembersWithinAPartAndLeavesTheOthers) {
     build_arm();
     control("look", "position");
@@ -204,7 +204,7 @@ TEST_F(RigCommands, WhatIsLeftOutOfATransformStays) {
     EXPECT_EQ(rotation("bone"), glm::dquat(0.8, 0, 0, 0.6));
 }
 
-/// The children stay where they are, controls too: their values are then others.
+/// The children stay in place. So do controls, whose values change.
 TEST_F(RigCommands, WithoutPropagationChildrenStayAfterASolveToo) {
     element("parent");
     element("bone", "parent", transform(1, 0, 0));
@@ -291,7 +291,7 @@ TEST_F(RigCommands, BackwardFindsTheControlsAndSaysWhatIsLeft) {
                             {"space", "global"},
                             {"transform", {{"rotation", {0, 0, std::sin(angle / 2), std::cos(angle / 2)}}}}});
     solve("backward");
-    // The input pose has the turn already, and the unit adds to it.
+    // The input pose already has the turn, and the unit adds to it.
     EXPECT_NEAR(named("elements", "dial").at("value").get<double>(), 0.0, 1e-6);
     Json backward = state().at("backward");
     EXPECT_LT(backward.at("worst_mm"), 0.1);
@@ -303,7 +303,7 @@ TEST_F(RigCommands, BackwardFindsTheControlsAndSaysWhatIsLeft) {
     EXPECT_TRUE(state().at("backward").is_null());
 }
 
-/// Every command once, and all of it undone again, step by step; and made again.
+/// Runs every command once, undoes all of them step by step, and redoes them.
 TEST_F(RigCommands, EverythingIsUndoneStepByStep) {
     workspace.history.clear();
     std::vector<Json> states{saved()};

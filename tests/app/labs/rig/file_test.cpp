@@ -1,5 +1,4 @@
-// Rigs in scene files: every unit is added by command and read back, and what is in a file comes back to the
-// bit.
+// Rigs in scene files: every unit is added by command and read back, and files load bit for bit.
 #include <set>
 
 #include "app/labs/rig/definition_json.hpp"
@@ -23,7 +22,7 @@ class RigFile : public RigTest {
     }
 };
 
-/// One of each, with inputs of every form where they can be.
+/// One unit of each kind, with inputs of every form where possible.
 std::vector<Json> one_of_each() {
     const Json ratio{{"each", "ratio"}}, dial{{"element", "float"}, {"of", "value"}};
     return {
@@ -107,7 +106,7 @@ TEST_F(RigFile, EveryUnitIsAddedByCommandAndReadBack) {
     EXPECT_TRUE(rig_part(other) == part());
 }
 
-/// Farther than anything that may be given: what the program itself wrote it reads again.
+/// Further away than any valid input: the program must read what it wrote.
 TEST_F(RigFile, WhatABackwardSolveLeftIsReadBackHoweverFarItIs) {
     run("rig.element.set", {{"name", "tip"}, {"transform", {{"scale", {10, 1, 1}}}}});
     unit({{"unit", "set_transform"},
@@ -116,13 +115,13 @@ TEST_F(RigFile, WhatABackwardSolveLeftIsReadBackHoweverFarItIs) {
           {"transform", {{"translation", {9e8, 0, 0}}, {"scale", {9e8, 1, 1}}}}});
     solve();
     run("rig.unit.enable", {{"name", "away"}, {"on", false}});
-    solve("backward");  // no control gives the pose that the unit gave
+    solve("backward");  // no control gives the unit's pose
     EXPECT_GT(part().backward->worst_mm(), 1e12);
     EXPECT_GT(part().backward->elements[*part().rig.element("tip")].scale, 1e9);
     EXPECT_EQ(rig_part(reopened()).backward, part().backward);
 }
 
-/// What a file has of a unit can be given to the command as it is.
+/// A unit's JSON in a file is also valid in the command.
 TEST_F(RigFile, AUnitOfAFileIsOneOfACommand) {
     for (const Json& each : one_of_each()) unit(each);
     const rig::Definition once = part().rig.definition();
@@ -178,7 +177,7 @@ TEST_F(RigFile, InputsAreReadAsTheyAreMeant) {
     EXPECT_FALSE(units[18].enabled);
 }
 
-/// The members of a curve may stand among those of the unit, as signal.md has them.
+/// The members of a curve may be among those of the unit, as in signal.md.
 TEST_F(RigFile, ACurveMayStandAmongTheMembersOfItsUnit) {
     const Json keys{{{"time", 0}, {"value", 1}}, {{"time", 1}, {"value", 0}}};
     unit({{"unit", "evaluate_curve"}, {"value", 0.5}, {"keys", keys}, {"target_max", 4}});
@@ -205,7 +204,7 @@ TEST_F(RigFile, UnitsWithoutANameGetOneOfTheirOwn) {
     EXPECT_EQ(loop.body.units()[0].name, "from_two_vectors 5");
 }
 
-/// In mid-motion, with poses set globally and without propagation, everything that remembers under way.
+/// In mid-motion, with poses set globally and without propagation, and all memory in use.
 TEST_F(RigFile, TheStateComesBackToTheBitAndGoesOnAlike) {
     for (const Json& each : one_of_each()) unit(each);
     set("float", 0.7);
@@ -245,7 +244,7 @@ TEST_F(RigFile, ARigThatWasWrittenByHandBeginsAtRest) {
     EXPECT_NE(output("from_two_vectors")[2], 0.0) << "it has been solved";
 }
 
-/// The runtime follows from the document: without it nothing comes out otherwise.
+/// The runtime is derived from the document: discarding it changes no result.
 TEST_F(RigFile, TheRuntimeCanBeThrownAwayAtAnyTime) {
     for (const Json& each : one_of_each()) unit(each);
     run("rig.unit.enable", {{"name", "fabrik"}, {"on", true}});

@@ -1,4 +1,4 @@
-// What the lab refuses, and how it says so. Nothing has changed then: LabTest::refused checks it.
+// What the lab refuses, and its messages. LabTest::refused checks that nothing changes.
 #include <cmath>
 #include <limits>
 
@@ -49,7 +49,7 @@ TEST_F(RigHostile, ElementsThatMakeNoTree) {
 }
 
 TEST_F(RigHostile, TransformsThatAreNone) {
-    // What the place in front says, "local" or "transform", is the argument's name.
+    // The path begins with the argument's name: "local" or "transform".
     const auto add = [&](const Json& local, const std::string& place, const std::string& says) {
         expect_refused("rig.element.add", {{"name", "new"}, {"local", local}}, {"local" + place, says});
         expect_refused("rig.element.set", {{"name", "hand"}, {"transform", local}},
@@ -92,7 +92,7 @@ TEST_F(RigHostile, ControlsOutOfOrder) {
     expect_refused("rig.element.add", {{"name", "new"}, {"space", "hand"}}, {"space", "only a control"});
 }
 
-/// It is told by what it would cost, before it is done.
+/// It is refused beforehand, by its estimated cost.
 TEST_F(RigHostile, ABackwardSolveThatWouldTakeTooLongIsRefused) {
     Json scene = save_scene(workspace);
     Json& rig = scene["labs"]["rig"];
@@ -118,7 +118,7 @@ TEST_F(RigHostile, ABackwardSolveThatWouldTakeTooLongIsRefused) {
     expect_refused("rig.solve", {{"direction", "backward"}}, {"so large", "too long"});
 }
 
-/// Controls one below the other, so that each of them moves all the bones after it.
+/// A chain of controls, each of which moves all the bones after it.
 TEST_F(RigHostile, ABackwardSolveStopsWhereItHasTakenLongEnoughAndSaysSo) {
     constexpr int count = 120;
     Json scene = save_scene(workspace);
@@ -159,7 +159,7 @@ TEST_F(RigHostile, ABackwardSolveStopsWhereItHasTakenLongEnoughAndSaysSo) {
     EXPECT_NE(reader.panel(lab(), workspace).find("Stopped before the end"), std::string::npos);
 }
 
-/// One value is a range too.
+/// A single value is a range, too.
 TEST_F(RigHostile, ARangeOfNoWidthHoldsItsControl) {
     control("fixed", "float", {{"minimum", 0.5}, {"maximum", 0.5}});
     set("fixed", 3.0);
@@ -260,7 +260,7 @@ TEST_F(RigHostile, NumbersOutOfTheirRange) {
                         {"in_range", "[low, high]"});
 }
 
-/// Defined, with a warning and the item as it is.
+/// Well-defined: a warning, and the item unchanged.
 TEST_F(RigHostile, AnAxisOfNoLengthIsAWarning) {
     unit({{"unit", "aim"}, {"item", "hand"}, {"primary", {{"axis", {0, 0, 0}}, {"target", {0, 1, 0}}}}});
     solve();
@@ -305,7 +305,7 @@ TEST_F(RigHostile, WhatOthersNameCannotBeRemoved) {
     expect_refused("rig.element.remove", {{"name", "root"}}, {"unit \"loop\"", "roots"});
 }
 
-/// A line of a file can ask for millions of rounds.
+/// One line of a file can ask for millions of rounds.
 TEST_F(RigHostile, ARigThatWouldRunTooLongIsRefused) {
     Json scene = save_scene(workspace);
     Json& rig = scene["labs"]["rig"];
@@ -322,7 +322,7 @@ TEST_F(RigHostile, ARigThatWouldRunTooLongIsRefused) {
     }
 }
 
-/// Whatever a state in a file has instead of what it should have, it is refused with its place.
+/// Any invalid value in a state in a file is refused with its position.
 TEST_F(RigHostile, StatesThatAreNone) {
     unit({{"unit", "spring_interpolate"}, {"target", "root"}});
     tick();

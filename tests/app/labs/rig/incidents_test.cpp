@@ -1,4 +1,4 @@
-// Why did the bone flip? Gestures with a planted cause, and smooth ones; units that fail, controls at limits.
+// Why did the bone flip? Gestures with a planted cause, and smooth ones; failing units, controls at limits.
 #include <glm/gtc/quaternion.hpp>
 
 #include "app/labs/rig/presets.hpp"
@@ -31,7 +31,7 @@ class RigIncidents : public RigTest, protected test::RandomNumbers {
             if (each.kind == Incident::Kind::Flip) return &each;
         return nullptr;
     }
-    /// How far each element has turned, in the scene, in degrees; by this test's own count.
+    /// The global rotation of each element in degrees, computed independently.
     std::vector<double> turns(const rig::State& was) const {
         rig::State before = was, after = part().state;
         std::vector<double> turns;
@@ -48,9 +48,9 @@ class RigIncidents : public RigTest, protected test::RandomNumbers {
         float furthest = 0.0f;
         std::string cause{}, problem{};  ///< of the flip that turned the furthest
     };
-    /// Sets a control to each of these, with a tick after each. Where the steps are small, all that turns by
-    /// more than 30 degrees is a flip: it has to be marked in that very tick, with its bone and a cause.
-    /// Without a `bone`, whichever turned the furthest.
+    /// Sets a control to each of these values, with a tick after each. If the steps are small, every turn by
+    /// more than 30 degrees is a flip: it must be marked in that very tick, with its bone and a cause.
+    /// Without a `bone`, the one that turned the furthest.
     Gesture drag(const char* name, const Path& path, const std::string& bone,
                  const std::vector<std::string>& causes) {
         set(name, json(path.front()));
@@ -90,7 +90,7 @@ class RigIncidents : public RigTest, protected test::RandomNumbers {
         }
         return gesture;
     }
-    /// Gestures until `count` of them have flipped.
+    /// Tries gestures until `count` of them have flipped.
     template <class Make>
     void expect_planted(int count, Make make) {
         int flipped = 0, tried = 0;
@@ -103,7 +103,7 @@ class RigIncidents : public RigTest, protected test::RandomNumbers {
         EXPECT_EQ(flipped, count) << "of " << tried;
     }
 
-    /// A head that looks along its z, with a nose; both controls stand in the scene.
+    /// A head that looks along its z axis, with a nose; both controls are in global space.
     void head(const glm::dvec3& at, const Json& secondary) {
         element("head", "", transform(at.x, at.y, at.z));
         element("nose", "head", transform(0, 0, 0.45));
@@ -116,7 +116,7 @@ class RigIncidents : public RigTest, protected test::RandomNumbers {
         if (!secondary.is_null()) aim["secondary"] = secondary;
         unit(aim);
     }
-    /// Straight on, in steps that hit no round number.
+    /// A straight line in uneven steps.
     Path line(const glm::dvec3& centre, const glm::dvec3& along, double half, double step) {
         Path path;
         for (double x = half + uniform(0.2, 0.4) * step; x > -half; x -= step)
@@ -285,7 +285,7 @@ TEST_F(RigIncidents, SmoothGesturesHaveNone) {
     }
 }
 
-/// What a person asked for is no flip: an edit, another scene, going back in the take.
+/// Changes that the user makes are no flips: edits, other scenes, seeking in the take.
 TEST_F(RigIncidents, NothingIsMarkedForWhatIsNoMoveOfAControl) {
     head({0, 1, 0}, nullptr);
     set("look", {0, 1, 2});

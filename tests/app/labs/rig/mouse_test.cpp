@@ -1,4 +1,4 @@
-// Every kind of control under the mouse, in the running program: real events, through picking.
+// Every kind of control under the mouse, in the running program: real events, with picking.
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 #include <glm/trigonometric.hpp>
@@ -19,7 +19,7 @@ class RigMouse : public testing::Test {
         app_.run({"lab.open", Json{{"name", rig_lab}}});
         app_.run({"time.pause"});
     }
-    /// One control alone, looked at slantwise.
+    /// A single control, seen at an angle.
     void one(const char* kind, const Json& more = Json::object()) {
         app_.run({"rig.clear"});
         Json arguments{{"name", "it"}, {"kind", "control"}, {"control", kind}};
@@ -137,7 +137,7 @@ TEST_F(RigMouse, ARotationTurnsByItsOwnRingsAndByTheGizmo) {
     const glm::vec2 centre = at("it"), from = at("it.rotate_z") - centre;
     const std::size_t before = steps();
     drag(centre + from, {1.1f * from + glm::vec2(from.y, -from.x) * 0.2f - from,
-                         glm::vec2(from.y, -from.x) - from});  // a quarter turn against the clock
+                         glm::vec2(from.y, -from.x) - from});  // a quarter turn anticlockwise
     const Json turned = value();
     EXPECT_NEAR(number(turned, 0), 0.0, 1e-6);
     EXPECT_NEAR(number(turned, 1), 0.0, 1e-6);
@@ -147,7 +147,7 @@ TEST_F(RigMouse, ARotationTurnsByItsOwnRingsAndByTheGizmo) {
     EXPECT_EQ(steps(), before + 1) << "one drag, one step";
     app_.run({"undo"});
     EXPECT_EQ(number(value(), 3), 1.0);
-    // The ring that is always there: its near side to the right.
+    // The ring that is always visible: its near side to the right.
     app_.run({"rig.select"});
     const float metre = 720.0f / (2.0f * 5.0f * std::tan(0.35f));
     const glm::vec2 ring = centre + glm::vec2(0.0f, 0.14f * metre * std::sin(glm::radians(25.0f)));
@@ -173,7 +173,7 @@ TEST_F(RigMouse, ATransformIsMovedTurnedAndScaledByItsGizmo) {
     EXPECT_EQ(number(value()["translation"], 1), 0.4);
 }
 
-/// Its space walks while it is held by a part of its gizmo.
+/// Its space moves while a part of its gizmo is held.
 class RigMovingSpace : public RigMouse {
   protected:
     RigMovingSpace() {
@@ -216,7 +216,7 @@ TEST_F(RigMovingSpace, ABoxScalesItsAxisAndNothingElse) {
     EXPECT_EQ(value()["rotation"], rest["rotation"]);
 }
 
-/// The pointer says nothing about what is at right angles to the arrow: there it goes with its space.
+/// The pointer does not affect motion perpendicular to the arrow: there it follows its space.
 TEST_F(RigMovingSpace, AnArrowMovesAlongItself) {
     const Json rest = value();
     drag(at("it.move_y"), {{0.0f, -10.0f}, {0.0f, -20.0f}, {0.0f, -30.0f}, {0.0f, -40.0f}});
@@ -227,8 +227,7 @@ TEST_F(RigMovingSpace, AnArrowMovesAlongItself) {
     EXPECT_EQ(value()["scale"], rest["scale"]);
 }
 
-/// What is caught of a gizmo was measured from where the eye was: were it to come nearer, the handle would
-/// slip from under the pointer.
+/// The grabbed point depends on the eye's position: zooming would move the handle away from the pointer.
 TEST_F(RigMouse, TheWheelDoesNothingWhileAGizmoIsHeld) {
     one("transform");
     select();

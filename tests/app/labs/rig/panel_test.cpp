@@ -39,7 +39,7 @@ class RigPanels : public RigTest {
     test::PanelReader reader_;
 };
 
-/// Members of a unit's JSON that are no inputs, or have rows of their own.
+/// Members of a unit's JSON that are not inputs, or have rows of their own.
 bool is_input(const std::string& member) {
     return member != "unit" && member != "name" && member != "enabled" && member != "body";
 }
@@ -138,7 +138,7 @@ class RigOffers : public RigPanels {
         return input_offers(part(), *unit_row(part(), unit), input);
     }
 
-    /// Takes each of some of them, and takes that back.
+    /// Applies some of the offers and undoes each.
     void take_all(const std::string& unit, const UnitInput& before) {
         const std::vector<InputOffer> all = offers(unit, before);
         for (std::size_t i = 0; i<all.size(); i += all.size()> 20 ? 11 : 1)
@@ -152,7 +152,7 @@ class RigOffers : public RigPanels {
         try {
             run("rig.unit.set", with_input(*unit_row(part(), unit)->unit, before.path, *offer.value));
         } catch (const Refused& refusal) {
-            // What a chain of bones runs between, and what a spring is of, may not fit the rest.
+            // The ends of a bone chain and the type of a spring may not fit the rest.
             EXPECT_TRUE(before.takes == UnitInput::Takes::Bone || !before.type.has_value())
                 << unit << before.path << offer.title << refusal.what();
             ++refusals;
@@ -277,7 +277,7 @@ TEST_F(RigPanels, ReadingCleansTheWayToTheRootAndChangesNothing) {
     const Document before = workspace.document;
     const std::size_t steps = workspace.history.size();
     run("rig.read", {{"name", "bone 7"}});
-    EXPECT_EQ(said(), "Reading bone 7: 4 transforms worked out");  // of bones 4, 5, 6 and 7
+    EXPECT_EQ(said(), "Reading bone 7: 4 transforms worked out");  // bones 4, 5, 6 and 7
     EXPECT_EQ(pending("bone 7"), rig::Pending::None);
     EXPECT_EQ(pending("bone 5"), rig::Pending::None);
     EXPECT_EQ(pending("bone 8"), rig::Pending::Global);

@@ -1,4 +1,4 @@
-// How an element was turned at each moment that is remembered, against this test's own count.
+// An element's rotation at each remembered moment, against an independent computation.
 #include "app/labs/rig/past.hpp"
 
 #include <algorithm>
@@ -26,7 +26,7 @@ class RigPast : public RigTest, protected test::RandomNumbers {
         return {x, y, z};
     }
 
-    /// A tree of bones and nulls, each somewhere below one that was there.
+    /// A tree of bones and nulls, each below a random earlier one.
     rig::Definition tree(std::size_t count) {
         rig::Definition definition;
         for (std::size_t i = 0; i < count; ++i) {
@@ -52,7 +52,7 @@ class RigPast : public RigTest, protected test::RandomNumbers {
     }
 };
 
-/// Degrees: of the bone's direction, and about it once that is taken back on the shortest way.
+/// Degrees: of the bone's direction, and about the bone once the swing is undone the shortest way.
 struct Counted {
     double swing, twist;
 };

@@ -1,4 +1,4 @@
-// Drags while the simulation is paused: they are part of the take as those are that are made while it runs.
+// Drags while the simulation is paused are part of the take, like those while it runs.
 #include <map>
 #include <random>
 
@@ -19,7 +19,7 @@ class RigPaused : public RigTest {
         }
     }
     void go(std::uint64_t tick) { run("rig.time", {{"tick", tick}}); }
-    /// What a drag emits, again and again.
+    /// What a drag emits, repeatedly.
     void drag(const char* name, const Json& value) {
         set(name, value);
         solve();
@@ -42,8 +42,8 @@ class RigPaused : public RigTest {
             ASSERT_EQ(part().state, tick->second) << tick->first;
         }
     }
-    /// An arm that reaches for one control, its elbow towards another, and a bone that a spring drags along;
-    /// and a head that, from when a switch is turned on, turns from where it looks then.
+    /// An arm that reaches for one control, with its elbow towards another, and a bone that trails on a
+    /// spring; and a head that, once a switch is on, turns from its direction at that time.
     void arm() {
         element("shoulder");
         element("elbow", "shoulder", transform(0, 1, 0));
@@ -114,7 +114,7 @@ TEST_F(RigPaused, InTheMiddleItForgetsWhatCameLater) {
     expect_scrubs(20, 4, true);
 }
 
-/// However it got there: what was set in between has been seen by nothing that remembers.
+/// The intermediate values of a drag must not reach anything with memory.
 TEST_F(RigPaused, ADragComesOutAsIfAllHadBeenSetAtOnce) {
     arm();
     play(30);
@@ -149,7 +149,7 @@ TEST_F(RigPaused, SolvingAgainChangesNothing) {
     EXPECT_TRUE(part() == before.get<RigPart>(rig_lab));
 }
 
-/// Playing, dragging, setting, solving, going back, in any order.
+/// Playing, dragging, setting, solving and seeking, in any order.
 TEST_F(RigPaused, AnyTickIsWhatWasShown) {
     for (const unsigned seed : {1u, 2u, 3u, 4u, 5u, 6u}) {
         SCOPED_TRACE(seed);
@@ -201,7 +201,7 @@ TEST_F(RigPaused, WhatWasPosedInAPauseIsBakedAsItPlays) {
     }
 }
 
-/// An edit of the rig does begin a take, and so does a backward solve.
+/// An edit of the rig starts a take, and so does a backward solve.
 TEST_F(RigPaused, AnEditBeginsATake) {
     arm();
     play(30);

@@ -1,4 +1,4 @@
-// The five scenes: each solves without a warning and does what its line of the page says.
+// The five presets: each solves without a warning and does what its documentation says.
 #include <array>
 #include <glm/gtc/quaternion.hpp>
 
@@ -18,7 +18,7 @@ std::string numbered(const char* name, int number) {
 class RigPresets : public RigTest {
   protected:
     void open(const char* name) { run("rig.preset", {{"name", name}}); }
-    /// Of a unit, or of the first in its body; as somebody does it who edits the file.
+    /// An input of a unit, or of the first one in its body, set as by editing the file.
     void switch_input(std::size_t unit, const char* input, bool on) {
         Json scene = save_scene(workspace);
         Json* at = &scene.at("labs").at(rig_lab).at("units").at(unit);
@@ -67,7 +67,7 @@ TEST_F(RigPresets, TheHeadLooksAtItsControlInBothForms) {
         expect_no_warning();
         const glm::dvec3 head = translation("head"), to = glm::normalize(translation("look") - head);
         EXPECT_NEAR(glm::dot(rotation("head") * glm::dvec3(0, 0, 1), to), 1.0, 1e-12);
-        // Up is towards the tilt, as nearly as looking allows.
+        // Up is towards the tilt as far as the aim allows.
         const glm::dvec3 side = glm::cross(to, translation("tilt") - head);
         EXPECT_NEAR(glm::dot(rotation("head") * glm::dvec3(0, 1, 0), glm::normalize(side)), 0.0, 1e-12);
         const Json bone_form = named("elements", "head");
@@ -124,7 +124,7 @@ TEST_F(RigPresets, TheArmsCurlOrTheirJointsTurnInPlace) {
     expect_no_warning();
     EXPECT_EQ(output("curl"), 30.0) << "five arms of six joints";
     EXPECT_GT(glm::length(translation("arm 2 joint 6") - straight), 1.0);
-    // All arms alike, each turned about the middle.
+    // All arms are alike, each rotated about the middle.
     const glm::dquat by = glm::angleAxis(glm::radians(72.0), glm::dvec3(0, 1, 0));
     for (const char* joint : {"", " joint 3", " joint 6"}) {
         const glm::dvec3 one = translation(std::string("arm 1") + joint);
@@ -154,7 +154,7 @@ TEST_F(RigPresets, WeightsAndColourFollowTheirControlsThroughCurves) {
     expect_no_warning();
 }
 
-/// What differs by frame rate is small beside what the springs do, and there to be seen.
+/// The difference between frame rates is small beside the springs' motion, but visible.
 TEST_F(RigPresets, TheAntennaeTrailMuchTheSameAtEveryFrameRate) {
     open("secondary");
     tick(1);
@@ -178,7 +178,7 @@ TEST_F(RigPresets, TheAntennaeTrailTheHeadTheirTipsMost) {
     for (int i = 1; i <= 6; ++i) rest.push_back(translation(numbered("left", i)));
     const glm::dvec3 step(0.4, 0, 0);
     set("head", {{"translation", {0.4, 1, 0}}});
-    std::array<double, 6> most{};  // behind where they would be, were the antenna stiff
+    std::array<double, 6> most{};  // distance from where a stiff antenna would be
     for (int ticks = 0; ticks < 40; ++ticks) {
         tick();
         expect_no_warning();
@@ -204,7 +204,7 @@ TEST_F(RigPresets, TheAntennaeTrailTheHeadTheirTipsMost) {
             << i;
 }
 
-/// Backward then forward gives the pose back wherever the rig can express it.
+/// Backward then forward restores the pose if the rig can express it.
 TEST_F(RigPresets, BackwardFindsThePosesOfTheScenes) {
     const std::vector<std::pair<const char*, Json>> poses{
         {"aim", {{"look", {0.7, -0.4}}, {"tilt", {0.3, 0.9, 0.2}}}},
@@ -217,7 +217,7 @@ TEST_F(RigPresets, BackwardFindsThePosesOfTheScenes) {
         for (const auto& [control, value] : values.items()) set(control.c_str(), value);
         solve();
         const Json posed = state().at("elements");
-        // The bones stay as they are while the controls go back.
+        // The bones keep their pose while the controls are reset.
         for (const auto& [control, value] : values.items()) set(control.c_str(), rest.at(control));
         for (const Json& each : posed) {
             if (each.at("kind") != "bone") continue;
@@ -236,7 +236,7 @@ TEST_F(RigPresets, BackwardFindsThePosesOfTheScenes) {
     }
 }
 
-/// Constraints put every bone where its control has it, so no control brings one of them aside.
+/// Constraints tie every bone to its control, so no control can move a single bone aside.
 TEST_F(RigPresets, APoseThatARigCannotExpressIsReportedWithItsBone) {
     open("fk");
     set("dial", 0.5);

@@ -1,4 +1,4 @@
-// Frame rates that are compared from tick to tick, as the window has it.
+// Comparing frame rates tick by tick, as in the window.
 #include "rig_support.hpp"
 
 namespace tendril::app {
@@ -12,7 +12,7 @@ class RigRates : public RigTest {
     }
 };
 
-/// However it is cut into ticks, thrown away, or opened from a file in the middle.
+/// The result is the same however it is divided into ticks, restarted, or loaded from a file half way.
 TEST_F(RigRates, FrameRatesAreComparedFromTickToTick) {
     Workspace other = workspace;
     run("rig.rates");

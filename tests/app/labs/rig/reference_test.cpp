@@ -1,5 +1,5 @@
-// Numeric cases of an independent implementation, through the lab's own commands. Skipped where they are not
-// at hand; the other files here hold without them.
+// Numeric cases from an independent implementation, through the lab's own commands. Skipped if the files are
+// missing; the other tests do not need them.
 #include <filesystem>
 #include <glm/gtc/quaternion.hpp>
 
@@ -23,7 +23,7 @@ double distance(const Json& a, const Json& b, double sign = 1.0) {
     return std::sqrt(squares);
 }
 
-/// A rotation and its negative turn alike.
+/// A rotation and its negative are equal.
 double off(const Json& got, const Json& wanted) {
     const Json &a = got.at("rotation"), &b = wanted.at("rotation");
     return std::max({distance(got.at("translation"), wanted.at("translation")),
@@ -67,7 +67,7 @@ INSTANTIATE_TEST_SUITE_P(Commands, RigLabReference,
 
 class RigLabAimReference : public RigTest {};
 
-/// Targets as literals in the unit, and as elements that are named.
+/// Targets as literals in the unit, and as named elements.
 TEST_F(RigLabAimReference, AgreesWithAnIndependentImplementation) {
     const Json cases = cases_of("aim.json");
     if (cases.empty()) GTEST_SKIP() << "aim.json is not there";

@@ -1,4 +1,4 @@
-// What the tests of the Rig lab share.
+// Shared by tests of the Rig lab.
 #pragma once
 
 #include <string>
@@ -56,7 +56,7 @@ class RigTest : public LabTest {
         return named("units", unit).at("outputs").at(output);
     }
     Json saved() const { return save_scene(workspace).at("labs").at(rig_lab); }
-    /// As a file gives it back, in a workspace that has never seen it.
+    /// The lab after saving and loading, in a new workspace.
     Workspace reopened() const {
         Workspace other = make_blank_workspace(labs);
         load_scene(other, save_scene(workspace));

@@ -1,4 +1,4 @@
-// Several elements that one gizmo drags: each is set to a value of its own, in one step.
+// Several elements dragged by one gizmo: each gets a value of its own, in one undo step.
 #include <algorithm>
 #include <glm/gtc/quaternion.hpp>
 #include <random>
@@ -57,7 +57,7 @@ TEST_F(SeveralValues, WhatDoesNotFitIsRefusedAndChangesNothing) {
         EXPECT_FALSE(refused("rig.control.set", controls({"left", "right"}, bad)).empty()) << bad;
 }
 
-/// In the running program: the mouse on the gizmo, through picking.
+/// In the running program: the mouse on the gizmo, with picking.
 class SeveralDragged : public testing::Test {
   protected:
     SeveralDragged() {
@@ -140,7 +140,7 @@ TEST_F(SeveralDragged, AllGoTheSameWayInOneStep) {
         EXPECT_NEAR(glm::distance(at(all_of_them[i]), before[i]), 0.0, 1e-9) << all_of_them[i];
 }
 
-/// Undo and removal do not wait for a drag to end.
+/// Undo and removal can happen during a drag.
 TEST_F(SeveralDragged, WhatGoesInMidDragIsLeftOut) {
     select({"whole", "place"});
     drag("place.move_x", {{20, 5}}, false);

@@ -1,4 +1,4 @@
-// Several elements selected at once: by Shift, by a box, in a file, and as elements come and go.
+// Several selected elements: by Shift, by a box, in a file, and as elements are added and removed.
 #include <algorithm>
 #include <random>
 #include <set>
@@ -55,7 +55,7 @@ TEST_F(SeveralSelected, TheUnitStaysWhereElementsAreAdded) {
     EXPECT_EQ(selected(), Names{"c"});
 }
 
-/// Against plain names, as elements and what is selected come and go.
+/// Compared with a list of names, as elements and the selection change.
 TEST_F(SeveralSelected, TheSelectionFollowsWhatComesAndGoes) {
     std::mt19937 random(7);
     std::vector<std::string> there;

@@ -1,5 +1,4 @@
-// What is done to several elements at once: set, reset, moved along a path, removed; in one step, or not at
-// all.
+// Editing several elements at once: set, reset, moved along a path, removed; in one step, or not at all.
 #include "app/labs/rig/definition_json.hpp"
 #include "several_support.hpp"
 #include "tests/says.hpp"
@@ -9,7 +8,7 @@ namespace {
 
 class SeveralSet : public SeveralElements {
   protected:
-    /// A rig of these alone, as a file has them.
+    /// A rig of these elements alone, from a file.
     void open(const Json& elements) {
         Json scene = save_scene(workspace);
         scene["labs"]["rig"] = {{"elements", elements}, {"curves", Json::array()}, {"units", Json::array()}};
@@ -65,7 +64,7 @@ TEST_F(SeveralSet, PosesOfBonesGoOnAll) {
     EXPECT_EQ(local("a"), (Json{0.5, 1.0, 0.0}));
     EXPECT_EQ(local("b"), (Json{0.0, 2.0, 0.0}));
     EXPECT_EQ(local("c"), (Json{0.5, 3.0, 0.0}));
-    // In the scene, whatever the order they stand in: one that goes with its parent is set after it.
+    // In global space the order does not matter: an element that moves with its parent is set after it.
     for (const Names& names : {Names{"a", "b", "c"}, {"c", "b", "a"}}) {
         run("rig.element.set",
             {{"names", names},
@@ -191,7 +190,7 @@ TEST_F(SeveralSet, ReadingWorksAllOut) {
     EXPECT_EQ(workspace.ui.toasts.back().text.find("Reading 3 elements: "), 0u);
 }
 
-/// One by one this would take minutes: it ends, or the test runs out of time.
+/// One by one this would take minutes and run out of time.
 TEST_F(SeveralSet, ThousandsAreDoneAtOnce) {
     Json elements = Json::array();
     for (std::size_t i = 0; i < max_lab_elements; ++i) {

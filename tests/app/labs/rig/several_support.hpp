@@ -1,4 +1,4 @@
-// What the tests of several selected elements share.
+// Shared by tests of several selected elements.
 #pragma once
 
 #include <string>
@@ -27,7 +27,7 @@ class SeveralElements : public RigTest {
     }
     std::size_t steps() const { return workspace.history.size(); }
 
-    /// Two positions, two numbers, and a bone with two below it, each in a row.
+    /// Two positions, two numbers, and a bone with two descendants in a row.
     void controls_and_bones() {
         control("left", "position", {{"maximum", {1, 1, 1}}, {"minimum", {-1, -1, -1}}});
         control("right", "position");

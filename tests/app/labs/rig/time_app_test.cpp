@@ -17,7 +17,7 @@ void send(App& app, const Event& event) {
     app.tick(&event);
 }
 constexpr float left = 443.5f, right = 988.5f, y = 677.0f;  ///< of the strip, in a window of 1280 x 720
-/// Presses on the strip at so many of its ten seconds, and drags the head on to each of the others.
+/// Presses on the strip at the first of these seconds, and drags the playhead to each of the others.
 void scrub(App& app, const std::vector<float>& seconds) {
     const auto at = [&](float s) { return MouseMove{{left + (right - left) * s / 10.0f, y}}; };
     send(app, at(seconds.front()));

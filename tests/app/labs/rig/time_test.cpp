@@ -1,4 +1,4 @@
-// Time in the Rig lab: any tick of a take, in any order, is what playing there shows, to the bit.
+// Time in the Rig lab: seeking to any tick of a take, in any order, shows bitwise what playing shows.
 #include <random>
 
 #include "app/labs/rig/rig_runtime.hpp"
@@ -20,7 +20,7 @@ class RigTime : public RigTest {
         walk();
     }
     void go(std::uint64_t tick) { run("rig.time", {{"tick", tick}}); }
-    /// Plays, and gives the states on the way, the first being the one now.
+    /// Plays and returns the states, starting with the present one.
     std::vector<rig::State> play(int ticks) {
         std::vector<rig::State> states{part().state};
         for (int i = 0; i < ticks; ++i) {
@@ -78,7 +78,7 @@ TEST_F(RigTime, AWalkStopsAtTheLimitsAndTurnsAlongItsPath) {
     }
 }
 
-/// Around the same centre, and as far around as it was.
+/// Keeps its centre and its phase.
 TEST_F(RigTime, AWalkThatIsChangedGoesOnWhereItIs) {
     secondary();
     run("rig.motion", {{"name", "head"}, {"path", "circle"}, {"radius", 0.5}, {"period", 2.0}});
@@ -95,7 +95,7 @@ TEST_F(RigTime, AWalkThatIsChangedGoesOnWhereItIs) {
     const glm::dvec3 next = head();
     go(33);
     EXPECT_LT(glm::distance(change("turn", true), next), 1e-6);
-    // A tick of a round that is three times as long, a third of the way.
+    // A tick of a period three times as long moves a third as far.
     EXPECT_LT(glm::distance(change("period", 6.0), glm::mix(before, next, 1.0 / 3.0)), 1e-3);
     EXPECT_LT(glm::distance(change("radius", 0.25), glm::mix(centre, next, 0.5)), 1e-6);
     EXPECT_LT(glm::distance(change("centre", {1, 1, 2}), next - centre + glm::dvec3(1, 1, 2)), 1e-6);
@@ -124,7 +124,7 @@ TEST_F(RigTime, AnyTickInAnyOrderIsWhatPlayingShowed) {
     EXPECT_EQ(part().state, on[20]);
 }
 
-/// Caches are thrown away at any moment.
+/// Caches can be discarded at any moment.
 TEST_F(RigTime, TheSameWithoutSnapshots) {
     secondary();
     const auto states = play(300);
@@ -171,7 +171,7 @@ TEST_F(RigTime, TheSameAfterUndo) {
     EXPECT_EQ(part().take.began, 200u);
 }
 
-/// What was dragged comes again, at its ticks.
+/// Drags are replayed at their ticks.
 TEST_F(RigTime, WhatWasDraggedIsPartOfTheTake) {
     run("rig.preset", {{"name", "secondary"}});
     std::vector<rig::State> states = play(10);
@@ -232,7 +232,7 @@ TEST_F(RigTime, SettingWhatIsShownMidwayForgetsWhatWasSetThereLater) {
     EXPECT_EQ(part().state, states[5]);
 }
 
-/// Whatever else is changed begins a take; time goes on.
+/// Any other change starts a take; time goes on.
 TEST_F(RigTime, AnEditInTheMiddleBeginsATake) {
     secondary();
     const auto first = play(100);
@@ -250,7 +250,7 @@ TEST_F(RigTime, AnEditInTheMiddleBeginsATake) {
     EXPECT_EQ(part().take.now(), 40u);
 }
 
-/// The walk goes on from where it was, to rounding, whatever else begins a take.
+/// The path continues from its position, up to rounding, whatever else starts a take.
 TEST_F(RigTime, AWalkGoesOnOverAnEdit) {
     secondary();
     const auto states = play(80);
@@ -330,7 +330,7 @@ TEST_F(RigTime, AControlThatIsRemovedWalksNoMore) {
     EXPECT_EQ(part().walks.size(), 1u);
 }
 
-/// The same motion at any frame rate, but for what springs make of each other within a frame.
+/// The same motion at any frame rate, except for the interaction of springs within a frame.
 TEST_F(RigTime, FrameRatesAreComparedAsOneNumber) {
     expect_refused("rig.rates", Json::object(), {"nothing has been played yet"});
     secondary();
@@ -375,7 +375,7 @@ TEST_F(RigTime, FrameRatesDifferByScaleToo) {
     EXPECT_EQ(Workspace(reopened()).document.get<RigPart>(rig_lab).rates, part().rates);
 }
 
-/// One spring on its own is exact, however its time is cut: the control is set where a frame of each begins.
+/// A single spring is exact at any frame rate: the control is set where a frame of each rate begins.
 TEST_F(RigTime, ASpringAloneIsTheSameAtAllRates) {
     control("place", "position", {{"local", {{"translation", {0, 0, 1}}}}});
     element("bone");

@@ -1,4 +1,4 @@
-// Why is this bone here? What units added, one after the other, is the pose.
+// Why is this bone here? The contributions of all units add up to the pose.
 #include <glm/geometric.hpp>
 #include <random>
 #include <tendril/rig/explain.hpp>
@@ -15,7 +15,7 @@ namespace {
 class RigWhy : public RigTest {
   protected:
     void select(const std::string& element) { run("rig.select", {{"element", element}}); }
-    /// A value of its kind, within its limits or not: the control sees to that.
+    /// A value of the control's kind, inside or outside of its limits, which the control enforces.
     Json any_value(const rig::Element& element) {
         std::uniform_real_distribution<double> some(-1.2, 1.2);
         const double a = some(random_), b = some(random_), c = some(random_), d = some(random_);

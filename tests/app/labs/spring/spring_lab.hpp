@@ -1,5 +1,5 @@
-// A small lab: a ball on a spring. The program does not have it; app/labs/README.md writes it, and the tests
-// show that a folder and a line are all that a lab takes.
+// A small lab: a ball on a spring. It is not in the program; app/labs/README.md explains it, and the tests
+// show that a folder and one line are all that a lab needs.
 #pragma once
 
 #include "app/labs/lab.hpp"

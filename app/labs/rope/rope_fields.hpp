@@ -1,7 +1,8 @@
-// What a rope, cloth or hair is made of, as a person changes it while it hangs: it goes on from where it is.
+// The fields of ropes, cloth, hair and colliders as users see them, and the settings of a body that hangs.
 #pragma once
 
 #include <optional>
+#include <tendril/rope/hair_roots.hpp>
 
 #include "app/fields/fields.hpp"
 #include "app/labs/kit/named_world.hpp"
@@ -32,5 +33,23 @@ void set_body(NamedWorld& world, const std::string& body, const Arguments& given
 
 template <>
 std::span<const tendril::Field> tendril::fields<tendril::app::BodySettings>() noexcept;
+
+namespace tendril::app {
+
 template <>
-std::span<const tendril::app::FieldText> tendril::app::field_texts<tendril::app::BodySettings>();
+std::span<const FieldText> field_texts<BodySettings>();
+template <>
+std::span<const FieldText> field_texts<rope::Settings>();
+template <>
+std::span<const FieldText> field_texts<rope::RopeShape>();
+template <>
+std::span<const FieldText> field_texts<rope::ClothShape>();
+template <>
+std::span<const FieldText> field_texts<rope::HairShape>();
+template <>
+std::span<const FieldText> field_texts<rope::HairPatch>();
+/// For all kinds of collider.
+template <>
+std::span<const FieldText> field_texts<rope::Shape>();
+
+}  // namespace tendril::app

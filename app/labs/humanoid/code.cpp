@@ -1,0 +1,395 @@
+#include "app/labs/humanoid/code.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <glm/trigonometric.hpp>
+#include <utility>
+
+#include "app/labs/humanoid/ik/ik_members.hpp"
+#include "app/labs/humanoid/ik/shown_pose.hpp"
+#include "app/labs/humanoid/limits/limit_ranges.hpp"
+#include "app/labs/kit/code_text.hpp"
+
+namespace tendril::app {
+namespace {
+
+using humanoid::Bone;
+
+constexpr std::size_t max_line = 110;
+
+std::string flag_text(bool value) {
+    return value ? "true" : "false";
+}
+
+std::string bone_text(std::size_t bone) {
+    return std::string("humanoid::Bone::") + humanoid::name(static_cast<Bone>(bone));
+}
+
+std::string transform_text(const rig::Transform& transform) {
+    std::string text = '{' + braced(transform.translation) + ", " + braced(transform.rotation);
+    if (transform.scale != glm::dvec3(1.0)) text += ", " + braced(transform.scale);
+    return text + '}';
+}
+
+/// hills() of ground.hpp.
+constexpr const char* hills_text =
+    R"(    humanoid::HeightField field{.x = -20.0, .z = -20.0, .cell = 0.25, .columns = 161, .heights = {}};
+    for (int row = 0; row < 161; ++row)
+        for (int column = 0; column < 161; ++column) {
+            const double x = -20.0 + 0.25 * column, z = -20.0 + 0.25 * row;
+            const double flat = std::clamp(std::hypot(x, z) - 0.3, 0.0, 1.0);
+            field.heights.push_back(flat * (0.10 * std::sin(1.3 * z + 0.4 * x) + 0.06 * std::sin(1.9 * x - 0.5 * z) +
+                                            0.03 * std::sin(3.1 * z + 1.1)));
+        }
+    const humanoid::Ground ground = *humanoid::Ground::terrain(field);
+)";
+
+/// A state of each_number() as an initialiser, member by member.
+template <class T>
+std::string state_text(const T& value) {
+    if constexpr (std::is_same_v<T, glm::dvec3> || std::is_same_v<T, glm::dquat>) {
+        return braced(value);
+    } else if constexpr (std::is_same_v<T, bool>) {
+        return flag_text(value);
+    } else if constexpr (std::is_enum_v<T>) {
+        return "humanoid::FootAlone{" + std::to_string(static_cast<int>(value)) + '}';
+    } else if constexpr (std::is_arithmetic_v<T>) {
+        return double_text(value);
+    } else {
+        std::vector<std::string> members;
+        each_number(value, [&](std::string_view name, const auto& member) {
+            const std::string text = state_text(member);
+            members.push_back(name == "left" ? "{{" + text : name == "right" ? text + "}}" : text);
+        });
+        return '{' + joined(members) + '}';
+    }
+}
+
+class HumanoidProgram {
+  public:
+    HumanoidProgram(const HumanoidPart& part, Solvers& solvers)
+        : part_(part), solvers_(solvers), body_(solvers.body(part) != nullptr) {}
+
+    std::string text() {
+        head();
+        nodes();
+        line("int main() {");
+        make();
+        ground();
+        feet();
+        body();
+        gaze();
+        hands();
+        springs();
+        frame();
+        line("}");
+        return std::move(code_);
+    }
+
+  private:
+    void line(const std::string& text) { (code_ += text) += '\n'; }
+    void say(const std::string& text) { line(text.empty() ? text : "    " + text); }
+    /// `opening`, entries with commas between them, `closing`: as many on a line as fit.
+    void list(const std::string& opening, const std::vector<std::string>& entries,
+              const std::string& closing) {
+        std::string row = "    " + opening;
+        for (std::size_t i = 0; i < entries.size(); ++i) {
+            const std::string next = entries[i] + (i + 1 < entries.size() ? "," : closing);
+            if (row.size() + 1 + next.size() > max_line)
+                line(std::exchange(row, "        " + next));
+            else
+                row += (i == 0 ? "" : " ") + next;
+        }
+        line(row);
+    }
+    /// Makes a solver, or ends the program with the reason.
+    void make_solver(const std::string& type, const std::string& name, const std::string& arguments) {
+        say("Expected<humanoid::" + type + "> " + name + " = humanoid::" + type + "::make(" + arguments +
+            ");");
+        say("if (!" + name + ") return std::puts(" + name + ".message()), 1;");
+    }
+
+    bool hilly() const { return feet_on() && part_.ik.ground.kind == humanoid::GroundKind::Terrain; }
+    bool uses_map() const {
+        return body_on() || feet_on() || gaze_on() || hands_on() || !part_.springs.empty();
+    }
+    bool hands_on() const { return body_ && part_.ik.hand_ik.on; }
+    bool gaze_on() const { return body_ && part_.ik.look_at.on; }
+    bool feet_on() const { return part_.ik.foot_ik.on && solvers_.feet(part_) != nullptr; }
+    std::vector<humanoid::BodyTarget> targets() const { return body_targets(part_.ik); }
+    bool body_on() const { return body_ && (!targets().empty() || part_.ik.self_collision); }
+
+    void head() {
+        const std::string file = std::filesystem::path(part_.loaded->file).filename().string();
+        line("// A character of " + std::to_string(part_.skeleton().size()) +
+             " nodes, exported from Tendril. Solves one frame.");
+        if (!file.empty()) line("// From " + string_text(file));
+        line("//");
+        line("// CMake: find_package(tendril REQUIRED)");
+        line("//        target_link_libraries(your_program PRIVATE tendril::core)");
+        if (hilly()) line("#include <algorithm>");
+        if (hilly()) line("#include <cmath>");
+        line("#include <cstdio>");
+        line("#include <iterator>");
+        if (body_on()) line("#include <tendril/humanoid/body.hpp>");
+        if (uses_map()) line("#include <tendril/humanoid/bone_map.hpp>");
+        if (feet_on()) line("#include <tendril/humanoid/feet.hpp>");
+        if (hands_on()) line("#include <tendril/humanoid/hands.hpp>");
+        if (gaze_on()) line("#include <tendril/humanoid/look_at.hpp>");
+        line("#include <tendril/humanoid/skeleton.hpp>");
+        if (!part_.springs.empty()) line("#include <tendril/humanoid/spring_chain.hpp>");
+        line("#include <utility>");
+        line("#include <vector>");
+        line("");
+        line("using namespace tendril;");
+        line("");
+    }
+
+    void nodes() {
+        line("struct NodeRow {");
+        say("const char* name;");
+        say("int parent;           // -1: a root");
+        say("rig::Transform rest;  // local: metres; w, x, y, z; scale");
+        line("};");
+        line("const NodeRow node_rows[] = {");
+        for (const humanoid::Node& node : part_.skeleton().nodes())
+            say('{' + string_text(node.name) + ", " + std::to_string(node.parent) + ", " +
+                transform_text(node.rest) + "},");
+        line("};");
+        line("");
+        const std::vector<rig::Transform> pose = unsolved_pose(part_);
+        posed_ = pose != humanoid::rest_pose(part_.skeleton());
+        if (!posed_) return;
+        line("// The animation at this moment, local to the parents.");
+        line("const rig::Transform pose_rows[] = {");
+        for (const rig::Transform& each : pose) say(transform_text(each) + ',');
+        line("};");
+        line("");
+    }
+
+    void make() {
+        say("std::vector<humanoid::Node> nodes;");
+        say("for (const NodeRow& row : node_rows) nodes.push_back({row.name, row.parent, row.rest});");
+        make_solver("Skeleton", "skeleton", "std::move(nodes)");
+        if (!uses_map()) return;
+        say("");
+        say("humanoid::BoneMap map;");
+        for (std::size_t i = 0; i < humanoid::bone_count; ++i)
+            if (const auto node = part_.map->bones[i].node; node >= 0)
+                say("map[" + bone_text(i) + "].node = " + std::to_string(node) + ";  // " +
+                    Json(part_.skeleton()[static_cast<std::size_t>(node)].name)
+                        .dump(-1, ' ', false, Json::error_handler_t::replace));
+        say("humanoid::review(map, *skeleton);");
+    }
+
+    void ground() {
+        if (!feet_on()) return;
+        const GroundSetting& setting = part_.ik.ground;
+        const auto made = [&](const std::string& how) {
+            say("const humanoid::Ground ground = *humanoid::Ground::" + how + ';');
+        };
+        say("");
+        switch (setting.kind) {
+            case humanoid::GroundKind::None:
+                return say("const humanoid::Ground ground;  // none");
+            case humanoid::GroundKind::Flat:
+                return made("flat()");
+            case humanoid::GroundKind::Slope:
+                return made("slope(" + double_text(glm::radians(setting.angle_deg)) + ")");
+            case humanoid::GroundKind::Stairs:
+                return made("stairs(" + double_text(setting.step_height) + ", " +
+                            double_text(setting.step_depth) + ')');
+            case humanoid::GroundKind::Mesh:
+                say("// Pass the triangles of " +
+                    string_text(std::filesystem::path(setting.mesh->path).filename().string()) +
+                    " to humanoid::Ground::mesh().");
+                return say("const humanoid::Ground ground;");
+            case humanoid::GroundKind::Terrain:
+                break;
+        }
+        code_ += hills_text;
+    }
+
+    void feet() {
+        if (!feet_on()) return;
+        const humanoid::FeetOptions options = feet_options(part_, solvers_);
+        make_solver("Feet", "feet", "*skeleton, map");
+        std::vector<std::string> members;
+        if (options.root_velocity != glm::dvec3(0.0))
+            members.push_back(".root_velocity = " + braced(options.root_velocity));
+        if (options.floor) members.push_back(".floor = " + double_text(*options.floor));
+        for (const auto& [name, value] : {std::pair{".enter_speed", options.enter_speed},
+                                          {".leave_speed", options.leave_speed},
+                                          {".max_turn", options.max_turn}})
+            members.push_back(name + (" = " + double_text(value)));
+        list("const humanoid::FeetOptions feet_options{", members, "};");
+        say("humanoid::FeetState feet_state" + state_text(part_.ik_state.feet) + ';');
+    }
+
+    void limits() {
+        const humanoid::BodyLimits in_force = solvers_.limits(part_).in_force(part_.ik);
+        const humanoid::BodyLimits adult = humanoid::default_limits(part_.skeleton(), *part_.map);
+        const bool from_adult = part_.ik.limits != LimitsFrom::None;
+        const humanoid::BodyLimits base = from_adult ? adult : humanoid::no_limits();
+        say(std::string("humanoid::BodyLimits limits = humanoid::") +
+            (from_adult ? "default_limits(*skeleton, map);" : "no_limits();"));
+        for (std::size_t i = 0; i < humanoid::bone_count; ++i) {
+            if (in_force[i] == base[i]) continue;
+            const std::string name = "limits[static_cast<std::size_t>(" + bone_text(i) + ")]";
+            if (in_force[i].kind == ik::JointKind::Free)
+                say(name + " = {};");
+            else
+                code_ += limit_text(name, in_force[i], "    ");
+        }
+    }
+
+    void body() {
+        if (!body_on()) return;
+        say("");
+        limits();
+        const std::vector<humanoid::BodyCapsule>& capsules = solvers_.capsules(part_);
+        std::vector<std::string> rows;
+        for (const humanoid::BodyCapsule& each : capsules)
+            rows.push_back('{' + bone_text(static_cast<std::size_t>(each.bone)) + ", " + braced(each.from) +
+                           ", " + braced(each.to) + ", " + double_text(each.radius) + '}');
+        if (!rows.empty()) list("const humanoid::BodyCapsule capsules[] = {", rows, "};");
+        make_solver("Body", "body",
+                    rows.empty() ? "*skeleton, map, limits" : "*skeleton, map, limits, capsules");
+        say("std::vector<humanoid::BodyTarget> targets;");
+        for (const humanoid::BodyTarget& target : targets()) {
+            std::vector<std::string> members{
+                ".effector = humanoid::Effector::" + pascal_text(humanoid::name(target.effector)),
+                ".position = " + braced(target.position)};
+            if (target.rotation) members.push_back(".rotation = glm::dquat" + braced(*target.rotation));
+            members.push_back(".weight = " + double_text(target.weight));
+            list("targets.push_back({", members, "});");
+        }
+        say("humanoid::BodyState body_state;");
+        body_state(part_.ik_state.body);
+    }
+
+    void body_state(const humanoid::BodyState& state) {
+        if (state == humanoid::BodyState()) return;
+        say("// Where the last solve ended.");
+        const auto points = [&](const char* name, const auto& all) {
+            std::vector<std::string> texts;
+            for (const auto& each : all) texts.push_back("glm::dvec3" + braced(each));
+            list(std::string("body_state.") + name + " = {", texts, "};");
+        };
+        std::vector<std::string> turns, weights;
+        for (const glm::dquat& each : state.turns) turns.push_back("glm::dquat" + braced(each));
+        for (const double each : state.weights) weights.push_back(double_text(each));
+        list("body_state.turns = {", turns, "};");
+        say("body_state.shift = " + braced(state.shift) + ';');
+        points("clip", state.clip);
+        say("body_state.deepest = " + double_text(state.deepest) + ';');
+        points("left", state.left);
+        list("body_state.weights = {", weights, "};");
+        say("body_state.pace = " + double_text(state.pace) + ';');
+    }
+
+    void gaze() {
+        if (!gaze_on()) return;
+        const humanoid::LookAtOptions options = look_options(part_, body_on() && !targets().empty());
+        const humanoid::LookAtOptions usual;
+        say("");
+        make_solver("LookAt", "look", "*skeleton, map");
+        std::vector<std::string> members{".target = " + braced(options.target),
+                                         ".weight = " + double_text(options.weight)};
+        if (options.spine_part != usual.spine_part)
+            members.push_back(".spine_part = " + double_text(options.spine_part));
+        if (options.neck_part != usual.neck_part)
+            members.push_back(".neck_part = " + double_text(options.neck_part));
+        members.push_back(".view = " + double_text(options.view));
+        list("const humanoid::LookAtOptions look_options{", members, "};");
+        say("humanoid::LookAtState look_state" + state_text(part_.ik_state.look) + ';');
+    }
+
+    void hands() {
+        if (!hands_on()) return;
+        say("");
+        make_solver("Hands", "hands", "*skeleton, map");
+        say("humanoid::HandTargets hand_targets{};");
+        const humanoid::HandTargets all = hand_targets(part_);
+        for (std::size_t hand = 0; hand < 2; ++hand) {
+            if (part_.ik.hand_target(hand) == nullptr) continue;
+            std::vector<std::string> members{".position = " + braced(all[hand].position)};
+            if (all[hand].rotation) members.push_back(".rotation = glm::dquat" + braced(*all[hand].rotation));
+            members.push_back(".weight = " + double_text(all[hand].weight));
+            list("hand_targets[" + std::to_string(hand) + "] = {", members,
+                 hand == 0 ? "};  // left" : "};  // right");
+        }
+        say("const humanoid::HandsOptions hands_options{.view = " +
+            double_text(glm::radians(part_.ik.hand_ik.view_deg)) + "};");
+        say("humanoid::HandsState hands_state" + state_text(part_.ik_state.hands) + ';');
+    }
+
+    void springs() {
+        const SpringChains& chains = solvers_.springs(part_);
+        for (std::size_t i = 0; i < chains.size(); ++i) {
+            if (chains[i] == nullptr) continue;
+            const std::string name = "spring_" + std::to_string(i);
+            const humanoid::SpringOptions options = part_.springs[i].options();
+            say("");
+            make_solver("SpringChain", name,
+                        "*skeleton, map, *skeleton->find(" + string_text(part_.springs[i].node) + ')');
+            list("const humanoid::SpringOptions " + name + "_options{",
+                 {".strength = " + double_text(options.strength),
+                  ".critical_damping = " + double_text(options.critical_damping),
+                  ".weight = " + double_text(options.weight),
+                  ".max_angle = " + double_text(options.max_angle)},
+                 "};");
+            say("humanoid::SpringChainState " + name + "_state;");
+            if (i >= part_.ik_state.springs.size()) continue;
+            for (const humanoid::SpringMass& mass : part_.ik_state.springs[i].masses)
+                list(name + "_state.masses.push_back({",
+                     {braced(mass.position), braced(mass.velocity), braced(mass.target),
+                      flag_text(mass.started), flag_text(mass.has_velocity)},
+                     "});");
+        }
+    }
+
+    void frame() {
+        say("");
+        say("// In each frame: the animation's pose, then what changes it, in this order.");
+        if (part_.ik_state.release.left > 0.0)
+            say("// A target was just released; the lab fades the difference out, this program does not.");
+        if (feet_on() || hands_on() || gaze_on() || !part_.springs.empty())
+            say("const double dt = 0.0;  // seconds since the last frame");
+        say(posed_ ? "std::vector<rig::Transform> pose(std::begin(pose_rows), std::end(pose_rows));"
+                   : "std::vector<rig::Transform> pose = humanoid::rest_pose(*skeleton);");
+        const auto solve = [&] {
+            say("if (const auto solved = body->solve(pose, targets, body_state); !solved)");
+            say("    std::puts(solved.message());");
+        };
+        if (feet_on()) say("feet->step(pose, ground, dt, feet_state, feet_options);");
+        if (body_on() && !targets().empty()) solve();
+        if (gaze_on()) say("look->step(pose, look_options, dt, look_state);");
+        if (hands_on()) say("hands->step(pose, hand_targets, dt, hands_state, hands_options);");
+        if (body_on() && targets().empty()) solve();
+        const SpringChains& chains = solvers_.springs(part_);
+        for (std::size_t i = 0; i < chains.size(); ++i) {
+            const std::string name = "spring_" + std::to_string(i);
+            if (chains[i] != nullptr)
+                say(name + "->step(pose, " + name + "_options, dt, " + name + "_state);");
+        }
+        say("std::vector<humanoid::Placement> placed(skeleton->size());");
+        say("humanoid::place(*skeleton, pose, placed);");
+        say("for (const humanoid::Placement& each : placed)");
+        say("    std::printf(\"%.17g %.17g %.17g\\n\", each.position.x, each.position.y, each.position.z);");
+    }
+
+    const HumanoidPart& part_;
+    Solvers& solvers_;
+    const bool body_;
+    bool posed_ = false;
+    std::string code_;
+};
+
+}  // namespace
+
+std::string humanoid_code(const HumanoidPart& part, Solvers& solvers) {
+    return HumanoidProgram(part, solvers).text();
+}
+
+}  // namespace tendril::app

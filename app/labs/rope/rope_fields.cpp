@@ -1,0 +1,260 @@
+#include "app/labs/rope/rope_fields.hpp"
+
+#include <cmath>
+#include <tendril/magnitude.hpp>
+
+#include "app/document/argument.hpp"
+#include "app/document/refused.hpp"
+#include "app/labs/kit/world_file.hpp"
+#include "app/labs/rope/rope_edit.hpp"
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::app::BodySettings>() noexcept {
+    using app::BodySettings;
+    constexpr FieldRange any{0.0, max_magnitude};
+    static constexpr Field rows[] = {field<&BodySettings::length>("length", {1e-6, max_magnitude}, "m"),
+                                     field<&BodySettings::mass>("mass", {1e-9, max_magnitude}, "kg"),
+                                     field<&BodySettings::radius>("radius", any, "m"),
+                                     field<&BodySettings::stretch>("stretch", any, "m/N"),
+                                     field<&BodySettings::shear>("shear", any, "m/N"),
+                                     field<&BodySettings::bend>("bend", any, "m/N"),
+                                     field<&BodySettings::tear>("tear", any)};
+    return rows;
+}
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::app::RopeView>() noexcept {
+    using app::RopeView;
+    static constexpr Field rows[] = {field<&RopeView::particles>("particles"),
+                                     field<&RopeView::strain>("strain"),
+                                     field<&RopeView::sides>("sides", {app::min_sides, app::max_sides})};
+    return rows;
+}
+
+namespace tendril::app {
+
+template <>
+std::span<const FieldText> field_texts<BodySettings>() {
+    static constexpr FieldText texts[] = {
+        {.name = "length",
+         .label = "length",
+         .help = "Of a rope, a row of a cloth or a strand of hair: all of its segments change in proportion.",
+         .step = 0.005f,
+         .decimals = 3},
+        {.name = "mass", .label = "mass", .help = "Total mass of the body.", .step = 0.005f, .decimals = 3},
+        {.name = "radius",
+         .label = "radius",
+         .help = "Half its thickness: how far its particles keep from colliders.",
+         .step = 0.0005f,
+         .decimals = 4},
+        {.name = "stretch",
+         .label = "stretch",
+         .help = "How much longer a segment gets under a newton, in addition to the world's compliance. "
+                 "Relaxation counts this alone.",
+         .step = 1e-5f,
+         .decimals = 5},
+        {.name = "shear",
+         .label = "shear",
+         .help = "How easily a cloth shears across its threads. Higher values drape more softly.",
+         .step = 0.001f,
+         .decimals = 4},
+        {.name = "bend",
+         .label = "bend",
+         .help = "How easily a cloth or a hair bends. More is limper.",
+         .step = 0.001f,
+         .decimals = 4},
+        {.name = "tear",
+         .label = "tears at",
+         .help = "The strain at which a cloth tears, 0.1 for a tenth over its length; 0: never."}};
+    return texts;
+}
+
+template <>
+std::span<const FieldText> field_texts<RopeView>() {
+    static constexpr FieldText texts[] = {
+        {.name = "strain",
+         .label = "Strain as colour",
+         .help = "Colours each rope by how far its segments are from their lengths."},
+        {.name = "particles", .label = "Particles", .help = "Draws the particles that ropes are made of."},
+        {.name = "sides",
+         .label = "sides",
+         .help = "How many sides ropes have in the picture. More look rounder and take longer to draw."}};
+    return texts;
+}
+
+template <>
+std::span<const FieldText> field_texts<rope::RopeShape>() {
+    static constexpr FieldText texts[] = {
+        {.name = "from", .label = "from", .help = "Its first particle."},
+        {.name = "to", .label = "to", .help = "Its last particle."},
+        {.name = "segments", .label = "segments", .help = "32 when left out."},
+        {.name = "length", .label = "length", .help = "The distance when left out."},
+        {.name = "radius", .label = "radius", .help = "Half its thickness; 0.02 when left out."},
+        {.name = "density", .label = "density", .help = "1 when left out."},
+        {.name = "pin_start", .label = "pin the start", .help = "Pins its first particle."},
+        {.name = "pin_end", .label = "pin the end", .help = "Pins its last particle."}};
+    return texts;
+}
+
+template <>
+std::span<const FieldText> field_texts<rope::ClothShape>() {
+    static constexpr FieldText texts[] = {
+        {.name = "corner", .label = "corner", .help = "The first particle of the first row."},
+        {.name = "along", .label = "along", .help = "From the corner to the other end of the first row."},
+        {.name = "down", .label = "down", .help = "From the corner to the last row."},
+        {.name = "columns", .label = "columns", .help = "Particles in a row; 24 when left out."},
+        {.name = "rows", .label = "rows", .help = "24 when left out."},
+        {.name = "radius", .label = "radius", .help = "Half its thickness; 0.01 when left out."},
+        {.name = "density", .label = "density", .help = "The material's when left out."},
+        {.name = "shear", .label = "shear", .help = "Compliance; the material's when left out."},
+        {.name = "bend", .label = "bend", .help = "Compliance; the material's when left out."},
+        {.name = "tear", .label = "tears at", .help = "The strain at which links tear; 0: never."},
+        {.name = "pins", .label = "pins", .help = "What of its first row is pinned"}};
+    return texts;
+}
+
+template <>
+std::span<const FieldText> field_texts<rope::HairShape>() {
+    static constexpr FieldText texts[] = {
+        {.name = "length", .label = "length", .help = "Of a strand; 0.5 when left out."},
+        {.name = "segments", .label = "segments", .help = "Of a strand; 16 when left out."},
+        {.name = "radius", .label = "radius", .help = "Half the thickness of a strand; 0.004 when left out."},
+        {.name = "density", .label = "density", .help = "0.05 when left out."},
+        {.name = "bend", .label = "bend", .help = "Compliance; 0.1 when left out."}};
+    return texts;
+}
+
+template <>
+std::span<const FieldText> field_texts<rope::HairPatch>() {
+    static constexpr FieldText texts[] = {
+        {.name = "centre", .label = "centre", .help = "The middle of the patch that it grows from."},
+        {.name = "direction",
+         .label = "direction",
+         .help = "Of growth: down, or outwards from a collider, when left out."},
+        {.name = "strands", .label = "strands", .help = "32 when left out."},
+        {.name = "spread", .label = "spread", .help = "The radius of the patch; 0.1 when left out."}};
+    return texts;
+}
+
+template <>
+std::span<const FieldText> field_texts<rope::Shape>() {
+    static constexpr FieldText texts[] = {
+        {.name = "centre", .label = "centre", .help = "The middle of a sphere or box."},
+        {.name = "radius",
+         .label = "radius",
+         .help = "How thick a sphere or capsule is, from its middle to its surface.",
+         .step = 0.002f,
+         .decimals = 3},
+        {.name = "a", .label = "one end", .help = "The middle of one of a capsule's round ends."},
+        {.name = "b", .label = "other end", .help = "The middle of its other round end."},
+        {.name = "point", .label = "point", .help = "A point on a plane."},
+        {.name = "normal",
+         .label = "normal",
+         .help = "The direction out of a plane: ropes stay on this side. Its length does not matter.",
+         .decimals = 3},
+        {.name = "half_extents",
+         .label = "half extents",
+         .help = "From the middle of a box to its faces, along its own axes: half its size.",
+         .step = 0.005f},
+        {.name = "rotation",
+         .label = "rotation",
+         .help = "Turns a box: [x, y, z, w], or degrees about X, Y and Z. In the panel: about its own axes.",
+         .step = 0.5f,
+         .decimals = 1}};
+    return texts;
+}
+
+template <>
+std::span<const FieldText> field_texts<rope::Settings>() {
+    static constexpr EnumRow solvers[] = {rope_solvers.row(rope::Solver::Direct),
+                                          rope_solvers.row(rope::Solver::Xpbd),
+                                          rope_solvers.row(rope::Solver::Relaxation)};
+    static constexpr FieldText texts[] = {
+        {.name = "substep",
+         .label = "substep",
+         .help = "The length of the equal steps into which the simulation is cut. Shorter ones follow fast "
+                 "motion better and cost more.",
+         .decimals = 5},
+        {.name = "iterations",
+         .label = "iterations",
+         .help =
+             "The maximum number of passes per substep. Direct ends as soon as it has converged; with the "
+             "others more passes stretch a rope less and cost more."},
+        {.name = "solver", .label = "solver", .help = "How lengths are kept", .choices = solvers},
+        {.name = "damping",
+         .label = "damping",
+         .help = "How fast motion dies away. Raise it where ropes swing for too long."},
+        {.name = "gravity",
+         .label = "gravity",
+         .help = "The acceleration due to gravity, along each axis; Y points up. On Earth it is 0, -9.81, 0.",
+         .step = 0.05f},
+        {.name = "gravity_scale", .label = "gravity scale", .help = "A factor on gravity."},
+        {.name = "external",
+         .label = "wind",
+         .help = "A steady acceleration of everything that moves, beside gravity.",
+         .step = 0.05f},
+        {.name = "compliance",
+         .label = "compliance",
+         .help = "How elastic ropes are: the fraction of its length that a rope stretches per newton. 0 does "
+                 "not stretch; relaxation ignores it.",
+         .step = 1e-5f,
+         .decimals = 5},
+        {.name = "friction",
+         .label = "friction",
+         .help = "Coulomb's coefficient between ropes and colliders. At 0 ropes slide off; more holds "
+                 "them."},
+        {.name = "longest_frame",
+         .label = "longest frame",
+         .help = "How much time a frame simulates at most; what is over is dropped, so that a slow frame "
+                 "does not make the next one slower.",
+         .step = 1.0f,
+         .decimals = 0,
+         .scale = 1000.0,
+         .unit = "ms"}};
+    return texts;
+}
+
+namespace {
+
+/// Compliance of the body's links of that kind.
+float compliance_of(const NamedWorld& world, const rope::Body& body, rope::Link::Kind kind) {
+    for (const rope::Link& link : world.state().links)
+        if (link.kind == kind && link.a >= body.first && link.a < body.first + body.count)
+            return link.compliance;
+    return 0.0f;
+}
+
+}  // namespace
+
+BodySettings settings_of(const NamedWorld& world, const rope::Body& body) {
+    using Kind = rope::Link::Kind;
+    BodySettings settings{.length = static_cast<float>(world.length(body)),
+                          .mass = world.world().mass(body),
+                          .radius = body.radius,
+                          .stretch = compliance_of(world, body, Kind::Stretch)};
+    if (body.kind != rope::Body::Kind::Rope) settings.bend = compliance_of(world, body, Kind::Bend);
+    if (body.kind != rope::Body::Kind::Cloth) return settings;
+    settings.shear = compliance_of(world, body, Kind::Shear);
+    settings.tear = body.tear;
+    return settings;
+}
+
+void set_body(NamedWorld& world, const std::string& name, const Arguments& given) {
+    using Kind = rope::Link::Kind;
+    const rope::Body& body = body_of(world, name);
+    const BodySettings now = settings_of(world, body);
+    for (const Field& field : fields<BodySettings>())
+        if (given.has(field.name) && field.optional && std::isnan(field.get(&now)[0]))
+            throw Refused("\"" + name + "\" is a " + body_kind_name(body.kind) + "; it has no " + field.name);
+    BodySettings wanted = now;
+    set_fields(given, wanted);
+    if (wanted.length != now.length) world.set_length(name, wanted.length);
+    if (wanted.mass != now.mass) world.set_mass(name, wanted.mass);
+    if (wanted.radius != now.radius) world.set_radius(name, wanted.radius);
+    if (wanted.stretch != now.stretch) world.set_compliance(name, Kind::Stretch, wanted.stretch);
+    if (wanted.shear != now.shear) world.set_compliance(name, Kind::Shear, *wanted.shear);
+    if (wanted.bend != now.bend) world.set_compliance(name, Kind::Bend, *wanted.bend);
+    if (wanted.tear != now.tear) world.set_tear(name, *wanted.tear);
+}
+
+}  // namespace tendril::app

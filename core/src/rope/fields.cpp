@@ -1,0 +1,144 @@
+// The field tables of the rope headers.
+#include "tendril/fields.hpp"
+
+#include "tendril/magnitude.hpp"
+#include "tendril/rope/body.hpp"
+#include "tendril/rope/collider.hpp"
+#include "tendril/rope/hair_roots.hpp"
+#include "tendril/rope/settings.hpp"
+
+namespace tendril {
+namespace {
+
+constexpr const char* solvers[] = {"relaxation", "xpbd", "direct"};
+constexpr const char* pins[] = {"none", "corners", "row"};
+
+constexpr FieldRange anywhere{-max_magnitude, max_magnitude}, any_size{0.0, max_magnitude};
+constexpr double most_particles = static_cast<double>(rope::max_particles);
+
+}  // namespace
+
+template <>
+std::span<const Field> fields<rope::Settings>() noexcept {
+    using namespace rope;
+    constexpr FieldRange acceleration{-max_acceleration, max_acceleration};
+    static constexpr Field rows[] = {
+        field<&Settings::substep>("substep", {min_substep, max_substep}, "s"),
+        field<&Settings::iterations>("iterations", {1, max_iterations}),
+        field<&Settings::solver>("solver", solvers),
+        field<&Settings::damping>("damping", {0.0, max_rate}, "1/s"),
+        field<&Settings::gravity>("gravity", acceleration, "m/s^2"),
+        field<&Settings::gravity_scale>("gravity_scale", {-max_scale, max_scale}),
+        field<&Settings::external>("external", acceleration, "m/s^2"),
+        field<&Settings::compliance>("compliance", {0.0, max_compliance}, "1/N"),
+        field<&Settings::friction>("friction", {0.0, max_friction}),
+        field<&Settings::longest_frame>("longest_frame", {min_longest_frame, max_longest_frame}, "s")};
+    return rows;
+}
+
+template <>
+std::span<const Field> fields<rope::RopeShape>() noexcept {
+    using rope::RopeShape;
+    static constexpr Field rows[] = {
+        field<&RopeShape::from>("from", anywhere, "m"),
+        field<&RopeShape::to>("to", anywhere, "m"),
+        field<&RopeShape::segments>("segments", {1, most_particles - 1}),
+        field<&RopeShape::length>("length", any_size, "m"),
+        field<&RopeShape::radius>("radius", any_size, "m"),
+        field<&RopeShape::density>("density", {rope::min_density, max_magnitude}, "kg/m"),
+        field<&RopeShape::pin_start>("pin_start"),
+        field<&RopeShape::pin_end>("pin_end")};
+    return rows;
+}
+
+template <>
+std::span<const Field> fields<rope::ClothShape>() noexcept {
+    using rope::ClothShape;
+    static constexpr Field rows[] = {
+        field<&ClothShape::corner>("corner", anywhere, "m"),
+        field<&ClothShape::along>("along", anywhere, "m"),
+        field<&ClothShape::down>("down", anywhere, "m"),
+        field<&ClothShape::columns>("columns", {2, most_particles}),
+        field<&ClothShape::rows>("rows", {2, most_particles}),
+        field<&ClothShape::radius>("radius", any_size, "m"),
+        field<&ClothShape::density>("density", {rope::min_density, max_magnitude}, "kg/m^2"),
+        field<&ClothShape::shear>("shear", any_size, "m/N"),
+        field<&ClothShape::bend>("bend", any_size, "m/N"),
+        field<&ClothShape::tear>("tear", any_size),
+        field<&ClothShape::pins>("pins", pins)};
+    return rows;
+}
+
+template <>
+std::span<const Field> fields<rope::HairShape>() noexcept {
+    using rope::HairShape;
+    static constexpr Field rows[] = {
+        field<&HairShape::length>("length", {rope::min_hair_length, max_magnitude}, "m"),
+        field<&HairShape::segments>("segments", {2, most_particles - 1}),
+        field<&HairShape::radius>("radius", any_size, "m"),
+        field<&HairShape::density>("density", {rope::min_density, max_magnitude}, "kg/m"),
+        field<&HairShape::bend>("bend", any_size, "m/N")};
+    return rows;
+}
+
+template <>
+std::span<const Field> fields<rope::HairPatch>() noexcept {
+    using rope::HairPatch;
+    static constexpr Field rows[] = {field<&HairPatch::centre>("centre", anywhere, "m"),
+                                     field<&HairPatch::direction>("direction", anywhere),
+                                     field<&HairPatch::strands>("strands", {1, most_particles}),
+                                     field<&HairPatch::radius>("spread", any_size, "m")};
+    return rows;
+}
+
+template <>
+std::span<const Field> fields<rope::Sphere>() noexcept {
+    using rope::Sphere;
+    static constexpr Field rows[] = {field<&Sphere::centre>("centre", anywhere, "m"),
+                                     field<&Sphere::radius>("radius", any_size, "m")};
+    return rows;
+}
+
+template <>
+std::span<const Field> fields<rope::Capsule>() noexcept {
+    using rope::Capsule;
+    static constexpr Field rows[] = {field<&Capsule::a>("a", anywhere, "m"),
+                                     field<&Capsule::b>("b", anywhere, "m"),
+                                     field<&Capsule::radius>("radius", any_size, "m")};
+    return rows;
+}
+
+template <>
+std::span<const Field> fields<rope::Plane>() noexcept {
+    using rope::Plane;
+    static constexpr Field rows[] = {field<&Plane::point>("point", anywhere, "m"),
+                                     field<&Plane::normal>("normal", anywhere)};
+    return rows;
+}
+
+template <>
+std::span<const Field> fields<rope::Box>() noexcept {
+    using rope::Box;
+    static constexpr Field rows[] = {field<&Box::centre>("centre", anywhere, "m"),
+                                     field<&Box::half_extents>("half_extents", any_size, "m"),
+                                     field<&Box::rotation>("rotation", anywhere)};
+    return rows;
+}
+
+namespace rope {
+
+std::span<const Field> shape_fields(const Shape& shape) noexcept {
+    return std::visit([]<class Kind>(const Kind&) { return fields<Kind>(); }, shape);
+}
+
+const char* name(Solver solver) noexcept {
+    const auto at = static_cast<std::size_t>(solver);
+    return at < std::size(solvers) ? solvers[at] : "";
+}
+
+Result check(const char* operation, const Settings& settings) noexcept {
+    return check_fields(operation, settings);
+}
+
+}  // namespace rope
+}  // namespace tendril
