@@ -191,8 +191,8 @@ void App::take_file(const std::string& path, Emit& emit) {
     for (const auto& each : labs_.all()) {
         Emit unused;
         if (!each->take_file(path, unused)) continue;
-        return refuse(path + " is no scene. The lab " + each->title() +
-                      " takes it: open that, and drop it again");
+        return refuse(path + " is not a scene. The lab " + each->title() +
+                      " reads it: open that lab and drop it again");
     }
     emit("scene.open", {{"path", path}});
 }

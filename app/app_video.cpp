@@ -28,8 +28,7 @@ void App::take_picture(const PictureRequest& wanted) {
     const bool copies = wanted.path.empty();
     const std::string command = copies ? "view.copy_picture" : "view.picture";
     if (lab().canvas_share(workspace_) > 0.0f)
-        throw Refused(command +
-                      ": this lab's picture is more than a view of a scene; --screenshot writes it");
+        throw Refused(command + ": this lab's picture is more than a view of a scene; use --screenshot");
     try {
         const Image image =
             picture_of(workspace_, lab(), renderer_, picture_view(wanted.size), wanted.transparent);
@@ -64,7 +63,7 @@ void App::take_pictures() {
     if (const auto wanted = std::exchange(ui.picture, std::nullopt)) take_picture(*wanted);
     if (const auto wanted = std::exchange(ui.video, std::nullopt)) begin_video(*wanted);
     if (!std::exchange(ui.ends_filming, false) || !video_) return;
-    workspace_.toast("Cancelled: " + ui.filming->name + " is not written");
+    workspace_.toast("Cancelled: " + ui.filming->name + " was not written");
     drop_video();
 }
 

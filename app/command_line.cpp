@@ -98,20 +98,20 @@ void SessionLine::add_to(CLI::App& line) {
     line.add_flag("--headless", options.headless, "Without a window or a display");
     line.add_option_function<std::string>(
             "--backend", [this](const std::string& name) { options.backend = backends.at(name); },
-            "What draws: a window, or one of the two that need no display")
+            "Drawing backend: a window, or one of the two that need no display")
         ->check(CLI::IsMember({"glfw", "osmesa", "egl"}))
         ->option_text("glfw|osmesa|egl");
     line.add_option("--script", options.script, "Play a script or a recording")->option_text("FILE");
-    line.add_option("--frames", options.frames, "Run that many ticks of 1/60 s more, then end")
+    line.add_option("--frames", options.frames, "Then run this many ticks of 1/60 s and exit")
         ->check(CLI::Range(0, 1'000'000))
         ->option_text("N");
-    line.add_option("--screenshot", options.screenshot, "Write the last picture")->option_text("PNG");
-    line.add_option("--state", options.state, "Write the last state")->option_text("JSON");
-    line.add_option("--record", options.record, "Write down what is done, as a script")->option_text("FILE");
-    line.add_flag("--no-config", no_config, "Neither read nor write settings and kept bone maps");
+    line.add_option("--screenshot", options.screenshot, "Write the final picture")->option_text("PNG");
+    line.add_option("--state", options.state, "Write the final state")->option_text("JSON");
+    line.add_option("--record", options.record, "Record what is done as a script")->option_text("FILE");
+    line.add_flag("--no-config", no_config, "Do not read or write settings or kept bone maps");
     line.add_flag("--list-labs", labs, "Print the labs");
     line.add_flag("--list-commands", commands, "Print every command with its arguments");
-    line.add_flag("--list-shortcuts", shortcuts, "Print keys and mouse, as the README has them");
+    line.add_flag("--list-shortcuts", shortcuts, "Print the keys and mouse actions, as in the README");
     line.set_version_flag("--version", std::string("tendril ") + tendril::version_string);
 }
 
@@ -119,7 +119,7 @@ void SessionLine::check() {
     if (!size.empty()) options.size = read_size(size);
     if (options.backend && *options.backend != Backend::Glfw) options.headless = true;
     if (options.headless && options.backend == Backend::Glfw) {
-        throw CLI::ValidationError("--backend glfw opens a window, --headless wants none");
+        throw CLI::ValidationError("--backend glfw opens a window, --headless forbids one");
     }
     options.config = !no_config;
 }
@@ -147,12 +147,11 @@ struct SolveLine {
 CLI::App* SolveLine::add_to(CLI::App& line) {
     CLI::App* solve = line.add_subcommand("solve", "Solve the cases of a file and print the answers");
     solve->add_option("CASES", options.cases, "A list of cases as JSON; see below")->required();
-    solve->add_option("--solver", solver, "Which one, or all; fabrik if left out")->option_text("NAME|all");
-    solve->add_option("--max-iterations", options.max_iterations, "1 to 1000000; 100 if left out")
+    solve->add_option("--solver", solver, "A solver, or all; default: fabrik")->option_text("NAME|all");
+    solve->add_option("--max-iterations", options.max_iterations, "1 to 1000000; default: 100")
         ->check(CLI::Range(1, 1'000'000))
         ->option_text("N");
-    solve->add_option("--tolerance", options.tolerance, "1e-3 of the reach if left out")
-        ->option_text("METRES");
+    solve->add_option("--tolerance", options.tolerance, "Default: 1e-3 of the reach")->option_text("METRES");
     const auto csv_flag = solve->add_flag("--csv", csv, "Print rows of comma-separated values");
     solve->add_flag("--json", json, "Print one JSON array, with the positions of the joints")
         ->excludes(csv_flag);
@@ -184,7 +183,7 @@ CLI::App* add_signal(CLI::App& line, SignalOptions& options) {
 }
 
 CLI::App* add_lint(CLI::App& line, LintOptions& options) {
-    CLI::App* lint = line.add_subcommand("lint", "Say what is wrong with a character's clips");
+    CLI::App* lint = line.add_subcommand("lint", "Report what is wrong with a character's clips");
     lint->add_option("FILE", options.file, "A character: .gltf, .glb, .vrm, .fbx or .bvh")->required();
     lint->add_flag("--json", options.json, "Print one JSON object");
     lint->footer(lint_help);
@@ -194,11 +193,11 @@ CLI::App* add_lint(CLI::App& line, LintOptions& options) {
 CLI::App* add_bake(CLI::App& line, BakeOptions& options) {
     CLI::App* bake = line.add_subcommand("bake", "Write a character's clip to a file, feet on the ground");
     bake->add_option("FILE", options.file, "A character: .gltf, .glb, .vrm, .fbx or .bvh")->required();
-    bake->add_option("--clip", options.clip, "Which one; the first if left out")->option_text("NAME");
-    bake->add_option("--ground", options.ground, "What its feet stand on; none, and uncorrected, if left out")
+    bake->add_option("--clip", options.clip, "A clip; default: the first")->option_text("NAME");
+    bake->add_option("--ground", options.ground, "What its feet stand on; default: none, feet uncorrected")
         ->check(CLI::IsMember(bake_grounds()))
         ->option_text("KIND");
-    bake->add_option("--fps", options.fps, "Frames a second, 1 to 1000; 60 if left out")
+    bake->add_option("--fps", options.fps, "Frames per second, 1 to 1000; default: 60")
         ->check(CLI::Range(1.0, 1000.0))
         ->option_text("N");
     bake->add_option("--out", options.out, "A .gltf, .glb or .bvh file; see below")->option_text("FILE");
@@ -211,7 +210,8 @@ void refuse_options_before(const CLI::App& line, const CLI::App& subcommand) {
     for (const CLI::Option* option : line.get_options()) {
         if (option->count() > 0) {
             throw CLI::ValidationError(subcommand.get_name() + " does not take " + option->get_name() +
-                                       "; a scene file of that name is opened as ./" + subcommand.get_name());
+                                       "; to open a scene file of that name, write ./" +
+                                       subcommand.get_name());
         }
     }
 }
@@ -224,7 +224,7 @@ class BatchLine {
           solve_(solve_options_.add_to(line)),
           signal_(add_signal(line, signal_options_)),
           paper_(line.add_subcommand("paper", "Measure the solvers and print a table")),
-          code_(line.add_subcommand("code", "Print a scene as a C++ program against the library")),
+          code_(line.add_subcommand("code", "Print a scene as a C++ program that uses the library")),
           lint_(add_lint(line, lint_options_)),
           bake_(add_bake(line, bake_options_)) {
         paper_->add_flag("--csv", paper_csv_, "Print rows of comma-separated values");

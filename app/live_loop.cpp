@@ -168,7 +168,7 @@ void LiveLoop::keep_house() {
         std::filesystem::create_directories(config_folder());
         write_file_atomically(settings_file(), save_settings(kept_).dump(2) + "\n");
     } catch (const std::exception& error) {
-        workspace.toast(std::string("Settings are not kept: ") + error.what(), ToastKind::Refusal);
+        workspace.toast(std::string("Settings could not be saved: ") + error.what(), ToastKind::Refusal);
     }
 }
 

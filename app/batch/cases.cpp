@@ -70,7 +70,7 @@ std::vector<glm::vec3> directions(const std::vector<glm::vec3>& joints) {
 std::vector<ik::Limit> read_limits(const Json& json, std::size_t bones, const std::string& where) {
     std::vector<ik::Limit> limits;
     if (json.is_array() && json.empty()) return limits;
-    check_list(json, bones, "limits, one for each of lengths", where);
+    check_list(json, bones, "limits, one for each length", where);
     limits.reserve(json.size());
     for (std::size_t i = 0; i < json.size(); ++i)
         limits.push_back(json[i].is_null() ? ik::Limit{} : limit_from_json(json[i], element(where, i)));

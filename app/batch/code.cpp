@@ -11,7 +11,8 @@ void print_code(const std::string& scene) {
     Workspace workspace = make_blank_workspace(labs);
     load_scene_file(workspace, scene);
     const std::string code = labs.find(workspace.lab)->code(workspace);
-    if (code.empty()) throw std::runtime_error(scene + ": the lab " + workspace.lab + " has no code to give");
+    if (code.empty())
+        throw std::runtime_error(scene + ": the lab " + workspace.lab + " has no code to print");
     Progress progress;
     Output out(progress);
     out.write(code);

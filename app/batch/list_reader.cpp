@@ -54,7 +54,7 @@ bool ListReader::next(Json& value) {
     if (first_ && at_ < text_.size() && text_[at_] == ']') return end_of_list(), false;
 
     const std::size_t end = skip_value(text_, at_);
-    if (end >= text_.size()) fail(text_.size(), "the text ends within the list");
+    if (end >= text_.size()) fail(text_.size(), "the text ends inside the list");
     if (text_[end] == '}') fail(end, "unexpected '}'");
     if (end == at_) fail(at_, "expected a value");
     start_ = at_;

@@ -141,29 +141,29 @@ void run_bake(const BakeOptions& options) {
 }
 
 const char* const lint_help =
-    R"(FILE is a .gltf, .glb, .vrm, .fbx or .bvh file. All of its clips are judged:
-skating, floating and sinking feet, knees that pop, signs of rotation keys that
-flip, joints that jump or are far beyond what a human's do, scale and axis faults.
-Printed is a line a finding, with its frame, time, joint and amount; with --json
+    R"(FILE is a .gltf, .glb, .vrm, .fbx or .bvh file. All of its clips are checked for
+skating, floating and sinking feet, knees that pop, rotation keys that go the long
+way round, joints that jump or bend far beyond human range, scale and axis faults.
+Prints one line per finding, with its frame, time, joint and amount; with --json
 one object:
   {"file", "findings": 2, "clips": [{"name", "duration", "frame_rate", "frames",
    "floor", "findings": [{"kind", "frame", "first_frame", "last_frame", "time",
    "joint", "amount", "unit", "text", "cure"}]}]}
-Frames are counted from 0 at the rate that the clip's keys have; the floor is
-null where no foot stands. Feet and knees need a skeleton with legs.
+Frames are counted from 0 at the rate of the clip's keys; the floor is null if no
+foot ever stands. Feet and knees need a skeleton with legs.
 Exit code 0: nothing was found; 1: something was; 2: the file cannot be read.
 To open a scene file that is named lint, write ./lint.)";
 
 const char* const bake_help =
-    R"(FILE is a .gltf, .glb, .vrm, .fbx or .bvh file. One of its clips, the first if
-left out, is written to --out, or to FILE_baked beside the file: as glTF, GLB or
-BVH by the name's ending. glTF from a glTF file keeps nodes, skins, materials,
-meshes and pictures as they came. With a ground the feet are put on it first: flat,
-a slope of 20 degrees or stairs of 15 cm height and 30 cm depth, which rise along
-+Z, or terrain, low hills. What was written is read back: printed are the joint that is the furthest
-from where it was, in mm, and how far a standing foot slides at most, before and
-after. A BVH's frame 0 is time 0. An existing file is replaced as a whole, or stays as it
-was (exit code 2).
+    R"(FILE is a .gltf, .glb, .vrm, .fbx or .bvh file. One of its clips, by
+default the first, is written to --out, or to FILE_baked beside the file: as glTF,
+GLB or BVH, depending on the name's ending. glTF from a glTF file keeps its nodes,
+skins, materials, meshes and pictures unchanged. With a ground, the feet are put on
+it first: flat, a slope of 20 degrees or stairs 15 cm high and 30 cm deep, which
+rise along +Z, or terrain, low hills. The file is then read back, and two errors are
+printed: the joint that is furthest from where it was, in mm, and how far a standing
+foot slides at most, before and after. A BVH's frame 0 is time 0. An existing file is
+replaced as a whole, or left as it was (exit code 2).
 To open a scene file that is named bake, write ./bake.)";
 
 }  // namespace tendril::app

@@ -63,10 +63,11 @@ void print_paper(bool csv, const std::atomic<bool>& ending) {
 
 const char* const paper_help =
     "Repeats the comparison of Aristidou and Lasenby, \"FABRIK: A fast, iterative solver for the Inverse\n"
-    "Kinematics problem\" (2011), here and now: ten joints that turn freely, targets at 0.05 to 0.95 of the\n"
+    "Kinematics problem\" (2011), on this machine: ten joints that turn freely, targets at 0.05 to 0.95 of "
+    "the\n"
     "reach and at 1.05 to 2 times the reach, the same random poses to start from for every solver. Solved\n"
-    "means within tolerance, or, out of reach, straight; all solvers here see that without iterating,\n"
-    "where those of the paper go on. Times are those of the fastest of three rounds. Ctrl+C keeps the rows "
+    "means within tolerance, or, out of reach, straight; all solvers here detect that without iterating,\n"
+    "where those of the paper go on. Times are from the fastest of three rounds. Ctrl+C keeps the rows "
     "done so far.";
 
 }  // namespace tendril::app

@@ -138,20 +138,20 @@ std::string signal_help() {
            ".\n"
            R"(FILTER is a filter, or a list of up to 64 that are applied in order:
   {"kind": "spring", "strength": 4, "critical_damping": 0.5}
-What is left out has its default; keys that the kind does not have are ignored.
-SAMPLES is a CSV file, a row a sample: dt,input. dt is in seconds, the time since
-the row before; a row whose dt is not over 0 changes nothing. A first row may name
-the columns: dt or time, which must not fall, and input. Printed are rows of
+Omitted keys take their defaults; keys that the kind does not have are ignored.
+SAMPLES is a CSV file, one row per sample: dt,input. dt is the time in seconds since
+the previous row; a row whose dt is not over 0 changes nothing. A first row may name
+the columns: dt or time, which must not decrease, and input. Prints rows of
 time,input,output.
 --rates prints one output for each frame rate (15, 30, 60 and 144 Hz, and 60 Hz
 with uneven frames), and on stderr the maximum difference between them.
---fit finds for every kind of filter the parameters with which it answers the
-samples most nearly as RESPONSE has it, and prints kind,residual,filter, the best
-first. RESPONSE has a row for each sample; its column output, response or value
-counts, or else its last. The residual is the root mean square of what is left, as
-a part of the response's range. The search of FILTER's own kinds begins there too.
-A hole, a text, or a number out of its range is said with its file, row and column,
-and nothing is printed (exit code 2).
+--fit finds for every kind of filter the parameters whose output comes closest to
+RESPONSE, and prints kind,residual,filter, the best first. RESPONSE has one row per
+sample; its column output, response or value is used, or else its last. The residual
+is the root mean square error as a fraction of the response's range. For the kinds in
+FILTER, the search also starts from the parameters there.
+A missing value, text, or a number out of range is reported with its file, row and
+column, and nothing is printed (exit code 2).
 To open a scene file that is named signal, write ./signal.)";
 }
 

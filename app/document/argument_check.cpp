@@ -72,7 +72,7 @@ std::string type_text(ArgumentType type) {
         case ArgumentType::Boolean:
             return "true or false";
         case ArgumentType::Text:
-            return "a text";
+            return "text";
         case ArgumentType::Point:
             return "a point [x, y, z]";
         case ArgumentType::NumberOrPoint:
@@ -82,7 +82,7 @@ std::string type_text(ArgumentType type) {
         case ArgumentType::List:
             return "a list";
         case ArgumentType::ListOrText:
-            return "a list or a text";
+            return "a list or text";
         case ArgumentType::Any:
             return "a value";
     }

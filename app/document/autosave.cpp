@@ -148,7 +148,7 @@ std::vector<fs::path> Autosave::left_behind(const fs::path& folder) {
 }
 
 std::string Autosave::title(const fs::path& file) {
-    std::string name = "A scene without a name";
+    std::string name = "Unnamed scene";
     try {
         const Json scene = read_json_file(file);
         if (scene.is_object() && scene.contains("path"))

@@ -117,7 +117,7 @@ Expect read_expectation(const Json& line) {
                                                                        {"above", Measure::Above}}};
     Expect expect;
     expect.path = json_text(json_member(line, "expect", ""), "expect");
-    if (expect.path.empty()) fail("expect: expected a text, found \"\"");
+    if (expect.path.empty()) fail("expect: expected text, found \"\"");
     int given = 0;
     for (const auto& [key, measure] : measures) {
         if (!line.contains(key)) continue;

@@ -141,7 +141,7 @@ std::string json_summary(const Json& json) {
         const char* what = json.is_array() ? "a list of " : "an object of ";
         return what + std::to_string(json.size()) + (json.is_array() ? " values" : " members");
     }
-    if (json.is_string() && json.get_ref<const std::string&>().size() > longest) return "a long text";
+    if (json.is_string() && json.get_ref<const std::string&>().size() > longest) return "a long string";
     const std::string text = dump(json);
     if (text.size() <= longest) return text;
     return json.is_array() ? "a list" : "an object";
@@ -234,7 +234,7 @@ bool json_bool(const Json& value, const std::string& where) {
 }
 
 std::string json_text(const Json& value, const std::string& where) {
-    if (!value.is_string()) expected("a text", value, where);
+    if (!value.is_string()) expected("text", value, where);
     return value.get<std::string>();
 }
 

@@ -31,7 +31,8 @@ JsonPlace JsonPlace::element(std::size_t index) const {
 std::size_t JsonPlace::list_size(const char* what, std::size_t most) const {
     if (!json_->is_array()) fail("expected a list, found " + json_summary(*json_));
     if (json_->size() > most) {
-        fail("has " + std::to_string(json_->size()) + " " + what + "; the most is " + std::to_string(most));
+        fail("has " + std::to_string(json_->size()) + " " + what + "; the maximum is " +
+             std::to_string(most));
     }
     return json_->size();
 }

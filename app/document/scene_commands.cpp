@@ -36,7 +36,7 @@ void add_file_commands(CommandTable& table) {
                .arguments = {{.name = "path",
                               .type = ArgumentType::Text,
                               .required = false,
-                              .help = "file to save to; the scene's own when left out"}},
+                              .help = "file to save to; default: the scene's own"}},
                .help = "Saves the scene; a failure leaves the old file as it was",
                .effect = Effect::Look,
                .apply = [](Workspace& w, const Arguments& a) {
@@ -87,7 +87,7 @@ void add_recovery_commands(CommandTable& table) {
                    w.toast("Recovered. It is not saved yet.");
                }});
     table.add({.name = "scene.discard",
-               .title = "Delete what a crash left",
+               .title = "Delete unsaved work",
                .arguments = {path},
                .help = "Deletes unsaved work that a crash left",
                .effect = Effect::Look,
@@ -146,7 +146,7 @@ void add_picture_command(CommandTable& table) {
         return Argument{.name = name,
                         .type = ArgumentType::Integer,
                         .required = false,
-                        .help = "pixels; the view's when left out",
+                        .help = "pixels; default: the view's",
                         .low = min_picture,
                         .high = max_picture};
     };
@@ -155,7 +155,7 @@ void add_picture_command(CommandTable& table) {
                .arguments = {{.name = "path",
                               .type = ArgumentType::Text,
                               .required = false,
-                              .help = "a PNG file; in a window a new one beside the scene when left out"},
+                              .help = "a PNG file; default, in a window: a new one beside the scene"},
                              pixels("width"),
                              pixels("height"),
                              {.name = "transparent",
@@ -194,7 +194,7 @@ void add_quit_command(CommandTable& table) {
                .arguments = {{.name = "unsaved",
                               .type = ArgumentType::Text,
                               .required = false,
-                              .help = "what becomes of unsaved work; discarded when left out",
+                              .help = "what to do with unsaved work; default: discard",
                               .choices = {"ask", "save", "discard"}}},
                .help = "Quits the program",
                .effect = Effect::Look,

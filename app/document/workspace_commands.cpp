@@ -62,7 +62,7 @@ void seek(Workspace& w, const Arguments& given) {
 
 void replay(Workspace& w) {
     w.pass_change();
-    if (w.rewind.empty()) throw Refused("there is no earlier moment to show again");
+    if (w.rewind.empty()) throw Refused("there is no earlier moment to replay");
     const std::uint64_t newest = std::max(w.rewind.newest(), w.moment);
     w.go_to_moment(w.moment == newest ? newest - w.rewind.oldest() : newest - w.moment);
     w.ui.incident.reset();
@@ -114,7 +114,7 @@ void add_time_commands(CommandTable& table) {
         if (playing) w.ui.incident.reset();
     };
     add("time.play", "Run the simulation", "Runs the simulation", [run](Workspace& w) { run(w, true); });
-    add("time.pause", "Pause the simulation", "Pauses the simulation, or what is shown again",
+    add("time.pause", "Pause the simulation", "Pauses the simulation or the replay",
         [run](Workspace& w) { run(w, false); });
     add("time.toggle", "Run or pause the simulation", "Runs or pauses the simulation",
         [run](Workspace& w) { run(w, !w.clock.playing && !w.clock.replaying); });
@@ -137,33 +137,32 @@ void add_time_commands(CommandTable& table) {
          .title = "Go back in time",
          .arguments = {{.name = "ticks_back",
                         .type = ArgumentType::Integer,
-                        .help = "ticks of 1/60 s before the last one",
+                        .help = "ticks of 1/60 s before the latest one",
                         .low = 0,
                         .high = Rewind::max_ticks}},
          .help =
-             "Pauses and goes back to an earlier moment, from which time continues. Going back over a change "
+             "Pauses and goes back to an earlier moment, from which time continues. Going back past a change "
              "can be undone",
          .effect = Effect::Replace,
          .apply = seek});
-    table.add(
-        {.name = "time.replay",
-         .title = "Replay the last ten seconds",
-         .arguments = {},
-         .help = "Shows the last ten seconds again, from the moment that is shown or, at the last one, from "
-                 "the first",
-         .effect = Effect::Replace,
-         .apply = [](Workspace& w, const Arguments&) { replay(w); }});
+    table.add({.name = "time.replay",
+               .title = "Replay the last ten seconds",
+               .arguments = {},
+               .help =
+                   "Replays the last ten seconds, from the moment shown or, if that is the latest, from the "
+                   "start",
+               .effect = Effect::Replace,
+               .apply = [](Workspace& w, const Arguments&) { replay(w); }});
     table.add({.name = "time.incident",
                .title = "Show when a joint jumped",
                .arguments = {{.name = "number",
                               .type = ArgumentType::Integer,
                               .required = false,
-                              .help = "which of the state's events, 0 is the oldest; none when left out",
+                              .help = "which of the state's events, 0 is the oldest; default: none",
                               .low = 0,
                               .high = Rewind::max_incidents - 1,
                               .known = known_incidents}},
-               .help = "Goes to a moment at which a joint jumped, and shows what was before it and what came "
-                       "of it",
+               .help = "Goes to a moment when a joint jumped, and shows the poses before and after it",
                .effect = Effect::Replace,
                .apply = show_incident});
 }
@@ -178,7 +177,7 @@ Command either(const char* name, const char* title, const char* argument, std::v
             .arguments = {{.name = argument,
                            .type = ArgumentType::Text,
                            .required = false,
-                           .help = "the other one when left out",
+                           .help = "default: the other one",
                            .choices = std::move(choices),
                            .present =
                                [first, second, setting](const Workspace& w) {
@@ -209,7 +208,7 @@ void add_window_commands(CommandTable& table) {
                    .arguments = {{.name = "open",
                                   .type = ArgumentType::Boolean,
                                   .required = false,
-                                  .help = "toggles when left out"}},
+                                  .help = "toggles if omitted"}},
                    .help = help,
                    .effect = Effect::Look,
                    .apply = [member](Workspace& w, const Arguments& a) {
@@ -263,7 +262,9 @@ void add_window_commands(CommandTable& table) {
                               .type = ArgumentType::Text,
                               .help = "lab and title",
                               .known = known_sections},
-                             {.name = "folded", .type = ArgumentType::Boolean, .help = "to its title"}},
+                             {.name = "folded",
+                              .type = ArgumentType::Boolean,
+                              .help = "true: only the title shows"}},
                .help = "Folds a section of a panel, or unfolds it",
                .effect = Effect::Look,
                .apply = [](Workspace& w, const Arguments& a) {
@@ -292,7 +293,7 @@ void add_workspace_commands(CommandTable& table) {
                .title = "Open a lab",
                .arguments = {{.name = "name",
                               .type = ArgumentType::Text,
-                              .help = "as --list-labs has it",
+                              .help = "a name that --list-labs prints",
                               .known =
                                   [](const Workspace& w) {
                                       std::vector<std::string> names;

@@ -178,9 +178,10 @@ void ChildProcess::write(std::string_view bytes, double seconds) {
             struct pollfd wanted {};
             wanted.fd = input_;
             wanted.events = POLLOUT;
-            if (::poll(&wanted, 1, static_cast<int>(1000.0 * seconds)) == 0) fail("it takes no more data");
+            if (::poll(&wanted, 1, static_cast<int>(1000.0 * seconds)) == 0)
+                fail("it stopped reading its input");
         } else if (errno != EINTR) {
-            fail("it ended too soon");
+            fail("it exited too early");
         }
     }
 }
@@ -194,7 +195,7 @@ void ChildProcess::finish(double seconds) {
     using Time = std::chrono::steady_clock;
     const auto end = Time::now() + std::chrono::duration<double>(seconds);
     while (!ended_after_input()) {
-        if (Time::now() >= end) fail("it does not end");
+        if (Time::now() >= end) fail("it did not exit");
         std::this_thread::sleep_for(look_again);
     }
     if (WIFSIGNALED(status_)) fail("signal " + std::to_string(WTERMSIG(status_)) + " ended it");

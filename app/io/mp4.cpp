@@ -64,8 +64,8 @@ Mp4File::Mp4File(const std::filesystem::path& path, const VideoFormat& format)
     : file_(path), format_(format), ffmpeg_(command(format, file_.beside())) {}
 
 void Mp4File::add(const Image& frame) {
-    if (frame.size != format_.size) throw std::runtime_error("a frame has another size than the video");
-    if (frames_ == format_.frames) throw std::runtime_error("there is a frame too many");
+    if (frame.size != format_.size) throw std::runtime_error("a frame differs in size from the video");
+    if (frames_ == format_.frames) throw std::runtime_error("there is one frame too many");
     ffmpeg_.write({reinterpret_cast<const char*>(frame.rgba.data()), frame.rgba.size()});
     ++frames_;
 }

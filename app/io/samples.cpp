@@ -140,13 +140,13 @@ struct Columns {
 Columns named_columns(const Table& table, const Fields& names) {
     const auto dt = column_named(names, {"dt"}), time = column_named(names, {"time"});
     const auto input = column_named(names, {"input"});
-    if (!input || !(dt || time)) table.fail(" names no columns dt and input");
+    if (!input || !(dt || time)) table.fail(" does not name columns dt and input");
     return {.time = dt ? *dt : *time, .input = *input, .width = names.size(), .absolute = !dt};
 }
 
 void check_order(const Table& table, const Columns& columns, double time, double before) {
     if (time < before)
-        table.fail(columns.time, "time", "at least " + decimal(before) + ", the time of the row before",
+        table.fail(columns.time, "time", "at least " + decimal(before) + ", the time of the previous row",
                    decimal(time));
     if (time - before > most)
         table.fail(columns.time, "time", "at most 1e9 s after " + decimal(before), decimal(time));
@@ -178,7 +178,7 @@ TimedSamples parse_timed_samples(std::string_view text, const std::string& name)
     const std::size_t width = columns.width;
     TimedSamples rows;
     for (; more; more = table.next(fields)) {
-        table.check_width(fields, width, width == 2 ? ": dt,input" : ", as the row of names has");
+        table.check_width(fields, width, width == 2 ? ": dt,input" : ", as in the row of names");
         const double time = table.number(fields, columns.time, columns.absolute ? "time" : "dt");
         const double input = table.number(fields, columns.input, "input");
         if (columns.absolute) {
@@ -186,7 +186,7 @@ TimedSamples parse_timed_samples(std::string_view text, const std::string& name)
             rows.times.push_back(time);
         }
         rows.samples.push_back({columns.absolute ? 0.0 : time, input});
-        if (rows.samples.size() > max_samples) table.fail(" is one too many: the most is 1000000 samples");
+        if (rows.samples.size() > max_samples) table.fail(" is one too many: the maximum is 1000000 samples");
     }
     if (rows.samples.empty()) table.fail_whole("has no samples");
     if (columns.absolute)
@@ -223,7 +223,7 @@ std::vector<double> parse_response(std::string_view text, const std::string& nam
     }
     std::vector<double> response;
     for (; more; more = table.next(fields)) {
-        table.check_width(fields, width, ", as the first row");
+        table.check_width(fields, width, ", as in the first row");
         response.push_back(table.number(fields, column, title));
     }
     if (response.size() != count) {

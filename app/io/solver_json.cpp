@@ -64,7 +64,7 @@ glm::vec3 read_axis(const Json& json, const std::string& where) {
     const double size =
         std::hypot(static_cast<double>(axis.x), static_cast<double>(axis.y), static_cast<double>(axis.z));
     if (size > 1e-6) return axis;
-    throw std::runtime_error(where + ": expected an axis with a length, found " + json_summary(json));
+    throw std::runtime_error(where + ": expected a non-zero axis, found " + json_summary(json));
 }
 
 void check_order(float low, float high, const char* low_name, const char* high_name,

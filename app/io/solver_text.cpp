@@ -12,7 +12,7 @@ const char* solver_title(ik::Method method) {
 std::string ran_text(ik::Method method, const ik::Report& report, bool within_limits) {
     std::string text = within_limits && method == ik::Method::Fabrik ? "FABRIK" : solver_title(method);
     const bool closed = report.closed_form && report.iterations == 0 && method != ik::Method::TwoBone;
-    if (closed) return text + ", answered in closed form";
+    if (closed) return text + ", solved in closed form";
     if (report.least_squares_steps > 0) text += " + least squares";
     if (report.restarts > 0) {
         text += ", " + std::to_string(report.restarts) + (report.restarts == 1 ? " restart" : " restarts");

@@ -15,7 +15,7 @@ constexpr std::size_t max_cards = 20, max_steps = 9, max_lines = 200;
 
 std::string some_text(const JsonPlace& place) {
     std::string text = place.text();
-    if (text.empty()) place.fail("expected a text, found \"\"");
+    if (text.empty()) place.fail("expected text, found \"\"");
     return text;
 }
 
@@ -136,11 +136,11 @@ void add_card_commands(CommandTable& table) {
                .arguments = {{.name = "open",
                               .type = ArgumentType::Boolean,
                               .required = false,
-                              .help = "true restarts the card; toggles when left out, but for a number"},
+                              .help = "true restarts the card; toggles if omitted, unless a number is given"},
                              {.name = "number",
                               .type = ArgumentType::Integer,
                               .required = false,
-                              .help = "card number, from 1; the last one shown when left out"}},
+                              .help = "card number, from 1; default: the last one shown"}},
                .help = "Shows one of this lab's cards of things to try, or puts it away for good",
                .effect = Effect::Look,
                .apply = [](Workspace& w, const Arguments& given) {

@@ -49,7 +49,7 @@ LabSetting mouse_setting() {
             .command = "view.mouse",
             .title = "Choose the mouse preset",
             .argument = "like",
-            .help = "Turns and shifts the view with the mouse as this program does",
+            .help = "Turns and shifts the view with the mouse as in the chosen program",
             .choices = {{"tendril", "Tendril"}, {"blender", "Blender"}, {"maya", "Maya, Unreal"}}};
 }
 
@@ -59,9 +59,9 @@ LabSetting scroll_setting() {
             .title = "Choose what scrolling does",
             .argument = "does",
             .help =
-                "What the wheel, or two fingers on a touchpad, do in the view: zoom, or shift it. Where they "
+                "What the wheel, or two fingers on a touchpad, do in the view: zoom, or shift it. If they "
                 "shift "
-                "it, they zoom while Ctrl is held; some systems send a pinch as just that",
+                "it, Ctrl makes them zoom; some systems send a pinch as Ctrl with the wheel",
             .choices = {{"zoom", "zooms"}, {"pan", "shifts the view"}}};
 }
 
@@ -71,7 +71,7 @@ void add_camera_commands(CommandTable& table, const Labs& labs) {
                .arguments = {{.name = "target",
                               .type = ArgumentType::Point,
                               .required = false,
-                              .help = "what it turns about"},
+                              .help = "the point it turns about"},
                              angle("yaw_deg", -1e6, 1e6),
                              angle("pitch_deg", -90.0, 90.0),
                              {.name = "distance",
@@ -85,7 +85,7 @@ void add_camera_commands(CommandTable& table, const Labs& labs) {
                               .type = ArgumentType::Boolean,
                               .required = false,
                               .help = "without perspective"}},
-               .help = "Places the camera; what is left out stays",
+               .help = "Places the camera; omitted values stay",
                .effect = Effect::Look,
                .apply = set_pose});
     table.add({.name = "camera.frame",
@@ -106,7 +106,7 @@ void add_camera_commands(CommandTable& table, const Labs& labs) {
                               .type = ArgumentType::Text,
                               .help = "where from",
                               .choices = {"front", "side", "top", "back", "left", "bottom"}}},
-               .help = "Looks from the front, the side (right), the top, or from opposite one of them",
+               .help = "Looks from the front, the side (right), the top, or the opposite of one of them",
                .effect = Effect::Look,
                .apply = [](Workspace& w, const Arguments& a) { look_from(w, a.text("name")); }});
     table.add(setting_command(mouse_setting()));
@@ -182,7 +182,7 @@ int remembered_ticks(const Workspace& w) {
 
 void set_range(VideoRequest& wanted, const Workspace& w, const Arguments& given) {
     const int remembered = remembered_ticks(w);
-    if (remembered == 0) throw Refused("nothing has moved yet that a video could show");
+    if (remembered == 0) throw Refused("nothing has moved yet, so there is nothing to record");
     const auto ticks = [&](const char* name, int otherwise) {
         return given.has(name) ? static_cast<int>(std::lround(given.real(name) / tick_seconds)) : otherwise;
     };
@@ -214,8 +214,7 @@ VideoRequest video_request(const Workspace& w, const Arguments& given) {
     if (!mp4 && wanted.speed * max_per_second > max_per_second * wanted.every + 1e-6)
         throw Refused("speed of an animated PNG with every " + std::to_string(wanted.every) +
                       " must be at most " + std::to_string(wanted.every) + ", got " +
-                      fixed_text(wanted.speed, 2) +
-                      ": programs that show it slow down over 60 frames a second");
+                      fixed_text(wanted.speed, 2) + ": viewers slow down above 60 frames a second");
     set_range(wanted, w, given);
     check_writable(wanted.path);
     return wanted;
@@ -230,29 +229,30 @@ void add_recording(CommandTable& table, const Labs& labs) {
     table.add(
         {.name = "view.video",
          .title = "Write a video of the past",
-         .arguments =
-             {{.name = "path",
-               .type = ArgumentType::Text,
-               .help = "a .png file, which is animated, or .mp4 where ffmpeg is installed"},
-              pixels("width", "pixels, even for MP4; the view's when left out"),
-              pixels("height", "pixels, even for MP4; the view's when left out"),
-              seconds_back("from", "seconds back from the last moment; all that is remembered when left out"),
-              seconds_back("to", "seconds back from the last moment; 0 when left out"),
-              {.name = "every",
-               .type = ArgumentType::Integer,
-               .required = false,
-               .help = "ticks of 1/60 s from frame to frame; 2, which is 30 frames a second, when left out",
-               .low = 1,
-               .high = 60},
-              {.name = "speed",
-               .required = false,
-               .help = "1 is real time, also when left out; below 1 is slow motion",
-               .low = slowest,
-               .high = fastest},
-              {.name = "transparent",
-               .type = ArgumentType::Boolean,
-               .required = false,
-               .help = "with a transparent background; PNG only"}},
+         .arguments = {{.name = "path",
+                        .type = ArgumentType::Text,
+                        .help = "a .png file (animated), or .mp4 if ffmpeg is installed"},
+                       pixels("width", "pixels, even for MP4; default: the view's"),
+                       pixels("height", "pixels, even for MP4; default: the view's"),
+                       seconds_back("from",
+                                    "seconds back from the latest moment; default: all that is remembered"),
+                       seconds_back("to", "seconds back from the latest moment; default: 0"),
+                       {.name = "every",
+                        .type = ArgumentType::Integer,
+                        .required = false,
+                        .help =
+                            "ticks of 1/60 s from frame to frame; default: 2, which is 30 frames a second",
+                        .low = 1,
+                        .high = 60},
+                       {.name = "speed",
+                        .required = false,
+                        .help = "1 is real time, the default; below 1 is slow motion",
+                        .low = slowest,
+                        .high = fastest},
+                       {.name = "transparent",
+                        .type = ArgumentType::Boolean,
+                        .required = false,
+                        .help = "with a transparent background; PNG only"}},
          .help = "Writes a video of the last ten seconds as the view shows them now, without labels and "
                  "panels",
          .effect = Effect::Look,
@@ -279,7 +279,7 @@ void add_recording(CommandTable& table, const Labs& labs) {
                .apply = [&labs](Workspace& w, const Arguments&) {
                    require_view(w, labs);
                    if (remembered_ticks(w) == 0)
-                       throw Refused("nothing has moved yet that a video could show");
+                       throw Refused("nothing has moved yet, so there is nothing to record");
                    // Otherwise the moments just seen would drop out of the last ten seconds.
                    w.clock.playing = w.clock.replaying = false;
                    w.ui.file_dialog = UiState::FileDialog::Video;
@@ -289,8 +289,8 @@ void add_recording(CommandTable& table, const Labs& labs) {
 void add_copying(CommandTable& table, const Labs& labs) {
     table.add({.name = "view.copy_picture",
                .title = "Copy the picture",
-               .arguments = {pixels("width", "pixels; the view's when left out"),
-                             pixels("height", "pixels; the view's when left out"),
+               .arguments = {pixels("width", "pixels; default: the view's"),
+                             pixels("height", "pixels; default: the view's"),
                              {.name = "transparent",
                               .type = ArgumentType::Boolean,
                               .required = false,

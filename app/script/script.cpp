@@ -16,7 +16,7 @@ namespace {
 
 std::string nonempty_text(const Json& line, const char* key) {
     std::string text = json_text(json_member(line, key, ""), key);
-    if (text.empty()) fail(std::string(key) + ": expected a text, found \"\"");
+    if (text.empty()) fail(std::string(key) + ": expected text, found \"\"");
     return text;
 }
 
@@ -184,7 +184,7 @@ Action parse_action(const Json& line, const CommandTable& commands) {
     if (line.contains("command")) return command_line(line, commands);
     for (const Form& form : forms)
         if (line.contains(form.member)) return form.parse(line);
-    if (line.contains("recording")) fail("a recording's start can only be the first line");
+    if (line.contains("recording")) fail("a recording's start must be the first line");
     std::string known = "\"command\"";
     for (const Form& form : forms) known += std::string(", \"") + form.member + '"';
     fail("expected one of the members " + known);

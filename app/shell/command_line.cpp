@@ -71,7 +71,7 @@ bool may_become(const Argument& argument, const std::string& text) {
 std::string mistake_in(const Command& command, const TypedArgument& typed, bool last) {
     const Argument* argument = find_argument(command, typed.name);
     if (!typed.assigned) {
-        if (!last) return "\"" + typed.name + "\" is no argument; write name=value";
+        if (!last) return "\"" + typed.name + "\" is not an argument; write name=value";
         const auto begins = [&](const Argument& each) { return each.name.starts_with(typed.name); };
         if (std::any_of(command.arguments.begin(), command.arguments.end(), begins)) return {};
     }
@@ -94,7 +94,7 @@ TypedCommand read_typed_command(const std::string& line) {
     for (std::size_t i = 1; i < words.size(); ++i) {
         const TypedArgument typed = argument_of(words[i].text);
         if (!typed.assigned || typed.name.empty())
-            throw std::runtime_error("\"" + words[i].text + "\" is no argument; write name=value");
+            throw std::runtime_error("\"" + words[i].text + "\" is not an argument; write name=value");
         arguments[typed.name] = value_of(typed.value);
     }
     return {words.front().text, std::move(arguments)};

@@ -89,7 +89,7 @@ bool FileDialog::list() {
         const std::string shown = entry.folder ? entry.name + "/" : entry.name;
         if (!ImGui::Selectable(shown.c_str(), entry.name == name_.data(),
                                ImGuiSelectableFlags_AllowDoubleClick)) {
-            explain(entry.folder ? "Shows what is in this folder" : "Takes this file's name");
+            explain(entry.folder ? "Shows what is in this folder" : "Uses this file's name");
             continue;
         }
         if (entry.folder) {
@@ -132,9 +132,9 @@ void FileDialog::frame(const Workspace& workspace, glm::vec2 screen, float scale
         done = true;
         ImGui::SetKeyboardFocusHere(-1);  // keep the focus, to edit a refused name
     }
-    explain("The name of the file. Enter takes it.");
+    explain("The name of the file. Enter confirms it.");
     done |= ImGui::Button(action());
-    explain(filming()  ? "Writes the video, and shows how far it is"
+    explain(filming()  ? "Writes the video and shows its progress"
             : saving() ? "Saves the scene to this file"
                        : "Opens this scene");
     ImGui::SameLine();

@@ -23,7 +23,9 @@ void show_filming(const ShellFrame& frame, Emit& emit) {
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                      ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav);
     text_elided("Writing " + filming->name, ImGui::GetContentRegionAvail().x);
-    explain("The video is written while you go on working. It shows what was there when you began it.");
+    explain(
+        "You can go on working while the video is written. It shows the scene as it was when you started "
+        "it.");
     const float part = static_cast<float>(filming->done) / static_cast<float>(std::max(1, filming->frames));
     const bool all = filming->done == filming->frames;
     const std::string count =
@@ -35,7 +37,7 @@ void show_filming(const ShellFrame& frame, Emit& emit) {
     ImGui::PopStyleColor();
     ImGui::SameLine();
     if (ImGui::Button("Cancel")) emit("view.end_video");
-    explain("Esc: writes no video; no file is left");
+    explain("Esc: cancels the video; no file is left");
     ImGui::End();
 }
 

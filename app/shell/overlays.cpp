@@ -139,14 +139,14 @@ void show_settings(const ShellFrame& frame, Emit& emit) {
     static constexpr const char* labels[] = {"on hover", "always"};
     int theme = settings.theme == Theme::Light, label = settings.labels == LabelMode::Always;
     if (choice_field("theme", theme, themes, 2)) emit("view.theme", {{"name", themes[theme]}});
-    explain("The colours of the program: light text on a dark ground, or the other way round.");
+    explain("The colours of the program: light text on a dark background, or dark on light.");
     lab_settings(frame, emit);
     if (choice_field("labels", label, labels, 2))
         emit("view.labels", {{"show", label == 1 ? "always" : "hover"}});
-    explain("When the names of things stand in the picture: under the mouse only, or always.");
+    explain("When labels are shown in the picture: only under the mouse, or always.");
     // Steps, not a slider: a slider would move under the mouse as the text grows.
     reading("text size", "%.0f %%", static_cast<double>(settings.text_scale) * 100.0);
-    explain("The size of all text and of all that is clicked. 50 to 300 %.");
+    explain("The size of text and controls. 50 to 300 %.");
     const auto step = [&](const char* title, float by, const char* help) {
         const float scaled = std::clamp(settings.text_scale + by, 0.5f, 3.0f);
         if (row_button(title, 2, true, help)) emit("view.text_scale", {{"scale", scaled}});

@@ -36,7 +36,7 @@ void panel_edge(const Rect& rect, bool left, float scale, Emit& emit) {
     const bool lit = ImGui::IsItemHovered() || ImGui::IsItemActive();
     if (lit) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
     if (lit && !ImGui::IsItemActive())
-        tooltip("Drag makes the panel wider or narrower; very narrow, it folds away");
+        tooltip("Drag to make the panel wider or narrower; very narrow, it closes");
     ImGui::GetWindowDrawList()->AddLine({left ? x - 1.0f : x, rect.min.y}, {left ? x - 1.0f : x, rect.max.y},
                                         ImGui::GetColorU32(lit ? ImGuiCol_SeparatorActive : ImGuiCol_Border));
     if (ImGui::IsItemActive() && ImGui::IsMouseDragging(ImGuiMouseButton_Left, 1.0f)) {

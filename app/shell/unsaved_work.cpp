@@ -18,8 +18,8 @@ void show_recovery(const ShellFrame& frame, Emit& emit) {
     explain(offers.front().file.string().c_str());
     ImGui::Spacing();
     const ArgumentList path{{"path", offers.front().file.string()}};
-    if (row_button("Recover it", 2, true, "Opens the scene that was not saved")) emit("scene.recover", path);
-    if (row_button("Delete it", 2, true, "Deletes this work for good; the scene that is open stays"))
+    if (row_button("Recover it", 2, true, "Opens the unsaved scene")) emit("scene.recover", path);
+    if (row_button("Delete it", 2, true, "Deletes this work for good; the open scene stays"))
         emit("scene.discard", path);
     ImGui::End();
 }
@@ -29,7 +29,7 @@ void show_quit(const ShellFrame& frame, Emit& emit) {
     const float scale = frame.layout.scale;
     if (!begin_sheet("Quit Tendril", frame.screen(), {460.0f * scale, 120.0f * scale})) emit("view.close");
     const std::filesystem::path& path = frame.workspace.path;
-    const std::string rest = " has changes that are not saved.";
+    const std::string rest = " has unsaved changes.";
     const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(rest.c_str()).x;
     ImGui::TextUnformatted(
         (elided(path.empty() ? "The scene" : path.filename().string(), room) + rest).c_str());
@@ -38,7 +38,7 @@ void show_quit(const ShellFrame& frame, Emit& emit) {
     if (row_button(named ? "Save" : "Save...", 3, true, "Saves the scene, then quits"))
         emit("quit", {{"unsaved", "save"}});
     if (row_button("Discard", 3, true, "Quits; the changes are lost")) emit("quit", {{"unsaved", "discard"}});
-    if (row_button("Cancel", 3, true, "Esc: goes on")) emit("view.close");
+    if (row_button("Cancel", 3, true, "Esc: does not quit")) emit("view.close");
     ImGui::End();
 }
 

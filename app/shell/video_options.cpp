@@ -36,15 +36,15 @@ void VideoOptions::frame() {
     static constexpr const char* rates[] = {"30 a second", "60 a second"};
     const char* const why_not[] = {nullptr, why_no_mp4_.empty() ? nullptr : why_no_mp4_.c_str()};
     choice_field("format", format_, formats, 2, why_not);
-    explain("Animated PNG loses nothing, can be transparent, and plays in browsers. MP4 plays everywhere.");
+    explain("Animated PNG is lossless, can be transparent, and plays in browsers. MP4 plays everywhere.");
     size_field("width, pixels", size_.x, view_.x,
-               "How wide the video is: at first as wide as the view. 16 to 8192, for MP4 an even number.");
+               "The width of the video; default: as wide as the view. 16 to 8192, even for MP4.");
     size_field("height, pixels", size_.y, view_.y,
-               "How high the video is: at first as high as the view. 16 to 8192, for MP4 an even number.");
+               "The height of the video; default: as high as the view. 16 to 8192, even for MP4.");
     number_field("from, seconds back", from_, 0.02f, 0.0f, remembered_, "%.2f s");
-    explain("Where the video begins: so long before the last moment.");
+    explain("Where the video begins: this long before the latest moment.");
     number_field("to, seconds back", to_, 0.02f, 0.0f, remembered_, "%.2f s");
-    explain("Where the video ends: so long before the last moment.");
+    explain("Where the video ends: this long before the latest moment.");
     choice_field("frames", smooth_, rates, 2);
     explain("How smooth it is. 60 a second makes the file about twice as large.");
     number_field("speed", speed_, 0.01f, static_cast<float>(slowest), static_cast<float>(fastest), "%.2f");
@@ -53,7 +53,7 @@ void VideoOptions::frame() {
     ImGui::Checkbox("Transparent background", &transparent_);
     ImGui::EndDisabled();
     explain(mp4() ? "MP4 has no transparency, animated PNG has."
-                  : "Only what stands in the scene, to lay over something else.");
+                  : "Shows only the objects in the scene, to lay over something else.");
 }
 
 std::filesystem::path VideoOptions::with_ending(std::filesystem::path path) const {

@@ -182,7 +182,7 @@ const char* piece_help(signal::Piece piece) {
         case signal::Piece::Cubic:
             break;
     }
-    return "The curve goes smoothly to the next key, by the slopes of both.";
+    return "The curve goes smoothly to the next key, following the slopes of both.";
 }
 
 /// The interpolation after the active key.

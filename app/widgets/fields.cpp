@@ -280,7 +280,7 @@ bool begin_search(const char* name, const std::string* shown, SearchText& typed)
         ImGui::SetKeyboardFocusHere();
     }
     ImGui::SetNextItemWidth(-1.0f);
-    ImGui::InputTextWithHint("##typed", "Type a part of it", typed.data(), typed.size());
+    ImGui::InputTextWithHint("##typed", "Type part of a name", typed.data(), typed.size());
     ImGui::BeginChild("rows", {0.0f, 10.0f * ImGui::GetTextLineHeightWithSpacing()});
     return true;
 }

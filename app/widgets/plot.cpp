@@ -127,7 +127,7 @@ class Plot {
             colour_mark(curve.colour);
             ImGui::AlignTextToFramePadding();
             const double number = static_cast<double>(value);
-            const std::string text = std::abs(number) < 1e6 ? fixed_text(number, 3) : "beyond a million";
+            const std::string text = std::abs(number) < 1e6 ? fixed_text(number, 3) : "over a million";
             ImGui::Text("%s  %s", text.c_str(), curve.name.c_str());
         }
         ImGui::EndTooltip();

@@ -24,7 +24,7 @@ std::string& last_error() {
 std::string take_error() {
     std::string text = std::exchange(last_error(), {});
     std::replace(text.begin(), text.end(), '\n', ' ');
-    return text.empty() ? "GLFW gives no reason" : text;
+    return text.empty() ? "GLFW gave no reason" : text;
 }
 
 /// GLFW, initialised and terminated with the window.

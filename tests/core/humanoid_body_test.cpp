@@ -369,7 +369,7 @@ TEST_P(HumanoidBody, what_it_cannot_use_is_refused_and_nothing_moves) {
     EXPECT_TRUE(
         test::says(refused({{Effector::Head, {}, {}, -1.0}}), "Body::solve targets[0].weight 0 1e3 -1"));
     EXPECT_TRUE(test::says(refused({{Effector::Head, {}}, {Effector::Head, {}}}),
-                           "Body::solve targets[1].effector another head"));
+                           "Body::solve targets[1].effector once head"));
     EXPECT_FALSE(refused({{Effector::Head, {}, glm::dquat(0.0, 0.0, 0.0, 0.0)}}).empty());
     EXPECT_FALSE(refused({{Effector::Head, {}}}, {.max_iterations = 0}).empty());
     EXPECT_FALSE(refused({{Effector::Head, {}}}, {.tolerance = nan}).empty());

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/trigonometric.hpp>
 #include <random>
 #include <tendril/humanoid/body.hpp>
 
@@ -47,6 +48,27 @@ class HumanoidContact : public testing::TestWithParam<bool> {
     std::vector<rig::Transform> rest = rest_pose(skeleton);
     std::vector<Placement> placements = std::vector<Placement>(skeleton.size());
 };
+
+/// A target's rotation is applied after the solve, so it may press the hand into the body: the report says
+/// so.
+TEST_P(HumanoidContact, a_hand_that_is_turned_into_the_body_is_reported) {
+    BodyState state;
+    double deepest = 0.0;
+    for (int degrees = -180; degrees < 180; degrees += 20) {
+        const double half = 0.5 * glm::radians(static_cast<double>(degrees));
+        std::vector<BodyTarget> targets{{Effector::LeftHand, {0.2, 1.15, 0.05}}};
+        targets[0].rotation = glm::dquat(std::cos(half), 0.0, std::sin(half), 0.0);
+        for (int frame = 0; frame < 30; ++frame) {
+            auto pose = rest;
+            const auto report = body.solve(pose, targets, state);
+            ASSERT_TRUE(report) << report.message();
+            const double depth = penetration(pose);
+            EXPECT_NEAR(report->penetration, depth, 1e-9) << degrees;
+            deepest = std::max(deepest, depth);
+        }
+    }
+    EXPECT_GE(deepest, GetParam() ? 0.0 : 0.005);  // limits keep the hand out
+}
 
 TEST_P(HumanoidContact, a_hand_dragged_through_the_body_slides_around_it) {
     const std::pair<glm::dvec3, glm::dvec3> ways[]{

@@ -178,6 +178,63 @@ TEST(Lint, finds_a_jump_after_which_the_motion_goes_on) {
     EXPECT_EQ(mended.channels[0].translation.values[90], values[90]);
 }
 
+/// The same keys with cubic interpolation, as exporters write it.
+void make_cubic(Clip& clip) {
+    const auto convert = [](auto& track) {
+        const auto keys = track.values;
+        track.interpolation = Interpolation::Cubic;
+        track.values.clear();
+        for (std::size_t i = 0; i < keys.size(); ++i) {
+            const std::size_t before = i > 0 ? i - 1 : 0, after = std::min(i + 1, keys.size() - 1);
+            const auto slope = (keys[after] - keys[before]) / (track.times[after] - track.times[before]);
+            track.values.insert(track.values.end(), {slope, keys[i], slope});
+        }
+    };
+    for (Channel& channel : clip.channels) {
+        convert(channel.rotation);
+        if (!channel.translation.times.empty()) convert(channel.translation);
+    }
+}
+
+/// The largest turn of a node between samples at eight times a rate, radians.
+double largest_turn(const Clip& clip, std::size_t node, double rate) {
+    double largest = 0.0;
+    std::vector<rig::Transform> last(5), pose(5);
+    for (int i = 0; i <= static_cast<int>(clip.duration * 8.0 * rate); ++i) {
+        sample(clip, snake(), i / (8.0 * rate), pose);
+        if (i > 0) {
+            const double cosine = std::abs(glm::dot(pose[node].rotation, last[node].rotation));
+            largest = std::max(largest, 2.0 * std::acos(std::min(cosine, 1.0)));
+        }
+        last = pose;
+    }
+    return largest;
+}
+
+TEST(Lint, a_mended_jump_leaves_nothing_between_cubic_keys) {
+    for (const bool goes_on : {false, true}) {
+        Clip clip = winding(60.0, 120);
+        const double calm = largest_turn(clip, 2, 60.0);
+        auto& keys = clip.channels[2].rotation.values;
+        for (std::size_t i = 50; i < (goes_on ? keys.size() : 51); ++i)
+            keys[i] = keys[i] * glm::dquat(std::cos(0.7), std::sin(0.7), 0.0, 0.0);
+        make_cubic(clip);
+        const LintReport report = lint_of(clip);
+        ASSERT_FALSE(report.findings.empty());
+        const auto jump = std::ranges::find(report.findings, Fault::Jump, &Finding::fault);
+        ASSERT_NE(jump, report.findings.end()) << texts(report);
+        EXPECT_GT(largest_turn(clip, 2, 60.0), 5.0 * calm);
+        for (const double sign :
+             {1.0, -1.0}) {  // the keys after the jump as the other quaternion of the pair
+            Clip turned = clip;
+            auto& values = turned.channels[2].rotation.values;
+            for (std::size_t i = 3 * 51; i < values.size(); ++i) values[i] = values[i] * sign;
+            const Clip mended = cured(turned, *jump);
+            EXPECT_LT(largest_turn(mended, 2, 60.0), goes_on ? 8.0 * calm : 1.5 * calm) << goes_on << sign;
+        }
+    }
+}
+
 TEST(Lint, keys_that_are_held_on_purpose_do_not_jump) {
     Clip clip = winding(60.0, 60);
     auto& track = clip.channels[1].rotation;

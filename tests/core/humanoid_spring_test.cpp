@@ -331,7 +331,7 @@ TEST(SpringChain, TakesBranchesAndASingleNode) {
     };
     EXPECT_TRUE(test::says(refusal("mark"), "SpringChain root length mark"));
     EXPECT_TRUE(test::says(refusal("Neck"), "SpringChain root bone body Neck"));
-    EXPECT_TRUE(test::says(refusal("Hips"), "SpringChain root another Hips"));
+    EXPECT_TRUE(test::says(refusal("Hips"), "SpringChain root parent Hips"));
     EXPECT_FALSE(SpringChain::make(skeleton, map, skeleton.size()));
 }
 

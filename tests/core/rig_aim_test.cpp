@@ -183,7 +183,7 @@ TEST(RigAim, OptionsFromOutsideAreChecked) {
     EXPECT_TRUE(test::says(message([](AimOptions& o) {
                                o.primary.axis = {0, 0, 0};
                            }),
-                           "aim primary.axis length 1e-9 0"));
+                           "aim primary.axis longer 1e-9 0"));
     EXPECT_TRUE(test::says(message([&](AimOptions& o) { o.secondary.target.z = nan; }),
                            "aim secondary.target.z finite 1e9 nan"));
     EXPECT_TRUE(test::says(message([](AimOptions& o) { o.weight = 1.5; }), "aim weight 0 1 1.5"));

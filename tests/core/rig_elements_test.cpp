@@ -54,9 +54,9 @@ TEST(RigElements, RefusesWithoutChangingAnything) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     Transform bad;
     bad.scale.y = 0.0;
-    refused(line.tree.set(line.tip, Global, bad), "set: transform.scale.y must be other than 0, got 0");
+    refused(line.tree.set(line.tip, Global, bad), "set: transform.scale.y must be non-zero, got 0");
     refused(line.tree.add(ElementKind::Bone, line.tip, bad).error(),
-            "add: local.scale.y must be other than 0, got 0");
+            "add: local.scale.y must be non-zero, got 0");
     bad = moved(0, nan, 0);
     refused(line.tree.set(line.tip, Local, bad),
             "set: transform.translation.y must be finite and at most 1e9 in magnitude, got nan");
@@ -66,17 +66,17 @@ TEST(RigElements, RefusesWithoutChangingAnything) {
     bad = {};
     bad.rotation = {0.0, 0.0, 0.0, 0.0};
     refused(line.tree.set(line.tip, Local, bad),
-            "set: transform.rotation must be of a length of at least 1e-6, got 0");
+            "set: transform.rotation must be of length 1e-6 or more, got 0");
     refused(line.tree.set_parent(line.middle, line.tip),
             "set_parent: parent must be neither the element itself nor below it, got slot 2");
     refused(line.tree.set_parent(line.middle, line.middle),
             "set_parent: parent must be neither the element itself nor below it, got slot 1");
     refused(line.tree.set_parent(line.middle, {9, 1}),
-            "set_parent: parent must be the handle of an element that is there, got slot 9");
+            "set_parent: parent must be the handle of an existing element, got slot 9");
     refused(line.tree.add(ElementKind::Bone, {9, 1}, {}).error(),
-            "add: parent must be the handle of an element that is there, got slot 9");
+            "add: parent must be the handle of an existing element, got slot 9");
     refused(line.tree.remove({}),
-            "remove: element must be the handle of an element that is there, got an empty one");
+            "remove: element must be the handle of an existing element, got an empty handle");
 }
 
 TEST(RigElements, AnotherParentKeepsThePlaceOrTheLocal) {
@@ -96,7 +96,7 @@ TEST(RigElements, AnotherParentKeepsThePlaceOrTheLocal) {
 
 TEST(RigElementsDeathTest, ReadingWhatIsNotThereEndsTheProgramWithAMessage) {
     RigLine line;
-    EXPECT_DEATH(line.tree.get({}, Local), "get: element must be the handle of an element that is there");
+    EXPECT_DEATH(line.tree.get({}, Local), "get: element must be the handle of an existing element");
 }
 
 }  // namespace

@@ -83,9 +83,9 @@ TEST(RigMake, RefusesInputsThatNameWhatIsNotThere) {
     EXPECT_TRUE(test::says(refusal(with(ForEach{.roots = {"root", "nobody"}})), "unit first roots nobody"));
     EXPECT_TRUE(test::says(
         refusal(with(EvaluateCurve{.value = FromElement{.element = "hand", .of = Of::ControlValue}})),
-        "unit first value hand no control"));
-    EXPECT_TRUE(test::says(refusal(with(ParentConstraint{.item = "hand"})), "unit first parents one"));
-    EXPECT_TRUE(test::says(refusal(with(ForEach{})), "unit first roots one"));
+        "unit first value hand not control"));
+    EXPECT_TRUE(test::says(refusal(with(ParentConstraint{.item = "hand"})), "unit first parents empty"));
+    EXPECT_TRUE(test::says(refusal(with(ForEach{})), "unit first roots empty"));
 }
 
 TEST(RigMake, RefusesSpringsOutOfTheirRange) {

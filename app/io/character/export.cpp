@@ -121,7 +121,7 @@ std::string ExportReport::text() const {
     std::snprintf(numbers, sizeof numbers, ", %.4f mm", 1000.0 * worst);
     std::string text = std::to_string(frames) + (frames == 1 ? " frame" : " frames");
     text += "; worst joint " + worst_joint + numbers;
-    if (!has_feet) return text + "; no foot stands in it";
+    if (!has_feet) return text + "; no foot ever stands";
     std::snprintf(numbers, sizeof numbers, "; skating %.1f mm before, %.1f mm after", 1000.0 * skating_before,
                   1000.0 * skating_after);
     return text + numbers;
@@ -137,7 +137,7 @@ ExportReport export_clip(const Export& what, const fs::path& path) {
     if (!ends_as_export(path))
         throw std::runtime_error(name + ": expected a name that ends in .gltf, .glb or .bvh");
     if (!(what.rate >= min_rate && what.rate <= largest_rate))
-        throw std::runtime_error(name + ": expected 1 to 1000 frames a second");
+        throw std::runtime_error(name + ": expected 1 to 1000 frames per second");
     constexpr double max_frames = 1'000'000;
     if (what.corrected.duration * what.rate > max_frames)
         throw std::runtime_error(name + ": would have more than 1000000 frames");
@@ -153,7 +153,7 @@ ExportReport export_clip(const Export& what, const fs::path& path) {
         write_file_atomically(path, bytes);
         return report;
     } catch (const nlohmann::json::exception& error) {
-        throw std::runtime_error(name + ": its file's JSON is not as glTF has it, " + message(error.what()));
+        throw std::runtime_error(name + ": its file's JSON is not valid glTF, " + message(error.what()));
     }
 }
 

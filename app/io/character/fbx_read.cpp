@@ -19,7 +19,7 @@
 namespace Assimp {
 void aiAssertViolation(const char* expression, const char*, int);
 void aiAssertViolation(const char* expression, const char*, int) {
-    throw std::runtime_error(std::string("what Assimp relies on does not hold: ") + expression);
+    throw std::runtime_error(std::string("an assumption of Assimp does not hold: ") + expression);
 }
 }  // namespace Assimp
 

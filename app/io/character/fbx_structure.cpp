@@ -46,12 +46,11 @@ class BinaryFbx {
             if (record.end <= begin || record.end > limit)
                 fail("a record that ends at byte " + to_string(record.end) + ", of " + to_string(limit));
             properties(record);
-            if (open_.size() >= max_nested)
-                fail("more than " + to_string(max_nested) + " records in each other");
+            if (open_.size() >= max_nested) fail("more than " + to_string(max_nested) + " nested records");
             open_.push_back(record);
             if (at_ == record.end) close();
         }
-        if (!open_.empty()) fail("the file ends inside of a record");
+        if (!open_.empty()) fail("the file ends inside a record");
         objects_.check();
         return std::move(objects_);
     }
@@ -164,7 +163,7 @@ class BinaryFbx {
             (encoding == 1 && count * size > max_packed * length))
             fail("an array that claims " + to_string(count) + " numbers in " + to_string(length) + " bytes");
         all_arrays_ += count * size;
-        if (all_arrays_ > max_array_bytes) fail("arrays of more than 1 GB together");
+        if (all_arrays_ > max_array_bytes) fail("arrays of more than 1 GB in total");
         at_ += static_cast<std::size_t>(length);
         if (record.name == "KeyTime" && open_.size() == 2 && open_.back().name == "AnimationCurve")
             objects_.add_curve(open_.back().ids[0], static_cast<std::size_t>(count));
@@ -226,13 +225,13 @@ FbxObjects text_objects(std::string_view text) {
             if (c == '"') quoted = !quoted;
             if (quoted) continue;
             if (c == '}' && depth-- == 0)
-                throw std::runtime_error("line " + to_string(line_number) + ": } without its {");
+                throw std::runtime_error("line " + to_string(line_number) + ": } without a matching {");
             if (c == '{' && ++depth > max_nested)
                 throw std::runtime_error("line " + to_string(line_number) + ": more than " +
-                                         to_string(max_nested) + " records in each other");
+                                         to_string(max_nested) + " nested records");
         }
     }
-    if (depth > 0) throw std::runtime_error("the file ends inside of a record");
+    if (depth > 0) throw std::runtime_error("the file ends inside a record");
     objects.check();
     return objects;
 }
@@ -273,8 +272,7 @@ void FbxObjects::check() const {
         done += id != 0;
         times += from.times;
         if (from.depth > max_depth)
-            throw std::runtime_error("models that hang on each other more than " + to_string(max_depth) +
-                                     " deep");
+            throw std::runtime_error("models nested more than " + to_string(max_depth) + " deep");
         if (times > max_models) throw std::runtime_error("more than " + to_string(max_models) + " models");
         for (const std::int64_t child : below[id]) {
             Seen& to = seen[child];
@@ -285,7 +283,7 @@ void FbxObjects::check() const {
     if (done < models_.size())
         for (const auto& [id, name] : models_)
             if (open.count(id) && open[id] > 0)
-                throw std::runtime_error("model " + name + " hangs on one that hangs on it");
+                throw std::runtime_error("model " + name + " is below itself");
 }
 
 FbxObjects fbx_objects(std::string_view bytes) {
@@ -296,7 +294,7 @@ FbxObjects fbx_objects(std::string_view bytes) {
     }
     const std::string_view top = bytes.substr(0, 4096);
     if (top.find("FBXHeaderExtension") == top.npos && top.find("; FBX") == top.npos)
-        throw std::runtime_error("is no FBX file");
+        throw std::runtime_error("is not an FBX file");
     return text_objects(bytes);
 }
 

@@ -68,7 +68,7 @@ Rows rows_of(const tinygltf::Model& model, int view_index, std::size_t offset, s
                        std::to_string(buffer.data.size()));
     const std::size_t stride = view.byteStride > 0 ? view.byteStride : row_size;
     if (stride < row_size && count > 1)
-        fail(what, "a stride of " + std::to_string(stride) + " is under a row");
+        fail(what, "a stride of " + std::to_string(stride) + " is less than a row");
     if (count > 0 && (offset > view.byteLength || row_size > view.byteLength - offset ||
                       (count - 1) > (view.byteLength - offset - row_size) / stride))
         fail(what, "claims " + std::to_string(count) + " rows of " + std::to_string(row_size) +
@@ -115,7 +115,7 @@ std::vector<double> accessor_rows(const tinygltf::Model& model, int index, int c
     const std::size_t count = accessor_count(model, index, what);
     const tinygltf::Accessor& accessor = model.accessors[static_cast<std::size_t>(index)];
     if (tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type)) != components)
-        fail(what, "expected " + std::to_string(components) + " numbers a row");
+        fail(what, "expected " + std::to_string(components) + " numbers per row");
     const auto width = static_cast<std::size_t>(components);
     const std::size_t size = size_of(accessor.componentType);
     std::vector<double> values;

@@ -68,7 +68,7 @@ class Item {
     std::string text(const char* name) const {
         const auto found = value_->find(name);
         if (found == value_->end()) return {};
-        if (!found->is_string()) fail(name, "expected a text");
+        if (!found->is_string()) fail(name, "expected text");
         return found->get<std::string>();
     }
     const json& value() const { return *value_; }
@@ -160,12 +160,12 @@ class Checker {
         if (item.value().contains("bufferView"))
             rows(item, count, row);
         else if (count > max_zero_rows)
-            item.fail("count", "claims " + std::to_string(count) + " rows without bytes, expected at most " +
+            item.fail("count", "claims " + std::to_string(count) + " rows without data, expected at most " +
                                    std::to_string(max_zero_rows));
         if (const auto sparse = item.object("sparse")) {
             const Size replaced = sparse->number("count").value_or(0);
             const auto indices = sparse->object("indices"), values = sparse->object("values");
-            if (!indices || !values) sparse->fail("indices", "they, or the values, are missing");
+            if (!indices || !values) sparse->fail("indices", "the indices or the values are missing");
             rows(*indices, replaced, component_size(indices->number("componentType").value_or(0), *indices));
             rows(*values, replaced, row);
         }
@@ -176,8 +176,8 @@ class Checker {
         const Size offset = item.number("byteOffset").value_or(0);
         const Size stride = view.stride > 0 ? view.stride : row;
         if (stride < row && count > 1)
-            item.fail("bufferView", "its stride of " + std::to_string(stride) + " bytes is under a row of " +
-                                        std::to_string(row));
+            item.fail("bufferView", "its stride of " + std::to_string(stride) +
+                                        " bytes is less than a row of " + std::to_string(row));
         if (count == 0) return;
         if (offset > view.length)
             item.fail("byteOffset", std::to_string(offset) + " is beyond its buffer view, which has " +

@@ -67,7 +67,7 @@ void GltfFile::take_buffers(const tinygltf::Model& model) {
     const auto move = [&](Json& view) {
         if (!view.is_object() || !view.contains("buffer")) return;
         const auto buffer = view["buffer"].get<std::size_t>();
-        if (buffer >= begins.size()) throw std::runtime_error("a buffer view is of no buffer");
+        if (buffer >= begins.size()) throw std::runtime_error("a buffer view has no buffer");
         view["byteOffset"] = view.value("byteOffset", std::size_t{0}) + begins[buffer];
         view["buffer"] = 0;
     };

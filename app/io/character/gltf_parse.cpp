@@ -119,7 +119,7 @@ tinygltf::Model gltf_model(std::string_view bytes, const fs::path& folder) {
     if (bytes.empty()) throw std::runtime_error("is empty");
     if (bytes.size() > max_gltf_bytes) throw std::runtime_error("is larger than 1 GB");
     const bool is_binary = bytes.starts_with("glTF");
-    if (!is_binary && bytes.find('{') == bytes.npos) throw std::runtime_error("is no glTF file");
+    if (!is_binary && bytes.find('{') == bytes.npos) throw std::runtime_error("is not a glTF file");
     const std::string_view text = gltf_json(bytes);
     check_depth(text);
     check_gltf(text);
@@ -141,7 +141,7 @@ tinygltf::Model gltf_model(std::string_view bytes, const fs::path& folder) {
                 : reader.LoadASCIIFromString(&model, &error, &warning, bytes.data(), size, folder.string());
         if (!beside.refused.empty())
             throw std::runtime_error(message(beside.refused) +
-                                     ": it is outside the file's folder, where nothing is read");
+                                     ": it is outside the file's folder, so it is not read");
         if (!read) throw std::runtime_error(reason(error));
     } catch (const std::out_of_range&) {
         throw std::runtime_error("has a buffer of 0 bytes");

@@ -182,7 +182,7 @@ class GltfReader {
                  accessor_count(model_, sampler.output, what + ".output");
         if (keys_ > max_clip_keys)
             throw std::runtime_error(what + ": more than " + std::to_string(max_clip_keys) +
-                                     " keys together");
+                                     " keys in total");
         track.interpolation = interpolation_of(sampler.interpolation, what);
         track.times = accessor_rows(model_, sampler.input, 1, what + ".input");
         const std::vector<double> rows = accessor_rows(model_, sampler.output, T::length(), what + ".output");

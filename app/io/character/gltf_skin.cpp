@@ -43,8 +43,7 @@ class GltfSkinReader {
         if (skin.mesh)
             for (std::size_t i = 0; i < model_.animations.size(); ++i)
                 skin.morph_clips.push_back(morph_clip(i));
-        if (packed_)
-            notes_.push_back("Meshes that are compressed by Draco cannot be read: it is shown without.");
+        if (packed_) notes_.push_back("Meshes compressed with Draco cannot be read and are not shown.");
         if (picture_lost_) notes_.push_back("A picture of its skin cannot be read: plain colours instead.");
         return skin;
     }
@@ -86,7 +85,7 @@ class GltfSkinReader {
             matrices = accessor_rows(model_, skin->inverseBindMatrices, 16, place + ".inverseBindMatrices");
             if (matrices.size() < 16 * skin->joints.size())
                 throw std::runtime_error(place + ": " + std::to_string(skin->joints.size()) +
-                                         " joints, and fewer inverse bind matrices");
+                                         " joints but fewer inverse bind matrices");
         }
         Binding binding{0, skin->joints.size()};
         if (skin->joints.empty()) throw std::runtime_error(place + " has no joints");
@@ -116,7 +115,7 @@ class GltfSkinReader {
         std::size_t node = index, steps = 0;
         while (nodes_.place[node] < 0) {
             if (++steps > nodes_.place.size())
-                throw std::runtime_error(indexed("nodes", index) + " hangs on one that hangs on it");
+                throw std::runtime_error(indexed("nodes", index) + " is below itself");
             from_bind = local_[node] * from_bind;
             if (nodes_.parents[node] < 0) return false;
             node = static_cast<std::size_t>(nodes_.parents[node]);
@@ -309,7 +308,7 @@ class GltfSkinReader {
         if (sampler.interpolation == "CUBICSPLINE") track.interpolation = humanoid::Interpolation::Cubic;
         const std::size_t each = track.interpolation == humanoid::Interpolation::Cubic ? 3 * count : count;
         keys_ += accessor_count(model_, sampler.input, what) + accessor_count(model_, sampler.output, what);
-        if (keys_ > 10'000'000) throw std::runtime_error(what + ": too many keys of morphs");
+        if (keys_ > 10'000'000) throw std::runtime_error(what + ": too many morph keys");
         track.times = accessor_rows(model_, sampler.input, 1, what + ".input");
         track.values = accessor_rows(model_, sampler.output, 1, what + ".output");
         if (track.times.empty() || track.values.size() != track.times.size() * each)
@@ -320,9 +319,10 @@ class GltfSkinReader {
             if (!(track.times[i] >= 0.0 && track.times[i] <= 1e9) ||
                 (i > 0 && !(track.times[i] > track.times[i - 1])))
                 throw std::runtime_error(what + ": time " + std::to_string(i) +
-                                         " is not over the one before it");
+                                         " is not after the one before it");
         for (double& value : track.values)
-            if (!(std::abs(value) <= 1e6)) throw std::runtime_error(what + ": a weight that is no number");
+            if (!(std::abs(value) <= 1e6))
+                throw std::runtime_error(what + ": a weight is not finite or over 1e6");
         return track;
     }
 

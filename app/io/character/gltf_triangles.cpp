@@ -51,7 +51,7 @@ class Collector {
 
   private:
     void take(std::size_t index, const glm::dmat4& above) {
-        if (seen_.at(index)) throw std::runtime_error("its nodes hang on each other in a circle");
+        if (seen_.at(index)) throw std::runtime_error("its nodes form a cycle");
         seen_[index] = true;
         const tinygltf::Node& node = model_.nodes[index];
         const glm::dmat4 placed = above * local_of(node);
@@ -83,7 +83,7 @@ class Collector {
         for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
             for (std::size_t k = 0; k < 3; ++k) {
                 if (!(indices[i + k] < static_cast<double>(count)))
-                    throw std::runtime_error("indices: one of them has no vertex");
+                    throw std::runtime_error("indices: one is beyond the last vertex");
                 found_.triangles.push_back(
                     static_cast<std::uint32_t>(first + static_cast<std::size_t>(indices[i + k])));
             }

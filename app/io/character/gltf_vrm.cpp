@@ -26,13 +26,13 @@ class VrmReader {
         if (!name.empty()) name[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
         const auto bone = humanoid::bone_named(name);
         if (!bone) return;
-        if (!node || !node->IsInt()) throw std::runtime_error(what + ": expected the number of a node");
+        if (!node || !node->IsInt()) throw std::runtime_error(what + ": expected a node number");
         const int index = node->GetNumberAsInt();
         if (index < 0 || static_cast<std::size_t>(index) >= count_)
             throw std::runtime_error(what + ": there is no node " + std::to_string(index) +
                                      ", the file has " + std::to_string(count_));
         if (std::ranges::find(bones_.nodes, index) != bones_.nodes.end())
-            throw std::runtime_error(what + ": node " + std::to_string(index) + " is another bone already");
+            throw std::runtime_error(what + ": node " + std::to_string(index) + " is already another bone");
         bones_.nodes[static_cast<std::size_t>(*bone)] = index;
     }
     const VrmBones& bones() const { return bones_; }

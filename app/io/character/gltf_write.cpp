@@ -171,7 +171,7 @@ std::string with_origin(const Character& character, const humanoid::Clip& clip, 
     const tinygltf::Model model = gltf_model(origin.bytes, origin.folder);
     const std::vector<std::size_t> nodes = gltf_nodes(model);
     if (nodes.size() != character.skeleton.size())
-        throw std::runtime_error("has other nodes than when it was loaded");
+        throw std::runtime_error("its nodes have changed since it was loaded");
     GltfFile file(gltf_json(origin.bytes), model);
     const Json animations = file.json.value("animations", Json::array());
     file.json.erase("animations");

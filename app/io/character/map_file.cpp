@@ -38,14 +38,14 @@ void read_bones(const Json& json, SavedMap& map) {
         const std::string node = node_name(value, where);
         if (node.empty()) continue;
         if (const auto [other, is_new] = taken.emplace(node, key); !is_new)
-            throw std::runtime_error(where + ": its node is that of " + other->second);
+            throw std::runtime_error(where + ": its node is already that of " + other->second);
         map.bones[static_cast<std::size_t>(*bone)] = node;
     }
 }
 
 SavedMap read(const Json& json) {
     if (!json.is_object() || !json.contains("tendril") || json["tendril"] != kind)
-        throw std::runtime_error("tendril: expected \"bone map\": the file is none");
+        throw std::runtime_error("tendril: expected \"bone map\": the file is not a bone map");
     json_integer(json_member(json, "version", ""), "version", 1, newest_version);
     SavedMap map;
     read_bones(json_member(json, "bones", ""), map);
@@ -134,7 +134,7 @@ std::optional<SavedMap> find_kept_map(const std::filesystem::path& folder, const
     if (!std::filesystem::is_regular_file(path, error)) throw std::runtime_error(name + ": is not a file");
     SavedMap map = read_map(path);
     if (map.nodes != names_of(skeleton))
-        throw std::runtime_error(name + ": nodes: they are not those of the character");
+        throw std::runtime_error(name + ": nodes: they are not this character's nodes");
     try {
         applied(map, skeleton);
     } catch (const std::runtime_error& why) {

@@ -126,14 +126,14 @@ void SkinBuilder::add_part(const std::string& what, Corners corners, std::vector
     const std::size_t count = corners.positions.size(), first = mesh_.positions.size();
     if (count > max_corners - first || indices.size() > max_indices - mesh_.indices.size())
         throw std::runtime_error(what + ": more than " + std::to_string(max_corners) + " corners or " +
-                                 std::to_string(max_indices / 3) + " triangles together");
+                                 std::to_string(max_indices / 3) + " triangles in total");
     for (const std::uint32_t index : indices)
         if (index >= count)
             throw std::runtime_error(what + ": there is no corner " + std::to_string(index) + ", it has " +
                                      std::to_string(count));
     for (std::size_t i = 0; i < count; ++i)
         if (!is_finite(corners.positions[i]))
-            throw std::runtime_error(what + ": corner " + std::to_string(i) + " is nowhere");
+            throw std::runtime_error(what + ": corner " + std::to_string(i) + " has no finite position");
     if (corners.normals.size() != count) corners.normals = normals_of(corners.positions, indices);
     for (glm::vec3& normal : corners.normals) normal = unit(normal);
 
@@ -168,7 +168,7 @@ std::size_t SkinBuilder::add_morph(const std::string& what, std::string name, do
         throw std::runtime_error(what + ": " + std::to_string(positions.size()) + " corners, its mesh has " +
                                  std::to_string(last_count_));
     for (const glm::vec3& each : positions)
-        if (!is_finite(each)) throw std::runtime_error(what + ": a corner that moves to nowhere");
+        if (!is_finite(each)) throw std::runtime_error(what + ": a corner moves to no finite position");
     for (glm::vec3& each : normals)
         if (!is_finite(each)) each = glm::vec3(0.0f);
     mesh_.morphs.push_back({std::move(name), static_cast<std::uint32_t>(last_first_),

@@ -96,7 +96,7 @@ std::shared_ptr<Part> ChainPart::load(const Json& json, const std::string& where
             if (selected->json().is_string()) {
                 part->chosen_point = selected->choice(chain_points);
                 if (part->chosen_point == ChainPoint::Pole && !part->reach.pole)
-                    selected->fail("there is no pole target to be selected");
+                    selected->fail("there is no pole target to select");
             } else {
                 part->selection = Selection::load(*selected, part->chain.size());
             }
@@ -115,7 +115,7 @@ namespace {
 std::optional<JsonPlace> bone_list(const JsonPlace& owner, const char* key, std::size_t bones) {
     std::optional<JsonPlace> list = owner.optional(key);
     if (!list || (list->json().is_array() && list->json().empty())) return std::nullopt;
-    list->check_size(bones, "values, one a bone");
+    list->check_size(bones, "values, one for each bone");
     return list;
 }
 

@@ -214,9 +214,9 @@ std::vector<Shortcut> ChainLab::shortcuts() const {
     return {
         delete_shortcut("chain.remove_selected"),
         {*chord_from_name("b"), "view.segments", {}, "", "View", in_menu},
-        step("right", "by", 1, "Microscope: a step on"),
+        step("right", "by", 1, "Microscope: a step forward"),
         step("left", "by", -1, "Microscope: a step back"),
-        step("shift+right", "iterations", 1, "Microscope: an iteration on"),
+        step("shift+right", "iterations", 1, "Microscope: an iteration forward"),
         step("shift+left", "iterations", -1, "Microscope: an iteration back"),
     };
 }

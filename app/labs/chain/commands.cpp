@@ -108,7 +108,8 @@ void set_mode(ChainPart& part, const Arguments& given) {
 std::vector<JointPull> pulls_of(const ChainPart& part, const Arguments& given) {
     const std::vector<std::size_t> joints = joints_of(given, part);
     if (given.has("index") != given.has("to"))
-        throw Refused(given.has("to") ? "to is for index; joints have points" : "index needs to");
+        throw Refused(given.has("to") ? "to is for index; joints take points"
+                                      : "index needs the argument to");
     if (given.has("index")) {
         if (given.has("points")) throw Refused("points is for joints");
         return {{joints.front(), given.point("to")}};
@@ -120,8 +121,7 @@ std::vector<JointPull> pulls_of(const ChainPart& part, const Arguments& given) {
     for (const std::size_t joint : joints) pulls.push_back({joint, points.element(pulls.size()).point()});
     std::ranges::sort(pulls, {}, &JointPull::joint);
     const auto twice = std::ranges::adjacent_find(pulls, {}, &JointPull::joint);
-    if (twice != pulls.end())
-        throw Refused("joints: " + std::to_string(twice->joint) + " stands there twice");
+    if (twice != pulls.end()) throw Refused("joints: " + std::to_string(twice->joint) + " is listed twice");
     return pulls;
 }
 
@@ -142,7 +142,7 @@ void select(ChainPart& part, const Arguments& given) {
     const bool add = given.has("add") && given.boolean("add");
     if (given.has("point")) {
         if (given.has("index") || given.has("joints") || add)
-            throw Refused("point goes with no joints: it is selected instead of them");
+            throw Refused("point cannot be given with joints: it is selected instead of them");
         const ChainPoint chosen = chain_points.value(given.text("point"));
         if (chosen == ChainPoint::Pole && !(part.mode == ChainMode::Reach && part.reach.pole))
             throw Refused("there is no pole target");
@@ -181,7 +181,7 @@ void set_motion(ChainPart& part, const Arguments& given) {
 
 /// Seeks to a tick of the round: moves the target there and applies the mode once.
 void seek_on_path(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
-    if (part.motion.path == Motion::Path::Still) throw Refused("the target follows no path");
+    if (part.motion.path == Motion::Path::Still) throw Refused("the target does not follow a path");
     part.motion.ticks = static_cast<std::uint32_t>(given.integer("tick")) % ticks_per_round(part.motion);
     reach_for(part, motion_point(part.motion, part.motion.ticks), runtime);
 }
@@ -197,7 +197,7 @@ void add_mode_commands(CommandTable& table) {
         "chain.mode", "Choose how the chain follows",
         {choice_argument("mode", true, "how the chain follows the target", chain_modes.names()),
          index_argument(false, "which segment with_index pulls"),
-         integer_argument("iterations", "maximum, of fixed and reach", 1, max_iterations),
+         integer_argument("iterations", "maximum, for fixed and reach", 1, max_iterations),
          number_argument("tolerance", "metres from the target at which fixed or reach stops", 0, 1e9)},
         "Sets how the chain follows the target, from the next move of the target on", set_mode));
     table.add(chain_command("chain.target", "Move the target", {point_argument("to", true, "metres")},
@@ -205,13 +205,14 @@ void add_mode_commands(CommandTable& table) {
     table.add(chain_command("chain.pull", "Pull a joint",
                             {index_argument(false, "which segment"), point_argument("to", false, "metres"),
                              joints_argument(), each_argument("points", "joints")},
-                            "Pulls one segment or several, and the target with the first of them; the mode "
-                            "stays as it is. In mode reach: drags joints, the root and the target stay",
+                            "Pulls one or more segments, and the target with the first of them; the mode "
+                            "does not change. In mode reach: drags joints; root and target stay",
                             pull));
     table.add(chain_command(
         "chain.select", "Select joints",
-        {index_argument(false, "which joint; nothing is selected when all are left out"), joints_argument(),
-         switch_argument("add", "true: adds to what is selected, or with index takes out what is"),
+        {index_argument(false, "which joint; if all are omitted, nothing is selected"), joints_argument(),
+         switch_argument("add",
+                         "true: adds to the selection, or with index removes one that is already in it"),
          choice_argument("point", false, "what is selected instead of joints", chain_points.names())},
         "Selects joints, or the target or pole target", select, Effect::Look));
     table.add(chain_command("chain.motion", "Move the target along a path",

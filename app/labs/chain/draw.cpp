@@ -353,9 +353,9 @@ void draw_circle(DrawList& list, glm::vec3 centre, float radius, glm::vec3 acros
 LabSetting reach_sphere() {
     return {.key = "reach sphere",
             .command = "view.reach_sphere",
-            .title = "Show or hide sphere of reach",
+            .title = "Show or hide the reach sphere",
             .argument = "show",
-            .help = "Shows the sphere of what the chain can reach, in mode reach",
+            .help = "Shows the sphere that the chain can reach, in mode reach",
             .choices = {{"off", "hidden"}, {"on", "shown"}}};
 }
 

@@ -236,7 +236,7 @@ void length_field(const char* name, const ChainPart& part, Emit& emit) {
     if (number_field(name, length, 0.01f, 0.0f, 1000.0f, "%.3f m"))
         emit.continuously("chain.set_length", of_joints(joints, "length", length));
     explain(joints.size() > 1
-                ? "The length of the bones that lead to the selected joints: shown is one, set are all."
+                ? "The length of the bones that lead to the selected joints: one is shown, all are set."
             : shown == 0 ? "The length of the bone that leads here once a joint is inserted before this one."
                          : "The length of the bone that leads to this joint.");
 }
@@ -255,7 +255,7 @@ void limit_rows(const ChainPart& part, Emit& emit) {
         return of_joints(joints, name, std::move(value));
     };
     if (several && !same_limits(part.reach, joints))
-        note("They differ. Shown is joint " + std::to_string(joint) + "; what you set, you set on all.");
+        note("They differ. Showing joint " + std::to_string(joint) + "; changes apply to all.");
     const ik::Limit limit = limit_of(part.reach, joint);
     std::array<const char*, all_joint_kinds.size()> titles{};
     std::transform(all_joint_kinds.begin(), all_joint_kinds.end(), titles.begin(), kind_title);
@@ -265,7 +265,7 @@ void limit_rows(const ChainPart& part, Emit& emit) {
     }
     explain(
         "How the bone after this joint may turn: a hinge about one axis, the others within a cone and about "
-        "the bone. Each begins with the angles that people usually have.");
+        "the bone. Each starts with a person's usual angles.");
     if (limit.kind == ik::JointKind::Free) {
         note("Turns freely.");
         return;
@@ -279,7 +279,7 @@ void limit_rows(const ChainPart& part, Emit& emit) {
         }
         explain(row.help);
     }
-    static constexpr const char* axes[] = {"X", "Y", "Z", "another"};
+    static constexpr const char* axes[] = {"X", "Y", "Z", "other"};
     int axis = 3;
     for (int i = 0; i < 3; ++i) {
         glm::vec3 unit(0.0f);
@@ -291,7 +291,7 @@ void limit_rows(const ChainPart& part, Emit& emit) {
         unit[axis] = 1.0f;
         emit("chain.limit", with("axis", unit));
     }
-    explain("About which axis a turn is called up; a hinge turns about it alone.");
+    explain("The axis of upward rotation; a hinge turns about it alone.");
     note(
         "Axis of upward rotation, in world axes with the chain straight. A straight chain has all angles 0.");
 }

@@ -57,7 +57,7 @@ void mode_rows(const ChainPart& part, const Palette& colours, Emit& emit) {
     if (part.mode == ChainMode::Fixed) {
         int iterations = iterations_of(part, part.mode);
         if (integer_field("iterations", iterations, 1, max_iterations)) with("iterations", iterations);
-        explain("The maximum of passes in a solve. More come nearer to the target and cost more.");
+        explain("The maximum number of passes per solve. More get closer to the target and cost more.");
         float tolerance = part.tolerance;
         if (number_field("tolerance", tolerance, 0.0005f, 0.0f, 10.0f, "%.4f m"))
             with("tolerance", tolerance);
@@ -88,7 +88,7 @@ void segment_rows(const ChainPart& part, Emit& emit) {
 void target_rows(const ChainPart& part, bool playing, Emit& emit) {
     glm::vec3 target = part.target;
     if (point_field("target", target, 0.01f)) emit.continuously("chain.target", {{"to", target}});
-    explain("Where the target is. It can be dragged in the picture too.");
+    explain("Where the target is. It can be dragged in the scene too.");
 
     const auto titles = motion_paths.titles();
     int path = static_cast<int>(part.motion.path);
@@ -104,14 +104,14 @@ void target_rows(const ChainPart& part, bool playing, Emit& emit) {
     };
     float radius = part.motion.radius, period = part.motion.period;
     if (number_field("radius", radius, 0.01f, 0.0f, 1000.0f, "%.2f m")) with("radius", radius);
-    explain("How far the path goes to each side of its middle.");
+    explain("How far the path goes to each side of its centre.");
     if (number_field("period", period, 0.02f, min_period, max_period, "%.2f s")) with("period", period);
     explain("How long one round takes. Shorter is faster.");
 }
 
 constexpr PastHelp past_help{
-    "What of the last ten seconds is plotted below the scene; angles are those of the selected joint",
-    "Where the chain was, at every half second"};
+    "What is plotted below the scene over the last ten seconds; angles are those of the selected joint",
+    "Where the chain was every half second"};
 
 void preset_rows(Emit& emit) {
     std::vector<PresetButton> buttons;
@@ -155,8 +155,8 @@ void ChainLab::timeline(const Workspace& workspace, Emit& emit) const {
     if (chain.trace) {
         const Trace& trace = *chain.trace;
         const bool plays = part.study.pace > 0.0f;
-        if (icon_button("play", plays ? Icon::Pause : Icon::Play,
-                        plays ? "Pauses" : "Goes through the steps by itself", true, plays))
+        if (icon_button("play", plays ? Icon::Pause : Icon::Play, plays ? "Pauses" : "Plays the steps", true,
+                        plays))
             emit(plays ? "microscope.pause" : "microscope.play");
         ImGui::SameLine();
         int shown = static_cast<int>(part.study.step);
@@ -164,7 +164,7 @@ void ChainLab::timeline(const Workspace& workspace, Emit& emit) const {
             emit.continuously("microscope.seek", {{"step", shown}});
         }
         if (ImGui::IsItemHovered() && !ImGui::IsItemActive())
-            tell_strip("The steps of the solve. Drag shows the chain after one of them.");
+            tell_strip("The steps of the solve. Drag to see the chain after one of them.");
         return;
     }
     const StripLine strip = past_strip(workspace, emit);
@@ -242,9 +242,9 @@ void coloured_note(const std::string& text, glm::vec3 colour) {
 void report_rows(const ShownChain& shown, const std::vector<glm::vec3>& joints, const Palette& palette) {
     const ChainPart& part = shown.part;
     if (!shows_end(shown)) {
-        verdict("On its way", palette.text);
+        verdict("In progress", palette.text);
         reading("tip to target", "%.4f m", static_cast<double>(shown_residual(part, joints)));
-        note("A step of the solve; its report comes with the last one.");
+        note("A step of the solve; the report comes with the last one.");
         return;
     }
     show_verdict(chain_verdict(part), palette);

@@ -90,7 +90,7 @@ std::optional<PastCurve> chain_past_curve(const Workspace& workspace) {
     return PastCurve{
         .name = name,
         .of = name,
-        .missing = what == Number::Twist ? "Twist is known within limits only: give a joint one."
+        .missing = what == Number::Twist ? "Twist is only known within limits: give a joint a limit."
                                          : "Select a joint with a bone after it.",
         .value = [what, joint](const SharedPart& part) { return value_of(what, chain_of(part), joint); }};
 }
@@ -202,7 +202,7 @@ std::string cause_of(const ChainPart& before, const ChainPart& after) {
     if (limit_switched(before, after)) return "a limit switched sides";
     if (was_straight(was, is, reach)) return "the chain was straight (collinear)";
     if (pole.close) return "the target's line came close to the pole";
-    return "the solver went over to another pose that the target allows";
+    return "the solver switched to another pose that the target allows";
 }
 
 std::optional<Incident> flip(const ChainPart& before, const ChainPart& after) {

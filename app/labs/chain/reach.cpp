@@ -214,10 +214,10 @@ const char* status_help(ik::Status status) {
     static constexpr const char* texts[] = {
         "The tip is on the target.",
         "The target is out of reach: the chain lies straight towards it.",
-        "The target is nearer than the longest bone lets the tip fold.",
+        "The target is closer than the longest bone lets the tip fold.",
         "The joint limits keep the tip away.",
         "More iterations would change nothing.",
-        "Still on its way when the iterations were used up.",
+        "Not there yet when the iterations ran out.",
         "Nothing was moved: a number is not valid.",
     };
     return texts[static_cast<std::size_t>(status)];
@@ -237,7 +237,7 @@ std::string active_limit_text(const ik::ActiveLimit& limit) {
     std::string text = "joint " + std::to_string(limit.joint) + " (" + kind_title(limit.kind) + ") ";
     text += std::string(bound_phrase(limit.bound)) + " " + degrees_text(limit, limit.limit) + " degrees";
     text += "; the target needs " + needed_degrees(limit);
-    if (!limit.enough) text += " and more of the others";
+    if (!limit.enough) text += " and more from the others";
     return text;
 }
 

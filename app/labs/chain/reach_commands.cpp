@@ -40,14 +40,14 @@ std::span<const FieldText> field_texts<ReachSettings>() {
          .step = 0.005f},
         {.name = "soft_zone",
          .label = "soft zone",
-         .help = "The zone before full reach, as a part of it, in which the chain eases off instead of "
+         .help = "The zone before full reach, as a fraction of it, in which the chain eases off instead of "
                  "snapping straight.",
          .step = 0.002f,
          .decimals = 3,
          .unit = "of reach"},
         {.name = "damping",
          .label = "damping",
-         .help = "Damping of the two damped solvers, as a part of the reach. More is calmer near a "
+         .help = "Damping of the two damped solvers, as a fraction of the reach. More is calmer near a "
                  "singularity, and slower.",
          .step = 0.001f,
          .decimals = 3,
@@ -59,8 +59,8 @@ std::span<const FieldText> field_texts<ReachSettings>() {
          .decimals = 0},
         {.name = "restarts",
          .label = "restarts",
-         .help = "Within joint limits: from how many other poses the solver restarts where it ends short of "
-                 "the target. More reach it more often; the chain may jump."},
+         .help = "Within joint limits: how many other poses the solver restarts from if it ends short of the "
+                 "target. More reach it more often; the chain may jump."},
         {.name = "pole_turn",
          .label = "turns",
          .help = "How the chain turns to its pole target: all joints at once, which is smooth, or each "
@@ -91,8 +91,8 @@ void set_solver(ChainPart& part, const Arguments& given, ChainRuntime& runtime) 
 
 void set_pole(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
     const bool off = given.has("off") && given.boolean("off");
-    if (given.has("to") && off) throw Refused("to and off exclude each other");
-    if (!given.has("to") && !off) throw Refused("needs to, or off: true");
+    if (given.has("to") && off) throw Refused("to and off cannot be combined");
+    if (!given.has("to") && !off) throw Refused("needs either to or off: true");
     part.reach.pole.reset();
     if (off && part.chosen_point == ChainPoint::Pole) part.chosen_point.reset();
     if (given.has("to")) part.reach.pole = given.point("to");
@@ -105,7 +105,8 @@ constexpr const char* angle_names[] = {"min_deg",  "max_deg",   "up_deg",       
 /// A joint's limit after the edit.
 ik::Limit changed_limit(const ChainPart& part, std::size_t index, const Arguments& given) {
     if (index + 1 == part.chain.size()) {
-        throw Refused("index " + std::to_string(index) + " is the tail: no bone starts there to be limited");
+        throw Refused("index " + std::to_string(index) +
+                      " is the tail: no bone starts there that could be limited");
     }
     // An edit of the same kind keeps the angles that are not given; a new kind starts from its defaults.
     const ik::Limit now = limit_of(part.reach, index);
@@ -130,7 +131,7 @@ std::vector<Argument> limit_arguments() {
     std::vector<Argument> arguments{
         index_argument(false, "which joint; its limit is on the bone to the next one"),
         joints_argument(),
-        choice_argument("kind", false, "kind of joint; kept when left out",
+        choice_argument("kind", false, "kind of joint; unchanged if omitted",
                         names(all_joint_kinds, [](ik::JointKind k) { return ik::name(k); })),
         {.name = "axis",
          .type = ArgumentType::Point,
@@ -153,7 +154,7 @@ std::vector<Argument> limit_arguments() {
 void add_reach_commands(CommandTable& table) {
     std::vector<Argument> solver = field_arguments<ReachSettings>();
     solver.insert(solver.begin(),
-                  choice_argument("name", false, "kept when left out, as all the others are",
+                  choice_argument("name", false, "unchanged if omitted, like all the others",
                                   names(ik::all_methods, [](ik::Method m) { return ik::name(m); })));
     solver.push_back(switch_argument("default_tolerance", "true: 1e-3 of the reach"));
     solver.push_back(switch_argument("default_restarts", "true: 8, but none while the target is dragged"));

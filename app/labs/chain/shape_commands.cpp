@@ -16,7 +16,7 @@ Argument position_argument() {
     return {.name = "position",
             .type = ArgumentType::Point,
             .required = false,
-            .help = "where it is given, before its length is kept; straight on when left out"};
+            .help = "where it is placed, before its length is enforced; straight on if omitted"};
 }
 
 void check_size(const ChainPart& part) {
@@ -169,11 +169,12 @@ void add_shape_commands(CommandTable& table) {
                             remove_selected));
     table.add(
         chain_command("chain.reset", "Reset the Chain lab", {}, "Resets this lab to its first state", reset));
-    table.add(chain_command(
-        "chain.set_length", "Set the length of bones",
-        {length_argument(), index_argument(false, "which joint; its length is that of the bone to it"),
-         joints_argument()},
-        "Sets the length of the bones to joints", set_length));
+    table.add(
+        chain_command("chain.set_length", "Set the length of bones",
+                      {length_argument(),
+                       index_argument(false, "which joint; its length is that of the bone that leads to it"),
+                       joints_argument()},
+                      "Sets the length of the bones that lead to joints", set_length));
     table.add(chain_command(
         "chain.preset", "Open a chain preset",
         {choice_argument("name", true, "which chain",

@@ -120,7 +120,7 @@ Study load_study(const JsonPlace& place, const Chain& chain) {
     study.begin(kind.text() == "race" ? Study::Kind::Race : Study::Kind::Microscope, Study::From::Here, chain,
                 {});
     const JsonPlace start = place["start"];
-    start.check_size(chain.size(), "positions, one a segment");
+    start.check_size(chain.size(), "positions, one for each segment");
     for (std::size_t i = 0; i < chain.size(); ++i) study.start[i] = start.element(i).point();
     study.start_state = load_state(place, study.start);
     study.step = static_cast<std::size_t>(place["step"].integer(0, max_trace_steps));
@@ -363,7 +363,7 @@ std::string describe_frame(const Trace& trace, std::size_t frame) {
         case ik::Phase::Analytic:
             return "Solved in closed form, without iterating (" + joints + ").";
         case ik::Phase::RestoreBest:
-            return "The best pose is restored, for the last was worse (" + joints + ").";
+            return "The best pose is restored, as the last was worse (" + joints + ").";
         case ik::Phase::Blend:
             return "Blended with the given pose by the weight (" + joints + ").";
     }

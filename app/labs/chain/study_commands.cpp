@@ -19,7 +19,7 @@ std::optional<Study::From> start_of(const Arguments& given) {
 
 Argument start_argument() {
     return choice_argument(
-        "start", false, "what each solve starts from: as the last one did, the pose now, or a straight line",
+        "start", false, "what each solve starts from: the last start, the current pose, or a straight line",
         {std::begin(starts), std::end(starts)});
 }
 
@@ -121,17 +121,17 @@ void add_microscope_commands(CommandTable& table) {
                             "Goes to a step of the solve", seek_step, Effect::Look));
     table.add(chain_command(
         "microscope.step", "Step through the solve",
-        {integer_argument("by", "steps forward, or back when negative; 1 when left out", -max_trace_steps,
+        {integer_argument("by", "steps forward, or back if negative; default: 1", -max_trace_steps,
                           max_trace_steps),
-         integer_argument("iterations", "iterations forward, or back when negative, to the end of one",
+         integer_argument("iterations", "iterations forward, or back if negative, to the end of one",
                           -max_iterations, max_iterations)},
-        "Goes some steps forward or back", step, Effect::Look));
+        "Steps forward or back through the solve", step, Effect::Look));
     table.add(chain_command("microscope.play", "Play the solve's steps",
-                            {number_argument("pace", "steps a second; 8 when left out",
+                            {number_argument("pace", "steps per second; default: 8",
                                              shortest_decimal(slowest_pace), shortest_decimal(fastest_pace))},
-                            "Goes through the steps by itself, to the last", play, Effect::Look));
-    table.add(chain_command("microscope.pause", "Pause the solve's steps", {},
-                            "Stops going through the steps", pause, Effect::Look));
+                            "Plays the steps up to the last", play, Effect::Look));
+    table.add(chain_command("microscope.pause", "Pause the solve's steps", {}, "Stops playing the steps",
+                            pause, Effect::Look));
     table.add(chain_command("microscope.close", "Close the microscope", {},
                             "Closes the microscope; the chain stays as the solve left it", close_microscope,
                             Effect::Look));

@@ -28,9 +28,9 @@ float min_residual(float tolerance) {
 }
 
 void start_buttons(const char* command, Emit& emit) {
-    if (row_button("Start here", 2, true, "Each solve starts from the pose that the chain has now"))
+    if (row_button("Start here", 2, true, "Each solve starts from the chain's current pose"))
         emit(command, {{"start", "here"}});
-    if (row_button("Start straight", 2, true, "Each solve starts from the chain in a straight line"))
+    if (row_button("Start straight", 2, true, "Each solve starts with the chain in a straight line"))
         emit(command, {{"start", "straight"}});
 }
 
@@ -57,7 +57,7 @@ void racer_row(const ShownChain& shown, ik::Method method, bool time, const Pale
     ImGui::SameLine();
     text_flush_right(time ? si_text(1e-6 * racer->microseconds, "s")
                           : std::to_string(racer->report.iterations));
-    if (racer->report.status == ik::Status::InvalidInput) return small_right("does not take this chain");
+    if (racer->report.status == ik::Status::InvalidInput) return small_right("does not support this chain");
     const std::string ran = ran_text(method, racer->report, shown.race->within_limits);
     if (ran != solver_title(method)) small_right(ran);
     small_right(end_text(*racer));
@@ -121,7 +121,7 @@ void study_rows(const ChainPart& part, Emit& emit) {
 }
 
 void export_rows(Emit& emit) {
-    if (row_button("Copy as C++", 2, true, "This chain, mode and solver as a program against the library"))
+    if (row_button("Copy as C++", 2, true, "This chain, mode and solver as a program that uses the library"))
         emit("chain.copy", {{"as", "cpp"}});
     if (row_button("Copy as JSON", 2, true, "The scene as text")) emit("chain.copy", {{"as", "json"}});
     end_row();
@@ -139,16 +139,16 @@ void microscope_rows(const ShownChain& shown, const Palette& palette, Emit& emit
     if (part.motion.path != Motion::Path::Still)
         note("The moving target waits while the microscope is open.");
     if (trace.cut) note("The solve was longer: this is where the record ends.");
-    if (row_button("|<", 4, step > 0, "Back by an iteration")) emit("microscope.step", {{"iterations", -1}});
-    if (row_button("<", 4, step > 0, "Back by a step")) emit("microscope.step", {{"by", -1}});
-    if (row_button(">", 4, step < trace.frames(), "On by a step")) emit("microscope.step", {{"by", 1}});
-    if (row_button(">|", 4, step < trace.frames(), "On by an iteration"))
+    if (row_button("|<", 4, step > 0, "One iteration back")) emit("microscope.step", {{"iterations", -1}});
+    if (row_button("<", 4, step > 0, "One step back")) emit("microscope.step", {{"by", -1}});
+    if (row_button(">", 4, step < trace.frames(), "One step forward")) emit("microscope.step", {{"by", 1}});
+    if (row_button(">|", 4, step < trace.frames(), "One iteration forward"))
         emit("microscope.step", {{"iterations", 1}});
     end_row();
     float pace = part.study.pace > 0.0f ? part.study.pace : default_pace;
     if (number_field("play at", pace, 0.1f, slowest_pace, fastest_pace, "%.1f steps/s"))
         emit.continuously("microscope.play", {{"pace", pace}});
-    explain("How fast the steps follow each other while they play.");
+    explain("How fast the steps play.");
     start_buttons("microscope.open", emit);
     end_row();
     const Curve curve{solver_title(trace.method), palette.accent, by_iteration(trace.residuals)};
@@ -179,13 +179,13 @@ void race_rows(const ShownChain& shown, const Palette& palette, Emit& emit) {
     }
     race_plot(*shown.race, time, palette);
     if (ImGui::Checkbox("Against time", &time)) kept.SetBool(kept_as, time);
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Measured here and now, the fastest of several runs");
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Measured on this machine, the fastest of several runs");
     bool apart = shown.part.study.side_by_side;
     if (ImGui::Checkbox("Side by side", &apart)) {
         emit("race.side_by_side", {{"on", apart}});
         emit("camera.frame", {{"what", "all"}});
     }
-    explain("Shows each solver's chain in a view of its own, all with one camera, instead of all in one.");
+    explain("Shows each solver's chain in its own view, all with the same camera, instead of all in one.");
     start_buttons("race.open", emit);
     end_row();
     if (row_button("Copy numbers as CSV", 1, true, "Every solver's residual at each iteration"))

@@ -220,7 +220,7 @@ class Drawing {
         ball.rank = 5;
         if (!marks) return;
         list_.labels.push_back(
-            {.at = at, .clearance = px(14.0f), .text = "looked at", .colour = view_.palette.text, .rank = 3});
+            {.at = at, .clearance = px(14.0f), .text = "look-at", .colour = view_.palette.text, .rank = 3});
     }
 
     /// Contacts of planted feet with the ground.
@@ -306,7 +306,7 @@ LabSetting helpers_setting() {
             .command = "view.character_helpers",
             .title = "Show or hide helper nodes",
             .argument = "nodes",
-            .help = "Shows the nodes of a character that are no bones of its body: fingers, helpers",
+            .help = "Shows the nodes that are not bones of the body: fingers, helpers",
             .choices = {{"shown", "Nodes beside the body shown"}, {"hidden", "The body alone"}}};
 }
 

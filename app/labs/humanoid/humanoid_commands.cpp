@@ -24,29 +24,27 @@ namespace tendril::app {
 template <>
 std::span<const FieldText> field_texts<HumanoidView>() {
     static constexpr FieldText texts[] = {
-        {.name = "ghost",
-         .label = "Ghost",
-         .help = "The pose as it was before anything changed it, in gray."},
+        {.name = "ghost", .label = "Ghost", .help = "The pose before anything changed it, in grey."},
         {.name = "skin",
          .label = "skin",
-         .help = "What the character wears: as it is, or so that its bones show through",
+         .help = "How the skin is drawn: not at all, solid, or so that bones show through",
          .listed = true,
          .choices = skin_looks.rows},
         {.name = "skinning",
          .label = "skinning",
          .help = "How the skin follows twisted arms. Linear blending shrinks it to a thread at wrist and "
-                 "shoulder; twist spread turns it evenly along forearm and upper arm. Bones with twist nodes "
-                 "of their own are left to those",
+                 "shoulder; twist spread turns it evenly along forearm and upper arm. Bones with their own "
+                 "twist nodes use those instead",
          .listed = true,
          .choices = skinnings.rows},
         {.name = "limits",
          .label = "limits of",
-         .help = "How far joints turn: an adult's range, and over it that of the clips",
+         .help = "How far joints turn: an adult's range, with the clips' range over it",
          .listed = true,
          .choices = limits_shown.rows},
         {.name = "follow",
          .label = "Camera follows",
-         .help = "The camera goes along with a character that walks."}};
+         .help = "The camera follows the character as it walks."}};
     return texts;
 }
 
@@ -78,13 +76,14 @@ void set_flips(HumanoidPart& part, const Arguments& given) {
 void add_humanoid_look_commands(CommandTable& table) {
     table.add(part_command<HumanoidPart>(
         humanoid_lab, "humanoid.select", "Select nodes",
-        {node_argument("node", false, "by name; nothing is selected when all are left out"),
+        {node_argument("node", false, "by name; if all are omitted, nothing is selected"),
          name_list_argument("nodes", "node"),
-         switch_argument("add", "true: adds to what is selected, or with node takes out what is")},
+         switch_argument("add",
+                         "true: adds to the selection, or with node removes one that is already in it")},
         "Selects nodes of the character", select, Effect::Look));
     table.add(part_command<HumanoidPart>(
         humanoid_lab, "humanoid.view", "Set how the character is shown", field_arguments<HumanoidView>(),
-        "Sets how the character is shown; what is left out stays", set_view, Effect::Look));
+        "Sets how the character is shown; anything omitted stays as it is", set_view, Effect::Look));
     table.add(part_command<HumanoidPart>(
         humanoid_lab, "humanoid.flips", "Set the rule for bone flips", flip_arguments(humanoid_flip_words),
         "Sets what counts as a flip of a bone, from the next tick on", set_flips));

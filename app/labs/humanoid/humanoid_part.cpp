@@ -78,7 +78,7 @@ void set_bone(HumanoidPart& part, Bone bone, std::optional<std::size_t> node) {
     if (to == matched.node)
         map[bone] = matched;
     else
-        map[bone] = {to, node ? 1.0 : 0.0, node ? "picked by hand" : "taken away by hand"};
+        map[bone] = {to, node ? 1.0 : 0.0, node ? "picked by hand" : "removed by hand"};
     humanoid::review(map, part.skeleton());
     part.map = std::make_shared<const BoneMap>(std::move(map));
 }
@@ -132,7 +132,7 @@ Selection load_selection(const JsonPlace& place, const humanoid::Skeleton& skele
                           [&](const JsonPlace& each) { names.push_back(each.text()); });
     const std::string active = place["active"].text();
     if (std::find(names.begin(), names.end(), active) == names.end())
-        place["active"].fail("is not among those that are selected");
+        place["active"].fail("is not in the selection");
     names.push_back(active);
     return selection_of(names, skeleton);
 }

@@ -58,7 +58,7 @@ std::optional<std::size_t> clicked_node(const HumanoidPart& part, PickId pick) {
 
 std::string effector_hint(const HumanoidPart& part, Effector effector) {
     const bool has_target = part.ik.target(effector).has_value();
-    return title(effector) + (has_target ? ", which has a target: drag moves it. Double click lets it go."
+    return title(effector) + (has_target ? ", which has a target: drag moves it, double click lets it go."
                                          : ": drag gives it a target.");
 }
 
@@ -97,7 +97,7 @@ Together HumanoidLab::together(const Workspace& workspace, Drag) const {
             staying.push_back(part.skeleton()[node].name);
     }
     if (!staying.empty())
-        together.staying = "No effectors, so without a target: " + name_list_text(staying) + ".";
+        together.staying = "Not effectors, so they cannot have targets: " + name_list_text(staying) + ".";
     return together;
 }
 
@@ -208,17 +208,16 @@ std::string HumanoidLab::hint(const Workspace& workspace, PickId pick) const {
     if (waiting) return name + ": click makes it the " + humanoid::name(*waiting) + ".";
     const auto bone = part.bone_of(*node);
     return name +
-           (bone ? std::string(", the ") + humanoid::name(*bone) : std::string(", no bone of the body")) +
+           (bone ? std::string(", the ") + humanoid::name(*bone) : std::string(", not a bone of the body")) +
            ": click selects it.";
 }
 
 std::vector<MouseHelp> HumanoidLab::mouse_help() const {
-    return {
-        {"Drag of an orange ball", "gives hand, foot, head or hips a target"},
-        {"Double click on an orange ball", "lets it go"},
-        {"Drag of an arrow, a square or a ring", "moves or turns the selected hands, feet, head and hips"},
-        {"Shift+click on a bone", "adds it to the selection, or takes it out"},
-        {"Ctrl+drag on nothing", "draws a box that selects the nodes in it; with Shift it adds them"}};
+    return {{"Drag an orange ball", "gives hand, foot, head or hips a target"},
+            {"Double click on an orange ball", "lets it go"},
+            {"Drag an arrow, a square or a ring", "moves or turns the selected hands, feet, head and hips"},
+            {"Shift+click on a bone", "adds it to the selection, or takes it out"},
+            {"Ctrl+drag on nothing", "draws a box that selects the nodes in it; with Shift it adds them"}};
 }
 
 Bounds HumanoidLab::bounds(const Workspace& workspace, bool selection_only) const {

@@ -24,30 +24,30 @@ namespace tendril::app {
 namespace {
 
 constexpr PastHelp past_help{
-    "What of the last ten seconds is plotted below the scene: how far the selected effector is from its "
-    "target, "
-    "or how the selected joint is turned, from the T-pose",
-    "Where the body was, at every half second"};
+    "What is plotted below the scene over the last ten seconds: how far the selected effector is from its "
+    "target, or how far the selected joint is turned from the T-pose",
+    "Where the body was every half second"};
 
 void rest_row(const HumanoidPanel& panel) {
     const HumanoidPart& part = panel.part;
     const char* const name = humanoid::name(part.map->rest);
     reading("rest pose", "%s", part.map->rest == humanoid::RestPose::Other ? "neither T nor A" : name);
-    explain("T: the arms are level at rest. A: they hang by a quarter to three quarters of a right angle.");
+    explain(
+        "T: the arms are level at rest. A: they hang down by a quarter to three quarters of a right angle.");
     bool on = part.t_pose;
     if (ImGui::Checkbox("Rest as a T-pose", &on)) panel.emit("humanoid.t_pose", {{"on", on}});
     explain(
-        "Shows the rest pose with its arms straight aside and its legs straight down, and as it came as a "
-        "ghost.");
+        "Shows the rest pose with arms straight out to the sides and legs straight down; the pose of the "
+        "file is the ghost.");
 }
 
 void scale_row(const HumanoidPanel& panel) {
     if (panel.part.loaded->file.empty()) return;
     // Units span many orders of magnitude; centimetres are the usual one.
     auto centimetres = static_cast<float>(100.0 * panel.part.loaded->character.scale);
-    if (number_field("unit of the file", centimetres, 0.01f, 1e-4f, 1e8f, "%.4g cm"))
+    if (number_field("file unit", centimetres, 0.01f, 1e-4f, 1e8f, "%.4g cm"))
         panel.emit.continuously("humanoid.scale", {{"metres", 0.01 * static_cast<double>(centimetres)}});
-    explain("How long a unit of the file is. The character's height says whether it is right.");
+    explain("The length of one unit in the file. The character's height shows whether it is right.");
 }
 
 void kept_map_rows(const HumanoidPanel& panel) {
@@ -61,9 +61,8 @@ void kept_map_rows(const HumanoidPanel& panel) {
         names += (names.empty() ? "" : ", ") + std::string(humanoid::name(bone));
     note("A bone map that you made for these node names differs in " + count_text(bones.size(), "bone") +
          ": " + names + '.');
-    if (row_button("Use it", 2, true, "The bones become what you made them then"))
-        panel.emit("humanoid.map.use");
-    if (row_button("Forget it", 2, true, "It is not offered again")) panel.emit("humanoid.map.forget");
+    if (row_button("Use it", 2, true, "Maps the bones as you did then")) panel.emit("humanoid.map.use");
+    if (row_button("Forget it", 2, true, "It will not be offered again")) panel.emit("humanoid.map.forget");
     end_row();
 }
 
@@ -88,11 +87,10 @@ void character_rows(const HumanoidPanel& panel) {
     if (const Loading& loading = panel.runtime.loading; loading.running()) {
         note("Loading " + std::filesystem::path(loading.file()).filename().string() + " ...");
         ImGui::ProgressBar(loading.part(), {-1.0f, 0.0f}, "");
-        if (row_button("Cancel", 1, true, "The character that is there stays"))
-            panel.emit("humanoid.load.cancel");
+        if (row_button("Cancel", 1, true, "The current character stays")) panel.emit("humanoid.load.cancel");
         end_row();
     }
-    if (row_button("Stick figure", 1, !loaded.file.empty(), "The figure that is there without a file"))
+    if (row_button("Stick figure", 1, !loaded.file.empty(), "The built-in figure"))
         panel.emit("humanoid.load");
     end_row();
     kept_map_rows(panel);
@@ -119,9 +117,9 @@ void clip_rows(const HumanoidPanel& panel) {
         }
         end_search();
     }
-    explain("Which motion of the file is shown. Type a part of its name to find one.");
+    explain("The motion that is shown. Type part of a name to find one.");
     FieldRows(playback, "humanoid.clip", panel.emit).rows("speed", "loop", "in_place");
-    if (playback.playing && !panel.workspace.clock.playing) note("Paused: press Space to let it play.");
+    if (playback.playing && !panel.workspace.clock.playing) note("Paused: press Space to play.");
 }
 
 void look_rows(const HumanoidPanel& panel) {
@@ -178,17 +176,17 @@ void node_inspector(const HumanoidPanel& panel) {
     if (part.selection.several()) {
         reading("nodes", "%zu", part.selection.all().size());
         note(name_list_text(names_of(part.selection, part.skeleton())));
-        note("Shown is " + name + ".");
+        note("Showing " + name + ".");
     }
     text_row("node", name);
     const auto bone = part.bone_of(*node);
-    text_row("bone", bone ? humanoid::name(*bone) : "none of the body");
+    text_row("bone", bone ? humanoid::name(*bone) : "none");
     const std::int32_t parent = part.skeleton()[*node].parent;
-    text_row("hangs on", parent < 0 ? "nothing" : part.skeleton()[static_cast<std::size_t>(parent)].name);
+    text_row("parent", parent < 0 ? "none" : part.skeleton()[static_cast<std::size_t>(parent)].name);
     const ShownPose& shown = panel.runtime.shown(panel.workspace);
     position_rows(shown.placed[*node].position);
     if (!shown.before.empty())
-        reading("from before", "%.1f mm",
+        reading("moved by", "%.1f mm",
                 1000.0 * glm::distance(shown.placed[*node].position, shown.before[*node].position));
     spring_inspector(panel);
 }
@@ -216,7 +214,7 @@ void character_inspector(const HumanoidPanel& panel) {
     section("Character");
     const LoadedCharacter& loaded = *panel.part.loaded;
     text_row("from",
-             loaded.file.empty() ? "the program" : std::filesystem::path(loaded.file).filename().string());
+             loaded.file.empty() ? "built in" : std::filesystem::path(loaded.file).filename().string());
     reading("nodes", "%zu", loaded.skeleton().size());
     reading("clips", "%zu", loaded.clips().size());
     if (const humanoid::Clip* clip = panel.part.clip()) {
@@ -277,8 +275,7 @@ void bone_tooltip(const HumanoidPart& part, Bone bone) {
         text += ": " + node_name(part, match.node) + "\n" + sureness(match.confidence) + ", " +
                 fixed_text(100.0 * match.confidence, 0) + " %";
     else
-        text +=
-            humanoid::is_needed(bone) ? ": missing; the body solve needs it" : ": none; it can do without";
+        text += humanoid::is_needed(bone) ? ": missing; the body solve needs it" : ": none; not required";
     if (!match.reasons.empty()) text += "\n" + match.reasons;
     ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(26.0f * ImGui::GetFontSize());
@@ -349,7 +346,7 @@ void node_chooser(const HumanoidPanel& panel) {
         end_search();
     }
     ImGui::EndDisabled();
-    explain("Which node of the character is the chosen bone. Type a part of its name to find it.");
+    explain("The node that the chosen bone is mapped to. Type part of its name to find it.");
 }
 
 }  // namespace
@@ -365,8 +362,8 @@ void bone_rows(const HumanoidPanel& panel) {
         ImGui::PopStyleColor();
     }
     node_chooser(panel);
-    note(panel.runtime.panel.bone ? "Click a node of the figure, or pick it in the list."
-                                  : "Click a row, then a node of the figure, to say which it is.");
+    note(panel.runtime.panel.bone ? "Click a node of the figure, or pick it from the list."
+                                  : "To map a bone, click its row, then a node of the figure.");
     for (std::size_t i = 0; i < humanoid::bone_count; ++i) bone_row(panel, static_cast<Bone>(i));
 }
 
@@ -374,7 +371,7 @@ Verdict humanoid_verdict(const Workspace& workspace) {
     const HumanoidPart& part = humanoid_part(workspace);
     HumanoidRuntime& runtime = humanoid_runtime(workspace);
     if (runtime.solvers.body(part) == nullptr)
-        return {"Not a whole body", Verdict::Kind::Bad, runtime.solvers.why_no_body(part) + '.'};
+        return {"Incomplete body", Verdict::Kind::Bad, runtime.solvers.why_no_body(part) + '.'};
     const auto mapped =
         std::ranges::count_if(part.map->bones, [](const auto& each) { return each.node >= 0; });
     const std::string bones =
@@ -383,7 +380,7 @@ Verdict humanoid_verdict(const Workspace& workspace) {
     double worst = -1.0;
     for (const humanoid::Effector effector : all_effectors)
         if (part.ik.target(effector)) worst = std::max(worst, shown.residual(effector).value_or(-1.0));
-    if (worst < 0.0) return {"A whole body", Verdict::Kind::Good, bones};
+    if (worst < 0.0) return {"Complete body", Verdict::Kind::Good, bones};
     if (worst < 1e-3) return {"Reached", Verdict::Kind::Good, bones};
     const std::string off = worst < 0.1 ? fixed_text(1000.0 * worst, 1) + " mm" : fixed_text(worst, 2) + " m";
     return {off + " short", Verdict::Kind::Bad, bones};

@@ -72,7 +72,8 @@ Argument index_list_argument(const char* name, const char* instead_of) {
 }
 
 bool gives_one(const Arguments& given, const char* index, const char* list) {
-    if (given.has(index) == given.has(list)) throw Refused(std::string("needs ") + index + ", or " + list);
+    if (given.has(index) == given.has(list))
+        throw Refused(std::string("needs either ") + index + " or " + list);
     return given.has(index);
 }
 
@@ -114,7 +115,8 @@ Argument name_list_argument(const char* name, const char* instead_of, const char
 std::vector<std::string> name_list(const Arguments& given, const char* name) {
     std::vector<std::string> names;
     for (const Json& each : given.json(name)) {
-        if (!each.is_string()) throw Refused(std::string(name) + ": " + json_summary(each) + " is no name");
+        if (!each.is_string())
+            throw Refused(std::string(name) + ": " + json_summary(each) + " is not a name");
         names.push_back(each.get<std::string>());
     }
     return names;

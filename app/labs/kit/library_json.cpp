@@ -131,7 +131,7 @@ ik::PoleMemory load_pole(const JsonPlace& place, std::size_t joint_count,
         memory.joints = joints;
         return memory;
     }
-    list->check_size(joint_count, "places, one a joint");
+    list->check_size(joint_count, "positions, one for each joint");
     for (std::size_t i = 0; i < joint_count; ++i) memory.joints.push_back(offset_at(list->element(i)));
     return memory;
 }
@@ -156,7 +156,7 @@ Json save_ik_state(const ik::State& state) {
 ik::State load_ik_state(const JsonPlace& place, std::size_t bones, const std::vector<glm::vec3>& joints) {
     ik::State state(bones);
     if (const auto list = place.optional("rotations"); list && list->list_size("rotations", max_bones) > 0) {
-        list->check_size(bones, "values, one a bone");
+        list->check_size(bones, "values, one for each bone");
         for (std::size_t i = 0; i < bones; ++i) state.rotations[i] = list->element(i).rotation();
     }
     if (const auto limits = place.optional("limits")) {

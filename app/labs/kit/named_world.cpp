@@ -139,7 +139,7 @@ void NamedWorld::unpin(std::size_t particle) {
 }
 
 void NamedWorld::add_collider(const std::string& name, const rope::Shape& shape) {
-    if (name.empty()) refuse("add_collider", "a name", name);
+    if (name.empty()) refuse("add_collider", "not empty", name);
     if (find_collider(name) != nullptr) refuse("add_collider", "one that no other collider has", name);
     set_name(colliders_, require_value(world_.add_collider(shape)).index, name);
 }

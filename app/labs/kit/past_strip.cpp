@@ -25,7 +25,7 @@ std::string incident_title(const Incident& incident) {
     const std::string joint = named ? "Bone " + incident.name : "Joint " + std::to_string(incident.joint);
     switch (incident.kind) {
         case Incident::Kind::Flip:
-            return joint + (named ? " flipped: it turned " : " flipped: a bone at it turned ") +
+            return joint + (named ? " flipped: it turned " : " flipped: one of its bones turned ") +
                    fixed_text(static_cast<double>(incident.degrees), 0) + " degrees in one tick";
         case Incident::Kind::Limit:
             if (named) break;
@@ -85,7 +85,7 @@ TimeMark incident_mark(const Incident& incident, int at, const Palette& palette)
 
 void tell_incident(const Incident& incident) {
     tell_strip((incident_title(incident) + ":\n" + incident.cause +
-                ".\nClick shows what was before, and what came of it.")
+                ".\nClick to see what was before and what came of it.")
                    .c_str());
 }
 
@@ -131,7 +131,7 @@ StripLine past_time_strip(const Workspace& workspace, Emit& emit) {
     if (use.on_mark >= 0)
         tell_incident(incidents[static_cast<std::size_t>(use.on_mark)]);
     else if (use.hovered >= 0 && !ImGui::IsItemActive())
-        tell_strip("The last ten seconds. Drag goes back to how it was then.");
+        tell_strip("The last ten seconds. Drag to go back to that moment.");
     if (use.mark_clicked) {
         emit("time.incident", {{"number", use.on_mark}});
     } else if (use.moved) {

@@ -80,7 +80,7 @@ PastView past_view(const std::string& lab, const std::string& what, std::vector<
                  .command = "view." + lab + "_plot",
                  .title = "Plot the " + what + "'s last ten seconds",
                  .argument = "of",
-                 .help = "Plots something of the last ten seconds of the " + title + " lab below the scene",
+                 .help = "Plots a value over the last ten seconds of the " + title + " lab below the scene",
                  .choices = std::move(numbers)},
         .ghosts = {.key = lab + " ghosts",
                    .command = "view." + lab + "_ghosts",

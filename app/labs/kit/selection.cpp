@@ -75,7 +75,7 @@ Selection Selection::load(const JsonPlace& place, std::size_t count) {
                           [&](const JsonPlace& each) { all.push_back(each.index(count - 1)); });
     const std::size_t active = place["active"].index(count - 1);
     selection.take(all, false);
-    if (!selection.has(active)) place["active"].fail("is not among those that are selected");
+    if (!selection.has(active)) place["active"].fail("is not in the selection");
     selection.active_ = active;
     return selection;
 }

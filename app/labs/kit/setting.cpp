@@ -18,7 +18,7 @@ Command setting_command(const LabSetting& setting) {
     std::vector<std::string> names;
     for (const LabSetting::Choice& choice : setting.choices) names.push_back(choice.name);
     const char* const otherwise =
-        names.size() == 2 ? "the other one when left out" : "the next one when left out";
+        names.size() == 2 ? "if omitted, the other one" : "if omitted, the next one";
     return {.name = setting.command,
             .title = setting.title,
             .arguments = {{.name = setting.argument,

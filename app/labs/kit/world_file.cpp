@@ -131,7 +131,7 @@ rope::Pin load_pin(const JsonPlace& place, std::size_t particles, const Names& c
     if (const auto collider = place.optional("collider")) {
         const std::string name = collider->text();
         const auto found = std::find(colliders.begin(), colliders.end(), name);
-        if (found == colliders.end()) place.fail("moves with \"" + name + "\", which is no collider");
+        if (found == colliders.end()) place.fail("moves with \"" + name + "\", which is not a collider");
         pin.collider = {static_cast<std::uint32_t>(found - colliders.begin()), 1};  // as slots are numbered
     }
     return pin;

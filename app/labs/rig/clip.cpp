@@ -52,7 +52,7 @@ void append_frame(std::vector<ClipPose>& poses, const std::vector<ClipBone>& bon
         for (int axis = 0; axis < 3; ++axis)
             if (!(std::abs(within.translation[axis]) <= farthest && std::abs(within.scale[axis]) <= farthest))
                 throw std::invalid_argument(
-                    "a bone goes farther than 1e9 m, or grows larger: no clip holds it");
+                    "a bone is more than 1e9 m away, or scaled by more than that: a clip cannot hold it");
         poses.push_back(narrowed(within));
     }
 }
@@ -114,7 +114,7 @@ RigClip record_clip(const RigPart& part, std::size_t frames, rig::Workspace& scr
     if (bones.empty()) throw std::invalid_argument("the rig has no bones to record");
     if (frames > max_clip_frames || (frames + 1) * bones.size() > max_clip_poses)
         throw std::invalid_argument("a clip of " + std::to_string(frames) + " frames of " +
-                                    std::to_string(bones.size()) + " bones is larger than the most, " +
+                                    std::to_string(bones.size()) + " bones is over the maximum of " +
                                     std::to_string(max_clip_frames) + " frames and " +
                                     std::to_string(max_clip_poses) + " poses");
     if (frames * part.rig.work() > max_record_work)
@@ -138,7 +138,8 @@ void check_clip_solve(const RigPart& part) {
     for (const ClipBone& bone : clip_bones(part.rig, part.state.elements))
         bones.push_back(part.rig.definition().elements[bone.element].name);
     if (bones != part.clip->bones)
-        throw std::invalid_argument("the clip is of other bones than the rig has now; record it anew");
+        throw std::invalid_argument(
+            "the rig's bones have changed since the clip was recorded; record it again");
     if (frame_work(part) > max_frame_work)
         throw std::invalid_argument("the rig is so large that a frame of the clip would take too long");
 }

@@ -62,7 +62,7 @@ rig::Control read_control(const JsonPlace& place) {
     if (place.has("axes")) {
         const JsonPlace axes = place["axes"];
         if (control.kind != rig::ControlKind::Vector2d) axes.fail("only a 2D control (vector2d) has axes");
-        axes.check_size(2, "axes, two of x, y, z");
+        axes.check_size(2, "axes out of x, y and z");
         for (std::size_t i = 0; i < 2; ++i)
             control.axes[i] = static_cast<int>(read_name(axes.element(i), {"x", "y", "z"}));
     }
@@ -210,7 +210,7 @@ class Reader {
         const auto axes = [&](const char* name, std::array<bool, 3>& passes) {
             if (!place.has(name)) return;
             const JsonPlace list = place[name];
-            list.check_size(3, "bools, of x, y and z");
+            list.check_size(3, "bools, for x, y and z");
             for (std::size_t i = 0; i < 3; ++i) passes[i] = list.element(i).flag();
         };
         axes("translation", filter.translation);

@@ -49,7 +49,7 @@ std::vector<WantedValue> wanted_values(const RigPart& part, const Arguments& giv
     }
     const std::size_t count = elements_given(part, given).size();
     if (given.has("names") && given.json("names").size() != count)
-        throw Refused("names: each once, as each has a value of its own");
+        throw Refused("names: list each once, as each has its own value");
     const JsonPlace values = each_list(given, each, "names", count);
     for (const std::size_t at : element_list(part, given, "names"))
         wanted.push_back({at, values.element(wanted.size())});
@@ -93,7 +93,7 @@ void remove_selected(RigPart& part, const Arguments&) {
 
 const rig::Element& control_at(const RigPart& part, std::size_t at) {
     const rig::Element& element = part.rig.definition().elements[at];
-    if (!element.control) throw std::invalid_argument("\"" + element.name + "\" is no control");
+    if (!element.control) throw std::invalid_argument("\"" + element.name + "\" is not a control");
     return element;
 }
 
@@ -143,7 +143,7 @@ void check_one_kind(const RigPart& part, const std::vector<WantedValue>& control
         if (element.control->kind == first.control->kind) continue;
         throw std::invalid_argument("names: \"" + first.name + "\" is a " +
                                     control_title(first.control->kind) + ", \"" + element.name + "\" a " +
-                                    control_title(element.control->kind) + "; give those of one kind");
+                                    control_title(element.control->kind) + "; give controls of one kind");
     }
 }
 
@@ -189,16 +189,17 @@ void add_element_commands(CommandTable& table) {
     table.add(rig_command(
         "rig.element.add", "Add a bone, null or control",
         {text_argument("name", true, "of the element"),
-         choice_argument("kind", false, "a bone where left out", {"bone", "null", "control"}),
-         element_argument("parent", false, "an element; none where left out"),
+         choice_argument("kind", false, "default: bone", {"bone", "null", "control"}),
+         element_argument("parent", false, "an element; none if omitted"),
          json_argument("local", false,
-                       "{translation, rotation [x, y, z, w], scale} within the parent; the initial pose"),
-         choice_argument("control", false, "what kind of control; transform where left out",
+                       "the initial pose within the parent: {translation, rotation [x, y, z, w], scale}"),
+         choice_argument("control", false, "kind of control; default: transform",
                          {"transform", "position", "rotation", "float", "bool", "vector2d"}),
          json_argument("axes", false, "of a 2D control, vector2d: two of \"x\", \"y\", \"z\""),
-         json_argument("minimum", false, "of a control: a number, [a, b] or [x, y, z] as its kind has it"),
+         json_argument("minimum", false,
+                       "of a control: a number, [a, b] or [x, y, z], depending on its kind"),
          json_argument("maximum", false, "likewise"),
-         element_argument("space", false, "of a control: the element that it goes with, its parent")},
+         element_argument("space", false, "of a control: the element that it moves with, its parent")},
         "Adds a bone, a null or a control", add_element));
     const Argument name = element_argument("name", false, "of the element"),
                    control = control_argument("name", false, "of the element"),
@@ -206,35 +207,36 @@ void add_element_commands(CommandTable& table) {
     table.add(rig_command(
         "rig.element.set", "Set the pose of elements",
         {name, names,
-         choice_argument("space", false, "of the transform; local where left out", {"local", "global"}),
-         json_argument("transform", false,
-                       "{translation, rotation, scale}; what is left out stays, and so does a null among "
-                       "[x, y, z]"),
+         choice_argument("space", false, "of the transform; default: local", {"local", "global"}),
+         json_argument(
+             "transform", false,
+             "{translation, rotation, scale}; omitted ones are kept; a null in [x, y, z] keeps that number"),
          each_argument("transforms", "names"),
-         switch_argument("propagate", "the children move with it; on where left out")},
+         switch_argument("propagate", "the children move with it; default: on")},
         "Sets the input poses of elements, from which every solve begins", set_elements));
     table.add(rig_command("rig.element.remove", "Remove elements", {name, names},
-                          "Removes elements that are no parents of others and that no unit names",
+                          "Removes elements, unless others are below them or a unit uses them",
                           remove_elements));
     table.add(rig_command("rig.remove_selected", "Delete selection", {},
-                          "Removes the elements or the unit that were selected last", remove_selected));
+                          "Removes the elements or the unit, whichever was selected last", remove_selected));
     table.add(rig_command(
         "rig.control.set", "Set controls",
         {control, names,
          json_argument("value", false,
-                       "{translation, rotation, scale}, [x, y, z], [x, y, z, w], a number, "
-                       "a bool or [a, b], as its kind has it; a null among [x, y, z] stays"),
+                       "{translation, rotation, scale}, [x, y, z], [x, y, z, w], a number, a bool or [a, b], "
+                       "depending on its kind; a null in [x, y, z] keeps that number"),
          each_argument("values", "names")},
-        "Sets controls, within their limits: one value on those of one kind, or one on each", set_controls));
+        "Sets controls, within their limits: one value for controls of one kind, or one for each",
+        set_controls));
     table.add(rig_command("rig.control.reset", "Reset controls", {control, names},
-                          "Sets controls to the values that they begin with", reset_controls));
-    table.add(rig_command("rig.curve.add", "Add a curve",
-                          {text_argument("name", true, "of the curve"),
-                           number_argument("value", "0 where left out", -1e9, 1e9)},
-                          "Adds a named curve, which units write", add_curve));
+                          "Sets controls to their initial values", reset_controls));
+    table.add(rig_command(
+        "rig.curve.add", "Add a curve",
+        {text_argument("name", true, "of the curve"), number_argument("value", "default: 0", -1e9, 1e9)},
+        "Adds a named curve that units can write to", add_curve));
     table.add(rig_command("rig.curve.set", "Set a curve's value",
-                          {curve_argument(), {.name = "value", .help = "before the units"}},
-                          "Sets the value that a curve has before the units write it", set_curve));
+                          {curve_argument(), {.name = "value", .help = "its value before the units run"}},
+                          "Sets the value that a curve has before the units write to it", set_curve));
 }
 
 // Commands that add, change, move, remove and switch units.
@@ -283,7 +285,7 @@ void enable(RigPart& part, const Arguments& given) {
 /// Appends every member that a unit may have.
 std::vector<Argument> unit_arguments(std::vector<Argument> arguments) {
     for (const std::string& each : unit_members())
-        arguments.push_back(json_argument(each.c_str(), false, "as the unit has it"));
+        arguments.push_back(json_argument(each.c_str(), false, "a member of the unit, as in a scene file"));
     return arguments;
 }
 
@@ -293,20 +295,20 @@ void add_unit_commands(CommandTable& table) {
     table.add(rig_command(
         "rig.unit.add", "Add a unit",
         unit_arguments({choice_argument("unit", true, "its operation", operation_names()),
-                        text_argument("name", false, "one of its own; after its operation where left out"),
-                        integer_argument("at", "its place among the units; at the end where left out", 0,
+                        text_argument("name", false, "a unique name; taken from its operation if omitted"),
+                        integer_argument("at", "position in the list of units; at the end if omitted", 0,
                                          static_cast<double>(max_lab_units))}),
-        "Adds a unit with its inputs: literals, outputs of units before it, elements", add));
+        "Adds a unit with its inputs: literals, outputs of earlier units, elements", add));
     table.add(rig_command("rig.unit.set", "Change a unit's inputs",
                           unit_arguments({unit_name_argument(true)}),
-                          "Changes inputs of a unit; those that are not given stay", set));
+                          "Changes inputs of a unit; omitted ones are kept", set));
     table.add(rig_command("rig.unit.remove", "Remove a unit", {unit_name_argument(true)},
-                          "Removes a unit from which no other takes an output", remove_unit));
+                          "Removes a unit whose outputs no other unit uses", remove_unit));
     table.add(rig_command("rig.unit.move", "Move a unit in the order",
                           {unit_name_argument(true),
                            {.name = "at",
                             .type = ArgumentType::Integer,
-                            .help = "its new place among the units of the rig, or of the body that it is in",
+                            .help = "its new position in the list of the rig, or of the body that it is in",
                             .low = 0,
                             .high = static_cast<double>(max_lab_units)}},
                           "Moves a unit, so that it runs earlier or later", move));

@@ -148,7 +148,7 @@ void marks_legend(const Palette& colours) {
     const float em = ImGui::GetFontSize();
     draw_pending(rig::Pending::Global, {at.x + 0.4f * em, at.y + 0.5f * ImGui::GetTextLineHeight()}, colours);
     ImGui::SetCursorPosX(ImGui::GetCursorPosX() + 1.2f * em);
-    note("local, global: filled while pending");
+    note("filled: not worked out yet");
 }
 
 void add_element_menu(const RigPanel& panel) {
@@ -191,7 +191,7 @@ void element_tree(const RigPanel& panel) {
     if (count > many) {
         ImGui::SetNextItemWidth(-1.0f);
         ImGui::InputTextWithHint("##filter", "Filter by name", filter.data(), filter.size());
-        explain("Lists only the elements that have this in their names.");
+        explain("Lists only elements whose names contain this.");
     } else {
         filter[0] = '\0';
     }
@@ -211,7 +211,7 @@ void element_tree(const RigPanel& panel) {
     ImGui::EndChild();
     if (marks && !rows.empty()) marks_legend(panel.colours);
     if (count == 0) note("No elements.");
-    if (count > 0 && rows.empty()) note("No element has this in its name.");
+    if (count > 0 && rows.empty()) note("No element's name contains this.");
     add_element_menu(panel);
     const Selection& selected = panel.part.selected.elements;
     if (row_button("Remove", 2, !selected.empty(),
@@ -385,9 +385,9 @@ std::vector<std::size_t> selected_alike(const RigPart& part) {
 
 void scope_note(const RigPart& part, std::size_t alike, const std::string& what) {
     if (!part.selected.elements.several()) return;
-    const std::string set = "What you set, you set on ";
+    const std::string set = "Changes apply to ";
     if (alike == part.selected.elements.all().size()) return note(set + "all of them.");
-    note(alike == 1 ? set + "this one: no others are " + what + "."
+    note(alike == 1 ? set + "this one only: no others are " + what + "."
                     : set + std::to_string(alike) + " of them: those that are " + what + ".");
 }
 

@@ -273,7 +273,7 @@ Cause by_report(const Both& both) {
         if (row.top != top->top || before == after) continue;
         const std::string who = row.inner ? "in its body, " + row.unit->name + ": " : "";
         if (after != rig::Warning::None) return who + rig::message(after);
-        return who + "no longer so: " + rig::message(before);
+        return who + "no longer the case: " + rig::message(before);
     }
     return std::nullopt;
 }
@@ -307,7 +307,7 @@ Cause by_half_turn(glm::vec3 from_was, glm::vec3 to_was, glm::vec3 from_is, glm:
     const float axis = angle_between(glm::cross(from_was, to_was), glm::cross(from_is, to_is));
     if (glm::pi<float>() - furthest > close_by || axis < 0.25f * static_cast<float>(radians))
         return std::nullopt;
-    return "the target was about half a turn away, where no way round is the shortest";
+    return "the target was about half a turn away, where neither way round is shorter";
 }
 
 /// Direction to an aim's target; none if unknown.
@@ -337,8 +337,8 @@ Cause by_aim(const Both& both, const rig::Transform& was, const rig::Transform& 
         const ReachPose before{{at_was}, at_was + *first_was, at_was + *second_was},
             after{{at_was}, at_was + *first_is, at_was + *second_is};
         const PolePassage passage = pole_passage(before, after);
-        if (passage.passed) return "the second target passed the line that the first is on";
-        if (passage.close) return "the second target came close to the line that the first is on";
+        if (passage.passed) return "the second target crossed the line to the first";
+        if (passage.close) return "the second target came close to the line to the first";
         return std::nullopt;  // the second target fixes the roll, so no half turn is involved
     }
     return by_half_turn(glm::vec3(was.rotation * glm::dvec3(*axis_was)), *first_was,

@@ -19,7 +19,7 @@ namespace tendril::app {
 namespace {
 
 /// With more elements than this, only controls are handles.
-constexpr std::size_t max_named = 400;
+constexpr std::size_t max_elements_with_handles = 400;
 
 /// Selecting elements keeps the unit selected.
 ArgumentList and_the_unit(const RigPart& part, ArgumentList arguments) {
@@ -30,9 +30,9 @@ ArgumentList and_the_unit(const RigPart& part, ArgumentList arguments) {
 const char* what_dragging_does(rig::ControlKind kind) {
     switch (kind) {
         case rig::ControlKind::Transform:
-            return "drag moves it; selected, it has arrows, rings and boxes";
+            return "drag moves it; when selected, it has arrows, rings and boxes";
         case rig::ControlKind::Position:
-            return "drag moves it; selected, it has arrows and planes";
+            return "drag moves it; when selected, it has arrows and planes";
         case rig::ControlKind::Rotation:
             return "drag a ring to turn it";
         case rig::ControlKind::Float:
@@ -58,7 +58,7 @@ std::vector<Handle> RigLab::handles(const Workspace& workspace) const {
     const std::size_t count = part.state.controls.size();
     std::vector<Handle> handles;
     for (std::size_t i = 0; i < count; ++i)
-        if (count <= max_named || part.rig.definition().elements[i].control)
+        if (count <= max_elements_with_handles || part.rig.definition().elements[i].control)
             handles.push_back(element_handle(workspace, i));
     return handles;
 }
@@ -170,8 +170,8 @@ std::vector<MouseHelp> RigLab::mouse_help() const {
     return {{"Shift+click on an element", "adds it to the selection, or takes it out"},
             {"Ctrl+drag on nothing", "draws a box that selects the elements in it; with Shift it adds them"},
             {"Double click on a control", "resets it to its initial value"},
-            {"Drag of an arrow, a square, a ring or a box",
-             "moves, turns or scales what is selected; several are moved, or turned about the gizmo"}};
+            {"Drag an arrow, a square, a ring or a box",
+             "moves, turns or scales the selection; several are moved, or turned about the gizmo"}};
 }
 
 Bounds RigLab::bounds(const Workspace& workspace, bool selection_only) const {

@@ -27,9 +27,9 @@ namespace {
 
 const char* preset_help(const std::string& name) {
     if (name == "aim")
-        return "A head looks at one control; another, which goes with the first, says where up is";
+        return "A head looks at one control; another, which moves with the first, sets which way is up";
     if (name == "fk") return "A tentacle of controls, turned by one dial, and the bones that follow them";
-    if (name == "loop") return "Five arms that one dial curls, by a for-each";
+    if (name == "loop") return "Five arms that one dial curls, with a for-each";
     if (name == "morph") return "A blob whose shape and colour follow controls through curves";
     if (name == "secondary") return "Two antennae that trail a head by springs";
     return "";
@@ -59,7 +59,8 @@ void residual_rows(const RigPanel& panel, const BackwardLeft& left) {
         reading(elided(name, 0.4f * ImGui::GetContentRegionAvail().x).c_str(), "%s",
                 left_text(1000.0 * each.metres, glm::degrees(each.radians), each.scale).c_str());
     }
-    if (bones.size() > shown) note("and " + count_text(bones.size() - shown, "bone") + " with less");
+    if (bones.size() > shown)
+        note("and " + count_text(bones.size() - shown, "bone") + " with smaller errors");
 }
 
 }  // namespace
@@ -85,7 +86,7 @@ LabSetting pending_marks() {
         .command = "view.pending_poses",
         .title = "Mark pending poses in the tree",
         .argument = "marks",
-        .help = "Marks in the tree of the Rig lab which local and global transforms wait to be worked out",
+        .help = "Marks in the tree of the Rig lab which local and global transforms are not worked out yet",
         .choices = {{"shown", "Pending poses marked"}, {"hidden", "Not marked"}}};
 }
 
@@ -108,7 +109,7 @@ void curve_rows(const RigPanel& panel) {
     if (!folding_section(panel.workspace, "Curves", panel.emit)) return;
     for (std::size_t i = 0; i < std::min<std::size_t>(curves.size(), 100); ++i) {
         reading(curves[i].name.c_str(), "%s", fixed_text(panel.part.state.curves[i], 3).c_str());
-        explain("A number that units write: a morph weight, a value of a material.");
+        explain("A number that units write, such as a morph weight or a material parameter.");
     }
     if (curves.size() > 100) note("and " + count_text(curves.size() - 100, "curve") + " more");
 }
@@ -117,16 +118,16 @@ void solve_rows(const RigPanel& panel) {
     if (row_button("Forward", 2, true, "Runs the units: from controls to bones. A tick does this too"))
         panel.emit("rig.solve", {{"direction", "forward"}});
     if (row_button("Backward", 2, true,
-                   "Sets the controls so that the bones stay as they are, if that can be. Begins a take"))
+                   "Sets the controls so that the bones stay as they are, if possible. Starts a take"))
         panel.emit("rig.solve", {{"direction", "backward"}});
     end_row();
     if (!panel.part.backward) return;
     const BackwardLeft& left = *panel.part.backward;
-    if (left.bone.empty()) return note("Without a bone there is nothing to match.");
-    if (left.expressed()) return note("The controls give every bone's pose.");
-    note(left.stopped ? "Stopped before the end, for the rig is large: there may be values that come nearer. "
-                        "What is left, worst first:"
-                      : "The controls cannot give the pose. What is left, worst first:");
+    if (left.bone.empty()) return note("There are no bones to match.");
+    if (left.expressed()) return note("The controls can give every bone its pose.");
+    note(left.stopped
+             ? "Stopped early, as the rig is large: there may be closer values. Errors left, worst first:"
+             : "The controls cannot give the pose. Errors left, worst first:");
     residual_rows(panel, left);
 }
 
@@ -141,7 +142,8 @@ void RigLab::panel(const Workspace& workspace, Emit& emit) const {
     if (open("Solve")) solve_rows(panel);
     time_rows(workspace, emit);
     if (!open("Export")) return;
-    if (row_button("Copy as C++", 1, true, "The rig as it is set, as a program against the library"))
+    if (row_button("Copy as C++", 1, true,
+                   "Copies the rig, as it is now, as a C++ program that uses the library"))
         emit("rig.copy");
 }
 
@@ -170,10 +172,11 @@ void pending_rows(const RigPanel& panel, std::size_t element) {
     const rig::Pending pending = panel.part.state.elements.pending(panel.part.rig.id(element));
     text_line(
         "pending", rig::name(pending),
-        "An element stores a local and a global transform. What is written makes the other one pending, and "
-        "for a global one those of all elements below it. It is worked out when something reads it.");
-    if (row_button(selected.several() ? "Read them" : "Read it", 2, true,
-                   "Works out what is pending here and on the way to the root, and says how much that was"))
+        "An element stores a local and a global transform. Writing one makes the other pending, along with "
+        "the global ones of all elements below. A pending one is worked out when something reads it.");
+    if (row_button(
+            selected.several() ? "Read them" : "Read it", 2, true,
+            "Works out what is pending here and up to the root, and says how many transforms that was"))
         panel.emit("rig.read", {which(panel.part, selected.all())});
     end_row();
 }
@@ -214,7 +217,7 @@ std::optional<SharedJson> transform_fields(const RigPanel& panel, const rig::Tra
     edited = by;
     if (vector_field("scale", edited, 0.01f, glm::vec3(-max_coordinate), glm::vec3(max_coordinate), "%.3f"))
         changed["scale"] = dpoint(edited_vector(transform.scale, by, edited));
-    explain("By how much it is larger along X, Y and Z. 1 leaves its size; 0 is not allowed.");
+    explain("The scale along X, Y and Z. 1 is the original size; 0 is not allowed.");
     if (changed.empty()) return std::nullopt;
     return SharedJson(std::move(changed));
 }
@@ -244,7 +247,7 @@ void pose_rows(const RigPanel& panel) {
     pose_lines("local", *panel.now.known(id, rig::Space::Local), "Within its parent, after the last unit.");
     pose_lines("global", *panel.now.known(id, rig::Space::Global), "In the scene, after the last unit.");
     pose_lines("initial", *panel.now.known(id, rig::Space::Local, rig::Pose::Initial),
-               "Within its parent, when it was added: the pose at rest.");
+               "Within its parent, when it was added: the rest pose.");
     pending_rows(panel, *found);
     if (!element.control) {
         ImGui::TextUnformatted("Input pose, within its parent");
@@ -283,8 +286,8 @@ Verdict rig_verdict(const RigPart& part) {
         if (warning == rig::Warning::None) continue;
         if (warned++ == 0) first = row.unit->name + ": " + rig::message(warning) + ".";
     }
-    if (all == 0) return {"No units", Verdict::Kind::Open, "Add a unit: it moves what the rig is made of."};
-    if (warned > 0) return {count_text(warned, "unit") + " left out", Verdict::Kind::Bad, first};
+    if (all == 0) return {"No units", Verdict::Kind::Open, "Add a unit: units move the rig's elements."};
+    if (warned > 0) return {count_text(warned, "unit") + " with problems", Verdict::Kind::Bad, first};
     if (on == 0) return {"All units are off", Verdict::Kind::Open, "Switch one on in the list of units."};
     const std::string of = std::to_string(on) + " of " + count_text(all, "unit") + " switched on.";
     return {on == 1 ? "The unit ran" : "All units ran", Verdict::Kind::Good, of};

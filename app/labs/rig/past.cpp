@@ -115,7 +115,7 @@ std::optional<PastCurve> rig_past_curve(const Workspace& workspace) {
     return PastCurve{
         .name = number + element,
         .of = number + element,
-        .missing = element.empty() ? "The rig has no element: add one."
+        .missing = element.empty() ? "The rig has no elements: add one."
                                    : element +
                                          " has no swing and twist: select a bone, or plot "
                                          "the angle.",
@@ -231,7 +231,7 @@ void add_limits(const RigPart& before, const RigPart& after, std::vector<Inciden
                                      .joint = i,
                                      .name = elements[i].name,
                                      .cause = "control " + elements[i].name +
-                                              (is ? " came to its limit: " : " left its limit: ") +
+                                              (is ? " reached its limit: " : " left its limit: ") +
                                               limit_text(control, axis, maximum)});
             }
     }
@@ -286,7 +286,7 @@ void unit_line(const RigPanel& panel, const rig::Unit& unit, const rig::Contribu
     text_flush_right(added, !on || !touched(step));
     if (ImGui::IsItemHovered()) {
         const std::string change = value_text(step.change);
-        ImGui::SetTooltip("Adds %s in its own space.\nThen it is at %s.", change.c_str(),
+        ImGui::SetTooltip("Adds %s in its own space.\nResult: %s.", change.c_str(),
                           value_text(step.after).c_str());
     }
     ImGui::PopID();
@@ -321,7 +321,7 @@ void why_rows(const RigPanel& panel) {
     }
     if (untouched > 0) {
         const std::string count = count_text(untouched, "unit") + " did not touch it";
-        if (row_button((all ? "Hide what did nothing" : count).c_str(), 1, true,
+        if (row_button((all ? "Hide idle units" : count).c_str(), 1, true,
                        all ? "Lists only the units that touched it" : "Lists them too"))
             all = !all;
         end_row();

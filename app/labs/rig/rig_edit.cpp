@@ -23,7 +23,7 @@ std::string quoted(const std::string& name) {
 void check_count(std::size_t count, std::size_t most, const char* what) {
     if (count > most)
         throw std::invalid_argument("the rig would have " + std::to_string(count) + " " + what +
-                                    "; the most is " + std::to_string(most));
+                                    "; the maximum is " + std::to_string(most));
 }
 
 /// Names must fit on a line and be storable in a file.
@@ -33,8 +33,8 @@ void check_name(const std::string& name) {
         throw std::invalid_argument("a name has " + std::to_string(name.size()) +
                                     " characters; the most is " + std::to_string(longest));
     if (std::any_of(name.begin(), name.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }))
-        throw std::invalid_argument("a name has a character that cannot be shown");
-    if (!is_storable(name)) throw std::invalid_argument("a name must be text in UTF-8");
+        throw std::invalid_argument("a name has an unprintable character");
+    if (!is_storable(name)) throw std::invalid_argument("a name must be valid UTF-8");
 }
 
 /// Number of elements that a for-each visits; stops counting above `most`.
@@ -66,7 +66,7 @@ void check_runs(const rig::Definition& definition) {
                 visits(rig, rest, *loop, max_lab_runs) * std::max<std::size_t>(1, loop->body.units().size());
         if (runs > max_lab_runs)
             throw std::invalid_argument("unit " + quoted(unit.name) +
-                                        ": a solve would run more units than the most, " +
+                                        ": a solve would run more units than the maximum of " +
                                         std::to_string(max_lab_runs));
     }
 }
@@ -422,7 +422,7 @@ UnitOffer follower(const RigPart& part, Json unit) {
 UnitOffer chain(const RigPart& part, Json unit) {
     const rig::Element* tip = item_of(part);
     const rig::Element* root = tip != nullptr ? bones_above(part, *tip, 2) : nullptr;
-    if (root == nullptr) return {{}, "a selected bone, two bones below another"};
+    if (root == nullptr) return {{}, "a selected bone with two bones above it"};
     unit["root"] = root->name;
     unit["tip"] = tip->name;
     if (const rig::Element* other = other_than(part, *tip);

@@ -62,7 +62,7 @@ Selection load_elements(const JsonPlace& place, const rig::Rig& rig) {
     Selection selection;
     selection.take(all, false);
     if (several && !(active && selection.has(*active)))
-        place["element"].fail("is not among those that are selected");
+        place["element"].fail("is not one of the selected elements");
     if (active) selection.take({*active}, true);
     return selection;
 }
@@ -172,7 +172,7 @@ RigTake read_take(const JsonPlace& place, const RigPart& part) {
         stored->for_each("keys", max_take_keys,
                          [&](const JsonPlace& each) { keys.push_back(read_key(each, part)); });
         if (!std::ranges::is_sorted(keys, {}, &TakeKey::tick))
-            stored->fail("expected the keys in the order of their ticks");
+            stored->fail("expected the keys in tick order");
         take.keys = std::make_shared<const std::vector<TakeKey>>(std::move(keys));
     }
     return take;
@@ -219,14 +219,14 @@ RateDifference read_rates(const JsonPlace& place, const RigPart& part) {
     RigPart begun = part;
     const double max_ticks = max_rate_seconds / tick_seconds;
     if (!(rates.ticks >= 1.0 && rates.ticks <= max_ticks && rates.ticks == std::floor(rates.ticks)))
-        place["ticks"].fail("expected 1 to " + std::to_string(std::lround(max_ticks)) + ", whole");
+        place["ticks"].fail("expected 1 to " + std::to_string(std::lround(max_ticks)) + " whole ticks");
     try {
         start_rates(begun, static_cast<std::uint32_t>(rates.ticks));
     } catch (const std::invalid_argument& refusal) {
         place.fail(refusal.what());
     }
     if (rates.frames != begun.rates->frames || rates.done >= rates.frames)
-        place["frames"].fail("that is not how far such a comparison comes");
+        place["frames"].fail("does not fit a running comparison of that length");
     return rates;
 }
 
@@ -271,8 +271,6 @@ void load_time(const JsonPlace& state, RigPart& part) {
 
 namespace {
 
-constexpr std::uint64_t max_clip_tick = 1'000'000'000'000;  ///< ticks
-
 using Numbers = std::vector<float>;
 
 /// One component of a bone's pose over all frames, in one list.
@@ -309,7 +307,7 @@ Numbers read_track(const JsonPlace& place, std::size_t size, std::size_t frames)
     if (numbers.size() == size)
         for (std::size_t i = 0; i < size * (frames - 1); ++i) numbers.push_back(numbers[i]);
     if (numbers.size() != size * frames)
-        place.fail("expected " + std::to_string(size) + " numbers, or as many a frame");
+        place.fail("expected " + std::to_string(size) + " numbers, or that many per frame");
     return numbers;
 }
 
@@ -394,14 +392,14 @@ Json clip_json(const RigPart& part) {
 
 void load_clip(const JsonPlace& place, RigPart& part) {
     check_members(place, {"began", "frames", "bones", "solve"});
-    RigClip clip{.bones = {}, .poses = {}, .began = place["began"].count(max_clip_tick)};
+    RigClip clip{.bones = {}, .poses = {}, .began = place["began"].count(max_recording_tick)};
     const std::size_t frames = place["frames"].index(max_clip_frames + 1);
     const JsonPlace bones = place["bones"];
     if (!bones.json().is_object() || bones.json().empty()) bones.fail("expected an object of bones");
-    if (frames == 0) place["frames"].fail("expected a frame or more");
+    if (frames == 0) place["frames"].fail("expected at least one frame");
     for (const auto& [name, stored] : bones.json().items()) clip.bones.push_back(name);
     if (frames * clip.bones.size() > max_clip_poses)
-        place.fail("the clip has more poses than the most, " + std::to_string(max_clip_poses));
+        place.fail("the clip has more poses than the maximum of " + std::to_string(max_clip_poses));
     clip.poses.resize(frames * clip.bones.size());
     for (std::size_t i = 0; i < clip.bones.size(); ++i)
         read_bone(bones[clip.bones[i].c_str()], clip, i, frames);

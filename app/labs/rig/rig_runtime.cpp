@@ -71,7 +71,6 @@ std::vector<double> RigRuntime::microseconds(const rig::Rig& rig) const {
 namespace {
 
 constexpr std::size_t max_bytes = 32u << 20;
-constexpr std::uint32_t first_stride = 8;
 
 /// The first tick at which the keys differ; snapshots after it are invalid.
 std::uint32_t first_difference(const std::vector<TakeKey>& a, const std::vector<TakeKey>& b) {

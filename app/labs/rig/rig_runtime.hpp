@@ -37,7 +37,8 @@ class TakeSnapshots {
     void follow(const RigPart& part);
 
     std::map<std::uint32_t, Snapshot> by_tick_;
-    std::uint32_t stride_ = 8;  ///< snapshots are kept at multiples of this
+    static constexpr std::uint32_t first_stride = 8;
+    std::uint32_t stride_ = first_stride;  ///< snapshots are kept at multiples of this
     std::size_t bytes_ = 0;
     // What the snapshots depend on.
     std::shared_ptr<const rig::State> start_;

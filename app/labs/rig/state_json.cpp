@@ -130,11 +130,11 @@ Json save_unit(const rig::UnitState& unit) {
 
 void load_unit(const JsonPlace& place, rig::UnitState& unit) {
     check_members(place, {"outputs", "warning", "memory"});
-    place["outputs"].check_size(unit.outputs.size(), "values, one an output");
+    place["outputs"].check_size(unit.outputs.size(), "values, one per output");
     for (std::size_t i = 0; i < unit.outputs.size(); ++i)
         unit.outputs[i] = read_stored(place["outputs"].element(i), type_of(unit.outputs[i]));
     unit.warning = static_cast<rig::Warning>(read_name(place["warning"], warnings));
-    place["memory"].check_size(unit.memory.size(), "values, one an element that the unit comes to");
+    place["memory"].check_size(unit.memory.size(), "values, one per element that the unit runs on");
     for (std::size_t i = 0; i < unit.memory.size(); ++i)
         unit.memory[i] = read_memory(place["memory"].element(i));
 }

@@ -220,9 +220,9 @@ void go_to(RigPart& part, std::uint32_t tick, RigRuntime& runtime) {
     const bool from_here = part.take.tick < tick && part.take.tick >= known;
     const std::uint32_t ticks = tick - (from_here ? part.take.tick : known);
     if (too_far(part, ticks))
-        throw std::invalid_argument("that is " + std::to_string(ticks) +
-                                    " ticks from the nearest that is known, which would take too long; go "
-                                    "there in smaller steps");
+        throw std::invalid_argument(
+            "that is " + std::to_string(ticks) +
+            " ticks from the nearest known tick, which would take too long; go there in smaller steps");
     if (from_here)
         while (part.take.tick < tick) pass(part, runtime, false);
     else

@@ -153,7 +153,7 @@ std::vector<std::size_t> element_list(const RigPart& part, const Arguments& give
 std::vector<std::size_t> elements_given(const RigPart& part, const Arguments& given) {
     if (gives_one(given, "name", "names")) return {element_named(part, given.text("name"))};
     std::vector<std::size_t> elements = element_list(part, given, "names");
-    if (elements.empty()) throw Refused("names: [] has no element in it");
+    if (elements.empty()) throw Refused("names: [] contains no elements");
     std::sort(elements.begin(), elements.end());
     elements.erase(std::unique(elements.begin(), elements.end()), elements.end());
     return elements;
@@ -169,12 +169,12 @@ void add_solve_commands(CommandTable& table) {
     table.add(rig_command("rig.reset", "Reset the Rig lab", {}, "Resets this lab to its first state", reset));
     table.add(part_command<RigPart>(
         rig_lab, "rig.select", "Select elements or a unit",
-        {element_argument("element", false, "none where left out"),
+        {element_argument("element", false, "none if omitted"),
          name_list_argument("elements", "element", "; the last one is shown"),
-         unit_argument("unit", false, "none where left out"),
-         switch_argument("add",
-                         "true: adds to what is selected, or with element takes out what is; the "
-                         "unit stays where left out")},
+         unit_argument("unit", false, "none if omitted"),
+         switch_argument(
+             "add",
+             "true: adds to the selection, or with element toggles it; the unit stays selected if omitted")},
         "Selects elements, a unit, or both", select, Effect::Look));
     table.add({.name = "rig.read",
                .title = "Read the pose of elements",
@@ -186,7 +186,7 @@ void add_solve_commands(CommandTable& table) {
     table.add({.name = "rig.copy",
                .title = "Copy the rig as C++",
                .arguments = {},
-               .help = "Puts the rig on the clipboard, as a C++ program against the library",
+               .help = "Copies the rig to the clipboard as a C++ program that uses the library",
                .effect = Effect::Look,
                .apply = copy});
     table.add(
@@ -197,13 +197,13 @@ void add_solve_commands(CommandTable& table) {
          .help = "Opens a preset",
          .effect = Effect::Edit,
          .apply = take_preset});
-    table.add({.name = "rig.solve",
-               .title = "Solve the rig",
-               .arguments = {choice_argument("direction", false, "forward where left out",
-                                             {"forward", "backward"})},
-               .help = "Runs the units, or sets the controls from the bones as they are; no time passes",
-               .effect = Effect::Edit,
-               .apply = solve});
+    table.add(
+        {.name = "rig.solve",
+         .title = "Solve the rig",
+         .arguments = {choice_argument("direction", false, "default: forward", {"forward", "backward"})},
+         .help = "Runs the units, or sets the controls to match the bones; no time passes",
+         .effect = Effect::Edit,
+         .apply = solve});
 }
 
 // Time: walks, going to a tick, clips, frame rates.
@@ -231,7 +231,7 @@ std::uint32_t phase_of(const Motion& from, std::uint32_t ticks, const Motion& to
 /// already on the same path keeps its centre. `old`: null if it does not walk.
 RigWalk walk_given(const RigPart& part, std::size_t at, const RigWalk* old, const Arguments& given) {
     const rig::Element& element = part.rig.definition().elements[at];
-    if (!element.control) throw std::invalid_argument("\"" + element.name + "\" is no control");
+    if (!element.control) throw std::invalid_argument("\"" + element.name + "\" is not a control");
     if (!can_walk(element.control->kind))
         throw std::invalid_argument("only a transform or position control can follow a path; \"" +
                                     element.name + "\" is a " + control_title(element.control->kind));
@@ -241,7 +241,7 @@ RigWalk walk_given(const RigPart& part, std::size_t at, const RigWalk* old, cons
     if (given.has("period")) walk.motion.period = given.number("period");
     if (given.has("turn")) walk.turn = given.boolean("turn");
     if (walk.turn && element.control->kind != rig::ControlKind::Transform)
-        throw std::invalid_argument("only a transform control turns along its path");
+        throw std::invalid_argument("only a transform control can turn along its path");
     const bool goes_on = old != nullptr && walk.motion.path == old->motion.path;
     walk.motion.ticks = goes_on ? phase_of(old->motion, part.take.tick, walk.motion) : 0;
     if (given.has("centre")) {
@@ -282,8 +282,8 @@ void go(Workspace& workspace, const Arguments& given) {
         throw std::invalid_argument("the take begins at tick " + std::to_string(take.began) +
                                     ", after tick " + said(wanted));
     if (tick > max_take_ticks)
-        throw std::invalid_argument("the take can be " + std::to_string(max_take_ticks) +
-                                    " ticks long, which ends before tick " + said(wanted));
+        throw std::invalid_argument("a take can be at most " + std::to_string(max_take_ticks) +
+                                    " ticks long, so it ends before tick " + said(wanted));
     const bool modified = workspace.modified();
     RigPart& part = workspace.document.edit<RigPart>(rig_lab);
     go_to(part, static_cast<std::uint32_t>(tick), runtime_of(workspace));
@@ -295,7 +295,7 @@ void go(Workspace& workspace, const Arguments& given) {
 /// What was played, or else ten seconds if a control walks.
 std::uint32_t ticks_worth_looking_at(const RigPart& part) {
     if (part.take.last > 0) return part.take.last;
-    if (part.walks.empty()) throw std::invalid_argument("nothing has been played yet: play, or say how long");
+    if (part.walks.empty()) throw std::invalid_argument("nothing has been played yet: play, or give seconds");
     return 600;
 }
 
@@ -322,7 +322,7 @@ void solve_clip(RigPart& part, const Arguments&) {
 /// Keeps the frames solved so far.
 void cancel_clip(RigPart& part, const Arguments&) {
     if (!part.clip_left || !part.clip_left->running)
-        throw std::invalid_argument("no backward solve of a clip goes on");
+        throw std::invalid_argument("no backward solve of a clip is running");
     ClipSolve stopped = *part.clip_left;
     stopped.running = false;
     part.clip_left = std::make_shared<const ClipSolve>(std::move(stopped));
@@ -352,18 +352,17 @@ void cancel_rates(RigPart& part, const Arguments&) {
 }
 
 void add_clip_commands(CommandTable& table) {
-    table.add(
-        {.name = "rig.clip.record",
-         .title = "Record the take as a clip",
-         .arguments = {number_argument("seconds", "from the take's start; where left out, what was played",
-                                       tick_seconds, max_clip)},
-         .help = "Records the bones of the take as a clip, a pose a frame, 60 a second",
-         .effect = Effect::Edit,
-         .apply = record});
+    table.add({.name = "rig.clip.record",
+               .title = "Record the take as a clip",
+               .arguments = {number_argument("seconds", "from the take's start; default: what was played",
+                                             tick_seconds, max_clip)},
+               .help = "Records the bones of the take as a clip, one pose per frame, 60 per second",
+               .effect = Effect::Edit,
+               .apply = record});
     table.add(rig_command("rig.clip.clear", "Remove the clip", {}, "Removes the clip", clear_clip));
     table.add(rig_command("rig.clip.solve", "Solve the clip backward", {},
                           "Solves the clip backward, frame by frame, and shows on the timeline what the rig "
-                          "cannot express; some frames a tick",
+                          "cannot express; a few frames per tick",
                           solve_clip));
     table.add(rig_command("rig.clip.cancel", "Stop the backward solve", {},
                           "Stops the backward solve of the clip", cancel_clip));
@@ -372,34 +371,33 @@ void add_clip_commands(CommandTable& table) {
 }  // namespace
 
 void add_time_commands(CommandTable& table) {
-    table.add(rig_command(
-        "rig.motion", "Move controls along a path",
-        {control_argument("name", false, "of a transform or position control"),
-         name_list_argument("names", "name"),
-         choice_argument("path", true, "the path, flat on the ground", motion_paths.names()),
-         point_argument("centre", false,
-                        "within the control's space; where left out, the path starts at the control"),
-         number_argument("radius", "metres", 0, static_cast<double>(max_motion_radius)),
-         number_argument("period", "seconds per round", shortest_decimal(min_period),
-                         shortest_decimal(max_period)),
-         switch_argument("turn", "a transform control looks along the path, with its z axis")},
-        "Moves controls along a path while the simulation runs", set_motions));
+    table.add(
+        rig_command("rig.motion", "Move controls along a path",
+                    {control_argument("name", false, "of a transform or position control"),
+                     name_list_argument("names", "name"),
+                     choice_argument("path", true, "the path, flat on the ground", motion_paths.names()),
+                     point_argument("centre", false,
+                                    "in the control's space; if omitted, the path starts at the control"),
+                     number_argument("radius", "metres", 0, static_cast<double>(max_motion_radius)),
+                     number_argument("period", "seconds per round", shortest_decimal(min_period),
+                                     shortest_decimal(max_period)),
+                     switch_argument("turn", "a transform control points its z axis along the path")},
+                    "Moves controls along a path while the simulation runs", set_motions));
     table.add({.name = "rig.time",
                .title = "Show a moment of the take",
                .arguments = {number_argument("seconds", "as the clock shows them", 0, 1e9),
                              integer_argument("tick", "of 1/60 s, instead of seconds", 0, 1e9)},
-               .help = "Pauses and goes to a moment of the take, earlier or later: what playing there shows, "
-                       "to the bit",
+               .help = "Pauses and goes to a moment of the take, earlier or later: exactly what playing "
+                       "would show there",
                .effect = Effect::Look,
                .apply = go});
     table.add(
         {.name = "rig.rates",
          .title = "Compare frame rates",
          .arguments = {number_argument("seconds",
-                                       "from the take's start; where left out, what was played, "
-                                       "ten seconds at most",
+                                       "from the take's start; default: what was played, at most ten seconds",
                                        tick_seconds, max_rate_seconds)},
-         .help = "Compares the take at 15, 30, 60, 144 Hz and at uneven frames: how far apart its bones come",
+         .help = "Compares the take at 15, 30, 60, 144 Hz and at uneven frames: how far apart its bones get",
          .effect = Effect::Edit,
          .apply = compare_rates,
          .finish = finish_rates});

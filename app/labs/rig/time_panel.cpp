@@ -82,9 +82,11 @@ std::string clip_text(const RigPart& part) {
     if (!part.clip_left) return frames + ", not solved backward yet.";
     const ClipSolve& solve = *part.clip_left;
     if (solve.running) return std::to_string(solve.done()) + " of " + frames + " solved.";
+    if (solve.done() < part.clip->frames())
+        return "Stopped after " + std::to_string(solve.done()) + " of " + frames + '.';
     const auto left =
         std::ranges::count_if(solve.left, [](const FrameLeft& each) { return !each.expressed(); });
-    if (left == 0) return "The rig expresses all of the " + frames + ".";
+    if (left == 0) return "The rig can express all " + frames + ".";
     const FrameLeft& worst = solve.left[*worst_frame(solve)];
     return std::to_string(left) + " of " + frames +
            " cannot be expressed. Worst: " + part.clip->bones[worst.bone] + ", " +
@@ -97,13 +99,13 @@ void clip_rows(const RigPart& part, Emit& emit) {
     const bool running = part.clip_left && part.clip_left->running;
     const bool something = part.take.last > 0 || !part.walks.empty();
     if (row_button("Record", 3, something,
-                   something ? "The bones as the take has them become a clip" : "Play first"))
+                   something ? "Records the bones of the take as a clip" : "Play first"))
         emit("rig.clip.record");
     if (running) {
-        if (row_button("Cancel", 3, true, "What is solved stays")) emit("rig.clip.cancel");
+        if (row_button("Cancel", 3, true, "What is solved so far is kept")) emit("rig.clip.cancel");
     } else if (row_button("Solve", 3, part.clip != nullptr,
-                          "Backward: looks for the controls that give each frame; the timeline shows what is "
-                          "left")) {
+                          "Backward: looks for control values that give each frame; the timeline shows the "
+                          "errors left")) {
         emit("rig.clip.solve");
     }
     if (row_button("Clear", 3, part.clip != nullptr, "Removes the clip")) emit("rig.clip.clear");
@@ -131,7 +133,7 @@ void rate_rows(const RigPart& part, Emit& emit) {
     if (running) ImGui::ProgressBar(rates_done(most), {-1.0f, 0.0f}, "");
     reading("apart", "%s mm, %s\u00b0", fixed_text(most.mm, most.mm < 10.0 ? 3 : 1).c_str(),
             fixed_text(most.degrees, most.degrees < 10.0 ? 3 : 1).c_str());
-    explain("The most that any bone differs between two frame rates");
+    explain("The largest difference of any bone between two frame rates");
     if (most.scale >= min_shown_scale) reading("", "scale %s", fixed_text(most.scale, 3).c_str());
     if (most.mm > 0.0 || most.degrees > 0.0 || most.scale > 0.0)
         note("Most: " + most.bone + ", " + most.between + ", " + fixed_text(most.seconds, 2) +
@@ -139,9 +141,9 @@ void rate_rows(const RigPart& part, Emit& emit) {
 }
 
 constexpr PastHelp past_help{
-    "What of the last ten seconds is plotted below the scene, of the selected element: how it is turned "
-    "within its parent, from its initial pose",
-    "Where the bones were, at every half second"};
+    "What is plotted below the scene for the last ten seconds: how the selected element is turned within its "
+    "parent, from its initial pose",
+    "Where the bones were, every half second"};
 
 }  // namespace
 
@@ -161,8 +163,7 @@ void walk_rows(const Workspace& workspace, Emit& emit) {
         emit("rig.motion",
              {which(part, controls), {"path", motion_paths.name(static_cast<Motion::Path>(path))}});
     explain(
-        "The control follows a path, flat on the ground, from where it is. Dragging it ends that, and begins "
-        "a take");
+        "The control follows a horizontal path from where it is. Dragging it stops that and starts a take");
     if (!walks) return;
     walk_fields(part, controls, *walk, emit);
     if (!workspace.clock.playing) note("Paused: press Space to let it walk.");
@@ -236,8 +237,8 @@ std::string told(const RigPart& part, std::uint64_t tick) {
     std::string text = fixed_text(static_cast<double>(tick) * tick_seconds, 2) + " s";
     if (tick < part.take.began)
         text +=
-            ", before the take, which began where the rig was last edited: of what was then, only the last "
-            "ten seconds are known";
+            ", before the take, which began when the rig was last edited: only the last ten seconds before "
+            "it are kept";
     if (!part.clip || tick < part.clip->began || tick - part.clip->began >= part.clip->frames()) return text;
     const std::size_t frame = tick - part.clip->began;
     text += "\nClip, frame " + std::to_string(frame) + ": ";

@@ -87,7 +87,7 @@ std::string live_text(const UnitInput& input) {
         std::string operator()(const rig::Value& value) const { return input_text(input, value); }
         std::string operator()(const InputChoice& choice) const { return choice.names[choice.chosen]; }
         std::string operator()(const InputFilter& filter) const {
-            return filter.passes == rig::TransformFilter() ? "all pass" : "some do not pass";
+            return filter.passes == rig::TransformFilter() ? "all axes" : "some axes";
         }
         std::string operator()(const InputRange& range) const {
             return fixed_text(range.low, 2) + " to " + fixed_text(range.high, 2);
@@ -259,10 +259,10 @@ class Fields {
         const bool open = begin_search(title.c_str(), shown, typed);
         if (!open && ImGui::IsItemHovered()) {
             if (shown != nullptr)
-                ImGui::SetTooltip("%s: %s. Click for what else it may be\n%s", title.c_str(), shown->c_str(),
+                ImGui::SetTooltip("%s: %s. Click to choose another\n%s", title.c_str(), shown->c_str(),
                                   help().c_str());
             else
-                ImGui::SetTooltip("%s: takes it from an element or a unit", title.c_str());
+                ImGui::SetTooltip("%s: click to take it from an element or a unit", title.c_str());
         }
         if (!open) return;
         const std::vector<InputOffer> offers = input_offers(panel_.part, row_, *input_, index);
@@ -420,8 +420,8 @@ void unit_inspector(const RigPanel& panel) {
     for (std::size_t i = 0; i < outputs.size(); ++i)
         reading((std::string("gives ") + outputs[i].name).c_str(), "%s",
                 output_text(row->unit->operation, panel.part.state.units[row->at].outputs[i]).c_str());
-    if (row->inner) note("What it gives is of the last element of the for-each.");
-    if (row_button("Close", 2, true, "Selects no unit")) select_unit(panel, "");
+    if (row->inner) note("What it gives is for the last element of the for-each.");
+    if (row_button("Close", 2, true, "Deselects the unit")) select_unit(panel, "");
     end_row();
     ImGui::PopID();
 }

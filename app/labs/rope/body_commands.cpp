@@ -58,12 +58,14 @@ void add_hair(RopeEdit& edit, const Arguments& given) {
     set_fields(given, patch);
     check_particle_count(edit.seen(), count_of(patch.strands) * (count_of(shape.segments) + 1));
     if (given.has("attach")) {
-        if (given.has("centre")) throw Refused("centre is not for hair that is attached to a collider");
+        if (given.has("centre"))
+            throw Refused("centre cannot be given for hair that is attached to a collider");
         const rope::Collider& collider = collider_of(edit.seen(), given.text("attach"));
         attach = given.text("attach");
         shape.roots = require_value(rope::roots_on(collider.shape, patch, shape.radius));
     } else {
-        if (!given.has("centre")) throw Refused("centre is missing, or a collider to attach the hair to");
+        if (!given.has("centre"))
+            throw Refused("centre is missing; or give attach, a collider to attach the hair to");
         shape.roots = require_value(rope::roots_around(patch));
     }
     edit.world().add_hair(name_of(given), std::move(shape), attach);
@@ -87,8 +89,8 @@ void remove_selected(RopeEdit& edit, const Arguments&) {
 
 void pin(RopeEdit& edit, const Arguments& given) {
     if (given.has("at") && given.has("particles"))
-        throw Refused("at is for one particle: pinned to one point, several would be on top of each other");
-    if (given.has("points") && !given.has("particles")) throw Refused("points is for particles");
+        throw Refused("at is for one particle; several need points, one for each");
+    if (given.has("points") && !given.has("particles")) throw Refused("points needs particles");
     const std::vector<NamedParticle> all = named_particles(edit.seen(), given);
     for (const NamedParticle& named : all) forget_held(edit.part, named);  // it is pinned now
     if (given.has("at") || given.has("points")) return edit.move_pins(pin_places(given, all, "at", "points"));
@@ -172,22 +174,20 @@ void require_arguments(std::vector<Argument>& arguments, std::initializer_list<s
 }
 
 void add_adding_commands(CommandTable& table) {
-    std::vector<Argument> of_rope =
-        adding_arguments<rope::RopeShape>("\"rope\", \"rope 2\", ... when left out");
+    std::vector<Argument> of_rope = adding_arguments<rope::RopeShape>("default: \"rope\", \"rope 2\", ...");
     require_arguments(of_rope, {"from", "to"});
     table.add(rope_command("rope.add", "Add a rope", std::move(of_rope),
-                           "Adds a rope: straight, or hanging where it is longer than the distance",
-                           add_rope));
+                           "Adds a rope: straight, or hanging if it is longer than the distance", add_rope));
     std::vector<Argument> of_cloth =
-        adding_arguments<rope::ClothShape>("\"cloth\", \"cloth 2\", ... when left out");
-    of_cloth.push_back(choice_argument("material", false, "its density, shear and bend; cotton when left out",
+        adding_arguments<rope::ClothShape>("default: \"cloth\", \"cloth 2\", ...");
+    of_cloth.push_back(choice_argument("material", false, "sets density, shear and bend; default: cotton",
                                        names(rope::cloth_materials, [](const rope::ClothMaterial& each) {
                                            return std::string(each.name);
                                        })));
     require_arguments(of_cloth, {"corner", "along", "down"});
     table.add(rope_command("rope.cloth.add", "Add a cloth", std::move(of_cloth), "Adds a cloth", add_cloth));
     std::vector<Argument> of_hair =
-        adding_arguments<rope::HairShape, rope::HairPatch>("\"hair\", \"hair 2\", ... when left out");
+        adding_arguments<rope::HairShape, rope::HairPatch>("default: \"hair\", \"hair 2\", ...");
     of_hair.push_back(
         collider_argument("attach", false, "a collider that it grows from, instead of a centre"));
     table.add(rope_command("rope.hair.add", "Add hair", std::move(of_hair),
@@ -202,19 +202,18 @@ void add_body_commands(CommandTable& table) {
     made_of.insert(made_of.begin(), body_argument("rope", true, "of a rope, cloth or hair"));
     table.add(rope_command(
         "rope.set", "Change a rope, cloth or hair", std::move(made_of),
-        "Changes what a body is made of while it hangs; what is left out stays",
+        "Changes the properties of a rope, cloth or hair; omitted ones are kept",
         [](RopeEdit& edit, const Arguments& given) { set_body(edit.world(), given.text("rope"), given); }));
     table.add(rope_command("rope.remove", "Remove a rope, cloth or hair",
                            {body_argument("name", true, "of a rope, cloth or hair")},
                            "Removes a rope, cloth or hair", remove_body));
     table.add(rope_command("rope.remove_selected", "Delete selection", {}, "Deletes the selection",
                            remove_selected));
-    table.add(
-        rope_command("rope.pin", "Pin particles",
-                     {rope_argument(true, "which"), particle_argument(false, "which"), particles_argument(),
-                      point_argument("at", false, "metres; where it is when left out"),
-                      each_argument("points", "particles")},
-                     "Pins particles to where they are, or to points", pin));
+    table.add(rope_command(
+        "rope.pin", "Pin particles",
+        {rope_argument(true, "which"), particle_argument(false, "which"), particles_argument(),
+         point_argument("at", false, "metres; default: where it is"), each_argument("points", "particles")},
+        "Pins particles where they are, or at given points", pin));
     table.add(
         rope_command("rope.unpin", "Unpin particles",
                      {rope_argument(true, "which"), particle_argument(false, "which"), particles_argument()},

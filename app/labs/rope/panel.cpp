@@ -42,9 +42,9 @@ const char* tool_help(RopeTool tool) {
         case RopeTool::Pin:
             return "A click on a particle pins it where it is, or lets a pinned one move again.";
         case RopeTool::Cut:
-            return "A click on a rope cuts the segment that is there.";
+            return "A click on a rope cuts that segment.";
         default:
-            return "A click selects: the inspector then has what can be set.";
+            return "A click selects: the inspector then shows the settings.";
     }
 }
 
@@ -71,8 +71,8 @@ void solver_rows(const RopePart& part, Emit& emit) {
     if (number_field("substeps", per_second, 2.0f, 10.0f, 10000.0f, "%.0f /s"))
         emit.continuously("rope.settings", {{"substep", 1.0f / std::max(per_second, 1e-9f)}});
     explain(
-        "Into how many equal steps a second of the simulation is cut. More of them follow fast motion better "
-        "and cost more.");
+        "How many equal steps a simulated second is divided into. More steps follow fast motion better and "
+        "cost more.");
     if (now.solver != rope::Solver::Relaxation) settings.row("compliance");
 }
 
@@ -89,13 +89,13 @@ void time_rows(const Workspace& workspace, Emit& emit) {
     explain("How uneven frames are: 0 is even frames, 100 is frames of 1 to 250 ms.");
     note(part.jitter.dial > 0.0f
              ? "Frames of 1 to 250 ms: the picture stutters, the simulation stays the same."
-             : "Frame-time jitter cuts time into uneven frames, as a program that stutters does.");
+             : "Frame-time jitter makes frames uneven, like those of a program that stutters.");
 }
 
 constexpr PastHelp past_help{
-    "What of the last ten seconds is plotted below the scene: of the selected particles or their body, or of "
-    "all ropes where none is selected",
-    "Where the ropes were, at every half second"};
+    "What is plotted below the scene for the last ten seconds: of the selected particles or their body, or "
+    "of all ropes if none is selected",
+    "Where the ropes were, every half second"};
 
 }  // namespace
 
@@ -264,7 +264,7 @@ void frame_times(const std::vector<RopeSample>& samples, const Palette& palette)
           .high_y = 2.0f * even,
           .level = even},
          7.0f);
-    explain("How long each frame is that time is cut into. The dashed line is an even frame, 16.7 ms.");
+    explain("How long each frame is. The dashed line is an even frame, 16.7 ms.");
 }
 
 }  // namespace
@@ -291,18 +291,18 @@ void number_rows(const Workspace& workspace, const Palette& palette) {
     reading("particles", "%zu", state.position.size());
     const RopeSample last = part.samples.empty() ? RopeSample{} : part.samples.back();
     reading("length error", "%.4f %%", 100.0 * static_cast<double>(last.error));
-    explain("How far the worst segment is from its length, as one sees it: after contact.");
+    explain("How far off the worst segment's length is, as you see it: after contact.");
     reading("as solved", "%.4f %%", 100.0 * static_cast<double>(last.stretch));
-    explain("The length error as the solver left it: of hair, before colliders displaced anything.");
+    explain("The length error that the solver left: for hair, before colliders displaced anything.");
     reading("energy", "%.3f J", static_cast<double>(last.energy));
-    reading("taken by contact", "%.3f J", static_cast<double>(last_second(part.samples).contact_loss));
+    reading("lost to contact", "%.3f J", static_cast<double>(last_second(part.samples).contact_loss));
     explain("Energy lost to contact and friction in the last second, by bodies near colliders at rest.");
     reading("substeps dropped", "%llu", static_cast<unsigned long long>(state.dropped));
     explain(
-        "Substeps left out so as not to fall behind: of frames over the longest frame, and of more work than "
-        "a tick allows.");
+        "Substeps skipped so as not to fall behind: from frames over the longest frame, and where the work "
+        "exceeds what a tick allows.");
     if (workspace.clock.measured && part.cost > 0.0f)
-        reading("time a frame", "%.0f \xc2\xb5s", static_cast<double>(part.cost));
+        reading("time per frame", "%.0f \xc2\xb5s", static_cast<double>(part.cost));
     if (part.quiet_ticks > 0) note("At rest.");
     if (part.samples.size() < 2) return;
     section("Last ten seconds");

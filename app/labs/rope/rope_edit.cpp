@@ -74,7 +74,7 @@ bool operator==(const RopePart& a, const RopePart& b) {
 void check_particle_count(const NamedWorld& world, std::size_t more) {
     const std::size_t all = world.size() + more;
     if (all > max_lab_particles) {
-        throw Refused("that would make " + std::to_string(all) + " particles; the most is " +
+        throw Refused("that would make " + std::to_string(all) + " particles; the maximum is " +
                       std::to_string(max_lab_particles));
     }
 }
@@ -82,7 +82,7 @@ void check_particle_count(const NamedWorld& world, std::size_t more) {
 void check_collider_count(const NamedWorld& world) {
     const std::size_t all = world.state().colliders.size() + 1;
     if (all > max_lab_colliders) {
-        throw Refused("that would make " + std::to_string(all) + " colliders; the most is " +
+        throw Refused("that would make " + std::to_string(all) + " colliders; the maximum is " +
                       std::to_string(max_lab_colliders));
     }
 }
@@ -92,7 +92,7 @@ void check_work(const NamedWorld& world) {
     if (work <= max_lab_work) return;
     throw std::length_error("a substep of " + std::to_string(world.state().links.size()) + " links and " +
                             std::to_string(world.settings().iterations) + " iterations would take " +
-                            std::to_string(work) + " steps; the most is " + std::to_string(max_lab_work));
+                            std::to_string(work) + " steps; the maximum is " + std::to_string(max_lab_work));
 }
 
 const rope::Body& body_of(const NamedWorld& world, const std::string& name) {
@@ -145,7 +145,7 @@ std::vector<rope::PinPlace> pin_places(const Arguments& given, const std::vector
     if (twice != places.end())
         throw Refused(
             "particles: " + std::to_string(twice->particle - named.front().particle + named.front().index) +
-            " stands there twice");
+            " is listed twice");
     return places;
 }
 

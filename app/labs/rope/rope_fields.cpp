@@ -49,8 +49,8 @@ std::span<const FieldText> field_texts<BodySettings>() {
          .decimals = 4},
         {.name = "stretch",
          .label = "stretch",
-         .help = "How much longer a segment gets under a newton, in addition to the world's compliance. "
-                 "Relaxation counts this alone.",
+         .help = "How much longer a segment gets per newton, in addition to the world's compliance. "
+                 "Relaxation uses only this.",
          .step = 1e-5f,
          .decimals = 5},
         {.name = "shear",
@@ -60,12 +60,12 @@ std::span<const FieldText> field_texts<BodySettings>() {
          .decimals = 4},
         {.name = "bend",
          .label = "bend",
-         .help = "How easily a cloth or a hair bends. More is limper.",
+         .help = "How easily a cloth or a hair bends. Higher values are limper.",
          .step = 0.001f,
          .decimals = 4},
         {.name = "tear",
          .label = "tears at",
-         .help = "The strain at which a cloth tears, 0.1 for a tenth over its length; 0: never."}};
+         .help = "The strain at which a cloth tears: 0.1 is a tenth longer; 0: never."}};
     return texts;
 }
 
@@ -74,7 +74,7 @@ std::span<const FieldText> field_texts<RopeView>() {
     static constexpr FieldText texts[] = {
         {.name = "strain",
          .label = "Strain as colour",
-         .help = "Colours each rope by how far its segments are from their lengths."},
+         .help = "Colours each rope by how much its segments are stretched or squeezed."},
         {.name = "particles", .label = "Particles", .help = "Draws the particles that ropes are made of."},
         {.name = "sides",
          .label = "sides",
@@ -87,10 +87,10 @@ std::span<const FieldText> field_texts<rope::RopeShape>() {
     static constexpr FieldText texts[] = {
         {.name = "from", .label = "from", .help = "Its first particle."},
         {.name = "to", .label = "to", .help = "Its last particle."},
-        {.name = "segments", .label = "segments", .help = "32 when left out."},
-        {.name = "length", .label = "length", .help = "The distance when left out."},
-        {.name = "radius", .label = "radius", .help = "Half its thickness; 0.02 when left out."},
-        {.name = "density", .label = "density", .help = "1 when left out."},
+        {.name = "segments", .label = "segments", .help = "Default: 32."},
+        {.name = "length", .label = "length", .help = "Default: the distance."},
+        {.name = "radius", .label = "radius", .help = "Half its thickness; default: 0.02."},
+        {.name = "density", .label = "density", .help = "Default: 1."},
         {.name = "pin_start", .label = "pin the start", .help = "Pins its first particle."},
         {.name = "pin_end", .label = "pin the end", .help = "Pins its last particle."}};
     return texts;
@@ -102,25 +102,25 @@ std::span<const FieldText> field_texts<rope::ClothShape>() {
         {.name = "corner", .label = "corner", .help = "The first particle of the first row."},
         {.name = "along", .label = "along", .help = "From the corner to the other end of the first row."},
         {.name = "down", .label = "down", .help = "From the corner to the last row."},
-        {.name = "columns", .label = "columns", .help = "Particles in a row; 24 when left out."},
-        {.name = "rows", .label = "rows", .help = "24 when left out."},
-        {.name = "radius", .label = "radius", .help = "Half its thickness; 0.01 when left out."},
-        {.name = "density", .label = "density", .help = "The material's when left out."},
-        {.name = "shear", .label = "shear", .help = "Compliance; the material's when left out."},
-        {.name = "bend", .label = "bend", .help = "Compliance; the material's when left out."},
+        {.name = "columns", .label = "columns", .help = "Particles in a row; default: 24."},
+        {.name = "rows", .label = "rows", .help = "Default: 24."},
+        {.name = "radius", .label = "radius", .help = "Half its thickness; default: 0.01."},
+        {.name = "density", .label = "density", .help = "Default: the material's."},
+        {.name = "shear", .label = "shear", .help = "Compliance; default: the material's."},
+        {.name = "bend", .label = "bend", .help = "Compliance; default: the material's."},
         {.name = "tear", .label = "tears at", .help = "The strain at which links tear; 0: never."},
-        {.name = "pins", .label = "pins", .help = "What of its first row is pinned"}};
+        {.name = "pins", .label = "pins", .help = "Which part of its first row is pinned"}};
     return texts;
 }
 
 template <>
 std::span<const FieldText> field_texts<rope::HairShape>() {
     static constexpr FieldText texts[] = {
-        {.name = "length", .label = "length", .help = "Of a strand; 0.5 when left out."},
-        {.name = "segments", .label = "segments", .help = "Of a strand; 16 when left out."},
-        {.name = "radius", .label = "radius", .help = "Half the thickness of a strand; 0.004 when left out."},
-        {.name = "density", .label = "density", .help = "0.05 when left out."},
-        {.name = "bend", .label = "bend", .help = "Compliance; 0.1 when left out."}};
+        {.name = "length", .label = "length", .help = "Of a strand; default: 0.5."},
+        {.name = "segments", .label = "segments", .help = "Of a strand; default: 16."},
+        {.name = "radius", .label = "radius", .help = "Half the thickness of a strand; default: 0.004."},
+        {.name = "density", .label = "density", .help = "Default: 0.05."},
+        {.name = "bend", .label = "bend", .help = "Compliance; default: 0.1."}};
     return texts;
 }
 
@@ -130,9 +130,9 @@ std::span<const FieldText> field_texts<rope::HairPatch>() {
         {.name = "centre", .label = "centre", .help = "The middle of the patch that it grows from."},
         {.name = "direction",
          .label = "direction",
-         .help = "Of growth: down, or outwards from a collider, when left out."},
-        {.name = "strands", .label = "strands", .help = "32 when left out."},
-        {.name = "spread", .label = "spread", .help = "The radius of the patch; 0.1 when left out."}};
+         .help = "Of growth; default: down, or outwards from a collider."},
+        {.name = "strands", .label = "strands", .help = "Default: 32."},
+        {.name = "spread", .label = "spread", .help = "The radius of the patch; default: 0.1."}};
     return texts;
 }
 
@@ -142,7 +142,7 @@ std::span<const FieldText> field_texts<rope::Shape>() {
         {.name = "centre", .label = "centre", .help = "The middle of a sphere or box."},
         {.name = "radius",
          .label = "radius",
-         .help = "How thick a sphere or capsule is, from its middle to its surface.",
+         .help = "From the middle of a sphere or capsule to its surface.",
          .step = 0.002f,
          .decimals = 3},
         {.name = "a", .label = "one end", .help = "The middle of one of a capsule's round ends."},
@@ -172,26 +172,25 @@ std::span<const FieldText> field_texts<rope::Settings>() {
     static constexpr FieldText texts[] = {
         {.name = "substep",
          .label = "substep",
-         .help = "The length of the equal steps into which the simulation is cut. Shorter ones follow fast "
-                 "motion better and cost more.",
+         .help = "The length of the equal steps that the simulation takes. Shorter ones follow fast motion "
+                 "better and cost more.",
          .decimals = 5},
         {.name = "iterations",
          .label = "iterations",
-         .help =
-             "The maximum number of passes per substep. Direct ends as soon as it has converged; with the "
-             "others more passes stretch a rope less and cost more."},
+         .help = "The maximum number of passes per substep. Direct stops as soon as it has converged; with "
+                 "the others, more passes stretch a rope less and cost more."},
         {.name = "solver", .label = "solver", .help = "How lengths are kept", .choices = solvers},
         {.name = "damping",
          .label = "damping",
-         .help = "How fast motion dies away. Raise it where ropes swing for too long."},
+         .help = "How fast motion dies away. Raise it if ropes swing for too long."},
         {.name = "gravity",
          .label = "gravity",
          .help = "The acceleration due to gravity, along each axis; Y points up. On Earth it is 0, -9.81, 0.",
          .step = 0.05f},
-        {.name = "gravity_scale", .label = "gravity scale", .help = "A factor on gravity."},
+        {.name = "gravity_scale", .label = "gravity scale", .help = "Multiplies gravity."},
         {.name = "external",
          .label = "wind",
-         .help = "A steady acceleration of everything that moves, beside gravity.",
+         .help = "A steady acceleration of everything that moves, in addition to gravity.",
          .step = 0.05f},
         {.name = "compliance",
          .label = "compliance",
@@ -205,8 +204,8 @@ std::span<const FieldText> field_texts<rope::Settings>() {
                  "them."},
         {.name = "longest_frame",
          .label = "longest frame",
-         .help = "How much time a frame simulates at most; what is over is dropped, so that a slow frame "
-                 "does not make the next one slower.",
+         .help = "The most time that a frame simulates; the rest is dropped, so that a slow frame does not "
+                 "make the next one slower.",
          .step = 1.0f,
          .decimals = 0,
          .scale = 1000.0,

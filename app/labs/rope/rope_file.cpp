@@ -45,7 +45,7 @@ std::vector<Swing> load_swings(const JsonPlace& place, const NamedWorld& world) 
         if (world.find_collider(swing.collider) == nullptr)
             name.fail("there is no collider " + json_summary(name.json()));
         for (const Swing& before : swings)
-            if (before.collider == swing.collider) name.fail(json_summary(name.json()) + " swings twice");
+            if (before.collider == swing.collider) name.fail(json_summary(name.json()) + " is listed twice");
         swings.push_back(swing);
     });
     return swings;

@@ -107,7 +107,7 @@ void RopeLab::step(Workspace& workspace) const {
         const RopeReport report =
             pass_time(part, tick_seconds * static_cast<double>(clock.speed), runtime.workspace);
         stopwatch.stop();
-        if (!in_range(*part.world)) throw std::out_of_range("something would get farther than 1e9 m");
+        if (!in_range(*part.world)) throw std::out_of_range("something would move farther than 1e9 m");
         take_sample(part, report);
         // A tick without a substep says nothing about rest.
         const bool moved_on = part.world->state().substeps != substeps;
@@ -184,15 +184,15 @@ Bounds RopeLab::bounds(const Workspace& workspace, bool selection_only) const {
 Verdict rope_verdict(const RopePart& part) {
     constexpr double seen = 0.01;  // of its length: visibly too long
     if (part.world->state().bodies.empty())
-        return {"No ropes", Verdict::Kind::Open, "Add a rope, cloth or hair, or take a preset."};
+        return {"No ropes", Verdict::Kind::Open, "Add a rope, cloth or hair, or open a preset."};
     if (part.samples.empty())
-        return {"Not moved yet", Verdict::Kind::Open, "Space runs the simulation, and pauses it."};
+        return {"Not moved yet", Verdict::Kind::Open, "Space runs or pauses the simulation."};
     const RopeSample last = part.samples.back();
     const RopeReport report = last_second(part.samples);
     const auto error = static_cast<double>(last.error), before = static_cast<double>(last.stretch);
     if (report.inside > 0)
         return {"Inside a collider", Verdict::Kind::Bad,
-                std::to_string(report.inside) + " particles found no way out. Move the body or a collider."};
+                std::to_string(report.inside) + " particles cannot get out. Move the body or a collider."};
     const std::string percent =
         error < 1e-4 ? "under 0.01 %" : fixed_text(100.0 * error, error < 0.1 ? 2 : 0) + " %";
     if (error >= seen) {
@@ -200,11 +200,11 @@ Verdict rope_verdict(const RopePart& part) {
         if (const auto pulled = over_pulled(*part.world))
             return {off, Verdict::Kind::Bad,
                     "Pins of " + pulled->body + " are " + fixed_text(pulled->apart, 2) +
-                        " m apart; between them it is " + fixed_text(pulled->length, 2) + " m long."};
+                        " m apart, but between them it is only " + fixed_text(pulled->length, 2) +
+                        " m long."};
         if (before < 0.5 * error)
             return {off, Verdict::Kind::Bad, "Contact displaced links after the solve."};
-        return {off, Verdict::Kind::Bad,
-                "The solver left it: more iterations or substeps hold lengths better."};
+        return {off, Verdict::Kind::Bad, "The solver did not hold them: use more iterations or substeps."};
     }
     if (last.report.suspended > 0)
         return {"Neither held nor falling", Verdict::Kind::Bad,
@@ -212,8 +212,8 @@ Verdict rope_verdict(const RopePart& part) {
                 "solver "
                 "holds it."};
     if (report.unconverged > 0)
-        return {"Lengths hold; steps taken in part", Verdict::Kind::Open,
-                "In the last second the solver did not converge " + std::to_string(report.unconverged) +
+        return {"Lengths hold; some steps cut short", Verdict::Kind::Open,
+                "In the last second the solver failed to converge " + std::to_string(report.unconverged) +
                     " times. Shorter substeps help."};
     return {"Lengths hold", Verdict::Kind::Good, "The worst link is off by " + percent + "."};
 }

@@ -40,7 +40,7 @@ const std::vector<RopeSceneEntry>& rope_scenes() {
          "A deck of ropes and two hand ropes between four posts, and a ball that rolls over it", bridge_scene,
          view({0.0f, 0.85f, 0.0f}, -32.0f, 18.0f, 6.4f)},
         {"pendulum", "Pendula",
-         "Pendulums of different lengths: they make waves, fall apart and find together again",
+         "Pendulums of different lengths: they form waves, drift apart and fall into step again",
          pendulum_scene, view({0.0f, 0.75f, 0.0f}, -40.0f, 12.0f, 4.2f)},
         {"well", "Well", "A rope over the drum of a well, with a bucket at one end and a hand at the other",
          well_scene, view({0.0f, 0.85f, 0.0f}, -28.0f, 16.0f, 4.6f)},

@@ -81,14 +81,14 @@ void add_world_commands(CommandTable& table) {
     table.add({.name = "rope.copy",
                .title = "Copy the ropes as C++",
                .arguments = {},
-               .help = "Puts ropes and colliders on the clipboard, as a C++ program against the library",
+               .help = "Copies ropes and colliders to the clipboard as a C++ program that uses the library",
                .effect = Effect::Look,
                .apply = [](Workspace& workspace, const Arguments&) {
                    workspace.ui.copied = rope_code(rope_part(workspace));
                    workspace.toast("The ropes are on the clipboard as C++");
                }});
     table.add(rope_command("rope.settings", "Set how ropes are simulated", settings_arguments(),
-                           "Sets how ropes are simulated; what is left out stays", settings));
+                           "Sets how ropes are simulated; omitted settings are kept", settings));
     table.add(
         rope_command("rope.jitter", "Make frame times uneven",
                      {{.name = "dial", .help = "0: even frames; 1: from 1 to 250 ms", .low = 0, .high = 1}},
@@ -203,7 +203,7 @@ Argument name_argument() {
 void add_collider_commands(CommandTable& table) {
     std::vector<Argument> added = shape_arguments(), set_arguments = added;
     added.insert(added.begin(),
-                 {text_argument("name", true, "a new one"),
+                 {text_argument("name", true, "a new name"),
                   choice_argument("kind", true,
                                   "sphere: centre, radius; capsule: a, b, radius; "
                                   "plane: point, normal; box: centre, half_extents, rotation",
@@ -290,10 +290,10 @@ void add_look_commands(CommandTable& table) {
                      {rope_argument(false, "of the particle"), particle_argument(false, "which"),
                       collider_argument("collider", false, "instead of a particle"), particles_argument(),
                       switch_argument("add", "true: adds particles of the same rope, or takes one out")},
-                     "Selects particles or a collider; nothing when all is left out", select, Effect::Look));
+                     "Selects particles or a collider; nothing if all are omitted", select, Effect::Look));
     table.add(rope_command(
         "rope.hold", "Hold particles",
-        {rope_argument(true, "which"), particle_argument(false, "which; one of them a free one"),
+        {rope_argument(true, "which"), particle_argument(false, "which; at least one must be free"),
          particles_argument(), point_argument("at", false, "metres"), each_argument("points", "particles")},
         "Holds free particles until rope.let_go, as a drag does, and moves pinned ones along", hold));
     table.add(rope_command(
@@ -305,7 +305,7 @@ void add_look_commands(CommandTable& table) {
         [](RopeEdit& edit, const Arguments& given) { edit.part.tool = rope_tools.value(given.text("name")); },
         Effect::Look));
     table.add(rope_command("rope.view", "Set how ropes are shown", field_arguments<RopeView>(),
-                           "Sets how ropes are shown; what is left out stays", set_view, Effect::Look));
+                           "Sets how ropes are shown; omitted settings are kept", set_view, Effect::Look));
 }
 
 }  // namespace tendril::app

@@ -9,14 +9,14 @@ constexpr FieldText text(const char* name, const char* label, const char* help) 
     return {.name = name, .label = label, .help = help, .decimals = 3};
 }
 
-constexpr FieldText interp_to[]{text(
-    "speed", "speed",
-    "How fast the output follows: a frame goes this times its seconds of the way that is left, so the result "
-    "depends on the frame rate. At 0 or less the output jumps to the input.")};
-constexpr FieldText interp_to_exact[]{text("speed", "speed",
-                                           "How fast the distance to the input shrinks: more follows faster, "
-                                           "at any frame rate alike. At 0 or less the "
-                                           "output jumps to the input.")};
+constexpr FieldText interp_to[]{
+    text("speed", "speed",
+         "How fast the output follows: a frame covers this times its seconds of the distance left, so the "
+         "result depends on the frame rate. At 0 or less the output jumps to the input.")};
+constexpr FieldText interp_to_exact[]{
+    text("speed", "speed",
+         "How fast the distance to the input shrinks: higher follows faster, the same at any frame rate. At "
+         "0 or less the output jumps to the input.")};
 constexpr FieldText scale_bias_clamp[]{
     text("map_range", "map range", "First step: maps the in range to the out range, beyond its ends too."),
     text("in_range", "in range", "The range that is mapped. Only with map range."),
@@ -24,8 +24,8 @@ constexpr FieldText scale_bias_clamp[]{
     text("scale", "scale", "Second step: the value is multiplied by this, then the bias is added."),
     text("bias", "bias", "Second step: added after the value is multiplied by scale."),
     text("clamp", "clamp", "Third step: keeps the value between clamp min and clamp max."),
-    text("clamp_min", "clamp min", "The minimum of the value. Only with clamp; not over clamp max."),
-    text("clamp_max", "clamp max", "The maximum of the value. Only with clamp; not under clamp min."),
+    text("clamp_min", "clamp min", "The minimum of the value. Only with clamp; not above clamp max."),
+    text("clamp_max", "clamp max", "The maximum of the value. Only with clamp; not below clamp min."),
     text("interp", "interp", "Last step: eases towards the value, as the filter Interp to does."),
     text("speed_increasing", "speed increasing",
          "How fast it eases while the value rises. Only with interp."),
@@ -36,14 +36,13 @@ constexpr FieldText critical_damping = text("critical_damping", "critical dampin
                                             "that does not overshoot, more is sluggish.");
 constexpr FieldText spring[]{
     text("strength", "strength",
-         "How often a second the spring would swing without damping. More follows faster. At 0 there is no "
-         "spring."),
+         "How many times a second the spring would swing without damping. Higher follows faster. At 0 there "
+         "is no spring."),
     critical_damping,
     text("force", "force", "A constant acceleration of the output: shifts where it comes to rest."),
     text("target_velocity_amount", "target velocity amount",
-         "How much of the input's velocity the spring goes by: at 1 it follows steady motion without lag, "
-         "and jumps "
-         "overshoot.")};
+         "How much of the input's velocity the spring takes into account: at 1 it follows steady motion "
+         "without lag, and jumps overshoot.")};
 constexpr FieldText exponential_decay[]{text(
     "halflife", "halflife",
     "How long it takes until half of the distance to the input is left. More is smoother and lags more.")};
@@ -53,12 +52,13 @@ constexpr FieldText smooth_damp[]{
     text("smooth_time", "smooth time",
          "How smooth the output is: about the time by which it lags. More is smoother."),
     text("max_speed", "max speed",
-         "Limits how fast the output moves: the distance to the input counts up to this times smooth time.")};
-constexpr FieldText spring_semi_implicit[]{text("strength", "strength",
-                                                "How often a second the spring would swing without damping. "
-                                                "More follows faster; too much for the frame "
-                                                "rate and the output swings ever wider."),
-                                           critical_damping};
+         "Limits how fast the output moves: the distance to the input counts only up to this times smooth "
+         "time.")};
+constexpr FieldText spring_semi_implicit[]{
+    text("strength", "strength",
+         "How many times a second the spring would swing without damping. Higher follows faster; too high "
+         "for the frame rate and the output swings ever wider."),
+    critical_damping};
 constexpr FieldText one_euro[]{
     text("min_cutoff", "min cutoff",
          "The cutoff of the low pass while the input rests. Lower it until a still hand no longer trembles."),
@@ -67,17 +67,17 @@ constexpr FieldText one_euro[]{
     text("derivative_cutoff", "derivative cutoff",
          "The cutoff of the low pass on the speed itself. Lower it where noise is taken for speed."),
     text("reset_jump", "reset jump",
-         "Restarts the filter at the input where both are farther apart than this, as when a tracked hand is "
-         "lost and "
-         "found. 0: never.")};
+         "Restarts the filter at the input if the two are farther apart than this, as when a tracked hand is "
+         "lost and found. 0: never.")};
 constexpr FieldText moving_average[]{
     text("window", "window",
          "The output is the mean of the input over this time. More is smoother and lags more.")};
 constexpr FieldText dead_zone[]{
-    text("width", "width", "Inputs as near to 0 as this give 0; others are brought nearer to 0 by it.")};
+    text("width", "width", "Inputs within this of 0 give 0; others are moved towards 0 by it.")};
 constexpr FieldText hysteresis[]{
-    text("low", "low", "At this input and below the output turns to 0. Not over high."),
-    text("high", "high", "From this input on the output turns to 1. Between both it stays as it was.")};
+    text("low", "low", "At this input and below, the output becomes 0. Not above high."),
+    text("high", "high",
+         "At this input and above, the output becomes 1. Between the two it stays as it was.")};
 constexpr FieldText inertialize[]{
     text("halflife", "halflife", "How long it takes until half of a jump is left."),
     text("threshold", "threshold",

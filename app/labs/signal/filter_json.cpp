@@ -81,7 +81,8 @@ signal::Filter filter_from_json(const Json& json, const std::string& where) {
 std::vector<signal::Filter> filters_from_json(const Json& json, const std::string& where, std::size_t most) {
     if (!json.is_array()) return {filter_from_json(json, where)};
     if (json.size() > most) {
-        fail(where, "has " + std::to_string(json.size()) + " filters; the most is " + std::to_string(most));
+        fail(where,
+             "has " + std::to_string(json.size()) + " filters; the maximum is " + std::to_string(most));
     }
     std::vector<signal::Filter> filters;
     for (const Json& each : json)
@@ -183,7 +184,7 @@ void load_entries(signal::MovingAverageState& state, const JsonPlace& place) {
     });
     state.first = place["first"].index(state.entries.size());
     state.split = place["split"].index(state.entries.size());
-    if (state.split < state.first) place["split"].fail("expected at least first");
+    if (state.split < state.first) place["split"].fail("must not be less than first");
 }
 
 template <class State>

@@ -26,7 +26,7 @@ const signal::Filter* of_kind(const std::vector<signal::Filter>& filters, const 
 
 void start_fitting(SignalPart& part) {
     if (part.wanted.empty())
-        throw Refused("no response is wanted yet: draw one into the plot Fit, or give one with to");
+        throw Refused("there is no response to fit to yet: draw one in the plot Fit, or give one with to");
     part.fits.clear();
     part.fitting.emplace();
     for (const SignalStage& stage : part.stages) part.fitting->from.push_back(stage.filter);
@@ -84,7 +84,7 @@ void draw(SignalPart& part, const Arguments& given) {
     end_recording(part);
     if (part.wanted.empty()) {
         part.fit_input = rows_to_answer(part);
-        if (part.fit_input.size() < 2) throw Refused("there is no input yet to answer");
+        if (part.fit_input.size() < 2) throw Refused("there is no input to respond to yet");
         part.wanted = signal::run(enabled_filters(part), part.fit_input);
         for (double& value : part.wanted) value = std::clamp(value, -max_amplitude, max_amplitude);
     }
@@ -109,7 +109,7 @@ void take_numbers(SignalPart& part, const Json& list) {
     InputRows rows = rows_to_answer(part);
     if (wanted.size() < 2 || wanted.size() > rows.size()) {
         throw Refused("to must have 2 to " + std::to_string(rows.size()) +
-                      " samples, as the input has, got " + std::to_string(wanted.size()));
+                      " samples, no more than the input has, got " + std::to_string(wanted.size()));
     }
     rows.resize(wanted.size());
     part.fit_input = std::move(rows);
@@ -175,7 +175,7 @@ void begin(Workspace& workspace, const Arguments&) {
 }
 
 void show(SignalPart& part, const Arguments& given) {
-    if (!part.recording) throw Refused("no response is being recorded: signal.fit.record begins");
+    if (!part.recording) throw Refused("no response is being recorded: signal.fit.record starts one");
     part.recording->value = given.real("value");
     part.recording->begun = true;
 }
@@ -225,36 +225,36 @@ void add_fit_commands(CommandTable& table) {
         {{.name = "to",
           .type = ArgumentType::ListOrText,
           .required = false,
-          .help = "the response: samples at 60 Hz, or a CSV file; what was drawn when left out"}},
+          .help = "the response: samples at 60 Hz, or a CSV file; default: what was drawn"}},
         "Fits every kind of filter to a response, and ranks them", fit);
     fitting.finish = finish_fit;
     table.add(std::move(fitting));
     table.add(part_command<SignalPart>(signal_lab, "signal.fit.cancel", "Stop the fit", {},
-                                       "Ends a fit that is running; what is fitted so far stays", cancel));
+                                       "Stops a running fit; what is fitted so far is kept", cancel));
     table.add(part_command<SignalPart>(
-        signal_lab, "signal.fit.draw", "Draw the wanted response",
+        signal_lab, "signal.fit.draw", "Draw the desired response",
         {number("from", "seconds", 1e3), number("from_value", "the response there", max_amplitude),
          number("to", "seconds", 1e3), number("to_value", "the response there", max_amplitude)},
-        "Draws a stroke of the response that is wanted", draw));
+        "Draws a stroke of the desired response", draw));
     table.add({.name = "signal.fit.record",
-               .title = "Record the wanted response",
+               .title = "Record the desired response",
                .arguments = {},
-               .help = "Plays the input from its start, once the output ball is dragged, and records that as "
-                       "the response that is wanted",
+               .help = "Plays the input from its start, once the output ball is dragged, and records the "
+                       "drag as the desired response",
                .apply = begin});
     table.add(part_command<SignalPart>(signal_lab, "signal.fit.hand", "Move the recorded output",
                                        {number("value", "where the output should be now", max_amplitude)},
-                                       "Shows the response that is being recorded", show));
+                                       "Moves the output while a response is being recorded", show));
     table.add(part_command<SignalPart>(signal_lab, "signal.fit.stop", "Stop recording the response", {},
-                                       "Ends the recording of a response; what is there is kept", stop));
+                                       "Stops recording a response; what was recorded is kept", stop));
     table.add(part_command<SignalPart>(
         signal_lab, "signal.fit.use", "Use a fitted filter",
         {{.name = "rank", .type = ArgumentType::Integer, .help = "0: the best", .low = 0, .high = 1000}},
-        "Puts a fitted filter in the place of the chain", use_fit));
-    table.add(part_command<SignalPart>(signal_lab, "signal.fit.clear", "Forget the wanted response", {},
-                                       "Forgets the response that is wanted", forget));
+        "Replaces the chain with a fitted filter", use_fit));
+    table.add(part_command<SignalPart>(signal_lab, "signal.fit.clear", "Forget the desired response", {},
+                                       "Forgets the desired response", forget));
     table.add({.name = "signal.copy",
-               .title = "Copy filters or the past",
+               .title = "Copy filters or recent samples",
                .arguments = {choice_argument("as", true, "what", {"cpp", "csv"})},
                .help = "Puts the filters on the clipboard as C++, or the last ten seconds as CSV",
                .effect = Effect::Look,

@@ -56,7 +56,7 @@ void input_section(const SignalPart& part, Emit& emit) {
             emit.continuously("signal.input", {{"period", period}});
         explain(input.kind == InputKind::Noise
                     ? "The slow drift heads for a new value four times in this time."
-                    : "How long it takes until the input begins anew.");
+                    : "How long it takes until the input repeats.");
     }
     if (input.kind == InputKind::Hand) {
         float hand = static_cast<float>(input.hand);
@@ -72,7 +72,8 @@ void input_section(const SignalPart& part, Emit& emit) {
 }
 
 void export_section(Emit& emit) {
-    if (row_button("Copy as C++", 2, true, "The filters that are on, as a program against the library"))
+    if (row_button("Copy as C++", 2, true,
+                   "Copies the filters that are on as a C++ program that uses the library"))
         emit("signal.copy", {{"as", "cpp"}});
     if (row_button("Copy as CSV", 2, true, "Time, input and every stage of the last ten seconds"))
         emit("signal.copy", {{"as", "csv"}});
@@ -113,7 +114,7 @@ void chain_rows(const SignalPart& part, const Palette& palette, Emit& emit) {
         colour_mark(stage_colour(palette, part, i));
         bool on = stage.enabled;
         if (ImGui::Checkbox("##on", &on)) emit("signal.filter.enable", {{"at", i}, {"on", on}});
-        if (ImGui::IsItemHovered()) ImGui::SetTooltip("Off, its input passes as it is");
+        if (ImGui::IsItemHovered()) ImGui::SetTooltip("Off, its input passes unchanged");
         ImGui::SameLine();
         const float width = std::max(20.0f, ImGui::GetContentRegionAvail().x);
         const bool selected = part.selected == i;
@@ -170,12 +171,14 @@ void spring_rows(const signal::Spring<>& spring, std::size_t at, Emit& emit) {
         float half_life = static_cast<float>(feel.half_life);
         if (number_field("half-life", half_life, 0.002f, 0.001f, 10.0f, "%.3f s"))
             set(signal::of_half_life(static_cast<double>(half_life), spring.critical_damping));
-        explain("The same spring by the time until half of the way is left. Sets strength; damping stays.");
+        explain(
+            "The same spring, given by the time until half of the way is left. Sets strength; damping "
+            "stays.");
     }
     if (std::isfinite(feel.duration)) {
         float duration = static_cast<float>(feel.duration), bounce = static_cast<float>(feel.bounce);
         bool changed = number_field("duration", duration, 0.005f, 0.01f, 10.0f, "%.3f s");
-        explain("The same spring by the time of one swing without damping. Sets strength.");
+        explain("The same spring, given by the time of one swing without damping. Sets strength.");
         changed |= number_field("bounce", bounce, 0.005f, -0.9f, 1.0f, "%.3f");
         explain(
             "How much the spring overshoots: 0 does not, 1 swings for ever, less than 0 is sluggish. Sets "
@@ -234,7 +237,7 @@ void response_rows(const StageMeasures& measures) {
         explain("How far the output has to be shifted back in time to fit its input best.");
     }
     reading("overshoot", "%s", or_dash(measures.overshoot, 1e2, 1, "%").c_str());
-    explain("How far it goes beyond a jump of the input, as a part of the jump. Needs jumps: a square wave.");
+    explain("How far it goes beyond a jump of the input, relative to the jump. Needs jumps: a square wave.");
     reading("settling", "%s", or_dash(measures.settling_time, 1e3, 0, "ms").c_str());
     explain("From a jump until it stays within 2 % of it. Needs jumps: a square wave.");
     reading("jitter left", "%s", or_dash(measures.jitter, 1e2, 1, "%").c_str());
@@ -246,15 +249,14 @@ void measure_rows(const StageMeasures& measures) {
         reading("response", "unstable");
         explain(
             "It runs away: more than ten times as far as its input spans, and ever farther. Lag, overshoot, "
-            "settling and jitter of that would mean nothing.");
+            "settling and jitter would be meaningless.");
     } else {
         response_rows(measures);
     }
     reading("rate difference", "%s", difference_text(measures.rate_difference).c_str());
     explain(
-        "The maximum difference between 15, 30, 60, 144 Hz and uneven frames at one time, of what the chain "
-        "up "
-        "to here puts out.");
+        "The maximum difference, at any one time, between outputs of the chain up to here at 15, 30, 60, 144 "
+        "Hz and uneven frames.");
 }
 
 }  // namespace
@@ -264,35 +266,36 @@ void fit_rows(const SignalPart& part, Emit& emit) {
     section("Fit");
     if (part.recording) {
         note(
-            "Drag the blue ball as the output should move. The input begins when you take hold of it; the "
+            "Drag the blue ball the way the output should move. The input starts when you grab it; the "
             "recording ends when you let go.");
-        if (row_button("Stop", 1, true, "Ends the recording; what is there is kept")) emit("signal.fit.stop");
+        if (row_button("Stop", 1, true, "Stops recording; what was recorded is kept"))
+            emit("signal.fit.stop");
         return;
     }
     const char* const recording = "Plays the input from its start while you drag the output ball";
     if (part.wanted.empty()) {
-        note("Draw the response that you want into the plot, record it by hand, or open a file of it.");
-        if (row_button("Draw from the output", 1, true, "Begins with what the filters make of the input now"))
+        note("Draw the response that you want in the plot, record it by hand, or open it from a file.");
+        if (row_button("Draw from the output", 1, true, "Starts from what the filters give now"))
             emit("signal.fit.draw", {{"from", -1.0}, {"from_value", 0.0}, {"to", -1.0}, {"to_value", 0.0}});
         if (row_button("Record by hand", 1, true, recording)) emit("signal.fit.record");
     } else {
         if (part.fitting) {
-            if (row_button("Cancel", 3, true, "What is fitted so far stays")) emit("signal.fit.cancel");
+            if (row_button("Cancel", 3, true, "What is fitted so far is kept")) emit("signal.fit.cancel");
         } else if (row_button("Fit", 3, true, "Finds the parameters of every kind of filter")) {
             emit("signal.fit");
         }
         if (row_button("Record", 3, true, recording)) emit("signal.fit.record");
-        if (row_button("Forget", 3, true, "Forgets the response that is wanted")) emit("signal.fit.clear");
+        if (row_button("Forget", 3, true, "Forgets the desired response")) emit("signal.fit.clear");
         end_row();
     }
     std::string path;
     if (text_field("response", path, "CSV file, Enter")) emit("signal.fit", {{"to", path}});
-    explain("A file of the response that is wanted. Enter reads it and fits every kind of filter to it.");
+    explain("A file with the desired response. Enter reads it and fits every kind of filter to it.");
     if (part.wanted.empty()) return;
     if (part.fitting) {
         const std::size_t done = part.fits.size(), all = signal::kinds().size();
         ImGui::ProgressBar(static_cast<float>(done) / static_cast<float>(all), {-1.0f, 0.0f}, "");
-        note(std::to_string(done) + " of " + std::to_string(all) + " kinds of filter are fitted.");
+        note(std::to_string(done) + " of " + std::to_string(all) + " kinds of filter fitted.");
     }
     for (std::size_t i = 0; i < part.fits.size(); ++i) {
         const Fit& fit = part.fits[i];
@@ -303,14 +306,14 @@ void fit_rows(const SignalPart& part, Emit& emit) {
         const ImVec2 at = ImGui::GetCursorPos();
         if (ImGui::Selectable("##use", false, 0, {width, ImGui::GetTextLineHeight()}))
             emit("signal.fit.use", {{"rank", i}});
-        if (ImGui::IsItemHovered()) ImGui::SetTooltip("Puts it in the place of the chain");
+        if (ImGui::IsItemHovered()) ImGui::SetTooltip("Replaces the chain with it");
         ImGui::SetCursorPos(at);
         ImGui::TextUnformatted(kind_title(fit.filter).c_str());
         ImGui::SameLine();
         text_flush_right(left, i > 0);
         ImGui::PopID();
     }
-    note("What is left, as a part of the response's range. Click one to put it in place.");
+    note("Error left, % of the response's range. Click one to use it.");
 }
 
 void SignalLab::inspector(const Workspace& workspace, Emit& emit) const {

@@ -54,19 +54,17 @@ const std::vector<SignalPreset>& signal_presets() {
     static const std::vector<SignalPreset> list{
         {"spring", "A spring", "A spring follows a jump: turn its strength and its damping.", first_signal},
         {"engine_against_exact", "Engine against exact",
-         "An engine's interp_to comes out otherwise at every frame rate. Switch it off and the exact one on: "
-         "the "
-         "curves close up.",
+         "An engine's interp_to comes out differently at every frame rate. Switch it off and the exact one "
+         "on: the curves close up.",
          engine_against_exact},
         {"spring_that_explodes", "The spring that explodes",
-         "The spring that most games write needs more than 60.7 frames a second at 8 Hz. Switch it off and "
-         "the "
-         "exact one on: it stands any frame rate.",
+         "The spring that most games use needs more than 60.7 frames a second at 8 Hz. Switch it off and the "
+         "exact one on: it copes with any frame rate.",
          spring_that_explodes},
         {"lag_is_what_you_pay", "Lag is what you pay",
-         "Less jitter costs more lag. Turn a parameter and watch its point move.", lag_is_what_you_pay},
+         "Less jitter costs more lag. Change a parameter and watch its point move.", lag_is_what_you_pay},
         {"faster_but_no_bouncier", "Faster but no bouncier",
-         "Strength alone makes a spring faster: its overshoot stays what the damping says.",
+         "Strength alone makes a spring faster: its overshoot is set by the damping.",
          faster_but_no_bouncier},
         {"four_filters", "Four filters", "Smooth, ignore what is small, clamp, and swing.", four_filters}};
     return list;

@@ -46,7 +46,7 @@ std::vector<Argument> parameter_arguments() {
             add({.name = "keys",
                  .type = ArgumentType::List,
                  .required = false,
-                 .help = "time, value, arrive, leave and piece each"},
+                 .help = "each with time, value, arrive, leave and piece"},
                 kind);
         for (Argument& each : field_arguments(kind.fields, filter_texts(kind))) add(std::move(each), kind);
     }
@@ -82,7 +82,7 @@ void add(SignalPart& part, const Arguments& given) {
     const signal::Kind& kind = *signal::find_kind(given.text("kind"));
     check_names(given, kind);
     if (part.stages.size() >= max_stages)
-        throw Refused("there are " + std::to_string(max_stages) + " filters, as many as there can be");
+        throw Refused("there are " + std::to_string(max_stages) + " filters, which is the maximum");
     SignalStage stage{kind.blank()};
     set_parameters(stage.filter, given.json(), "");
     const std::size_t at = given.has("at") ? stage_index(part, given, "at", true) : part.stages.size();
@@ -144,26 +144,26 @@ void add_filter_commands(CommandTable& table) {
         setting.push_back(parameter);
     }
     adding.push_back(
-        index_argument("at", false, "before which filter, from 0; at the end when left out", max_stages + 1));
+        index_argument("at", false, "position in the chain, from 0; at the end if omitted", max_stages + 1));
     table.add(part_command<SignalPart>(signal_lab, "signal.filter.add", "Add a filter", adding,
-                                       "Adds a filter to the chain; parameters left out have their defaults",
+                                       "Adds a filter to the chain; omitted parameters have their defaults",
                                        add));
     table.add(part_command<SignalPart>(signal_lab, "signal.filter.set", "Set a filter's parameters", setting,
-                                       "Sets parameters of a filter; those left out stay", set));
+                                       "Sets parameters of a filter; omitted ones are kept", set));
     table.add(part_command<SignalPart>(signal_lab, "signal.filter.remove", "Remove a filter", {at},
                                        "Removes a filter", remove));
     table.add(part_command<SignalPart>(signal_lab, "signal.filter.move", "Move a filter in the chain",
-                                       {at, index_argument("to", true, "its new place", max_stages)},
-                                       "Moves a filter to another place in the chain", move));
+                                       {at, index_argument("to", true, "its new position", max_stages)},
+                                       "Moves a filter to another position in the chain", move));
     table.add(part_command<SignalPart>(signal_lab, "signal.filter.enable", "Switch a filter on or off",
-                                       {at, switch_argument("on", "the other way round when left out")},
-                                       "Switches a filter on or off; off, the input passes as it is",
+                                       {at, switch_argument("on", "toggles if omitted")},
+                                       "Switches a filter on or off; when off, the input passes unchanged",
                                        enable));
     table.add(part_command<SignalPart>(signal_lab, "signal.filter.remove_selected", "Delete selection", {},
                                        "Removes the filter that is selected", remove_selected));
     table.add(part_command<SignalPart>(
         signal_lab, "signal.select", "Select a filter",
-        {filter_argument(index_argument("at", false, "which filter; none when left out", max_stages))},
+        {filter_argument(index_argument("at", false, "which filter; none if omitted", max_stages))},
         "Selects a filter", select, Effect::Look));
 }
 
@@ -194,7 +194,7 @@ void reset(SignalPart& part, const Arguments&) {
 std::shared_ptr<const InputRows> read_rows(const std::string& path) {
     InputRows rows = read_samples(path);
     if (rows.size() > max_input_rows) {
-        throw Refused(path + " has " + std::to_string(rows.size()) + " rows; the most is " +
+        throw Refused(path + " has " + std::to_string(rows.size()) + " rows; the maximum is " +
                       std::to_string(max_input_rows));
     }
     if (length_of(&rows) <= 0.0) throw Refused(path + ": no time passes in its rows");
@@ -207,7 +207,7 @@ void set_input(SignalPart& part, const Arguments& given) {
     if (given.has("amplitude")) wanted.amplitude = given.real("amplitude");
     if (given.has("period")) wanted.period = given.real("period");
     if (given.has("path")) {
-        if (wanted.kind != InputKind::Csv) throw Refused("only csv has a path");
+        if (wanted.kind != InputKind::Csv) throw Refused("path is only for csv");
         wanted.path = given.text("path");
         wanted.file = read_rows(wanted.path);
     }
@@ -251,12 +251,12 @@ void add_input_commands(CommandTable& table) {
         {choice_argument("kind", false, "what goes in", input_kinds.names()),
          number_argument("amplitude", "of square, sine and noise", -max_amplitude, max_amplitude),
          number_argument("period", "seconds, of square, sine and noise", min_input_period, max_input_period),
-         text_argument("path", false, "of csv: rows of dt,input")},
-        "Sets what goes into the first filter; what is left out stays", set_input));
+         text_argument("path", false, "of csv: a file with rows of dt,input")},
+        "Sets what goes into the first filter; omitted settings are kept", set_input));
     table.add(part_command<SignalPart>(
         signal_lab, "signal.hand", "Move the hand",
         {{.name = "value", .help = "where the hand is", .low = -max_amplitude, .high = max_amplitude}},
-        "Moves the hand, which takes the input over", move_hand));
+        "Moves the hand, which becomes the input", move_hand));
     table.add(part_command<SignalPart>(signal_lab, "signal.plot", "Choose the lower plot",
                                        {choice_argument("name", true, "which", signal_plots.names())},
                                        "Chooses the lower plot", choose_plot, Effect::Look));

@@ -100,9 +100,9 @@ void load_fits(SignalPart& part, const JsonPlace& place) {
     part.fit_input = load_rows(place["input"], "rows", max_wanted);
     place["wanted"].for_each("values", max_wanted,
                              [&](const JsonPlace& each) { part.wanted.push_back(each.real()); });
-    if (part.wanted.size() != part.fit_input.size()) place.fail("input and wanted are of different lengths");
+    if (part.wanted.size() != part.fit_input.size()) place.fail("input and wanted have different lengths");
     if (const auto recording = place.optional("recording")) {
-        if (part.wanted.size() < 2) recording->fail("there is no input to answer");
+        if (part.wanted.size() < 2) recording->fail("there is no input to respond to");
         part.recording = {(*recording)["value"].real(-max_amplitude, max_amplitude),
                           (*recording)["rows"].index(part.wanted.size() - 1), (*recording)["begun"].flag()};
     }

@@ -119,7 +119,7 @@ std::string SignalLab::hint(const Workspace& workspace, PickId pick) const {
     const SignalPart& part = signal_part(workspace);
     const bool hand = part.input.kind == InputKind::Hand;
     if (pick == output_pick && part.recording)
-        return "The output: drag it as it should move; letting go ends the recording.";
+        return "The output: drag it the way it should move; letting go ends the recording.";
     if (pick == hand_pick)
         return hand ? "The input: drag it up and down." : "The input: drag it to take it over by hand.";
     if (pick == output_pick) return "The output of the whole chain.";
@@ -132,10 +132,10 @@ std::vector<Shortcut> SignalLab::shortcuts() const {
 
 std::vector<MouseHelp> SignalLab::mouse_help() const {
     return {{"Left drag on the orange ball", "makes the hand's height the input"},
-            {"Left drag on the blue ball, after Record", "shows the response that is wanted"},
+            {"Left drag on the blue ball, after Record", "records the desired response"},
             {"Mouse over a plot", "reads every curve at that time"},
             {"CSV file, dropped on the window", "becomes the input"},
-            {"Left drag in the plot Fit", "draws the response that is wanted"},
+            {"Left drag in the plot Fit", "draws the desired response"},
             {"Curve: drag, double-click, right-click", "moves, adds, removes a key"}};
 }
 
@@ -202,9 +202,9 @@ Verdict signal_verdict(const SignalPart& part, const signal::Measures& whole) {
     if (enabled_filters(part).empty())
         return {"No filter is on", Verdict::Kind::Open, "The output is the input."};
     if (whole.following == signal::Following::Unstable)
-        return {"Runs away", Verdict::Kind::Bad, "The output leaves the input behind, ever farther."};
+        return {"Runs away", Verdict::Kind::Bad, "The output moves ever farther from the input."};
     if (whole.following == signal::Following::DoesNotFollow)
-        return {"Does not follow", Verdict::Kind::Bad, "No shift in time makes the output like the input."};
+        return {"Does not follow", Verdict::Kind::Bad, "No shift in time makes the output match the input."};
     std::string why;
     const auto add = [&](const std::string& what) { why += (why.empty() ? "" : ", ") + what; };
     if (whole.lag)
@@ -218,7 +218,8 @@ Verdict signal_verdict(const SignalPart& part, const signal::Measures& whole) {
     if (whole.settling_time)
         return {"Settles in " + si_text(*whole.settling_time, "s"), Verdict::Kind::Good, why};
     if (whole.overshoot)
-        return {"Does not settle", Verdict::Kind::Bad, "It still moves when the input moves on. " + why};
+        return {"Does not settle", Verdict::Kind::Bad,
+                "It is still moving when the input jumps again. " + why};
     if (whole.following == signal::Following::Follows) return {"Follows", Verdict::Kind::Good, why};
     return {"Nothing to follow yet", Verdict::Kind::Open, "The input has not changed."};
 }

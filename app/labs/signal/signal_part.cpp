@@ -202,12 +202,12 @@ std::shared_ptr<const InputRows> gesture_of(const SignalPart& part) {
 void begin_recording(SignalPart& part) {
     if (part.input.kind == InputKind::Hand) {
         auto gesture = gesture_of(part);
-        if (!gesture) throw Refused("there is no input yet to answer: drag the orange ball first");
+        if (!gesture) throw Refused("there is no input to respond to yet: drag the orange ball first");
         part.input.recording = std::move(gesture);
         part.input.kind = InputKind::Recorded;
     }
     part.fit_input = rows_to_answer(part);
-    if (part.fit_input.size() < 2) throw Refused("there is no input yet to answer");
+    if (part.fit_input.size() < 2) throw Refused("there is no input to respond to yet");
     const double start = signal::run(enabled_filters(part), std::span(part.fit_input).first(1)).front();
     const double within = std::clamp(start, -max_amplitude, max_amplitude);
     part.wanted.assign(part.fit_input.size(), within);

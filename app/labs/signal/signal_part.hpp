@@ -80,8 +80,8 @@ inline constexpr EnumNames<SignalPlot, 3> signal_plots{
     "plot",
     {{"rates", "Frame rates", "The whole chain at several frame rates, on the same input."},
      {"shelf", "Lag against jitter",
-      "Every kind of filter on this input: those of the chain as they are set."},
-     {"fit", "Fit", "The response that is wanted, and the filters that come nearest to it."}}};
+      "Every kind of filter on this input; those in the chain with their settings."},
+     {"fit", "Fit", "The desired response, and the filters that come closest to it."}}};
 
 /// A response that the user performs: the input plays from its start, and the output ball follows the mouse.
 struct Recording {

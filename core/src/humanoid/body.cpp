@@ -50,10 +50,10 @@ Result check_targets(std::span<const BodyTarget> targets) noexcept {
         const BodyTarget& target = targets[i];
         const auto index = static_cast<std::size_t>(target.effector);
         if (index >= effector_count)
-            return refused("Body::solve", Argument("targets", i, "effector"), "one of the six",
+            return refused("Body::solve", Argument("targets", i, "effector"), "one of the six effectors",
                            static_cast<int>(index));
         if (seen >> index & 1u)
-            return refused("Body::solve", Argument("targets", i, "effector"), "one without another target",
+            return refused("Body::solve", Argument("targets", i, "effector"), "listed only once",
                            effector_names[index]);
         seen |= 1u << index;
         if (const Result bad = check_vector("Body::solve", "targets.position", target.position); !bad)
@@ -126,7 +126,7 @@ Expected<Body> Body::make(const Skeleton& skeleton, const BoneMap& map, const Bo
     for (std::size_t i = 0; i < bone_count; ++i)
         if (const auto bone = static_cast<Bone>(i); is_needed(bone) && map[bone].node < 0)
             return refused("Body", name(bone), "mapped", "none");
-    if (!map.upright) return refused("Body", "map", "of a body that stands upright", "one that does not");
+    if (!map.upright) return refused("Body", "map", "for an upright body", "one that is not upright");
     Expected<BodyJoints> joints = BodyJoints::make(skeleton, map, limits);
     if (!joints) return joints.error();
     auto work = std::make_unique<Work>();
@@ -145,7 +145,7 @@ Expected<Body> Body::make(const Skeleton& skeleton, const BoneMap& map, const Bo
         const auto before = work->joints.parent(*bone);
         const int parent = before ? link_of(work->bones, *before) : -1;
         if ((parent < 0) != (*bone == Bone::Hips))
-            return refused("Body", name(*bone), "a bone that hangs on the hips",
+            return refused("Body", name(*bone), "a node below the hips",
                            std::string_view(skeleton[node].name));
         Link link{};
         link.bone = *bone, link.node = node, link.parent = parent, link.mobility = mobility_of(*bone);
@@ -217,7 +217,7 @@ Expected<BodyReport> Body::solve(std::span<rig::Transform> pose, std::span<const
     if (options.max_iterations < 1 || options.max_iterations > 1000)
         return refused("Body::solve", "options.max_iterations", "from 1 to 1000", options.max_iterations);
     if (!(options.tolerance > 0.0 && options.tolerance <= 1.0))
-        return refused("Body::solve", "options.tolerance", "over 0 and at most 1", options.tolerance);
+        return refused("Body::solve", "options.tolerance", "above 0 and at most 1", options.tolerance);
     if (!(options.twist_share >= 0.0 && options.twist_share <= 1.0))
         return refused("Body::solve", "options.twist_share", "from 0 to 1", options.twist_share);
     if (!(options.settle >= 0.0 && options.settle <= 1.0))
@@ -231,10 +231,13 @@ Expected<BodyReport> Body::solve(std::span<rig::Transform> pose, std::span<const
     work_->place_needed(pose);
     for (const std::size_t node : work_->needed)
         if (!detail::is_within(work_->placements[node].position))
-            return refused("Body::solve", Argument("pose", node), "within 1e9 m of the root", "one beyond");
+            return refused("Body::solve", Argument("pose", node), "within 1e9 m of the root",
+                           "one farther away");
     const TwistNodes::ArmTurns before = work_->twist.turns(pose);
     const std::optional<BodyReport> report = detail::BodySolve(*work_, targets, options).run(pose, state);
-    if (!report) return refused("Body::solve", "pose", "of bones with moderate lengths", "one without");
+    if (!report)
+        return refused("Body::solve", "pose", "of a skeleton with bones of moderate length",
+                       "one with extreme lengths");
     work_->twist.follow(before, pose);
     return *report;
 }

@@ -1,5 +1,6 @@
-// The constants of a body's solve. Chosen by trial on the shared characters; tests/core/body_*_test.cpp hold
-// what they are for. All are per solve, not per second: a solve belongs to a frame. Not installed.
+// The constants of a body's solve, tuned by trial on real characters. The behaviour that each protects is
+// tested in tests/core/humanoid_body*_test.cpp and humanoid_contact_test.cpp. All are per solve, not per
+// second: a solve belongs to a frame. Not installed.
 #pragma once
 
 namespace tendril::humanoid::detail {
@@ -42,7 +43,8 @@ inline constexpr double stalled_share = 1e-5, min_stalled_cost = 1e-6;
 /// Radians in a solve per metre that the goals have moved: a pose approaches the clip's while its targets
 /// move, and does not jump there.
 inline constexpr double relaxation_per_metre = 3.0;
-/// Of the way back, in a step. Halved by a step that fails, doubled by one that succeeds.
+/// The largest share of the way back to the clip's pose that a step takes. Halved by a step that fails,
+/// doubled by one that succeeds.
 inline constexpr double max_relaxed_share = 0.5;
 /// Above this damping the targets come first and relaxation shrinks in proportion.
 inline constexpr double relaxing_damping = 1e-3;

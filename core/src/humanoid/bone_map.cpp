@@ -150,16 +150,16 @@ BoneMatch weigh(const Skeleton& skeleton, std::int32_t by_name, std::int32_t by_
     match.node = by_name >= 0 ? by_name : by_shape;
     if (by_name < 0) {
         match.confidence = 0.6;
-        match.reasons = "its place in the figure; its name says nothing";
+        match.reasons = "its position in the skeleton; its name gives no clue";
     } else if (by_shape < 0) {
         match.confidence = 0.8;
         match.reasons = named(skeleton, by_name);
     } else if (by_name == by_shape) {
         match.confidence = 0.98;
-        match.reasons = named(skeleton, by_name) + "; its place in the figure says the same";
+        match.reasons = named(skeleton, by_name) + "; its position in the skeleton agrees";
     } else {
         match.confidence = 0.65;
-        match.reasons = named(skeleton, by_name) + "; by its place in the figure it would be " +
+        match.reasons = named(skeleton, by_name) + "; by its position in the skeleton it would be " +
                         skeleton[static_cast<std::size_t>(by_shape)].name;
     }
     return match;
@@ -270,13 +270,13 @@ Result detail::check_map(std::string_view operation, const BoneMap& map, const S
         const std::string_view found = skeleton[static_cast<std::size_t>(node)].name;
         for (std::size_t other = 0; other < i; ++other)
             if (map.bones[other].node == node)
-                return refused(operation, name(bone), "a node that is no other bone", found);
+                return refused(operation, name(bone), "a node not mapped to another bone", found);
         for (Bone above = bone; above != Bone::Hips;) {
             above = parent_of(above);
             const std::int32_t parent = map[above].node;
             if (is_in(skeleton, parent) && parent != node &&
                 skeleton.is_below(static_cast<std::size_t>(parent), static_cast<std::size_t>(node)))
-                return refused(operation, name(bone), "a node that the bones it hangs on are not below",
+                return refused(operation, name(bone), "a node that is not above any of its parent bones",
                                found);
         }
     }

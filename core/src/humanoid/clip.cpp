@@ -41,14 +41,14 @@ Result check_track(const std::string& operation, const std::string& path, const 
         if (!(time >= 0.0 && time <= duration))
             return refused(operation, Argument(times, i), "from 0 to the duration", time);
         if (i > 0 && !(time > track.times[i - 1]))
-            return refused(operation, Argument(times, i), "over the time before it", time);
+            return refused(operation, Argument(times, i), "later than the time before it", time);
     }
     for (std::size_t i = 0; i < track.values.size(); ++i) {
         for (const double number : numbers(track.values[i]))
             if (const Result bad = rig::detail::check_number(operation, Argument(values, i), number); !bad)
                 return bad;
         if ((!cubic || i % 3 == 1) && !is_value(track.values[i]))
-            return refused(operation, Argument(values, i), "a unit quaternion", "another");
+            return refused(operation, Argument(values, i), "a unit quaternion", "one of another length");
     }
     return {};
 }
@@ -117,9 +117,9 @@ Result check(const Clip& clip, const Skeleton& skeleton) {
         const Channel& channel = clip.channels[i];
         const Argument node("channels", i, "node");
         if (channel.node >= skeleton.size())
-            return refused(operation, node, "the place of a node", channel.node);
+            return refused(operation, node, "the index of a node", channel.node);
         if (seen[channel.node])
-            return refused(operation, node, "one without a channel before it", channel.node);
+            return refused(operation, node, "a node without an earlier channel", channel.node);
         seen[channel.node] = true;
         std::string path = "channels[";
         path += std::to_string(i);

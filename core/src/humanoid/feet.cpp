@@ -91,7 +91,7 @@ Result check(const FeetState& state) noexcept {
             !bad)
             return bad;
         if (!(std::abs(rig::detail::dot(f.turn, f.turn) - 1.0) <= 1e-6))
-            return refused(operation, {"feet", i, "turn"}, "a unit quaternion", "another");
+            return refused(operation, {"feet", i, "turn"}, "a unit quaternion", "one of another length");
     }
     return {};
 }
@@ -131,7 +131,7 @@ Expected<Feet> Feet::make(const Skeleton& skeleton, const BoneMap& map, const So
     if (const Expected<Soles> found = find_soles(skeleton, map); !found) return found.error();
     for (const Sole& sole : soles.feet)
         if (sole.foot >= skeleton.size() || sole.toes >= skeleton.size())
-            return refused("Feet", "soles", "of this skeleton's nodes", std::max(sole.foot, sole.toes));
+            return refused("Feet", "soles", "nodes of this skeleton", std::max(sole.foot, sole.toes));
     auto plan = std::make_unique<Plan>();
     plan->soles = soles;
     plan->nodes = skeleton.size();
@@ -152,7 +152,7 @@ Expected<Feet> Feet::make(const Skeleton& skeleton, const BoneMap& map, const So
                                static_cast<std::int32_t>(sole.toes));
         if (!leg || !skeleton.is_below(static_cast<std::size_t>(upper), plan->hips))
             return refused("Feet", name(upper_legs[i]),
-                           "on the hips, with shin, foot and toes on it in a row",
+                           "below the hips, with shin, foot and toes below it in that order",
                            std::string_view(skeleton[static_cast<std::size_t>(upper)].name));
         plan->leg_direction[i] =
             rig::detail::direction_of(

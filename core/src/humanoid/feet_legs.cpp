@@ -1,4 +1,5 @@
 // The legs' part of a step: how far the hips are lowered, the speed limits, and the pose.
+#include <algorithm>
 #include <cmath>
 
 #include "humanoid/feet_step.hpp"
@@ -115,7 +116,7 @@ void FeetStep::spare_standing_knees() noexcept {
         if (is_standing(i))
             along = std::min(along,
                              state_.base - std::min(missing(i, state_.feet[i].lift), options_.pelvis_drop));
-    const double drop = std::max(0.0, state_.base - along);
+    const double drop = std::clamp(state_.base - along, 0.0, options_.pelvis_drop);
     set(state_.pelvis, state_.drop, drop, 0.0);
     state_.drop = drop;
 }

@@ -55,7 +55,7 @@ Expected<Ground> Ground::terrain(HeightField field) {
     if (field.columns < 2 || field.columns > count)
         return refused(operation, "columns", "at least 2, and at most the number of heights", field.columns);
     if (count > 100'000'000 || count % field.columns != 0 || count / field.columns < 2)
-        return refused(operation, "heights", "at least 2 whole rows, of 1e8 heights at most", count);
+        return refused(operation, "heights", "at least 2 complete rows and at most 1e8 heights", count);
     for (std::size_t i = 0; i < count; ++i)
         if (!(std::abs(field.heights[i]) <= max_extent))
             return refused(operation, Argument("heights", i), "from -1e6 to 1e6 m", field.heights[i]);

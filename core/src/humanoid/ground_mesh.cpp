@@ -27,14 +27,14 @@ Expected<Ground> Ground::mesh(std::span<const glm::dvec3> vertices,
                               std::span<const std::uint32_t> triangles) {
     constexpr const char* operation = "mesh";
     if (triangles.empty() || triangles.size() % 3 != 0 || triangles.size() / 3 > max_triangles)
-        return refused(operation, "triangles", "three places each, of 1 to 2e7 triangles", triangles.size());
+        return refused(operation, "triangles", "three indices each for 1 to 2e7 triangles", triangles.size());
     for (std::size_t i = 0; i < vertices.size(); ++i)
         for (const double number : {vertices[i].x, vertices[i].y, vertices[i].z})
             if (!(std::abs(number) <= max_coordinate))
                 return refused(operation, Argument("vertices", i), "from -1e6 to 1e6 m", number);
     for (std::size_t i = 0; i < triangles.size(); ++i)
         if (triangles[i] >= vertices.size())
-            return refused(operation, Argument("triangles", i), "the place of a vertex",
+            return refused(operation, Argument("triangles", i), "the index of a vertex",
                            static_cast<std::size_t>(triangles[i]));
     Mesh made{};
     made.triangles.reserve(triangles.size() / 3);

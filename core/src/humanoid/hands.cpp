@@ -152,13 +152,13 @@ Expected<Hands> Hands::make(const Skeleton& skeleton, const BoneMap& map) {
     if (!map.is_usable()) return refused("Hands", "map", "usable", "one that is not");
     for (std::size_t i = 0; i < bone_count; ++i)
         if (is_needed(static_cast<Bone>(i)) && map.bones[i].node < 0)
-            return refused("Hands", name(static_cast<Bone>(i)), "a node", map.bones[i].node);
+            return refused("Hands", name(static_cast<Bone>(i)), "mapped to a node", map.bones[i].node);
     auto plan = std::make_unique<Plan>();
     plan->nodes = skeleton.size();
     plan->head = detail::Head::make(skeleton, map, soles->forward);
     const auto hips = std::find(plan->head.path.begin(), plan->head.path.end(), map[Bone::Hips].node);
     if (hips == plan->head.path.end())
-        return refused("Hands", name(Bone::Head), "on the hips", map[Bone::Head].node);
+        return refused("Hands", name(Bone::Head), "below the hips", map[Bone::Head].node);
     plan->hips = static_cast<std::size_t>(hips - plan->head.path.begin());
 
     std::vector<Placement> rest(skeleton.size());
@@ -169,14 +169,14 @@ Expected<Hands> Hands::make(const Skeleton& skeleton, const BoneMap& map) {
         auto limb = Limb::make(skeleton, node(1), node(2), node(3), node(3));
         const auto other = static_cast<std::size_t>(map[mirrored(arms[i][3])].node);
         if (!limb || skeleton.is_below(other, static_cast<std::size_t>(node(1))))
-            return refused("Hands", name(arms[i][1]), "with forearm and one hand on it in a row",
+            return refused("Hands", name(arms[i][1]), "above its own forearm and hand, and no other hand",
                            std::string_view(skeleton[static_cast<std::size_t>(node(1))].name));
         const auto position = [&](int bone) { return rest[static_cast<std::size_t>(node(bone))].position; };
         Arm& arm = plan->arms[i];
         const auto line = direction_of(minus(position(3), position(1)), 1e-6);
         if (!line || !(length(minus(position(2), position(1))) > 1e-6 &&
                        length(minus(position(3), position(2))) > 1e-6))
-            return refused("Hands", name(arms[i][1]), "over two bones with a length", 0.0);
+            return refused("Hands", name(arms[i][1]), "the start of an arm whose bones have a length", 0.0);
         arm.direction = *line;
         // Elbows point backwards, or in an arbitrary direction if the arm itself points backwards.
         arm.pole =

@@ -99,7 +99,7 @@ Result check(const LookAtOptions& options) noexcept {
         {"max_speed", &LookAtOptions::max_speed, 1e-6, 1e3, "from 1e-6 to 1e3 radians/s"}};
     if (const Result bad = detail::check_ranges<LookAtOptions>(operation, options, ranges); !bad) return bad;
     if (options.spine_part + options.neck_part > 1.0)
-        return refused(operation, "neck_part", "with spine_part at most 1", options.neck_part);
+        return refused(operation, "neck_part", "at most 1 together with spine_part", options.neck_part);
     if (const Result bad = rig::detail::check_vector(operation, "target", options.target); !bad) return bad;
     const Expected<rig::Transform> root = rig::checked(options.root, operation, "root");
     return root ? Result() : root.error();
@@ -116,7 +116,7 @@ Expected<LookAt> LookAt::make(const Skeleton& skeleton, const BoneMap& map) {
     if (!map.is_usable()) return refused("LookAt", "map", "usable", "one that is not");
     for (std::size_t i = 0; i < bone_count; ++i)
         if (is_needed(static_cast<Bone>(i)) && map.bones[i].node < 0)
-            return refused("LookAt", name(static_cast<Bone>(i)), "a node", map.bones[i].node);
+            return refused("LookAt", name(static_cast<Bone>(i)), "mapped to a node", map.bones[i].node);
     auto plan = std::make_unique<Plan>();
     plan->nodes = skeleton.size();
     plan->head = detail::Head::make(skeleton, map, soles->forward);

@@ -41,7 +41,7 @@ Expected<Skeleton> Skeleton::make(std::vector<Node> nodes) {
     for (std::size_t i = 0; i < count; ++i) {
         const std::int32_t parent = nodes[i].parent;
         if (parent < -1 || parent >= static_cast<std::int32_t>(count))
-            return refused("Skeleton", Argument("nodes", i, "parent"), "-1 or the place of a node", parent);
+            return refused("Skeleton", Argument("nodes", i, "parent"), "-1 or the index of a node", parent);
         char what[40];
         std::snprintf(what, sizeof what, "nodes[%zu].rest", i);
         const Expected<rig::Transform> rest = rig::checked(nodes[i].rest, "Skeleton", what);
@@ -76,7 +76,7 @@ Expected<Skeleton> Skeleton::make(std::vector<Node> nodes) {
             static_cast<std::size_t>(std::find(reached.begin(), reached.end(), false) - reached.begin());
         // It may only hang below the cycle: so many steps up lead into it.
         for (std::size_t i = 0; i < count; ++i) lost = static_cast<std::size_t>(made.nodes_[lost].parent);
-        return refused("Skeleton", Argument("nodes", lost, "parent"), "of a node that does not hang below it",
+        return refused("Skeleton", Argument("nodes", lost, "parent"), "a node that is not below it",
                        made.nodes_[lost].parent);
     }
     return made;

@@ -43,7 +43,7 @@ class Finder {
         for (const auto& leg : legs) {
             const double size = distance(leg[0], leg[1]) + distance(leg[1], leg[2]);
             if (!(distance(leg[0], leg[1]) > 1e-6 && distance(leg[1], leg[2]) > 1e-6 && size <= 1e6))
-                return refused("find_soles", name(leg[0]), "over a bone with a length, as the one below it",
+                return refused("find_soles", name(leg[0]), "the start of a leg whose bones have a length",
                                size);
             soles.leg += 0.5 * size;
         }
@@ -105,13 +105,13 @@ double lowest_of(const SolePoints& foot) noexcept {
 
 Expected<Soles> find_soles(const Skeleton& skeleton, const BoneMap& map) {
     if (const Result bad = detail::check_map("find_soles", map, skeleton); !bad) return bad;
-    if (!map.upright) return refused("find_soles", "map", "of a figure that is upright", "one that is not");
+    if (!map.upright) return refused("find_soles", "map", "for an upright figure", "one that is not upright");
     for (const Bone bone :
          {Bone::Hips, legs[0][0], legs[0][1], legs[0][2], legs[1][0], legs[1][1], legs[1][2]}) {
         if (map[bone].node >= 0) continue;
         std::string what = "one without ";
         what += name(bone);
-        return refused("find_soles", "map", "with hips and two legs", std::string_view(what));
+        return refused("find_soles", "map", "one with hips and two legs", std::string_view(what));
     }
     return Finder(skeleton, map).find();
 }

@@ -129,7 +129,7 @@ Expected<SpringChain> SpringChain::make(const Skeleton& skeleton, const BoneMap&
     if (root >= skeleton.size())
         return tendril::detail::refused_index(operation, root, skeleton.size(), "the skeleton", "nodes");
     const std::string_view named = skeleton[root].name;
-    if (skeleton[root].parent < 0) return refused(operation, "root", "a node that hangs on another", named);
+    if (skeleton[root].parent < 0) return refused(operation, "root", "a node with a parent", named);
     auto plan = std::make_unique<Plan>();
     plan->nodes = skeleton.size();
     for (std::int32_t node = skeleton[root].parent; node >= 0;
@@ -145,7 +145,7 @@ Expected<SpringChain> SpringChain::make(const Skeleton& skeleton, const BoneMap&
         const auto parent = static_cast<std::size_t>(skeleton[node].parent);
         if (node != root && (skeleton[node].parent < 0 || place_of[parent] == no_place)) continue;
         if (const auto bone = detail::bone_of(map, each))
-            return refused(operation, "root", "a node with no bone of the body on it",
+            return refused(operation, "root", "a node with no bone of the body at or below it",
                            std::string_view(std::string(named) + " with " + name(*bone)));
         const ChainNode* const above = node == root ? nullptr : &plan->chain[place_of[parent]];
         const std::span<const std::int32_t> children = skeleton.children(node);
@@ -166,7 +166,8 @@ Expected<SpringChain> SpringChain::make(const Skeleton& skeleton, const BoneMap&
         place_of[node] = plan->chain.size();
         plan->chain.push_back(std::move(added));
     }
-    if (plan->turning.empty()) return refused(operation, "root", "a node with some length", named);
+    if (plan->turning.empty())
+        return refused(operation, "root", "the start of a chain that has a length", named);
     plan->before.resize(plan->chain.size());
     plan->after.resize(plan->chain.size());
     plan->swing.resize(plan->chain.size());

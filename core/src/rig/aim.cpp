@@ -73,7 +73,7 @@ glm::dquat limited(const glm::dquat& from, const glm::dquat& to, double radians)
 Result check_axis(std::string_view operation, std::string_view argument, const glm::dvec3& axis) noexcept {
     if (const Result bad = check_vector(operation, argument, axis); !bad) return bad;
     const double size = length(axis);
-    return size > shortest ? Result() : refused(operation, argument, "of a length over 1e-9", size);
+    return size > shortest ? Result() : refused(operation, argument, "longer than 1e-9", size);
 }
 
 }  // namespace

@@ -99,7 +99,7 @@ Result check(const char* what, const Control& control) noexcept {
                 return tendril::detail::refused({}, std::string_view(name + ".axes"), "x, y or z (0 to 2)",
                                                 axis);
     if (control.kind == ControlKind::Vector2d && control.axes[0] == control.axes[1])
-        return {ErrorCode::InvalidArgument, name + ".axes must be two different ones"};
+        return {ErrorCode::InvalidArgument, name + ".axes must be two different axes"};
     for (const auto& [end, text] :
          {std::pair{&control.minimum, ".minimum"}, std::pair{&control.maximum, ".maximum"}})
         if (*end)

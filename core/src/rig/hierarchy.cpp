@@ -44,9 +44,9 @@ ElementId Hierarchy::handle(Index index) const noexcept {
 
 Result Hierarchy::check(ElementId element, const char* operation, const char* argument) const noexcept {
     if (contains(element)) return {};
-    constexpr std::string_view wanted = "the handle of an element that is there";
+    constexpr std::string_view wanted = "the handle of an existing element";
     const Result words = element ? refused(operation, argument, wanted, Shown("slot", element.index))
-                                 : refused(operation, argument, wanted, "an empty one");
+                                 : refused(operation, argument, wanted, "an empty handle");
     return {ErrorCode::OutOfRange, words.message()};
 }
 

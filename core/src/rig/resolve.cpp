@@ -106,7 +106,7 @@ void Resolver::spring(std::vector<Output>& handed_out) {
 
 void Resolver::field(const std::string& name, Item& item) {
     if (std::holds_alternative<ThisElement>(item.which)) {
-        if (!for_each_) refuse(name + R"(: {"item": "each"} is only known inside a for-each)");
+        if (!for_each_) refuse(name + R"(: {"item": "each"} only works inside a for-each)");
         return;
     }
     const auto& element = std::get<std::string>(item.which);
@@ -120,7 +120,7 @@ void Resolver::field(const std::string& name, AimInputs& inputs) {
 }
 
 void Resolver::field(const std::string& name, std::vector<ParentInputs>& parents) {
-    if (parents.empty()) return refuse(name + " must have at least one");
+    if (parents.empty()) return refuse(name + " must not be empty");
     for (std::size_t i = 0; i < parents.size(); ++i)
         fields(parents[i], [&](const char* member, auto& value) {
             field(name + "[" + std::to_string(i) + "]." + member, value);
@@ -128,7 +128,7 @@ void Resolver::field(const std::string& name, std::vector<ParentInputs>& parents
 }
 
 void Resolver::field(const std::string& name, Body& body) {
-    if (for_each_) return refuse(name + ": a for-each cannot stand in the body of another");
+    if (for_each_) return refuse(name + ": a for-each cannot be inside another");
     const std::string outside = place_;
     // Units in a body need only know which for-each they are in.
     for_each_ = &body.units();
@@ -141,7 +141,7 @@ void Resolver::field(const std::string& name, Body& body) {
 }
 
 void Resolver::field(const std::string& name, std::vector<std::string>& roots) {
-    if (roots.empty()) return refuse(name + " must have at least one");
+    if (roots.empty()) return refuse(name + " must not be empty");
     for (const std::string& root : roots)
         if (!elements_.contains(root)) return refuse(name + ": there is no element " + quoted(root));
 }
@@ -187,12 +187,12 @@ Type Resolver::type_of_source(const std::string& name, FromElement& from) {
     field(name, from.element);
     if (from.of != Of::ControlValue || !refusal_) return part_type(from.of);
     if (from.element.resolved.index < 0) {
-        refuse(name + ": only a control has a value, and a for-each comes to elements of any kind");
+        refuse(name + ": only a control has a value, but a for-each visits elements of any kind");
         return Type::Number;
     }
     const Element& element = definition_.elements[static_cast<std::size_t>(from.element.resolved.index)];
     if (element.kind != ElementKind::Control) {
-        refuse(name + ": " + quoted(element.name) + " is no control and has no value");
+        refuse(name + ": " + quoted(element.name) + " is not a control and has no value");
         return Type::Number;
     }
     return type_of(element.control.value_or(Control()).kind);
@@ -205,7 +205,7 @@ Type Resolver::type_of_source(const std::string& name, FromUnit& from) {
         return Type::Number;
     }
     if (found->second.body && found->second.body != for_each_) {
-        refuse(name + ": unit " + quoted(from.unit) + " runs inside a for-each, once an element");
+        refuse(name + ": unit " + quoted(from.unit) + " runs inside a for-each, once per element");
         return Type::Number;
     }
     from.resolved_unit.index = static_cast<std::int32_t>(found->second.index);
@@ -221,7 +221,7 @@ Type Resolver::type_of_source(const std::string& name, FromUnit& from) {
 }
 
 Type Resolver::type_of_source(const std::string& name, Each&) {
-    if (!for_each_) refuse(name + R"(: {"each": ...} is only known inside a for-each)");
+    if (!for_each_) refuse(name + R"(: {"each": ...} only works inside a for-each)");
     return Type::Number;
 }
 

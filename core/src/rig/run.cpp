@@ -10,23 +10,23 @@ const char* message(Warning warning) noexcept {
         case Warning::None:
             break;
         case Warning::TargetAtItem:
-            return "the target is where the item is, there is no direction to it";
+            return "the target is at the item, so there is no direction to it";
         case Warning::ZeroAxis:
             return "an axis has no length";
         case Warning::SecondaryOnPrimary:
-            return "the second target is on the primary axis, every roll is as good";
+            return "the second target is on the primary axis, so the roll is undefined";
         case Warning::AxesParallel:
             return "the two axes are parallel";
         case Warning::ZeroWeights:
             return "all weights are 0";
         case Warning::WeightOutOfRange:
-            return "a weight is not from 0 to 1, and was clamped";
+            return "a weight is outside 0 to 1 and was clamped";
         case Warning::OutOfRange:
-            return "the result is out of range, and was not taken";
+            return "the result is out of range and was discarded";
         case Warning::CannotSolve:
             return "the chain cannot be solved: a bone has no length or is out of range";
         case Warning::ParameterOutOfRange:
-            return "a parameter is out of its range, and was clamped";
+            return "a parameter is out of range and was clamped";
     }
     return "";
 }

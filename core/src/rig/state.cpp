@@ -17,7 +17,7 @@ using detail::Plan;
 
 Result refused_index(const char* operation, const char* what, std::size_t index, std::size_t count) {
     return {ErrorCode::OutOfRange, std::string(operation) + ": " + what + " " + std::to_string(index) +
-                                       " is not there, the rig has " + std::to_string(count)};
+                                       " is out of range, the rig has " + std::to_string(count)};
 }
 
 std::optional<std::size_t> found(const Names& names, std::string_view name) {
@@ -202,7 +202,7 @@ Result Rig::set_control(State& state, std::size_t element, const Value& value) c
         return refused_index("set_control", "element", element, plan_->ids.size());
     const Element& control = plan_->definition.elements[element];
     if (!control.control)
-        return {ErrorCode::InvalidArgument, "set_control: \"" + control.name + "\" is no control"};
+        return {ErrorCode::InvalidArgument, "set_control: \"" + control.name + "\" is not a control"};
     if (const Result bad = check_value("set_control: value", *control.control, value); !bad) return bad;
     Value& held = state.controls[element];
     held = clamped(*control.control, normalised(value));

@@ -43,10 +43,10 @@ Result check(const Transform& input, std::string_view operation, std::string_vie
     for (std::size_t i = 0; i < 4; ++i)
         if (const Result bad = check_number(operation, at(rotation_names[i]), rotation[i]); !bad) return bad;
     if (const double size = std::sqrt(detail::dot(r, r)); !(size >= 1e-6))
-        return refused(operation, at("rotation"), "of a length of at least 1e-6", size);
+        return refused(operation, at("rotation"), "of length 1e-6 or more", size);
     for (std::size_t i = 0; i < 3; ++i) {
         if (const Result bad = check_number(operation, at(scale_names[i]), scale[i]); !bad) return bad;
-        if (scale[i] == 0.0) return refused(operation, at(scale_names[i]), "other than 0", scale[i]);
+        if (scale[i] == 0.0) return refused(operation, at(scale_names[i]), "non-zero", scale[i]);
     }
     return {};
 }

@@ -35,7 +35,8 @@ double worst(const glm::dvec3& p) {
     return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
 }
 Result bad_point(const char* list, std::size_t index, const glm::dvec3& p) {
-    return refused(op, Argument(list, index), "finite and at most 1e9 m from the origin each way", worst(p));
+    return refused(op, Argument(list, index), "finite and at most 1e9 m from the origin along each axis",
+                   worst(p));
 }
 
 Result check_particles(const State& state) {
@@ -43,7 +44,7 @@ Result check_particles(const State& state) {
     if (size > max_particles) return refused(op, "particles", "at most 1000000", size);
     for (const std::size_t other : {state.displacement.size(), state.mass.size()}) {
         if (other == size) continue;
-        return refused(op, "displacement and mass", "as many as position", other);
+        return refused(op, "displacement and mass", "as long as position", other);
     }
     for (std::size_t i = 0; i < size; ++i) {
         if (!is_point(state.position[i])) return bad_point("position", i, state.position[i]);
@@ -64,13 +65,13 @@ Result check_handles(const List& list, const std::vector<std::uint32_t>& slots, 
         const bool valid = id.index < slots.size() && slots[id.index] == id.generation &&
                            id.generation % 2 == 1 && !seen[id.index];
         if (!valid) {
-            return refused(op, Argument(name, i, "id"), "a taken slot of its own",
+            return refused(op, Argument(name, i, "id"), "an occupied slot of its own",
                            static_cast<std::size_t>(id.index));
         }
         seen[id.index] = true;
     }
     for (std::size_t i = 0; i < slots.size(); ++i) {
-        if (slots[i] % 2 == 1 && !seen[i]) return refused(op, Argument(name), "in every taken slot", i);
+        if (slots[i] % 2 == 1 && !seen[i]) return refused(op, Argument(name), "in every occupied slot", i);
     }
     return {};
 }
@@ -80,10 +81,10 @@ Result check_body(const State& state, std::size_t i, std::size_t next) {
     const auto bad = [&](const char* member, const char* rule, std::size_t value) {
         return refused(op, Argument("bodies", i, member), rule, value);
     };
-    if (body.first != next) return bad("first", "where the body before ends", body.first);
+    if (body.first != next) return bad("first", "where the previous body ends", body.first);
     if (body.count == 0 || body.count > state.position.size() - next)
-        return bad("count", "at least 1, and no more than there are particles", body.count);
-    if (body.row == 0 || body.count % body.row != 0) return bad("row", "such that rows are whole", body.row);
+        return bad("count", "from 1 to the number of particles", body.count);
+    if (body.row == 0 || body.count % body.row != 0) return bad("row", "a divisor of count", body.row);
     if (static_cast<int>(body.kind) > static_cast<int>(Body::Kind::Hair))
         return bad("kind", "one of the three", static_cast<std::size_t>(body.kind));
     const std::pair<const char*, float> lengths[] = {
@@ -100,7 +101,7 @@ Result check_bodies(const State& state) {
         next += state.bodies[i].count;
     }
     if (next != state.position.size())
-        return refused(op, "particles", "those of bodies", state.position.size());
+        return refused(op, "particles", "as many as the bodies have", state.position.size());
     return check_handles(state.bodies, state.body_slots, "bodies");
 }
 
@@ -109,7 +110,7 @@ Result check_links(const State& state) {
         const Link& link = state.links[i];
         const std::size_t end = std::max(link.a, link.b);
         if (end >= state.position.size() || link.a == link.b)
-            return refused(op, Argument("links", i), "between two particles that there are", end);
+            return refused(op, Argument("links", i), "between two existing particles", end);
         if (static_cast<int>(link.kind) > static_cast<int>(Link::Kind::Bend))
             return refused(op, Argument("links", i, "kind"), "one of the three", static_cast<int>(link.kind));
         if (const Result r = check_length(op, Argument("links", i, "rest"), link.rest); !r) return r;
@@ -127,7 +128,7 @@ Result check_pins(const State& state) {
         const Pin& pin = state.pins[i];
         if (pin.particle < next || pin.particle >= state.position.size()) {
             return refused(op, Argument("pins", i, "particle"),
-                           "of one that there is, in their order, one pin each", pin.particle);
+                           "an existing particle, in ascending order, with one pin each", pin.particle);
         }
         if (!(pin.collider ? is_offset(pin.goal) : is_point(pin.goal)))
             return refused(op, Argument("pins", i, "goal"), "finite", worst(pin.goal));
@@ -150,7 +151,7 @@ Result check_colliders(const State& state) {
             return refused(op, Argument("colliders", i, "seconds"), "0 or more", collider.seconds);
         if (!collider.half_goal) continue;
         if (!std::holds_alternative<Capsule>(collider.shape))
-            return refused(op, Argument("colliders", i, "half_goal"), "of capsules only",
+            return refused(op, Argument("colliders", i, "half_goal"), "set on capsules only",
                            kind(collider.shape));
         if (!is_offset(*collider.half_goal))
             return refused(op, Argument("colliders", i, "half_goal"), "finite", worst(*collider.half_goal));

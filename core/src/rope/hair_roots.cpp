@@ -13,7 +13,7 @@ Expected<glm::vec3> direction_of(const HairPatch& patch, glm::vec3 otherwise) {
     const glm::vec3 direction = patch.direction.value_or(otherwise);
     const float length = glm::length(direction);
     if (length > 0.0f && std::isfinite(length)) return direction / length;
-    return tendril::detail::refused("hair", "direction", "of some finite length", length);
+    return tendril::detail::refused("hair", "direction", "of finite length over 0", length);
 }
 
 /// A point of the patch: distance and direction from its centre.

@@ -41,7 +41,7 @@ Result World::set_mass(BodyId body, double kilograms) noexcept {
     const Body* const changed = find(body);
     if (changed == nullptr) return missing("set_mass", "body", "body", body.index);
     if (!(kilograms > 0.0 && kilograms <= 1e18))
-        return refused("set_mass", "kilograms", "over 0, to 1e18", kilograms);
+        return refused("set_mass", "kilograms", "over 0 and at most 1e18", kilograms);
     const double factor = kilograms / mass(*changed);
     for (std::size_t i = changed->first; i < changed->first + changed->count; ++i)
         state_.mass[i] = std::clamp(factor * state_.mass[i], 1e-30, 1e30);
@@ -62,7 +62,7 @@ Result World::set_length(BodyId body, float metres) noexcept {
     if (changed == nullptr) return missing("set_length", "body", "body", body.index);
     if (const Result bad = check_length("set_length", "metres", metres); !bad) return bad;
     const double now = length(*changed);
-    if (!(now > 0.0)) return refused("set_length", "body", "one of some length", now);
+    if (!(now > 0.0)) return refused("set_length", "body", "longer than 0", now);
     const double factor = metres / now;
     for (const Link& link : state_.links) {
         if (detail::owns(*changed, link) && !(factor * link.rest <= static_cast<double>(max_magnitude)))

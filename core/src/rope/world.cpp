@@ -176,7 +176,7 @@ Result World::unpin(std::size_t particle) noexcept {
     if (const Result bad = check_particle("unpin", particle, size()); !bad) return bad;
     const auto place = pin_of(state_.pins, particle);
     if (place == state_.pins.end() || place->particle != particle)
-        return refused("unpin", "particle", "a pinned one", particle);
+        return refused("unpin", "particle", "a pinned particle", particle);
     state_.pins.erase(place);
     return {};
 }
@@ -191,7 +191,8 @@ bool World::pinned(std::size_t particle) const noexcept {
 Expected<BodyId> World::cut(BodyId rope, std::size_t segment) {
     Body* const whole = found(rope);
     if (whole == nullptr) return missing("cut", "rope", "body", rope.index);
-    if (whole->kind != Body::Kind::Rope) return refused("cut", "rope", "a rope", "a cloth or hair");
+    if (whole->kind != Body::Kind::Rope)
+        return refused("cut", "rope", "a body of kind Rope", "a cloth or hair");
     if (const Result bad = check_index("cut", segment, whole->count - 1, "the rope", "segment"); !bad)
         return bad;
     const std::size_t kept = segment + 1;

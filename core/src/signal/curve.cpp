@@ -73,7 +73,7 @@ Result check(const Curve& curve) noexcept {
                 {"target_max", curve.target_max}};
     for (const auto& end : ends)
         if (!is_input(end.value)) return refused("curve", end.name, any_number, end.value);
-    if (curve.keys.empty()) return refused("curve", "keys", "one at least", "none");
+    if (curve.keys.empty()) return refused("curve", "keys", "at least one", "none");
     for (std::size_t i = 0; i < curve.keys.size(); ++i)
         if (const Result bad = check_key(curve, i); !bad) return bad;
     return {};

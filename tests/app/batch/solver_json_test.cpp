@@ -81,7 +81,7 @@ TEST(SolverJson, refusals_name_the_place_and_the_value) {
     EXPECT_TRUE(test::says(refusal({{"kind", "ball_and_socket"}, {"twist_min_deg", 2}, {"twist_max_deg", 1}}),
                            "limits.2 twist_min_deg twist_max_deg 2.0 1.0"));
     EXPECT_TRUE(
-        test::says(refusal({{"kind", "hinge"}, {"axis", {0, 0, 0}}}), "limits.2.axis axis length [0,0,0]"));
+        test::says(refusal({{"kind", "hinge"}, {"axis", {0, 0, 0}}}), "limits.2.axis non-zero axis [0,0,0]"));
     EXPECT_TRUE(test::says(refusal({{"kind", "saddle"}, {"up_deg", -1}}), "limits.2.up_deg 0 180 -1"));
     EXPECT_TRUE(test::says(refusal({{"kind", "hinge"}, {"max_deg", 181}}), "limits.2.max_deg -180 180 181"));
     EXPECT_EQ(refusal(Json::object()), "limits.2: \"kind\" is missing");

@@ -224,7 +224,7 @@ TEST(Autosave, of_a_program_that_was_killed_is_found_and_recovered) {
     const auto files = Autosave::left_behind(folder.path());
     ASSERT_EQ(files.size(), 1u);
     EXPECT_TRUE(Autosave::title(files[0]).starts_with("scene.json, 20")) << Autosave::title(files[0]);
-    EXPECT_TRUE(Autosave::title(folder / "none.json").starts_with("A scene without a name"));
+    EXPECT_TRUE(Autosave::title(folder / "none.json").starts_with("Unnamed scene"));
     Workspace workspace = test::make_workspace();
     Autosave::recover(workspace, files[0]);
     EXPECT_EQ(workspace.document.get<TestPart>("arm").title, "precious");

@@ -115,7 +115,7 @@ TEST_F(HostileCharacter, a_gltf_that_is_well_is_read) {
 
 TEST_F(HostileCharacter, gltf_clips_with_wrong_numbers_are_refused) {
     refuses("back.gltf", two_joints("", "", clip_of({0.0f, 0.7f, 0.5f}, 2.0f)), "must be");
-    refuses("same.gltf", two_joints("", "", clip_of({0.0f, 0.5f, 0.5f}, 2.0f)), "must be over the time");
+    refuses("same.gltf", two_joints("", "", clip_of({0.0f, 0.5f, 0.5f}, 2.0f)), "must be later than the time");
     refuses("nan_time.gltf", two_joints("", "", clip_of({0.0f, NAN, 1.0f}, 2.0f)), "times[1]");
     refuses("nan.gltf", two_joints("", "", clip_of({0.0f, 0.5f, 1.0f}, NAN)), "values[0]");
     refuses("endless.gltf", two_joints("", "", clip_of({0.0f, 0.5f, 1.0f}, INFINITY)), "values[0]");
@@ -129,7 +129,7 @@ TEST_F(HostileCharacter, gltf_clips_with_wrong_numbers_are_refused) {
     refuses("no_node.gltf", two_joints("", "", keys(fine, three_times, three_places, "translation", "77")),
             "target.node: there is no 77");
     refuses("path.gltf", two_joints("", "", keys(fine, three_times, three_places, "colour")), "colour");
-    refuses("type.gltf", two_joints("", "", keys(fine, three_times, three_times)), "3 numbers a row");
+    refuses("type.gltf", two_joints("", "", keys(fine, three_times, three_times)), "3 numbers per row");
 }
 
 TEST_F(HostileCharacter, gltf_accessors_that_claim_more_than_there_is_are_refused) {
@@ -380,7 +380,7 @@ TEST_F(HostileCharacter, fbx_records_that_are_not_as_they_say_are_refused) {
     const std::uint32_t size = 27 + 14 * 5000 + 13;
     for (int i = 0; i < 5000; ++i)
         nested += raw(size) + raw(std::uint32_t{0}) + raw(std::uint32_t{0}) + "\1a";
-    refuses("deep.fbx", binary_fbx(nested + std::string(13, '\0')), "records in each other");
+    refuses("deep.fbx", binary_fbx(nested + std::string(13, '\0')), "nested records");
 }
 
 const std::string fbx_text =
@@ -421,15 +421,15 @@ TEST_F(HostileCharacter, a_figure_without_nodes_is_refused_whatever_reads_it) {
 TEST_F(HostileCharacter, fbx_models_in_a_circle_or_without_end_are_refused) {
     EXPECT_EQ(refusal("well.fbx", fbx_models({{1, 0}, {2, 1}}, 2)), "") << "limb nodes alone are a skeleton";
     EXPECT_EQ(character_.skeleton.size(), 2u);
-    refuses("circle.fbx", fbx_models({{1, 0}, {2, 1}, {3, 4}, {4, 3}}, 4), "hangs on one that hangs on it");
+    refuses("circle.fbx", fbx_models({{1, 0}, {2, 1}, {3, 4}, {4, 3}}, 4), "is below itself");
     refuses("self.fbx", fbx_models({{1, 0}, {2, 2}}, 2), "model bone2");
     std::vector<std::pair<int, int>> chain, doubled;
     for (int i = 1; i <= 5000; ++i) chain.push_back({i, i - 1});
     refuses("chain.fbx", fbx_models(chain, 5000), "deep");
     for (int i = 1; i <= 60; ++i) doubled.insert(doubled.end(), {{i, i - 1}, {i, i - 1}});
     refuses("doubled.fbx", fbx_models(doubled, 60), "models");
-    refuses("braces.fbx", fbx_text + repeated("a: {\n", 100000), "records in each other");
-    refuses("open.fbx", fbx_text + "Objects:  {\n", "inside of a record");
+    refuses("braces.fbx", fbx_text + repeated("a: {\n", 100000), "nested records");
+    refuses("open.fbx", fbx_text + "Objects:  {\n", "inside a record");
     refuses("closed.fbx", fbx_text + "}\n", "line 6: } without");
     refuses("none.fbx", fbx_models({}, 0), "none.fbx");
 }

@@ -200,7 +200,7 @@ TEST(CharacterSkin, wrong_numbers_are_refused_with_their_place) {
     says([](OwnGltf& own) { own.node = R"("mesh":7,"skin":0)"; }, "nodes[2]: there is no mesh 7");
     says([](OwnGltf& own) { own.node = R"("mesh":0,"skin":4)"; }, "no skin 4");
     says([](OwnGltf& own) { own.node = R"("mesh":0,"children":[3]},{"children":[2])"; },
-         "nodes[2] hangs on one");
+         "nodes[2] is below itself");
 }
 
 TEST(CharacterSkin, those_of_others_stay_around_their_bones) {

@@ -60,9 +60,9 @@ TEST(VrmCharacter, names_that_lead_nowhere_are_refused_and_said) {
         EXPECT_EQ(said.find("own.vrm"), 0u);
     };
     says(version_1(5), "head: there is no node 21");
-    says(R"({"hips":{"node":1},"head":{"node":1}})", "another bone already");
-    says(R"({"hips":{"node":"x"}})", "expected the number of a node");
-    says(R"({"hips":7})", "expected the number of a node");
+    says(R"({"hips":{"node":1},"head":{"node":1}})", "already another bone");
+    says(R"({"hips":{"node":"x"}})", "expected a node number");
+    says(R"({"hips":7})", "expected a node number");
     says("[7]", "no skeleton");
     says("7", "no skeleton");
 }

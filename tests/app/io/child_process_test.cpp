@@ -45,15 +45,15 @@ TEST(ChildProcesses, MayEndBeforeTheyHaveReadAll) {
         return message_of([&] { ChildProcess(shell(script)).write(many); });
     };
     EXPECT_EQ(failure("echo 'disk full' >&2; exit 1"), "sh failed: disk full");
-    EXPECT_TRUE(test::says(failure("head -c 100000 > /dev/null"), "sh too soon"));
+    EXPECT_TRUE(test::says(failure("head -c 100000 > /dev/null"), "sh too early"));
 }
 
 TEST(ChildProcesses, ThatHangAreGivenUp) {
     EXPECT_TRUE(
-        test::says(message_of([] { ChildProcess(shell("exec sleep 60")).finish(0.05); }), "sh not end"));
+        test::says(message_of([] { ChildProcess(shell("exec sleep 60")).finish(0.05); }), "sh not exit"));
     EXPECT_TRUE(test::says(
         message_of([] { ChildProcess(shell("exec sleep 60")).write(std::string(1'000'000, 'x'), 0.05); }),
-        "sh no more data"));
+        "sh stopped reading"));
 }
 
 /// The child leaves a process in the background with the same files open, as xclip does.

@@ -123,7 +123,7 @@ TEST(MapFile, that_is_kept_is_refused_with_its_name_where_it_cannot_be_the_chara
     };
     SavedMap other = saved;
     other.nodes.back() = "other";
-    EXPECT_TRUE(tendril::test::has(why(map_text(other)), "nodes: they are not those of the character"));
+    EXPECT_TRUE(tendril::test::has(why(map_text(other)), "nodes: they are not this character's nodes"));
     other = saved;
     other.bones[0] = "nobody's";
     EXPECT_TRUE(tendril::test::has(why(map_text(other)), "bones: Hips is node \"nobody's\""));

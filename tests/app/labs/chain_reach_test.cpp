@@ -231,7 +231,7 @@ TEST_F(ChainReach, bad_input_is_refused_with_what_is_wrong) {
     says("chain.target", {{"to", {0, nullptr, 0}}}, "to");
     says("chain.pole", {{"to", {0, "up", 0}}}, "to");
     says("chain.pole", Json::object(), "off");
-    says("chain.pole", {{"to", {0, 1, 0}}, {"off", true}}, "exclude");
+    says("chain.pole", {{"to", {0, 1, 0}}, {"off", true}}, "combined");
     says("chain.limit", {{"index", 4}, {"kind", "hinge"}}, "tail");
     says("chain.limit", {{"index", 9}, {"kind", "hinge"}}, "9");
     says("chain.limit", {{"index", 1}, {"kind", "knee"}}, "knee");

@@ -136,8 +136,8 @@ TEST_F(ChainSelection, WhatIsNoJointIsRefusedAndChangesNothing) {
               std::string::npos);
     refused("chain.limit", {{"joints", Json::array()}, {"kind", "hinge"}});
     refused("chain.set_length", {{"joints", Json::array()}, {"length", 1}});
-    EXPECT_NE(refused("chain.limit", {{"kind", "hinge"}}).find("index, or joints"), std::string::npos);
-    EXPECT_NE(refused("chain.select", {{"index", 1}, {"joints", {1}}}).find("index, or joints"),
+    EXPECT_NE(refused("chain.limit", {{"kind", "hinge"}}).find("either index or joints"), std::string::npos);
+    EXPECT_NE(refused("chain.select", {{"index", 1}, {"joints", {1}}}).find("either index or joints"),
               std::string::npos);
     EXPECT_NE(refused("chain.select", {{"point", "pole"}}).find("no pole"), std::string::npos);
     refused("chain.select", {{"point", "target"}, {"index", 1}});

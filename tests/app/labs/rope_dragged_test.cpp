@@ -159,11 +159,10 @@ TEST_F(RopeDragged, WhatDoesNotGoTogetherIsRefused) {
     refuses("rope.hold", {{"particles", {2, 3}}, {"at", at}}, "particles and points");
     refuses("rope.hold", {{"particle", 2}, {"points", Json::array({at})}}, "particles and points");
     refuses("rope.hold", {{"particle", 2}}, "particle and at");
-    refuses("rope.hold", {{"particles", {3, 3}}, {"points", {at, at}}}, "particles: 3 stands there twice");
-    refuses("rope.pin", {{"particles", {3, 4, 3}}, {"points", {at, at, at}}},
-            "particles: 3 stands there twice");
+    refuses("rope.hold", {{"particles", {3, 3}}, {"points", {at, at}}}, "particles: 3 is listed twice");
+    refuses("rope.pin", {{"particles", {3, 4, 3}}, {"points", {at, at, at}}}, "particles: 3 is listed twice");
     refuses("rope.pin", {{"particles", {3, 99}}, {"points", {at, at}}}, "99");
-    refuses("rope.pin", {{"particle", 3}, {"points", Json::array({at})}}, "points is for particles");
+    refuses("rope.pin", {{"particle", 3}, {"points", Json::array({at})}}, "points needs particles");
     refuses("rope.pin", {{"particles", {3, 4}}, {"points", {at, {1, 2}}}}, "points.1");
 }
 

@@ -111,7 +111,7 @@ TEST(Selection, AFileThatSaysNonsenseIsToldWhere) {
     says({{"active", 1}}, "\"all\" is missing");
     says({{"active", 1}, {"all", {2, 3}}}, "selected.active");
     says({{"active", 1}, {"all", {1, 7}}}, "selected.all");
-    says({{"active", 1}, {"all", {1, 1, 1, 1, 1, 1}}}, "most is 5");
+    says({{"active", 1}, {"all", {1, 1, 1, 1, 1, 1}}}, "maximum is 5");
     says({{"active", 1}, {"all", 1}}, "selected.all");
 }
 

@@ -342,7 +342,7 @@ TEST_F(SignalCommands, BadInputIsRefusedAndChangesNothing) {
         {"signal.filter.enable", {{"at", 2}}, "at must be"},
         {"signal.input", {{"kind", "square"}, {"period", 0}}, "period"},
         {"signal.input", {{"kind", "csv"}}, "path is missing"},
-        {"signal.input", {{"kind", "sine"}, {"path", "x.csv"}}, "only csv"},
+        {"signal.input", {{"kind", "sine"}, {"path", "x.csv"}}, "only for csv"},
         {"signal.input", {{"kind", "recorded"}}, "nothing is recorded"},
         {"signal.preset", {{"name", "sponge"}}, "one of"},
         {"signal.fit", {{"to", {1, "two"}}}, "to.1"},

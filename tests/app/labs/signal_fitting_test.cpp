@@ -120,7 +120,7 @@ TEST_F(SignalFitting, ItsProgressIsTold) {
     work();
     EXPECT_EQ(state().at("fitting"), false);
     const std::string done = reader.inspector(lab(), workspace);
-    EXPECT_EQ(done.find("kinds of filter are fitted"), std::string::npos) << done;
+    EXPECT_EQ(done.find("kinds of filter fitted"), std::string::npos) << done;
     EXPECT_EQ(done.find("Cancel"), std::string::npos) << done;
 }
 

@@ -127,9 +127,9 @@ TEST(Script, that_is_a_recording_says_what_it_started_from) {
 TEST(Script, that_is_no_recording_of_this_kind_is_refused) {
     EXPECT_TRUE(test::says(refusal(R"({"recording": 2, "news": 1})"), "line 1 recording version 2 1"));
     EXPECT_TRUE(has(refusal(std::string(recording) + '\n' + recording),
-                    "line 2: a recording's start can only be the first line"));
+                    "line 2: a recording's start must be the first line"));
     EXPECT_TRUE(has(refusal(std::string("{\"wait\": 1}\n") + recording),
-                    "line 2: a recording's start can only be the first"));
+                    "line 2: a recording's start must be the first"));
     const Json whole = parse_json(recording);
     for (const auto& [key, value] : whole.items()) {
         Json without = whole;
@@ -163,12 +163,12 @@ TEST(Script, that_has_a_wrong_line_is_refused_with_the_reason) {
         {std::string(65, '[') + std::string(65, ']'), "nested deeper than 64"},
 
         {R"({"command": "chain.fly"})", "unknown command \"chain.fly\""},
-        {R"({"command": 3})", "command: expected a text, found 3"},
-        {R"({"command": ""})", "command: expected a text, found \"\""},
+        {R"({"command": 3})", "command: expected text, found 3"},
+        {R"({"command": ""})", "command: expected text, found \"\""},
         {R"({"command": "undo", "refused": 1})", "refused: expected true or false, found 1"},
 
         {R"({"mouse": "jump"})", R"(mouse: expected "move", "down", "up" or "wheel", found "jump")"},
-        {R"({"mouse": ["move"]})", "mouse: expected a text, found [\"move\"]"},
+        {R"({"mouse": ["move"]})", "mouse: expected text, found [\"move\"]"},
         {R"({"mouse": "move"})", "\"at\" is missing"},
         {R"({"mouse": "move", "at": [1]})", "at: expected [x, y], found [1]"},
         {R"({"mouse": "move", "at": [1, 2, 3]})", "at: expected [x, y], found [1,2,3]"},
@@ -190,13 +190,13 @@ TEST(Script, that_has_a_wrong_line_is_refused_with_the_reason) {
         {R"({"key": "hyper+z"})", "unknown key \"hyper+z\""},
         {R"({"key": ""})", "unknown key \"\""},
         {R"({"key": "ctrl+"})", "unknown key \"ctrl+\""},
-        {R"({"key": 5})", "key: expected a text, found 5"},
+        {R"({"key": 5})", "key: expected text, found 5"},
         {R"({"key": "x", "action": "press"})", R"(action: expected "down" or "up", found "press")"},
         {R"({"key": "x", "action": true})", "action: expected"},
         {R"({"key": "ctrl+x", "action": "down"})", "unknown key \"ctrl+x\""},
         {R"({"key": "", "action": "down"})", "unknown key \"\""},
         {R"({"key": "x", "held": true})", "unknown member \"held\""},
-        {R"({"text": 0.5})", "text: expected a text, found 0.5"},
+        {R"({"text": 0.5})", "text: expected text, found 0.5"},
         {R"({"text": "a", "wait": 1})", "unknown member \"wait\""},
 
         {R"({"resize": [800]})", "resize: expected [width, height], found [800]"},
@@ -206,7 +206,7 @@ TEST(Script, that_has_a_wrong_line_is_refused_with_the_reason) {
         {R"({"resize": "800x600"})", "resize: expected [width, height]"},
         {R"({"drop": []})", "drop: expected a list of paths, found []"},
         {R"({"drop": "a.json"})", "drop: expected a list of paths, found \"a.json\""},
-        {R"({"drop": [1]})", "drop: expected a text, found 1"},
+        {R"({"drop": [1]})", "drop: expected text, found 1"},
         {R"({"focus": 1})", "focus: expected true or false, found 1"},
         {R"({"video": "begin"})", "video: expected \"end\", found \"begin\""},
 
@@ -215,16 +215,16 @@ TEST(Script, that_has_a_wrong_line_is_refused_with_the_reason) {
         {R"({"wait": "30"})", "wait: expected a whole number from 0 to 1000000, found \"30\""},
         {R"({"wait": 18446744073709551615})",
          "wait: expected a whole number from 0 to 1000000, found 18446744073709551615"},
-        {R"({"screenshot": ""})", "screenshot: expected a text, found \"\""},
-        {R"({"screenshot": null})", "screenshot: expected a text, found null"},
-        {R"({"state": 1})", "state: expected a text, found 1"},
+        {R"({"screenshot": ""})", "screenshot: expected text, found \"\""},
+        {R"({"screenshot": null})", "screenshot: expected text, found null"},
+        {R"({"state": 1})", "state: expected text, found 1"},
         {R"({"state": "a", "screenshot": "b"})", "unknown member \"state\""},
 
         {R"({"expect": "tail"})", one_measure},
         {R"({"expect": "tail", "equals": 1, "near": 1})", one_measure},
         {R"({"expect": "tail", "below": 1, "above": 0})", one_measure},
-        {R"({"expect": "", "equals": 1})", "expect: expected a text, found \"\""},
-        {R"({"expect": 3, "equals": 1})", "expect: expected a text, found 3"},
+        {R"({"expect": "", "equals": 1})", "expect: expected text, found \"\""},
+        {R"({"expect": 3, "equals": 1})", "expect: expected text, found 3"},
         {R"({"expect": "tail", "near": "1"})", "near: expected a number, found \"1\""},
         {R"({"expect": "tail", "near": []})", "near: expected a number, found []"},
         {R"({"expect": "tail", "near": [1, true]})", "near: expected a number, found true"},

@@ -51,10 +51,10 @@ TEST(CardFile, that_is_broken_is_refused_with_its_place) {
         const char* message;
     };
     const Case cases[] = {
-        {"/title", "", "cards.0.title: expected a text"},
+        {"/title", "", "cards.0.title: expected text"},
         {"/titel", 1, "cards.0: unknown member \"titel\""},
         {"/steps", Json::array(), "cards.0.steps: expected a step, found none"},
-        {"/steps/0/text", 5, "cards.0.steps.0.text: expected a text, found 5"},
+        {"/steps/0/text", 5, "cards.0.steps.0.text: expected text, found 5"},
         {"/steps/0/place", {{"button", "x"}}, "cards.0.steps.0.place: unknown member \"button\""},
         {"/steps/0/place", Json::object(), "cards.0.steps.0.place: expected one of"},
         {"/steps/0/when", Json::array(), "cards.0.steps.0.when: expected a condition, found none"},

@@ -40,11 +40,11 @@ std::span<const FieldText> field_texts<AttachmentShape>() {
         {.name = "strands", .label = "strands", .help = "How many hairs there are."},
         {.name = "offset",
          .label = "offset",
-         .help = "From the bone to where it is held, along the axes of the character at rest; off the body "
-                 "when left out."},
+         .help = "From the bone to where it is held, along the axes of the character at rest; if omitted, "
+                 "just off the body."},
         {.name = "direction",
          .label = "direction",
-         .help = "Where it leads to at first, along the axes of the character at rest."}};
+         .help = "The way it points at first, along the axes of the character at rest."}};
     return texts;
 }
 
@@ -91,15 +91,14 @@ void detach(HumanoidPart& part, const Arguments& given) {
 }  // namespace
 
 void add_attachment_commands(CommandTable& table) {
-    std::vector<Argument> arguments{
-        node_argument("bone", true, "a bone, as it is mapped, or a node, by name"),
-        choice_argument("kind", true, "what", attachment_kinds.names()),
-        text_argument("name", false, "a new one; after its kind when left out")};
+    std::vector<Argument> arguments{node_argument("bone", true, "a mapped bone, or a node, by name"),
+                                    choice_argument("kind", true, "what", attachment_kinds.names()),
+                                    text_argument("name", false, "a new one; if omitted, after its kind")};
     for (Argument& each : field_arguments<AttachmentShape>()) arguments.push_back(std::move(each));
     table.add({.name = "humanoid.attach",
                .title = "Attach a rope, hair or cloth",
                .arguments = std::move(arguments),
-               .help = "Hangs a rope, hair or a cloth on a bone; what is left out fits the bone and the "
+               .help = "Hangs a rope, hair or a cloth on a bone; omitted values fit the bone and the "
                        "character's height",
                .effect = Effect::Edit,
                .apply = attach});

@@ -49,7 +49,7 @@ void holder_field(const HumanoidPanel& panel) {
 
 void attachment_rows(const HumanoidPanel& panel) {
     if (!folding_section(panel.workspace, "Attachments", panel.emit)) return;
-    note("Each tick goes in this order: clip, IK, rig, ropes.");
+    note("Order within a tick: clip, IK, rig, ropes.");
     explain(
         "Feet, targets and hands are IK; look-at, the rig's Aim, and springs follow. Ropes, hair and cloth "
         "come last, and "
@@ -62,10 +62,9 @@ void attachment_rows(const HumanoidPanel& panel) {
     explain(attachment_kinds.help(kind));
     holder_field(panel);
     explain(
-        "What it hangs on. On Hips a rope is a tail, on Head hair is a ponytail, on Chest a cloth is a "
-        "cape.");
+        "What it hangs from. A rope on Hips is a tail, hair on Head a ponytail, a cloth on Chest a cape.");
     const bool room = panel.part.attachments.list.size() < max_attachments;
-    if (row_button("Add", 1, room, room ? "Hangs it on that bone" : "There are as many as there may be"))
+    if (row_button("Add", 1, room, room ? "Hangs it on that bone" : "No more can be added"))
         panel.emit("humanoid.attach", {{"bone", kept.attach_to}, {"kind", attachment_kinds.name(kind)}});
     end_row();
 }

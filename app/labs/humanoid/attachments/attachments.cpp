@@ -154,16 +154,16 @@ NodeFrame Wearer::frame(std::size_t node) const {
 void add_attachment(Attachments& attachments, const Wearer& wearer, Attachment wanted) {
     if (attachments.list.size() >= max_attachments)
         throw std::invalid_argument("there are " + std::to_string(max_attachments) +
-                                    " attachments, as many as there may be");
+                                    " attachments already, the maximum");
     if (wanted.name.empty()) wanted.name = free_name(attachments, wanted.kind);
     if (attachments.find(wanted.name) != nullptr)
-        throw std::invalid_argument("name \"" + wanted.name + "\" is another attachment's");
+        throw std::invalid_argument("name \"" + wanted.name + "\" is already used by another attachment");
     const std::size_t node = *wearer.loaded.skeleton().find(wanted.node);
     const glm::dvec3 rest = wearer.loaded.rest[node].position;
     const std::size_t there = attachments.world->size(), more = particles_of(wanted.kind, wanted.shape);
     if (more > max_attached_particles - std::min(there, max_attached_particles))
-        throw std::invalid_argument("its " + std::to_string(more) + " particles with the " +
-                                    std::to_string(there) + " that there are would be more than " +
+        throw std::invalid_argument("its " + std::to_string(more) + " particles and the " +
+                                    std::to_string(there) + " already there would be more than " +
                                     std::to_string(max_attached_particles));
     const Made made = make(wanted, wearer, rest);
     wanted.frame = wearer.frame(node);

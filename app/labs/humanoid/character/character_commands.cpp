@@ -22,7 +22,7 @@ namespace {
 using humanoid::Bone;
 
 const std::filesystem::path& folder_of(const Workspace& workspace) {
-    if (workspace.config.empty()) throw std::invalid_argument("there is no folder that maps are kept in");
+    if (workspace.config.empty()) throw std::invalid_argument("there is no folder to keep maps in");
     return workspace.config;
 }
 
@@ -34,7 +34,7 @@ void keep(Workspace& workspace) {
 
 void keep_told(Workspace& workspace, const Arguments&) {
     keep(workspace);
-    workspace.toast("The bone map is kept for characters of these node names");
+    workspace.toast("The bone map is kept for characters with these node names");
 }
 
 void use(Workspace& workspace, const Arguments&) {
@@ -66,7 +66,7 @@ void KeptMaps::look(const Workspace& workspace) {
     try {
         kept_ = find_kept_map(folder_, part.skeleton());
     } catch (const std::exception& error) {
-        refused_ = std::string("the kept bone map is left out: ") + error.what();
+        refused_ = std::string("the kept bone map is ignored: ") + error.what();
     }
 }
 
@@ -131,13 +131,13 @@ void add_kept_map_commands(CommandTable& table) {
     table.add({.name = "humanoid.map.keep",
                .title = "Keep the bone map",
                .arguments = {},
-               .help = "Keeps the bone map, to be offered for characters of the same node names",
+               .help = "Keeps the bone map, to be offered for characters with the same node names",
                .effect = Effect::Look,
                .apply = keep_told});
     table.add({.name = "humanoid.map.use",
                .title = "Use the kept bone map",
                .arguments = {},
-               .help = "Takes the bone map that was kept for these node names",
+               .help = "Uses the bone map that was kept for these node names",
                .effect = Effect::Edit,
                .apply = use});
     table.add({.name = "humanoid.map.forget",
@@ -196,7 +196,7 @@ void rescale(Workspace& workspace, const Arguments& given) {
     const double metres = given.real("metres");
     if (metres == before.loaded->character.scale) return;
     if (before.loaded->file.empty())
-        throw std::invalid_argument("the stick figure comes from no file, and is in metres");
+        throw std::invalid_argument("the stick figure has no file and is in metres");
     const double was = before.loaded->character.scale;
     const SharedCharacter loaded = rescaled(*before.loaded, metres);
     HumanoidPart& part = workspace.document.edit<HumanoidPart>(humanoid_lab);
@@ -275,20 +275,19 @@ Argument clip_argument(const char* name, const char* help) {
 }
 
 void add_character_commands(CommandTable& table) {
-    table.add(
-        {.name = "humanoid.load",
-         .title = "Load a character",
-         .arguments = {text_argument("path", false,
-                                     "a .gltf, .glb, .fbx or .bvh file; the stick figure when left out")},
-         .help = "Loads a character, as it rests, with nothing playing; selected nodes that it has too stay "
-                 "selected",
-         .effect = Effect::Edit,
-         .apply = load,
-         .finish = finish_loading});
+    table.add({.name = "humanoid.load",
+               .title = "Load a character",
+               .arguments = {text_argument("path", false,
+                                           "a .gltf, .glb, .fbx or .bvh file; if omitted, the stick figure")},
+               .help = "Loads a character in its rest pose, with nothing playing; selected nodes that it "
+                       "also has stay selected",
+               .effect = Effect::Edit,
+               .apply = load,
+               .finish = finish_loading});
     table.add({.name = "humanoid.load.cancel",
                .title = "Stop loading the character",
                .arguments = {},
-               .help = "Ends the loading of a large file; the character that is there stays",
+               .help = "Stops loading a large file; the current character stays",
                .effect = Effect::Look,
                .apply = [](Workspace& workspace, const Arguments&) {
                    humanoid_runtime(workspace).loading.cancel();
@@ -296,19 +295,19 @@ void add_character_commands(CommandTable& table) {
     table.add(keeping(part_command<HumanoidPart>(
         humanoid_lab, "humanoid.map", "Map a bone to a node",
         {choice_argument("bone", true, "which", bone_names()),
-         node_argument("node", false, "of the skeleton, by name; none when left out")},
-        "Says which node of the character is a bone", map)));
-    table.add({.name = "humanoid.scale",
-               .title = "Correct the character's scale",
-               .arguments =
-                   {{.name = "metres", .help = "of a unit of the file", .low = min_unit, .high = max_unit}},
-               .help = "Corrects the unit of the character's file",
-               .effect = Effect::Edit,
-               .apply = rescale});
+         node_argument("node", false, "of the skeleton, by name; none if omitted")},
+        "Sets which node of the character a bone is", map)));
+    table.add(
+        {.name = "humanoid.scale",
+         .title = "Correct the character's scale",
+         .arguments = {{.name = "metres", .help = "per unit of the file", .low = min_unit, .high = max_unit}},
+         .help = "Corrects the unit of the character's file",
+         .effect = Effect::Edit,
+         .apply = rescale});
     table.add(part_command<HumanoidPart>(
         humanoid_lab, "humanoid.t_pose", "Show the T-pose",
-        {{.name = "on", .type = ArgumentType::Boolean, .help = "or off"}},
-        "Shows the rest pose with its arms straight aside and its legs straight down", set_t_pose));
+        {{.name = "on", .type = ArgumentType::Boolean, .help = "false: shows the rest pose as it is"}},
+        "Shows the rest pose with arms straight out to the sides and legs straight down", set_t_pose));
 }
 
 // Commands on files: bone maps, clips exported with everything that IK does to them, and cures of clips.
@@ -406,23 +405,24 @@ void add_humanoid_file_commands(CommandTable& table) {
     table.add(keeping(
         part_command<HumanoidPart>(humanoid_lab, "humanoid.map.load", "Load a bone map",
                                    {text_argument("path", true, "a JSON file that humanoid.map.save wrote")},
-                                   "Takes a bone map that was saved", load_map)));
+                                   "Applies a saved bone map", load_map)));
     add_kept_map_commands(table);
-    table.add({.name = "humanoid.export",
-               .title = "Export a clip",
-               .arguments = {text_argument("path", true, "a .gltf, .glb or .bvh file to write"),
-                             clip_argument("clip", "which one; the chosen one, or the first"),
-                             number_argument("fps", "frames a second; 60", min_rate, largest_rate)},
-               .help = "Writes a clip with all that IK does to it, and says how near the file comes",
-               .effect = Effect::Look,
-               .apply = export_shown});
+    table.add(
+        {.name = "humanoid.export",
+         .title = "Export a clip",
+         .arguments = {text_argument("path", true, "a .gltf, .glb or .bvh file to write"),
+                       clip_argument("clip", "which one; default: the chosen one, or the first"),
+                       number_argument("fps", "frames per second; default: 60", min_rate, largest_rate)},
+         .help = "Writes a clip with everything that IK does to it, and says how close the file comes",
+         .effect = Effect::Look,
+         .apply = export_shown});
     table.add(part_command<HumanoidPart>(
         humanoid_lab, "humanoid.cure", "Fix a fault in a clip",
         {choice_argument("kind", true, "of fault", fault_names()),
-         node_argument("node", false, "of the skeleton; all when left out"),
-         integer_argument("frame", "of the clip's own; all when left out", 0, humanoid::max_lint_frames),
-         clip_argument("clip", "which one; the chosen one, or the first")},
-        "Mends what the motion lint has found in a clip", cure_clip));
+         node_argument("node", false, "of the skeleton; all if omitted"),
+         integer_argument("frame", "of the clip's own frames; all if omitted", 0, humanoid::max_lint_frames),
+         clip_argument("clip", "which one; default: the chosen one, or the first")},
+        "Fixes what Motion lint has found in a clip", cure_clip));
 }
 
 }  // namespace tendril::app

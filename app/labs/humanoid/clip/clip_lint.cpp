@@ -81,7 +81,7 @@ SharedCharacter cured(const HumanoidPart& part, const ClipCure& cure) {
         clip = *mended;
         ++done;
     }
-    if (done == 0) throw std::invalid_argument("clip " + cure.clip + " has no such fault that has a cure");
+    if (done == 0) throw std::invalid_argument("clip " + cure.clip + " has no such fault that can be fixed");
     auto loaded = std::make_shared<LoadedCharacter>(*part.loaded);
     loaded->character.clips[static_cast<std::size_t>(place - clips.begin())] = std::move(clip);
     loaded->cures.push_back(cure);
@@ -97,9 +97,9 @@ using humanoid::Finding;
 constexpr std::size_t max_rows = 20;
 
 const char* fault_title(humanoid::Fault fault) {
-    constexpr const char* titles[] = {"skates",    "floats",         "sinks",
-                                      "knee pops", "key flips sign", "beyond its limit",
-                                      "jumps",     "wrong size",     "lies on its side"};
+    constexpr const char* titles[] = {
+        "skates",           "floats", "sinks",      "knee pops",       "key goes the long way",
+        "beyond its limit", "jumps",  "wrong size", "lies on its side"};
     return titles[static_cast<std::size_t>(fault)];
 }
 
@@ -152,7 +152,7 @@ void finding_row(const HumanoidPanel& panel, const Finding& finding, int id) {
     if (finding.has_cure) {
         ImGui::SetCursorPos({at.x + width - mend, at.y + 1.1f * line});
         if (ImGui::SmallButton("Mend")) cure(panel, finding);
-        explain("Changes the keys around it; the motion stays as it is elsewhere. Undo takes it back.");
+        explain("Changes the keys around it; the rest of the motion stays as it is. Undo takes it back.");
     }
     ImGui::SetCursorPos(after);
     ImGui::PopID();
@@ -165,13 +165,13 @@ void lint_rows(const HumanoidPanel& panel) {
     if (!panel.part.clip()) return note("Choose a clip to see what is wrong with it.");
     const humanoid::LintReport* report = panel.runtime.lint.report(panel.part);
     if (!report) {
-        if (row_button("Judge this clip", 1, true, "It is long: that takes some seconds"))
+        if (row_button("Check this clip", 1, true, "It is long: this takes a few seconds"))
             panel.runtime.lint.judge(panel.part);
         end_row();
         return;
     }
     const std::vector<Finding>& findings = report->findings;
-    if (findings.empty()) return note("Nothing was found.");
+    if (findings.empty()) return note("No faults found.");
     note(std::to_string(findings.size()) + (findings.size() == 1 ? " finding" : " findings") + ", at " +
          fixed_text(report->rate, report->rate == std::floor(report->rate) ? 0 : 2) + " frames a second");
     for (std::size_t i = 0; i < std::min(findings.size(), max_rows); ++i)
@@ -188,7 +188,8 @@ void export_rows(const HumanoidPanel& panel) {
     if (panel.part.loaded->clips().empty()) return note("The character has no clips.");
     std::string& path = panel.runtime.panel.export_to;
     text_field("write to", path, "walk.glb");
-    explain("A .gltf, .glb or .bvh file: the chosen clip, or the first, with all that IK does to it.");
+    explain(
+        "A .gltf, .glb or .bvh file for the chosen clip, or the first, with everything that IK does to it.");
     if (row_button("Export clip", 1, !path.empty(), "An existing file is replaced"))
         panel.emit("humanoid.export", {{"path", path}});
     end_row();
@@ -197,9 +198,7 @@ void export_rows(const HumanoidPanel& panel) {
 void map_rows(const HumanoidPanel& panel) {
     auto& state = panel.runtime.panel;
     text_field("map file", state.map_file, "bones.json");
-    explain(
-        "A file of this bone map, to save to or load from: it suits every character with the same node "
-        "names.");
+    explain("A bone map file to save to or load from. It suits every character with the same node names.");
     if (row_button("Save map", 2, !state.map_file.empty(), "To the file; an existing one is replaced"))
         panel.emit("humanoid.map.save", {{"path", state.map_file}});
     if (row_button("Load map", 2, !state.map_file.empty(), "From the file"))

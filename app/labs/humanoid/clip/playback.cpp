@@ -149,14 +149,14 @@ void step(const HumanoidPanel& panel, int ticks) {
 
 void buttons(const HumanoidPanel& panel) {
     const bool plays = panel.part.playback.playing && panel.workspace.clock.playing;
-    if (icon_button("back", Icon::ChevronLeft, "Back by a frame")) step(panel, -1);
+    if (icon_button("back", Icon::ChevronLeft, "One frame back")) step(panel, -1);
     ImGui::SameLine();
     if (icon_button("play", plays ? Icon::Pause : Icon::Play, plays ? "Pauses the clip" : "Plays the clip")) {
         panel.emit("humanoid.clip", {{"play", !plays}});
         if (!plays && !panel.workspace.clock.playing) panel.emit("time.play");
     }
     ImGui::SameLine();
-    if (icon_button("forward", Icon::ChevronRight, "On by a frame")) step(panel, 1);
+    if (icon_button("forward", Icon::ChevronRight, "One frame forward")) step(panel, 1);
     ImGui::SameLine();
 }
 
@@ -190,7 +190,7 @@ void clip_strip(const HumanoidPanel& panel) {
         .ticks = ticks, .seconds = tick_seconds, .known = ticks, .bars = lint_marks(panel, ticks)};
     const TimeStripUse use = time_strip("clip", tick, strip);
     if (use.hovered >= 0 && !ImGui::IsItemActive())
-        tell_strip("The clip. Drag shows it at that time; the marks are what Motion lint has found.");
+        tell_strip("The clip. Drag to see it at that time; the marks are what Motion lint has found.");
     if (use.moved) {
         const double time = std::min(tick * tick_seconds, duration);
         panel.emit.continuously("humanoid.clip",
@@ -240,14 +240,15 @@ std::span<const FieldText> field_texts<Playback>() {
     static constexpr FieldText texts[] = {
         {.name = "speed",
          .label = "speed",
-         .help = "How fast the clip plays. At 1, or 100 %, it is as it was recorded.",
+         .help = "How fast the clip plays. 1, or 100 %, is the recorded speed.",
          .step = 0.5f,
          .decimals = 0,
          .scale = 100.0,
          .unit = "%"},
         {.name = "loop",
          .label = "Loop",
-         .help = "A walk goes on from where its last round ended. Else it stops at its end."},
+         .help = "Plays the clip over and over; a walk carries on from where it is. Otherwise it stops at "
+                 "the end."},
         {.name = "in_place",
          .label = "In place",
          .help = "The hips stay above the point where the clip begins."}};
@@ -310,12 +311,12 @@ void add_clip_commands(CommandTable& table) {
     std::vector<Argument> arguments{
         clip_argument("name", "which clip; empty: the rest pose"),
         integer_argument("index", "instead of the name, counted from 0", 0, 1e6),
-        switch_argument("play", "or pause"),
-        number_argument("time", "seconds from its beginning; over its duration, in a later round", 0.0, 1e6)};
+        switch_argument("play", "false: pauses"),
+        number_argument("time", "seconds from its start; beyond its duration, in a later round", 0.0, 1e6)};
     for (Argument& each : field_arguments<Playback>()) arguments.push_back(std::move(each));
     Command clip = part_command<HumanoidPart>(
         humanoid_lab, "humanoid.clip", "Choose and play a clip", std::move(arguments),
-        "Chooses a clip, its moment and how it plays; what is left out stays", set_clip);
+        "Chooses a clip, its time and how it plays; anything omitted stays as it is", set_clip);
     // Clips may begin anywhere, so the camera follows the character, as it does during playback.
     clip.apply = [set = clip.apply](Workspace& workspace, const Arguments& given) {
         const glm::vec3 before = hips_at(workspace);

@@ -17,7 +17,7 @@ inline constexpr EnumNames<humanoid::GroundKind, 6> ground_kinds{
      {"flat", "flat", "Level at 0."},
      {"slope", "slope", "Rises along +Z."},
      {"stairs", "stairs", "Rise along +Z, the first step at 0."},
-     {"terrain", "hills", "Low hills, made by calculation."},
+     {"terrain", "hills", "Low hills, generated."},
      {"mesh", "mesh from a file", "The triangles of a .gltf or .glb file."}}};
 
 inline constexpr double steepest_deg = 80.0, highest_step = 2.0, shortest_step = 0.05, longest_step = 10.0;

@@ -78,10 +78,10 @@ std::vector<Effector> effectors_named(const Arguments& given) {
         const auto effector = humanoid::effector_named(name);
         if (!effector) throw Refused("effectors: there is no effector " + json_summary(name));
         if (std::find(effectors.begin(), effectors.end(), *effector) != effectors.end())
-            throw Refused("effectors: " + json_summary(name) + " stands there twice");
+            throw Refused("effectors: " + json_summary(name) + " is listed twice");
         effectors.push_back(*effector);
     }
-    if (effectors.empty()) throw Refused("effectors: [] has no effector in it");
+    if (effectors.empty()) throw Refused("effectors: [] is empty");
     return effectors;
 }
 
@@ -103,7 +103,7 @@ void set_targets(const IkNow& now, HumanoidPart& part, const Arguments& given) {
     if (given.has("rotations")) rotations = each_list(given, "rotations", "effectors", effectors.size());
     if (given.has("to") && given.has("effectors"))
         throw Refused("to is for one effector; points has one for each of effectors");
-    if (given.has("rotation") && rotations) throw Refused("needs rotation, or rotations");
+    if (given.has("rotation") && rotations) throw Refused("needs either rotation or rotations");
     const bool lets_go = given.has("weight") && given.real("weight") <= 0.0;
     if (!lets_go) require_body(now, part);
     for (std::size_t i = 0; i < effectors.size(); ++i) {
@@ -183,7 +183,7 @@ void set_foot_ik(const IkNow& now, HumanoidPart& part, const Arguments& given) {
                                     fixed_text(setting.enter_speed, 2) + " m/s, got " +
                                     fixed_text(setting.leave_speed, 2));
     if (setting.on && now.solvers.feet(part) == nullptr)
-        throw std::invalid_argument("the feet are left alone: " + now.solvers.why_no_feet(part));
+        throw std::invalid_argument("foot IK is not possible: " + now.solvers.why_no_feet(part));
 }
 
 std::vector<std::string> effector_names() {
@@ -193,26 +193,25 @@ std::vector<std::string> effector_names() {
 }  // namespace
 
 void add_ik_commands(CommandTable& table) {
-    table.add(
-        ik_command("humanoid.target", "Set an effector's target",
-                   {choice_argument("effector", false, "which", effector_names()),
-                    name_list_argument("effectors", "effector"),
-                    point_argument("to", false, "metres; where the effector is when left out"),
-                    each_argument("points", "effectors"),
-                    {.name = "rotation",
-                     .type = ArgumentType::Rotation,
-                     .required = false,
-                     .help = "of the bone; free when it was never given"},
-                    each_argument("rotations", "effectors"),
-                    number_argument("weight", "against other targets; 0 lets go", 0.0, heaviest_target)},
-                   "Gives effectors targets, or lets them go", set_targets));
+    table.add(ik_command(
+        "humanoid.target", "Set an effector's target",
+        {choice_argument("effector", false, "which", effector_names()),
+         name_list_argument("effectors", "effector"),
+         point_argument("to", false, "metres; if omitted, where the effector is"),
+         each_argument("points", "effectors"),
+         {.name = "rotation",
+          .type = ArgumentType::Rotation,
+          .required = false,
+          .help = "of the bone; free if never given"},
+         each_argument("rotations", "effectors"),
+         number_argument("weight", "compared with other targets; 0 lets go", 0.0, heaviest_target)},
+        "Gives effectors targets, or lets them go", set_targets));
     std::vector<Argument> ground_arguments = field_arguments<GroundSetting>();
     ground_arguments.push_back(text_argument("path", false, "of the mesh: a .gltf or .glb file"));
-    Command ground =
-        ik_command("humanoid.ground", "Choose the ground", std::move(ground_arguments),
-                   "Sets what the character walks on; what is left out stays. Slopes, stairs, terrain and "
-                   "meshes turn foot IK on and restart the walk",
-                   set_ground);
+    Command ground = ik_command("humanoid.ground", "Choose the ground", std::move(ground_arguments),
+                                "Sets what the character walks on; anything omitted stays as it is. Slopes, "
+                                "stairs, terrain and meshes turn foot IK on and restart the walk",
+                                set_ground);
     ground.apply = [set = ground.apply](Workspace& workspace, const Arguments& given) {
         const glm::vec3 before = standing_at(workspace);
         set(workspace, given);
@@ -225,14 +224,15 @@ void add_ik_commands(CommandTable& table) {
     };
     table.add(std::move(ground));
     table.add(ik_command("humanoid.foot_ik", "Set foot IK", field_arguments<FootIkSetting>(),
-                         "Brings the feet to the ground; what is left out stays", set_foot_ik));
+                         "Brings the feet to the ground; anything omitted stays as it is", set_foot_ik));
     add_hand_commands(table);
-    table.add(ik_command(
-        "humanoid.limits", "Choose where joint limits come from",
-        {choice_argument("from", true, "which", limits_from.names()),
-         choice_argument("bone", false, "of that joint alone; of all when both are left out", bone_names()),
-         name_list_argument("bones", "bone")},
-        "Says where the limits of the joints come from", set_limits));
+    table.add(
+        ik_command("humanoid.limits", "Choose where joint limits come from",
+                   {choice_argument("from", true, "which", limits_from.names()),
+                    choice_argument("bone", false, "of that joint alone; of all joints if both are omitted",
+                                    bone_names()),
+                    name_list_argument("bones", "bone")},
+                   "Sets where the limits of the joints come from", set_limits));
 }
 
 // Commands on hand IK, self-collision and look-at.
@@ -254,7 +254,7 @@ void set_curve(HandIkSetting& setting, std::size_t hand, const Arguments& given)
     if (given.has("until")) set.until = given.real("until");
     if (given.has("end")) set.end = given.real("end");
     if (!(set.begin <= set.full && set.full <= set.until && set.until <= set.end))
-        throw std::invalid_argument("begin, full, until and end must follow one another");
+        throw std::invalid_argument("begin, full, until and end must be in ascending order");
     curve = set;
 }
 
@@ -306,21 +306,21 @@ void add_hand_commands(CommandTable& table) {
     };
     std::vector<Argument> hands = field_arguments<HandIkSetting>();
     for (Argument& each : std::vector<Argument>{
-             choice_argument("hand", false, "whose curve; both when left out", {"left", "right", "both"}),
+             choice_argument("hand", false, "whose curve; both if omitted", {"left", "right", "both"}),
              switch_argument("curve", "the weight follows the clip's time"),
-             seconds("begin", "of the clip: 0 until then"), seconds("full", "1 from then"),
-             seconds("until", "1 until then"), seconds("end", "0 from then")})
+             seconds("begin", "of the clip: weight 0 until then"), seconds("full", "weight 1 from then on"),
+             seconds("until", "weight 1 until then"), seconds("end", "weight 0 from then on")})
         hands.push_back(std::move(each));
     table.add(ik_command("humanoid.hand_ik", "Set hand IK", std::move(hands),
-                         "Blends the hands from the clip to their targets; what is left out stays",
+                         "Blends the hands from the clip to their targets; anything omitted stays as it is",
                          set_hand_ik));
     table.add(ik_command("humanoid.self_collision", "Keep hands out of the body",
-                         {{.name = "on", .type = ArgumentType::Boolean, .help = "or off"}},
+                         {{.name = "on", .type = ArgumentType::Boolean, .help = "false: turns it off"}},
                          "Keeps hands and lower arms out of the body while it reaches", set_self_collision));
     std::vector<Argument> gaze = field_arguments<LookAtSetting>();
-    gaze.push_back(point_argument("to", false, "metres; ahead of the head when it was never given"));
+    gaze.push_back(point_argument("to", false, "metres; ahead of the head if never given"));
     table.add(ik_command("humanoid.look_at", "Look at a point", std::move(gaze),
-                         "Turns spine, neck and head to look at a point; what is left out stays",
+                         "Turns spine, neck and head to look at a point; anything omitted stays as it is",
                          set_look_at));
 }
 

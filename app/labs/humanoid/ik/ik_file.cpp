@@ -53,14 +53,14 @@ humanoid::BodyState read_body(const JsonPlace& place) {
     place["turns"].for_each("turns", humanoid::bone_count,
                             [&](const JsonPlace& each) { state.turns.push_back(each.drotation()); });
     state.shift = place["shift"].dpoint();
-    place["left"].check_size(state.left.size(), "points, one an effector");
-    place["clip"].check_size(state.clip.size(), "points, one an effector");
+    place["left"].check_size(state.left.size(), "points, one for each effector");
+    place["clip"].check_size(state.clip.size(), "points, one for each effector");
     for (std::size_t i = 0; i < state.left.size(); ++i) {
         state.left[i] = place["left"].element(i).dpoint();
         state.clip[i] = place["clip"].element(i).dpoint();
     }
     if (const auto weights = place.optional("weights")) {
-        weights->check_size(state.weights.size(), "numbers, one an effector");
+        weights->check_size(state.weights.size(), "numbers, one for each effector");
         for (std::size_t i = 0; i < state.weights.size(); ++i)
             state.weights[i] = weights->element(i).real(0.0, heaviest_target);
     }
@@ -160,7 +160,7 @@ void read_hand_ik(const JsonPlace& place, HandIkSetting& setting) {
     for (std::size_t hand = 0; hand < 2; ++hand) {
         const auto times = place.optional(humanoid::name(both_hands[hand]));
         if (!times) continue;
-        times->check_size(4, "times, none before the one before it");
+        times->check_size(4, "times in ascending order");
         std::array<double, 4> seconds{};
         for (std::size_t i = 0; i < 4; ++i)
             seconds[i] = times->element(i).real(i == 0 ? 0.0 : seconds[i - 1], max_curve);

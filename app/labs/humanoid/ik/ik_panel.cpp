@@ -18,7 +18,7 @@ void effector_row(const HumanoidPanel& panel, humanoid::Effector effector) {
     if (!on) {
         if (ImGui::Checkbox(name.c_str(), &on))
             panel.emit("humanoid.target", {{"effector", humanoid::name(effector)}});
-        explain("Gives it a target where it is now. To drag its orange ball does so too.");
+        explain("Gives it a target where it is now, as dragging its orange ball does.");
         return;
     }
     const std::string id = "##" + name;
@@ -30,7 +30,7 @@ void effector_row(const HumanoidPanel& panel, humanoid::Effector effector) {
     if (number_field(name.c_str(), weight, 0.01f, 0.01f, static_cast<float>(heaviest_target), "%.2f"))
         panel.emit.continuously("humanoid.target",
                                 {{"effector", humanoid::name(effector)}, {"weight", weight}});
-    explain("Its weight against other targets: where they disagree, the heavier one is nearer.");
+    explain("Its weight against other targets: where they conflict, the heavier one gets closer.");
 }
 
 }  // namespace
@@ -41,7 +41,7 @@ void target_rows(const HumanoidPanel& panel) {
     if (!why.empty()) return note("The body solve is off: " + why + ".");
     for (const humanoid::Effector effector : all_effectors) effector_row(panel, effector);
     const IkSettings& ik = panel.part.ik;
-    if (row_button("Let all go", 1, ik.has_targets(), "No effector has a target then")) {
+    if (row_button("Let all go", 1, ik.has_targets(), "Removes all targets")) {
         Json all = Json::array();
         for (const humanoid::Effector effector : all_effectors)
             if (ik.target(effector)) all.push_back(humanoid::name(effector));
@@ -51,9 +51,8 @@ void target_rows(const HumanoidPanel& panel) {
     bool apart = ik.self_collision;
     if (ImGui::Checkbox("Self-collision", &apart)) panel.emit("humanoid.self_collision", {{"on", apart}});
     explain(
-        "Hands and lower arms do not pass through the body; its outlines show what they keep out of, fitted "
-        "to the "
-        "skin where the character has one.");
+        "Hands and lower arms do not pass through the body. Outlines show what they keep out of, fitted to "
+        "the skin if the character has one.");
     limit_rows(panel);
 }
 
@@ -74,13 +73,13 @@ void curve_fields(const HumanoidPanel& panel, std::size_t hand, const HandCurve&
     auto begin = static_cast<float>(curve.begin), full = static_cast<float>(curve.full),
          until = static_cast<float>(curve.until), end = static_cast<float>(curve.end);
     if (number_field((side + " from").c_str(), begin, 0.005f, 0.0f, full, "%.2f s")) set("begin", begin);
-    explain("Until then the hand is the clip's.");
+    explain("Until then the hand follows the clip.");
     if (number_field((side + " full from").c_str(), full, 0.005f, begin, until, "%.2f s")) set("full", full);
     explain("From then on the hand is on its target.");
     if (number_field((side + " full to").c_str(), until, 0.005f, full, end, "%.2f s")) set("until", until);
     explain("Until then the hand is on its target; afterwards it goes back to the clip.");
     if (number_field((side + " to").c_str(), end, 0.005f, until, far, "%.2f s")) set("end", end);
-    explain("From then on the hand is the clip's.");
+    explain("From then on the hand follows the clip.");
 }
 
 void hand_row(const HumanoidPanel& panel, std::size_t hand) {
@@ -120,7 +119,7 @@ void hand_rows(const HumanoidPanel& panel) {
     if (!ik.look_at.on) return;
     gaze.rows("weight", "view_deg");
     const ShownPose& shown = panel.runtime.shown(panel.workspace);
-    if (shown.look && !shown.look->in_view) note("It is out of the cone of view.");
+    if (shown.look && !shown.look->in_view) note("The target is outside the cone of view.");
 }
 
 // The ground, and the feet on it.
@@ -169,8 +168,8 @@ void ground_rows(const HumanoidPanel& panel) {
     const FieldRows rows(feet, "humanoid.foot_ik", panel.emit);
     const std::string& why = panel.runtime.solvers.why_no_feet(panel.part);
     const bool none = !feet.on && !why.empty();
-    rows.row("on", {.why_not = none ? "The feet are left alone: " + why + "." : ""});
-    if (!why.empty()) return note("The feet are left alone: " + why + ".");
+    rows.row("on", {.why_not = none ? "Foot IK is not possible: " + why + "." : ""});
+    if (!why.empty()) return note("Foot IK is not possible: " + why + ".");
     if (!feet.on) return;
     rows.row("max_angle_deg");
     rows.row("enter_speed", {.within = FieldRange{0.0, feet.leave_speed}});

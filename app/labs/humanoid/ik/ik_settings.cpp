@@ -96,12 +96,12 @@ std::span<const FieldText> field_texts<GroundSetting>() {
          .choices = ground_kinds.rows},
         {.name = "angle_deg",
          .label = "angle",
-         .help = "Of the slope, which rises along +Z from 0 on.",
+         .help = "Of the slope, which rises along +Z, starting at 0.",
          .step = 0.1f,
          .decimals = 1},
         {.name = "step_height",
          .label = "step height",
-         .help = "How high each stair rises above the one before; stairs go down where it is negative.",
+         .help = "How high each stair rises above the one before; negative: stairs go down.",
          .step = 0.1f,
          .decimals = 1,
          .scale = 100.0,
@@ -121,12 +121,12 @@ std::span<const FieldText> field_texts<FootIkSetting>() {
     static constexpr FieldText texts[] = {
         {.name = "on",
          .label = "Foot IK",
-         .help = "Feet are planted on the ground and turned by it, knees bend, hips ride its height."},
+         .help = "Feet are planted on the ground and turned by it, knees bend, hips follow its height."},
         {.name = "enter_speed",
-         .label = "plant under",
+         .label = "plant below",
          .help = "A foot that is low and slower than this is planted."},
         {.name = "leave_speed",
-         .label = "let go over",
+         .label = "let go above",
          .help = "A planted foot that the clip moves faster than this is let go."},
         {.name = "max_angle_deg",
          .label = "foot angle",
@@ -141,7 +141,7 @@ std::span<const FieldText> field_texts<HandIkSetting>() {
     static constexpr FieldText texts[] = {
         {.name = "on",
          .label = "Hand IK",
-         .help = "Targets of hands move the arm alone, blended from the clip to the target by a weight."},
+         .help = "Hand targets move only the arm, blended from the clip to the target by a weight."},
         view_text("hand view")};
     return texts;
 }

@@ -157,7 +157,7 @@ std::string why_unusable(const humanoid::BoneMap& map) {
         names += humanoid::name(map.missing[i]);
     }
     if (!names.empty()) return names + (map.missing.size() == 1 ? " is missing" : " are missing");
-    return map.upright ? "" : "from hips to head it goes more aside than up";
+    return map.upright ? "" : "from hips to head it runs more sideways than up";
 }
 
 }  // namespace tendril::app

@@ -64,7 +64,7 @@ bool is_arm(Bone bone) {
 
 std::vector<Way> ways_of(Bone bone, const ik::Limit& limit) {
     if (limit.kind == ik::JointKind::Hinge)
-        return {{"bend", "About the joint's one axis.", &ik::JointAngles::up, bend}};
+        return {{"bend", "About the joint's only axis.", &ik::JointAngles::up, bend}};
     const bool right = bone >= Bone::RightShoulder && bone <= Bone::RightHand;
     const bool foot = bone == Bone::LeftFoot || bone == Bone::RightFoot;
     const char* const first = is_arm(bone) || foot ? "up" : "forward";
@@ -100,8 +100,8 @@ void table(const HumanoidPanel& panel, Bone bone, const JointNow& joint) {
         ImGui::TableNextColumn();
         ImGui::TextDisabled("degrees");
         head("now", colours.text_dim, "From the T-pose.");
-        head("adult", adult_colour(colours), "As far as an adult's joint turns.");
-        head("clips", clips_colour(colours), "As far as the character's clips turn it, and a degree more.");
+        head("adult", adult_colour(colours), "How far an adult's joint turns.");
+        head("clips", clips_colour(colours), "How far the character's clips turn it, plus a degree.");
         for (const Way& way : ways_of(bone, *joint.adult)) {
             const float now = joint.angles.*way.angle;
             bool beyond = false;
@@ -131,7 +131,8 @@ void table(const HumanoidPanel& panel, Bone bone, const JointNow& joint) {
 
 std::string in_words(const JointNow& joint) {
     if (joint.in_force == nullptr) return "Nothing limits it: joint limits are off.";
-    std::string text = joint.in_force == joint.clips ? "The clips' range holds" : "An adult's range holds";
+    std::string text =
+        joint.in_force == joint.clips ? "The clips' range applies" : "An adult's range applies";
     if (joint.from == LimitsFrom::Motion && joint.clips == nullptr) text += ", as no clip turns it";
     if (joint.excess > glm::radians(0.5f))
         return text + "; it is " + fixed_text(static_cast<double>(glm::degrees(joint.excess)), 1) +
@@ -170,7 +171,7 @@ void source_row(const HumanoidPanel& panel, const Joints& joints, LimitsFrom sho
     explain(joints.size() == 1 ? "How far this joint may turn; the others stay as they are."
                                : "How far each of these joints may turn, about its own axes.");
     if (const std::size_t still = joints.size() - turned.size(); still > 0 && !turned.empty())
-        note("No clip turns " + std::to_string(still) + " of them: there the clips' range cannot be chosen.");
+        note("No clip turns " + std::to_string(still) + " of them: they cannot take the clips' range.");
 }
 
 void several_note(const HumanoidPanel& panel, const SelectedJoints& joints) {
@@ -181,8 +182,8 @@ void several_note(const HumanoidPanel& panel, const SelectedJoints& joints) {
     const LimitsFrom shown = panel.part.ik.limits_of(*joints.shown);
     const bool alike =
         std::ranges::all_of(joints.all, [&](Bone bone) { return panel.part.ik.limits_of(bone) == shown; });
-    note((alike ? "Shown is " : "They differ. Shown is ") + std::string(humanoid::name(*joints.shown)) +
-         "; what you set, you set on all.");
+    note((alike ? "Showing " : "They differ. Showing ") + std::string(humanoid::name(*joints.shown)) +
+         "; changes apply to all.");
 }
 
 }  // namespace
@@ -213,7 +214,7 @@ void limit_rows(const HumanoidPanel& panel) {
     if (ik.joint_limits.empty()) return;
     note(count_text(ik.joint_limits.size(), "joint") +
          (ik.joint_limits.size() == 1 ? " has a range of its own." : " have ranges of their own."));
-    if (row_button("All joints alike", 1, true, "They go by the choice above again"))
+    if (row_button("All joints alike", 1, true, "They use the choice above again"))
         panel.emit("humanoid.limits", {{"from", limits_from.name(ik.limits)}});
     end_row();
 }

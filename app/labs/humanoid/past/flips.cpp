@@ -208,7 +208,7 @@ Cause by_limit(const HumanoidMoment& was, const HumanoidMoment& is, const std::v
         const auto i = static_cast<std::size_t>(bone);
         const bool before = was.shown.body->at_limit[i], after = is.shown.body->at_limit[i];
         if (before == after) continue;
-        return std::string(humanoid::name(bone)) + (after ? " reached its limit" : " came free of its limit");
+        return std::string(humanoid::name(bone)) + (after ? " reached its limit" : " left its limit");
     }
     return std::nullopt;
 }

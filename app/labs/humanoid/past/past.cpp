@@ -252,11 +252,11 @@ void add_short_effectors(const HumanoidMoment& was, const HumanoidMoment& is,
         const auto before = left_of(was, each), after = left_of(is, each);
         if (!before || !after || *before >= far || *after < far) continue;
         const std::string name = title(each);
-        incidents.push_back({.kind = Incident::Kind::Status,
-                             .joint = *is.part.node_of(humanoid::bone_of(each)),
-                             .name = name,
-                             .cause = name + " fell short of its target: " + fixed_text(1000.0 * *after, 1) +
-                                      " mm are left"});
+        incidents.push_back(
+            {.kind = Incident::Kind::Status,
+             .joint = *is.part.node_of(humanoid::bone_of(each)),
+             .name = name,
+             .cause = name + " fell short of its target: " + fixed_text(1000.0 * *after, 1) + " mm left"});
     }
 }
 

@@ -22,12 +22,12 @@ void spring_row(const HumanoidPanel& panel, std::size_t which) {
     ImGui::PushID(each.node.c_str());
     reading(each.node.c_str(), "%.0f\u00b0",
             glm::degrees(panel.runtime.shown(panel.workspace).springs[which].angle));
-    explain("How far the bone that swings farthest is turned from the clip now.");
+    explain("How far the bone that swings most is turned from the clip right now.");
     const bool shown = !panel.part.selection.several() &&
                        active_name(panel.part.selection, panel.part.skeleton()) == each.node;
-    if (row_button("Settings", 2, !shown, "Selects it: they are in the inspector"))
+    if (row_button("Settings", 2, !shown, "Selects it; its settings are in the inspector"))
         panel.emit("humanoid.select", {{"node", each.node}});
-    if (row_button("Remove", 2, true, "It follows the clip alone again"))
+    if (row_button("Remove", 2, true, "It follows only the clip again"))
         panel.emit("humanoid.spring", {{"node", each.node}, {"on", false}});
     end_row();
     ImGui::PopID();
@@ -38,7 +38,7 @@ void add_row(const HumanoidPanel& panel) {
     const std::string none = "choose a node";
     SearchText& typed = panel.runtime.panel.spring;
     if (!begin_search("add", &none, typed)) {
-        explain("An ear, an antenna, a tail: the node that it begins with. All that hangs on it swings too.");
+        explain("The first node of an ear, an antenna or a tail. Everything below it swings too.");
         return;
     }
     bool any = false;
@@ -48,7 +48,7 @@ void add_row(const HumanoidPanel& panel) {
         const std::string& name = panel.part.skeleton()[i].name;
         if (search_row(name, false, typed)) panel.emit("humanoid.spring", {{"node", name}});
     }
-    if (!any) note("All of its nodes are bones of the body, or swing.");
+    if (!any) note("All its nodes are bones of the body or already swing.");
     end_search();
 }
 
@@ -64,9 +64,9 @@ void put_on_springs_row(const HumanoidPanel& panel) {
         nodes.push_back(panel.part.skeleton()[node].name);
     if (nodes.empty()) return;
     const bool free = panel.part.springs.size() + nodes.size() <= max_springs;
-    const std::string too_many = "There are " + std::to_string(max_springs) + " springs at most";
+    const std::string too_many = "At most " + std::to_string(max_springs) + " springs";
     if (row_button(nodes.size() == 1 ? "Put on a spring" : "Put on springs", 1, free,
-                   free ? "It and all that hangs on it trail behind the clip" : too_many.c_str()))
+                   free ? "It and everything below it trail behind the clip" : too_many.c_str()))
         panel.emit("humanoid.spring", {of_nodes(nodes)});
     end_row();
 }
@@ -88,7 +88,7 @@ void setting_rows(const HumanoidPanel& panel, const SpringSetting& spring,
 void spring_rows(const HumanoidPanel& panel) {
     if (!folding_section(panel.workspace, "Springs", panel.emit)) return;
     if (panel.part.springs.empty())
-        note("Ears, antennae and tails that the file has trail behind the head or the hips.");
+        note("Lets ears, antennae or a tail of the character trail behind its head or hips.");
     for (std::size_t i = 0; i < panel.part.springs.size(); ++i) spring_row(panel, i);
     if (panel.part.springs.size() < max_springs) add_row(panel);
 }
@@ -102,19 +102,19 @@ void spring_inspector(const HumanoidPanel& panel) {
     const SpringSetting& spring = part.springs[shown];
     std::vector<std::string> nodes;
     for (const std::size_t each : selected) nodes.push_back(part.springs[each].node);
-    section(nodes.size() == 1 ? ("Spring from " + spring.node + " on").c_str()
+    section(nodes.size() == 1 ? ("Spring from " + spring.node + " down").c_str()
                               : (count_text(nodes.size(), "spring") + " selected").c_str());
     const bool alike = std::ranges::all_of(
         selected, [&](std::size_t each) { return same_settings(part.springs[each], spring); });
     if (nodes.size() > 1)
-        note((alike ? "Shown is that from " : "They differ. Shown is that from ") + spring.node +
-             " on; what you set, you set on all.");
+        note((alike ? "Showing the one from " : "They differ. Showing the one from ") + spring.node +
+             " down; changes apply to all.");
     setting_rows(panel, spring, nodes);
     const SpringChains& chains = panel.runtime.solvers.springs(part);
     for (const std::size_t each : selected)
         if (chains[each] == nullptr)
-            note("The bone map has made a node of the spring from " + part.springs[each].node +
-                 " on a bone of the body: it follows the clip.");
+            note("The bone map has turned a node of the spring from " + part.springs[each].node +
+                 " down into a bone of the body: it follows the clip.");
 }
 
 // Commands on springs.
@@ -169,12 +169,14 @@ void set_springs(HumanoidPart& part, const Arguments& given) {
 
 void add_spring_commands(CommandTable& table) {
     std::vector<Argument> arguments{
-        node_argument("node", false, "by name: it and all that hangs on it, no bones of the body"),
-        name_list_argument("nodes", "node"), switch_argument("on", "or off")};
+        node_argument("node", false,
+                      "by name: it and everything below it, which must not be bones of the body"),
+        name_list_argument("nodes", "node"), switch_argument("on", "false: takes them off")};
     for (Argument& each : field_arguments<SpringSetting>()) arguments.push_back(std::move(each));
     table.add(part_command<HumanoidPart>(
         humanoid_lab, "humanoid.spring", "Let nodes swing on springs", std::move(arguments),
-        "Lets ears, antennae or a tail trail behind by springs; what is left out stays", set_springs));
+        "Lets ears, antennae or a tail trail behind on springs; anything omitted stays as it is",
+        set_springs));
 }
 
 }  // namespace tendril::app

@@ -31,11 +31,11 @@ std::span<const FieldText> field_texts<SpringSetting>() {
          .step = 0.02f},
         {.name = "critical_damping",
          .label = "damping",
-         .help = "0 swings for ever, 1 comes to rest without swinging past.",
+         .help = "0 swings for ever, 1 comes to rest without overshooting.",
          .step = 0.005f},
         {.name = "weight", .label = "spring weight", .help = "0: as in the clip. 1: the whole swing."},
         {.name = "max_angle_deg",
-         .label = "at most",
+         .label = "max angle",
          .help = "The largest angle by which a bone turns away from the clip.",
          .step = 0.5f,
          .decimals = 0}};
@@ -48,10 +48,10 @@ namespace {
 std::string overlap(const HumanoidPart& part, std::size_t node) {
     const std::string& name = part.skeleton()[node].name;
     if (const auto there = spring_on(part, node))
-        return name + " swings already, by the spring from " + part.springs[*there].node + " on";
+        return name + " already swings, on the spring from " + part.springs[*there].node + " down";
     for (const SpringSetting& each : part.springs)
         if (const auto root = part.skeleton().find(each.node); root && part.skeleton().is_below(*root, node))
-            return "there is a spring from " + each.node + " on, which hangs on " + name;
+            return "there is a spring from " + each.node + " down, which is below " + name;
     return {};
 }
 
@@ -94,11 +94,11 @@ std::string why_no_spring(const HumanoidPart& part, std::size_t node) {
         const std::int32_t mapped = part.map->bones[i].node;
         if (mapped >= 0 && part.skeleton().is_below(static_cast<std::size_t>(mapped), node))
             return (static_cast<std::size_t>(mapped) == node ? name + " is the "
-                                                             : "on " + name + " hangs the ") +
+                                                             : "below " + name + " is the ") +
                    std::string(humanoid::name(static_cast<humanoid::Bone>(i))) +
                    " of the body, which the clip and IK move";
     }
-    if (part.skeleton()[node].parent < 0) return name + " hangs on nothing";
+    if (part.skeleton()[node].parent < 0) return name + " has no parent";
     return overlap(part, node);
 }
 

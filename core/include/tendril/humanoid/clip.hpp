@@ -57,7 +57,8 @@ struct Clip {
 
 /// Refuses an invalid node or one with two channels, lists of mismatched sizes, times that are not finite, do
 /// not increase or exceed the duration, numbers that are not finite or over 1e9, and rotations that are not
-/// unit quaternions. "Clip walk: channels[3].rotation.times[7] must be over the time before it, got 0.2"
+/// unit quaternions. "Clip walk: channels[3].rotation.times[7] must be later than the time before it, got
+/// 0.2"
 Result check(const Clip& clip, const Skeleton& skeleton);
 
 /// Writes the pose at a time in seconds: skeleton.size() transforms, local to the parents. A node without

@@ -2,7 +2,7 @@
 //
 //     const LintReport report = lint(skeleton, map, clip);
 //     for (const Finding& finding : report.findings)
-//         log(finding.text);  // "LeftFoot slides 62 mm over the ground while it stands (frames 24 to 41)"
+//         log(finding.text);  // "LeftFoot slides 62 mm over the ground while planted (frames 24 to 41)"
 //     if (report.findings[0].has_cure) clip = *cure(skeleton, map, clip, report.findings[0]);
 //
 // A decent clip should have no findings: speeds are compared with the motion around them, heights with the

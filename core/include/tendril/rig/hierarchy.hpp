@@ -79,7 +79,7 @@ class Hierarchy {
         return element.index < nodes_.size() && nodes_[element.index].generation == element.generation &&
                element.generation % 2 == 1;
     }
-    /// Success if it exists; otherwise "OPERATION: ARGUMENT must be the handle of an element that is there,
+    /// Success if it exists; otherwise "OPERATION: ARGUMENT must be the handle of an existing element,
     /// got slot 7". For code built on a hierarchy.
     Result check(ElementId element, const char* operation, const char* argument) const noexcept;
     ElementKind kind(ElementId element) const noexcept;

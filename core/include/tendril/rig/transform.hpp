@@ -34,7 +34,7 @@ bool operator==(const Transform& a, const Transform& b) noexcept;
 
 /// `input` with its rotation made unit length (a unit one keeps its bits). Refused: numbers that are not
 /// finite or over max_magnitude, a rotation shorter than 1e-6, a scale of 0. `operation` and `argument` are
-/// for the message: "set: transform.scale.y must be other than 0, got 0".
+/// for the message: "set: transform.scale.y must be non-zero, got 0".
 Expected<Transform> checked(const Transform& input, std::string_view operation,
                             std::string_view argument = "transform") noexcept;
 

@@ -95,13 +95,13 @@ void check_axis(Check& check) {
         if (!rest || dot(rest->torso, rest->legs) < aligned) return;
         const double angle = arctangent(length(cross(rest->torso, {0.0, 1.0, 0.0})), rest->torso.y) * degrees;
         check.add(Fault::Axis, hips, 0, 0, last, angle, "deg",
-                  "lies at rest, " + shown(angle) +
-                      " degrees from upright: the file's up axis is probably another one");
+                  "lies down at rest, " + shown(angle) +
+                      " degrees from upright: the file's up axis is probably wrong");
     } else if (const auto turn = upright_turn(check.skeleton, check.map, check.clip)) {
         const double angle = 2.0 * half_angle_between(*turn, {1.0, 0.0, 0.0, 0.0}) * degrees;
         check
             .add(Fault::Axis, hips, 0, 0, last, angle, "deg",
-                 "walks lying on its side in this clip, " + shown(angle) + " degrees from upright")
+                 "lies on its side in this clip, " + shown(angle) + " degrees from upright")
             .has_cure = true;
     }
 }

@@ -37,6 +37,33 @@ glm::dvec3 moved(const glm::dvec3& value, const glm::dvec3& way) {
     return plus(value, way);
 }
 
+double likeness(const glm::dquat& a, const glm::dquat& b) {
+    return dot(a, b);
+}
+double likeness(const glm::dvec3&, const glm::dvec3&) {
+    return 1.0;
+}
+
+/// The keys from `first` to `last` have new values: gives those of a cubic track new tangents, the slopes
+/// between their neighbours. Also turns quaternions of both signs into those of one, across which a cubic
+/// would not go.
+template <class T>
+void refit_tangents(Track<T>& track, double first, double last) {
+    if (track.interpolation != Interpolation::Cubic) return;
+    const std::size_t count = track.times.size();
+    const auto key = [&](std::size_t i) -> T& { return track.values[3 * i + 1]; };
+    for (std::size_t i = 1; i < count; ++i)
+        if (likeness(key(i - 1), key(i)) < 0.0)
+            for (std::size_t k = 3 * i; k < 3 * i + 3; ++k) track.values[k] = -track.values[k];
+    for (std::size_t i = 0; i < count; ++i) {
+        if (track.times[i] < first || track.times[i] > last) continue;
+        const std::size_t before = i > 0 ? i - 1 : i, after = std::min(i + 1, count - 1);
+        const double seconds = track.times[after] - track.times[before];
+        if (!(seconds > 0.0)) continue;
+        track.values[3 * i] = track.values[3 * i + 2] = (key(after) - key(before)) / seconds;
+    }
+}
+
 /// Interpolates the keys from `first` to `last` between the track's values at `before` and `after`.
 template <class T>
 void bridge(const Channel& was, Track<T>& track, double before, double first, double last, double after) {
@@ -47,9 +74,8 @@ void bridge(const Channel& was, Track<T>& track, double before, double first, do
         const double part = (time - before) / (after - before);
         T& value = track.values[width_of(track) == 3 ? 3 * i + 1 : i];
         value = moved(from, weighted(way_between(from, to), part));
-        if (width_of(track) == 3)
-            track.values[3 * i] = track.values[3 * i + 2] = (to - from) / (after - before);
     }
+    refit_tangents(track, before, after);  // the neighbours' tangents belong to the bad keys too
 }
 
 /// Spreads the jump between two times over the keys around it: those before it make half of the way early,
@@ -65,6 +91,7 @@ void spread(const Channel& was, Track<T>& track, double before, double after) {
         T& value = track.values[width_of(track) == 3 ? 3 * i + 1 : i];
         value = moved(value, weighted(off < 0.0 ? way_between(from, to) : way_between(to, from), weight));
     }
+    refit_tangents(track, middle - ease, middle + ease);
 }
 
 void mend_signs(Track<glm::dquat>& track) {
@@ -126,7 +153,7 @@ Expected<Clip> cure(const Skeleton& skeleton, const BoneMap& map, const Clip& cl
         return tendril::detail::refused("cure", "finding", "one that has a cure", name(finding.fault));
     if (const Result bad = detail::check_map("cure", map, skeleton); !bad) return bad;
     if (finding.node >= static_cast<std::int32_t>(skeleton.size()))
-        return tendril::detail::refused("cure", "finding.node", "the place of a node", finding.node);
+        return tendril::detail::refused("cure", "finding.node", "the index of a node", finding.node);
     LintReport report = lint_detail::blank_report(clip, settings);
     if (finding.first > finding.last || finding.last >= report.frames)
         return tendril::detail::refused("cure", "finding", "one of this clip",

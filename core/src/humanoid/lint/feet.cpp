@@ -78,7 +78,7 @@ void check_skating(Check& check, const Foot& foot, const glm::dvec3& treadmill, 
         check.report.skating = std::max(check.report.skating, farthest);
         if (farthest <= limit) continue;
         check.add(Fault::Skating, foot.node, worst, first, last, 1000.0 * farthest, "mm",
-                  "slides " + shown(1000.0 * farthest) + " mm over the ground while it stands");
+                  "slides " + shown(1000.0 * farthest) + " mm over the ground while planted");
     }
 }
 

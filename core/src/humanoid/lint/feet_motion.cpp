@@ -165,6 +165,7 @@ bool stands_as_it_rests(const std::vector<Foot>& feet) {
 void learn_soles(std::vector<Foot>& feet) {
     double ground = std::numeric_limits<double>::max();
     std::vector<double> heights;
+    std::vector<double*> learned;
     for (Foot& foot : feet) {
         glm::dvec3 sum(0.0);
         for (std::size_t i = 0; i < foot.still.size(); ++i)
@@ -175,14 +176,15 @@ void learn_soles(std::vector<Foot>& feet) {
             for (const Foot& each : feet)
                 for (std::size_t i = 0; i < each.still.size() && k < each.points.size(); ++i)
                     if (each.still[i]) heights.push_back(each.at(k, i).y);
-            if (heights.empty()) return;
+            if (heights.empty())
+                continue;  // no foot with such a point is ever still: it keeps its rest height
             std::sort(heights.begin(), heights.end());
             foot.points[k].above = densest(heights, 0.03);
+            learned.push_back(&foot.points[k].above);
             ground = std::min(ground, foot.points[k].above);
         }
     }
-    for (Foot& foot : feet)
-        for (SolePoint& point : foot.points) point.above -= ground;
+    for (double* const above : learned) *above -= ground;
 }
 
 }  // namespace

@@ -78,7 +78,7 @@ void check_track(Check& check, const Channel& channel, const Track<T>& track, Me
     for (const Outlier& each : outliers(moves, minimum)) {
         const double amount = turns ? each.amount : 1000.0 * each.amount;
         const bool comes_back = each.until < check.report.frames;
-        std::string text = comes_back ? "stands apart by " : "jumps by ";
+        std::string text = comes_back ? "jumps out and back by " : "jumps by ";
         text += shown(amount) + (turns ? " degrees" : " mm");
         Finding& finding =
             check.add(Fault::Jump, node, each.frame, each.frame, comes_back ? each.until - 1 : each.frame,

@@ -26,9 +26,10 @@ void check_signs_of(Check& check, const Channel& channel) {
     for (std::size_t i = 0; i < flips.size(); i += 2) {
         const std::size_t first = flips[i], last = i + 1 < flips.size() ? flips[i + 1] - 1 : count - 1;
         const double way = 2.0 * half_angle_between(key(first - 1), key(first)) * degrees;
-        std::string text = first == last ? "has a key of the opposite sign: "
-                                         : "has keys of the opposite sign from one frame to the next: ";
-        text += "without the short way it turns by " + shown(360.0 - way) + " degrees between two keys";
+        std::string text = first == last
+                               ? "has a rotation key that goes the long way round: "
+                               : "has rotation keys that go the long way round from one frame to the next: ";
+        text += "unless read the short way, it turns by " + shown(360.0 - way) + " degrees between two keys";
         check
             .add(Fault::SignFlip, static_cast<std::int32_t>(channel.node),
                  frame_of(check, track.times[first]), frame_of(check, track.times[first]),
@@ -47,12 +48,11 @@ void check_scale_keys(Check& check, const Channel& channel) {
         const glm::dvec3& value = track.values[cubic ? 3 * i + 1 : i];
         for (int axis = 0; axis < 3; ++axis) {
             const double part = value[axis] / rest[axis];
-            if (part > -1e-3 && !(part < 0.0) && std::abs(part) > 1e-6) continue;
+            if (part > 1e-6) continue;
             const std::size_t frame = frame_of(check, track.times[i]);
             check.add(Fault::Scale, static_cast<std::int32_t>(channel.node), frame, frame, frame, part,
                       "times",
-                      part < 0.0 ? "is mirrored by a key of its scale"
-                                 : "is scaled to nothing by a key of its scale");
+                      part < -1e-6 ? "is mirrored by a scale key" : "is scaled to nothing by a scale key");
             return;
         }
     }
@@ -64,7 +64,7 @@ void check_height(Check& check) {
     const double height = check.height;
     if (height > 0.2 && height < 12.0) return;
     std::string text =
-        "is " + shown(height, height < 1.0 ? 3 : 0) + " m tall: the unit of its file is probably another one";
+        "is " + shown(height, height < 1.0 ? 3 : 0) + " m tall: the unit of its file is probably wrong";
     check.add(Fault::Scale, -1, 0, 0, check.report.frames - 1, height, "m", text);
 }
 

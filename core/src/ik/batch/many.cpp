@@ -213,7 +213,7 @@ Result Batch::set_limits(std::span<const Limit> limits, std::span<const glm::vec
         }
         rest[i] = times(rest[i], 1.0f / size);
         if (const char* const wrong = fault(limits[i], rest[i])) {
-            return tendril::detail::refused("set_limits", {"limits", i}, "a limit without fault", wrong);
+            return tendril::detail::refused("set_limits", {"limits", i}, "a valid limit", wrong);
         }
     }
     parts_->limits = std::make_unique<BatchLimits>(batch_limits(limits, rest));
@@ -242,7 +242,8 @@ Result Batch::set_rotations(std::span<const glm::quat> rotations) {
     if (!bad) return bad;
     for (std::size_t i = 0; i < rotations.size(); ++i) {
         if (is_unit(rotations[i])) continue;
-        return tendril::detail::refused("set_rotations", {"rotations", i}, "a unit quaternion", "another");
+        return tendril::detail::refused("set_rotations", {"rotations", i}, "a unit quaternion",
+                                        "one of another length");
     }
     parts_->for_each_block([&](const Block&, std::size_t first, std::size_t lanes) {
         widest().copy_in(&rotations[first * bones()][0], lanes, 4 * bones(), parts_->rotation_rows(first));

@@ -23,7 +23,7 @@ Result check_joint(std::size_t index, const TreeJoint& joint) noexcept {
     using namespace tendril::detail;
     const Argument parent{"joints", index, "parent"};
     if (index == 0 && joint.parent != no_joint)
-        return refused("Tree", parent, "no_joint, for it is the root", joint.parent);
+        return refused("Tree", parent, "no_joint, as it is the root", joint.parent);
     if (index > 0 && joint.parent == no_joint)
         return refused("Tree", parent, "a joint before this one", "no_joint");
     if (index > 0 && joint.parent >= index)

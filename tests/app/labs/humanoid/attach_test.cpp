@@ -174,7 +174,7 @@ TEST_F(HumanoidAttach, RefusesWhatDoesNotFit) {
     expect_refused("humanoid.detach", {{"name", "tail"}}, {"no attachment \"tail\""});
     run("humanoid.attach", {{"bone", "Hips"}, {"kind", "rope"}, {"name", "tail"}});
     expect_refused("humanoid.attach", {{"bone", "Hips"}, {"kind", "rope"}, {"name", "tail"}},
-                   {"name \"tail\" is another attachment's"});
+                   {"name \"tail\" is already used by another attachment"});
     for (std::size_t i = 1; i < max_attachments; ++i)
         run("humanoid.attach", {{"bone", "Hips"}, {"kind", "rope"}, {"segments", 2}});
     expect_refused("humanoid.attach", {{"bone", "Hips"}, {"kind", "rope"}}, {"there are 16 attachments"});

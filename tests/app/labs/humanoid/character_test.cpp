@@ -105,7 +105,7 @@ TEST_F(HumanoidCharacter, GivesANodeToOneBoneAlone) {
     EXPECT_FALSE(bones().contains("RightHand"));
     EXPECT_EQ(state().at("character").at("unmatched"), Json({"RightHand"}));
     expect_refused("humanoid.map", {{"bone", "LeftLowerArm"}, {"node", "LeftShoulder"}},
-                   {"LeftLowerArm must be a node that the bones it hangs on are not below"});
+                   {"LeftLowerArm must be a node that is not above any of its parent bones"});
     expect_refused("humanoid.map", {{"bone", "LeftHand"}, {"node", "Tail"}}, {"no node \"Tail\""});
     expect_refused("humanoid.map", {{"bone", "Tail"}, {"node", "Hips"}}, {"bone must be one of Hips"});
 }

@@ -85,7 +85,7 @@ TEST_F(HumanoidHands, ComeFromAFileAsTheyWere) {
 }
 
 TEST_F(HumanoidHands, RefuseWhatDoesNotFit) {
-    expect_refused("humanoid.hand_ik", {{"begin", 0.6}, {"full", 0.5}}, {"must follow one another"});
+    expect_refused("humanoid.hand_ik", {{"begin", 0.6}, {"full", 0.5}}, {"must be in ascending order"});
     expect_refused("humanoid.hand_ik", {{"hand", "third"}}, {"hand must be one of"});
     run("humanoid.map", {{"bone", "LeftHand"}});
     for (const char* command : {"humanoid.hand_ik", "humanoid.look_at", "humanoid.self_collision"}) {

@@ -79,9 +79,9 @@ TEST_F(HumanoidKeptMaps, ThatAreNotWhatTheyShouldBeAreLeftOutWithAMessage) {
         test::write(file(), bad);
         load();
         EXPECT_EQ(left_hand(), "LeftHand");
-        EXPECT_TRUE(test::has(kept().at("refused").get<std::string>(), "the kept bone map is left out: "));
+        EXPECT_TRUE(test::has(kept().at("refused").get<std::string>(), "the kept bone map is ignored: "));
         EXPECT_EQ(workspace.ui.toasts.back().text, kept().at("refused"));
-        expect_refused("humanoid.map.use", {}, {"left out"});
+        expect_refused("humanoid.map.use", {}, {"is ignored"});
     }
     test::write(file(), good);
     load();

@@ -149,7 +149,7 @@ TEST_F(HumanoidPanels, SayWhatIsMissing) {
     EXPECT_TRUE(test::says(text, "off LeftHand RightHand")) << text;
     run("humanoid.select", {{"node", "LeftHand"}});
     const std::string inspector = reader_.inspector(lab(), workspace);
-    for (const char* says : {"Not a whole body", "LeftHand", "none of the body", "LeftLowerArm"})
+    for (const char* says : {"Incomplete body", "LeftHand", "none", "LeftLowerArm"})
         EXPECT_NE(inspector.find(says), std::string::npos) << says << " is not in:\n" << inspector;
 }
 

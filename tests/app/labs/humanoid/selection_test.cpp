@@ -65,7 +65,7 @@ TEST_F(HumanoidSelection, WhatIsNoNodeIsRefusedAndChangesNothing) {
     expect_refused("humanoid.select", {{"nodes", {"Head", 3}}}, {"nodes", "3"});
     expect_refused("humanoid.select", {{"nodes", "Head"}}, {"nodes"});
     expect_refused("humanoid.select", {{"node", "Head"}, {"nodes", Json::array({"Hips"})}},
-                   {"needs node, or nodes"});
+                   {"needs either node or nodes"});
     expect_refused("humanoid.limits", {{"from", "none"}, {"bones", {"Head", "Tail"}}}, {"Tail"});
     expect_refused("humanoid.limits", {{"from", "none"}, {"bones", {"Head", "Hips"}}},
                    {"the Hips joint has no limits"});
@@ -73,10 +73,10 @@ TEST_F(HumanoidSelection, WhatIsNoNodeIsRefusedAndChangesNothing) {
                    {"bones", "null"});
     expect_refused("humanoid.limits", {{"from", "none"}, {"bones", Json::array()}}, {"bones is empty"});
     expect_refused("humanoid.limits", {{"from", "none"}, {"bone", "Head"}, {"bones", Json::array({"Neck"})}},
-                   {"needs bone, or bones"});
+                   {"needs either bone or bones"});
     expect_refused("humanoid.spring", {{"nodes", {"HeadTop_End", "LeftHand"}}}, {"LeftHand"});
     expect_refused("humanoid.spring", {{"nodes", Json::array()}}, {"nodes is empty"});
-    expect_refused("humanoid.spring", {{"strength", 2}}, {"needs node, or nodes"});
+    expect_refused("humanoid.spring", {{"strength", 2}}, {"needs either node or nodes"});
 }
 
 TEST_F(HumanoidSelection, ALimitGoesOnAllAboutEachOnesOwnAxes) {
@@ -105,14 +105,14 @@ TEST_F(HumanoidSelection, ALimitGoesOnAllAboutEachOnesOwnAxes) {
 
 TEST_F(HumanoidSelection, TheInspectorSaysHowManyAndWhichIsShown) {
     select({"LeftUpperArm", "RightUpperArm", "Head"});
-    expect_says(inspector(), {"3", "Shown is Head.", "Limits of 3 joints",
-                              "Shown is Head; what you set, you set on all."});
+    expect_says(inspector(),
+                {"3", "Showing Head.", "Limits of 3 joints", "Showing Head; changes apply to all."});
     run("humanoid.limits", {{"from", "none"}, {"bone", "LeftUpperArm"}});
-    expect_says(inspector(), {"They differ. Shown is Head"});
+    expect_says(inspector(), {"They differ. Showing Head"});
     // The active one has no limits: another is shown, here and in --state.
     select({"LeftUpperArm", "RightUpperArm", "Hips"});
-    expect_says(inspector(), {"Shown is Hips.", "1 selected node has no limits.", "Limits of 2 joints",
-                              "Shown is RightUpperArm; what you set"});
+    expect_says(inspector(), {"Showing Hips.", "1 selected node has no limits.", "Limits of 2 joints",
+                              "Showing RightUpperArm; changes apply"});
     EXPECT_EQ(state().at("body").at("joint").at("bone"), "RightUpperArm");
     select({"Hips", "HeadTop_End"});
     EXPECT_EQ(inspector().find("Limits of"), std::string::npos);
@@ -198,10 +198,10 @@ TEST_F(HumanoidSelection, SpringsAreSetOnAll) {
     EXPECT_TRUE(selected_for_springs(part()).empty());
     run("humanoid.spring", {{"node", "tail_1"}, {"strength", 0.8}});
     EXPECT_EQ(selected_springs(part()), (std::vector<std::size_t>{0, 1, 2}));
-    expect_says(inspector(), {"3 springs selected", "They differ. Shown is that from tail_1 on"});
+    expect_says(inspector(), {"3 springs selected", "They differ. Showing the one from tail_1 down"});
     select({"antenna_l_3", "antenna_r_2", "Head"});
     EXPECT_EQ(selected_springs(part()).size(), 2u);
-    expect_says(inspector(), {"2 springs selected", "Shown is that from antenna_r_2 on; what"});
+    expect_says(inspector(), {"2 springs selected", "Showing the one from antenna_r_2 down; changes"});
     run("humanoid.spring", {{"nodes", {"antenna_l_1", "antenna_r_2"}}, {"weight", 0.25}});
     for (const SpringSetting& each : part().springs)
         EXPECT_EQ(each.weight, each.node == "tail_1" ? 1.0 : 0.25) << each.node;

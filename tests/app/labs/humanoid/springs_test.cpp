@@ -135,7 +135,7 @@ TEST_F(HumanoidSprings, RefuseWhatTheyCannotHold) {
     expect_refused("humanoid.spring", {{"node", "Head"}}, {"Head is the Head of the body"});
     expect_refused("humanoid.spring", {{"node", "Hips"}}, {"Hips"});
     expect_refused("humanoid.spring", {{"node", "antenna_l_3"}}, {"antenna_l_3", "antenna_l_2"});
-    expect_refused("humanoid.spring", {{"node", "antenna_l_1"}}, {"antenna_l_2", "hangs on antenna_l_1"});
+    expect_refused("humanoid.spring", {{"node", "antenna_l_1"}}, {"antenna_l_2", "is below antenna_l_1"});
     EXPECT_EQ(part().springs.size(), 1u);
     // A spring node that becomes a bone of the body no longer swings.
     dance();

@@ -114,11 +114,11 @@ TEST_F(HumanoidTargets, GoToSeveralEffectorsAtOnce) {
     const auto refuses = [&](Json arguments, const char* what) {
         expect_refused("humanoid.target", arguments, {what});
     };
-    refuses({{"weight", 1}}, "needs effector, or effectors");
+    refuses({{"weight", 1}}, "needs either effector or effectors");
     refuses({{"effectors", {"head", "tail"}}, {"points", points}},
             "effectors: there is no effector \"tail\"");
-    refuses({{"effectors", {"head", "head"}}, {"points", points}}, "\"head\" stands there twice");
-    refuses({{"effectors", {"head", 3}}, {"points", points}}, "3 is no name");
+    refuses({{"effectors", {"head", "head"}}, {"points", points}}, "\"head\" is listed twice");
+    refuses({{"effectors", {"head", 3}}, {"points", points}}, "3 is not a name");
     refuses({{"effectors", Json::array()}}, "effectors: []");
     refuses({{"effectors", Json::array({"head"})}, {"points", points}},
             "1 points, one for each of effectors");

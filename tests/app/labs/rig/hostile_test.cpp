@@ -31,7 +31,7 @@ TEST_F(RigHostile, ElementsThatMakeNoTree) {
     expect_refused("rig.element.add", {{"name", "new"}, {"parent", "new"}}, {"\"new\"", "itself below it"});
     expect_refused("rig.element.add", {{"name", ""}}, {"name is empty"});
     expect_refused("rig.element.add", {{"name", std::string(101, 'x')}}, {"101 characters"});
-    expect_refused("rig.element.add", {{"name", std::string("a\0b", 3)}}, {"cannot be shown"});
+    expect_refused("rig.element.add", {{"name", std::string("a\0b", 3)}}, {"unprintable"});
     expect_refused("rig.element.add", {{"name", "\xFF"}}, {"UTF-8"});
     expect_refused("rig.element.add", {{"name", "\xEF\xBF\xBD"}}, {"UTF-8"});
     expect_refused("rig.element.add", {{"name", "new"}, {"kind", "ghost"}}, {"kind", "\"ghost\""});
@@ -156,7 +156,7 @@ TEST_F(RigHostile, ABackwardSolveStopsWhereItHasTakenLongEnoughAndSaysSo) {
     EXPECT_GT(left.at("worst_mm"), 0.1);
     EXPECT_EQ(rig_part(reopened()).backward, part().backward);
     test::PanelReader reader;
-    EXPECT_NE(reader.panel(lab(), workspace).find("Stopped before the end"), std::string::npos);
+    EXPECT_NE(reader.panel(lab(), workspace).find("Stopped early"), std::string::npos);
 }
 
 /// A single value is a range, too.
@@ -169,7 +169,7 @@ TEST_F(RigHostile, ARangeOfNoWidthHoldsItsControl) {
 TEST_F(RigHostile, ValuesThatAControlDoesNotHave) {
     control("place", "position");
     control("square", "vector2d");
-    expect_refused("rig.control.set", {{"name", "hand"}, {"value", 1}}, {"\"hand\" is no control"});
+    expect_refused("rig.control.set", {{"name", "hand"}, {"value", 1}}, {"\"hand\" is not a control"});
     expect_refused("rig.control.set", {{"name", "nobody"}, {"value", 1}}, {"no element \"nobody\""});
     expect_refused("rig.control.set", {{"name", "dial"}, {"value", nan}}, {"value", "a number"});
     expect_refused("rig.control.set", {{"name", "dial"}, {"value", true}}, {"value", "true"});
@@ -177,7 +177,7 @@ TEST_F(RigHostile, ValuesThatAControlDoesNotHave) {
     expect_refused("rig.control.set", {{"name", "place"}, {"value", 1}}, {"value", "[x, y, z]"});
     expect_refused("rig.control.set", {{"name", "place"}, {"value", {1, nan, 3}}}, {"value"});
     expect_refused("rig.control.set", {{"name", "square"}, {"value", {1, 2, 3}}}, {"value", "[a, b]"});
-    expect_refused("rig.control.set", {{"name", "dial"}}, {"needs value, or values"});
+    expect_refused("rig.control.set", {{"name", "dial"}}, {"needs either value or values"});
 }
 
 TEST_F(RigHostile, UnitsThatAreNone) {
@@ -194,7 +194,7 @@ TEST_F(RigHostile, UnitsThatAreNone) {
     expect_unit_refused({{"unit", "aim"}, {"item", 7}}, {"item", "7"});
     expect_unit_refused({{"unit", "parent_constraint"}, {"item", "hand"}}, {"\"parents\" is missing"});
     expect_unit_refused({{"unit", "parent_constraint"}, {"item", "hand"}, {"parents", Json::array()}},
-                        {"parents", "at least one"});
+                        {"parents", "not be empty"});
     expect_unit_refused({{"unit", "parent_constraint"},
                          {"item", "hand"},
                          {"parents", {{{"item", "root"}}}},
@@ -224,9 +224,9 @@ TEST_F(RigHostile, InputsOfTheWrongTypeOrOfNothing) {
     rotation({{"element", "hand"}, {"space", "outer"}}, {"rotation.space", "\"outer\""});
     rotation({{"element", "hand"}, {"offset", 1}}, {"rotation: unknown member \"offset\""});
     rotation({{"unit", "nobody"}}, {"no unit \"nobody\" runs before"});
-    rotation({{"each", "ratio"}}, {"only known inside a for-each"});
+    rotation({{"each", "ratio"}}, {"only works inside a for-each"});
     rotation({{"each", "weight"}}, {"rotation.each", "\"weight\""});
-    rotation({{"item", "each"}}, {"only known inside a for-each"});
+    rotation({{"item", "each"}}, {"only works inside a for-each"});
     unit({{"unit", "from_two_vectors"}, {"name", "arc"}});
     rotation({{"unit", "arc"}, {"output", "speed"}}, {"has no output \"speed\""});
     const Json itself{
@@ -318,7 +318,7 @@ TEST_F(RigHostile, ARigThatWouldRunTooLongIsRefused) {
         load_scene(workspace, scene);
         ADD_FAILURE();
     } catch (const std::runtime_error& error) {
-        EXPECT_TRUE(test::says(std::string(error.what()), "units most")) << error.what();
+        EXPECT_TRUE(test::says(std::string(error.what()), "units maximum")) << error.what();
     }
 }
 

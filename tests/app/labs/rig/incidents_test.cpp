@@ -131,10 +131,10 @@ TEST_F(RigIncidents, TheSecondTargetPassedTheFirst) {
         head(at, {{"axis", {0, 1, 0}}, {"target", "tilt"}});
         set("look", json(at + 1.5 * way));
         const glm::dvec3 off = uniform(0.0005, 0.002) * glm::cross(way, along);
-        const std::string passed = "unit aim: the second target passed the line that the first is on";
+        const std::string passed = "unit aim: the second target crossed the line to the first";
         const Gesture gesture =
             drag("tilt", line(at + uniform(0.6, 1.2) * way + off, along, 0.3, 0.015), "head",
-                 {passed, "unit aim: the second target came close to the line that the first is on"});
+                 {passed, "unit aim: the second target came close to the line to the first"});
         if (gesture.flips > 0) {
             EXPECT_EQ(gesture.cause, passed);
         }
@@ -149,7 +149,7 @@ TEST_F(RigIncidents, TheTargetWentThroughTheBone) {
         const glm::dvec3 off = uniform(0.0, 0.001) * across(along);
         return drag("look", line(at + off, along, 0.05, 0.007), "head",
                     {"unit aim: the target went through the bone",
-                     "unit aim: the target was about half a turn away, where no way round is the shortest"});
+                     "unit aim: the target was about half a turn away, where neither way round is shorter"});
     });
 }
 
@@ -159,7 +159,7 @@ TEST_F(RigIncidents, TheTargetWasHalfATurnAway) {
         head(at, nullptr);
         const glm::dvec3 off = uniform(0.002, 0.01) * glm::cross(behind, along);
         return drag("look", line(at + behind + off, along, 0.2, 0.008), "head",
-                    {"unit aim: the target was about half a turn away, where no way round is the shortest"});
+                    {"unit aim: the target was about half a turn away, where neither way round is shorter"});
     });
 }
 
@@ -248,10 +248,10 @@ TEST_F(RigIncidents, TheLastUnitToWriteTheBoneIsNamed) {
           {"item", "head"},
           {"offset", {{"rotation", {0.1, 0, 0, 1}}}}});
     set("look", json(at + 2.0 * way));
-    const Gesture gesture = drag(
-        "tilt", line(at + way + glm::dvec3(0, 0.001, 0), {1, 0, 0}, 0.1, 0.015), "head",
-        {"unit aim (unit nod wrote it last): the second target passed the line that the first is on",
-         "unit aim (unit nod wrote it last): the second target came close to the line that the first is on"});
+    const Gesture gesture =
+        drag("tilt", line(at + way + glm::dvec3(0, 0.001, 0), {1, 0, 0}, 0.1, 0.015), "head",
+             {"unit aim (unit nod wrote it last): the second target crossed the line to the first",
+              "unit aim (unit nod wrote it last): the second target came close to the line to the first"});
     EXPECT_EQ(gesture.problem, "");
     EXPECT_GE(gesture.flips, 1);
 }
@@ -350,13 +350,13 @@ TEST_F(RigIncidents, AControlComesToItsLimitAndLeavesIt) {
     };
     using Causes = std::vector<std::string>;
     EXPECT_EQ(told("dial", 1.9), Causes{});
-    EXPECT_EQ(told("dial", 5.0), Causes{"control dial came to its limit: its maximum is 2.00"});
+    EXPECT_EQ(told("dial", 5.0), Causes{"control dial reached its limit: its maximum is 2.00"});
     EXPECT_EQ(told("dial", 7.0), Causes{});
-    EXPECT_EQ(told("dial", -3.0), (Causes{"control dial came to its limit: its minimum is -1.00",
+    EXPECT_EQ(told("dial", -3.0), (Causes{"control dial reached its limit: its minimum is -1.00",
                                           "control dial left its limit: its maximum is 2.00"}));
     EXPECT_EQ(told("dial", 0.0), Causes{"control dial left its limit: its minimum is -1.00"});
     EXPECT_EQ(told("board", Json::array({0.5, 3})),
-              Causes{"control board came to its limit: its maximum is 1.00 m along z"});
+              Causes{"control board reached its limit: its maximum is 1.00 m along z"});
     EXPECT_EQ(told("fixed", 1.0), Causes{});
 }
 

@@ -231,7 +231,7 @@ TEST_F(RigPanels, OffersAreOfTheRightKind) {
     EXPECT_FALSE(weight.contains("unit trail")) << "the for-each that it is in has not run by then";
     EXPECT_FALSE(titles("trail", "/weight").contains("unit share"));
     EXPECT_TRUE(titles("bend", "/item").contains("each element"));
-    EXPECT_TRUE(titles("trail", "/roots", 0).contains("none: no root any more"));
+    EXPECT_TRUE(titles("trail", "/roots", 0).contains("none: remove this root"));
     EXPECT_FALSE(titles("trail", "/roots", 0).contains("right 1")) << "a root already";
     EXPECT_FALSE(titles("trail", "/roots", 2).contains("left 1"));
     EXPECT_TRUE(titles("trail", "/roots", 2).contains("left 2"));
@@ -294,13 +294,13 @@ TEST_F(RigPanels, AWarningIsTold) {
     EXPECT_EQ(panel_text().find("! "), std::string::npos);
     run("rig.unit.set", {{"name", "aim"}, {"primary", {{"axis", {0, 0, 1}}, {"target", "head"}}}});
     tick();
-    expect_says(panel_text(), "! The target is where the item is");
+    expect_says(panel_text(), "! The target is at the item");
 }
 
 TEST_F(RigPanels, WhatABackwardSolveLeftIsTold) {
     run("rig.preset", {{"name", "loop"}});
     solve("backward");
-    expect_says(panel_text(), "The controls give every bone's pose.");
+    expect_says(panel_text(), "The controls can give every bone its pose.");
     // As an imported animation poses it: no dial turns one joint alone.
     auto& posed = workspace.document.edit<RigPart>(rig_lab);
     const rig::ElementId joint = posed.rig.id(*posed.rig.element("arm 1 joint 3"));
@@ -329,7 +329,7 @@ TEST_F(RigPanels, AScaleThatIsLeftIsTold) {
     run("rig.clip.record", {{"seconds", 0.1}});
     run("rig.clip.solve");
     while (lab().working(workspace)) lab().work(workspace);
-    expect_says(panel_text(), "The rig expresses all");
+    expect_says(panel_text(), "The rig can express all");
 }
 
 TEST_F(RigPanels, CountsAreWholeAndALimitOf0IsNone) {

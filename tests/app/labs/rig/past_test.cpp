@@ -134,7 +134,7 @@ TEST_F(RigPast, AnElementIsFoundByItsNameInWhatWasThen) {
 
 TEST_F(RigPast, WithoutASelectionItIsTheFirstBoneBelowAnother) {
     run("view.rig_plot", {{"of", "swing"}});
-    EXPECT_TRUE(test::says(rig_past_curve(workspace)->missing, "rig element"));
+    EXPECT_TRUE(test::says(rig_past_curve(workspace)->missing, "rig elements"));
     control("look", "position");
     EXPECT_EQ(rig_past_curve(workspace)->name, "swing of look");
     element("arm");

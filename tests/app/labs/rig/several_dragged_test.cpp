@@ -42,15 +42,15 @@ TEST_F(SeveralValues, WhatDoesNotFitIsRefusedAndChangesNothing) {
     };
     expect_refused("rig.control.set", controls({"left", "right"}, Json::array({at})),
                    {"values", "2 values, one for each of names"});
-    expect_refused("rig.control.set", controls({"left", "left"}, {at, at}), {"names: each once"});
+    expect_refused("rig.control.set", controls({"left", "left"}, {at, at}), {"names: list each once"});
     expect_refused("rig.control.set", controls({"left", "dial"}, {at, at}), {"values.1"});
-    expect_refused("rig.control.set", controls({"left", "a"}, {at, at}), {"\"a\" is no control"});
+    expect_refused("rig.control.set", controls({"left", "a"}, {at, at}), {"\"a\" is not a control"});
     expect_refused("rig.control.set", controls({"left", "nobody"}, {at, at}), {"names: ", "nobody"});
     expect_refused("rig.control.set", {{"name", "left"}, {"values", Json::array({at})}},
                    {"values is for names"});
     expect_refused("rig.control.set", {{"names", {"left", "right"}}, {"value", at}, {"values", {at, at}}},
-                   {"needs value, or values"});
-    expect_refused("rig.element.set", {{"names", {"a", "b"}}}, {"needs transform, or transforms"});
+                   {"needs either value or values"});
+    expect_refused("rig.element.set", {{"names", {"a", "b"}}}, {"needs either transform or transforms"});
     expect_refused("rig.element.set", {{"names", {"a", "b"}}, {"transforms", {Json::object(), 3}}},
                    {"transforms.1", "3"});
     for (const Json& bad : {Json(nullptr), Json("all"), Json(7), Json::object(), Json{"x", "y"}})

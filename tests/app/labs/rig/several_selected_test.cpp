@@ -202,14 +202,14 @@ TEST_F(SeveralSelected, TheInspectorSaysHowManyAndWhatIsSetOnWhich) {
             EXPECT_NE(text.find(each), std::string::npos) << each << " is not in:\n" << text;
     };
     expect({"a", "left", "right"}, {"3 elements, right is shown", "position control",
-                                    "you set on 2 of them: those that are position controls"});
-    expect({"left", "right"}, {"2 elements, right is shown", "What you set, you set on all of them."});
-    expect({"left", "a", "dial"}, {"3 elements, dial is shown", "you set on this one"});
+                                    "apply to 2 of them: those that are position controls"});
+    expect({"left", "right"}, {"2 elements, right is shown", "Changes apply to all of them."});
+    expect({"left", "a", "dial"}, {"3 elements, dial is shown", "apply to this one only"});
     expect({"left", "a", "c"},
            {"3 elements, c is shown", "bone", "those that are bones or nulls", "Read them"});
     select({"left"});
     const std::string one = reader.inspector(lab(), workspace);
-    EXPECT_EQ(one.find("What you set"), std::string::npos) << one;
+    EXPECT_EQ(one.find("Changes apply"), std::string::npos) << one;
     EXPECT_EQ(one.find("is shown"), std::string::npos) << one;
 }
 

@@ -131,11 +131,11 @@ TEST_F(SeveralSet, WhatIsNoElementIsRefusedAndChangesNothing) {
         const std::string why = refused(command, arguments);
         EXPECT_NE(why.find(what), std::string::npos) << why;
     };
-    expect("rig.select", {{"element", "a"}, {"elements", {"b"}}}, "element, or elements");
+    expect("rig.select", {{"element", "a"}, {"elements", {"b"}}}, "either element or elements");
     expect("rig.element.remove", {{"names", Json::array()}}, "names: []");
-    expect("rig.element.remove", Json::object(), "name, or names");
-    expect("rig.control.reset", {{"name", "left"}, {"names", {"right"}}}, "name, or names");
-    expect("rig.control.reset", {{"names", {"left", "a"}}}, "\"a\" is no control");
+    expect("rig.element.remove", Json::object(), "either name or names");
+    expect("rig.control.reset", {{"name", "left"}, {"names", {"right"}}}, "either name or names");
+    expect("rig.control.reset", {{"names", {"left", "a"}}}, "\"a\" is not a control");
     expect("rig.control.set", {{"names", {"dial", "left"}}, {"value", 1}},
            "\"left\" is a position control, \"dial\" a float control");
     expect("rig.control.set", {{"names", {"left", "right"}}, {"value", {1, 2}}}, "value");

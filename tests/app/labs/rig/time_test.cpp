@@ -304,7 +304,7 @@ TEST_F(RigTime, WhatItRefuses) {
     expect_refused("rig.time", {{"tick", 1000000000}}, {"36000 ticks", "1000000000"});
     expect_refused("rig.time", {{"tick", -1}}, {"tick"});
     expect_refused("rig.time", {{"seconds", std::nan("")}}, {"seconds"});
-    expect_refused("rig.motion", {{"name", "skull"}, {"path", "circle"}}, {"\"skull\" is no control"});
+    expect_refused("rig.motion", {{"name", "skull"}, {"path", "circle"}}, {"\"skull\" is not a control"});
     expect_refused("rig.motion", {{"name", "nobody"}, {"path", "circle"}}, {"no element \"nobody\""});
     expect_refused("rig.motion", {{"name", "head"}, {"path", "spiral"}}, {"path", "\"spiral\""});
     expect_refused("rig.motion", {{"name", "head"}, {"path", "circle"}, {"period", 0}}, {"period", "0.1"});
