@@ -57,7 +57,8 @@ glm::dquat JsonPlace::drotation() const {
     const auto at = [&](std::size_t i) { return element(i).real(-1.001, 1.001); };
     const double x = at(0), y = at(1), z = at(2), w = at(3);
     const double squared = x * x + y * y + z * z + w * w;
-    if (squared < 0.99 || squared > 1.01) fail("expected a quaternion [x, y, z, w] of length 1");
+    if (squared < 0.99 || squared > 1.01)
+        fail("expected a quaternion [x, y, z, w] of length 1, found " + json_summary(*json_));
     return {w, x, y, z};
 }
 

@@ -1,4 +1,4 @@
-// Camera commands, camera.*: they frame what a lab shows, so they belong to the labs.
+// Commands on what a lab shows, in every lab: the camera, view.close, and pictures and videos of the view.
 #pragma once
 
 #include "app/labs/labs.hpp"
@@ -13,15 +13,9 @@ LabSetting scroll_setting();
 /// `labs` must outlive the table.
 void add_camera_commands(CommandTable& table, const Labs& labs);
 
-class CommandTable;
-class Labs;
-
 /// view.close, for Esc: closes overlays or, if there are none, clears the selection. `labs` must outlive the
 /// table.
 void add_closing_command(CommandTable& table, const Labs& labs);
-
-class CommandTable;
-class Labs;
 
 /// view.video, view.video_dialog, view.end_video and view.copy_picture. `labs` must outlive the table.
 void add_video_commands(CommandTable& table, const Labs& labs);

@@ -82,7 +82,7 @@ const Field* find_field(std::span<const Field> table, std::string_view name) noe
 
 Result check_fields(const char* operation, std::span<const Field> table, const void* object) noexcept {
     for (const Field& field : table) {
-        if (field.optional && field.empty(object)) continue;
+        if (field.empty != nullptr && field.empty(object)) continue;
         const FieldValue value = field.get(object);
         for (int axis = 0; axis < field.size(); ++axis) {
             const double each = value[static_cast<std::size_t>(axis)];

@@ -58,6 +58,11 @@ TEST_P(HumanoidContact, a_hand_that_is_turned_into_the_body_is_reported) {
         const double half = 0.5 * glm::radians(static_cast<double>(degrees));
         std::vector<BodyTarget> targets{{Effector::LeftHand, {0.2, 1.15, 0.05}}};
         targets[0].rotation = glm::dquat(std::cos(half), 0.0, std::sin(half), 0.0);
+        if (degrees > 0) {  // a head that is turned to a hand in front of it
+            targets[0] = {Effector::LeftHand, {0.05, 1.7, 0.12}};
+            targets.push_back({Effector::Head, {0.0, 1.55, 0.0}});
+            targets[1].rotation = glm::dquat(std::cos(0.3 * half), std::sin(0.3 * half), 0.0, 0.0);
+        }
         for (int frame = 0; frame < 30; ++frame) {
             auto pose = rest;
             const auto report = body.solve(pose, targets, state);

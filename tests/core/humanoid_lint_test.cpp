@@ -212,11 +212,14 @@ double largest_turn(const Clip& clip, std::size_t node, double rate) {
 }
 
 TEST(Lint, a_mended_jump_leaves_nothing_between_cubic_keys) {
-    for (const bool goes_on : {false, true}) {
+    for (const auto& [goes_on, frame] :
+         {std::pair{false, 50u}, {false, 51u}, {false, 52u}, {false, 90u}, {true, 50u}, {true, 73u}}) {
         Clip clip = winding(60.0, 120);
         const double calm = largest_turn(clip, 2, 60.0);
         auto& keys = clip.channels[2].rotation.values;
-        for (std::size_t i = 50; i < (goes_on ? keys.size() : 51); ++i)
+        for (double& time : clip.channels[2].rotation.times)
+            time = std::min(static_cast<double>(static_cast<float>(time)), clip.duration);
+        for (std::size_t i = frame; i < (goes_on ? keys.size() : frame + 1); ++i)
             keys[i] = keys[i] * glm::dquat(std::cos(0.7), std::sin(0.7), 0.0, 0.0);
         make_cubic(clip);
         const LintReport report = lint_of(clip);
@@ -228,9 +231,16 @@ TEST(Lint, a_mended_jump_leaves_nothing_between_cubic_keys) {
              {1.0, -1.0}) {  // the keys after the jump as the other quaternion of the pair
             Clip turned = clip;
             auto& values = turned.channels[2].rotation.values;
-            for (std::size_t i = 3 * 51; i < values.size(); ++i) values[i] = values[i] * sign;
+            for (std::size_t i = 3 * (frame + 1); i < values.size(); ++i) values[i] = values[i] * sign;
             const Clip mended = cured(turned, *jump);
-            EXPECT_LT(largest_turn(mended, 2, 60.0), goes_on ? 8.0 * calm : 1.5 * calm) << goes_on << sign;
+            EXPECT_LT(largest_turn(mended, 2, 60.0), goes_on ? 8.0 * calm : 1.5 * calm)
+                << goes_on << frame << sign;
+            for (const double seconds : {0.3, 1.9}) {  // far from the jump nothing changes
+                std::vector<rig::Transform> was(5), now(5);
+                sample(turned, snake(), seconds, was);
+                sample(mended, snake(), seconds, now);
+                EXPECT_NEAR(std::abs(glm::dot(was[2].rotation, now[2].rotation)), 1.0, 1e-12) << seconds;
+            }
         }
     }
 }

@@ -1,5 +1,6 @@
 // Invalid input is refused with its name and value, and the world is unchanged.
 #include <functional>
+#include <tendril/rope/hair_roots.hpp>
 
 #include "rope_support.hpp"
 
@@ -115,6 +116,12 @@ TEST(RopeRefusals, OfClothAndHair) {
     hair({.roots = one, .segments = 1}, "segments", "1");
     hair({.roots = one, .segments = 2'000'000'000}, "segments", "2000000000");
     hair({.roots = one, .bend = -1.0f}, "bend", "-1");
+    for (const rope::HairPatch& patch :
+         {rope::HairPatch{.strands = -1}, rope::HairPatch{.strands = 2'000'000},
+          rope::HairPatch{.spread = nan}, rope::HairPatch{.centre = {infinity, 0, 0}}}) {
+        EXPECT_FALSE(rope::roots_around(patch));
+        EXPECT_FALSE(rope::roots_on(rope::Sphere{}, patch, 0.0f));
+    }
     hair({.roots = one, .attach = {7, 3}}, "attach", "7");
 }
 

@@ -141,8 +141,6 @@ void ChainLab::inspector(const Workspace& workspace, Emit& emit) const {
 
 namespace {
 
-using Joints = std::vector<glm::vec3>;
-
 /// A command's arguments: the joints, and the value to set on them.
 ArgumentList of_joints(const std::vector<std::size_t>& joints, const char* name, ArgumentValue value) {
     const NamedArgument which = joints.size() == 1 ? NamedArgument{"index", joints.front()}

@@ -100,7 +100,7 @@ class HumanoidProgram {
             else
                 row += (i == 0 ? "" : " ") + next;
         }
-        line(row);
+        line(entries.empty() ? row + closing : row);
     }
     /// Makes a solver, or ends the program with the reason.
     void make_solver(const std::string& type, const std::string& name, const std::string& arguments) {
@@ -113,8 +113,8 @@ class HumanoidProgram {
     bool uses_map() const {
         return body_on() || feet_on() || gaze_on() || hands_on() || !part_.springs.empty();
     }
-    bool hands_on() const { return body_ && part_.ik.hand_ik.on; }
-    bool gaze_on() const { return body_ && part_.ik.look_at.on; }
+    bool hands_on() const { return part_.ik.hand_ik.on && solvers_.hands(part_) != nullptr; }
+    bool gaze_on() const { return part_.ik.look_at.on && solvers_.look_at(part_) != nullptr; }
     bool feet_on() const { return part_.ik.foot_ik.on && solvers_.feet(part_) != nullptr; }
     std::vector<humanoid::BodyTarget> targets() const { return body_targets(part_.ik); }
     bool body_on() const { return body_ && (!targets().empty() || part_.ik.self_collision); }
@@ -354,7 +354,9 @@ class HumanoidProgram {
         say("// In each frame: the animation's pose, then what changes it, in this order.");
         if (part_.ik_state.release.left > 0.0)
             say("// A target was just released; the lab fades the difference out, this program does not.");
-        if (feet_on() || hands_on() || gaze_on() || !part_.springs.empty())
+        const SpringChains& chains = solvers_.springs(part_);
+        const bool swings = std::ranges::any_of(chains, [](const auto& chain) { return chain != nullptr; });
+        if (feet_on() || hands_on() || gaze_on() || swings)
             say("const double dt = 0.0;  // seconds since the last frame");
         say(posed_ ? "std::vector<rig::Transform> pose(std::begin(pose_rows), std::end(pose_rows));"
                    : "std::vector<rig::Transform> pose = humanoid::rest_pose(*skeleton);");
@@ -367,7 +369,6 @@ class HumanoidProgram {
         if (gaze_on()) say("look->step(pose, look_options, dt, look_state);");
         if (hands_on()) say("hands->step(pose, hand_targets, dt, hands_state, hands_options);");
         if (body_on() && targets().empty()) solve();
-        const SpringChains& chains = solvers_.springs(part_);
         for (std::size_t i = 0; i < chains.size(); ++i) {
             const std::string name = "spring_" + std::to_string(i);
             if (chains[i] != nullptr)

@@ -10,7 +10,8 @@ class Solvers;
 
 /// A whole program: skeleton, bone map and this moment's pose as data, then feet, targets, gaze, hands and
 /// springs as they are set, in the lab's order. Prints where every node is, the same numbers as the lab's.
-/// Ropes on the character, and the fading after a target is released, are left out.
+/// Left out: ropes on the character, the fading after a target is released, and the triangles of a ground
+/// mesh.
 std::string humanoid_code(const HumanoidPart& part, Solvers& solvers);
 
 }  // namespace tendril::app

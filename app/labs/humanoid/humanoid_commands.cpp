@@ -91,7 +91,7 @@ void add_humanoid_look_commands(CommandTable& table) {
         {.name = "humanoid.copy",
          .title = "Copy the character as C++",
          .arguments = {},
-         .help = "Puts the character and its IK on the clipboard, as a C++ program that uses the library",
+         .help = "Copies the character and its IK to the clipboard as a C++ program that uses the library",
          .effect = Effect::Look,
          .apply = [](Workspace& workspace, const Arguments&) {
              workspace.ui.copied =

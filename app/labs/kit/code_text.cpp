@@ -52,6 +52,12 @@ std::string joined(const std::vector<std::string>& texts) {
 std::string string_text(std::string_view text) {
     std::string result = "\"";
     for (const char c : text) {
+        if (const auto code = static_cast<unsigned char>(c); code < 0x20 || code == 0x7f) {
+            char octal[8];
+            std::snprintf(octal, sizeof octal, "\\%03o", static_cast<unsigned>(code));
+            result += octal;
+            continue;
+        }
         if (c == '"' || c == '\\') result += '\\';
         result += c;
     }

@@ -21,6 +21,7 @@ namespace tendril::app {
 namespace {
 
 constexpr double max_particles = static_cast<double>(max_lab_particles);
+
 std::string name_of(const Arguments& given) {
     return given.has("name") ? given.text("name") : std::string();
 }

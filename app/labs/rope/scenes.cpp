@@ -347,7 +347,7 @@ RopeScene hair_scene() {
     world.add_collider("shoulders", rope::Capsule{{-0.26f, 0.98f, 0}, {0.26f, 0.98f, 0}, 0.11f});
     rope::HairShape hair{.length = 0.48f, .segments = 14, .radius = 0.004f, .density = 0.02f, .bend = 0.5f};
     // Up and back, to leave the face free.
-    const rope::HairPatch patch{.direction = glm::vec3(0, 0.8f, -0.6f), .strands = 140, .radius = 0.3f};
+    const rope::HairPatch patch{.direction = glm::vec3(0, 0.8f, -0.6f), .strands = 140, .spread = 0.3f};
     hair.roots = require_value(roots_on(head, patch, hair.radius));
     world.add_hair("hair", std::move(hair), "head");
     scene.swings.push_back({"head", centre, {0.16f, 0.0f, 0.0f}, 2.6f});

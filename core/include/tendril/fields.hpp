@@ -11,6 +11,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <glm/ext/quaternion_double.hpp>
 #include <glm/ext/quaternion_float.hpp>
 #include <limits>
 #include <optional>
@@ -187,6 +188,7 @@ constexpr auto empty_check() noexcept -> bool (*)(const void*) noexcept {
 
 template <class Value>
 constexpr FieldType field_type() noexcept {
+    static_assert(!std::is_same_v<Value, glm::dquat>, "rotations are floats in tables");
     if (std::is_same_v<Value, bool>) return FieldType::Flag;
     if (std::is_enum_v<Value>) return FieldType::Choice;
     if (std::is_integral_v<Value>) return FieldType::Integer;

@@ -83,7 +83,7 @@ std::optional<BodyReport> BodySolve::run(std::span<rig::Transform> pose, BodySta
     for (std::size_t i = 0; i < work_.links.size(); ++i)
         turns[i] = rig::normalised(math::compose(work_.links[i].turn, conjugate(work_.links[i].own)));
     turn_ends();
-    if (turns_a_hand()) find_contacts();  // for the report: hands have capsules
+    if (has_rotations()) find_contacts();  // for the report: hands and head have capsules
     if (!give(pose)) return std::nullopt;
     report(pose, result);
     state.pace = limit;
@@ -246,12 +246,9 @@ double BodySolve::measure() noexcept {
     return cost + contact_cost();
 }
 
-bool BodySolve::turns_a_hand() const noexcept {
-    for (std::size_t k = 0; k < count_; ++k) {
-        const bool hand = goals_[k].effector == static_cast<std::size_t>(Effector::LeftHand) ||
-                          goals_[k].effector == static_cast<std::size_t>(Effector::RightHand);
-        if (hand && goals_[k].target->rotation) return true;
-    }
+bool BodySolve::has_rotations() const noexcept {
+    for (std::size_t k = 0; k < count_; ++k)
+        if (goals_[k].target && goals_[k].target->rotation) return true;
     return false;
 }
 

@@ -93,7 +93,7 @@ class BodySolve {
     void keep() noexcept;
     void put_back() noexcept;
     void apply(double part) noexcept;
-    bool turns_a_hand() const noexcept;
+    bool has_rotations() const noexcept;
     void turn_ends() noexcept;
     bool give(std::span<rig::Transform> pose) noexcept;
     void turn_end(const Goal& goal) noexcept;

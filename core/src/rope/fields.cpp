@@ -87,7 +87,7 @@ std::span<const Field> fields<rope::HairPatch>() noexcept {
     static constexpr Field rows[] = {field<&HairPatch::centre>("centre", anywhere, "m"),
                                      field<&HairPatch::direction>("direction", anywhere),
                                      field<&HairPatch::strands>("strands", {1, most_particles}),
-                                     field<&HairPatch::radius>("spread", any_size, "m")};
+                                     field<&HairPatch::spread>("spread", any_size, "m")};
     return rows;
 }
 
@@ -111,8 +111,12 @@ std::span<const Field> fields<rope::Capsule>() noexcept {
 template <>
 std::span<const Field> fields<rope::Plane>() noexcept {
     using rope::Plane;
-    static constexpr Field rows[] = {field<&Plane::point>("point", anywhere, "m"),
-                                     field<&Plane::normal>("normal", anywhere)};
+    constexpr auto normal = [] {
+        Field row = field<&Plane::normal>("normal", anywhere);
+        row.usual = {-1.0, 1.0};
+        return row;
+    };
+    static constexpr Field rows[] = {field<&Plane::point>("point", anywhere, "m"), normal()};
     return rows;
 }
 

@@ -32,7 +32,7 @@ std::vector<Seat> seats(const HairPatch& patch, glm::vec3 direction) {
     for (int i = 0; i < patch.strands; ++i) {
         const float part = (static_cast<float>(i) + 0.5f) / static_cast<float>(patch.strands);
         const float angle = golden_angle * static_cast<float>(i);
-        found.push_back({patch.radius * std::sqrt(part), std::cos(angle) * first + std::sin(angle) * second});
+        found.push_back({patch.spread * std::sqrt(part), std::cos(angle) * first + std::sin(angle) * second});
     }
     return found;
 }
@@ -40,6 +40,7 @@ std::vector<Seat> seats(const HairPatch& patch, glm::vec3 direction) {
 }  // namespace
 
 Expected<std::vector<HairRoot>> roots_around(const HairPatch& patch) {
+    if (const Result bad = check_fields("hair", patch); !bad) return bad;
     const Expected<glm::vec3> given = direction_of(patch, glm::vec3(0, -1, 0));
     if (!given) return given.error();
     const glm::vec3 direction = *given;
@@ -50,6 +51,7 @@ Expected<std::vector<HairRoot>> roots_around(const HairPatch& patch) {
 }
 
 Expected<std::vector<HairRoot>> roots_on(const Shape& shape, const HairPatch& patch, float lift) {
+    if (const Result bad = check_fields("hair", patch); !bad) return bad;
     const auto* plane = std::get_if<Plane>(&shape);
     const glm::vec3 otherwise = plane != nullptr ? plane->normal : glm::vec3(0, 1, 0);
     const Expected<glm::vec3> given = direction_of(patch, otherwise);

@@ -110,7 +110,9 @@ std::vector<Row> rows() {
     std::vector<Row> all;
     for (const Table& table : tables())
         for (const FieldText& text : table.texts)
-            if (const Field* const field = find_field(table.fields, text.name))
+            // Kinds of colliders share their texts; elsewhere a text without a field is a mistake.
+            if (const Field* const field = find_field(table.fields, text.name);
+                field != nullptr || table.texts.data() != field_texts<rope::Shape>().data())
                 all.push_back({&table, field});
     return all;
 }
@@ -290,7 +292,9 @@ TEST_F(EveryShape, IsRefusedOutOfItsRangeAndChangesNothing) {
             for (const Json& value : bad(field)) {
                 Json given = shape.with;
                 given[field.name] = value;
-                EXPECT_TRUE(test::says(refused(shape.command, given), field.name)) << shape.command << value;
+                EXPECT_TRUE(
+                    test::says(refused(shape.command, given), std::string(shape.command) + " " + field.name))
+                    << shape.command << value;
             }
     }
 }

@@ -112,10 +112,6 @@ void add_attachment_commands(CommandTable& table) {
                                          "Takes a rope, hair or a cloth off the character", detach));
 }
 
-}  // namespace tendril::app
-
-namespace tendril::app {
-
 // Attachments in a scene file: their shapes, where they are attached, and the rope world.
 
 namespace {

@@ -1,4 +1,4 @@
-// Drawing of attachments.
+// Attachments in the panel and in the view.
 #pragma once
 
 #include "app/labs/humanoid/attachments/attachments.hpp"

@@ -49,7 +49,7 @@ Made make_hair(const AttachmentShape& shape, const glm::dvec3& root) {
     hair.roots = require_value(rope::roots_around({.centre = glm::vec3(root),
                                                    .direction = glm::vec3(shape.direction),
                                                    .strands = shape.strands,
-                                                   .radius = static_cast<float>(0.5 * shape.width)}));
+                                                   .spread = static_cast<float>(0.5 * shape.width)}));
     made.world.add_hair("", hair);
     for (const rope::Pin& pin : made.world.state().pins) made.pinned.push_back(pin.particle);
     return made;

@@ -1,5 +1,5 @@
-// Corrected bone maps, kept in the config folder. They are offered again for characters with the same node
-// names, but never applied unasked.
+// Loading a character and mapping its bones; corrected bone maps, kept in the config folder. They are offered
+// again for characters with the same node names, but never applied unasked.
 #pragma once
 
 #include <filesystem>

@@ -92,8 +92,6 @@ SharedCharacter cured(const HumanoidPart& part, const ClipCure& cure) {
 
 namespace {
 
-using humanoid::Finding;
-
 constexpr std::size_t max_rows = 20;
 
 const char* fault_title(humanoid::Fault fault) {

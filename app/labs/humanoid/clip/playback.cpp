@@ -247,8 +247,8 @@ std::span<const FieldText> field_texts<Playback>() {
          .unit = "%"},
         {.name = "loop",
          .label = "Loop",
-         .help = "Plays the clip over and over; a walk carries on from where it is. Otherwise it stops at "
-                 "the end."},
+         .help = "Plays the clip over and over; a walk carries on from where it is. Off: it stops at the "
+                 "end."},
         {.name = "in_place",
          .label = "In place",
          .help = "The hips stay above the point where the clip begins."}};

@@ -162,7 +162,7 @@ void solve(const HumanoidPart& part, Solvers& solvers, double dt, IkState& state
 ShownPose solve_pose(const HumanoidPart& part, Solvers& solvers, double dt, IkState& state) {
     ShownPose shown;
     const std::vector<rig::Transform> before = clip_pose(part);
-    shown.local = unsolved_pose(part);
+    shown.local = part.t_pose && !part.playback.clip ? unsolved_pose(part) : before;
     solve(part, solvers, dt, state, shown);
     shown.before_springs = shown.local;
     shown.springs = swing(part.springs, solvers.springs(part), dt, shown.local, state.springs);

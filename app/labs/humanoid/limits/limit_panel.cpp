@@ -221,8 +221,6 @@ void limit_rows(const HumanoidPanel& panel) {
 
 namespace {
 
-using humanoid::Bone;
-
 bool held(const ShownPose& shown, Bone bone) {
     return shown.body && shown.body->at_limit[static_cast<std::size_t>(bone)];
 }

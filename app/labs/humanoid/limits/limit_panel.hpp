@@ -1,4 +1,4 @@
-// Drawing of joint limits: an adult's range, overlaid with the range that the clips use.
+// Joint limits in the panel and in the view: an adult's range, overlaid with the range that the clips use.
 #pragma once
 
 #include <tendril/humanoid/bone_map.hpp>

@@ -80,8 +80,6 @@ float excess_of(const ik::Limit& limit, ik::JointAngles angles) {
     return ik::excess(limit, angles);
 }
 
-using humanoid::Bone;
-
 bool SelectedJoints::has(Bone bone) const {
     return std::find(all.begin(), all.end(), bone) != all.end();
 }

@@ -153,7 +153,6 @@ std::vector<BodyFlip> body_flips(const HumanoidMoment& was, const HumanoidMoment
 
 namespace {
 
-using humanoid::Bone;
 using Cause = std::optional<std::string>;
 
 /// A leg or an arm, from the hip or the shoulder joint on.

@@ -160,10 +160,6 @@ void read_springs(const JsonPlace& place, HumanoidPart& part) {
     });
 }
 
-}  // namespace tendril::app
-
-namespace tendril::app {
-
 std::vector<humanoid::SpringReport> swing(const std::vector<SpringSetting>& settings,
                                           const SpringChains& chains, double dt,
                                           std::vector<rig::Transform>& pose, SpringStates& states) {

@@ -44,23 +44,31 @@ double likeness(const glm::dvec3&, const glm::dvec3&) {
     return 1.0;
 }
 
-/// The keys from `first` to `last` have new values: gives those of a cubic track new tangents, the slopes
-/// between their neighbours. Also turns quaternions of both signs into those of one, across which a cubic
-/// would not go.
+/// After the keys from `first` to `last` have got new values: gives a cubic track new tangents at these keys
+/// and the ones next to them, the slopes between neighbouring keys. Exporters derive the tangents of the
+/// neighbours from the bad values, too. Negates quaternions where the sign changes, since a cubic does not
+/// take the short way; the rest of the track follows, so that its keys keep their signs relative to each
+/// other.
 template <class T>
 void refit_tangents(Track<T>& track, double first, double last) {
     if (track.interpolation != Interpolation::Cubic) return;
+    const auto from = std::lower_bound(track.times.begin(), track.times.end(), first) - track.times.begin();
+    const auto to = std::upper_bound(track.times.begin(), track.times.end(), last) - track.times.begin();
+    if (from == to) return;
     const std::size_t count = track.times.size();
+    const auto begin =
+        static_cast<std::size_t>(std::max<std::ptrdiff_t>(from - 1, 0));  // with both neighbours
+    const std::size_t end = std::min(static_cast<std::size_t>(to) + 1, count);
     const auto key = [&](std::size_t i) -> T& { return track.values[3 * i + 1]; };
-    for (std::size_t i = 1; i < count; ++i)
+    for (std::size_t i = begin + 1; i < end; ++i)
         if (likeness(key(i - 1), key(i)) < 0.0)
-            for (std::size_t k = 3 * i; k < 3 * i + 3; ++k) track.values[k] = -track.values[k];
-    for (std::size_t i = 0; i < count; ++i) {
-        if (track.times[i] < first || track.times[i] > last) continue;
+            for (std::size_t k = 3 * i; k < track.values.size(); ++k) track.values[k] = -track.values[k];
+    for (std::size_t i = begin; i < end; ++i) {
         const std::size_t before = i > 0 ? i - 1 : i, after = std::min(i + 1, count - 1);
         const double seconds = track.times[after] - track.times[before];
         if (!(seconds > 0.0)) continue;
-        track.values[3 * i] = track.values[3 * i + 2] = (key(after) - key(before)) / seconds;
+        const T slope = (key(after) - key(before)) / seconds;
+        track.values[3 * i] = track.values[3 * i + 2] = slope;
     }
 }
 
@@ -75,7 +83,7 @@ void bridge(const Channel& was, Track<T>& track, double before, double first, do
         T& value = track.values[width_of(track) == 3 ? 3 * i + 1 : i];
         value = moved(from, weighted(way_between(from, to), part));
     }
-    refit_tangents(track, before, after);  // the neighbours' tangents belong to the bad keys too
+    refit_tangents(track, first, last);
 }
 
 /// Spreads the jump between two times over the keys around it: those before it make half of the way early,
