@@ -1,8 +1,10 @@
 // Lint checks that need no feet: keys, jumps and scales, on skeletons of no particular creature.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <tendril/humanoid/lint.hpp>
+#include <utility>
 
 #include "random.hpp"
 

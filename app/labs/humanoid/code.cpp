@@ -5,6 +5,7 @@
 #include <glm/trigonometric.hpp>
 #include <utility>
 
+#include "app/document/json_complete.hpp"
 #include "app/labs/humanoid/ik/ik_members.hpp"
 #include "app/labs/humanoid/ik/shown_pose.hpp"
 #include "app/labs/humanoid/limits/limit_ranges.hpp"
