@@ -18,7 +18,7 @@ namespace {
 constexpr std::uint64_t max_record_work = 40'000'000, max_frame_work = 20'000'000,
                         clip_work_per_tick = 300'000;
 constexpr std::size_t max_frames_per_tick = 16;
-constexpr double max_coordinate = 1e9;
+constexpr double max_stored = 1e9;
 
 /// A bone of the rig, in clip order.
 struct ClipBone {
@@ -50,8 +50,8 @@ void append_frame(std::vector<ClipPose>& poses, const std::vector<ClipBone>& bon
         const rig::Transform within =
             bone.parent ? rig::relative(tree.get(bone.parent, rig::Space::Global), global) : global;
         for (int axis = 0; axis < 3; ++axis)
-            if (!(std::abs(within.translation[axis]) <= max_coordinate &&
-                  std::abs(within.scale[axis]) <= max_coordinate))
+            if (!(std::abs(within.translation[axis]) <= max_stored &&
+                  std::abs(within.scale[axis]) <= max_stored))
                 throw std::invalid_argument(
                     "a bone is more than 1e9 m away, or scaled by more than that: a clip cannot hold it");
         poses.push_back(narrowed(within));
@@ -99,9 +99,9 @@ FrameLeft left_of(const rig::BackwardReport& report, const std::vector<ClipBone>
     for (std::size_t i = 0; i < bones.size(); ++i) {
         if (report.worst != bones[i].element) continue;
         const rig::Residual& most = report.elements[bones[i].element];
-        left.mm = static_cast<float>(std::min(1000.0 * most.metres, max_coordinate));
+        left.mm = static_cast<float>(std::min(1000.0 * most.metres, max_stored));
         left.degrees = static_cast<float>(glm::degrees(most.radians));
-        left.scale = static_cast<float>(std::min(most.scale, max_coordinate));
+        left.scale = static_cast<float>(std::min(most.scale, max_stored));
         left.bone = static_cast<std::uint32_t>(i);
     }
     return left;
