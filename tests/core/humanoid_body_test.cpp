@@ -117,6 +117,30 @@ TEST_P(HumanoidBody, reaches_five_targets_within_a_millimetre) {
     }
 }
 
+TEST_P(HumanoidBody, a_stiff_joint_turns_less_and_the_hand_arrives) {
+    RandomPoses random(7);
+    double turned[2]{};
+    for (int i = 0; i < 100; ++i) {
+        auto targets = targets_of(random_pose(random, 0.5));
+        targets.resize(1);
+        for (const bool stiff : {false, true}) {
+            BodyLimits changed = GetParam() ? limits : no_limits();
+            const Bone bone =
+                humanoid::bone_of(targets[0].effector) == Bone::LeftHand ? Bone::LeftUpperArm : Bone::Spine;
+            changed[static_cast<std::size_t>(bone)].stiffness = stiff ? 0.95f : 0.0f;
+            Body other = *Body::make(skeleton, map, changed);
+            auto pose = rest;
+            BodyState state;
+            const auto report = other.solve(pose, targets, state);
+            ASSERT_TRUE(report) << report.message();
+            EXPECT_LT(report->residual, 1e-3) << i;
+            const double dot = std::abs(glm::dot(pose[node(bone)].rotation, rest[node(bone)].rotation));
+            turned[stiff] += 2.0 * std::acos(std::min(dot, 1.0));
+        }
+    }
+    EXPECT_LT(turned[1], 0.5 * turned[0]);
+}
+
 TEST_P(HumanoidBody, is_finite_keeps_lengths_and_limits_for_any_targets) {
     RandomPoses random(2);
     const double sizes[]{0.3, 1.0, 5.0, 1e3, 1e9};

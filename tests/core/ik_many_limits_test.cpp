@@ -331,5 +331,13 @@ TEST(SolveManyWithinLimits, LimitsWithOtherRestDirectionsCountAnew) {
     EXPECT_TRUE(same_bits(solved(true), solved(false)));
 }
 
+TEST(SolveManyWithinLimits, StiffJointsAreTheScalarSolversBitForBit) {
+    Random random(61);
+    LimitedCrowd all = limited_crowd(40, 4, ArmKind::Hinges, random);
+    all.arm.limits[1].stiffness = 0.8f;
+    const LimitedAnswer many = solve_limited(all);
+    for (std::size_t i = 0; i < all.crowd.size(); ++i) expect_fallback_is_scalar(all, many, i);
+}
+
 }  // namespace
 }  // namespace tendril::test::ik_many_limits_test

@@ -148,9 +148,10 @@ Expected<Body> Body::make(const Skeleton& skeleton, const BoneMap& map, const Bo
             return refused("Body", name(*bone), "a node below the hips",
                            std::string_view(skeleton[node].name));
         Link link{};
-        link.bone = *bone, link.node = node, link.parent = parent, link.mobility = mobility_of(*bone);
-        link.rest = work->joints.rest_rotation(*bone);
         const ik::Limit& limit = work->joints.limit(*bone);
+        link.bone = *bone, link.node = node, link.parent = parent;
+        link.mobility = mobility_of(*bone) * (1.0 - static_cast<double>(limit.stiffness));
+        link.rest = work->joints.rest_rotation(*bone);
         link.given = ik::detail::solvable_joint(limit, math::narrow(work->joints.direction(*bone)));
         if (limit.kind == ik::JointKind::Hinge) link.hinge = math::wide(link.given.axis);
         work->links.push_back(link);

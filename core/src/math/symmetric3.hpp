@@ -30,11 +30,12 @@ static inline void add_square(Symmetric3& m, const glm::dvec3& v, double by) noe
     m.xx += x * v.x, m.yy += y * v.y, m.zz += z * v.z;
     m.xy += x * v.y, m.xz += x * v.z, m.yz += y * v.z;
 }
-/// m += |v|^2 I - v v': adds a ball joint's contribution to J J', `v` from the joint to the tip.
-static inline void add_ball_joint(Symmetric3& m, const glm::dvec3& v) noexcept {
-    const double x = v.x * v.x, y = v.y * v.y, z = v.z * v.z;
+/// m += weight (|v|^2 I - v v'): adds a ball joint's contribution to J J', `v` from the joint to the tip.
+static inline void add_ball_joint(Symmetric3& m, const glm::dvec3& v, double weight = 1.0) noexcept {
+    const glm::dvec3 w{weight * v.x, weight * v.y, weight * v.z};
+    const double x = w.x * v.x, y = w.y * v.y, z = w.z * v.z;
     m.xx += y + z, m.yy += x + z, m.zz += x + y;
-    m.xy -= v.x * v.y, m.xz -= v.x * v.z, m.yz -= v.y * v.z;
+    m.xy -= w.x * v.y, m.xz -= w.x * v.z, m.yz -= w.y * v.z;
 }
 
 /// Solves (m + diagonal I) x = v for a positive definite m: Cholesky decomposition in the form L D L', which

@@ -19,7 +19,8 @@
 // the joint rotations, with every joint clamped to its limit (K. Levenberg, "A method for the solution of
 // certain non-linear problems in least squares", 1944). A chain that does not converge within 30 steps or
 // `max_iterations`, or that stops improving, is solved by the scalar solver from its original pose. So is a
-// chain whose target is out of reach, and every chain with `every_iteration` or with a flat cone (a suture).
+// chain whose target is out of reach, and every chain with `every_iteration`, with a stiff joint, or with a
+// flat cone (a suture).
 // Poses differ from the scalar solver's: both converge, each within the limits to 0.1 degrees.
 //
 // Cost: O(bones) per iteration and chain. Compared with calling Solver::solve per chain, to tolerance, with 1

@@ -24,6 +24,7 @@ float inverse_square(float half_angle) noexcept {
 }
 
 std::optional<BatchLimit> ready(const Limit& limit, const glm::vec3& rest_direction) noexcept {
+    if (limit.stiffness > 0.0f) return std::nullopt;
     const LimitedJoint joint = limited_joint(limit, rest_direction);
     BatchLimit to;
     to.bone = joint.bone, to.axis = joint.axis, to.side = joint.side;

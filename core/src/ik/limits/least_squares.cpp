@@ -20,12 +20,12 @@ void add_axis(Normal& normal, const glm::vec3& axis, const glm::vec3& arm, float
 }
 
 /// Adds the contribution of all three axes.
-void add_ball(Normal& normal, const glm::vec3& arm, float scale) noexcept {
+void add_ball(Normal& normal, const glm::vec3& arm, float scale, double by) noexcept {
     const glm::dvec3 r = wide(arm);
-    add_ball_joint(normal.moves, r);
+    add_ball_joint(normal.moves, r, by);
     if (scale == 0.0f) return;
-    const double s = static_cast<double>(scale);
-    normal.rotations.xx += s * s, normal.rotations.yy += s * s, normal.rotations.zz += s * s;
+    const double s = by * static_cast<double>(scale), square = s * static_cast<double>(scale);
+    normal.rotations.xx += square, normal.rotations.yy += square, normal.rotations.zz += square;
     normal.both[0] = plus(normal.both[0], {0.0, -s * r.z, s * r.y});  // columns e_k x r
     normal.both[1] = plus(normal.both[1], {s * r.z, 0.0, -s * r.x});
     normal.both[2] = plus(normal.both[2], {-s * r.y, s * r.x, 0.0});
@@ -33,9 +33,10 @@ void add_ball(Normal& normal, const glm::vec3& arm, float scale) noexcept {
 
 /// Removes an axis from a joint's freedoms and from the matrix. Returns whether any of it was left.
 bool forbid(JointFreedom& freedom, const glm::vec3& axis, float scale, Normal& normal) noexcept {
+    const auto mobility = static_cast<double>(freedom.mobility);
     if (!freedom.ball) {
         if (freedom.count == 0) return false;
-        add_axis(normal, freedom.axes[0], freedom.arm, scale, -1.0);
+        add_axis(normal, freedom.axes[0], freedom.arm, scale, -mobility);
         freedom.count = 0;
         return true;
     }
@@ -47,7 +48,7 @@ bool forbid(JointFreedom& freedom, const glm::vec3& axis, float scale, Normal& n
     const float size = length(rest);
     if (size < 1e-3f || freedom.count == 3) return false;
     rest = times(rest, 1.0f / size);
-    add_axis(normal, rest, freedom.arm, scale, -1.0);
+    add_axis(normal, rest, freedom.arm, scale, -mobility);
     freedom.axes[static_cast<std::size_t>(freedom.count++)] = rest;
     return true;
 }
@@ -136,13 +137,15 @@ Normal linearize(Problem& problem, const Wanted& wanted) noexcept {
         freedom.arm = times(minus(tip, pose.joints[i]), unit_length);
         freedom.ball = !joint.hinge();
         freedom.count = 0;
+        freedom.mobility = joint.mobility;
+        const auto mobility = static_cast<double>(joint.mobility);
         const glm::quat parent = parent_of(pose.rotations, i);
         if (joint.hinge()) {
             freedom.axes[0] = rotated(parent, joint.axis);
             freedom.count = 1;
-            add_axis(normal, freedom.axes[0], freedom.arm, wanted.scale, 1.0);
+            add_axis(normal, freedom.axes[0], freedom.arm, wanted.scale, mobility);
         } else {
-            add_ball(normal, freedom.arm, wanted.scale);
+            add_ball(normal, freedom.arm, wanted.scale, mobility);
         }
         if (is_inside(joint, pose.local[i])) continue;
         freedom.bounds = bounds_of(joint, pose.local[i]);

@@ -87,6 +87,8 @@ const char* fault(const Limit& limit) noexcept {
     if (static_cast<unsigned>(limit.kind) > static_cast<unsigned>(JointKind::BallAndSocket)) {
         return "there is no such kind of joint";
     }
+    if (!(limit.stiffness >= 0.0f && limit.stiffness <= max_stiffness))
+        return "stiffness must be from 0 to 0.99";
     if (limit.kind == JointKind::Free) return nullptr;
     const bool hinge = limit.kind == JointKind::Hinge;
     const auto beyond = [](float x) { return !(std::abs(x) <= 1e9f); };  // true for NaN

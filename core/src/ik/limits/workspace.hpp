@@ -33,14 +33,15 @@ struct JointFreedom {
     glm::vec3 arm{0.0f};              ///< from the joint to the tip, in reaches
     bool ball = true;                 ///< true: all axes but those listed; false: only those listed
     int count = 0;                    ///< number of axes
+    float mobility = 1.0f;            ///< as LimitedJoint::mobility
     int own = 0;                      ///< number of axes while no one-sided bound is active
     std::array<glm::vec3, 3> axes{};  ///< orthonormal
     Bounds bounds;                    ///< the one-sided bounds that it is at; in the world
     glm::vec3 rotation{0.0f};         ///< rotation vector of the joint in a step, radians
 };
 
-/// J J' of the tip's three coordinates and, with a tip orientation, its three rotations. `both`: the columns
-/// of the off-diagonal block.
+/// J W J' of the tip's three coordinates and, with a tip orientation, its three rotations. `both`: the
+/// columns of the off-diagonal block.
 struct Normal {
     math::Symmetric3 moves, rotations;
     std::array<glm::dvec3, 3> both{};
