@@ -18,7 +18,7 @@ namespace {
 /// "1/s" as "/s", "m/s^2" as "m/s²", "deg" as a degree sign; with the space before it.
 std::string shown_unit(std::string unit) {
     if (unit.empty()) return "";
-    if (unit == "deg") return "\u00b0";
+    if (unit == "deg" || unit == "rad") return "\u00b0";
     if (unit == "%") return " %%";
     if (unit.starts_with("1/")) unit.erase(0, 1);
     if (const std::size_t square = unit.find("^2"); square != std::string::npos)
@@ -75,7 +75,7 @@ void FieldRows::row(std::string_view name, const RowOptions& options) const {
 
 ArgumentList FieldRows::arguments(const Field& field, ArgumentValue value) const {
     ArgumentList all = with_;
-    all.push_back({field.name, std::move(value)});
+    all.push_back({file_name(field), std::move(value)});
     return all;
 }
 
@@ -94,13 +94,16 @@ void FieldRows::number_row(const Field& field, const FieldText& text, const RowO
             emit_.continuously(command_, arguments(field, value));
         return;
     }
-    const auto shown = [&](double of) { return static_cast<float>(text.scale * of); };
+    // An angle is shown as its command takes it, in degrees.
+    const double scale = is_angle(field) ? glm::degrees(1.0) : text.scale;
+    const auto shown = [&](double of) { return static_cast<float>(scale * of); };
     float value = shown(now);
     const bool usual = !options.within && field.usual.low < field.usual.high;
     if (usual ? usual_number_field(text.label, value, field, text)
               : number_field(text.label, value, text.step, shown(range.low), shown(range.high),
                              format_of(field, text).c_str()))
-        emit_.continuously(command_, arguments(field, value / static_cast<float>(text.scale)));
+        emit_.continuously(
+            command_, arguments(field, is_angle(field) ? value : value / static_cast<float>(text.scale)));
 }
 
 void FieldRows::pair_row(const Field& field, const FieldText& text) const {
@@ -127,9 +130,7 @@ void FieldRows::point_row(const Field& field, const FieldText& text) const {
 /// Euler angles, in degrees. A change rotates about the rotation's own axes: setting angles directly would
 /// lock at a pole.
 void FieldRows::rotation_row(const Field& field, const FieldText& text) const {
-    const FieldValue now = field.get(of_.object);
-    const glm::quat rotation(static_cast<float>(now[3]), static_cast<float>(now[0]),
-                             static_cast<float>(now[1]), static_cast<float>(now[2]));
+    const glm::quat rotation = rotation_of(field.get(of_.object));
     const glm::vec3 was = glm::degrees(glm::eulerAngles(rotation)) + 0.0f;  // no -0
     glm::vec3 turned = was;
     const std::string format = "%." + std::to_string(text.decimals) + "f\u00b0";

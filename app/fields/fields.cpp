@@ -7,22 +7,16 @@
 namespace tendril::app {
 namespace {
 
-/// A float's shortest decimals: 0.001, not 0.00100000005.
-double written(double end) {
+/// One end of a range: 0.001, not 0.00100000005.
+double file_end(const Field& field, double end) {
     const auto single = static_cast<float>(end);
+    if (is_angle(field)) return degrees(single).get<double>();
     return static_cast<double>(single) == end ? shortest_decimal(single) : end;
-}
-
-glm::quat quaternion_of(const FieldValue& value) {
-    return glm::quat(static_cast<float>(value[3]), static_cast<float>(value[0]), static_cast<float>(value[1]),
-                     static_cast<float>(value[2]));
-}
-FieldValue value_of(const glm::quat& rotation) {
-    return {rotation.x, rotation.y, rotation.z, rotation.w};
 }
 
 Json saved(const Field& field, const FieldValue& value) {
     if (field.optional && std::isnan(value[0])) return nullptr;
+    if (is_angle(field)) return degrees(static_cast<float>(value[0]));
     switch (field.type) {
         case FieldType::Flag:
             return value[0] != 0.0;
@@ -37,7 +31,7 @@ Json saved(const Field& field, const FieldValue& value) {
                        ? Json{value[0], value[1]}
                        : Json{number(static_cast<float>(value[0])), number(static_cast<float>(value[1]))};
         case FieldType::Rotation:
-            return quaternion(quaternion_of(value));
+            return quaternion(rotation_of(value));
         case FieldType::Point:
             break;
     }
@@ -45,6 +39,11 @@ Json saved(const Field& field, const FieldValue& value) {
 }
 
 double number_in_range(const JsonPlace& place, const Field& field) {
+    if (is_angle(field)) {
+        const auto [low, high] = file_range(field);
+        static_cast<void>(place.real(low, high));
+        return static_cast<double>(place.degrees());
+    }
     const auto [low, high] = field.range;
     if (field.exact) return place.real(low, high);
     return static_cast<double>(place.number(static_cast<float>(low), static_cast<float>(high)));
@@ -75,7 +74,7 @@ FieldValue loaded(const JsonPlace& place, const Field& field) {
             place.check_size(2, "numbers");
             return {number_in_range(place.element(0), field), number_in_range(place.element(1), field)};
         case FieldType::Rotation:
-            return value_of(place.rotation());
+            return detail::to_field(place.rotation());
         case FieldType::Point:
             break;
     }
@@ -86,20 +85,21 @@ FieldValue loaded(const JsonPlace& place, const Field& field) {
 
 std::string unit_sentence(std::string_view unit) {
     if (unit.empty()) return {};
-    const std::string_view word = unit == "deg" ? "degrees"
-                                  : unit == "m" ? "metres"
-                                  : unit == "s" ? "seconds"
-                                                : unit;
+    const std::string_view word = unit == "deg" || unit == "rad" ? "degrees"
+                                  : unit == "m"                  ? "metres"
+                                  : unit == "s"                  ? "seconds"
+                                                                 : unit;
     return " Unit: " + std::string(word) + ".";
 }
 
 Argument argument(const Field& field, const FieldText& text) {
-    Argument result{.name = field.name,
+    const auto [low, high] = file_range(field);
+    Argument result{.name = file_name(field),
                     .required = false,
                     .help = text.help + unit_sentence(field.unit) +
                             (field.type == FieldType::Pair ? " A list [low, high]." : ""),
-                    .low = written(field.range.low),
-                    .high = written(field.range.high)};
+                    .low = low,
+                    .high = high};
     switch (field.type) {
         case FieldType::Flag:
             result.type = ArgumentType::Boolean;
@@ -129,22 +129,35 @@ Argument argument(const Field& field, const FieldText& text) {
 
 }  // namespace
 
+bool is_angle(const Field& field) {
+    return field.type == FieldType::Number && field.unit == std::string_view("rad");
+}
+
+std::string file_name(const Field& field) {
+    return is_angle(field) ? std::string(field.name) + "_deg" : field.name;
+}
+
+FieldRange file_range(const Field& field) {
+    return {file_end(field, field.range.low), file_end(field, field.range.high)};
+}
+
 Json save_fields(FieldsOf of) {
     Json json = Json::object();
-    for (const Field& field : of.table) json[field.name] = saved(field, field.get(of.object));
+    for (const Field& field : of.table) json[file_name(field)] = saved(field, field.get(of.object));
     return json;
 }
 
 void load_all_fields(const JsonPlace& place, FieldsIn in) {
-    for (const Field& field : in.table) static_cast<void>(place[field.name]);
+    for (const Field& field : in.table) static_cast<void>(place[file_name(field).c_str()]);
     load_fields(place, in);
 }
 
 void load_fields(const JsonPlace& place, FieldsIn in) {
     if (!place.json().is_object()) place.fail("expected an object, found " + json_summary(place.json()));
     for (const Field& field : in.table) {
-        if (!place.has(field.name)) continue;
-        const JsonPlace member = place[field.name];
+        const std::string name = file_name(field);
+        if (!place.has(name.c_str())) continue;
+        const JsonPlace member = place[name.c_str()];
         const bool nothing = field.optional && member.json().is_null();
         field.set(in.object, nothing ? FieldValue{std::nan("")} : loaded(member, field));
     }
@@ -160,10 +173,11 @@ std::vector<Argument> field_arguments(std::span<const Field> table, std::span<co
 
 void set_fields(const Arguments& given, FieldsIn in, std::string_view except) {
     for (const Field& field : in.table) {
-        if (!given.has(field.name) || field.name == except) continue;
+        const std::string name = file_name(field);
+        if (!given.has(name.c_str()) || field.name == except) continue;
         field.set(in.object, field.type == FieldType::Rotation
-                                 ? value_of(given.rotation(field.name))  // or in degrees
-                                 : loaded({given.json(field.name), field.name}, field));
+                                 ? detail::to_field(given.rotation(name.c_str()))  // or in degrees
+                                 : loaded({given.json(name.c_str()), name}, field));
     }
 }
 

@@ -4,6 +4,7 @@
 
 #include <concepts>
 #include <span>
+#include <string>
 #include <string_view>
 #include <tendril/fields.hpp>
 #include <vector>
@@ -14,9 +15,16 @@
 
 namespace tendril::app {
 
+/// Whether a field holds an angle: a number of unit "rad". Files, commands and panels have it in degrees.
+bool is_angle(const Field& field);
+/// A field's name in files and commands: "damping"; of an angle "twist_min_deg".
+std::string file_name(const Field& field);
+/// Its range there, with float ends as their shortest decimals.
+FieldRange file_range(const Field& field);
+
 /// A field's presentation.
 struct FieldText {
-    const char* name;    ///< the field's
+    const char* name;    ///< the field's, as in its table
     const char* label;   ///< in a panel
     const char* help;    ///< its effect, in a sentence or two: for the panel and the command's argument
     float step = 0.01f;  ///< change of the shown value per pixel of a drag

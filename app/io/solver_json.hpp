@@ -18,6 +18,9 @@ namespace tendril::app {
 /// Writes the fields of the limit's kind; limit_from_json restores exactly the same angles.
 Json limit_json(const ik::Limit& limit);
 
+/// What ik::fault() says, with the limit's values: "the hinge's min is over its max: kind ..."
+std::string fault_text(const char* why, const ik::Limit& limit);
+
 /// Reads a limit of any kind. A missing field has the value of ik::Limit::of(kind); a field that the kind
 /// lacks is ignored. Throws std::runtime_error that begins with the JSON path ("limits.2.min_deg") for an
 /// unknown kind, a value of the wrong type or out of range, a minimum above the maximum, or an axis without

@@ -294,17 +294,11 @@ std::string limit_table(const std::vector<ik::Limit>& limits) {
         "    std::size_t joint;\n"
         "    ik::Limit limit;\n"
         "};\n"
-        "// Kind, axis, min and max; up, down, left, right; twist_min and twist_max.\n"
         "static const JointLimit joint_limits[] = {\n";
     for (std::size_t i = 0; i < limits.size(); ++i) {
         const ik::Limit& limit = limits[i];
-        if (limit.kind == ik::JointKind::Free) continue;
-        text += "    {" + std::to_string(i) + ", {ik::JointKind::" + enumerator(limit.kind) + ", " +
-                braced(limit.axis);
-        for (const float angle : {limit.min, limit.max, limit.up, limit.down, limit.left, limit.right,
-                                  limit.twist_min, limit.twist_max})
-            text += ", " + literal(angle);
-        text += "}},\n";
+        if (limit == ik::Limit{}) continue;
+        text += "    {" + std::to_string(i) + ", {" + joined(limit_members(limit)) + "}},\n";
     }
     return text + "};\n";
 }

@@ -6,7 +6,7 @@
 
 #include "app/document/json_complete.hpp"
 #include "app/document/units.hpp"
-#include "app/io/solver_json.hpp"
+#include "app/fields/field_rows.hpp"
 #include "app/labs/chain/panel.hpp"
 #include "app/labs/kit/panel_rows.hpp"
 #include "app/labs/kit/past_view.hpp"
@@ -141,11 +141,11 @@ void ChainLab::inspector(const Workspace& workspace, Emit& emit) const {
 
 namespace {
 
-/// A command's arguments: the joints, and the value to set on them.
-ArgumentList of_joints(const std::vector<std::size_t>& joints, const char* name, ArgumentValue value) {
-    const NamedArgument which = joints.size() == 1 ? NamedArgument{"index", joints.front()}
-                                                   : NamedArgument{"joints", SharedJson(Json(joints))};
-    return {which, {name, std::move(value)}};
+/// A command's arguments: the joints, and what to set on them.
+ArgumentList of_joints(const std::vector<std::size_t>& joints, ArgumentList values = {}) {
+    values.insert(values.begin(), joints.size() == 1 ? NamedArgument{"index", joints.front()}
+                                                     : NamedArgument{"joints", SharedJson(Json(joints))});
+    return values;
 }
 
 /// "1, 2, 5"; "..." stands for any joints after the eighth.
@@ -188,25 +188,22 @@ void several_joints(const ShownChain& shown, Emit& emit) {
     if (!shown.trace) length_field("bone lengths", part, emit);
 }
 
-struct AngleRow {
-    const char* title;
-    const char* key;
-    const char* help;
-    float low;  ///< degrees; the maximum is 180
-};
-
-std::vector<AngleRow> angle_rows(ik::JointKind kind) {
-    if (kind == ik::JointKind::Free) return {};
-    if (kind == ik::JointKind::Hinge)
-        return {{"minimum", "min_deg", "The smallest angle about the axis; 0 is straight.", -180.0f},
-                {"maximum", "max_deg", "The largest angle about the axis; 0 is straight.", -180.0f}};
-    constexpr const char* cone = "How far the bone may turn this way from straight: a side of its cone.";
-    return {{"up", "up_deg", cone, 0.0f},
-            {"down", "down_deg", cone, 0.0f},
-            {"left", "left_deg", cone, 0.0f},
-            {"right", "right_deg", cone, 0.0f},
-            {"twist from", "twist_min_deg", "How far the bone may turn about itself, one way.", -180.0f},
-            {"twist to", "twist_max_deg", "How far the bone may turn about itself, the other way.", -180.0f}};
+void axis_row(const ik::Limit& limit, const std::vector<std::size_t>& joints, Emit& emit) {
+    static constexpr const char* axes[] = {"X", "Y", "Z", "other"};
+    int axis = 3;
+    for (int i = 0; i < 3; ++i) {
+        glm::vec3 unit(0.0f);
+        unit[i] = 1.0f;
+        if (limit.axis == unit) axis = i;
+    }
+    if (choice_field("axis", axis, axes, axis == 3 ? 4 : 3) && axis < 3) {
+        glm::vec3 unit(0.0f);
+        unit[axis] = 1.0f;
+        emit("chain.limit", of_joints(joints, {{"axis", unit}}));
+    }
+    explain(
+        "The axis of upward rotation, in world axes with the chain straight; a hinge turns about it alone.");
+    note("A straight chain has all angles 0.");
 }
 
 bool same_limits(const ReachSettings& reach, const std::vector<std::size_t>& joints) {
@@ -232,7 +229,7 @@ void length_field(const char* name, const ChainPart& part, Emit& emit) {
     const std::size_t shown = *part.selection.active();
     float length = part.chain.length(shown);
     if (number_field(name, length, 0.01f, 0.0f, 1000.0f, "%.3f m"))
-        emit.continuously("chain.set_length", of_joints(joints, "length", length));
+        emit.continuously("chain.set_length", of_joints(joints, {{"length", length}}));
     explain(joints.size() > 1
                 ? "The length of the bones that lead to the selected joints: one is shown, all are set."
             : shown == 0 ? "The length of the bone that leads here once a joint is inserted before this one."
@@ -249,49 +246,17 @@ void limit_rows(const ChainPart& part, Emit& emit) {
                                   : joints.back();
     const bool several = joints.size() > 1;
     section(several ? "Limit of these joints" : "Limit of this joint");
-    const auto with = [&](const char* name, ArgumentValue value) {
-        return of_joints(joints, name, std::move(value));
-    };
     if (several && !same_limits(part.reach, joints))
         note("They differ. Showing joint " + std::to_string(joint) + "; changes apply to all.");
     const ik::Limit limit = limit_of(part.reach, joint);
-    std::array<const char*, all_joint_kinds.size()> titles{};
-    std::transform(all_joint_kinds.begin(), all_joint_kinds.end(), titles.begin(), kind_title);
-    int kind = static_cast<int>(limit.kind);
-    if (choice_field("kind", kind, titles.data(), static_cast<int>(titles.size()))) {
-        emit("chain.limit", with("kind", ik::name(all_joint_kinds[static_cast<std::size_t>(kind)])));
-    }
-    explain(
-        "How the bone after this joint may turn: a hinge about one axis, the others within a cone and about "
-        "the bone. Each starts with a person's usual angles.");
-    if (limit.kind == ik::JointKind::Free) {
-        note("Turns freely.");
-        return;
-    }
-    const Json json = limit_json(limit);
-    for (const AngleRow& row : angle_rows(limit.kind)) {
-        if (!json.contains(row.key)) continue;
-        float angle = json.at(row.key).get<float>();
-        if (number_field(row.title, angle, 0.5f, row.low, 180.0f, "%.1f deg")) {
-            emit.continuously("chain.limit", with(row.key, angle));
-        }
-        explain(row.help);
-    }
-    static constexpr const char* axes[] = {"X", "Y", "Z", "other"};
-    int axis = 3;
-    for (int i = 0; i < 3; ++i) {
-        glm::vec3 unit(0.0f);
-        unit[i] = 1.0f;
-        if (limit.axis == unit) axis = i;
-    }
-    if (choice_field("axis", axis, axes, axis == 3 ? 4 : 3) && axis < 3) {
-        glm::vec3 unit(0.0f);
-        unit[axis] = 1.0f;
-        emit("chain.limit", with("axis", unit));
-    }
-    explain("The axis of upward rotation; a hinge turns about it alone.");
-    note(
-        "Axis of upward rotation, in world axes with the chain straight. A straight chain has all angles 0.");
+    const FieldRows rows({ik::limit_fields(limit.kind), &limit}, field_texts<ik::Limit>(), "chain.limit",
+                         emit, of_joints(joints));
+    rows.row("kind");
+    if (limit.kind == ik::JointKind::Free) note("Turns freely.");
+    for (const Field& field : ik::limit_fields(limit.kind))
+        if (field.name != std::string_view("kind") && field.name != std::string_view("axis"))
+            rows.row(field.name);
+    if (limit.kind != ik::JointKind::Free) axis_row(limit, joints, emit);
 }
 
 }  // namespace tendril::app

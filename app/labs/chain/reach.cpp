@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <tendril/ik/solver.hpp>
 
+#include "app/io/solver_json.hpp"
 #include "app/labs/chain/chain_runtime.hpp"
 
 namespace tendril::app {
@@ -156,11 +157,12 @@ void set_limit(ReachSettings& settings, std::size_t joint, const ik::Limit& limi
 void set_limits(ReachSettings& settings, const std::vector<std::pair<std::size_t, ik::Limit>>& limits,
                 const Chain& chain) {
     for (const auto& [joint, limit] : limits)
-        if (const char* why = ik::fault(limit, chain.default_direction())) throw std::invalid_argument(why);
+        if (const char* why = ik::fault(limit, chain.default_direction()))
+            throw std::invalid_argument(fault_text(why, limit));
     if (settings.limits.empty()) settings.limits.resize(chain.size() - 1);
     for (const auto& [joint, limit] : limits) settings.limits[joint] = limit;
     const bool all_free = std::all_of(settings.limits.begin(), settings.limits.end(),
-                                      [](const auto& each) { return each.kind == ik::JointKind::Free; });
+                                      [](const auto& each) { return each == ik::Limit{}; });
     if (all_free) forget_limits(settings);
 }
 
@@ -223,18 +225,12 @@ const char* status_help(ik::Status status) {
     return texts[static_cast<std::size_t>(status)];
 }
 
-const char* kind_title(ik::JointKind kind) {
-    static constexpr const char* titles[] = {"free",   "suture", "hinge",          "gliding",
-                                             "saddle", "pivot",  "ball and socket"};
-    return titles[static_cast<std::size_t>(kind)];
-}
-
 std::string needed_degrees(const ik::ActiveLimit& limit) {
     return degrees_text(limit, limit.needed);
 }
 
 std::string active_limit_text(const ik::ActiveLimit& limit) {
-    std::string text = "joint " + std::to_string(limit.joint) + " (" + kind_title(limit.kind) + ") ";
+    std::string text = "joint " + std::to_string(limit.joint) + " (" + joint_kinds.title(limit.kind) + ") ";
     text += std::string(bound_phrase(limit.bound)) + " " + degrees_text(limit, limit.limit) + " degrees";
     text += "; the target needs " + needed_degrees(limit);
     if (!limit.enough) text += " and more from the others";

@@ -114,10 +114,14 @@ std::string needed_degrees(const ik::ActiveLimit& limit);
 const char* solver_help(ik::Method method);
 /// The meaning of a status, as a sentence.
 const char* status_help(ik::Status status);
-const char* kind_title(ik::JointKind kind);
-inline constexpr std::array all_joint_kinds{
-    ik::JointKind::Free,   ik::JointKind::Suture, ik::JointKind::Hinge,        ik::JointKind::Gliding,
-    ik::JointKind::Saddle, ik::JointKind::Pivot,  ik::JointKind::BallAndSocket};
+inline constexpr EnumNames<ik::JointKind, 7> joint_kinds{"kind of joint",
+                                                         {{"free", "free"},
+                                                          {"suture", "suture"},
+                                                          {"hinge", "hinge"},
+                                                          {"gliding", "gliding"},
+                                                          {"saddle", "saddle"},
+                                                          {"pivot", "pivot"},
+                                                          {"ball_and_socket", "ball and socket"}}};
 
 /// Writes member "state" unless the state is empty or of another chain. `joints` is the pose that the state
 /// belongs to: pole joints equal to it are omitted.
@@ -134,3 +138,5 @@ template <>
 std::span<const tendril::Field> tendril::fields<tendril::app::ReachSettings>() noexcept;
 template <>
 std::span<const tendril::app::FieldText> tendril::app::field_texts<tendril::app::ReachSettings>();
+template <>
+std::span<const tendril::app::FieldText> tendril::app::field_texts<tendril::ik::Limit>();

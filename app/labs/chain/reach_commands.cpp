@@ -70,6 +70,48 @@ std::span<const FieldText> field_texts<ReachSettings>() {
     return texts;
 }
 
+template <>
+std::span<const FieldText> field_texts<ik::Limit>() {
+    constexpr const char* cone = "How far the bone may turn this way from straight: a side of its cone.";
+    static constexpr FieldText texts[] = {
+        {.name = "kind",
+         .label = "kind",
+         .help =
+             "How the bone after this joint may turn: a hinge about one axis, the others within a cone and "
+             "about the bone. Each starts with a person's usual angles.",
+         .listed = true,
+         .choices = joint_kinds.rows},
+        {.name = "axis",
+         .label = "axis",
+         .help = "The axis of upward rotation, in world axes with the chain straight; a hinge turns about it "
+                 "alone."},
+        {.name = "min",
+         .label = "minimum",
+         .help = "The smallest angle of a hinge about its axis; 0 is straight.",
+         .step = 0.5f,
+         .decimals = 1},
+        {.name = "max",
+         .label = "maximum",
+         .help = "The largest angle of a hinge about its axis; 0 is straight.",
+         .step = 0.5f,
+         .decimals = 1},
+        {.name = "up", .label = "up", .help = cone, .step = 0.5f, .decimals = 1},
+        {.name = "down", .label = "down", .help = cone, .step = 0.5f, .decimals = 1},
+        {.name = "left", .label = "left", .help = cone, .step = 0.5f, .decimals = 1},
+        {.name = "right", .label = "right", .help = cone, .step = 0.5f, .decimals = 1},
+        {.name = "twist_min",
+         .label = "twist from",
+         .help = "How far the bone may turn about itself, one way.",
+         .step = 0.5f,
+         .decimals = 1},
+        {.name = "twist_max",
+         .label = "twist to",
+         .help = "How far the bone may turn about itself, the other way.",
+         .step = 0.5f,
+         .decimals = 1}};
+    return texts;
+}
+
 namespace {
 
 /// Solves again for the present target, in mode Reach.
@@ -99,24 +141,18 @@ void set_pole(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
     reach_again(part, runtime);
 }
 
-constexpr const char* angle_names[] = {"min_deg",  "max_deg",   "up_deg",        "down_deg",
-                                       "left_deg", "right_deg", "twist_min_deg", "twist_max_deg"};
-
 /// A joint's limit after the edit.
 ik::Limit changed_limit(const ChainPart& part, std::size_t index, const Arguments& given) {
     if (index + 1 == part.chain.size()) {
         throw Refused("index " + std::to_string(index) +
                       " is the tail: no bone starts there that could be limited");
     }
-    // An edit of the same kind keeps the angles that are not given; a new kind starts from its defaults.
-    const ik::Limit now = limit_of(part.reach, index);
-    const std::string kind = given.has("kind") ? given.text("kind") : ik::name(now.kind);
-    Json json = kind == ik::name(now.kind) ? limit_json(now) : Json{{"kind", kind}};
-    if (given.has("axis")) json["axis"] = point(given.point("axis"));
-    for (const char* angle : angle_names) {
-        if (given.has(angle)) json[angle] = number(given.number(angle));
-    }
-    return limit_from_json(json, "limit");
+    // An edit of the same kind keeps the values that are not given; a new kind starts from its defaults.
+    ik::Limit limit = limit_of(part.reach, index);
+    const ik::JointKind kind = given.has("kind") ? joint_kinds.value(given.text("kind")) : limit.kind;
+    if (kind != limit.kind) limit = ik::Limit::of(kind);
+    set_fields(given, {ik::limit_fields(kind), &limit});
+    return limit;
 }
 
 void limit_joints(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
@@ -128,24 +164,10 @@ void limit_joints(ChainPart& part, const Arguments& given, ChainRuntime& runtime
 }
 
 std::vector<Argument> limit_arguments() {
-    std::vector<Argument> arguments{
-        index_argument(false, "which joint; its limit is on the bone to the next one"),
-        joints_argument(),
-        choice_argument("kind", false, "kind of joint; unchanged if omitted",
-                        names(all_joint_kinds, [](ik::JointKind k) { return ik::name(k); })),
-        {.name = "axis",
-         .type = ArgumentType::Point,
-         .required = false,
-         .help = "axis of upward rotation, in world axes with the chain straight"}};
-    for (const char* name : angle_names) {
-        const std::string text = name;
-        const bool cone = text == "up_deg" || text == "down_deg" || text == "left_deg" || text == "right_deg";
-        const bool hinge = text == "min_deg" || text == "max_deg";
-        const char* help = hinge  ? "degrees about the axis; hinges"
-                           : cone ? "half-angle of the cone, degrees; all but hinges"
-                                  : "degrees about the bone; all but hinges";
-        arguments.push_back(number_argument(name, help, cone ? 0.0 : -180.0, 180.0));
-    }
+    std::vector<Argument> arguments = field_arguments<ik::Limit>();
+    arguments.insert(
+        arguments.begin(),
+        {index_argument(false, "which joint; its limit is on the bone to the next one"), joints_argument()});
     return arguments;
 }
 

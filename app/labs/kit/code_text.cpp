@@ -150,24 +150,32 @@ std::string degrees_text(float radians) {
     return text;
 }
 
+namespace {
+
+/// Calls `take` with each field that is not at its default, and the text that sets it.
+void for_each_member(const ik::Limit& limit, auto take) {
+    for (const Field& field : ik::limit_fields(limit.kind))
+        if (field.type != FieldType::Number || field.number(&limit) != 0.0)
+            take(field, member_texts({{&field, 1}, &limit}, "ik::JointKind::").front());
+}
+
+}  // namespace
+
+std::vector<std::string> limit_members(const ik::Limit& limit) {
+    std::vector<std::string> texts;
+    for_each_member(limit, [&](const Field&, const std::string& text) { texts.push_back(text); });
+    return texts;
+}
+
 std::string limit_text(const std::string& name, const ik::Limit& limit, const std::string& margin) {
-    if (limit.kind == ik::JointKind::Hinge) {
-        return margin + name + " = ik::Limit::hinge(" + braced(limit.axis) + ", " + literal(limit.min) +
-               ", " + literal(limit.max) + ");  // " + degrees_text(limit.min) + " to " +
-               degrees_text(limit.max) + " degrees\n";
-    }
-    const std::string next = margin + std::string(name.size() + 4, ' ');
-    std::string text =
-        margin + name + " = {.kind = ik::JointKind::" + pascal_text(ik::name(limit.kind)) + ",\n";
-    text += next + ".axis = " + braced(limit.axis) + ",\n";
-    const std::pair<const char*, float> angles[] = {
-        {"up", limit.up},       {"down", limit.down},           {"left", limit.left},
-        {"right", limit.right}, {"twist_min", limit.twist_min}, {"twist_max", limit.twist_max}};
-    for (const auto& [field, angle] : angles) {
-        if (angle == 0.0f) continue;  // the default
-        text += next + "." + field + " = " + literal(angle) + ",  // " + degrees_text(angle) + " degrees\n";
-    }
-    return text + margin + "};\n";
+    std::string all = margin + name + " = {\n";
+    for_each_member(limit, [&](const Field& field, const std::string& text) {
+        all += margin + "    " + text + ',';
+        if (is_angle(field))
+            all += "  // " + degrees_text(static_cast<float>(field.number(&limit))) + " degrees";
+        all += '\n';
+    });
+    return all + margin + "};\n";
 }
 
 }  // namespace tendril::app

@@ -34,7 +34,9 @@ std::vector<std::string> member_texts(FieldsOf of, const std::string& scope = {}
 /// Separated by ", ".
 std::string joined(const std::vector<std::string>& texts);
 
-/// Statements that set `name` to a joint's limit, with angles in degrees beside it. Ends with a newline.
+/// ".kind = ik::JointKind::Hinge, ...": the members that are not at their default.
+std::vector<std::string> limit_members(const ik::Limit& limit);
+/// A statement that sets `name` to a joint's limit. Ends with a newline.
 std::string limit_text(const std::string& name, const ik::Limit& limit, const std::string& margin);
 
 /// Statements that restore the limits and pole of `name`, an ik::State, without the pole's joints.

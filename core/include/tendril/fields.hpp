@@ -37,6 +37,11 @@ enum class FieldType : std::uint8_t {
 /// A field of any type, as up to four numbers.
 using FieldValue = std::array<double, 4>;
 
+inline glm::quat rotation_of(const FieldValue& value) noexcept {
+    return glm::quat(static_cast<float>(value[3]), static_cast<float>(value[0]), static_cast<float>(value[1]),
+                     static_cast<float>(value[2]));
+}
+
 /// The range of a number, or of each number of a pair or a point; both ends included.
 struct FieldRange {
     double low = 0.0, high = 0.0;
@@ -47,7 +52,7 @@ enum class FieldScale : std::uint8_t { Linear, Logarithmic };
 /// One field of a struct. `get` and `set` take the struct; `set` checks nothing.
 struct Field {
     const char* name;       ///< as in files and commands: "gravity_scale"
-    const char* unit = "";  ///< "m/s^2"; empty for none
+    const char* unit = "";  ///< "m/s^2", "rad"; empty for none
     FieldType type = FieldType::Number;
     bool exact = false;     ///< stored in double precision; otherwise float
     bool optional = false;  ///< may be empty, which reads as NaN
@@ -146,8 +151,7 @@ Value from_field(const FieldValue& given) noexcept {
         return {static_cast<typename Value::value_type>(given[0]),
                 static_cast<typename Value::value_type>(given[1])};
     else if constexpr (std::is_same_v<Value, glm::quat>)
-        return Value(static_cast<float>(given[3]), static_cast<float>(given[0]), static_cast<float>(given[1]),
-                     static_cast<float>(given[2]));
+        return rotation_of(given);
     else
         return Value(given[0], given[1], given[2]);
 }

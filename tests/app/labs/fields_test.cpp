@@ -73,6 +73,21 @@ Table table_of(const rope::Shape& shape) {
             .name = rope::kind(shape)};
 }
 
+/// The limit of an arm's first joint.
+Table table_of(ik::JointKind kind) {
+    Json first{{"index", 0}, {"kind", ik::name(kind)}};
+    if (kind == ik::JointKind::Hinge) first["max_deg"] = 180;
+    if (kind == ik::JointKind::BallAndSocket) first["twist_max_deg"] = 180;
+    return {.lab = chain_lab,
+            .command = "chain.limit",
+            .path = "/reach/limits/0",
+            .fields = ik::limit_fields(kind),
+            .texts = field_texts<ik::Limit>(),
+            .with = {{"index", 0}},
+            .first = first,
+            .name = ik::name(kind)};
+}
+
 std::vector<Table> all_tables() {
     std::vector<Table> all{
         table_of<ReachSettings>(chain_lab, "chain.solver", "/reach"),
@@ -87,6 +102,8 @@ std::vector<Table> all_tables() {
         table_of<HumanoidView>(humanoid_lab, "humanoid.view", "/view"),
         table_of<Playback>(humanoid_lab, "humanoid.clip", "/clip")};
     for (const signal::Kind& kind : signal::kinds()) all.push_back(table_of(kind));
+    for (const ik::JointKind kind : {ik::JointKind::Hinge, ik::JointKind::BallAndSocket})
+        all.push_back(table_of(kind));
     for (const rope::Shape& shape : blank_shapes()) all.push_back(table_of(shape));
     return all;
 }
@@ -110,9 +127,10 @@ std::vector<Row> rows() {
     std::vector<Row> all;
     for (const Table& table : tables())
         for (const FieldText& text : table.texts)
-            // Kinds of colliders share their texts; elsewhere a text without a field is a mistake.
+            // Kinds of colliders and limits share their texts; elsewhere a text without a field is a mistake.
             if (const Field* const field = find_field(table.fields, text.name);
-                field != nullptr || table.texts.data() != field_texts<rope::Shape>().data())
+                field != nullptr || (table.texts.data() != field_texts<rope::Shape>().data() &&
+                                     table.texts.data() != field_texts<ik::Limit>().data()))
                 all.push_back({&table, field});
     return all;
 }
@@ -121,7 +139,7 @@ std::vector<Row> rows() {
 std::vector<Json> bad(const Field& field) {
     std::vector<Json> all{Json::array({1}), Json::object()};
     if (!field.optional) all.push_back(nullptr);
-    const auto [low, high] = field.range;
+    const auto [low, high] = file_range(field);
     const double by = std::max(1.0, 1e-3 * (high - low));
     switch (field.type) {
         case FieldType::Flag:
@@ -160,11 +178,11 @@ class EveryField : public LabTest, public testing::WithParamInterface<Row> {
     static Json::json_pointer at(const std::string& path) { return Json::json_pointer(path); }
 
     Json saved() const {
-        return save_scene(workspace).at("labs").at(of().lab).at(at(of().path)).at(field().name);
+        return save_scene(workspace).at("labs").at(of().lab).at(at(of().path)).at(file_name(field()));
     }
     Json given(const Json& value) const {
         Json arguments = of().with;
-        arguments[field().name] = value;
+        arguments[file_name(field())] = value;
         return arguments;
     }
     /// The number three quarters up a range; for a float, by its shortest decimals.
@@ -180,9 +198,9 @@ class EveryField : public LabTest, public testing::WithParamInterface<Row> {
             case FieldType::Integer:
                 return now == 5 ? 6 : 5;
             case FieldType::Choice:
-                return field().choices[now == field().choices[0] ? 1 : 0];
+                return field().choices[now == field().choices[1] ? 0 : 1];
             case FieldType::Number:
-                return number_in(field().range);
+                return number_in(file_range(field()));
             case FieldType::Pair:
                 return Json::array({field().range.low, number_in(field().range)});
             case FieldType::Rotation:
@@ -237,16 +255,16 @@ TEST_P(EveryField, IsSavedLoadedAndUndone) {
 TEST_P(EveryField, IsRefusedOutOfItsRangeAndChangesNothing) {
     for (const Json& value : bad(field()))
         EXPECT_TRUE(
-            test::says(refused(of().command, given(value)), std::string(of().command) + " " + field().name))
+            test::says(refused(of().command, given(value)), of().command + (" " + file_name(field()))))
             << value;
 }
 
 TEST_P(EveryField, IsRefusedInAFileWithItsPlace) {
-    std::string place = std::string("labs.") + of().lab + of().path + "." + field().name;
+    std::string place = std::string("labs.") + of().lab + of().path + "." + file_name(field());
     std::ranges::replace(place, '/', '.');
     for (const Json& value : bad(field())) {
         Json scene = save_scene(workspace);
-        scene.at("labs").at(of().lab).at(at(of().path))[field().name] = value;
+        scene.at("labs").at(of().lab).at(at(of().path))[file_name(field())] = value;
         try {
             Workspace opened = make_blank_workspace(labs);
             load_scene(opened, scene);

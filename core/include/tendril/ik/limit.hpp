@@ -14,7 +14,9 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
+#include "tendril/fields.hpp"
 #include "tendril/quat.hpp"
 #include "tendril/vec3.hpp"
 
@@ -60,6 +62,9 @@ struct Limit {
     static Limit hinge(glm::vec3 axis, float min, float max) noexcept;
 };
 
+/// The fields that a limit of this kind uses, in the order of its members.
+std::span<const Field> limit_fields(JointKind kind) noexcept;
+
 /// What is wrong with a limit, as a constant text ("the hinge's axis has no length"). Null if it is valid.
 const char* fault(const Limit& limit) noexcept;
 /// Also checks the limit against a bone's rest direction: "the hinge's axis lies along the bone".
@@ -79,3 +84,7 @@ JointAngles measure(const Limit& limit, glm::vec3 rest_direction, glm::quat turn
 float excess(const Limit& limit, const JointAngles& angles) noexcept;
 
 }  // namespace tendril::ik
+
+/// All fields of every kind. Angles are in radians.
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::Limit>() noexcept;

@@ -2,7 +2,6 @@
 #include <cstddef>
 
 #include "tendril/ik/active_limit.hpp"
-#include "tendril/ik/limit.hpp"
 #include "tendril/ik/method.hpp"
 #include "tendril/ik/observer.hpp"
 #include "tendril/ik/report.hpp"
@@ -34,12 +33,6 @@ const char* name(Status status) noexcept {
     constexpr const char* names[] = {"Converged", "Stretched",      "TooClose",    "Limited",
                                      "Stalled",   "IterationLimit", "InvalidInput"};
     return names[static_cast<std::size_t>(status)];
-}
-
-const char* name(JointKind kind) noexcept {
-    constexpr const char* names[] = {"free",   "suture", "hinge",          "gliding",
-                                     "saddle", "pivot",  "ball_and_socket"};
-    return names[static_cast<std::size_t>(kind)];
 }
 
 const char* name(Bound bound) noexcept {
