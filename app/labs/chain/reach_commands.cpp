@@ -108,7 +108,11 @@ std::span<const FieldText> field_texts<ik::Limit>() {
          .label = "twist to",
          .help = "How far the bone may turn about itself, the other way.",
          .step = 0.5f,
-         .decimals = 1}};
+         .decimals = 1},
+        {.name = "stiffness",
+         .label = "stiffness",
+         .help = "How much this joint resists turning; the others make up for it. The tip still arrives.",
+         .step = 0.005f}};
     return texts;
 }
 

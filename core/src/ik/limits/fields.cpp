@@ -24,6 +24,7 @@ constexpr Field up = angle<&Limit::up>("up", half_angle), down = angle<&Limit::d
                 right = angle<&Limit::right>("right", half_angle);
 constexpr Field twist_min = angle<&Limit::twist_min>("twist_min", any_angle),
                 twist_max = angle<&Limit::twist_max>("twist_max", any_angle);
+constexpr Field stiffness = field<&Limit::stiffness>("stiffness", {0.0, max_stiffness});
 
 }  // namespace
 
@@ -32,9 +33,9 @@ const char* name(JointKind of) noexcept {
 }
 
 std::span<const Field> limit_fields(JointKind of) noexcept {
-    static constexpr Field free[] = {kind};
-    static constexpr Field hinge[] = {kind, axis, min, max};
-    static constexpr Field cone[] = {kind, axis, up, down, left, right, twist_min, twist_max};
+    static constexpr Field free[] = {kind, stiffness};
+    static constexpr Field hinge[] = {kind, axis, min, max, stiffness};
+    static constexpr Field cone[] = {kind, axis, up, down, left, right, twist_min, twist_max, stiffness};
     if (of == JointKind::Free) return free;
     if (of == JointKind::Hinge) return hinge;
     return cone;
@@ -45,6 +46,7 @@ std::span<const Field> limit_fields(JointKind of) noexcept {
 template <>
 std::span<const tendril::Field> tendril::fields<tendril::ik::Limit>() noexcept {
     using namespace ik;
-    static constexpr Field rows[] = {kind, axis, min, max, up, down, left, right, twist_min, twist_max};
+    static constexpr Field rows[] = {kind, axis,  min,       max,       up,       down,
+                                     left, right, twist_min, twist_max, stiffness};
     return rows;
 }
