@@ -76,8 +76,8 @@ std::string ChainProgram::text() {
 std::size_t ChainProgram::limit_count() const {
     if (!solves()) return 0;
     const auto& limits = part_.reach.limits;
-    return static_cast<std::size_t>(std::count_if(
-        limits.begin(), limits.end(), [](const auto& limit) { return limit.kind != ik::JointKind::Free; }));
+    return static_cast<std::size_t>(
+        std::count_if(limits.begin(), limits.end(), [](const auto& limit) { return limit != ik::Limit{}; }));
 }
 
 void ChainProgram::head() {
@@ -198,7 +198,7 @@ void ChainProgram::limits() {
         say("for (const JointLimit& each : joint_limits) limits[each.joint] = each.limit;");
     } else {
         for (std::size_t i = 0; i < limits.size(); ++i)
-            if (limits[i].kind != ik::JointKind::Free)
+            if (limits[i] != ik::Limit{})
                 code_ += limit_text("limits[" + std::to_string(i) + "]", limits[i], "    ");
     }
     say("options.limits = limits;");

@@ -75,15 +75,19 @@ TEST(Code, options_that_are_the_librarys_own_are_not_said) {
     part.reach.limits.resize(7);
     part.reach.limits[2] = ik::Limit::hinge({0, 1, 0}, 0.0f, 1.5f);
     part.reach.limits[3] = ik::Limit::of(ik::JointKind::BallAndSocket);
+    part.reach.limits[4].stiffness = 0.5f;
     const std::string code = chain_code(part);
-    for (const char* said :
-         {"Method::SvdDls", "options.pole = glm::vec3{0.0f, 2.0f, 0.0f};", "PoleTurn::EachJoint",
-          "options.snap_back = 0.5f;", "options.soft_zone = 0.1f;", "options.damping = 0.1f;",
-          "options.twist = 1.5707964f;  // 90 degrees", "options.restarts = 3;", "limits(7);",
-          "options.limits = limits;",
-          "limits[2] = ik::Limit::hinge({0.0f, 1.0f, 0.0f}, 0.0f, 1.5f);  // 0 to 85.94 degrees",
-          "limits[3] = {.kind = ik::JointKind::BallAndSocket,"})
+    for (const char* said : {"Method::SvdDls", "options.pole = glm::vec3{0.0f, 2.0f, 0.0f};",
+                             "PoleTurn::EachJoint", "options.snap_back = 0.5f;", "options.soft_zone = 0.1f;",
+                             "options.damping = 0.1f;", "options.twist = 1.5707964f;  // 90 degrees",
+                             "options.restarts = 3;", "limits(7);", "options.limits = limits;",
+                             "limits[2] = {\n        .kind = ik::JointKind::Hinge,\n        .axis = {0.0f, "
+                             "1.0f, 0.0f},\n        "
+                             ".max = 1.5f,  // 85.94 degrees\n",
+                             "limits[3] = {\n        .kind = ik::JointKind::BallAndSocket,"})
         EXPECT_TRUE(has(code, said));
+    EXPECT_TRUE(
+        has(code, "limits[4] = {\n        .kind = ik::JointKind::Free,\n        .stiffness = 0.5f,\n    };"));
     EXPECT_TRUE(lacks(code, "limits[0]"));
 }
 
