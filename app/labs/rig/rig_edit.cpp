@@ -121,13 +121,20 @@ rig::Rig make_rig(rig::Definition definition) {
     return require_value(rig::Rig::make(std::move(definition)));
 }
 
-void redefine(RigPart& part, rig::Definition definition) {
-    rig::Rig rig = make_rig(std::move(definition));
-    part.state = rig.adopted(part.rig, part.state);
+namespace {
+
+void adopt(RigPart& part, rig::Rig rig) {
+    part.state = rig.adopted(part.rig, std::move(part.state));
     const rig::Rig before = std::exchange(part.rig, std::move(rig));
     select_as_in(part, part.selected, before);
     std::erase_if(part.walks, [&](const RigWalk& walk) { return !part.rig.element(walk.control); });
     changed(part);
+}
+
+}  // namespace
+
+void redefine(RigPart& part, rig::Definition definition) {
+    adopt(part, make_rig(std::move(definition)));
 }
 
 void select_as_in(RigPart& part, RigSelection selected, const rig::Rig& other) {
@@ -218,6 +225,11 @@ void add_unit(RigPart& part, rig::Unit unit, int at) {
 }
 
 void set_unit(RigPart& part, const std::string& name, rig::Unit unit) {
+    if (!std::holds_alternative<rig::ForEach>(unit.operation)) {
+        if (!(unit == unit_named(part, name)))
+            adopt(part, require_value(part.rig.with_unit(std::move(unit))));
+        return;
+    }
     rig::Definition definition = part.rig.definition();
     require_unit(definition, name, [&](std::vector<rig::Unit>& units, std::size_t at) {
         std::set<std::string> taken;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <string>
 
 #include "rig/checks.hpp"
@@ -11,8 +12,10 @@
 namespace tendril::rig {
 namespace {
 
+using detail::Layout;
 using detail::Plan;
 using detail::quoted;
+using detail::Shared;
 using detail::UnitPlan;
 
 /// In steps of about 30 ns. A bone of a chain takes ten if the chain follows, twice that if it has to be bent
@@ -28,44 +31,39 @@ Result missing(const std::string& message) {
 
 class Builder {
   public:
-    explicit Builder(Definition definition) { plan_.definition = std::move(definition); }
+    explicit Builder(Definition definition) : definition_(std::move(definition)) {}
 
-    Result build() {
+    Expected<const Plan*> build() {
         if (const Result bad = index_names(); !bad) return bad;
         if (const Result bad = add_elements(); !bad) return bad;
         if (const Result bad = add_controls_and_curves(); !bad) return bad;
-        Resolver resolver(plan_.definition, plan_.elements, plan_.curves);
-        if (const Result bad = resolver.resolve(plan_.definition.units); !bad) return bad;
-        plan_.unit_names = std::move(resolver.names);
-        plan_.units.resize(plan_.unit_names.size());
-        for (std::size_t i = 0; i < plan_.units.size(); ++i)
-            plan_.units[i].outputs = std::move(resolver.outputs[i]);
-        for (std::size_t i = 0; i < plan_.units.size(); ++i) plan_.units_by_name[plan_.unit_names[i]] = i;
-        return add_units();
+        for (Unit& unit : definition_.units)
+            if (const Result bad = add_unit(unit, 1); !bad) return bad;
+        return new Plan(std::move(definition_), Shared(std::move(layout_)));
     }
-    Plan take() { return std::move(plan_); }
 
   private:
     Result index_names() {
-        for (std::size_t i = 0; i < plan_.definition.elements.size(); ++i) {
-            const Element& element = plan_.definition.elements[i];
+        for (std::size_t i = 0; i < definition_.elements.size(); ++i) {
+            const Element& element = definition_.elements[i];
             if (element.name.empty())
                 return invalid("elements[" + std::to_string(i) + "]: its name is empty");
-            if (!plan_.elements.emplace(element.name, i).second)
+            if (!layout_.elements.emplace(element.name, i).second)
                 return {ErrorCode::AlreadyExists,
                         "element " + quoted(element.name) + ": another has this name already"};
         }
-        for (const Element& element : plan_.definition.elements) {
-            const auto parent = plan_.elements.find(element.parent);
-            if (!element.parent.empty() && parent == plan_.elements.end())
+        for (const Element& element : definition_.elements) {
+            const auto parent = layout_.elements.find(element.parent);
+            if (!element.parent.empty() && parent == layout_.elements.end())
                 return missing("element " + quoted(element.name) + ": there is no element " +
                                quoted(element.parent) + " for its parent");
-            plan_.parents.push_back(element.parent.empty() ? -1 : static_cast<std::int64_t>(parent->second));
+            layout_.parents.push_back(element.parent.empty() ? -1
+                                                             : static_cast<std::int64_t>(parent->second));
         }
-        for (std::size_t i = 0; i < plan_.definition.curves.size(); ++i) {
-            const NamedCurve& curve = plan_.definition.curves[i];
+        for (std::size_t i = 0; i < definition_.curves.size(); ++i) {
+            const NamedCurve& curve = definition_.curves[i];
             if (curve.name.empty()) return invalid("curves[" + std::to_string(i) + "]: its name is empty");
-            if (!plan_.curves.emplace(curve.name, i).second)
+            if (!layout_.curves.emplace(curve.name, i).second)
                 return {ErrorCode::AlreadyExists,
                         "curve " + quoted(curve.name) + ": another has this name already"};
             if (const Result bad = check("value", curve.value); !bad)
@@ -76,19 +74,19 @@ class Builder {
 
     /// Adds parents before their children, whatever their order in the definition.
     Result add_elements() {
-        const std::size_t count = plan_.definition.elements.size();
-        plan_.work = count;
-        plan_.ids.resize(count);
+        const std::size_t count = definition_.elements.size();
+        layout_.work = count;
+        layout_.ids.resize(count);
         element_at_.resize(count);
         std::vector<std::size_t> line;
         for (std::size_t i = 0; i < count; ++i) {
             line.clear();
             for (std::int64_t at = static_cast<std::int64_t>(i);
-                 at >= 0 && !plan_.ids[static_cast<std::size_t>(at)];) {
+                 at >= 0 && !layout_.ids[static_cast<std::size_t>(at)];) {
                 const auto element = static_cast<std::size_t>(at);
                 line.push_back(element);
                 if (line.size() > count) return refused_cycle(line);
-                at = plan_.parents[element];
+                at = layout_.parents[element];
             }
             for (; !line.empty(); line.pop_back())
                 if (const Result bad = add_element(line.back()); !bad) return bad;
@@ -97,83 +95,81 @@ class Builder {
     }
 
     Result refused_cycle(const std::vector<std::size_t>& line) const {
-        const auto name = [&](std::size_t at) { return quoted(plan_.definition.elements[line[at]].name); };
+        const auto name = [&](std::size_t at) { return quoted(definition_.elements[line[at]].name); };
         // The last element is part of the cycle; the one before it is its child.
         const std::size_t last = line.size() - 1;
         return invalid("element " + name(last) + ": its parent " +
-                       quoted(plan_.definition.elements[line[last]].parent) + " is itself below it");
+                       quoted(definition_.elements[line[last]].parent) + " is itself below it");
     }
 
     Result add_element(std::size_t at) {
-        const Element& element = plan_.definition.elements[at];
-        const std::int64_t parent = plan_.parents[at];
-        const Expected<ElementId> id = plan_.initial.elements.add(
-            element.kind, parent < 0 ? ElementId{} : plan_.ids[static_cast<std::size_t>(parent)],
+        const Element& element = definition_.elements[at];
+        const std::int64_t parent = layout_.parents[at];
+        const Expected<ElementId> id = layout_.initial.elements.add(
+            element.kind, parent < 0 ? ElementId{} : layout_.ids[static_cast<std::size_t>(parent)],
             element.initial);
         if (!id) return {id.code(), "element " + quoted(element.name) + ": " + id.message()};
-        plan_.ids[at] = *id;
+        layout_.ids[at] = *id;
         element_at_[id->index] = static_cast<std::uint32_t>(at);
         return {};
     }
 
     Result add_controls_and_curves() {
-        for (Element& element : plan_.definition.elements) {
+        for (Element& element : definition_.elements) {
             Value value = false;
             if (element.kind == ElementKind::Control) {
                 if (!element.control) element.control.emplace();
                 if (const Result bad = check("control", *element.control); !bad)
                     return invalid("element " + quoted(element.name) + ": " + bad.message());
-                const auto id = plan_.ids[plan_.elements.find(element.name)->second];
-                const Transform& rest = plan_.initial.elements.get(id, Space::Local);
+                const auto id = layout_.ids[layout_.elements.find(element.name)->second];
+                const Transform& rest = layout_.initial.elements.get(id, Space::Local);
                 value = clamped(*element.control, rest_value(*element.control, rest));
                 const Transform pose = posed(*element.control, rest, value);
-                plan_.initial.elements.put(id, Space::Local, pose);
+                layout_.initial.elements.put(id, Space::Local, pose);
             } else if (element.control) {
                 return invalid("element " + quoted(element.name) +
                                ": only a control can have a control's settings");
             }
-            plan_.initial.controls.push_back(std::move(value));
+            layout_.initial.controls.push_back(std::move(value));
         }
-        for (const NamedCurve& curve : plan_.definition.curves) plan_.initial.curves.push_back(curve.value);
-        plan_.initial.input_curves = plan_.initial.curves;
-        return {};
-    }
-
-    Result add_units() {
-        std::size_t at = 0;
-        for (const Unit& unit : plan_.definition.units)
-            if (const Result bad = add_unit(unit, at, 1); !bad) return bad;
+        for (const NamedCurve& curve : definition_.curves) layout_.initial.curves.push_back(curve.value);
+        layout_.initial.input_curves = layout_.initial.curves;
         return {};
     }
 
     /// `times`: how many elements it runs on. `around`: the index of the for-each that contains it, if any.
-    Result add_unit(const Unit& unit, std::size_t& at, std::size_t times,
-                    std::optional<std::size_t> around = {}) {
-        const std::size_t index = at++;
-        UnitPlan& planned = plan_.units[index];
-        planned.for_each = around;
+    Result add_unit(Unit& unit, std::size_t times, std::optional<std::size_t> around = {}) {
+        const std::size_t index = layout_.units.size();
+        const std::string place = "unit " + quoted(unit.name);
+        if (unit.name.empty()) return invalid(place + ": its name is empty");
+        if (!layout_.units_by_name.emplace(unit.name, index).second)
+            return invalid(place + ": another unit has this name already");
+        Expected<std::vector<Output>> outputs = Resolver(definition_, layout_).resolve(unit, index, around);
+        if (!outputs) return outputs.error();
         UnitState state;
         state.memory.resize(times);
-        for (const Output& output : planned.outputs) state.outputs.push_back(neutral(output.type));
-        plan_.initial.units.push_back(std::move(state));
-        plan_.work += times * work_a_unit;
+        for (const Output& output : *outputs) state.outputs.push_back(neutral(output.type));
+        layout_.initial.units.push_back(std::move(state));
+        layout_.unit_names.push_back(unit.name);
+        layout_.units.push_back({{}, {}, around, std::move(*outputs)});
+        layout_.work += times * work_a_unit;
         if (const auto* two_bone = std::get_if<TwoBone>(&unit.operation))
-            return add_chain(unit, two_bone->root, two_bone->tip, 3, times, planned);
+            return add_chain(unit, two_bone->root, two_bone->tip, 3, times, layout_.units[index]);
         if (const auto* fabrik = std::get_if<Fabrik>(&unit.operation))
-            return add_chain(unit, fabrik->root, fabrik->tip, 0, times, planned);
-        const auto* for_each = std::get_if<ForEach>(&unit.operation);
+            return add_chain(unit, fabrik->root, fabrik->tip, 0, times, layout_.units[index]);
+        auto* for_each = std::get_if<ForEach>(&unit.operation);
         if (!for_each) return {};
-        for (const std::string& root : for_each->roots) collect(*for_each, root, planned);
-        const std::size_t count = planned.visits.size();
-        for (const Unit& inner : for_each->body.units())
-            if (const Result bad = add_unit(inner, at, count, index); !bad) return bad;
+        for (const std::string& root : for_each->roots) collect(*for_each, root, layout_.units[index]);
+        const std::size_t count = layout_.units[index].visits.size();
+        for (Unit& inner : for_each->body.units())
+            if (const Result bad = add_unit(inner, count, index); !bad) return bad;
         return {};
     }
 
     void collect(const ForEach& for_each, const std::string& name, UnitPlan& planned) const {
         std::vector<ElementId> found;
         const Result there =
-            collect_children(plan_.initial.elements, plan_.ids[plan_.elements.find(name)->second],
+            collect_children(layout_.initial.elements, layout_.ids[layout_.elements.find(name)->second],
                              {for_each.include_parent, for_each.recursive}, found);
         if (!there) return;
         const auto count = static_cast<std::uint32_t>(found.size());
@@ -184,7 +180,7 @@ class Builder {
     Result add_chain(const Unit& unit, const Item& root, const Item& tip, std::size_t wanted,
                      std::size_t times, UnitPlan& planned) {
         const Result found = find_bones(unit, root, tip, wanted, planned);
-        plan_.work += times * planned.bones.size() * work_a_bone;
+        layout_.work += times * planned.bones.size() * work_a_bone;
         return found;
     }
 
@@ -195,7 +191,7 @@ class Builder {
             return invalid(place + "root and tip must be elements by name");
         const auto end = static_cast<std::int64_t>(root.resolved.index);
         std::int64_t at = tip.resolved.index;
-        for (; at >= 0; at = plan_.parents[static_cast<std::size_t>(at)]) {
+        for (; at >= 0; at = layout_.parents[static_cast<std::size_t>(at)]) {
             planned.bones.push_back(static_cast<std::uint32_t>(at));
             if (at == end) break;
         }
@@ -209,16 +205,65 @@ class Builder {
         return {};
     }
 
-    Plan plan_;
+    Definition definition_;
+    Layout layout_;
     std::vector<std::uint32_t> element_at_;  ///< element index by handle index
 };
 
 }  // namespace
 
 Expected<Rig> Rig::make(Definition definition) {
-    Builder builder(std::move(definition));
-    if (const Result bad = builder.build(); !bad) return bad;
-    return Rig(new Plan(builder.take()));
+    const Expected<const Plan*> plan = Builder(std::move(definition)).build();
+    if (!plan) return plan.error();
+    return Rig(*plan);
+}
+
+namespace {
+
+/// The unit at an index among all units, those in a body following their for-each.
+Unit& unit_at(std::vector<Unit>& units, std::size_t index) {
+    for (Unit& unit : units) {
+        if (index-- == 0) return unit;
+        auto* for_each = std::get_if<ForEach>(&unit.operation);
+        if (!for_each) continue;
+        std::vector<Unit>& body = for_each->body.units();
+        if (index < body.size()) return body[index];
+        index -= body.size();
+    }
+    return units.back();  // not reached
+}
+
+/// The ends of the chain of bones that a unit solves; -1 for other units.
+std::array<std::int32_t, 2> chain_ends(const Unit& unit) {
+    if (const auto* two_bone = std::get_if<TwoBone>(&unit.operation))
+        return {two_bone->root.resolved.index, two_bone->tip.resolved.index};
+    if (const auto* fabrik = std::get_if<Fabrik>(&unit.operation))
+        return {fabrik->root.resolved.index, fabrik->tip.resolved.index};
+    return {-1, -1};
+}
+
+bool same_types(const std::vector<Output>& a, const std::vector<Output>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [](const Output& one, const Output& other) { return one.type == other.type; });
+}
+
+}  // namespace
+
+Expected<Rig> Rig::with_unit(Unit unit) const {
+    const Layout& layout = *plan_->layout;
+    const auto found = layout.units_by_name.find(unit.name);
+    if (found == layout.units_by_name.end()) return missing("there is no unit " + quoted(unit.name));
+    Definition changed = plan_->definition;
+    Unit& place = unit_at(changed.units, found->second);
+    const detail::UnitPlan& planned = layout.units[found->second];
+    const auto outputs = Resolver(changed, layout).resolve(unit, found->second, planned.for_each);
+    if (!outputs) return outputs.error();
+    const bool same_layout = unit.operation.index() == place.operation.index() &&
+                             !std::holds_alternative<ForEach>(unit.operation) &&
+                             chain_ends(unit) == chain_ends(place) && same_types(*outputs, planned.outputs);
+    place = std::move(unit);
+    if (!same_layout) return make(std::move(changed));
+    return Rig(new Plan(std::move(changed), plan_->layout));
 }
 
 }  // namespace tendril::rig

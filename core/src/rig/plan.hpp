@@ -26,17 +26,33 @@ struct UnitPlan {
     std::vector<Output> outputs;
 };
 
-/// How many rigs share a plan. Not std::shared_ptr: with sanitizers that check its virtual functions it needs
-/// RTTI, which the library lacks.
-struct Owners {
-    mutable std::atomic<std::uint32_t> count{1};
-    Owners() = default;
-    Owners(Owners&&) noexcept {}
+/// A constant value that copies share. Not std::shared_ptr: with sanitizers that check its virtual functions
+/// it needs RTTI, which the library lacks.
+template <class T>
+class Shared {
+  public:
+    explicit Shared(T value) : counted_(new Counted{std::move(value)}) {}
+    Shared(const Shared& other) noexcept : counted_(other.counted_) {
+        counted_->owners.fetch_add(1, std::memory_order_relaxed);
+    }
+    Shared& operator=(const Shared&) = delete;
+    ~Shared() {
+        if (counted_->owners.fetch_sub(1, std::memory_order_acq_rel) == 1) delete counted_;
+    }
+    const T* operator->() const noexcept { return &counted_->value; }
+    const T& operator*() const noexcept { return counted_->value; }
+    bool operator==(const Shared& other) const noexcept { return counted_ == other.counted_; }
+
+  private:
+    struct Counted {
+        T value;
+        std::atomic<std::uint32_t> owners{1};
+    };
+    Counted* counted_;
 };
 
-struct Plan {
-    Owners owners;
-    Definition definition;  ///< with names resolved
+/// What does not change with the value of an input. Rigs that differ only in values share it.
+struct Layout {
     Names elements, curves, units_by_name;
     std::vector<std::int64_t> parents;  ///< per element: the index of its parent, or -1
     std::vector<ElementId> ids;
@@ -44,6 +60,14 @@ struct Plan {
     std::vector<UnitPlan> units;  ///< one per name
     State initial;
     std::uint64_t work = 0;  ///< of one solve, see Rig::work
+};
+
+struct Plan {
+    Definition definition;  ///< with names resolved
+    Shared<Layout> layout;
+    mutable std::atomic<std::uint32_t> owners{1};  ///< rigs
+
+    Plan(Definition of, Shared<Layout> with) : definition(std::move(of)), layout(std::move(with)) {}
 };
 
 }  // namespace tendril::rig::detail

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "rig/checks.hpp"
+#include "rig/plan.hpp"
 #include "rig/value.hpp"
 #include "tendril/magnitude.hpp"
 #include "tendril/signal/spring.hpp"
@@ -55,27 +56,18 @@ bool converts(Type from, Type to) noexcept {
            (from == Type::Transform && (to == Type::Vector || to == Type::Rotation));
 }
 
-Result Resolver::resolve(std::vector<Unit>& units) {
-    for (Unit& each : units) {
-        unit(each);
-        if (!refusal_) break;
-    }
-    return refusal_;
-}
-
 void Resolver::refuse(const std::string& what) {
     if (refusal_) refusal_ = Result(ErrorCode::InvalidArgument, place_ + ": " + what);
 }
 
-void Resolver::unit(Unit& unit) {
-    place_ = "unit " + quoted(unit.name);
-    if (unit.name.empty()) return refuse("its name is empty");
-    if (!taken_.insert(unit.name).second) return refuse("another unit has this name already");
-    const std::size_t index = names.size();
+Expected<std::vector<Output>> Resolver::resolve(Unit& unit, std::size_t index,
+                                                std::optional<std::size_t> for_each) {
+    index_ = index;
+    for_each_ = for_each;
+    refusal_ = {};
     any_types_.clear();
-    names.push_back(unit.name);
-    outputs.push_back(rig::outputs(unit.operation));
-
+    place_ = "unit " + quoted(unit.name);
+    std::vector<Output> outputs = rig::outputs(unit.operation);
     field("weight", unit.weight);
     field("when", unit.when);
     std::visit(
@@ -84,13 +76,15 @@ void Resolver::unit(Unit& unit) {
         },
         unit.operation);
     if (auto* set = std::get_if<SetCurve>(&unit.operation)) {
-        const auto found = curves_.find(set->curve);
-        if (found == curves_.end()) return refuse("curve: there is no curve " + quoted(set->curve));
-        set->resolved.index = static_cast<std::int32_t>(found->second);
+        const auto found = layout_.curves.find(set->curve);
+        if (found == layout_.curves.end())
+            refuse("curve: there is no curve " + quoted(set->curve));
+        else
+            set->resolved.index = static_cast<std::int32_t>(found->second);
     }
-    if (std::holds_alternative<SpringInterpolate>(unit.operation) && refusal_) spring(outputs[index]);
-    // Only now, so that a unit cannot read its own outputs.
-    units_[unit.name] = {index, for_each_};
+    if (std::holds_alternative<SpringInterpolate>(unit.operation) && refusal_) spring(outputs);
+    if (!refusal_) return refusal_;
+    return outputs;
 }
 
 void Resolver::spring(std::vector<Output>& handed_out) {
@@ -110,8 +104,8 @@ void Resolver::field(const std::string& name, Item& item) {
         return;
     }
     const auto& element = std::get<std::string>(item.which);
-    const auto found = elements_.find(element);
-    if (found == elements_.end()) return refuse(name + ": there is no element " + quoted(element));
+    const auto found = layout_.elements.find(element);
+    if (found == layout_.elements.end()) return refuse(name + ": there is no element " + quoted(element));
     item.resolved.index = static_cast<std::int32_t>(found->second);
 }
 
@@ -127,23 +121,14 @@ void Resolver::field(const std::string& name, std::vector<ParentInputs>& parents
         });
 }
 
-void Resolver::field(const std::string& name, Body& body) {
-    if (for_each_) return refuse(name + ": a for-each cannot be inside another");
-    const std::string outside = place_;
-    // Units in a body need only know which for-each they are in.
-    for_each_ = &body.units();
-    for (Unit& each : body.units()) {
-        unit(each);
-        if (!refusal_) break;
-    }
-    for_each_ = nullptr;
-    place_ = outside;
+void Resolver::field(const std::string& name, Body&) {
+    if (for_each_) refuse(name + ": a for-each cannot be inside another");
 }
 
 void Resolver::field(const std::string& name, std::vector<std::string>& roots) {
     if (roots.empty()) return refuse(name + " must not be empty");
     for (const std::string& root : roots)
-        if (!elements_.contains(root)) return refuse(name + ": there is no element " + quoted(root));
+        if (!layout_.elements.contains(root)) return refuse(name + ": there is no element " + quoted(root));
 }
 
 void Resolver::field(const std::string& name, std::array<double, 2>& range) {
@@ -199,17 +184,18 @@ Type Resolver::type_of_source(const std::string& name, FromElement& from) {
 }
 
 Type Resolver::type_of_source(const std::string& name, FromUnit& from) {
-    const auto found = units_.find(from.unit);
-    if (found == units_.end()) {
+    const auto found = layout_.units_by_name.find(from.unit);
+    if (found == layout_.units_by_name.end() || found->second >= index_) {
         refuse(name + ": no unit " + quoted(from.unit) + " runs before this one");
         return Type::Number;
     }
-    if (found->second.body && found->second.body != for_each_) {
+    const detail::UnitPlan& unit = layout_.units[found->second];
+    if (unit.for_each && unit.for_each != for_each_) {
         refuse(name + ": unit " + quoted(from.unit) + " runs inside a for-each, once per element");
         return Type::Number;
     }
-    from.resolved_unit.index = static_cast<std::int32_t>(found->second.index);
-    const std::vector<Output>& handed_out = outputs[found->second.index];
+    from.resolved_unit.index = static_cast<std::int32_t>(found->second);
+    const std::vector<Output>& handed_out = unit.outputs;
     const auto output = std::find_if(handed_out.begin(), handed_out.end(),
                                      [&](const Output& each) { return each.name == from.output; });
     if (output == handed_out.end()) {

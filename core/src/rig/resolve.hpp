@@ -3,7 +3,7 @@
 #pragma once
 
 #include <map>
-#include <set>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,25 +16,22 @@ namespace tendril::rig {
 /// List indices by name.
 using Names = std::map<std::string, std::size_t, std::less<>>;
 
-/// Walks the units of a rig in the order in which they run and resolves the names in their inputs.
+namespace detail {
+struct Layout;
+}
+
+/// Resolves the names in a unit's inputs. The layout has the elements, the curves and the units that run
+/// before it; later ones too, if `index` is not the next.
 class Resolver {
   public:
-    Resolver(const Definition& definition, const Names& elements, const Names& curves)
-        : definition_(definition), elements_(elements), curves_(curves) {}
+    Resolver(const Definition& definition, const detail::Layout& layout)
+        : definition_(definition), layout_(layout) {}
 
-    /// The first refusal, or success.
-    Result resolve(std::vector<Unit>& units);
-    /// The names of all units, those in bodies after their for-each, and the outputs of each.
-    std::vector<std::string> names;
-    std::vector<std::vector<Output>> outputs;
+    /// Not the units in its body. `index`: of the unit among all. `for_each`: that it is in, if any. Returns
+    /// its outputs.
+    Expected<std::vector<Output>> resolve(Unit& unit, std::size_t index, std::optional<std::size_t> for_each);
 
   private:
-    struct Found {
-        std::size_t index;
-        const std::vector<Unit>* body;  ///< that contains it, if any
-    };
-
-    void unit(Unit& unit);
     void spring(std::vector<Output>& handed_out);
     void refuse(const std::string& what);
     void field(const std::string& name, Item& item);
@@ -62,10 +59,9 @@ class Resolver {
     void check_literal(const std::string& name, const Value& value);
 
     const Definition& definition_;
-    const Names &elements_, &curves_;
-    std::map<std::string, Found, std::less<>> units_;  ///< that run before the current one
-    std::set<std::string> taken_;                      ///< unit names in use
-    const std::vector<Unit>* for_each_ = nullptr;      ///< the body being resolved
+    const detail::Layout& layout_;
+    std::size_t index_ = 0;
+    std::optional<std::size_t> for_each_;
     std::vector<Type> any_types_;  ///< of the unit's inputs that take any type: a spring's target and force
     std::string place_;            ///< `unit "look"`
     Result refusal_;

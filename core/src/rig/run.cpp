@@ -52,11 +52,11 @@ void Runner::put_back() noexcept {
     std::copy(state_.input_curves.begin(), state_.input_curves.end(), state_.curves.begin());
     Hierarchy& tree = state_.elements;
     tree.copy_pose(Pose::Input, Pose::Current);
-    for (std::size_t i = 0; i < plan_.ids.size(); ++i) {
+    for (std::size_t i = 0; i < plan_.layout->ids.size(); ++i) {
         const std::optional<Control>& control = plan_.definition.elements[i].control;
         if (!control) continue;
-        const Transform& base = tree.get(plan_.ids[i], Space::Local, Pose::Input);
-        tree.put(plan_.ids[i], Space::Local, posed(*control, base, state_.controls[i]));
+        const Transform& base = tree.get(plan_.layout->ids[i], Space::Local, Pose::Input);
+        tree.put(plan_.layout->ids[i], Space::Local, posed(*control, base, state_.controls[i]));
     }
 }
 
@@ -69,7 +69,7 @@ void Runner::run_unit(const Unit& unit) noexcept {
 
 void Runner::operator()(const ForEach& op) noexcept {
     const std::size_t own = unit_, first = next_;
-    const std::vector<detail::Visit>& visits = plan_.units[own].visits;
+    const std::vector<detail::Visit>& visits = plan_.layout->units[own].visits;
     hand_out(0, static_cast<double>(visits.size()));
     for_each_weight_ = weight_;
     if (weight_ > 0.0)
@@ -109,7 +109,7 @@ Value Runner::value_of(const FromElement& from) noexcept {
 ElementId Runner::item(const Item& item) const noexcept {
     const auto index =
         item.resolved.index < 0 ? visit_->element : static_cast<std::uint32_t>(item.resolved.index);
-    return plan_.ids[index];
+    return plan_.layout->ids[index];
 }
 
 double Runner::weight(const Input<double>& input) noexcept {

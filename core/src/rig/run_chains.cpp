@@ -34,16 +34,17 @@ void Runner::operator()(const Fabrik& op) noexcept {
 }
 
 glm::dvec3 Runner::bone_place(std::size_t bone) noexcept {
-    const std::uint32_t element = plan_.units[unit_].bones[bone];
-    return state_.elements.get(plan_.ids[element], Space::Global).translation;
+    const std::uint32_t element = plan_.layout->units[unit_].bones[bone];
+    return state_.elements.get(plan_.layout->ids[element], Space::Global).translation;
 }
 
 /// In metres. From quantities that do not change with the pose: unless a scale changes, the length keeps its
 /// bits, and the solver made for it can be reused.
 float Runner::bone_length(std::size_t bone) noexcept {
-    const std::vector<std::uint32_t>& elements = plan_.units[unit_].bones;
-    const glm::dvec3 scale = state_.elements.get(plan_.ids[elements[bone]], Space::Global).scale;
-    const glm::dvec3 along = state_.elements.get(plan_.ids[elements[bone + 1]], Space::Local).translation;
+    const std::vector<std::uint32_t>& elements = plan_.layout->units[unit_].bones;
+    const glm::dvec3 scale = state_.elements.get(plan_.layout->ids[elements[bone]], Space::Global).scale;
+    const glm::dvec3 along =
+        state_.elements.get(plan_.layout->ids[elements[bone + 1]], Space::Local).translation;
     const glm::dvec3 scaled(scale.x * along.x, scale.y * along.y, scale.z * along.z);
     return static_cast<float>(detail::length(scaled));
 }
@@ -51,7 +52,7 @@ float Runner::bone_length(std::size_t bone) noexcept {
 /// A solver for the current bone lengths: made at the first solve, and again whenever a length differs at
 /// all. Otherwise the result would depend on earlier solvers.
 bool Runner::prepare_chain(ChainScratch& chain) {
-    const std::size_t bones = plan_.units[unit_].bones.size() - 1;
+    const std::size_t bones = plan_.layout->units[unit_].bones.size() - 1;
     const glm::dvec3 origin = bone_place(0);
     chain.joints.resize(bones + 1);
     chain.before.resize(bones);
@@ -63,7 +64,9 @@ bool Runner::prepare_chain(ChainScratch& chain) {
         same = same && chain.lengths[i] == length;
         chain.lengths[i] = length;
         chain.joints[i + 1] = math::narrow(detail::minus(bone_place(i + 1), origin));
-        chain.before[i] = state_.elements.get(plan_.ids[plan_.units[unit_].bones[i]], Space::Local).rotation;
+        chain.before[i] =
+            state_.elements.get(plan_.layout->ids[plan_.layout->units[unit_].bones[i]], Space::Local)
+                .rotation;
     }
     if (same) return true;
     chain.solver.reset();
@@ -75,25 +78,25 @@ bool Runner::prepare_chain(ChainScratch& chain) {
 /// Turns each bone, root first, by the shortest arc from its current direction to the solved one.
 void Runner::turn_bones(const ChainScratch& chain) noexcept {
     Hierarchy& tree = state_.elements;
-    const std::vector<std::uint32_t>& elements = plan_.units[unit_].bones;
+    const std::vector<std::uint32_t>& elements = plan_.layout->units[unit_].bones;
     for (std::size_t i = 0; i + 1 < elements.size(); ++i) {
         const glm::dvec3 is = detail::minus(bone_place(i + 1), bone_place(i));
         const glm::dvec3 should = math::between(chain.joints[i], chain.joints[i + 1]);
-        Transform pose = tree.get(plan_.ids[elements[i]], Space::Global);
+        Transform pose = tree.get(plan_.layout->ids[elements[i]], Space::Global);
         pose.rotation = normalised(math::compose(from_two_vectors(is, should), pose.rotation));
-        tree.put(plan_.ids[elements[i]], Space::Global, pose);
+        tree.put(plan_.layout->ids[elements[i]], Space::Global, pose);
     }
     if (weight_ >= 1.0) return;
     for (std::size_t i = 0; i + 1 < elements.size(); ++i) {
-        Transform pose = tree.get(plan_.ids[elements[i]], Space::Local);
+        Transform pose = tree.get(plan_.layout->ids[elements[i]], Space::Local);
         pose.rotation = blend(chain.before[i], pose.rotation, weight_);
-        tree.put(plan_.ids[elements[i]], Space::Local, pose);
+        tree.put(plan_.layout->ids[elements[i]], Space::Local, pose);
     }
 }
 
 void Runner::solve_chain(ik::Method method, const Input<glm::dvec3>& target,
                          const std::optional<Input<glm::dvec3>>& pole_target) noexcept {
-    const std::size_t bones = plan_.units[unit_].bones.size() - 1;
+    const std::size_t bones = plan_.layout->units[unit_].bones.size() - 1;
     const glm::dvec3 to = read(target), origin = bone_place(0);
     if (weight_ > 0.0) {
         ChainScratch& chain = workspace_.parts().chains[unit_];

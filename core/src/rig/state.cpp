@@ -27,14 +27,14 @@ std::optional<std::size_t> found(const Names& names, std::string_view name) {
 
 /// The pose within the parent before any unit has run: the input pose, or the one given by a control's value.
 Transform begun_local(const Plan& plan, State& state, std::size_t element) {
-    const Transform& base = state.elements.get(plan.ids[element], Space::Local, Pose::Input);
+    const Transform& base = state.elements.get(plan.layout->ids[element], Space::Local, Pose::Input);
     const std::optional<Control>& control = plan.definition.elements[element].control;
     return control ? posed(*control, base, state.controls[element]) : base;
 }
 
 Transform begun_global(const Plan& plan, State& state, std::size_t element) {
     std::vector<std::size_t> line;
-    for (auto at = static_cast<std::int64_t>(element); at >= 0; at = plan.parents[line.back()])
+    for (auto at = static_cast<std::int64_t>(element); at >= 0; at = plan.layout->parents[line.back()])
         line.push_back(static_cast<std::size_t>(at));
     Transform global = begun_local(plan, state, line.back());
     for (line.pop_back(); !line.empty(); line.pop_back())
@@ -79,11 +79,13 @@ std::vector<std::string_view> remembered(const Plan& plan, std::size_t unit) {
     const auto name = [&](std::uint32_t element) {
         return std::string_view(plan.definition.elements[element].name);
     };
-    for (const std::uint32_t bone : plan.units[unit].bones) names.push_back(name(bone));
-    if (plan.units[unit].for_each)
-        for (const detail::Visit& visit : plan.units[*plan.units[unit].for_each].visits)
+    const detail::UnitPlan& planned = plan.layout->units[unit];
+    for (const std::uint32_t bone : planned.bones) names.push_back(name(bone));
+    if (planned.for_each)
+        for (const detail::Visit& visit : plan.layout->units[*planned.for_each].visits)
             names.push_back(name(visit.element));
-    if (names.empty()) names.emplace_back();
+    else if (names.empty())
+        names.emplace_back();
     return names;
 }
 
@@ -91,7 +93,7 @@ std::vector<std::string_view> remembered(const Plan& plan, std::size_t unit) {
 void adopt_memory(const Plan& plan, std::size_t unit, UnitState& state, const Plan& before, std::size_t was,
                   const UnitState& old) {
     const std::vector<std::string_view> now = remembered(plan, unit), then = remembered(before, was);
-    if (!plan.units[unit].bones.empty() || !before.units[was].bones.empty()) {
+    if (!plan.layout->units[unit].bones.empty() || !before.layout->units[was].bones.empty()) {
         if (now == then) state.memory = old.memory;
         return;
     }
@@ -116,7 +118,7 @@ bool same_shape(const UnitState& a, const UnitState& b) {
 }  // namespace
 
 Rig::Rig(const Rig& other) noexcept : plan_(other.plan_) {
-    if (plan_) plan_->owners.count.fetch_add(1, std::memory_order_relaxed);
+    if (plan_) plan_->owners.fetch_add(1, std::memory_order_relaxed);
 }
 Rig::Rig(Rig&& other) noexcept : plan_(std::exchange(other.plan_, nullptr)) {}
 Rig& Rig::operator=(const Rig& other) noexcept {
@@ -127,36 +129,37 @@ Rig& Rig::operator=(Rig&& other) noexcept {
     return *this;
 }
 Rig::~Rig() {
-    if (plan_ && plan_->owners.count.fetch_sub(1, std::memory_order_acq_rel) == 1) delete plan_;
+    if (plan_ && plan_->owners.fetch_sub(1, std::memory_order_acq_rel) == 1) delete plan_;
 }
 
 const Definition& Rig::definition() const noexcept {
     return plan_->definition;
 }
 std::uint64_t Rig::work() const noexcept {
-    return plan_->work;
+    return plan_->layout->work;
 }
 ElementId Rig::id(std::size_t element) const noexcept {
-    return plan_->ids[element];
+    return plan_->layout->ids[element];
 }
 std::span<const std::string> Rig::unit_names() const noexcept {
-    return plan_->unit_names;
+    return plan_->layout->unit_names;
 }
 std::optional<std::size_t> Rig::element(std::string_view name) const noexcept {
-    return found(plan_->elements, name);
+    return found(plan_->layout->elements, name);
 }
 std::optional<std::size_t> Rig::curve(std::string_view name) const noexcept {
-    return found(plan_->curves, name);
+    return found(plan_->layout->curves, name);
 }
 
 State Rig::initial_state() const {
-    return plan_->initial;
+    return plan_->layout->initial;
 }
 
-State Rig::adopted(const Rig& before, const State& state) const {
-    State result = plan_->initial;
+State Rig::adopted(const Rig& before, State state) const {
+    if (plan_->layout == before.plan_->layout) return state;
+    State result = plan_->layout->initial;
     Hierarchy old = state.elements;  // reading computes what is pending
-    for (std::size_t i = 0; i < plan_->ids.size(); ++i) {
+    for (std::size_t i = 0; i < plan_->layout->ids.size(); ++i) {
         const Element& element = plan_->definition.elements[i];
         const auto was = before.element(element.name);
         if (!was) continue;
@@ -166,16 +169,16 @@ State Rig::adopted(const Rig& before, const State& state) const {
             continue;
         result.controls[i] = state.controls[*was];
         for (const Pose pose : {Pose::Input, Pose::Current})
-            result.elements.put(plan_->ids[i], Space::Local, old.get(before.id(*was), Space::Local, pose),
-                                Propagate::Yes, pose);
+            result.elements.put(plan_->layout->ids[i], Space::Local,
+                                old.get(before.id(*was), Space::Local, pose), Propagate::Yes, pose);
     }
     for (std::size_t i = 0; i < plan_->definition.curves.size(); ++i)
         if (const auto was = before.curve(plan_->definition.curves[i].name)) {
             result.curves[i] = state.curves[*was];
             result.input_curves[i] = state.input_curves[*was];
         }
-    for (std::size_t i = 0; i < plan_->unit_names.size(); ++i) {
-        const auto was = found(before.plan_->units_by_name, plan_->unit_names[i]);
+    for (std::size_t i = 0; i < plan_->layout->unit_names.size(); ++i) {
+        const auto was = found(before.plan_->layout->units_by_name, plan_->layout->unit_names[i]);
         if (!was || !same_outputs(state.units[*was], result.units[i])) continue;
         result.units[i].outputs = state.units[*was].outputs;
         result.units[i].warning = state.units[*was].warning;
@@ -185,11 +188,11 @@ State Rig::adopted(const Rig& before, const State& state) const {
 }
 
 bool Rig::fits(const State& state) const noexcept {
-    const State& own = plan_->initial;
+    const State& own = plan_->layout->initial;
     if (state.elements.size() != own.elements.size() || state.controls.size() != own.controls.size() ||
         state.curves.size() != own.curves.size() || state.units.size() != own.units.size())
         return false;
-    for (const ElementId id : plan_->ids)
+    for (const ElementId id : plan_->layout->ids)
         if (!state.elements.contains(id) || state.elements.parent(id) != own.elements.parent(id))
             return false;
     for (std::size_t i = 0; i < own.controls.size(); ++i)
@@ -198,16 +201,16 @@ bool Rig::fits(const State& state) const noexcept {
 }
 
 Result Rig::set_control(State& state, std::size_t element, const Value& value) const {
-    if (element >= plan_->ids.size())
-        return refused_index("set_control", "element", element, plan_->ids.size());
+    if (element >= plan_->layout->ids.size())
+        return refused_index("set_control", "element", element, plan_->layout->ids.size());
     const Element& control = plan_->definition.elements[element];
     if (!control.control)
         return {ErrorCode::InvalidArgument, "set_control: \"" + control.name + "\" is not a control"};
     if (const Result bad = check_value("set_control: value", *control.control, value); !bad) return bad;
     Value& held = state.controls[element];
     held = clamped(*control.control, normalised(value));
-    const Transform& base = state.elements.get(plan_->ids[element], Space::Local, Pose::Input);
-    state.elements.put(plan_->ids[element], Space::Local, posed(*control.control, base, held));
+    const Transform& base = state.elements.get(plan_->layout->ids[element], Space::Local, Pose::Input);
+    state.elements.put(plan_->layout->ids[element], Space::Local, posed(*control.control, base, held));
     return {};
 }
 
@@ -215,7 +218,7 @@ Transform Rig::start_pose(const State& state, std::size_t element) const {
     Transform global;
     for (auto at = static_cast<std::int64_t>(element); at >= 0;) {
         const auto each = static_cast<std::size_t>(at);
-        const auto base = state.elements.known(plan_->ids[each], Space::Local, Pose::Input);
+        const auto base = state.elements.known(plan_->layout->ids[each], Space::Local, Pose::Input);
         if (!base) {
             State copy = state;  // reading computes what is pending
             return begun_global(*plan_, copy, element);
@@ -223,16 +226,16 @@ Transform Rig::start_pose(const State& state, std::size_t element) const {
         const std::optional<Control>& control = plan_->definition.elements[each].control;
         const Transform local = control ? posed(*control, *base, state.controls[each]) : *base;
         global = each == element ? local : compose(local, global);
-        at = plan_->parents[each];
+        at = plan_->layout->parents[each];
     }
     return global;
 }
 
 Result Rig::set_element(State& state, std::size_t element, Space space, const Transform& transform,
                         Propagate propagate) const {
-    if (element >= plan_->ids.size())
-        return refused_index("set_element", "element", element, plan_->ids.size());
-    const ElementId id = plan_->ids[element];
+    if (element >= plan_->layout->ids.size())
+        return refused_index("set_element", "element", element, plan_->layout->ids.size());
+    const ElementId id = plan_->layout->ids[element];
     const auto fine = checked(transform, "set_element");
     if (!fine) return fine.error();
     Hierarchy& tree = state.elements;
@@ -242,13 +245,13 @@ Result Rig::set_element(State& state, std::size_t element, Space space, const Tr
     std::vector<std::pair<std::size_t, Transform>> stay;
     if (propagate == Propagate::No) {
         const Transform before = begun_global(*plan_, state, element);
-        for (std::size_t i = 0; i < plan_->ids.size(); ++i)
-            if (tree.parent(plan_->ids[i]) == id)
+        for (std::size_t i = 0; i < plan_->layout->ids.size(); ++i)
+            if (tree.parent(plan_->layout->ids[i]) == id)
                 stay.emplace_back(i, compose(before, begun_local(*plan_, state, i)));
     }
 
     // Below a control a global pose is relative to where the control is now, not to where it was at rest.
-    const std::int64_t parent = plan_->parents[element];
+    const std::int64_t parent = plan_->layout->parents[element];
     const bool below = space == Space::Global && parent >= 0;
     const Transform local =
         below ? relative(begun_global(*plan_, state, static_cast<std::size_t>(parent)), *fine) : *fine;
@@ -264,7 +267,7 @@ Result Rig::set_element(State& state, std::size_t element, Space space, const Tr
     if (stay.empty()) return {};
     const Transform after = begun_global(*plan_, state, element);
     for (const auto& [child, global] : stay) {
-        const ElementId at = plan_->ids[child];
+        const ElementId at = plan_->layout->ids[child];
         tree.put(at, Space::Local, relative(after, global), Propagate::Yes, Pose::Input);
         if (const auto& settings = plan_->definition.elements[child].control)
             take_value(*settings, state, child, at);

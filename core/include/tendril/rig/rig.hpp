@@ -100,6 +100,10 @@ class Rig {
     /// that names something missing, running later or of another type, a literal out of range. The message
     /// names the unit, the input and the value.
     static Expected<Rig> make(Definition definition);
+    /// The same rig with another unit in place of the one of that name, as make() would return it. While only
+    /// values and links change, all but the definition is shared with this rig: a slider costs a copy of the
+    /// definition. Refused as by make(), and NotFound for an unknown name.
+    Expected<Rig> with_unit(Unit unit) const;
     Rig(const Rig&) noexcept;
     Rig(Rig&&) noexcept;
     Rig& operator=(const Rig&) noexcept;
@@ -112,7 +116,7 @@ class Rig {
     /// After an edit: initial_state() with what still applies of `state`, a state of the rig `before`.
     /// Matched by name: elements whose kind, initial transform and control settings are unchanged; curves;
     /// units whose output types are unchanged, with what they remember of each element.
-    State adopted(const Rig& before, const State& state) const;
+    State adopted(const Rig& before, State state) const;
     /// Whether `state` belongs to this rig, by its sizes and types; solve() requires it.
     bool fits(const State& state) const noexcept;
 

@@ -21,7 +21,7 @@ void place(const Problem& problem, Phase phase, std::size_t joint, std::size_t n
 
 /// Lets a joint turn from `before` to `rotation`, as far as its stiffness and then its limit allow. Returns
 /// whether that is not all the way.
-bool hold_back(const LimitedJoint& joint, const glm::quat& before, glm::quat& rotation) noexcept {
+bool limit_turn(const LimitedJoint& joint, const glm::quat& before, glm::quat& rotation) noexcept {
     if (joint.mobility < 1.0f) rotation = math::slerp(before, rotation, joint.mobility);
     return clamp(joint, rotation) || joint.mobility < 1.0f;
 }
@@ -79,7 +79,7 @@ void limited_backward_reaching(Problem& problem, Watch watch) noexcept {
         const glm::quat parent = parent_of(pose.rotations, i);
         pose.local[i] = compose(conjugate(parent), pose.rotations[i]);
         const LimitedScratch& scratch = problem.scratch.limited;
-        if (!hold_back(scratch.limits[i], scratch.pose.local[i], pose.local[i])) continue;
+        if (!limit_turn(scratch.limits[i], scratch.pose.local[i], pose.local[i])) continue;
         pose.rotations[i] = nearly_unit(compose(parent, pose.local[i]));
         pose.directions[i] = bone_direction(problem, pose.rotations[i], i);
         place(problem, Phase::Limit, i + 1, i, pose.joints[i + 1], pose.joints[i + 1],
@@ -102,7 +102,7 @@ void ccd_sweep(Problem& problem, Watch watch) noexcept {
         const glm::quat wanted =
             placed ? *problem.options.tip_orientation : compose(rotation_towards(problem, at, tip), old);
         local[i] = unit(compose(conjugate(parent), wanted));
-        hold_back(scratch.limits[i], scratch.pose.local[i], local[i]);
+        limit_turn(scratch.limits[i], scratch.pose.local[i], local[i]);
         const glm::quat by = unit(compose(compose(parent, local[i]), conjugate(old)));
         tip = plus(at, rotated(by, minus(tip, at)));
     }
