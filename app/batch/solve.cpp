@@ -197,6 +197,7 @@ const char* const solve_help =
     "             \"right_deg\": 60, \"twist_min_deg\": -45, \"twist_max_deg\": 45}; likewise gliding, "
     "saddle,\n"
     "            pivot, suture; free is no limit. Omitted keys take the usual values of that kind of joint.\n"
+    "            All kinds may have a \"stiffness\", 0 to 0.99: how much the joint resists turning.\n"
     "Other keys are ignored. The whole file is checked first: a value of the wrong type or out of its range\n"
     "(1e9 m, a negative length, a wrong number of points, min over max) is reported with its line and\n"
     "place, and nothing is solved (exit code 2). So is a file of more than 64 MB. A case that a solver "

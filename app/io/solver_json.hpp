@@ -2,7 +2,7 @@
 //
 //   {"kind": "hinge", "axis": [0, 0, 1], "min_deg": 0, "max_deg": 145}
 //   {"kind": "ball_and_socket", "axis": [0, 0, 1], "up_deg": 90, "down_deg": 40, "left_deg": 60,
-//    "right_deg": 60, "twist_min_deg": -45, "twist_max_deg": 45}
+//    "right_deg": 60, "twist_min_deg": -45, "twist_max_deg": 45, "stiffness": 0.5}
 #pragma once
 
 #include <string>
