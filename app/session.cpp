@@ -81,6 +81,7 @@ int run(const SessionOptions& options) {
     if (script.start) size = script.start->size;
 
     const auto window = make_window(options, size);
+    if (!options.size && !script.start) window->fit_screen();
     App app(*window, options.headless);
     // A recording has its own settings, which must not replace the user's.
     const bool config = options.config && !options.headless && !script.start;

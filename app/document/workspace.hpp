@@ -24,6 +24,7 @@ inline constexpr double tick_seconds = 1.0 / 60.0;
 
 struct Clock {
     bool playing = true;
+    bool looks_back = false;     ///< paused by going to an earlier moment: only the open lab is
     std::uint64_t tick = 0;      ///< simulated ticks so far
     int steps_due = 0;           ///< ticks to take even while paused
     float speed = 1.0f;          ///< seconds that pass in a lab per second
@@ -106,6 +107,7 @@ struct Workspace {
         std::uint64_t moment = 0;
         std::shared_ptr<const Part>
             left{};  ///< the lab's part when it was closed; the past is dropped if it has changed
+        bool looks_back = false;  ///< the lab is paused at an earlier moment
     };
     std::map<std::string, Past> pasts;  ///< of the closed labs
     std::uint64_t edition = 0;          ///< of the last undoable change

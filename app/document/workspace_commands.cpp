@@ -2,6 +2,7 @@
 
 #include "app/document/command.hpp"
 #include "app/document/json_complete.hpp"
+#include "app/document/text.hpp"
 
 namespace tendril::app {
 namespace {
@@ -13,7 +14,11 @@ void step_through(Workspace& workspace, bool back) {
                          : workspace.history.redo(workspace.document, &place);
     if (!document) throw Refused(back ? "nothing to undo" : "nothing to redo");
     // Show the lab in which the change was made.
-    if (!place.lab.empty()) workspace.open_lab(place.lab);
+    if (!place.lab.empty() && place.lab != workspace.lab) {
+        workspace.open_lab(place.lab);
+        workspace.toast(std::string(back ? "Undone" : "Redone") + " in the " + capitalised(place.lab) +
+                        " lab.");
+    }
     Rewind& rewind = workspace.rewind;
     if (!rewind.empty() && workspace.moment >= rewind.newest()) {  // keep the state before this step
         if (workspace.moment > rewind.newest()) workspace.remember_moment();
@@ -110,7 +115,7 @@ void add_time_commands(CommandTable& table) {
     };
     const auto run = [](Workspace& w, bool playing) {
         w.clock.playing = playing;
-        w.clock.replaying = false;
+        w.clock.looks_back = w.clock.replaying = false;
         if (playing) w.ui.incident.reset();
     };
     add("time.play", "Run the simulation", "Runs the simulation", [run](Workspace& w) { run(w, true); });

@@ -2,6 +2,7 @@
 
 #include <cctype>
 
+#include "app/document/text.hpp"
 #include "app/labs/lab_commands.hpp"
 
 namespace tendril::app {
@@ -34,10 +35,10 @@ std::string gesture(const Binding& binding, const char* space) {
     const char* button = binding.button == MouseButton::Left    ? "left"
                          : binding.button == MouseButton::Right ? "right"
                                                                 : "middle";
-    std::string name = std::string(binding.held.shift ? "Shift+" : "") + (binding.held.ctrl ? "Ctrl+" : "") +
-                       (binding.held.alt ? "Alt+" : "") + button + space + "drag";
-    name[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
-    return name;
+    const std::string name = std::string(binding.held.shift ? "Shift+" : "") +
+                             (binding.held.ctrl ? "Ctrl+" : "") + (binding.held.alt ? "Alt+" : "") + button +
+                             space + "drag";
+    return capitalised(name);
 }
 
 /// The preset's first gesture for the action.

@@ -285,7 +285,8 @@ void Shell::side_panel(const ShellFrame& frame, bool left, Emit& emit) {
     const float width = std::max(1.0f, rect.size().x - 5.0f * scale);
     const float card = left ? 0.0f : card_height(frame, {width, rect.size().y});
     const float room = card > 0.0f ? std::max(1.0f, rect.size().y - card) : 0.0f;
-    ImGui::BeginChild("content", {width, room}, false,
+    // Each lab's panel keeps its own scroll position.
+    ImGui::BeginChild(frame.workspace.lab.c_str(), {width, room}, false,
                       ImGuiWindowFlags_AlwaysUseWindowPadding | ImGuiWindowFlags_NoNavFocus |
                           ImGuiWindowFlags_AlwaysVerticalScrollbar);
     ImGui::PopStyleColor();

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <glm/common.hpp>
 #include <stdexcept>
 #include <utility>
 
@@ -80,6 +81,14 @@ class GlfwWindow final : public Window {
     void resize(glm::ivec2 size) override {
         check_window_size(size);
         glfwSetWindowSize(window_, size.x, size.y);
+    }
+    void fit_screen() override {
+        GLFWmonitor* const monitor = glfwGetPrimaryMonitor();
+        if (monitor == nullptr) return;
+        glm::ivec2 room{0};
+        glfwGetMonitorWorkarea(monitor, nullptr, nullptr, &room.x, &room.y);
+        const glm::ivec2 now = size(), fitting = glm::min(now, room);
+        if (room.x > 0 && room.y > 0 && fitting != now) glfwSetWindowSize(window_, fitting.x, fitting.y);
     }
 
     void set_cursor(Cursor cursor) override;

@@ -34,6 +34,8 @@ class Window {
     virtual void present() = 0;
     /// Changes the size; a real window may refuse or delay it.
     virtual void resize(glm::ivec2 size) = 0;
+    /// Shrinks a window that is larger than the free part of its screen.
+    virtual void fit_screen() {}
 
     virtual void set_cursor(Cursor) {}
     virtual void set_title(const std::string&) {}

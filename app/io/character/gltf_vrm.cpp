@@ -1,4 +1,5 @@
 #include "app/io/character/gltf_vrm.hpp"
+#include "app/document/text.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -23,8 +24,7 @@ class VrmReader {
     /// VRM's names begin in lower case: "leftUpperArm".
     void add(std::string name, const Value* node) {
         const std::string what = std::string(bones_.extension) + ".humanoid.humanBones " + name;
-        if (!name.empty()) name[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
-        const auto bone = humanoid::bone_named(name);
+        const auto bone = humanoid::bone_named(capitalised(name));
         if (!bone) return;
         if (!node || !node->IsInt()) throw std::runtime_error(what + ": expected a node number");
         const int index = node->GetNumberAsInt();

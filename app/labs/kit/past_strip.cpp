@@ -5,20 +5,12 @@
 #include <algorithm>
 #include <cctype>
 
+#include "app/document/text.hpp"
 #include "app/document/units.hpp"
 #include "app/view/palette.hpp"
 #include "app/widgets/icons.hpp"
 
 namespace tendril::app {
-
-namespace {
-
-std::string capitalised(std::string text) {
-    if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
-    return text;
-}
-
-}  // namespace
 
 std::string incident_title(const Incident& incident) {
     const bool named = !incident.name.empty();

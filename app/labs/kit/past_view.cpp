@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "app/document/json_complete.hpp"
+#include "app/document/text.hpp"
 #include "app/document/units.hpp"
 #include "app/labs/kit/part_cache.hpp"
 #include "app/labs/kit/past_strip.hpp"
@@ -70,8 +71,7 @@ std::vector<Curve> marks_on(const Curve& line, const Workspace& workspace) {
 
 PastView past_view(const std::string& lab, const std::string& what, std::vector<LabSetting::Choice> numbers,
                    std::function<bool(const Part&, const Part&)> same_joints) {
-    std::string title = lab;
-    title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(title[0])));
+    const std::string title = capitalised(lab);
     numbers.insert(numbers.begin(), {"nothing", "nothing"});
     return {
         .lab = lab,

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "app/document/json_complete.hpp"
+#include "app/document/text.hpp"
 #include "app/document/units.hpp"
 #include "app/labs/rig/panel.hpp"
 #include "app/labs/rig/rig_edit.hpp"
@@ -172,9 +173,7 @@ void add_element_menu(const RigPanel& panel) {
         for (const auto kind :
              {rig::ControlKind::Transform, rig::ControlKind::Position, rig::ControlKind::Rotation,
               rig::ControlKind::Float, rig::ControlKind::Bool, rig::ControlKind::Vector2d}) {
-            std::string title = control_title(kind);
-            title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(title[0])));
-            add(title.c_str(), "control", rig::name(kind));
+            add(capitalised(control_title(kind)).c_str(), "control", rig::name(kind));
         }
         const std::string parent = panel.part.selected_element();
         note(parent.empty() ? "In the scene" : "Below " + parent);

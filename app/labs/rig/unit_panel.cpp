@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "app/document/json_complete.hpp"
+#include "app/document/text.hpp"
 #include "app/document/units.hpp"
 #include "app/labs/kit/library_json.hpp"
 #include "app/labs/rig/panel.hpp"
@@ -127,8 +128,7 @@ void add_unit_menu(const RigPanel& panel) {
     close_popup_on_escape();
     for (std::size_t i = 0; i < std::variant_size_v<rig::Operation::Variant>; ++i) {
         const UnitOffer offer = offered_unit(panel.part, i);
-        std::string title = operation_title(i);
-        title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(title[0])));
+        std::string title = capitalised(operation_title(i));
         if (!offer.unit) title += std::string(": needs ") + offer.needs;
         if (!ImGui::MenuItem(title.c_str(), nullptr, false, offer.unit.has_value())) continue;
         ArgumentList arguments;
@@ -165,9 +165,8 @@ void order_buttons(const RigPanel& panel, const std::vector<UnitRow>& rows) {
 }  // namespace
 
 void warning_line(const RigPanel& panel, rig::Warning warning, float margin) {
-    std::string text = rig::message(warning);
+    const std::string text = capitalised(rig::message(warning));
     if (text.empty()) return;
-    text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
     const glm::vec3 c = panel.colours.limit;
     ImGui::SetCursorPosX(ImGui::GetCursorPosX() + margin);
     ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(c.r, c.g, c.b, 1.0f));

@@ -213,8 +213,7 @@ Verdict signal_verdict(const SignalPart& part, const signal::Measures& whole) {
         add(*whole.overshoot < 5e-4 ? "without overshoot"
                                     : "overshoots by " + fixed_text(100.0 * *whole.overshoot, 1) + " %");
     }
-    if (!why.empty())
-        why[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(why[0]))), why += '.';
+    if (!why.empty()) why = capitalised(why) + '.';
     if (whole.settling_time)
         return {"Settles in " + si_text(*whole.settling_time, "s"), Verdict::Kind::Good, why};
     if (whole.overshoot)

@@ -114,6 +114,21 @@ TEST_F(Seek, GoesBackAndForwardAndPauses) {
     EXPECT_EQ(workspace.history.size(), 0u);
 }
 
+TEST_F(Seek, PausesOnlyTheLabWhosePastIsLookedAt) {
+    const auto playing_in = [&](const char* lab) {
+        workspace.open_lab(lab);
+        return workspace.clock.playing;
+    };
+    play(100);
+    seek(30);
+    EXPECT_TRUE(playing_in("rope"));
+    EXPECT_FALSE(playing_in("arm"));
+    table.run(workspace, "time.play", {});
+    EXPECT_TRUE(playing_in("rope"));
+    table.run(workspace, "time.pause", {});
+    EXPECT_FALSE(playing_in("arm")) << "paused by hand, everything is";
+}
+
 TEST_F(Seek, PlayingOnForgetsWhatCameAfter) {
     play(100);
     seek(60);

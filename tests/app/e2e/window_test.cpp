@@ -51,7 +51,7 @@ class RealWindow : public testing::Test {
         }
         // It chooses a free display itself and prints it. It must not restart when a client leaves.
         server_ = std::make_unique<Process>(std::vector<std::string>{
-            "Xvfb", "-displayfd", "1", "-screen", "0", "1600x1000x24", "-nolisten", "tcp", "-noreset"});
+            "Xvfb", "-displayfd", "1", "-screen", "0", screen_, "-nolisten", "tcp", "-noreset"});
         ASSERT_TRUE(eventually([&] { return server_->out().ends_with('\n') || !server_->running(); }));
         ASSERT_TRUE(server_->running()) << server_->err();
         display_ = ':';
@@ -77,7 +77,8 @@ class RealWindow : public testing::Test {
     }
     /// With the scene that it opens by default.
     void start_as_it_comes(const std::vector<std::string>& more) {
-        std::vector<std::string> arguments{"--size", "1280x720", "--state", state_path()};
+        std::vector<std::string> arguments{"--state", state_path()};
+        if (!size_.empty()) arguments.insert(arguments.end(), {"--size", size_});
         arguments.insert(arguments.end(), more.begin(), more.end());
         program_ = std::make_unique<Process>(program_command(arguments), environment());
         ASSERT_TRUE(eventually([&] { return !program_->running() || find_window(); })) << "no window came up";
@@ -127,7 +128,13 @@ class RealWindow : public testing::Test {
 
     TempFolder folder_;
     std::unique_ptr<Process> server_, program_;
-    std::string display_, window_;
+    std::string screen_ = "1600x1000x24", size_ = "1280x720", display_, window_;
+};
+
+/// Smaller than the window that the program would like.
+class SmallScreen : public RealWindow {
+  protected:
+    SmallScreen() { screen_ = "1024x640x24", size_.clear(); }
 };
 
 /// The initial state: the same offscreen as in a window of that size.
@@ -191,6 +198,13 @@ TEST_F(RealWindow, the_picture_follows_its_size) {
     const Played off_screen = play(ScriptText().wait(1), {.more = {"--size", "1000x640"}});
     EXPECT_EQ(state["handles"], off_screen.state["handles"]);
     EXPECT_EQ(app::read_png(folder_ / "window.png").size, glm::ivec2(1000, 640));
+}
+
+TEST_F(SmallScreen, the_window_fits_it) {
+    start({"--no-config", "--screenshot", (folder_ / "window.png").string()});
+    key("ctrl+q");
+    ended();
+    EXPECT_EQ(app::read_png(folder_ / "window.png").size, glm::ivec2(1024, 640));
 }
 
 TEST_F(RealWindow, opens_on_an_arm_that_reaches_and_has_nothing_to_save) {
