@@ -49,6 +49,17 @@ int& iterations_of(ChainPart& part, ChainMode mode) {
     return mode == ChainMode::Reach ? part.reach.iterations : part.iterations[static_cast<std::size_t>(mode)];
 }
 
+std::size_t led_joint(const ChainPart& part) {
+    if (part.mode == ChainMode::Backward) return part.chain.size() - 1;
+    return part.mode == ChainMode::WithIndex ? part.index : 0;
+}
+
+void put_target_on_led_joint(ChainPart& part) {
+    if (part.mode == ChainMode::Reach || part.chain.empty() || part.motion.path != Motion::Path::Still)
+        return;
+    part.target = part.chain.position(led_joint(part));
+}
+
 void reach_for(ChainPart& part, glm::vec3 target, ChainRuntime& runtime) {
     part.result.reset();
     switch (part.mode) {

@@ -78,6 +78,10 @@ void check_range(const ChainPart& part);
 
 /// Moves the target and applies the mode once. While a study is open, Reach solves from the study's start.
 void reach_for(ChainPart& part, glm::vec3 target, ChainRuntime& runtime);
+/// The joint that a trailing mode moves to the target.
+std::size_t led_joint(const ChainPart& part);
+/// In a trailing mode, unless the target follows a path.
+void put_target_on_led_joint(ChainPart& part);
 
 /// Clamps the microscope's step to the length of its trace.
 void keep_step(ChainPart& part, ChainRuntime& runtime);

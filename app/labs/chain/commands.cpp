@@ -1,6 +1,7 @@
 #include "app/labs/chain/commands.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "app/labs/chain/chain_runtime.hpp"
 #include "app/labs/chain/mouse.hpp"
@@ -85,14 +86,18 @@ void add_chain_commands(CommandTable& table) {
 namespace {
 
 void set_mode(ChainPart& part, const Arguments& given) {
-    part.mode = chain_modes.value(given.text("mode"));
+    const ChainMode before = std::exchange(part.mode, chain_modes.value(given.text("mode")));
     if (part.mode != ChainMode::Reach) part.study.close();
     if (part.mode != ChainMode::Reach && part.chosen_point == ChainPoint::Pole) part.chosen_point.reset();
     if (given.has("index")) {
         const std::size_t index = index_of(given);
         check_index(part, index);
         part.index = index;
+    } else if (part.mode == ChainMode::WithIndex && before != part.mode && part.selection.active()) {
+        part.index = *part.selection.active();
     }
+    // A joint that trails far behind its target would jump to it with the first drag.
+    if (part.mode != before) put_target_on_led_joint(part);
     if (given.has("iterations")) {
         iterations_of(part, part.mode) = given.integer("iterations");
     }

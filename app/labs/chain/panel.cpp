@@ -20,11 +20,12 @@
 namespace tendril::app {
 namespace {
 
-/// The length of the next segment that is added or inserted: state of the panel, not of the document.
-float length_of_next() {
+/// The length of the next segment that is added or inserted: state of the panel, not of the document. Until
+/// it is set, that of the last bone.
+float length_of_next(const Chain& chain) {
     ImGuiStorage& kept = *ImGui::GetStateStorage();
     const ImGuiID kept_as = ImGui::GetID("next length");
-    float length = kept.GetFloat(kept_as, 1.0f);
+    float length = kept.GetFloat(kept_as, chain.size() > 1 ? chain.length(chain.size() - 1) : 1.0f);
     if (number_field("new bone", length, 0.01f, 0.0f, 1000.0f, "%.3f m")) kept.SetFloat(kept_as, length);
     explain("The length of the bone that Add or Insert makes next.");
     return length;
@@ -66,7 +67,7 @@ void mode_rows(const ChainPart& part, const Palette& colours, Emit& emit) {
 }
 
 void segment_rows(const ChainPart& part, Emit& emit) {
-    const float length = length_of_next();
+    const float length = length_of_next(part.chain);
     if (row_button("Add", 3, true, "Adds a joint at the end, with a bone of that length"))
         emit("chain.add", {{"length", length}});
     const auto selected = part.selection.active();
@@ -204,12 +205,6 @@ Verdict reach_verdict(const ChainPart& part) {
             break;
     }
     return {"Refused", Verdict::Kind::Bad};
-}
-
-/// The joint that a trailing mode moves to the target.
-std::size_t led_joint(const ChainPart& part) {
-    if (part.mode == ChainMode::Backward) return part.chain.size() - 1;
-    return part.mode == ChainMode::WithIndex ? part.index : 0;
 }
 
 }  // namespace

@@ -4,9 +4,12 @@
 #include <cmath>
 #include <cstdio>
 #include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <glm/trigonometric.hpp>
 #include <stdexcept>
 #include <tendril/ik/solver.hpp>
+#include <utility>
 
 #include "app/io/solver_json.hpp"
 #include "app/labs/chain/chain_runtime.hpp"
@@ -148,6 +151,61 @@ void forget_limits(ReachSettings& settings) {
 
 ik::Limit limit_of(const ReachSettings& settings, std::size_t joint) {
     return joint < settings.limits.size() ? settings.limits[joint] : ik::Limit{};
+}
+
+namespace {
+
+/// The world rotation of a bone from rest: as last solved, then the shortest way to where it points.
+glm::quat bone_rotation(const ReachSettings& settings, const Chain& chain, std::size_t bone) {
+    const glm::quat before = settings.state.rotations.size() + 1 == chain.size()
+                                 ? settings.state.rotations[bone]
+                                 : glm::quat(1.0f, 0.0f, 0.0f, 0.0f);
+    const glm::vec3 from = before * chain.default_direction(),
+                    along = chain.position(bone + 1) - chain.position(bone);
+    if (!(glm::length(along) > 0.0f)) return before;
+    return glm::quat(from, glm::normalize(along)) * before;
+}
+
+/// Widens two half-axes of a cone until a swing is within their elliptic quadrant.
+void widen(float& up, float& left, float by_up, float by_left) {
+    const float share_up = by_up > 0.0f ? by_up / std::max(up, 1e-6f) : 0.0f,
+                share_left = by_left > 0.0f ? by_left / std::max(left, 1e-6f) : 0.0f;
+    if (share_up * share_up + share_left * share_left <= 1.0f) return;
+    constexpr float both = 1.4143f;  // a little over the root of two
+    up = std::min(std::max(up, both * by_up), glm::pi<float>());
+    left = std::min(std::max(left, both * by_left), glm::pi<float>());
+}
+
+}  // namespace
+
+ik::Limit limit_around_pose(ik::JointKind kind, const ReachSettings& settings, const Chain& chain,
+                            std::size_t joint, std::optional<glm::vec3> axis) {
+    ik::Limit limit = ik::Limit::of(kind);
+    const glm::vec3 rest = chain.default_direction();
+    glm::quat turn = bone_rotation(settings, chain, joint);
+    if (joint > 0) turn = glm::conjugate(bone_rotation(settings, chain, joint - 1)) * turn;
+    if (axis) {
+        limit.axis = *axis;
+    } else if (kind == ik::JointKind::Hinge) {
+        const glm::vec3 bend = glm::cross(rest, turn * rest);
+        constexpr float straight = 0.05f, along_usual_axis = 0.98f;
+        if (const float size = glm::length(bend);
+            size > straight && std::abs(glm::dot(bend, limit.axis)) < along_usual_axis * size)
+            limit.axis = bend / size;
+    }
+    if (kind == ik::JointKind::Free || ik::fault(limit, rest) != nullptr) return limit;
+    const ik::JointAngles at = ik::measure(limit, rest, turn);
+    if (kind == ik::JointKind::Hinge) {
+        if (at.up < -0.05f) limit.min = -std::exchange(limit.max, -limit.min);
+        limit.min = std::min(limit.min, at.up);
+        limit.max = std::max(limit.max, at.up);
+        return limit;
+    }
+    widen(at.up > 0.0f ? limit.up : limit.down, at.left > 0.0f ? limit.left : limit.right, std::abs(at.up),
+          std::abs(at.left));
+    limit.twist_min = std::min(limit.twist_min, at.twist);
+    limit.twist_max = std::max(limit.twist_max, at.twist);
+    return limit;
 }
 
 void set_limit(ReachSettings& settings, std::size_t joint, const ik::Limit& limit, const Chain& chain) {

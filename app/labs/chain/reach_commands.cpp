@@ -151,10 +151,15 @@ ik::Limit changed_limit(const ChainPart& part, std::size_t index, const Argument
         throw Refused("index " + std::to_string(index) +
                       " is the tail: no bone starts there that could be limited");
     }
-    // An edit of the same kind keeps the values that are not given; a new kind starts from its defaults.
+    // An edit of the same kind keeps the values that are not given; a new kind starts around the pose.
     ik::Limit limit = limit_of(part.reach, index);
     const ik::JointKind kind = given.has("kind") ? joint_kinds.value(given.text("kind")) : limit.kind;
-    if (kind != limit.kind) limit = ik::Limit::of(kind);
+    if (kind != limit.kind) {
+        const auto axis = given.has("axis") ? std::optional(given.point("axis")) : std::nullopt;
+        const float stiffness = limit.stiffness;
+        limit = limit_around_pose(kind, part.reach, part.chain, index, axis);
+        limit.stiffness = stiffness;
+    }
     set_fields(given, {ik::limit_fields(kind), &limit});
     return limit;
 }

@@ -145,8 +145,10 @@ void take_preset(ChainPart& part, const Arguments& given, ChainRuntime& runtime)
     part.chosen_point.reset();
     part.motion.path = Motion::Path::Still;
     forget_limits(part.reach);
+    part.reach.pole.reset();
     part.reach.state = {};
     shape_changed(part);
+    put_target_on_led_joint(part);
     if (name == reaching_arm) make_it_reach(part, runtime);
 }
 

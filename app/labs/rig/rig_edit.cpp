@@ -220,8 +220,11 @@ void add_unit(RigPart& part, rig::Unit unit, int at) {
     std::vector<rig::Unit> added{std::move(unit)};
     collect_names(added, taken);  // the library refuses duplicate names
     name_units(added, taken);
+    const std::string name = added.front().name;
     definition.units.insert(definition.units.begin() + (at < 0 ? count : at), std::move(added.front()));
     redefine(part, std::move(definition));
+    part.selected.unit = name;  // the list unfolds it
+    part.selected.unit_last = true;
 }
 
 void set_unit(RigPart& part, const std::string& name, rig::Unit unit) {
@@ -361,11 +364,19 @@ const rig::Element* parent_of(const RigPart& part, const rig::Element& element) 
     return parent ? &part.rig.definition().elements[*parent] : nullptr;
 }
 
-/// The selected elements other than the active one.
-std::vector<std::string> others_selected(const RigPart& part) {
-    std::vector<std::size_t> others = part.selected.elements.all();
-    std::erase_if(others, [&](std::size_t each) { return each == part.selected.elements.active(); });
-    return names_of(part, others);
+std::vector<std::string> selected_but(const RigPart& part, const rig::Element& item) {
+    std::vector<std::string> names = names_of(part, part.selected.elements.all());
+    std::erase(names, item.name);
+    return names;
+}
+
+/// A selected element that is no control, else a bone; null if there is neither.
+const rig::Element* no_control(const RigPart& part) {
+    const Elements& elements = part.rig.definition().elements;
+    for (const std::size_t each : part.selected.elements.all())
+        if (elements[each].kind != rig::ElementKind::Control) return &elements[each];
+    const auto bone = std::ranges::find(elements, rig::ElementKind::Bone, &rig::Element::kind);
+    return bone == elements.end() ? nullptr : &*bone;
 }
 
 /// The selected elements without a selected ancestor: a for-each visits descendants itself.
@@ -414,9 +425,13 @@ UnitOffer follower(const RigPart& part, Json unit) {
     const rig::Element* item = item_of(part);
     const rig::Element* other = item != nullptr ? other_than(part, *item) : nullptr;
     if (other == nullptr) return {{}, "two elements"};
+    // A control is followed: it would only lose its own pose as a follower.
+    if (const rig::Element* instead = no_control(part);
+        instead != nullptr && item->kind == rig::ElementKind::Control)
+        other = std::exchange(item, instead);
     if (unit["unit"] == "parent_constraint") {
         unit["item"] = item->name;
-        std::vector<std::string> parents = others_selected(part);
+        std::vector<std::string> parents = selected_but(part, *item);
         if (parents.empty()) parents.push_back(other->name);
         unit["parents"] = Json::array();
         for (const std::string& each : parents) unit["parents"].push_back({{"item", each}});

@@ -232,9 +232,8 @@ void plot_choice(const SignalPart& part, Emit& emit) {
     }
 }
 
-/// The colour key, in up to three lines; then how many entries are omitted.
-void colour_key(const std::vector<std::pair<std::string, glm::vec3>>& rows) {
-    constexpr int max_lines = 3;
+/// The colour key; entries that do not fit are counted.
+void colour_key(const std::vector<std::pair<std::string, glm::vec3>>& rows, int max_lines = 3) {
     ImGui::PushFont(small_font());
     int lines = 1;
     for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -282,16 +281,18 @@ void SignalLab::canvas(const Workspace& workspace, Emit& emit) const {
         for (const signal::FrameRate& rate : signal::usual_rates())
             lower.emplace_back(rate_name(rate), rate_colour(colours, rate));
     }
-    if (part.plot == SignalPlot::Fit && !part.wanted.empty()) {
+    const bool fit = part.plot == SignalPlot::Fit;
+    if (fit) {
         lower.emplace_back("wanted", colours.text);
         for (std::size_t i = 0; i < std::min(shown_fits, part.fits.size()); ++i)
             lower.emplace_back(kind_title(part.fits[i].filter), fit_colour(colours, i));
     }
-    if (!lower.empty()) colour_key(lower);
+    // The key keeps its height while a response is drawn, or the plot would move away from under the mouse.
+    if (!lower.empty()) colour_key(lower, fit ? 1 : 3);
     const float rest = std::max(8.0f, ImGui::GetContentRegionAvail().y / line - 0.5f);
     if (part.plot == SignalPlot::Rates) rates_plot(workspace, colours, rest);
     if (part.plot == SignalPlot::Shelf) shelf_plot(workspace, colours, rest);
-    if (part.plot == SignalPlot::Fit) fit_plot(part, colours, rest, emit);
+    if (fit) fit_plot(part, colours, rest, emit);
 }
 
 }  // namespace tendril::app

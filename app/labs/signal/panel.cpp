@@ -383,7 +383,7 @@ void fit_plot(const SignalPart& part, const Palette& palette, float height, Emit
     }
     const double margin = 0.25 * (span.high - span.low), end = time.empty() ? 1.0 : time.back();
     PlotAxes axes = time_axes({span.low - margin, span.high + margin}, 0.0, end);
-    axes.keeps_axes = true;
+    axes.keeps_axes = axes.fixed_y = true;
     if (part.recording) axes.at_x = static_cast<float>(part.time);
     const PlotStroke stroke = plot("fit", curves, axes, height);
     if (!stroke.drawn) return;

@@ -89,6 +89,36 @@ TEST(SignalInTheWindow, TheAxesOfAResponseStayWhileItIsDrawn) {
     EXPECT_NEAR(most_wanted_after(held.wait(60).up().wait(3)), at_once, 0.1);
 }
 
+/// The row of pixels in which the lower plot shows its input at the height of a column.
+float row_of_input(const app::Image& picture, int column) {
+    int best = 0, most = -1;
+    for (int y = picture.size.y / 2; y < picture.size.y - 100; ++y) {
+        const std::uint8_t* at =
+            &picture.rgba[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.size.x) +
+                               static_cast<std::size_t>(column))];
+        const int orange = at[0] + at[1] - 2 * at[2];
+        if (orange > most) most = orange, best = y;
+    }
+    return static_cast<float>(best) + 0.5f;
+}
+
+TEST(SignalInTheWindow, AResponseIsDrawnWhereTheMouseIs) {
+    ScriptText script = ScriptText()
+                            .command("lab.open", {{"name", "signal"}})
+                            .command("signal.input", {{"kind", "square"}, {"period", 4}})
+                            .command("signal.plot", {{"name", "fit"}})
+                            .command("time.pause")
+                            .wait(3);
+    const float row = row_of_input(play(script, {.picture = true}).picture, 340);  // at 1.0
+    script.drag({{320, row}, {330, row}, {400, row}});
+    const TempFolder folder;
+    script.command("scene.save", {{"path", (folder / "drawn.json").string()}});
+    play(script);
+    const Json scene = app::parse_json(read(folder / "drawn.json"));
+    const Json& wanted = scene.at("labs").at("signal").at("fit").at("wanted");
+    for (std::size_t i = 15; i < 40; ++i) EXPECT_NEAR(wanted[i].get<double>(), 1.0, 0.05) << i;
+}
+
 /// The window stays responsive; a script's command completes at once, with the same result.
 TEST(SignalInTheWindow, AFitThatAButtonBeginsGoesOnFromTickToTick) {
     const glm::vec2 fit{1060.0f, 286.0f};

@@ -73,7 +73,9 @@ TEST_F(ChainInspector, says_first_what_became_of_the_target) {
     };
     says("Tail on the target");
     run("chain.mode", {{"mode", "with_index"}, {"index", 3}});
-    says("Joint 3 4.00 m from the target");
+    says("Joint 3 on the target");
+    run("chain.mode", {{"mode", "with_index"}, {"index", 5}});
+    says("Joint 5 2.00 m from the target");
     run("chain.mode", {{"mode", "fixed"}, {"iterations", 100}});
     run("chain.target", {{"to", {3, 2, 0}}});
     says("Head on the target");

@@ -242,5 +242,58 @@ TEST_F(ChainReach, bad_input_is_refused_with_what_is_wrong) {
     says("chain.limit", {{"index", 1}, {"kind", "saddle"}, {"up_deg", -1}}, "up_deg");
 }
 
+TEST_F(ChainReach, a_new_limit_takes_in_the_pose) {
+    for (const char* kind : {"hinge", "ball_and_socket", "saddle", "gliding", "suture", "pivot"}) {
+        for (const glm::vec3 target : {glm::vec3(2, 1, 0), glm::vec3(2, -1, 0), glm::vec3(1, 0.5, 1)}) {
+            reach_with(4);
+            run("chain.target", {{"to", {target.x, target.y, target.z}}});
+            std::vector<glm::vec3> before;
+            for (const Segment& each : part().chain.segments()) before.push_back(each.position);
+            run("chain.limit", {{"index", 2}, {"kind", kind}});
+            for (std::size_t i = 0; i < before.size(); ++i)
+                EXPECT_LT(glm::distance(part().chain.position(i), before[i]), 2e-3f)
+                    << kind << " " << target.y << " moves joint " << i;
+        }
+    }
+}
+
+TEST_F(ChainReach, a_hinge_bends_the_way_the_joint_is_bent) {
+    reach_with(2);
+    run("chain.target", {{"to", {1.5, 0.2, 0}}});
+    const auto bend = [&] {
+        const auto at = [&](std::size_t i) { return part().chain.position(i); };
+        return glm::cross(at(1) - at(0), at(2) - at(1)).z;
+    };
+    const bool up = bend() > 0.0f;
+    run("chain.limit", {{"index", 1}, {"kind", "hinge"}});
+    const ik::Limit limit = part().reach.limits[1];
+    EXPECT_EQ(std::abs(limit.axis.z), 1.0f);
+    EXPECT_FLOAT_EQ(glm::degrees(limit.max - limit.min), 145.0f);
+    EXPECT_EQ(limit.max > -limit.min, up == (limit.axis.z > 0.0f));
+    run("chain.target", {{"to", {1.0, 0.4, 0}}});
+    EXPECT_EQ(bend() > 0.0f, up);
+}
+
+TEST_F(ChainReach, a_mode_begins_with_its_joint_on_the_target) {
+    for (const char* mode : {"forward", "backward", "fixed", "with_index"}) {
+        reach_with(5);
+        run("chain.target", {{"to", {3, 2, 0}}});
+        run("chain.select", {{"index", 2}});
+        const auto before = part().chain.segments();
+        const std::vector<Segment> pose(before.begin(), before.end());
+        run("chain.mode", {{"mode", mode}});
+        EXPECT_EQ(part().target, part().chain.position(led_joint(part()))) << mode;
+        EXPECT_TRUE(std::ranges::equal(part().chain.segments(), pose)) << mode << " alone moves nothing";
+    }
+    EXPECT_EQ(part().index, 2u) << "with index takes the selected joint";
+}
+
+TEST_F(ChainReach, a_preset_begins_without_a_pole) {
+    reach_with(4);
+    run("chain.pole", {{"to", {0, 3, 0}}});
+    run("chain.preset", {{"name", "snake"}});
+    EXPECT_FALSE(part().reach.pole);
+}
+
 }  // namespace
 }  // namespace tendril::app

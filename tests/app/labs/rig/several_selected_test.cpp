@@ -191,6 +191,27 @@ TEST_F(SeveralSelected, UnitsAreOfferedForAll) {
     tick(2);
 }
 
+TEST_F(SeveralSelected, AControlIsFollowedAndDoesNotFollow) {
+    controls_and_bones();
+    const auto constrained = [&](const Names& names) {
+        select(names);
+        for (std::size_t i = 0; i < std::variant_size_v<rig::Operation::Variant>; ++i)
+            if (rig::operation_name(i) == std::string_view("parent_constraint"))
+                return **offered_unit(part(), i).unit;
+        return Json();
+    };
+    for (const Names& names : {Names{"b", "right"}, Names{"right", "b"}}) {
+        const Json unit = constrained(names);
+        EXPECT_EQ(unit.at("item"), "b");
+        EXPECT_EQ(unit.at("parents"), Json::array({{{"item", "right"}}}));
+    }
+    const Json alone = constrained({"right"});
+    EXPECT_EQ(alone.at("item"), "a") << "the first bone";
+    EXPECT_EQ(alone.at("parents"), Json::array({{{"item", "right"}}}));
+    run("rig.unit.add", alone);
+    EXPECT_EQ(part().selected.unit, "parent_constraint") << "a new unit is unfolded";
+}
+
 TEST_F(SeveralSelected, TheInspectorSaysHowManyAndWhatIsSetOnWhich) {
     controls_and_bones();
     solve();
