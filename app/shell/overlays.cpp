@@ -2,6 +2,8 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <iterator>
 #include <string>
 #include <string_view>
@@ -129,12 +131,31 @@ static void lab_settings(const ShellFrame& frame, Emit& emit) {
     }
 }
 
+/// A list, whose choice closes it: a button or slider would move under the mouse as the text grows.
+static void text_size_row(const Settings& settings, Emit& emit) {
+    static constexpr std::array percents{50, 75, 90, 100, 110, 125, 150, 175, 200, 250, 300};
+    const int now = static_cast<int>(std::lround(100.0f * settings.text_scale));
+    std::vector<std::string> texts;
+    int chosen = static_cast<int>(std::ranges::find(percents, now) - percents.begin());
+    for (const int percent : percents) texts.push_back(std::to_string(percent) + " %");
+    if (chosen == static_cast<int>(percents.size())) texts.push_back(std::to_string(now) + " %");
+    std::vector<const char*> titles;
+    for (const std::string& text : texts) titles.push_back(text.c_str());
+    if (choice_field("text size", chosen, titles.data(), static_cast<int>(titles.size())))
+        emit("view.text_scale",
+             {{"scale", chosen < static_cast<int>(percents.size())
+                            ? 0.01f * static_cast<float>(percents[static_cast<std::size_t>(chosen)])
+                            : settings.text_scale}});
+    explain("The size of text and controls.");
+}
+
 void show_settings(const ShellFrame& frame, Emit& emit) {
     const Settings& settings = frame.workspace.settings;
     const float scale = frame.layout.scale;
     if (!begin_sheet("Settings", frame.screen(), {520.0f * scale, 400.0f * scale})) {
         emit("view.settings", {{"open", false}});
     }
+    text_size_row(settings, emit);
     static constexpr const char* themes[] = {"dark", "light"};
     static constexpr const char* labels[] = {"on hover", "always"};
     int theme = settings.theme == Theme::Light, label = settings.labels == LabelMode::Always;
@@ -144,15 +165,6 @@ void show_settings(const ShellFrame& frame, Emit& emit) {
     if (choice_field("labels", label, labels, 2))
         emit("view.labels", {{"show", label == 1 ? "always" : "hover"}});
     explain("When labels are shown in the picture: only under the mouse, or always.");
-    // Steps, not a slider: a slider would move under the mouse as the text grows.
-    reading("text size", "%.0f %%", static_cast<double>(settings.text_scale) * 100.0);
-    explain("The size of text and controls. 50 to 300 %.");
-    const auto step = [&](const char* title, float by, const char* help) {
-        const float scaled = std::clamp(settings.text_scale + by, 0.5f, 3.0f);
-        if (row_button(title, 2, true, help)) emit("view.text_scale", {{"scale", scaled}});
-    };
-    step("Smaller", -0.1f, "Makes all text smaller by a tenth of its usual size");
-    step("Larger", 0.1f, "Makes all text larger by a tenth of its usual size");
     ImGui::End();
 }
 

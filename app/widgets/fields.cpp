@@ -226,6 +226,16 @@ bool vector_field(const char* name, glm::vec3& value, float speed, glm::vec3 low
     return changed;
 }
 
+void keep_room(const char* id, float top) {
+    float& room = *ImGui::GetStateStorage()->GetFloatRef(ImGui::GetID(id), 0.0f);
+    const float used = ImGui::GetCursorPosY() - top, first = ImGui::GetCursorScreenPos().y - used,
+                mouse = ImGui::GetIO().MousePos.y, gap = ImGui::GetStyle().ItemSpacing.y;
+    if (room > used + gap && ImGui::IsWindowHovered() && mouse >= first && mouse < first + room)
+        ImGui::Dummy({0.0f, room - used - gap});
+    else
+        room = used;
+}
+
 bool choice_field(const char* name, int& chosen, const char* const* titles, int count,
                   const char* const* why_not) {
     const std::string id = begin_row(name);

@@ -46,6 +46,7 @@ void mode_rows(const ChainPart& part, const Palette& colours, Emit& emit) {
         helps.emplace_back(chain_modes.help(mode));
     }
     note_of(helps, shown);
+    study_rows(part, emit);  // above the rows that depend on the mode: opening either changes it to Reach
 
     const auto with = [&](const char* name, ArgumentValue value) {
         emit.continuously("chain.mode", {{"mode", chain_modes.name(part.mode)}, {name, std::move(value)}});
@@ -138,7 +139,6 @@ void ChainLab::panel(const Workspace& workspace, Emit& emit) const {
     if (open("Joints")) segment_rows(part, emit);
     if (open("Target")) target_rows(part, workspace.clock.playing, emit);
     if (open("Analyse")) {
-        study_rows(part, emit);
         past_view_rows(workspace, chain_past(), past_help, emit);
         if (part.mode == ChainMode::Reach) flip_rows(part.flips, chain_flip_words, emit);
     }

@@ -132,6 +132,13 @@ void microscope_rows(const ShownChain& shown, const Palette& palette, Emit& emit
     const ChainPart& part = shown.part;
     const Trace& trace = *shown.trace;
     const std::size_t step = part.study.step;
+    if (row_button("|<", 4, step > 0, "One iteration back")) emit("microscope.step", {{"iterations", -1}});
+    if (row_button("<", 4, step > 0, "One step back")) emit("microscope.step", {{"by", -1}});
+    if (row_button(">", 4, step < trace.frames(), "One step forward")) emit("microscope.step", {{"by", 1}});
+    if (row_button(">|", 4, step < trace.frames(), "One iteration forward"))
+        emit("microscope.step", {{"iterations", 1}});
+    end_row();
+    // Below the buttons: these texts are longer in some steps than in others.
     reading("step", "%zu of %zu", step, trace.frames());
     reading("iteration", "%d of %d", trace.iteration(step), trace.report.iterations);
     note(ran_text(trace.method, trace.report, !part.reach.limits.empty()) + ".");
@@ -139,12 +146,6 @@ void microscope_rows(const ShownChain& shown, const Palette& palette, Emit& emit
     if (part.motion.path != Motion::Path::Still)
         note("The moving target waits while the microscope is open.");
     if (trace.cut) note("The solve was longer: this is where the record ends.");
-    if (row_button("|<", 4, step > 0, "One iteration back")) emit("microscope.step", {{"iterations", -1}});
-    if (row_button("<", 4, step > 0, "One step back")) emit("microscope.step", {{"by", -1}});
-    if (row_button(">", 4, step < trace.frames(), "One step forward")) emit("microscope.step", {{"by", 1}});
-    if (row_button(">|", 4, step < trace.frames(), "One iteration forward"))
-        emit("microscope.step", {{"iterations", 1}});
-    end_row();
     float pace = part.study.pace > 0.0f ? part.study.pace : default_pace;
     if (number_field("play at", pace, 0.1f, slowest_pace, fastest_pace, "%.1f steps/s"))
         emit.continuously("microscope.play", {{"pace", pace}});

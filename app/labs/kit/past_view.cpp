@@ -307,15 +307,16 @@ void incident_rows(const Workspace& workspace, const Palette& palette, Emit& emi
     const auto& incidents = workspace.rewind.incidents();
     if (incidents.empty()) return;
     section("What happened");
+    std::size_t rows = 0;
+    for (std::size_t i = incidents.size(); i-- > 0 && rows < max_rows; ++rows)
+        incident_row(workspace, i, palette, emit);
+    // Below the rows, which must not move under the mouse that clicks one.
     if (const auto& shown = workspace.ui.incident) {
         note(incident_title(*shown) + ":");
         ImGui::PushTextWrapPos(0.0f);
         ImGui::TextUnformatted((shown->cause + ".").c_str());
         ImGui::PopTextWrapPos();
     }
-    std::size_t rows = 0;
-    for (std::size_t i = incidents.size(); i-- > 0 && rows < max_rows; ++rows)
-        incident_row(workspace, i, palette, emit);
 }
 
 }  // namespace tendril::app

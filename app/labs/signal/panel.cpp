@@ -108,6 +108,17 @@ std::string kind_title(const signal::Filter& filter) {
 }
 
 void chain_rows(const SignalPart& part, const Palette& palette, Emit& emit) {
+    // Above the list, whose length they change.
+    add_button(emit);
+    const bool chosen = part.selected.has_value();
+    const std::size_t at = part.selected.value_or(0);
+    if (row_button("Up", 3, chosen && at > 0, "Moves the selected filter up: applied earlier"))
+        emit("signal.filter.move", {{"at", at}, {"to", at - 1}});
+    if (row_button("Down", 3, chosen && at + 1 < part.stages.size(), "Moves it down: applied later"))
+        emit("signal.filter.move", {{"at", at}, {"to", at + 1}});
+    if (row_button("Remove", 3, chosen, "Removes the selected filter"))
+        emit("signal.filter.remove", {{"at", at}});
+    end_row();
     for (std::size_t i = 0; i < part.stages.size(); ++i) {
         const SignalStage& stage = part.stages[i];
         ImGui::PushID(static_cast<int>(i));
@@ -130,16 +141,6 @@ void chain_rows(const SignalPart& part, const Palette& palette, Emit& emit) {
         ImGui::PopID();
     }
     if (part.stages.empty()) note("No filters: the output is the input.");
-    const bool chosen = part.selected.has_value();
-    const std::size_t at = part.selected.value_or(0);
-    if (row_button("Up", 3, chosen && at > 0, "Moves the selected filter up: applied earlier"))
-        emit("signal.filter.move", {{"at", at}, {"to", at - 1}});
-    if (row_button("Down", 3, chosen && at + 1 < part.stages.size(), "Moves it down: applied later"))
-        emit("signal.filter.move", {{"at", at}, {"to", at + 1}});
-    if (row_button("Remove", 3, chosen, "Removes the selected filter"))
-        emit("signal.filter.remove", {{"at", at}});
-    end_row();
-    add_button(emit);
 }
 
 void SignalLab::panel(const Workspace& workspace, Emit& emit) const {

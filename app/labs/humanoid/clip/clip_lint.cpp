@@ -158,8 +158,7 @@ void finding_row(const HumanoidPanel& panel, const Finding& finding, int id) {
 
 }  // namespace
 
-void lint_rows(const HumanoidPanel& panel) {
-    if (!folding_section(panel.workspace, "Motion lint", panel.emit)) return;
+static void findings_rows(const HumanoidPanel& panel) {
     if (!panel.part.clip()) return note("Choose a clip to see what is wrong with it.");
     const humanoid::LintReport* report = panel.runtime.lint.report(panel.part);
     if (!report) {
@@ -175,6 +174,13 @@ void lint_rows(const HumanoidPanel& panel) {
     for (std::size_t i = 0; i < std::min(findings.size(), max_rows); ++i)
         finding_row(panel, findings[i], static_cast<int>(i));
     if (findings.size() > max_rows) note("and " + std::to_string(findings.size() - max_rows) + " more");
+}
+
+void lint_rows(const HumanoidPanel& panel) {
+    if (!folding_section(panel.workspace, "Motion lint", panel.emit)) return;
+    const float top = ImGui::GetCursorPosY();
+    findings_rows(panel);
+    keep_room("findings", top);
 }
 
 void export_rows(const HumanoidPanel& panel) {

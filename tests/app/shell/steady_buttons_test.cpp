@@ -1,0 +1,106 @@
+// A button stays under the mouse that clicks it: what is clicked three times at one place is one button.
+#include <gtest/gtest.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "app/app.hpp"
+#include "app/document/command.hpp"
+#include "app/document/json_complete.hpp"
+#include "tests/app/support/frame_record.hpp"
+#include "tests/app/support/full_scenes.hpp"
+
+namespace tendril::test {
+namespace {
+
+using namespace app;
+
+constexpr glm::ivec2 window{1280, 1400};  ///< high enough for the panels
+
+bool is_at(const DrawnItem& item, glm::vec2 at) {
+    return at.x >= item.box.min.x && at.x < item.box.max.x && at.y >= item.box.min.y && at.y < item.box.max.y;
+}
+
+/// A switch may say something else after a click, in another width.
+bool same_place(const DrawnItem& a, const DrawnItem& b) {
+    return std::abs(a.box.min.x - b.box.min.x) < 2.0f && std::abs(a.box.min.y - b.box.min.y) < 2.0f;
+}
+
+class SteadyButtons : public testing::TestWithParam<const char*> {
+  protected:
+    void run(const std::string& command, Json arguments = Json::object()) {
+        app_.run({command, std::move(arguments)});
+    }
+    void set_up(const std::vector<CommandCall>& commands) {
+        run("scene.new");
+        run("lab.open", {{"name", GetParam()}});
+        for (const CommandCall& command : commands) run(command.name, to_json(command.arguments));
+        run("time.pause");
+        const Event away = MouseMove{{640.0f, 700.0f}};
+        for (int i = 0; i < 4; ++i) app_.tick(i == 0 ? &away : nullptr);
+    }
+    std::vector<DrawnItem> buttons() const {
+        std::vector<DrawnItem> all;
+        for (const DrawnItem& item : recorder_.frame().items)
+            if (item.kind == DrawnItem::Kind::Button) all.push_back(item);
+        return all;
+    }
+    void click(glm::vec2 at) {
+        const Event events[] = {MouseMove{at}, MousePress{MouseButton::Left, true},
+                                MousePress{MouseButton::Left, false}};
+        for (const Event& event : events) app_.tick(&event);
+        for (int i = 0; i < 4; ++i) app_.tick(nullptr);
+    }
+    std::string text_of(const DrawnItem& button) const {
+        for (const DrawnText& text : recorder_.frame().texts)
+            if (is_at(button, 0.5f * (text.box.min + text.box.max))) return text.text;
+        return "?";
+    }
+    /// Clicks every button of a scene three times.
+    void check(const std::string& scene, const std::vector<CommandCall>& commands) {
+        set_up(commands);
+        std::set<unsigned> tried;
+        for (const DrawnItem& button : buttons()) {
+            if (!tried.insert(button.id).second) continue;
+            set_up(commands);
+            const std::string name = text_of(button);
+            const glm::vec2 at = 0.5f * (button.box.min + button.box.max);
+            for (int i = 0; i < 3 && app_.workspace().lab == GetParam() && !app_.workspace().ui.covered();
+                 ++i) {
+                click(at);
+                const auto now = buttons();
+                const auto other = std::ranges::find_if(now, [&](const DrawnItem& each) {
+                    return is_at(each, at) && each.id != button.id && !same_place(each, button);
+                });
+                if (other != now.end()) {
+                    ADD_FAILURE() << scene << ": after click " << i + 1 << " on \"" << name << "\", \""
+                                  << text_of(*other) << "\" is under the mouse";
+                    break;
+                }
+            }
+        }
+    }
+
+    std::unique_ptr<Window> window_ = open_offscreen(window);
+    App app_{*window_};
+    FrameRecorder recorder_;
+};
+
+TEST_P(SteadyButtons, StayUnderTheMouseThatClicksThem) {
+    const Lab& lab = *app_.labs().find(GetParam());
+    check("the opening", lab.opening());
+    const CommandTable table = make_command_table(app_.labs());
+    int scenes = 0;
+    for (const Shown& shown : all_scenes(lab, table))
+        if (scenes++ % 4 == 1) check(shown.name, shown.commands);
+    if (GetParam() == std::string("chain"))
+        check("the microscope", {call("chain.preset", {{"name", "reaching_arm"}}), call("microscope.open")});
+}
+
+INSTANTIATE_TEST_SUITE_P(Labs, SteadyButtons, testing::Values("chain", "rope", "signal", "rig", "humanoid"),
+                         [](const auto& lab) { return std::string(lab.param); });
+
+}  // namespace
+}  // namespace tendril::test
