@@ -6,10 +6,10 @@
 namespace tendril::test::chain_panel {
 
 inline constexpr glm::vec2 forward{60.0f, 274.0f};
-inline constexpr glm::vec2 target_y{173.0f, 641.0f};  ///< in the four trailing modes
-inline constexpr glm::vec2 add{48.0f, 513.0f};        ///< the button, in the four trailing modes
+inline constexpr glm::vec2 target_y{173.0f, 673.0f};  ///< in the four trailing modes
+inline constexpr glm::vec2 add{48.0f, 545.0f};        ///< the button, in the four trailing modes
 // In mode Reach:
-inline constexpr glm::vec2 iterations{173.0f, 523.0f};
-inline constexpr glm::vec2 soft_zone{173.0f, 651.0f};
+inline constexpr glm::vec2 iterations{173.0f, 555.0f};
+inline constexpr glm::vec2 soft_zone{173.0f, 683.0f};
 
 }  // namespace tendril::test::chain_panel
