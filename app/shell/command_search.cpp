@@ -29,19 +29,19 @@ bool takes(const Command& command, const std::string& word) {
     });
 }
 
-/// Of commands that match equally, people mean the one that adds something rather than the one that changes
-/// it, and least of all the one that removes it, or everything. The first word of the title tells which.
-enum class Deed { Adds, Changes, Removes, RemovesAll };
+/// Of commands that match equally, people mean the one that adds something before the one that changes
+/// it, and last the one that removes it, or everything. The first word of the title tells which.
+enum class Verb { Adds, Changes, Removes, RemovesAll };
 
-Deed deed(const Command& command) {
+Verb verb_of(const Command& command) {
     const std::string title = lower_case(command.title), verb = title.substr(0, title.find(' '));
     const auto is_one_of = [&](std::initializer_list<const char*> verbs) {
         return std::find(verbs.begin(), verbs.end(), verb) != verbs.end();
     };
-    if (is_one_of({"add", "insert", "attach"})) return Deed::Adds;
-    if (is_one_of({"clear", "reset"})) return Deed::RemovesAll;
-    if (!is_one_of({"remove", "delete", "detach", "forget"})) return Deed::Changes;
-    return begins_word(title, "every") || begins_word(title, "all") ? Deed::RemovesAll : Deed::Removes;
+    if (is_one_of({"add", "insert", "attach"})) return Verb::Adds;
+    if (is_one_of({"clear", "reset"})) return Verb::RemovesAll;
+    if (!is_one_of({"remove", "delete", "detach", "forget"})) return Verb::Changes;
+    return begins_word(title, "every") || begins_word(title, "all") ? Verb::RemovesAll : Verb::Removes;
 }
 
 /// Distance of a command from the query: for each word 0 if the title has it at the start of a word, more if
@@ -80,14 +80,14 @@ std::vector<const Command*> search_commands(const CommandTable& table, const std
     const auto scope = [&](const Command& command) {
         return open_lab.empty() || command.lab == open_lab ? 0 : command.lab.empty() ? 1 : 2;
     };
-    using Rank = std::tuple<bool, std::ptrdiff_t, bool, int, Deed, int>;
+    using Rank = std::tuple<bool, std::ptrdiff_t, bool, int, Verb, int>;
     std::vector<std::pair<Rank, const Command*>> found;
     for (const Command& command : table.all()) {
         const auto far = distance(command, words);
         if (!far) continue;
         const bool other = words.size() != 1 || lower_case(command.name) != words.front();
         found.push_back({{other, age(command), scope(command) == 2, *far,
-                          words.empty() ? Deed::Changes : deed(command), scope(command)},
+                          words.empty() ? Verb::Changes : verb_of(command), scope(command)},
                          &command});
     }
     std::stable_sort(found.begin(), found.end(),
