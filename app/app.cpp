@@ -13,6 +13,7 @@
 #include "app/document/json_complete.hpp"
 #include "app/document/scene_file.hpp"
 #include "app/document/text.hpp"
+#include "app/shell/card_watch.hpp"
 #include "app/shell/gizmo_view.hpp"
 #include "app/shell/theme.hpp"
 #include "app/video_take.hpp"
@@ -147,7 +148,7 @@ void App::compose(const Event* event, Pass pass) {
                " ? shows every key.";
     if (workspace_.ui.asks_to_quit && !workspace_.modified()) workspace_.ui.asks_to_quit = false;
     shell_.frame({workspace_, labs_, lab(), *commands_, shortcuts_, layout_, hint, shown_card(),
-                  cards_.of(workspace_.lab)},
+                  cards_.of(workspace_.lab), panes_.front().drawn.strokes},
                  emit);
     if (const std::string why = std::exchange(ui_.numbers().refused, {}); !why.empty()) {
         refuse(why);
@@ -245,11 +246,14 @@ void App::run_emitted(Emit& emit) {
 void App::run_command(const std::string& name, const Json& arguments, Gesture gesture) {
     const std::string open = workspace_.lab;
     const std::shared_ptr<const Part> before = workspace_.document.parts().at(open);
-    const std::uint64_t beginnings = workspace_.beginnings;
+    const std::uint64_t beginnings = workspace_.beginnings, moment = workspace_.moment;
     commands_->run(workspace_, name, arguments, gesture);
     divide_view();  // the next command, such as framing everything, uses the new panes
     const bool same_scene = workspace_.lab == open && workspace_.beginnings == beginnings;
-    if (same_scene && commands_->find(name)->effect == Effect::Edit) review(before, workspace_.moment);
+    const Effect effect = commands_->find(name)->effect;
+    if (same_scene && effect == Effect::Edit) review(before, workspace_.moment);
+    if (const Card* const card = shown_card(); card != nullptr && workspace_.lab == open)
+        note_command(workspace_.ui.cards[open], *card, name, arguments, effect != Effect::Look, moment);
 }
 
 void App::run(const RunCommand& command) {

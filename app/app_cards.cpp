@@ -17,11 +17,7 @@ const Card* App::shown_card() const {
 void App::watch_shown_card() {
     if (const Card* const card = shown_card())
         watch_card(workspace_.ui.cards[workspace_.lab], *card, workspace_.document.parts().at(workspace_.lab),
-                   [this] {
-                       Json state = lab_state();
-                       state["time"]["moment"] = workspace_.moment;  // in the events' time
-                       return state;
-                   });
+                   [this] { return lab_state(); });
 }
 
 bool App::card_is_due() const {
@@ -31,14 +27,17 @@ bool App::card_is_due() const {
            card_waits(progress->second, workspace_.document.parts().at(workspace_.lab));
 }
 
-/// The card's title and which steps are done.
+/// The card's title, which steps are done, and the pixel of the ring around the handle to drag.
 Json App::card_state() const {
     Json done = Json::array();
     const auto progress = workspace_.ui.cards.find(workspace_.lab);
     for (std::size_t i = 0; i < shown_card()->steps.size(); ++i)
         done.push_back(progress != workspace_.ui.cards.end() && i < progress->second.done.size() &&
                        progress->second.done[i]);
-    return {{"title", shown_card()->title}, {"done", std::move(done)}};
+    const auto& ring = shell_.card_ring();
+    return {{"title", shown_card()->title},
+            {"done", std::move(done)},
+            {"ring", ring ? pixel(*ring) : Json(nullptr)}};
 }
 
 }  // namespace tendril::app

@@ -3,23 +3,24 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "app/document/document.hpp"
-#include "app/document/json.hpp"
 #include "app/document/settings.hpp"
 
 namespace tendril::app {
 
 struct CardProgress {
-    std::size_t card = 0;                       ///< index among the lab's cards
-    std::vector<bool> done{};                   ///< for each step; empty until the first check
-    std::map<std::string, SharedJson> start{};  ///< by path: values of the state when the card was shown
-    std::shared_ptr<const Part> seen{};         ///< the part at the last check
-    std::uint64_t ticks_to_wait = 0;            ///< until the next check, if the part changes
+    std::size_t card = 0;      ///< index among the lab's cards
+    std::vector<bool> done{};  ///< for each step; empty until the first command
+    /// For each step: the moment of the command that it waits for. Empty before that, and again once another
+    /// command has changed the scene.
+    std::vector<std::optional<std::uint64_t>> tried{};
+    std::shared_ptr<const Part> seen{};  ///< the part at the last check
+    std::uint64_t ticks_to_wait = 0;     ///< until the next check
 };
 
 /// The card's key in Settings::choices.

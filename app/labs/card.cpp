@@ -30,20 +30,27 @@ void check_only(const JsonPlace& place, std::initializer_list<std::string_view> 
 
 CardCondition read_condition(const JsonPlace& place) {
     using Kind = CardCondition::Kind;
-    if (place.has("changed")) {
-        check_only(place, {"changed"});
-        return {.kind = Kind::Changed, .name = some_text(place["changed"])};
+    if (place.has("present")) {
+        check_only(place, {"present"});
+        return {.kind = Kind::Present, .name = some_text(place["present"])};
     }
     if (place.has("event")) {
         check_only(place, {"event"});
         return {.kind = Kind::Noted, .name = some_text(place["event"])};
     }
-    if (!place.has("expect")) place.fail("expected one of \"expect\", \"changed\", \"event\"");
+    if (!place.has("expect")) place.fail("expected one of \"expect\", \"present\", \"event\"");
     try {
         return {.kind = Kind::Expected, .expect = read_expectation(place.json())};
     } catch (const std::runtime_error& error) {
         place.fail(error.what());
     }
+}
+
+CardLine read_line(const JsonPlace& place) {
+    Json arguments = place.json();
+    std::string command = some_text(place["command"]);
+    arguments.erase("command");
+    return {std::move(command), std::move(arguments)};
 }
 
 void read_place(const JsonPlace& place, CardStep& step) {
@@ -55,13 +62,16 @@ void read_place(const JsonPlace& place, CardStep& step) {
 }
 
 CardStep read_step(const JsonPlace& place) {
-    check_only(place, {"text", "place", "when", "script"});
+    check_only(place, {"text", "place", "by", "when", "script"});
     CardStep step;
     step.text = some_text(place["text"]);
     read_place(place["place"], step);
-    place["when"].for_each("conditions", max_steps,
-                           [&](const JsonPlace& each) { step.when.push_back(read_condition(each)); });
-    if (step.when.empty()) place["when"].fail("expected a condition, found none");
+    place["by"].for_each("commands", max_steps,
+                         [&](const JsonPlace& each) { step.by.push_back(read_line(each)); });
+    if (step.by.empty()) place["by"].fail("expected a command, found none");
+    if (place.has("when"))
+        place["when"].for_each("conditions", max_steps,
+                               [&](const JsonPlace& each) { step.when.push_back(read_condition(each)); });
     place["script"].for_each("lines", max_lines,
                              [&](const JsonPlace& each) { step.script.emplace_back(each.json()); });
     if (step.script.empty()) place["script"].fail("expected a line, found none");
@@ -72,12 +82,8 @@ Card read_card(const JsonPlace& top) {
     check_only(top, {"title", "scene", "steps"});
     Card card;
     card.title = some_text(top["title"]);
-    top["scene"].for_each("commands", max_lines, [&](const JsonPlace& each) {
-        Json arguments = each.json();
-        std::string command = some_text(each["command"]);
-        arguments.erase("command");
-        card.scene.push_back({std::move(command), std::move(arguments)});
-    });
+    top["scene"].for_each("commands", max_lines,
+                          [&](const JsonPlace& each) { card.scene.push_back(read_line(each)); });
     top["steps"].for_each("steps", max_steps,
                           [&](const JsonPlace& each) { card.steps.push_back(read_step(each)); });
     if (card.steps.empty()) top["steps"].fail("expected a step, found none");

@@ -3,11 +3,14 @@
 //     [{"title": "Five things to try",
 //       "scene": [{"command": "chain.preset", "name": "arm"}],
 //       "steps": [{"text": "Drag the target out of reach.", "place": {"handle": "target"},
-//                  "when": [{"expect": "solve.report.status", "equals": "unreachable"}],
+//                  "by": [{"command": "chain.target", "to": null}],
+//                  "when": [{"expect": "solve.report.status", "equals": "Stretched"}],
 //                  "script": [{"command": "chain.target", "to": [9, 1, 0]}]}]}]
 //
-// A step is done when all of its conditions hold at once. `scene` sets up the card's scene. `script` is for
-// the tests, which play every step.
+// A step is done when the user ran one of the commands in `by`, by a drag, a panel or the palette, and then
+// all conditions in `when`, if there are any, hold at once, before another command changes the scene. A
+// command counts if it has the listed arguments; null stands for any value. `scene` sets up the card's
+// scene. `script` is for the tests, which play every step.
 #pragma once
 
 #include <map>
@@ -21,11 +24,17 @@
 
 namespace tendril::app {
 
+/// A command and its arguments, or those that matter.
+struct CardLine {
+    std::string command;
+    SharedJson arguments;
+};
+
 struct CardCondition {
     enum class Kind {
         Expected,  ///< the state is as expected: {"expect": PATH, ...} as in a script
-        Changed,   ///< a value has changed since the card was shown: {"changed": PATH}
-        Noted,     ///< an incident of that kind was noted: {"event": "flip"}
+        Present,   ///< the state has such a value: {"present": PATH}
+        Noted,     ///< the command caused an incident of that kind: {"event": "flip"}
     } kind = Kind::Expected;
     Expect expect{};
     std::string name{};  ///< the path, or the kind of event
@@ -35,17 +44,14 @@ struct CardStep {
     std::string text;
     enum class Place { Handle, Panel, Inspector } place = Place::Handle;
     std::string place_name;  ///< of the handle, or of the section
+    std::vector<CardLine> by;
     std::vector<CardCondition> when;
     std::vector<SharedJson> script;
 };
 
 struct Card {
-    struct Line {
-        std::string command;
-        SharedJson arguments;
-    };
     std::string title;
-    std::vector<Line> scene;
+    std::vector<CardLine> scene;
     std::vector<CardStep> steps;
 };
 

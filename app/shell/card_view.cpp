@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "app/shell/card_watch.hpp"
 #include "app/shell/theme.hpp"
@@ -68,7 +69,7 @@ Fold fold_of(const Card& card, const Measure& m, std::size_t current, float room
 
 /// Sets up a card's scene and restarts the card.
 void begin_card(const ShellFrame& frame, std::size_t index, Emit& emit) {
-    for (const Card::Line& line : frame.cards[index].scene) emit.typed(line.command, line.arguments);
+    for (const CardLine& line : frame.cards[index].scene) emit.typed(line.command, line.arguments);
     emit("view.card", {{"open", true}, {"number", index + 1}});
 }
 
@@ -202,15 +203,18 @@ void light_card_section(const ShellFrame& frame, bool left) {
         light_section(step->place_name.c_str());
 }
 
-void show_card_halo(const ShellFrame& frame, PickId& known) {
+std::optional<glm::vec2> show_card_halo(const ShellFrame& frame, PickId& known) {
     const CardStep* const step = step_to_do(frame);
-    if (step == nullptr || step->place != CardStep::Place::Handle) return;
+    if (step == nullptr || step->place != CardStep::Place::Handle) return std::nullopt;
     const std::optional<Handle> found = handle_named(frame, step->place_name, known);
-    if (!found || frame.lab.panes(frame.workspace).size() > 1) return;
+    if (!found || frame.lab.panes(frame.workspace).size() > 1) return std::nullopt;
+    // A lab may keep a handle that it does not show now.
+    if (std::ranges::none_of(frame.drawn, [&](const Stroke& each) { return each.pick == found->pick; }))
+        return std::nullopt;
     const Workspace& workspace = frame.workspace;
     const Rect& view = frame.layout.view;
     const auto at = Camera(workspace.camera, view).project(found->frame.position);
-    if (!at || !view.contains(*at)) return;
+    if (!at || !view.contains(*at)) return std::nullopt;
     const float scale = frame.layout.scale;
     ImDrawList* const list = ImGui::GetBackgroundDrawList();
     list->PushClipRect({view.min.x, view.min.y}, {view.max.x, view.max.y});
@@ -218,6 +222,7 @@ void show_card_halo(const ShellFrame& frame, PickId& known) {
     list->AddCircle({at->x, at->y}, 27.0f * scale, imgui_u32(colour, 0.16f), 64, 9.0f * scale);
     list->AddCircle({at->x, at->y}, 24.0f * scale, imgui_u32(colour, 0.95f), 64, 2.0f * scale);
     list->PopClipRect();
+    return at;
 }
 
 }  // namespace tendril::app

@@ -2,6 +2,8 @@
 // step.
 #pragma once
 
+#include <optional>
+
 #include "app/shell/shell.hpp"
 
 namespace tendril::app {
@@ -13,8 +15,8 @@ float card_height(const ShellFrame& frame, glm::vec2 panel);
 void show_card(const ShellFrame& frame, glm::vec2 panel, Emit& emit);
 /// Highlights the current step's section if it is in this side panel. Call it while filling the panel.
 void light_card_section(const ShellFrame& frame, bool left);
-/// Draws a ring around the handle of the current step, in the view. `known` caches the handle's pick from
-/// frame to frame.
-void show_card_halo(const ShellFrame& frame, PickId& known);
+/// Draws a ring around the handle of the current step if the scene shows it, and returns where. `known`
+/// caches the handle's pick from frame to frame.
+std::optional<glm::vec2> show_card_halo(const ShellFrame& frame, PickId& known);
 
 }  // namespace tendril::app

@@ -12,71 +12,70 @@ constexpr std::size_t bytes_a_tick = 8192;
 /// Larger parts are never checked.
 constexpr std::size_t max_watched_bytes = 1u << 20;
 
-constexpr const char* events_path = "events";
-
-/// The value at a path, null if there is none.
-Json value_at(const Json& state, const std::string& path) {
-    const Json* const found = find_in_state(state, path);
-    return found == nullptr ? Json(nullptr) : *found;
-}
-
-/// The tick of the newest event in the state, -1 if there is none.
-double newest_event(const Json& state) {
-    double newest = -1.0;
-    for (const Json& each : value_at(state, "events"))
-        newest = std::max(newest, value_at(each, "tick").get<double>());
-    return newest;
-}
-
-/// Whether an event of the kind has occurred since the card was shown.
-bool has_event(const CardProgress& progress, const Json& state, const std::string& kind) {
-    const Json now = value_at(state, "time.moment"), events = value_at(state, "events");
-    double last = progress.start.at(events_path)->get<double>();
-    if (now.is_number() && now.get<double>() < last) last = -1.0;  // time was reset
-    return std::any_of(events.begin(), events.end(), [&](const Json& each) {
-        return value_at(each, "kind") == kind && value_at(each, "tick").get<double>() > last;
+/// Whether the command is the one in the line, with the arguments that matter.
+bool matches(const CardLine& line, const std::string& command, const Json& arguments) {
+    if (line.command != command) return false;
+    const auto& wanted = line.arguments->items();
+    return std::all_of(wanted.begin(), wanted.end(), [&](const auto& each) {
+        const auto given = arguments.find(each.key());
+        return given != arguments.end() && (each.value().is_null() || *given == each.value());
     });
 }
 
-bool holds(const CardCondition& condition, const CardProgress& progress, const Json& state) {
+bool holds(const CardCondition& condition, std::uint64_t tried, const Json& state) {
     using Kind = CardCondition::Kind;
     switch (condition.kind) {
         case Kind::Expected:
             return check_expectation(condition.expect, state).empty();
-        case Kind::Changed: {
-            const auto start = progress.start.find(condition.name);
-            return start != progress.start.end() && value_at(state, condition.name) != *start->second;
+        case Kind::Present:
+            return find_in_state(state, condition.name) != nullptr;
+        case Kind::Noted: {
+            const Json& events = state.at("events");
+            return std::any_of(events.begin(), events.end(), [&](const Json& each) {
+                return each.at("kind") == condition.name && each.at("tick").get<std::uint64_t>() >= tried;
+            });
         }
-        case Kind::Noted:
-            return has_event(progress, state, condition.name);
     }
     return false;
 }
 
-void begin(CardProgress& progress, const Card& card, const Json& state) {
-    progress.done.assign(card.steps.size(), false);
-    progress.start[events_path] = Json(newest_event(state));
-    for (const CardStep& step : card.steps)
-        for (const CardCondition& condition : step.when)
-            if (condition.kind == CardCondition::Kind::Changed)
-                progress.start[condition.name] = value_at(state, condition.name);
+/// Whether the step waits only for its conditions.
+bool pending(const CardProgress& progress, std::size_t step) {
+    return !progress.done[step] && progress.tried[step];
 }
 
 }  // namespace
 
+void note_command(CardProgress& progress, const Card& card, const std::string& command, const Json& arguments,
+                  bool changes, std::uint64_t moment) {
+    progress.done.resize(card.steps.size());
+    progress.tried.resize(card.steps.size());
+    for (std::size_t i = 0; i < card.steps.size(); ++i) {
+        const CardStep& step = card.steps[i];
+        auto& tried = progress.tried[i];
+        const bool is_it = std::any_of(step.by.begin(), step.by.end(), [&](const CardLine& line) {
+            return matches(line, command, arguments);
+        });
+        if (is_it) {
+            tried = tried.value_or(moment);
+            if (step.when.empty()) progress.done[i] = true;
+            progress.seen = nullptr;
+        } else if (changes) {
+            tried.reset();
+        }
+    }
+}
+
 void watch_card(CardProgress& progress, const Card& card, const std::shared_ptr<const Part>& part,
                 const std::function<Json()>& state) {
     if (progress.ticks_to_wait > 0) --progress.ticks_to_wait;
-    if (part->bytes() > max_watched_bytes) return;
-    const bool fresh = progress.done.empty();
-    if (!fresh && (!card_waits(progress, part) || progress.ticks_to_wait > 0)) return;
+    if (!card_waits(progress, part) || progress.ticks_to_wait > 0) return;
     const Json now = state();
-    if (fresh) begin(progress, card, now);
     for (std::size_t i = 0; i < card.steps.size(); ++i) {
-        if (progress.done[i]) continue;
+        if (!pending(progress, i)) continue;
         const auto& when = card.steps[i].when;
         progress.done[i] = std::all_of(when.begin(), when.end(), [&](const CardCondition& condition) {
-            return holds(condition, progress, now);
+            return holds(condition, *progress.tried[i], now);
         });
     }
     progress.seen = part;
@@ -84,8 +83,10 @@ void watch_card(CardProgress& progress, const Card& card, const std::shared_ptr<
 }
 
 bool card_waits(const CardProgress& progress, const std::shared_ptr<const Part>& part) {
-    const bool all = std::all_of(progress.done.begin(), progress.done.end(), [](bool done) { return done; });
-    return progress.seen != part && part->bytes() <= max_watched_bytes && (!all || progress.done.empty());
+    if (progress.seen == part || part->bytes() > max_watched_bytes) return false;
+    for (std::size_t i = 0; i < progress.done.size(); ++i)
+        if (pending(progress, i)) return true;
+    return false;
 }
 
 std::size_t current_step(const CardProgress& progress, const Card& card) {

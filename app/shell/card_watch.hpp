@@ -8,8 +8,12 @@
 
 namespace tendril::app {
 
-/// Marks the steps that are done. Calls `state` only if the part has changed since the last check and a step
-/// is left; for a large part not every tick.
+/// Takes note of a command that was run at that moment: steps that wait for it and for nothing else are done.
+/// `changes`: it may have changed the scene.
+void note_command(CardProgress& progress, const Card& card, const std::string& command, const Json& arguments,
+                  bool changes, std::uint64_t moment);
+/// Marks the steps whose conditions now hold as well. Calls `state` only if there may be such steps; for a
+/// large part not every tick.
 void watch_card(CardProgress& progress, const Card& card, const std::shared_ptr<const Part>& part,
                 const std::function<Json()>& state);
 /// Whether the next tick may find a step done even without an event.

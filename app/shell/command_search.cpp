@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <initializer_list>
 #include <optional>
 #include <sstream>
 #include <tuple>
@@ -21,7 +22,30 @@ bool begins_word(const std::string& text, const std::string& word) {
     return false;
 }
 
-/// Distance of a command from the query, 0 the best match; none if a word does not occur.
+/// Whether an argument's name has a word that begins with `word`.
+bool takes(const Command& command, const std::string& word) {
+    return std::any_of(command.arguments.begin(), command.arguments.end(), [&](const Argument& argument) {
+        return begins_word(lower_case(argument.name), word);
+    });
+}
+
+/// Of commands that match equally, people mean the one that adds something before the one that changes
+/// it, and last the one that removes it, or everything. The first word of the title tells which.
+enum class Verb { Adds, Changes, Removes, RemovesAll };
+
+Verb verb_of(const Command& command) {
+    const std::string title = lower_case(command.title), verb = title.substr(0, title.find(' '));
+    const auto is_one_of = [&](std::initializer_list<const char*> verbs) {
+        return std::find(verbs.begin(), verbs.end(), verb) != verbs.end();
+    };
+    if (is_one_of({"add", "insert", "attach"})) return Verb::Adds;
+    if (is_one_of({"clear", "reset"})) return Verb::RemovesAll;
+    if (!is_one_of({"remove", "delete", "detach", "forget"})) return Verb::Changes;
+    return begins_word(title, "every") || begins_word(title, "all") ? Verb::RemovesAll : Verb::Removes;
+}
+
+/// Distance of a command from the query: for each word 0 if the title has it at the start of a word, more if
+/// only the name has it, the inside of the title, the help, or an argument's name. None if a word is nowhere.
 std::optional<int> distance(const Command& command, const std::vector<std::string>& words) {
     const std::string title = lower_case(command.title), name = lower_case(command.name),
                       help = lower_case(command.help);
@@ -32,6 +56,7 @@ std::optional<int> distance(const Command& command, const std::vector<std::strin
                             : name.find(word) != name.npos         ? 2
                             : title.find(word) != title.npos       ? 3
                             : help.find(word) != std::string::npos ? 4
+                            : takes(command, word)                 ? 5
                                                                    : -1;
         if (of_word < 0) return std::nullopt;
         sum += of_word;
@@ -55,13 +80,15 @@ std::vector<const Command*> search_commands(const CommandTable& table, const std
     const auto scope = [&](const Command& command) {
         return open_lab.empty() || command.lab == open_lab ? 0 : command.lab.empty() ? 1 : 2;
     };
-    using Rank = std::tuple<bool, std::ptrdiff_t, bool, int, int>;
+    using Rank = std::tuple<bool, std::ptrdiff_t, bool, int, Verb, int>;
     std::vector<std::pair<Rank, const Command*>> found;
     for (const Command& command : table.all()) {
         const auto far = distance(command, words);
         if (!far) continue;
         const bool other = words.size() != 1 || lower_case(command.name) != words.front();
-        found.push_back({{other, age(command), scope(command) == 2, *far, scope(command)}, &command});
+        found.push_back({{other, age(command), scope(command) == 2, *far,
+                          words.empty() ? Verb::Changes : verb_of(command), scope(command)},
+                         &command});
     }
     std::stable_sort(found.begin(), found.end(),
                      [](const auto& a, const auto& b) { return a.first < b.first; });

@@ -327,7 +327,7 @@ void Shell::frame(const ShellFrame& frame, Emit& emit) {
     }
     status_bar(frame);
     overlays_ = {show_first_hint(frame), show_legend(frame), show_axis_gizmo(frame, emit)};
-    show_card_halo(frame, lit_);
+    card_ring_ = show_card_halo(frame, lit_);
     if (workspace.ui.help) show_help(frame, emit);
     if (workspace.ui.settings) show_settings(frame, emit);
     palette_.frame(frame, emit);

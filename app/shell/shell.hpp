@@ -3,6 +3,7 @@
 
 #include <imgui.h>
 
+#include <optional>
 #include <span>
 #include <string>
 
@@ -12,6 +13,7 @@
 #include "app/shell/file_dialog.hpp"
 #include "app/shell/layout.hpp"
 #include "app/shell/shortcuts.hpp"
+#include "app/view/draw_list.hpp"
 
 namespace tendril::app {
 
@@ -23,9 +25,10 @@ struct ShellFrame {
     const CommandTable& commands;
     const Shortcuts& shortcuts;
     const Layout& layout;
-    std::string hint;               ///< what the mouse would do at its position
-    const Card* card = nullptr;     ///< the shown card of things to try, if any
-    std::span<const Card> cards{};  ///< all of the lab's
+    std::string hint;                 ///< what the mouse would do at its position
+    const Card* card = nullptr;       ///< the shown card of things to try, if any
+    std::span<const Card> cards{};    ///< all of the lab's
+    std::span<const Stroke> drawn{};  ///< the scene's strokes in the last picture
 
     glm::vec2 screen() const { return {layout.top.max.x, layout.status.max.y}; }
     const Palette& colours() const { return palette(workspace.settings.theme); }
@@ -39,6 +42,8 @@ class Shell {
     void frame(const ShellFrame& frame, Emit& emit);
     /// Rectangles that the last frame drew on the scene: hint, legend and axis gizmo.
     const std::vector<Rect>& overlays() const { return overlays_; }
+    /// Where the last frame drew the ring of the card's current step, if it did.
+    const std::optional<glm::vec2>& card_ring() const { return card_ring_; }
 
   private:
     void side_panel(const ShellFrame& frame, bool left, Emit& emit);
@@ -46,6 +51,7 @@ class Shell {
     float overflow_[2] = {0.0f, 0.0f};  ///< how far each side panel can scroll
     std::vector<Rect> overlays_;
     PickId lit_ = no_pick;  ///< of the highlighted handle; see show_card_halo()
+    std::optional<glm::vec2> card_ring_;
     CommandPalette palette_;
     FileDialog file_dialog_;
 };

@@ -2,7 +2,9 @@
 #include <imgui_internal.h>
 
 #include "app/app.hpp"
+#include "app/document/argument_check.hpp"
 #include "app/document/command.hpp"
+#include "app/document/json_complete.hpp"
 #include "app/labs/card.hpp"
 #include "app/labs/labs.hpp"
 #include "app/shell/layout.hpp"
@@ -10,6 +12,7 @@
 #include "app/widgets/section_light.hpp"
 #include "tests/app/support/panel_text.hpp"
 #include "tests/app/support/play.hpp"
+#include "tests/app/support/temp_folder.hpp"
 
 namespace tendril::test {
 namespace {
@@ -38,7 +41,7 @@ class CardOnScene {
     explicit CardOnScene(const CardOfLab& which, glm::ivec2 size = {1280, 720})
         : window_(open_offscreen(size)), card_(which.read()) {
         run("lab.open", {{"name", which.lab}});
-        for (const Card::Line& line : card_.scene) run(line.command, line.arguments);
+        for (const CardLine& line : card_.scene) run(line.command, line.arguments);
         run("view.card", {{"open", true}, {"number", which.number}});
         wait(2);
     }
@@ -57,6 +60,7 @@ class CardOnScene {
         wait(60);  // large parts are checked less often
     }
     std::vector<bool> done() { return app_->state().at("card").at("done").get<std::vector<bool>>(); }
+    bool has_ring() { return !app_->state().at("card").at("ring").is_null(); }
     bool has_handle(const std::string& name) {
         const Json state = app_->state();
         for (const Json& each : state.at("handles"))
@@ -88,21 +92,109 @@ TEST_P(LabCard, every_step_ticks_itself_off_when_it_is_played) {
     ASSERT_EQ(scene.done(), std::vector<bool>(steps, false)) << "nothing has happened yet";
     scene.wait(120);
     EXPECT_EQ(scene.done(), std::vector<bool>(steps, false)) << "and time alone does nothing";
+    std::vector<bool> expected(steps, false);
     for (std::size_t i = 0; i < steps; ++i) {
         const CardStep& step = scene.card().steps[i];
-        EXPECT_FALSE(scene.done()[i]) << step.text << " was done before it was played";
         scene.play(step);
-        EXPECT_TRUE(scene.done()[i]) << step.text;
+        expected[i] = true;
+        EXPECT_EQ(scene.done(), expected) << step.text << " ticks itself off and no other";
+    }
+}
+
+/// Also where no step before it was played. A script that drags a handle may tick another step that asks for
+/// that very drag.
+TEST_P(LabCard, every_step_alone_ticks_no_other) {
+    for (std::size_t i = 0; i < GetParam().read().steps.size(); ++i) {
+        CardOnScene scene(GetParam());
+        const auto& steps = scene.card().steps;
+        scene.play(steps[i]);
+        for (std::size_t k = 0; k < steps.size(); ++k) {
+            if (k != i && steps[k].by.front().command == steps[i].by.front().command) continue;
+            EXPECT_EQ(scene.done()[k], k == i) << steps[i].text << ": " << steps[k].text;
+        }
+    }
+}
+
+TEST_P(LabCard, every_step_waits_for_a_command_that_exists) {
+    CardOnScene scene(GetParam());
+    for (const CardStep& step : scene.card().steps) {
+        for (const CardLine& line : step.by) {
+            const Command* const command = scene.app().commands().find(line.command);
+            ASSERT_NE(command, nullptr) << line.command;
+            for (const auto& [key, value] : line.arguments->items())
+                EXPECT_NE(find_argument(*command, key), nullptr) << line.command << " " << key;
+        }
+    }
+}
+
+/// Neither do undo and redo, nor what they bring back.
+TEST_P(LabCard, other_scenes_tick_nothing) {
+    CardOnScene scene(GetParam());
+    const TempFolder folder;
+    const std::string file = (folder / "scene.json").string();
+    scene.run("scene.save", {{"path", file}});
+    const std::string lab = GetParam().lab;
+    const std::vector<bool> nothing(scene.card().steps.size(), false);
+    const auto run = [&](const std::string& name, const Json& arguments) {
+        for (const CardStep& step : scene.card().steps)
+            for (const CardLine& line : step.by)
+                if (line.command == name && Json(line.arguments) == arguments) return;  // its very step
+        const auto expect_nothing = [&](const char* after) {
+            scene.wait(3);
+            EXPECT_EQ(scene.done(), nothing) << name << " " << arguments.dump() << ": " << after;
+        };
+        scene.run(name, arguments);
+        expect_nothing("itself");
+        for (const char* command : {"undo", "redo"}) {
+            if (std::string(command) == "undo" && !scene.app().workspace().history.can_undo()) return;
+            scene.run(command, Json::object());
+            expect_nothing(command);
+        }
+    };
+    if (const Command* const preset = scene.app().commands().find(lab + ".preset"))
+        for (const std::string& name : find_argument(*preset, "name")->choices)
+            if (name != "half_a_million") run(preset->name, {{"name", name}});
+    for (const std::string& name : {lab + ".clear", lab + ".reset", std::string("scene.new")})
+        if (scene.app().commands().find(name) != nullptr) run(name, Json::object());
+    run("scene.open", {{"path", file}});
+}
+
+TEST_P(LabCard, undo_and_redo_of_a_step_tick_nothing) {
+    CardOnScene scene(GetParam());
+    for (const CardStep& step : scene.card().steps) scene.play(step);
+    const std::size_t steps = scene.card().steps.size();
+    scene.run("view.card", {{"open", true}, {"number", GetParam().number}});
+    for (const char* command : {"undo", "redo"}) {
+        for (std::size_t i = 0; i < 2 * steps; ++i) {
+            try {
+                scene.run(command, Json::object());
+            } catch (const Refused&) {
+                break;  // the end of the history
+            }
+            scene.wait(3);
+            EXPECT_EQ(scene.done(), std::vector<bool>(steps, false)) << command << " " << i;
+        }
     }
 }
 
 TEST_P(LabCard, handles_that_light_up_are_in_view) {
     CardOnScene scene(GetParam());
     for (const CardStep& step : scene.card().steps) {
-        const bool lights_up = step.place != CardStep::Place::Handle || scene.has_handle(step.place_name);
-        EXPECT_TRUE(lights_up) << step.place_name;
+        const bool handle = step.place == CardStep::Place::Handle;
+        EXPECT_TRUE(!handle || scene.has_handle(step.place_name)) << step.place_name;
+        EXPECT_EQ(scene.has_ring(), handle) << step.place_name;
         scene.play(step);
     }
+    EXPECT_FALSE(scene.has_ring()) << "all is done";
+}
+
+TEST_P(LabCard, an_empty_scene_has_no_ring) {
+    CardOnScene scene(GetParam());
+    if (GetParam().lab == "signal") return;  // the hand is always there
+    scene.run("scene.new", Json::object());
+    scene.wait(2);
+    const std::string first = scene.card().steps.front().place_name;
+    EXPECT_EQ(scene.has_ring(), scene.has_handle(first)) << first;
 }
 
 TEST_P(LabCard, sections_that_light_up_are_there) {
@@ -118,7 +210,7 @@ TEST_P(LabCard, sections_that_light_up_are_there) {
     const Lab& lab = *labs.find(GetParam().lab);
     workspace.open_lab(GetParam().lab);
     const Card card = GetParam().read();
-    for (const Card::Line& line : card.scene) run(line.command, line.arguments);
+    for (const CardLine& line : card.scene) run(line.command, line.arguments);
     for (const CardStep& step : card.steps) {
         for (const SharedJson& line : step.script)
             if (line->contains("command")) run((*line)["command"], line);
@@ -150,7 +242,7 @@ TEST_P(LabCard, that_was_put_away_comes_back_anew) {
     std::vector<std::string> complaints;
     EXPECT_EQ(load_settings(save_settings(kept), complaints), kept) << "for good";
     EXPECT_TRUE(complaints.empty());
-    for (const Card::Line& line : scene.card().scene) scene.run(line.command, line.arguments);
+    for (const CardLine& line : scene.card().scene) scene.run(line.command, line.arguments);
     scene.run("view.card", Json::object());
     scene.wait(60);
     EXPECT_FALSE(scene.done().front());
@@ -228,6 +320,36 @@ TEST(CardsTest, the_chevron_shows_the_next_card_on_its_scene) {
         scene.wait(2);
     }
     EXPECT_FALSE(scene.app().state().at("ropes").empty());
+}
+
+TEST(CardsTest, a_ring_is_only_around_what_the_scene_shows) {
+    CardOnScene scene({"chain", 1});
+    for (std::size_t i = 0; i < 3; ++i) scene.play(scene.card().steps[i]);
+    ASSERT_EQ(scene.card().steps[3].place_name, "pole");
+    EXPECT_TRUE(scene.has_ring());
+    scene.run("chain.mode", {{"mode", "backward"}});
+    scene.wait(2);
+    EXPECT_FALSE(scene.has_ring()) << "this mode has no pole target";
+    scene.run("chain.mode", {{"mode", "reach"}});
+    scene.wait(2);
+    EXPECT_TRUE(scene.has_ring());
+}
+
+TEST(CardsTest, a_step_asks_for_its_own_handle) {
+    CardOnScene scene({"humanoid", 1});
+    for (const char* hand : {"right_hand", "left_hand"})
+        scene.run("humanoid.target", {{"effector", hand}, {"to", {0.3, 3.0, 0.5}}});
+    scene.wait(60);
+    EXPECT_EQ(scene.done(), (std::vector<bool>{true, false, false, false, false}));
+}
+
+TEST(CardsTest, a_typed_command_counts_and_a_refused_one_does_not) {
+    CardOnScene scene({"rig", 1});
+    EXPECT_THROW(scene.run("rig.control.set", {{"name", "look"}, {"value", "up"}}), Refused);
+    scene.wait(2);
+    EXPECT_FALSE(scene.done()[0]);
+    scene.run("rig.control.set", {{"name", "look"}, {"value", {0.1, 0.2}}});
+    EXPECT_TRUE(scene.done()[0]);
 }
 
 TEST(CardsTest, are_hidden_without_a_window) {

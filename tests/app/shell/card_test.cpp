@@ -13,7 +13,8 @@ namespace {
 Json good_step() {
     return {{"text", "Do it."},
             {"place", {{"handle", "target"}}},
-            {"when", Json::array({{{"changed", "x"}}})},
+            {"by", Json::array({{{"command", "move"}, {"what", "ball"}, {"to", nullptr}}})},
+            {"when", Json::array({{{"present", "x"}}})},
             {"script", Json::array({{{"wait", 1}}})}};
 }
 
@@ -41,7 +42,9 @@ TEST(CardFile, is_read) {
     EXPECT_EQ(card.steps[0].place, CardStep::Place::Handle);
     EXPECT_EQ(card.steps[0].place_name, "target");
     ASSERT_EQ(card.steps[0].when.size(), 1u);
-    EXPECT_EQ(card.steps[0].when[0].kind, CardCondition::Kind::Changed);
+    EXPECT_EQ(card.steps[0].when[0].kind, CardCondition::Kind::Present);
+    ASSERT_EQ(card.steps[0].by.size(), 1u);
+    EXPECT_EQ(card.steps[0].by[0].command, "move");
 }
 
 TEST(CardFile, that_is_broken_is_refused_with_its_place) {
@@ -57,10 +60,11 @@ TEST(CardFile, that_is_broken_is_refused_with_its_place) {
         {"/steps/0/text", 5, "cards.0.steps.0.text: expected text, found 5"},
         {"/steps/0/place", {{"button", "x"}}, "cards.0.steps.0.place: unknown member \"button\""},
         {"/steps/0/place", Json::object(), "cards.0.steps.0.place: expected one of"},
-        {"/steps/0/when", Json::array(), "cards.0.steps.0.when: expected a condition, found none"},
+        {"/steps/0/by", Json::array(), "cards.0.steps.0.by: expected a command, found none"},
+        {"/steps/0/by/0", {{"name", "x"}}, "cards.0.steps.0.by.0"},
         {"/steps/0/when/0", {{"happens", "x"}}, "cards.0.steps.0.when.0: expected one of"},
         {"/steps/0/when/0", {{"expect", "x"}}, "cards.0.steps.0.when.0: expected exactly one of"},
-        {"/steps/0/when/0", {{"changed", "x"}, {"above", 1}}, "cards.0.steps.0.when.0: unknown member"},
+        {"/steps/0/when/0", {{"present", "x"}, {"above", 1}}, "cards.0.steps.0.when.0: unknown member"},
         {"/steps/0/script", Json::array(), "cards.0.steps.0.script: expected a line, found none"}};
     for (const Case& each : cases) {
         Json card = good_card();
@@ -72,6 +76,10 @@ TEST(CardFile, that_is_broken_is_refused_with_its_place) {
 
 class CardWatch : public testing::Test {
   protected:
+    void run(const char* command, const Json& arguments, bool changes = true) {
+        note_command(progress_, card_, command, arguments, changes, moment_);
+    }
+    void move_ball() { run("move", {{"what", "ball"}, {"to", {0, 1, 0}}}); }
     void watch(const Json& state) {
         const auto tell = [&] {
             ++asked_;
@@ -84,68 +92,101 @@ class CardWatch : public testing::Test {
         part_ = std::make_shared<test::TestPart>();
         for (int i = 0; i < 60; ++i) watch(state);
     }
-    void use_condition(const Json& condition) {
+    void use_conditions(const Json& conditions) {
         Json card = good_card();
-        card["steps"][0]["when"] = Json::array({condition});
+        card["steps"][0]["when"] = conditions;
         card_ = only(card);
     }
-    bool done() const { return progress_.done.at(0); }
+    bool done() const { return !progress_.done.empty() && progress_.done.at(0); }
 
     Card card_ = only(good_card());
     CardProgress progress_;
     std::shared_ptr<const Part> part_ = std::make_shared<test::TestPart>();
+    std::uint64_t moment_ = 5;
     int asked_ = 0;
 };
 
-TEST_F(CardWatch, a_value_must_differ_from_what_it_was_when_the_card_was_shown) {
-    watch({{"x", 1}});
+TEST_F(CardWatch, a_command_must_have_the_arguments_that_matter) {
+    use_conditions(Json::array());
+    run("move", {{"what", "cube"}, {"to", {0, 1, 0}}});
+    run("move", {{"what", "ball"}, {"speed", 1}});
+    run("turn", {{"what", "ball"}, {"to", {0, 1, 0}}});
     EXPECT_FALSE(done());
-    change({{"x", 1}});
-    EXPECT_FALSE(done());
-    change({{"x", 2}});
-    EXPECT_TRUE(done());
-    change({{"x", 1}});
+    run("move", {{"what", "ball"}, {"to", {0, 1, 0}}, {"speed", 1}});
+    EXPECT_TRUE(done()) << "others are welcome";
+    run("undo", Json::object());
     EXPECT_TRUE(done()) << "what has happened has happened";
 }
 
+TEST_F(CardWatch, a_state_without_the_command_is_not_enough) {
+    watch({{"x", 1}});
+    change({{"x", 1}});
+    EXPECT_FALSE(done());
+    EXPECT_EQ(asked_, 0) << "nobody needs the state yet";
+    move_ball();
+    change({{"y", 1}});
+    EXPECT_FALSE(done());
+    change({{"x", 1}});
+    EXPECT_TRUE(done()) << "the result may come later";
+}
+
+TEST_F(CardWatch, the_result_must_be_the_commands_own) {
+    move_ball();
+    change({{"y", 1}});
+    run("look", Json::object(), false);
+    run("preset", Json::object());
+    change({{"x", 1}});
+    EXPECT_FALSE(done()) << "that came from the preset";
+    move_ball();
+    run("look", Json::object(), false);
+    change({{"x", 1}});
+    EXPECT_TRUE(done());
+}
+
+TEST_F(CardWatch, a_command_that_changes_nothing_is_checked_too) {
+    move_ball();
+    change({{"y", 1}});
+    move_ball();
+    for (int i = 0; i < 60; ++i) watch({{"x", 1}});
+    EXPECT_TRUE(done());
+}
+
 TEST_F(CardWatch, an_expectation_is_one_of_a_script) {
-    use_condition({{"expect", "a.b"}, {"above", 3}});
-    watch({{"a", {{"b", 3}}}});
+    use_conditions(Json::array({{{"expect", "a.b"}, {"above", 3}}}));
+    move_ball();
+    change({{"a", {{"b", 3}}}});
     EXPECT_FALSE(done());
     change({{"a", {{"b", 4}}}});
     EXPECT_TRUE(done());
 }
 
-TEST_F(CardWatch, an_event_must_be_of_that_kind_and_new) {
-    use_condition({{"event", "flip"}});
+TEST_F(CardWatch, an_event_must_be_of_that_kind_and_come_with_the_command) {
+    use_conditions(Json::array({{{"event", "flip"}}}));
     const auto event = [](const char* kind, int tick) { return Json{{"kind", kind}, {"tick", tick}}; };
-    watch({{"time", {{"moment", 5}}}, {"events", Json::array({event("flip", 4)})}});
-    EXPECT_FALSE(done()) << "that was before the card was shown";
-    change({{"time", {{"moment", 9}}}, {"events", Json::array({event("flip", 4), event("limit", 8)})}});
+    move_ball();
+    change({{"events", Json::array({event("flip", 4)})}});
+    EXPECT_FALSE(done()) << "that was before";
+    change({{"events", Json::array({event("flip", 4), event("limit", 8)})}});
     EXPECT_FALSE(done());
-    change({{"time", {{"moment", 9}}}, {"events", Json::array({event("limit", 8), event("flip", 9)})}});
-    EXPECT_TRUE(done());
-}
-
-TEST_F(CardWatch, an_event_is_new_where_time_began_anew) {
-    use_condition({{"event", "flip"}});
-    watch({{"time", {{"moment", 500}}}, {"events", Json::array({{{"kind", "flip"}, {"tick", 490}}})}});
-    change({{"time", {{"moment", 3}}}, {"events", Json::array({{{"kind", "flip"}, {"tick", 2}}})}});
-    EXPECT_TRUE(done());
+    moment_ = 9;
+    move_ball();
+    change({{"events", Json::array({event("flip", 4), event("flip", 7), event("limit", 8)})}});
+    EXPECT_TRUE(done()) << "of the same drag";
 }
 
 TEST_F(CardWatch, the_state_is_asked_for_only_when_the_part_is_another) {
-    watch({{"x", 1}});
+    move_ball();
+    watch({{"y", 1}});
     EXPECT_EQ(asked_, 1);
-    for (int i = 0; i < 100; ++i) watch({{"x", 1}});
+    for (int i = 0; i < 100; ++i) watch({{"y", 1}});
     EXPECT_EQ(asked_, 1);
-    change({{"x", 1}});
+    change({{"y", 1}});
     EXPECT_EQ(asked_, 2);
 }
 
 TEST_F(CardWatch, nothing_is_asked_once_all_is_done) {
-    watch({{"x", 1}});
-    change({{"x", 2}});
+    move_ball();
+    change({{"x", 1}});
     ASSERT_TRUE(done());
     const int asked = asked_;
     change({{"x", 3}});

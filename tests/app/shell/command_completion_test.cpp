@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <random>
 
+#include "app/document/argument_check.hpp"
 #include "app/document/command.hpp"
 #include "app/document/json_complete.hpp"
+#include "app/document/text.hpp"
 #include "app/labs/labs.hpp"
 #include "app/shell/command_search.hpp"
 #include "tests/app/support/program.hpp"
@@ -74,6 +76,89 @@ TEST_F(Completion, FindsWhatIsNamedAndThenTheOpenLabsOwn) {
         EXPECT_FALSE(table_.find(all.back())->lab.empty());
         EXPECT_NE(table_.find(all.back())->lab, own);
     }
+}
+
+/// What people mean by a word: adding one before changing it, and changing it before removing it.
+TEST_F(Completion, FindsWhatPeopleMean) {
+    struct Query {
+        const char *lab, *text;
+        Strings first;
+    };
+    const Query queries[] = {
+        {"chain", "joint", {"chain.add", "chain.insert"}},
+        {"chain", "remove", {"chain.remove", "chain.clear"}},
+        {"chain", "remove joint", {"chain.remove", "chain.clear"}},
+        {"chain", "bone", {"chain.set_length"}},
+        {"chain", "target", {"chain.target", "chain.motion"}},
+        {"chain", "preset", {"chain.preset", "view.mouse"}},
+        {"chain", "pole", {"chain.pole"}},
+        {"chain", "seed", {"chain.preset"}},
+        {"rope", "rope", {"rope.add"}},
+        {"rope", "cloth", {"rope.cloth.add"}},
+        {"rope", "collider", {"rope.collider.add", "rope.collider.set"}},
+        {"rope", "remove", {"rope.remove"}},
+        {"rope", "friction", {"rope.settings"}},
+        {"signal", "filter", {"signal.filter.add", "signal.filter.set"}},
+        {"signal", "remove", {"signal.filter.remove"}},
+        {"signal", "response", {"signal.fit"}},
+        {"signal", "amplitude", {"signal.input"}},
+        {"rig", "bone", {"rig.element.add"}},
+        {"rig", "unit", {"rig.unit.add"}},
+        {"rig", "control", {"rig.element.add", "rig.control.set"}},
+        {"rig", "curve", {"rig.curve.add", "rig.curve.set"}},
+        {"humanoid", "character", {"humanoid.load"}},
+        {"humanoid", "rope", {"humanoid.attach"}},
+        {"humanoid", "bone map", {"humanoid.map", "humanoid.map.save"}},
+        {"humanoid", "view_deg", {"humanoid.hand_ik", "humanoid.look_at"}},
+    };
+    for (const Query& query : queries) {
+        Strings found = names(query.text, query.lab);
+        found.resize(std::min(found.size(), query.first.size()));
+        EXPECT_EQ(found, query.first) << query.text << " in " << query.lab;
+    }
+}
+
+/// Of commands with the same word in their titles.
+TEST_F(Completion, FindsWhatRemovesThingsLast) {
+    const auto removes = [](const Command& command) {
+        const std::string verb = command.title.substr(0, command.title.find(' '));
+        return has({"Remove", "Delete", "Reset", "Forget", "Detach"}, verb);
+    };
+    for (const auto& lab : labs_.all()) {
+        for (const char* noun : {"joint", "rope", "filter", "unit", "element", "control", "clip", "collider",
+                                 "response", "lab", "selection"}) {
+            bool removing = false;
+            for (const Command* command : search_commands(table_, noun, lab->name())) {
+                const bool same =
+                    command->lab == lab->name() &&
+                    (" " + lower_case(command->title)).find(std::string(" ") + noun) != std::string::npos;
+                if (!same) continue;
+                EXPECT_TRUE(removes(*command) || !removing) << noun << ": " << command->title;
+                removing = removing || removes(*command);
+            }
+        }
+    }
+}
+
+TEST_F(Completion, FindsByArgumentsAfterTitleAndHelp) {
+    for (const auto& lab : labs_.all()) {
+        for (const char* word : {"radius", "weight", "length", "speed"}) {
+            bool by_argument = false;
+            for (const Command* command : search_commands(table_, word, lab->name())) {
+                if (command->lab != lab->name()) continue;
+                const std::string told = lower_case(command->title + command->name + command->help);
+                const bool says_it = told.find(word) != std::string::npos;
+                EXPECT_TRUE(!says_it || !by_argument) << word << ": " << command->name;
+                by_argument = by_argument || !says_it;
+            }
+            const Strings all = names(word, lab->name().c_str());
+            for (const Command& command : table_.all()) {
+                if (find_argument(command, word) == nullptr) continue;
+                EXPECT_TRUE(has(all, command.name)) << command.name;
+            }
+        }
+    }
+    EXPECT_TRUE(has(names("add radius", "rope"), "rope.cloth.add"));
 }
 
 TEST_F(Completion, BeginsWithWhatRanLast) {
