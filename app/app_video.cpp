@@ -5,6 +5,7 @@
 
 #include "app/app.hpp"
 #include "app/document/refused.hpp"
+#include "app/document/shown_path.hpp"
 #include "app/io/clipboard_picture.hpp"
 #include "app/video_take.hpp"
 
@@ -36,7 +37,7 @@ void App::take_picture(const PictureRequest& wanted) {
     } catch (const std::exception& error) {
         throw Refused(command + ": " + error.what());
     }
-    workspace_.toast(copies ? "Copied the picture" : "Written: " + wanted.path.string());
+    workspace_.toast(copies ? "Copied the picture" : written_text(wanted.path));
 }
 
 void App::begin_video(const VideoRequest& wanted) {
@@ -73,7 +74,7 @@ void App::write_video(bool ends) {
         workspace_.ui.filming = video_->progress();
         if (!ends || !video_->has_all_frames()) return;
         video_->finish();
-        workspace_.toast("Written: " + video_->wanted().path.string());
+        workspace_.toast(written_text(video_->wanted().path));
         drop_video();
     } catch (const std::exception& error) {
         drop_video();

@@ -85,14 +85,14 @@ bool begin_sheet(const char* title, glm::vec2 screen, glm::vec2 wanted) {
 
 void show_help(const ShellFrame& frame, Emit& emit) {
     const float scale = frame.layout.scale;
-    if (!begin_sheet("Keys and mouse", frame.screen(), {860.0f * scale, 640.0f * scale})) {
+    if (!begin_sheet("Keys and mouse", frame.screen(), {1180.0f * scale, 640.0f * scale})) {
         emit("view.help", {{"open", false}});
     }
-    // Two columns if there is room, else one.
+    // Three columns if there is room, which shows all of it; else two, or one.
     const float room = ImGui::GetContentRegionAvail().x;
-    const bool two = room > 720.0f * scale;
-    const float mouse = std::min(190.0f * scale, 0.45f * room), keys = two ? 150.0f * scale : mouse;
-    if (ImGui::BeginTable("columns", two ? 2 : 1, ImGuiTableFlags_NoPadOuterX)) {
+    const int columns = room > 1040.0f * scale ? 3 : room > 720.0f * scale ? 2 : 1;
+    const float mouse = std::min(190.0f * scale, 0.45f * room), keys = columns > 1 ? 150.0f * scale : mouse;
+    if (ImGui::BeginTable("columns", columns, ImGuiTableFlags_NoPadOuterX)) {
         ImGui::TableNextColumn();
         key_table("Mouse", mouse, [&] {
             for (const auto& help :
@@ -100,11 +100,13 @@ void show_help(const ShellFrame& frame, Emit& emit) {
                                             scroll_action(frame.workspace.settings)))
                 key_row(help.gesture, help.effect);
         });
-        key_table("Time", mouse, [&] {
+        if (columns == 3) ImGui::TableNextColumn();
+        const float beside = columns == 3 ? keys : mouse;
+        key_table("Time", beside, [&] {
             keys_of(frame, "Time");
             for (const std::string_view section : sections_of_lab(frame)) keys_of(frame, section);
         });
-        key_table("Help", mouse, [&] { keys_of(frame, "Help"); });
+        key_table("Help", beside, [&] { keys_of(frame, "Help"); });
         ImGui::TableNextColumn();
         for (const char* section : {"Scene", "Edit", "View"})
             key_table(section, keys, [&] { keys_of(frame, section); });
@@ -265,6 +267,10 @@ Rect show_legend(const ShellFrame& frame) {
     const float line = 1.35f * ImGui::GetFontSize();
     float y = box.min.y;
     ImDrawList* list = ImGui::GetBackgroundDrawList();
+    // A quiet ground, so that axes and grid lines do not run through the words.
+    const float edge = 6.0f * scale;
+    list->AddRectFilled({box.min.x + edge, box.min.y - edge}, {box.max.x + edge, box.max.y + 0.5f * edge},
+                        imgui_u32(colours.background_bottom, 0.82f), edge);
     for (const LegendRow& row : rows) {
         const ImVec2 centre{view.min.x + 18.0f * scale, y + 0.5f * ImGui::GetFontSize()};
         if (row.ring) {

@@ -207,7 +207,56 @@ Verdict reach_verdict(const ChainPart& part) {
     return {"Refused", Verdict::Kind::Bad};
 }
 
+/// Whether all joints lie on the line from the root to the target.
+bool in_line_with_target(const ChainPart& part) {
+    const glm::vec3 root = part.chain.position(0), way = part.target - root;
+    const float within = 1e-4f * part.chain.reach();
+    if (!(glm::length(way) > within)) return false;
+    const glm::vec3 along = glm::normalize(way);
+    const std::vector<glm::vec3> joints = positions(part.chain);
+    return std::all_of(joints.begin(), joints.end(), [&](const glm::vec3& joint) {
+        return glm::length(glm::cross(joint - root, along)) <= within;
+    });
+}
+
+/// What is known about a solve that further iterations would not bring nearer.
+std::string stalled_text(const ChainPart& part) {
+    const ReachSettings& reach = part.reach;
+    const bool limited = !reach.limits.empty();
+    if (!limited && in_line_with_target(part)) {
+        const float span = glm::distance(part.chain.position(0), part.chain.position(part.chain.size() - 1));
+        return std::string(span > 0.999f * part.chain.reach()
+                               ? "Straight, and the target is on its line"
+                               : "Folded onto a line, and the target is on it") +
+               ": no joint turns it nearer. Bend it" + (reach.pole ? "." : ", or add a pole target.");
+    }
+    const ik::Method method = part.result->method;
+    return "The nearest pose that " + ran_text(method, {}, limited) + " finds from here. Another solver" +
+           (ik::honours(method, ik::Option::Restarts, limited) ? ", or more restarts," : "") +
+           " may get nearer.";
+}
+
 }  // namespace
+
+std::string status_text(const ChainPart& part) {
+    switch (part.result->report.status) {
+        case ik::Status::Converged:
+            return "The tip is on the target.";
+        case ik::Status::Stretched:
+            return "The target is out of reach: the chain lies straight towards it.";
+        case ik::Status::TooClose:
+            return "The target is closer than the longest bone lets the tip fold.";
+        case ik::Status::Limited:
+            return "The joint limits keep the tip away.";
+        case ik::Status::Stalled:
+            return stalled_text(part);
+        case ik::Status::IterationLimit:
+            return "Not there yet when the iterations ran out.";
+        case ik::Status::InvalidInput:
+            break;
+    }
+    return "Nothing was moved: a number is not valid.";
+}
 
 Verdict chain_verdict(const ChainPart& part) {
     if (part.chain.empty()) return {"No joints", Verdict::Kind::Open};
@@ -253,7 +302,7 @@ void report_rows(const ShownChain& shown, const std::vector<glm::vec3>& joints, 
     }
     const ReachResult& result = *part.result;
     if (result.active_limit) coloured_note(active_limit_text(*result.active_limit) + ".", palette.limit);
-    note(std::string(ik::name(result.report.status)) + ": " + status_help(result.report.status));
+    note(std::string(ik::name(result.report.status)) + ": " + status_text(part));
     note(ran_text(result.method, result.report, !part.reach.limits.empty()) + ".");
     reading("iterations", "%d", result.report.iterations);
     reading("tip to target", "%.4f m", static_cast<double>(shown_residual(part, joints)));

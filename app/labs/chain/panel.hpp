@@ -31,5 +31,7 @@ void race_rows(const ShownChain& shown, const Palette& palette, Emit& emit);
 
 /// The outcome of a move: "Reached", "Out of reach: 0.23 m short", "Limited by joint 1: 0.10 m short".
 Verdict chain_verdict(const ChainPart& part);
+/// The meaning of the last solve's status, with what may help, in sentences.
+std::string status_text(const ChainPart& part);
 
 }  // namespace tendril::app

@@ -222,7 +222,7 @@ std::optional<Incident> flip(const ChainPart& before, const ChainPart& after) {
 /// "Out of reach: the target is out of reach, ...": the verdict and the meaning of its status.
 std::string status_cause(const ChainPart& part) {
     const std::string verdict = chain_verdict(part).text;
-    return verdict.substr(0, verdict.find(':')) + ": " + status_help(part.result->report.status);
+    return verdict.substr(0, verdict.find(':')) + ": " + status_text(part);
 }
 
 /// Whether only target and pole target differ: the same chain, with the same settings.

@@ -270,19 +270,6 @@ std::string why_not_taken(ik::Method method, const Chain& chain) {
            std::to_string(bones);
 }
 
-const char* status_help(ik::Status status) {
-    static constexpr const char* texts[] = {
-        "The tip is on the target.",
-        "The target is out of reach: the chain lies straight towards it.",
-        "The target is closer than the longest bone lets the tip fold.",
-        "The joint limits keep the tip away.",
-        "More iterations would change nothing.",
-        "Not there yet when the iterations ran out.",
-        "Nothing was moved: a number is not valid.",
-    };
-    return texts[static_cast<std::size_t>(status)];
-}
-
 std::string needed_degrees(const ik::ActiveLimit& limit) {
     return degrees_text(limit, limit.needed);
 }

@@ -116,8 +116,6 @@ std::string active_limit_text(const ik::ActiveLimit& limit);
 /// "162": the angle in that sentence.
 std::string needed_degrees(const ik::ActiveLimit& limit);
 const char* solver_help(ik::Method method);
-/// The meaning of a status, as a sentence.
-const char* status_help(ik::Status status);
 inline constexpr EnumNames<ik::JointKind, 7> joint_kinds{"kind of joint",
                                                          {{"free", "free"},
                                                           {"suture", "suture"},

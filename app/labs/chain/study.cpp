@@ -211,7 +211,7 @@ std::string race_csv(const Race& race) {
         const auto last = static_cast<double>(std::max<std::size_t>(racer.residuals.size() - 1, 1));
         for (std::size_t i = 0; i < racer.residuals.size(); ++i) {
             char line[160];
-            std::snprintf(line, sizeof line, "%s,%zu,%.9g,%.3f,", ik::name(racer.method), i,
+            std::snprintf(line, sizeof line, "\"%s\",%zu,%.9g,%.3f,", solver_title(racer.method), i,
                           static_cast<double>(racer.residuals[i]),
                           racer.microseconds * static_cast<double>(i) / last);
             csv += line;

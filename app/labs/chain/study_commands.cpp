@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "app/document/atomic_file.hpp"
+#include "app/document/shown_path.hpp"
 #include "app/labs/chain/chain_runtime.hpp"
 #include "app/labs/chain/commands.hpp"
 #include "app/labs/chain/draw.hpp"
@@ -148,7 +149,7 @@ Command race_save() {
                 const ShownChain shown = shown_chain(workspace);
                 check_race(shown.part);
                 write_file_atomically(given.text("path"), race_csv(*shown.race));
-                workspace.toast("Written: " + given.text("path"));
+                workspace.toast(written_text(given.text("path")));
             }};
 }
 

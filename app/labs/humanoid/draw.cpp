@@ -223,17 +223,41 @@ class Drawing {
             {.at = at, .clearance = px(14.0f), .text = "look-at", .colour = view_.palette.text, .rank = 3});
     }
 
-    /// Contacts of planted feet with the ground.
+    /// Where planted soles touch the ground. A foot that hangs over the edge of a step, or rolls onto its
+    /// toes, is marked only where it stands.
     void soles() {
         if (!shown_.feet) return;
-        for (std::size_t side = 0; side < 2; ++side) {
-            if (!shown_.feet->feet[side].planted) continue;
-            const glm::vec4 paint(view_.palette.tail, 1.0f);
-            const humanoid::SolePoints& sole = shown_.soles[side];
-            list_.line(glm::vec3(sole.heel), glm::vec3(sole.toe), px(3.0f), paint).layer = Layer::Overlay;
-            for (const glm::dvec3& at : {sole.heel, sole.toe})
-                list_.sphere(glm::vec3(at), px(3.5f), Unit::Pixels, paint).layer = Layer::Overlay;
+        const humanoid::Ground& ground = humanoid_runtime(view_.workspace).solvers.ground(part_);
+        for (std::size_t side = 0; side < 2; ++side)
+            if (shown_.feet->feet[side].planted) sole(ground, shown_.soles[side]);
+    }
+    void sole(const humanoid::Ground& ground, const humanoid::SolePoints& at) {
+        constexpr int parts = 16;
+        constexpr double contact = 0.015;  // metres
+        const glm::vec4 paint(view_.palette.tail, 1.0f);
+        const auto point = [&](int i) { return glm::mix(at.heel, at.toe, static_cast<double>(i) / parts); };
+        const auto above = [&](int i) {
+            const auto hit = ground.highest(point(i).x, point(i).z);
+            return hit ? std::abs(point(i).y - hit->height) : 1e9;
+        };
+        const auto dot = [&](int i) {
+            list_.sphere(glm::vec3(point(i)), px(3.5f), Unit::Pixels, paint).layer = Layer::Overlay;
+        };
+        int from = -1;  // where the present stretch of contact begins
+        bool any = false;
+        for (int i = 0; i <= parts + 1; ++i) {
+            const bool touches = i <= parts && above(i) < contact;
+            if (touches && from < 0) from = i;
+            if (touches || from < 0) continue;
+            if (i - 1 > from)
+                list_.line(glm::vec3(point(from)), glm::vec3(point(i - 1)), px(3.0f), paint).layer =
+                    Layer::Overlay;
+            dot(from);
+            if (i - 1 > from) dot(i - 1);
+            from = -1;
+            any = true;
         }
+        if (!any) dot(above(0) < above(parts) ? 0 : parts);
     }
 
     void ghost() {

@@ -25,6 +25,11 @@ std::optional<std::size_t> HumanoidPart::node_of(Bone bone) const {
     return node < 0 ? std::nullopt : std::optional(static_cast<std::size_t>(node));
 }
 
+std::string HumanoidPart::called(std::size_t node) const {
+    const auto bone = bone_of(node);
+    return bone ? humanoid::name(*bone) : skeleton()[node].name;
+}
+
 std::optional<Bone> HumanoidPart::bone_of(std::size_t node) const {
     for (std::size_t i = 0; i < humanoid::bone_count; ++i)
         if (map->bones[i].node == static_cast<std::int32_t>(node)) return static_cast<Bone>(i);

@@ -73,6 +73,8 @@ struct HumanoidPart final : Part {
     const humanoid::Clip* clip() const;  ///< null if none is chosen
     std::optional<std::size_t> node_of(humanoid::Bone bone) const;
     std::optional<humanoid::Bone> bone_of(std::size_t node) const;
+    /// What a user is told that a node is called: its bone's name, else its own.
+    std::string called(std::size_t node) const;
 
     std::shared_ptr<Part> clone() const override { return std::make_shared<HumanoidPart>(*this); }
     Json save() const override;

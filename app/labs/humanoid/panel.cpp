@@ -310,8 +310,12 @@ void bone_row(const HumanoidPanel& panel, Bone bone) {
     ImGui::TextUnformatted(elided(humanoid::name(bone), std::min(names, width)).c_str());
     if (match.node >= 0) {
         ImGui::SetCursorPos({at.x + names, at.y});
-        ImGui::TextDisabled(
-            "%s", elided(node_name(panel.part, match.node), width - names - bar - 0.5f * em).c_str());
+        const std::string node = elided(node_name(panel.part, match.node), width - names - bar - 0.5f * em);
+        // Dim text would be lost on the colour of a selected row.
+        if (panel.part.selection.has(static_cast<std::size_t>(match.node)))
+            ImGui::TextUnformatted(node.c_str());
+        else
+            ImGui::TextDisabled("%s", node.c_str());
         confidence_bar(panel, match.confidence, {corner.x + width - bar, corner.y + 0.35f * line}, bar,
                        0.35f * line);
     } else {

@@ -169,7 +169,7 @@ Json body_state(const Workspace& workspace, const ShownPose& shown) {
     return json;
 }
 
-Json feet_state(const HumanoidPart& part, const ShownPose& shown) {
+Json feet_state(const HumanoidPart& part, Solvers& solvers, const ShownPose& shown) {
     Json feet = Json::array();
     if (!shown.has_soles) return feet;
     for (std::size_t side = 0; side < 2; ++side) {
@@ -177,7 +177,10 @@ Json feet_state(const HumanoidPart& part, const ShownPose& shown) {
                   {"planted", shown.feet && shown.feet->feet[side].planted},
                   {"heel", dpoint(shown.soles[side].heel)},
                   {"toe", dpoint(shown.soles[side].toe)}};
-        if (part.ik.foot_ik.on) foot["left_alone"] = why_alone(part, shown, side);
+        if (part.ik.foot_ik.on) {
+            foot["left_alone"] = why_alone(part, shown, side);
+            foot["why_in_air"] = why_in_air(part, shown, solvers, side);
+        }
         feet.push_back(std::move(foot));
     }
     return feet;
@@ -285,7 +288,7 @@ Json HumanoidLab::state(const Workspace& workspace) const {
                 {"chains", chains_state(part, shown)},
                 {"clip", clip_state(part)},
                 {"clips", clips_state(part)},
-                {"feet", feet_state(part, shown)},
+                {"feet", feet_state(part, humanoid_runtime(workspace).solvers, shown)},
                 {"foot_ik", part.ik.foot_ik.on},
                 {"hand_ik", hands_state(part, shown)},
                 {"skinning", skinnings.name(part.view.skinning)},

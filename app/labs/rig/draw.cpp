@@ -333,6 +333,8 @@ Bounds figure_bounds(const RigPart& part, const rig::Hierarchy& elements, std::s
 
 void draw_head(const View& view, DrawList& list, const rig::Transform& pose, double radius, glm::vec3 colour,
                PickId pick) {
+    // On the light theme's dark joints the face would be lost.
+    if (view.palette.theme == Theme::Light) colour = glm::mix(colour, glm::vec3(1.0f), 0.5f);
     const auto size = static_cast<float>(radius);
     globe(
         list, view.camera,
@@ -343,7 +345,7 @@ void draw_head(const View& view, DrawList& list, const rig::Transform& pose, dou
         },
         colour);
     const float scale = size * static_cast<float>(mean_scale(pose));
-    const glm::vec3 white = glm::mix(view.palette.text, glm::vec3(1.0f), 0.7f);
+    const glm::vec3 white = rgb(0xF5F7FA);
     const auto ball = [&](glm::vec3 at, float wide, glm::vec3 paint) {
         list.sphere(placed(pose, size * at), wide * scale, Unit::Metres, glm::vec4(paint, 1.0f)).pick = pick;
     };

@@ -195,13 +195,15 @@ Verdict rope_verdict(const RopePart& part) {
                 std::to_string(report.inside) + " particles cannot get out. Move the body or a collider."};
     const std::string percent =
         error < 1e-4 ? "under 0.01 %" : fixed_text(100.0 * error, error < 0.1 ? 2 : 0) + " %";
+    const std::string off = "Lengths off by " + percent;
+    // However slight: no solver can hold it, so the other advice would mislead.
+    if (const auto pulled = over_pulled(*part.world)) {
+        const int decimals = pulled->apart - pulled->length < 0.01 ? 3 : 2;
+        return {off, Verdict::Kind::Bad,
+                "The pins of " + pulled->body + " are " + fixed_text(pulled->apart, decimals) +
+                    " m apart; between them it is " + fixed_text(pulled->length, decimals) + " m long."};
+    }
     if (error >= seen) {
-        const std::string off = "Lengths off by " + percent;
-        if (const auto pulled = over_pulled(*part.world))
-            return {off, Verdict::Kind::Bad,
-                    "Pins of " + pulled->body + " are " + fixed_text(pulled->apart, 2) +
-                        " m apart, but between them it is only " + fixed_text(pulled->length, 2) +
-                        " m long."};
         if (before < 0.5 * error)
             return {off, Verdict::Kind::Bad, "Contact displaced links after the solve."};
         return {off, Verdict::Kind::Bad, "The solver did not hold them: use more iterations or substeps."};

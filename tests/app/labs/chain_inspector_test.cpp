@@ -3,8 +3,10 @@
 #include <glm/geometric.hpp>
 
 #include "app/labs/chain/draw.hpp"
+#include "app/labs/chain/panel.hpp"
 #include "tests/app/labs/chain_support.hpp"
 #include "tests/app/support/panel_text.hpp"
+#include "tests/says.hpp"
 
 namespace tendril::app {
 namespace {
@@ -92,6 +94,36 @@ TEST_F(ChainInspector, says_first_what_became_of_the_target) {
     run("chain.target", {{"to", {0.5, 0, 0}}});
     EXPECT_EQ(state().at("verdict").get<std::string>().rfind("Limited by joint 1: 0.", 0), 0u)
         << state().at("verdict");
+}
+
+TEST_F(ChainInspector, says_why_a_solve_stalled) {
+    // Straight along +X, with the target on that line: the published FABRIK bends nothing.
+    reach_with(4);
+    run("chain.solver", {{"name", "fabrik_plain"}});
+    run("chain.target", {{"to", {2.5, 0, 0}}});
+    ASSERT_EQ(part().result->report.status, ik::Status::Stalled);
+    expect_says("Folded onto a line, and the target is on it");
+    reach_with(4);
+    run("chain.solver", {{"name", "fabrik_plain"}});
+    run("chain.target", {{"to", {3.5, 0, 0}}});
+    ASSERT_EQ(part().result->report.status, ik::Status::Stalled);
+    expect_says("Straight, and the target is on its line");
+    expect_says("pole target");
+    expect_silent_about("would change nothing");
+    // The advice is right.
+    run("chain.pole", {{"to", {3, 3, 0}}});
+    EXPECT_EQ(part().result->report.status, ik::Status::Converged);
+
+    ReachResult result{
+        .method = ik::Method::Ccd, .report = {.status = ik::Status::Stalled}, .active_limit = {}};
+    ChainPart bent = part();
+    bent.result = result;
+    EXPECT_TRUE(test::says(status_text(bent), "nearest CCD finds Another solver"));
+    EXPECT_EQ(status_text(bent).find("restarts"), std::string::npos);
+    bent.reach.method = ik::Method::Fabrik;
+    bent.result->method = ik::Method::Fabrik;
+    bent.reach.limits.resize(4);
+    EXPECT_TRUE(test::says(status_text(bent), "nearest FABRIK finds restarts"));
 }
 
 TEST_F(ChainInspector, shows_the_table_of_the_step) {

@@ -3,6 +3,7 @@
 #include <set>
 #include <sstream>
 
+#include "app/document/shown_path.hpp"
 #include "app/labs/chain/draw.hpp"
 #include "tests/app/labs/chain_support.hpp"
 #include "tests/app/support/temp_folder.hpp"
@@ -199,6 +200,7 @@ TEST_F(ChainStudy, the_race_is_written_as_csv) {
     run("chain.target", {{"to", {3, 3, 1}}});
     const test::TempFolder folder;
     run("race.save", {{"path", (folder / "race.csv").string()}});
+    EXPECT_EQ(workspace.ui.toasts.back().text, written_text(folder / "race.csv"));
     run("race.copy");
     const std::string csv = test::read(folder / "race.csv");
     std::istringstream lines(csv);
@@ -207,7 +209,11 @@ TEST_F(ChainStudy, the_race_is_written_as_csv) {
     EXPECT_EQ(line, "solver,iteration,residual,microseconds,status,ran,restored");
     std::size_t rows = 0, expected = 0;
     while (std::getline(lines, line)) rows += line.empty() ? 0 : 1;
-    for (const Racer& racer : race()->racers) expected += racer.residuals.size();
+    for (const Racer& racer : race()->racers) {
+        expected += racer.residuals.size();
+        // As the screen calls it; there is a comma in one of the names.
+        EXPECT_NE(csv.find("\n\"" + std::string(solver_title(racer.method)) + "\",0,"), csv.npos) << csv;
+    }
     EXPECT_EQ(rows, expected);
     ASSERT_TRUE(workspace.ui.copied);
     EXPECT_EQ(*workspace.ui.copied, csv);

@@ -1,6 +1,7 @@
 // Each lab's verdict, in the inspector and in --state.
 #include "app/labs/rope/panel.hpp"
 #include "tests/app/labs/lab_support.hpp"
+#include "tests/app/support/panel_text.hpp"
 #include "tests/says.hpp"
 
 namespace tendril::app {
@@ -35,7 +36,7 @@ TEST_F(RopeVerdict, SaysWhenPinsAreFurtherApartThanABodyReaches) {
         {{"name", "line"}, {"from", {0, 1, 0}}, {"to", {1, 1, 0}}, {"pin_start", true}, {"pin_end", true}});
     run("rope.pin", {{"rope", "line"}, {"particle", 32}, {"at", {1.5, 1, 0}}});
     wait(60);
-    EXPECT_TRUE(test::says(state()["why"], "Pins line 1.50 m 1.00 m"));
+    EXPECT_TRUE(test::says(state()["why"], "pins line 1.50 m apart 1.00 m long"));
     run("rope.clear");
     run("rope.cloth.add", {{"name", "sheet"},
                            {"corner", {0, 1, 0}},
@@ -46,8 +47,31 @@ TEST_F(RopeVerdict, SaysWhenPinsAreFurtherApartThanABodyReaches) {
                            {"pins", "corners"}});
     run("rope.pin", {{"rope", "sheet"}, {"particle", 4}, {"at", {1.6, 1, 0}}});
     wait(60);
-    EXPECT_TRUE(test::says(state()["why"], "Pins sheet 1.60 m 1.00 m"));
+    EXPECT_TRUE(test::says(state()["why"], "pins sheet 1.60 m apart 1.00 m long"));
     EXPECT_TRUE(said().starts_with("Lengths off by ")) << said();
+}
+
+/// No more iterations and no shorter steps can help there, so it recommends none.
+TEST_F(RopeVerdict, NamesThePinsWhateverTheSolverAndHoweverSlightTheError) {
+    for (const char* solver : {"direct", "xpbd", "relaxation"}) {
+        for (const double apart : {1.004, 1.5}) {
+            run("rope.clear");
+            run("rope.settings", {{"solver", solver}, {"iterations", 1}});
+            run("rope.add", {{"name", "line"},
+                             {"from", {0, 1, 0}},
+                             {"to", {1, 1, 0}},
+                             {"pin_start", true},
+                             {"pin_end", true}});
+            run("rope.pin", {{"rope", "line"}, {"particle", 32}, {"at", {apart, 1, 0}}});
+            wait(60);
+            const std::string text = test::PanelReader().inspector(lab(), workspace);
+            const std::string where = std::string(solver) + " at " + std::to_string(apart) + ":\n" + text;
+            EXPECT_TRUE(said().starts_with("Lengths off by ")) << where;
+            EXPECT_TRUE(test::says(state()["why"], "pins line apart m long")) << where;
+            EXPECT_EQ(text.find("iterations"), text.npos) << where;
+            EXPECT_EQ(text.find("horter"), text.npos) << where;
+        }
+    }
 }
 
 TEST_F(RopeVerdict, SaysWhatIsNeitherHeldNorFallsOrInsideOrUnsolved) {

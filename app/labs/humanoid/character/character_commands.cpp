@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "app/document/atomic_file.hpp"
+#include "app/document/shown_path.hpp"
 #include "app/io/character/bake.hpp"
 #include "app/io/character/export.hpp"
 #include "app/io/character/map_file.hpp"
@@ -324,7 +325,7 @@ std::string given_text(const Arguments& given, const char* name) {
 void save_map(Workspace& workspace, const Arguments& given) {
     const HumanoidPart& part = humanoid_part(workspace);
     write_file_atomically(given.text("path"), map_text(saved_map(*part.map, part.skeleton())));
-    workspace.toast("Written: " + given.text("path"));
+    workspace.toast(written_text(given.text("path")));
 }
 
 void load_map(HumanoidPart& part, const Arguments& given) {
@@ -366,7 +367,7 @@ void export_shown(Workspace& workspace, const Arguments& given) {
                                              .corrected = as_shown(workspace, clip, rate),
                                              .rate = rate},
                                             given.text("path"));
-    workspace.toast("Written: " + given.text("path") + ". " + report.text());
+    workspace.toast(written_text(given.text("path")) + ". " + report.text());
 }
 
 std::vector<std::string> fault_names() {

@@ -144,7 +144,7 @@ void finding_row(const HumanoidPanel& panel, const Finding& finding, int id) {
     ImGui::SetCursorPos({at.x + width - ImGui::CalcTextSize(value.c_str()).x, at.y});
     ImGui::TextUnformatted(value.c_str());
     std::string where = "frame " + std::to_string(finding.frame);
-    if (finding.node >= 0) where += ", " + node_of(panel, finding);
+    if (finding.node >= 0) where += ", " + panel.part.called(static_cast<std::size_t>(finding.node));
     ImGui::SetCursorPos({at.x, at.y + 1.1f * line});
     ImGui::TextDisabled("%s", elided(where, width - mend - 0.4f * em).c_str());
     if (finding.has_cure) {

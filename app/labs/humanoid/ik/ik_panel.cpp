@@ -175,6 +175,11 @@ void ground_rows(const HumanoidPanel& panel) {
     rows.row("enter_speed", {.within = FieldRange{0.0, feet.leave_speed}});
     rows.row("leave_speed", {.within = FieldRange{feet.enter_speed, fastest_foot}});
     for (std::size_t side = 0; side < 2; ++side) foot_row(panel, side);
+    const ShownPose& shown = panel.runtime.shown(panel.workspace);
+    std::string why_up;
+    for (std::size_t side = 0; side < 2 && why_up.empty(); ++side)
+        why_up = why_in_air(panel.part, shown, panel.runtime.solvers, side);
+    if (!why_up.empty()) note(why_up);
 }
 
 }  // namespace tendril::app

@@ -5,6 +5,7 @@
 #include <glm/trigonometric.hpp>
 #include <stdexcept>
 
+#include "app/document/units.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "app/labs/humanoid/springs/springs.hpp"
 
@@ -192,6 +193,20 @@ void carry_springs(Workspace& workspace) {
 std::string why_alone(const HumanoidPart& part, const ShownPose& shown, std::size_t side) {
     if (part.ik.ground.kind == humanoid::GroundKind::None) return "there is no ground";
     return shown.feet ? humanoid::name(shown.feet->feet[side].alone) : "foot IK is off";
+}
+
+std::string why_in_air(const HumanoidPart& part, const ShownPose& shown, Solvers& solvers, std::size_t side) {
+    if (!shown.feet || shown.feet->feet[side].planted || !why_alone(part, shown, side).empty()) return {};
+    const Solvers::Gait* const gait = solvers.gait(part);
+    if (gait == nullptr) return {};
+    const double slide = gait->slide[side] * part.playback.speed;
+    if (slide < part.ik.foot_ik.enter_speed) return {};
+    const std::string speed = fixed_text(slide, 1) + " m/s";
+    if (gait->travel < 0.35 * gait->slide[side])
+        return "The feet do not rest: the clip walks in place, and they slide at " + speed +
+               " while low. Raise \"let go above\" and \"plant below\" over that, or use a clip that "
+               "travels.";
+    return "The feet do not rest: while low they move at " + speed + ", over \"plant below\".";
 }
 
 const ShownPose& HumanoidRuntime::shown(const Workspace& workspace) {

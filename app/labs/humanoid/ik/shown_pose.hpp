@@ -52,6 +52,9 @@ void carry_springs(Workspace& workspace);
 /// Why a foot follows the clip although foot IK is on; empty if it does not. `side`: 0 is left.
 std::string why_alone(const HumanoidPart& part, const ShownPose& shown, std::size_t side);
 
+/// Why foot IK hardly ever plants a foot of this clip; empty if it does, or if the foot is planted now.
+std::string why_in_air(const HumanoidPart& part, const ShownPose& shown, Solvers& solvers, std::size_t side);
+
 /// The displayed pose of the lab's part, cached until the part changes. Valid until the next call.
 const ShownPose& shown_pose(const Workspace& workspace);
 /// The point below the hips, or below the first node.

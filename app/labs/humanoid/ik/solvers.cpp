@@ -1,6 +1,7 @@
 #include "app/labs/humanoid/ik/solvers.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "app/labs/humanoid/limits/limit_ranges.hpp"
 
@@ -32,6 +33,7 @@ void Solvers::make(const HumanoidPart& part) {
     spring_nodes_.clear();
     springs_.clear();
     floors_.clear();
+    gaits_.clear();
     why_not_ = why_no_feet_ = why_unusable(*part.map);
     if (!why_not_.empty()) return;
     if (part.ik.self_collision) capsules_ = *(volume_ = capsules_of(part));
@@ -105,6 +107,47 @@ std::optional<double> Solvers::floor(const HumanoidPart& part) {
     const auto [found, added] = floors_.try_emplace(*part.playback.clip, 0.0);
     if (added) found->second = humanoid::clip_floor(part.skeleton(), feet_->soles(), *part.clip());
     return found->second;
+}
+
+const Solvers::Gait* Solvers::gait(const HumanoidPart& part) {
+    const std::optional<double> ground = floor(part);
+    if (!ground) return nullptr;
+    const auto [found, added] = gaits_.try_emplace(*part.playback.clip);
+    Gait& gait = found->second;
+    if (!added) return &gait;
+    const humanoid::Clip& clip = *part.clip();
+    const humanoid::Skeleton& skeleton = part.skeleton();
+    const double steps = std::clamp(std::ceil(60.0 * clip.duration), 1.0, 10'000.0);
+    const double dt = clip.duration / steps;
+    if (!(dt > 0.0)) return &gait;
+    const std::size_t hips = part.node_of(humanoid::Bone::Hips).value_or(0);
+    std::vector<rig::Transform> pose(skeleton.size());
+    std::vector<humanoid::Placement> placed(skeleton.size());
+    const double low_under = humanoid::FeetOptions{}.low;
+    std::array<humanoid::SolePoints, 2> before{};
+    std::array<std::vector<double>, 2> speeds;
+    glm::dvec3 start(0.0);
+    for (int i = 0; i <= static_cast<int>(steps); ++i) {
+        humanoid::sample(clip, skeleton, i * dt, pose);
+        humanoid::place(skeleton, pose, placed);
+        const auto soles = humanoid::sole_points(feet_->soles(), placed);
+        if (i == 0) start = placed[hips].position;
+        for (std::size_t side = 0; side < 2; ++side) {
+            const bool low = std::min(soles[side].heel.y, soles[side].toe.y) < *ground + low_under;
+            const glm::dvec3 moved = soles[side].toe - before[side].toe;
+            if (i > 0 && low) speeds[side].push_back(std::hypot(moved.x, moved.z) / dt);
+        }
+        before = soles;
+    }
+    for (std::size_t side = 0; side < 2; ++side) {
+        if (speeds[side].empty()) continue;
+        const auto middle = speeds[side].begin() + static_cast<std::ptrdiff_t>(speeds[side].size() / 2);
+        std::nth_element(speeds[side].begin(), middle, speeds[side].end());
+        gait.slide[side] = *middle;
+    }
+    const glm::dvec3 way = placed[hips].position - start;
+    gait.travel = std::hypot(way.x, way.z) / clip.duration;
+    return &gait;
 }
 
 const std::vector<humanoid::BodyCapsule>& Solvers::capsules(const HumanoidPart& part) {

@@ -1,6 +1,7 @@
 // The library's solvers for the lab's character, cached until character, bone map or limits change.
 #pragma once
 
+#include <array>
 #include <map>
 #include <memory>
 #include <string>
@@ -36,6 +37,13 @@ class Solvers {
     const std::string& why_no_feet(const HumanoidPart& part);
     /// Height of the clip's own floor, metres; empty for the rest pose.
     std::optional<double> floor(const HumanoidPart& part);
+    /// How fast the clip moves each foot while it is low over the clip's floor, and how fast the hips travel.
+    struct Gait {
+        std::array<double, 2> slide{};  ///< m/s, the median of the toe; left, right. 0 if it is never low
+        double travel = 0.0;            ///< m/s
+    };
+    /// Null for the rest pose, or without feet.
+    const Gait* gait(const HumanoidPart& part);
     /// The capsules that self-collision keeps apart; empty if that is off.
     const std::vector<humanoid::BodyCapsule>& capsules(const HumanoidPart& part);
     /// The volume of the mapped bones, on which attachments rest.
@@ -66,6 +74,7 @@ class Solvers {
     SpringChains springs_;
     std::string why_not_, why_no_feet_;
     std::map<std::size_t, double> floors_;  // by clip
+    std::map<std::size_t, Gait> gaits_;     // by clip
     std::optional<GroundSetting> ground_of_;
     humanoid::Ground ground_;
     std::unique_ptr<LimitRanges> ranges_;

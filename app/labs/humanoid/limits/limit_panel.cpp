@@ -5,6 +5,7 @@
 #include <imgui.h>
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
@@ -100,7 +101,9 @@ void table(const HumanoidPanel& panel, Bone bone, const JointNow& joint) {
         ImGui::TableNextColumn();
         ImGui::TextDisabled("degrees");
         head("now", colours.text_dim, "From the T-pose.");
-        head("adult", adult_colour(colours), "How far an adult's joint turns.");
+        // Yellow letters would be too faint on white.
+        const float dark = colours.theme == Theme::Light ? 0.55f : 0.0f;
+        head("adult", glm::mix(adult_colour(colours), colours.text, dark), "How far an adult's joint turns.");
         head("clips", clips_colour(colours), "How far the character's clips turn it, plus a degree.");
         for (const Way& way : ways_of(bone, *joint.adult)) {
             const float now = joint.angles.*way.angle;

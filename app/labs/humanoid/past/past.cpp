@@ -146,10 +146,11 @@ std::optional<PastCurve> humanoid_past_curve(const Workspace& workspace) {
     if (what == Number::Error) return error_curve(workspace);
     const HumanoidPart& now = humanoid_part(workspace);
     const std::string& node = now.skeleton()[plotted_node(now)].name;
-    const std::string name = (what == Number::Swing ? "swing of " : "twist of ") + node;
+    const std::string called = now.called(plotted_node(now));
+    const std::string name = (what == Number::Swing ? "swing of " : "twist of ") + called;
     return PastCurve{.name = name,
                      .of = name,
-                     .missing = "The character had no " + node + " then.",
+                     .missing = "The character had no " + called + " then.",
                      .value =
                          [&workspace, what, node](const SharedPart& part) {
                              const HumanoidPart& then = humanoid_of(part);
@@ -208,16 +209,12 @@ bool comparable(const HumanoidPart& was, const HumanoidPart& is) {
            without_places(was.ik) == without_places(is.ik);
 }
 
-std::string node_name(const HumanoidPart& part, humanoid::Bone bone) {
-    return part.skeleton()[*part.node_of(bone)].name;
-}
-
 void add_flips(const HumanoidMoment& was, const HumanoidMoment& is, Solvers& solvers,
                std::vector<Incident>& incidents) {
     for (const BodyFlip& flip : body_flips(was, is, solvers))
         incidents.push_back({.kind = Incident::Kind::Flip,
                              .joint = *is.part.node_of(flip.bone),
-                             .name = node_name(is.part, flip.bone),
+                             .name = humanoid::name(flip.bone),
                              .degrees = static_cast<float>(glm::degrees(flip.radians)),
                              .cause = flip_cause(was, is, flip.bone)});
 }
@@ -227,7 +224,7 @@ void add_limits(const HumanoidMoment& was, const HumanoidMoment& is, std::vector
     for (std::size_t i = 0; i < humanoid::bone_count; ++i) {
         if (was.shown.body->at_limit[i] || !is.shown.body->at_limit[i]) continue;
         const auto bone = static_cast<humanoid::Bone>(i);
-        const std::string name = node_name(is.part, bone);
+        const std::string name = humanoid::name(bone);
         incidents.push_back({.kind = Incident::Kind::Limit,
                              .joint = *is.part.node_of(bone),
                              .name = name,

@@ -3,8 +3,11 @@
 #include <cmath>
 #include <fstream>
 
+#include "app/view/palette.hpp"
 #include "humanoid_support.hpp"
+#include "tests/app/support/panel_text.hpp"
 #include "tests/app/support/temp_folder.hpp"
+#include "tests/says.hpp"
 
 namespace tendril::app {
 namespace {
@@ -186,6 +189,70 @@ TEST_F(HumanoidFeet, InPlaceGoBackwardsWithTheGround) {
         last = now.at("planted").get<bool>() ? std::optional(z) : std::nullopt;
     }
     EXPECT_GT(planted, 30);
+}
+
+/// A walk in place whose feet slide under still hips: none is ever slow enough to be planted.
+TEST_F(HumanoidFeet, SayWhyTheyNeverRest) {
+    const test::TempFolder folder;
+    run("humanoid.load", {{"path", treadmill_figure(folder.path())}});
+    run("humanoid.clip", {{"name", "walk"}, {"play", true}});
+    run("humanoid.ground", {{"kind", "flat"}});
+    run("humanoid.foot_ik", {{"on", true}});
+    tick(100);
+    while (foot(0).at("planted").get<bool>() || foot(1).at("planted").get<bool>()) tick();
+    EXPECT_TRUE(test::says(foot(0).at("why_in_air"), "walks in place slide 1.0 m/s plant below travels"));
+    run("view.fold", {{"section", "humanoid: Ground and feet"}, {"folded", false}});
+    const std::string text = test::PanelReader().panel(lab(), workspace);
+    const std::size_t first = text.find("walks in place");
+    EXPECT_NE(first, text.npos) << text;
+    EXPECT_EQ(text.find("walks in place", first + 1), text.npos) << "once for both feet";
+
+    // The advice helps.
+    run("humanoid.foot_ik", {{"leave_speed", 4}, {"enter_speed", 3}});
+    bool planted = false;
+    for (int i = 0; i < 150; ++i) {
+        tick();
+        planted = planted || foot(0).at("planted").get<bool>();
+        EXPECT_EQ(foot(0).at("why_in_air"), "");
+    }
+    EXPECT_TRUE(planted);
+    // A walk that travels has no such fault.
+    run("humanoid.load");
+    run("humanoid.clip", {{"name", "walk"}, {"play", true}});
+    run("humanoid.foot_ik", {{"on", true}, {"enter_speed", 0.3}, {"leave_speed", 1}});
+    for (int i = 0; i < 60; ++i) {
+        tick();
+        EXPECT_EQ(foot(1).at("why_in_air"), "");
+    }
+}
+
+/// The marks of planted feet lie on the ground: none bridges two treads or hangs in the air.
+TEST_F(HumanoidFeet, AreMarkedWhereTheyTouchTheGround) {
+    const auto height = [](double z) { return 0.16 * std::floor(std::max(0.0, z) / 0.36); };
+    run("humanoid.ground", {{"kind", "stairs"}, {"step_height", 0.16}, {"step_depth", 0.36}});
+    run("humanoid.foot_ik", {{"on", true}});
+    run("humanoid.clip", {{"name", "walk"}, {"play", true}});
+    const Palette& colours = palette(Theme::Dark);
+    const Camera camera({.target = {0.0f, 0.9f, 0.0f}}, {{0.0f, 0.0f}, {1000.0f, 700.0f}});
+    int marks = 0;
+    for (int i = 0; i < 264; ++i) {
+        tick();
+        DrawList list;
+        lab().draw({.workspace = workspace, .camera = camera, .palette = colours}, list);
+        const bool planted = foot(0).at("planted").get<bool>() || foot(1).at("planted").get<bool>();
+        int now = 0;
+        for (const Stroke& stroke : list.strokes) {
+            if (stroke.layer != Layer::Overlay || stroke.colour != glm::vec4(colours.tail, 1.0f)) continue;
+            ++now;
+            for (const float t : {0.0f, 0.25f, 0.5f, 0.75f, 1.0f}) {
+                const glm::dvec3 at(glm::mix(stroke.a, stroke.b, t));
+                EXPECT_NEAR(at.y, height(at.z), 0.03) << "tick " << i << " at z " << at.z;
+            }
+        }
+        EXPECT_EQ(now > 0, planted) << "tick " << i;
+        marks += now;
+    }
+    EXPECT_GT(marks, 200);
 }
 
 TEST_F(HumanoidFeet, ComeToRestAndLetTheWindowIdle) {

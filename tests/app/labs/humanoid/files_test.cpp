@@ -5,6 +5,7 @@
 #include "app/io/character/stick_figure.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "humanoid_support.hpp"
+#include "tests/app/support/panel_text.hpp"
 #include "tests/app/support/temp_folder.hpp"
 #include "tests/places.hpp"
 
@@ -23,14 +24,18 @@ class HumanoidFiles : public HumanoidTest {
         return found ? *found : none;
     }
     /// The figure with its walk, in which the right knee pops in frame 20.
-    std::string faulty() const {
-        const Character figure = stick_figure();
+    std::string faulty(bool numbered = false) const {
+        Character figure = stick_figure();
         humanoid::Clip clip = figure.clips[0];
         for (humanoid::Channel& channel : clip.channels) {
             const std::string& name = figure.skeleton[channel.node].name;
             auto& keys = channel.rotation.values;
             if (name == "RightLowerLeg") keys[20] = keys[20] * glm::angleAxis(0.6, glm::dvec3(1, 0, 0));
         }
+        std::vector<humanoid::Node> nodes = figure.skeleton.nodes();
+        for (std::size_t i = 0; i < nodes.size() && numbered; ++i)
+            nodes[i].name = "Node_" + std::to_string(i);
+        figure.skeleton = skeleton_of(std::move(nodes));
         export_clip({figure, {}, clip, clip, 60.0}, folder_ / "faulty.glb");
         return path("faulty.glb");
     }
@@ -131,6 +136,15 @@ TEST_F(HumanoidFiles, AFootThatSlidesStandsAfterTheClick) {
     EXPECT_LT(report().skating, 0.02);
     run("humanoid.cure", {{"kind", "knee_pop"}});
     EXPECT_TRUE(report().findings.empty());
+}
+
+TEST_F(HumanoidFiles, FindingsCallANodeByItsBone) {
+    run("humanoid.load", {{"path", faulty(true)}});
+    run("humanoid.clip", {{"name", "walk"}});
+    ASSERT_FALSE(report().findings.empty());
+    const std::string text = test::PanelReader().panel(lab(), workspace);
+    EXPECT_NE(text.find(", RightLowerLeg"), text.npos) << text;
+    EXPECT_EQ(text.find(", Node_"), text.npos) << text;
 }
 
 TEST_F(HumanoidFiles, CleanClipsHaveNoFindings) {

@@ -1,6 +1,11 @@
 #include "humanoid_support.hpp"
 
 #include <map>
+#include <utility>
+
+#include "app/io/character/character.hpp"
+#include "app/io/character/export.hpp"
+#include "app/io/character/stick_figure.hpp"
 
 namespace tendril::app {
 namespace {
@@ -64,6 +69,28 @@ std::string bvh_figure(const std::string& without) {
         text += "\n";
     }
     return text;
+}
+
+std::string numbered_figure(const std::filesystem::path& folder) {
+    Character figure = stick_figure();
+    std::vector<humanoid::Node> nodes = figure.skeleton.nodes();
+    for (std::size_t i = 0; i < nodes.size(); ++i) nodes[i].name = "Node_" + std::to_string(i);
+    figure.skeleton = skeleton_of(std::move(nodes));
+    const humanoid::Clip walk = figure.clips[0];
+    const std::filesystem::path path = folder / "numbered.glb";
+    export_clip({figure, {}, walk, walk, 60.0}, path);
+    return path.string();
+}
+
+std::string treadmill_figure(const std::filesystem::path& folder) {
+    const Character figure = stick_figure();
+    humanoid::Clip walk = figure.clips[0];
+    for (humanoid::Channel& channel : walk.channels)
+        if (figure.skeleton[channel.node].name == "Hips")
+            for (glm::dvec3& at : channel.translation.values) at.z = 0.0;
+    const std::filesystem::path path = folder / "treadmill.glb";
+    export_clip({figure, {}, walk, walk, 60.0}, path);
+    return path.string();
 }
 
 }  // namespace tendril::app

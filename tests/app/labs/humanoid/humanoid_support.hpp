@@ -49,4 +49,9 @@ class HumanoidTest : public LabTest {
 /// `without`: a joint to omit with all its children.
 std::string bvh_figure(const std::string& without = "");
 
+/// Writes the stick figure as a glTF file whose nodes are "Node_0", "Node_1" ...; returns its path.
+std::string numbered_figure(const std::filesystem::path& folder);
+/// The same with its own names and a walk in place: the hips stay above one spot.
+std::string treadmill_figure(const std::filesystem::path& folder);
+
 }  // namespace tendril::app

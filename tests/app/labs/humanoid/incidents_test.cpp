@@ -7,6 +7,7 @@
 
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "tests/app/labs/humanoid/humanoid_support.hpp"
+#include "tests/app/support/temp_folder.hpp"
 #include "tests/says.hpp"
 
 namespace tendril::app {
@@ -197,6 +198,19 @@ TEST_F(HumanoidIncidents, AnEffectorThatFallsShortAndALimitAreTold) {
         EXPECT_TRUE(active) << each.name;
     }
     EXPECT_TRUE(only(Kind::Status, moved("left_hand", {1.6, 2.2, 0.5})).empty()) << "it was short before";
+}
+
+/// In a file whose nodes have names without meaning, what is mapped is called by its bone's name.
+TEST_F(HumanoidIncidents, BonesAreCalledByTheirOwnNames) {
+    const test::TempFolder folder;
+    run("humanoid.load", {{"path", numbered_figure(folder.path())}});
+    ASSERT_EQ(bones().at("LeftUpperArm").at("node").get<std::string>().find("Node_"), 0u);
+    const glm::dvec3 shoulder = fold_left_arm();
+    const auto flips = only(Kind::Flip, moved("left_hand", shoulder - glm::dvec3(0, 0, 0.012)));
+    ASSERT_EQ(flips.size(), 1u);
+    EXPECT_EQ(flips[0].name, "LeftUpperArm");
+    run("view.humanoid_plot", {{"of", "swing"}});
+    EXPECT_EQ(state().at("past").at("plot").at("name"), "swing of LeftLowerArm");
 }
 
 TEST_F(HumanoidIncidents, TheRuleIsSettableAndSaved) {
