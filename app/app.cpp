@@ -177,24 +177,12 @@ void App::take_event(const Event& event, Emit& emit) {
         layout_ = lay_out(size_, ui_scale(), workspace_.settings, lab().timeline_height(workspace_),
                           lab().canvas_share(workspace_));
     } else if (const auto* drop = std::get_if<Drop>(&event)) {
-        if (!drop->paths.empty()) take_file(drop->paths.front(), emit);
+        if (!drop->paths.empty()) emit("file.open", {{"path", drop->paths.front()}});
     } else if (std::holds_alternative<VideoEnd>(event)) {
         pass_video(true);
     } else if (std::holds_alternative<CloseRequest>(event)) {
         emit("quit", {{"unsaved", "ask"}});
     }
-}
-
-/// Passes the file to the open lab if that reads such files. If only another lab does, it is no scene.
-void App::take_file(const std::string& path, Emit& emit) {
-    if (lab().take_file(path, emit)) return;
-    for (const auto& each : labs_.all()) {
-        Emit unused;
-        if (!each->take_file(path, unused)) continue;
-        return refuse(path + " is not a scene. The lab " + each->title() +
-                      " reads it: open that lab and drop it again");
-    }
-    emit("scene.open", {{"path", path}});
 }
 
 void App::refuse(const std::string& why) {

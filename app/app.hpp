@@ -85,7 +85,6 @@ class App final : public Stage {
     Pointer::Scene pointed_at(const Pane& pane, const Camera& camera) const;
     void take_event(const Event& event, Emit& emit);
     void take_shortcut(Emit& emit);
-    void take_file(const std::string& path, Emit& emit);
     void refuse(const std::string& why);
     void run_emitted(Emit& emit);
     void run_command(const std::string& name, const Json& arguments, Gesture gesture);
