@@ -13,6 +13,7 @@
 #include "app/document/json_complete.hpp"
 #include "app/document/scene_file.hpp"
 #include "app/document/text.hpp"
+#include "app/io/points.hpp"
 #include "app/shell/gizmo_view.hpp"
 #include "app/shell/theme.hpp"
 #include "app/video_take.hpp"
@@ -178,11 +179,31 @@ void App::take_event(const Event& event, Emit& emit) {
                           lab().canvas_share(workspace_));
     } else if (const auto* drop = std::get_if<Drop>(&event)) {
         if (!drop->paths.empty()) emit("file.open", {{"path", drop->paths.front()}});
+    } else if (const auto* text = std::get_if<TextInput>(&event)) {
+        // Only pasting sends text while Ctrl is held without Alt (AltGr types characters as both).
+        if (input_.ctrl() && !input_.alt()) take_paste(text->utf8, emit);
     } else if (std::holds_alternative<VideoEnd>(event)) {
         pass_video(true);
     } else if (std::holds_alternative<CloseRequest>(event)) {
         emit("quit", {{"unsaved", "ask"}});
     }
+}
+
+void App::take_paste(const std::string& text, Emit& emit) {
+    if (workspace_.ui.covered() || ui_.wants_text() || busy()) return;
+    const Chord paste{.key = Key::V, .ctrl = true, .shift = false, .alt = false};
+    if (const Shortcut* here = shortcuts_.find(paste, workspace_.lab)) {
+        ArgumentList arguments = here->arguments;
+        arguments.push_back({"text", text});
+        return emit(here->command, std::move(arguments));
+    }
+    const auto& all = labs_.all();
+    const auto elsewhere = std::find_if(all.begin(), all.end(), [&](const auto& lab) {
+        return shortcuts_.find(paste, lab->name()) != nullptr;
+    });
+    if (elsewhere != all.end() && holds_points(text))
+        workspace_.toast("Points on the clipboard go into the lab " + (*elsewhere)->title() +
+                         ": open it and paste there");
 }
 
 void App::refuse(const std::string& why) {

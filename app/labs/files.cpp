@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <fstream>
+#include <iterator>
 #include <system_error>
+#include <utility>
 
 #include "app/document/command.hpp"
 #include "app/document/json_complete.hpp"
