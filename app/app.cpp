@@ -13,6 +13,7 @@
 #include "app/document/json_complete.hpp"
 #include "app/document/scene_file.hpp"
 #include "app/document/text.hpp"
+#include "app/io/points.hpp"
 #include "app/shell/card_watch.hpp"
 #include "app/shell/gizmo_view.hpp"
 #include "app/shell/theme.hpp"
@@ -178,7 +179,10 @@ void App::take_event(const Event& event, Emit& emit) {
         layout_ = lay_out(size_, ui_scale(), workspace_.settings, lab().timeline_height(workspace_),
                           lab().canvas_share(workspace_));
     } else if (const auto* drop = std::get_if<Drop>(&event)) {
-        if (!drop->paths.empty()) take_file(drop->paths.front(), emit);
+        if (!drop->paths.empty()) emit("file.open", {{"path", drop->paths.front()}});
+    } else if (const auto* text = std::get_if<TextInput>(&event)) {
+        // Only pasting sends text while Ctrl is held without Alt (AltGr types characters as both).
+        if (input_.ctrl() && !input_.alt()) take_paste(text->utf8, emit);
     } else if (std::holds_alternative<VideoEnd>(event)) {
         pass_video(true);
     } else if (std::holds_alternative<CloseRequest>(event)) {
@@ -186,16 +190,21 @@ void App::take_event(const Event& event, Emit& emit) {
     }
 }
 
-/// Passes the file to the open lab if that reads such files. If only another lab does, it is no scene.
-void App::take_file(const std::string& path, Emit& emit) {
-    if (lab().take_file(path, emit)) return;
-    for (const auto& each : labs_.all()) {
-        Emit unused;
-        if (!each->take_file(path, unused)) continue;
-        return refuse(path + " is not a scene. The lab " + each->title() +
-                      " reads it: open that lab and drop it again");
+void App::take_paste(const std::string& text, Emit& emit) {
+    if (workspace_.ui.covered() || ui_.wants_text() || busy()) return;
+    const Chord paste{.key = Key::V, .ctrl = true, .shift = false, .alt = false};
+    if (const Shortcut* here = shortcuts_.find(paste, workspace_.lab)) {
+        ArgumentList arguments = here->arguments;
+        arguments.push_back({"text", text});
+        return emit(here->command, std::move(arguments));
     }
-    emit("scene.open", {{"path", path}});
+    const auto& all = labs_.all();
+    const auto elsewhere = std::find_if(all.begin(), all.end(), [&](const auto& lab) {
+        return shortcuts_.find(paste, lab->name()) != nullptr;
+    });
+    if (elsewhere != all.end() && holds_points(text))
+        workspace_.toast("Points on the clipboard go into the lab " + (*elsewhere)->title() +
+                         ": open it and paste there");
 }
 
 void App::refuse(const std::string& why) {

@@ -84,8 +84,9 @@ class App final : public Stage {
     Json panes_state() const;
     Pointer::Scene pointed_at(const Pane& pane, const Camera& camera) const;
     void take_event(const Event& event, Emit& emit);
+    /// Text that Ctrl+V pasted over the view: the argument `text` of the command that has this key.
+    void take_paste(const std::string& text, Emit& emit);
     void take_shortcut(Emit& emit);
-    void take_file(const std::string& path, Emit& emit);
     void refuse(const std::string& why);
     void run_emitted(Emit& emit);
     void run_command(const std::string& name, const Json& arguments, Gesture gesture);

@@ -92,7 +92,7 @@ struct SessionLine {
 void SessionLine::add_to(CLI::App& line) {
     static const std::map<std::string, Backend> backends{
         {"glfw", Backend::Glfw}, {"osmesa", Backend::OsMesa}, {"egl", Backend::Egl}};
-    line.add_option("SCENE", options.scene, "A scene file to open");
+    line.add_option("SCENE", options.scene, "A scene to open, or any file that a lab reads");
     line.add_option("--lab", options.lab, "Open this lab")->option_text("NAME");
     line.add_option("--size", size, "Size of the window, or of the picture")->option_text("WxH");
     line.add_flag("--headless", options.headless, "Without a window or a display");

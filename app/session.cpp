@@ -10,6 +10,7 @@
 #include "app/document/command.hpp"
 #include "app/document/scene_file.hpp"
 #include "app/document/text.hpp"
+#include "app/labs/files.hpp"
 #include "app/live_loop.hpp"
 #include "app/opening.hpp"
 
@@ -49,8 +50,19 @@ Script read_script(const SessionOptions& options, const CommandTable& commands) 
     }
 }
 
+/// Nothing to undo or to save: the file is where the session starts.
+void open_given(App& app, const std::string& file) {
+    Workspace& workspace = app.workspace();
+    if (file_route(app.labs(), file).lab == nullptr) return load_scene_file(workspace, file);
+    app.commands().run(workspace, "file.open", {{"path", file}});
+    app.commands().find("file.open")->finish(workspace);
+    workspace.saved = workspace.document;
+    workspace.history.clear();
+    workspace.start_anew();
+}
+
 void open_scene(App& app, const SessionOptions& options) {
-    if (!options.scene.empty()) load_scene_file(app.workspace(), options.scene);
+    if (!options.scene.empty()) open_given(app, options.scene);
     if (!options.lab.empty()) {
         if (app.labs().find(options.lab) == nullptr) {
             throw std::runtime_error("there is no lab \"" + options.lab + "\"; --list-labs names them");

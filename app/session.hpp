@@ -11,7 +11,7 @@
 namespace tendril::app {
 
 struct SessionOptions {
-    std::string scene;  ///< paths; empty: none
+    std::string scene;  ///< a scene, or another file that a lab reads; empty: none
     std::string lab;
     std::optional<glm::ivec2> size;
     bool headless = false;

@@ -107,9 +107,9 @@ void add_recovery_commands(CommandTable& table) {
 void add_dialog_commands(CommandTable& table) {
     table.add(
         {.name = "scene.open_dialog",
-         .title = "Choose a scene to open",
+         .title = "Choose a file to open",
          .arguments = {},
-         .help = "Shows a dialog to open a scene",
+         .help = "Shows a dialog to open a scene or a file that a lab reads",
          .effect = Effect::Look,
          .apply = [](Workspace& w, const Arguments&) { w.ui.file_dialog = UiState::FileDialog::Open; }});
     table.add({.name = "scene.save_dialog",

@@ -131,6 +131,41 @@ std::optional<std::size_t> column_named(const Fields& names, std::initializer_li
     return std::nullopt;
 }
 
+/// "it has frame, left, right", or how many if they have no names.
+std::string columns_text(const Fields& names, bool named) {
+    if (!named) return "it has columns 1 to " + std::to_string(names.size());
+    std::string text;
+    constexpr std::size_t longest = 200;
+    for (const std::string_view name : names) {
+        if (text.size() > longest) return "it has " + text + ", ...";
+        text += (text.empty() ? "" : ", ") + printable(name.substr(0, 40));
+    }
+    return "it has " + text;
+}
+
+/// As column names are compared: "Time (s)" is "time".
+std::string plain_name(std::string_view name) {
+    return lower_case(trimmed(name.substr(0, name.find_first_of("(["))));
+}
+
+/// The column that the user chose by its name, or by its number from 1.
+std::size_t chosen_column(const Table& table, const Fields& names, bool named, const std::string& wanted) {
+    for (std::size_t i = 0; named && i < names.size(); ++i)
+        if (names[i] == wanted || plain_name(names[i]) == plain_name(wanted)) return i;
+    const auto number = number_in(wanted);
+    if (number && *number >= 1.0 && *number <= static_cast<double>(names.size()) &&
+        *number == std::floor(*number))
+        return static_cast<std::size_t>(*number) - 1;
+    table.fail(" has no column \"" + printable(wanted.substr(0, 40)) + "\"; " + columns_text(names, named));
+}
+
+std::optional<std::size_t> usual_column(const Fields& names, std::initializer_list<std::string_view> usual) {
+    for (const std::string_view name : usual)
+        for (std::size_t i = 0; i < names.size(); ++i)
+            if (plain_name(names[i]) == name) return i;
+    return std::nullopt;
+}
+
 /// The columns of samples.
 struct Columns {
     std::size_t time = 0, input = 1, width = 2;
@@ -142,6 +177,25 @@ Columns named_columns(const Table& table, const Fields& names) {
     const auto input = column_named(names, {"input"});
     if (!input || !(dt || time)) table.fail(" does not name columns dt and input");
     return {.time = dt ? *dt : *time, .input = *input, .width = names.size(), .absolute = !dt};
+}
+
+/// Throws with the columns there are if they do not say which to take.
+Columns signal_columns(const Table& table, const Fields& names, bool named, const ColumnChoice& choice) {
+    if (!named && names.size() == 2 && choice.time.empty() && choice.value.empty()) return {};
+    std::optional<std::size_t> time, value, dt;
+    if (named) dt = usual_column(names, {"dt"});
+    if (named && !dt) time = usual_column(names, {"time", "t", "seconds", "sec", "s", "timestamp"});
+    if (!choice.time.empty()) time = chosen_column(table, names, named, choice.time), dt.reset();
+    if (named) value = usual_column(names, {"input", "value", "x", "y", "z", "position"});
+    if (!choice.value.empty()) value = chosen_column(table, names, named, choice.value);
+    const auto passes = dt ? dt : time;
+    if (!value && passes && names.size() == 2) value = 1 - *passes;  // the other one
+    if (!passes)
+        table.fail(" does not say which column is the time: give time; " + columns_text(names, named));
+    if (!value)
+        table.fail(" does not say which column is the value: give value; " + columns_text(names, named));
+    if (*passes == *value) table.fail(": time and value are the same column");
+    return {.time = *passes, .input = *value, .width = names.size(), .absolute = !dt};
 }
 
 void check_order(const Table& table, const Columns& columns, double time, double before) {
@@ -165,20 +219,24 @@ void difference(TimedSamples& rows) {
 
 }  // namespace
 
-TimedSamples parse_timed_samples(std::string_view text, const std::string& name) {
+namespace {
+
+/// `columns_of` finds the columns by the fields of the first row and whether they are names.
+template <class ColumnsOf>
+TimedSamples parse_rows(std::string_view text, const std::string& name, ColumnsOf columns_of) {
     Table table(text, name);
     Fields fields;
     if (!table.next(fields)) table.fail_whole("has no samples");
-    Columns columns;
-    bool more = true;
-    if (names_columns(fields)) {
-        columns = named_columns(table, fields);
-        more = table.next(fields);
-    }
+    const bool named = names_columns(fields);
+    const Columns columns = columns_of(table, fields, named);
+    bool more = !named || table.next(fields);
     const std::size_t width = columns.width;
     TimedSamples rows;
     for (; more; more = table.next(fields)) {
-        table.check_width(fields, width, width == 2 ? ": dt,input" : ", as in the row of names");
+        table.check_width(fields, width,
+                          named        ? ", as in the row of names"
+                          : width == 2 ? ": dt,input"
+                                       : ", as in the first row");
         const double time = table.number(fields, columns.time, columns.absolute ? "time" : "dt");
         const double input = table.number(fields, columns.input, "input");
         if (columns.absolute) {
@@ -194,6 +252,27 @@ TimedSamples parse_timed_samples(std::string_view text, const std::string& name)
     else
         rows.times = signal::times_of(rows.samples);
     return rows;
+}
+
+}  // namespace
+
+TimedSamples parse_timed_samples(std::string_view text, const std::string& name) {
+    return parse_rows(text, name, [](const Table& table, const Fields& fields, bool named) {
+        return named ? named_columns(table, fields) : Columns();
+    });
+}
+
+std::vector<signal::Sample> parse_signal(std::string_view text, const std::string& name,
+                                         const ColumnChoice& choice) {
+    return parse_rows(text, name,
+                      [&](const Table& table, const Fields& fields, bool named) {
+                          return signal_columns(table, fields, named, choice);
+                      })
+        .samples;
+}
+
+std::vector<signal::Sample> read_signal(const std::filesystem::path& path, const ColumnChoice& choice) {
+    return parse_signal(read_text_file(path), path.string(), choice);
 }
 
 TimedSamples read_timed_samples(const std::filesystem::path& path) {

@@ -31,6 +31,18 @@ TimedSamples read_timed_samples(const std::filesystem::path& path);
 std::vector<signal::Sample> parse_samples(std::string_view text, const std::string& name);
 std::vector<signal::Sample> read_samples(const std::filesystem::path& path);
 
+/// Which columns to read, by name or by number from 1; empty: found by their usual names.
+struct ColumnChoice {
+    std::string time, value;
+};
+
+/// Samples of a file with any columns: the time is in dt, time, t, seconds or the like, the value in input,
+/// value, x, y or the like, whatever the case and the unit in brackets; of two columns, the value is the one
+/// that is not the time. Throws std::runtime_error with the names of the columns if that does not decide.
+std::vector<signal::Sample> parse_signal(std::string_view text, const std::string& name,
+                                         const ColumnChoice& choice = {});
+std::vector<signal::Sample> read_signal(const std::filesystem::path& path, const ColumnChoice& choice = {});
+
 /// A response to `count` samples, one number per row: the column named output, response or value, or else the
 /// last one. So the output of `tendril signal` can be fitted.
 std::vector<double> parse_response(std::string_view text, const std::string& name, std::size_t count);

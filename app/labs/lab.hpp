@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "app/document/workspace.hpp"
+#include "app/labs/kit/file_kind.hpp"
 #include "app/labs/kit/setting.hpp"
 #include "app/labs/kit/shortcut.hpp"
 #include "app/view/camera.hpp"
@@ -173,9 +174,8 @@ class Lab {
     /// What the camera frames: all handles by default.
     virtual Bounds bounds(const Workspace& workspace, bool selection_only) const;
 
-    /// Emits a command for a file that was dropped on the window. False if the lab does not read such files;
-    /// it is then opened as a scene.
-    virtual bool take_file(const std::string& /*path*/, Emit&) const { return false; }
+    /// The files it reads, besides scenes. Opening one, in whichever way, opens the lab too.
+    virtual std::vector<FileKind> files() const { return {}; }
 
     // the panels
     virtual void panel(const Workspace&, Emit&) const {}

@@ -7,6 +7,7 @@
 #include "app/document/command.hpp"
 #include "app/labs/card.hpp"
 #include "app/labs/chain/chain_lab.hpp"
+#include "app/labs/files.hpp"
 #include "app/labs/humanoid/humanoid_lab.hpp"
 #include "app/labs/lab_commands.hpp"
 #include "app/labs/rig/rig_lab.hpp"
@@ -50,6 +51,7 @@ CommandTable make_command_table(const Labs& labs) {
     add_camera_commands(table, labs);
     add_card_commands(table);
     add_video_commands(table, labs);
+    add_file_command(table, labs);
     add_closing_command(table, labs);
     for (const auto& lab : labs.all()) {
         table.begin_lab(lab->name());

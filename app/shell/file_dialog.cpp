@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cstdio>
 #include <glm/common.hpp>
+#include <utility>
 
+#include "app/labs/files.hpp"
 #include "app/shell/shell.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/text.hpp"
@@ -16,7 +18,11 @@ namespace fs = std::filesystem;
 
 bool FileDialog::lists(const fs::path& file) const {
     const fs::path ending = file.extension();
-    return filming() ? ending == ".png" || ending == ".mp4" : ending == ".json";
+    if (filming()) return ending == ".png" || ending == ".mp4";
+    if (saving()) return ending == ".json";
+    if (filter_ > 0) return has_ending(kinds_[static_cast<std::size_t>(filter_ - 1)], file);
+    return std::any_of(kinds_.begin(), kinds_.end(),
+                       [&](const FileKind& kind) { return has_ending(kind, file); });
 }
 
 void FileDialog::go_to(const fs::path& folder) {
@@ -44,7 +50,7 @@ void FileDialog::go_to(const fs::path& folder) {
 /// The command closes the dialog if it succeeds: a refused name stays for editing.
 void FileDialog::send(const fs::path& path, Emit& emit) {
     if (filming()) return emit("view.video", video_.arguments(path));
-    emit(saving() ? "scene.save" : "scene.open", {{"path", path.string()}});
+    emit(saving() ? "scene.save" : "file.open", {{"path", path.string()}});
 }
 
 void FileDialog::take(const Workspace& workspace, Emit& emit) {
@@ -71,7 +77,10 @@ void FileDialog::take(const Workspace& workspace, Emit& emit) {
     send(path, emit);
 }
 
-void FileDialog::start(const Workspace& workspace) {
+void FileDialog::start(const Workspace& workspace, const Labs& labs) {
+    kinds_.clear();
+    for (FileRoute& route : file_routes(labs)) kinds_.push_back(std::move(route.kind));
+    filter_ = 0;
     std::error_code error;
     go_to(workspace.path.empty() ? fs::current_path(error) : fs::absolute(workspace.path).parent_path());
     confirmed_.clear();
@@ -80,6 +89,15 @@ void FileDialog::start(const Workspace& workspace) {
                              : saving() ? workspace.path.filename().string()
                                         : std::string();
     std::snprintf(name_.data(), name_.size(), "%s", name.c_str());
+}
+
+void FileDialog::show_filter() {
+    std::vector<std::string> texts{"every kind of file"};
+    for (const FileKind& kind : kinds_) texts.push_back(kind_text(kind));
+    std::vector<const char*> titles;
+    for (const std::string& text : texts) titles.push_back(text.c_str());
+    if (choice_field("show", filter_, titles.data(), static_cast<int>(titles.size()))) go_to(folder_);
+    explain("Which kinds of files are listed");
 }
 
 bool FileDialog::list() {
@@ -103,13 +121,14 @@ bool FileDialog::list() {
     return chosen;
 }
 
-void FileDialog::frame(const Workspace& workspace, glm::vec2 screen, float scale, Emit& emit) {
+void FileDialog::frame(const Workspace& workspace, const Labs& labs, glm::vec2 screen, float scale,
+                       Emit& emit) {
     const auto wanted = workspace.ui.file_dialog;
     const bool open = wanted != UiState::FileDialog::None;
     const bool appearing = open && shown_ != wanted;
     shown_ = wanted;
     if (!open) return;
-    if (appearing) start(workspace);
+    if (appearing) start(workspace, labs);
     const glm::vec2 size =
         glm::max(glm::vec2(520.0f, filming() ? 540.0f : 420.0f) * scale, glm::vec2(0.5f, 0.6f) * screen);
     if (!begin_sheet(title(), screen, size)) emit("view.close");
@@ -120,11 +139,12 @@ void FileDialog::frame(const Workspace& workspace, glm::vec2 screen, float scale
     const float wrap = ImGui::GetContentRegionAvail().x;
     const float complaint =
         complaint_.empty() ? 0.0f : ImGui::CalcTextSize(complaint_.c_str(), nullptr, false, wrap).y;
-    const float rows = filming() ? 2.0f + VideoOptions::rows : 2.0f;
+    const float rows = filming() ? 2.0f + VideoOptions::rows : saving() ? 2.0f : 3.0f;
     ImGui::BeginChild("entries", {0.0f, -rows * ImGui::GetFrameHeightWithSpacing() - complaint}, true);
     bool done = list();
     ImGui::EndChild();
     if (filming()) video_.frame();
+    if (!saving()) show_filter();
     ImGui::SetNextItemWidth(-1.0f);
     if (appearing) ImGui::SetKeyboardFocusHere();
     if (ImGui::InputTextWithHint("##name", "file name", name_.data(), name_.size(),
@@ -136,7 +156,7 @@ void FileDialog::frame(const Workspace& workspace, glm::vec2 screen, float scale
     done |= ImGui::Button(action());
     explain(filming()  ? "Writes the video and shows its progress"
             : saving() ? "Saves the scene to this file"
-                       : "Opens this scene");
+                       : "Opens this file in its lab");
     ImGui::SameLine();
     if (ImGui::Button("Cancel")) emit("view.close");
     explain("Esc: closes this and changes nothing");

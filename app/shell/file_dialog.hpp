@@ -1,4 +1,5 @@
-// Asks for the path of a scene or a video, with a list of folders and files and a text field.
+// Asks for the path of a file to open, or of a scene or a video to write, with a list of folders and files
+// and a text field.
 #pragma once
 
 #include <array>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "app/document/workspace.hpp"
+#include "app/labs/labs.hpp"
 #include "app/shell/video_options.hpp"
 #include "app/widgets/emit.hpp"
 
@@ -15,16 +17,18 @@ namespace tendril::app {
 
 class FileDialog {
   public:
-    void frame(const Workspace& workspace, glm::vec2 screen, float scale, Emit& emit);
+    void frame(const Workspace& workspace, const Labs& labs, glm::vec2 screen, float scale, Emit& emit);
 
   private:
     struct Entry {
         std::string name;
         bool folder;
     };
-    void start(const Workspace& workspace);
+    void start(const Workspace& workspace, const Labs& labs);
     void go_to(const std::filesystem::path& folder);
     bool lists(const std::filesystem::path& file) const;
+    /// Chooses which kind of files is listed.
+    void show_filter();
     /// The folders and files; true once a file is double-clicked.
     bool list();
     void take(const Workspace& workspace, Emit& emit);
@@ -34,11 +38,13 @@ class FileDialog {
     bool filming() const { return shown_ == UiState::FileDialog::Video; }
     const char* action() const { return filming() ? "Record" : saving() ? "Save" : "Open"; }
     const char* title() const {
-        return filming() ? "Record a video" : saving() ? "Save scene as" : "Open scene";
+        return filming() ? "Record a video" : saving() ? "Save scene as" : "Open a file";
     }
 
     std::filesystem::path folder_, confirmed_;
     std::vector<Entry> entries_;
+    std::vector<FileKind> kinds_;  ///< that can be opened
+    int filter_ = 0;               ///< 0: all of them; else the kind before
     std::array<char, 1024> name_{};
     std::string complaint_;
     VideoOptions video_;

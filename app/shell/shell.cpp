@@ -331,7 +331,7 @@ void Shell::frame(const ShellFrame& frame, Emit& emit) {
     if (workspace.ui.help) show_help(frame, emit);
     if (workspace.ui.settings) show_settings(frame, emit);
     palette_.frame(frame, emit);
-    file_dialog_.frame(workspace, frame.screen(), frame.layout.scale, emit);
+    file_dialog_.frame(workspace, frame.labs, frame.screen(), frame.layout.scale, emit);
     show_filming(frame, emit);
     show_recovery(frame, emit);
     show_quit(frame, emit);

@@ -121,7 +121,7 @@ std::vector<MouseHelp> Shortcuts::mouse_help(std::string_view lab, MousePreset p
         scroll == Scroll::Pan ? MouseHelp{"Two fingers on a touchpad, wheel", "shifts the view"}
                               : MouseHelp{"Two fingers sideways, tilted wheel", "shifts the view sideways"},
         {"Click on an axis in the corner", "looks from there"},
-        {"File dropped on the window", "opens it"},
+        {"File dropped on the window", "opens it in its lab"},
         {"Click on a number", "types another: 1/3, 2*pi, 30 cm"},
         {"Drag of a number sideways", "changes it; with Shift finer"},
     };

@@ -108,6 +108,10 @@ SavedMap parse_map(std::string_view text, const std::string& name) {
     }
 }
 
+bool begins_map(std::string_view text) {
+    return text.find("\"tendril\"") != text.npos && text.find("\"bone map\"") != text.npos;
+}
+
 SavedMap read_map(const std::filesystem::path& path) {
     return parse_map(read_text_file(path), path.filename().string());
 }

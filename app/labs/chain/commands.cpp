@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "app/labs/chain/chain_runtime.hpp"
-#include "app/labs/chain/mouse.hpp"
 #include "app/labs/kit/arguments.hpp"
 
 namespace tendril::app {
@@ -79,6 +78,19 @@ void add_chain_commands(CommandTable& table) {
     add_reach_commands(table);
     add_study_commands(table);
     add_copy_commands(table);
+    add_paste_command(table);
+}
+
+void pull_joints(ChainPart& part, const std::vector<JointPull>& pulls, ChainRuntime& runtime) {
+    if (part.mode == ChainMode::Reach) {
+        drag_joints(part.chain, part.reach, pulls, part.target, runtime);
+    } else {
+        require_ok(trail_joints(part.chain, pulls));
+        part.target = pulls.front().to;
+    }
+    part.result.reset();
+    const Study::Kind kind = part.study.kind;
+    if (part.study.open()) part.study.begin(kind, Study::From::Here, part.chain, part.reach);
 }
 
 // Mode, target, drags and motion.
@@ -131,16 +143,7 @@ std::vector<JointPull> pulls_of(const ChainPart& part, const Arguments& given) {
 }
 
 void pull(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
-    const std::vector<JointPull> pulls = pulls_of(part, given);
-    if (part.mode == ChainMode::Reach) {
-        drag_joints(part.chain, part.reach, pulls, part.target, runtime);
-    } else {
-        require_ok(trail_joints(part.chain, pulls));
-        part.target = pulls.front().to;
-    }
-    part.result.reset();
-    const Study::Kind kind = part.study.kind;
-    if (part.study.open()) part.study.begin(kind, Study::From::Here, part.chain, part.reach);
+    pull_joints(part, pulls_of(part, given), runtime);
 }
 
 void select(ChainPart& part, const Arguments& given) {

@@ -7,6 +7,7 @@
 
 #include "app/document/command.hpp"
 #include "app/labs/chain/chain_part.hpp"
+#include "app/labs/chain/mouse.hpp"
 #include "app/labs/kit/arguments.hpp"
 
 namespace tendril::app {
@@ -36,11 +37,19 @@ std::vector<std::size_t> joints_of(const Arguments& given, const ChainPart& part
 /// The same, ascending and without duplicates; at least one.
 std::vector<std::size_t> joints_to_set(const Arguments& given, const ChainPart& part);
 
+/// Pulls joints, ascending and without duplicates, as chain.pull does.
+void pull_joints(ChainPart& part, const std::vector<JointPull>& pulls, ChainRuntime& runtime);
+/// Replaces the chain by another, with the target on its tail.
+void take_chain(ChainPart& part, Chain chain);
+/// Solves again for the present target, in mode Reach.
+void reach_again(ChainPart& part, ChainRuntime& runtime);
+
 void add_shape_commands(CommandTable& table);
 void add_mode_commands(CommandTable& table);
 void add_reach_commands(CommandTable& table);
 void add_study_commands(CommandTable& table);
 void add_copy_commands(CommandTable& table);
+void add_paste_command(CommandTable& table);
 
 class CommandTable;
 

@@ -116,12 +116,11 @@ std::span<const FieldText> field_texts<ik::Limit>() {
     return texts;
 }
 
-namespace {
-
-/// Solves again for the present target, in mode Reach.
 void reach_again(ChainPart& part, ChainRuntime& runtime) {
     if (part.mode == ChainMode::Reach) reach_for(part, part.target, runtime);
 }
+
+namespace {
 
 void set_solver(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
     ReachSettings& reach = part.reach;

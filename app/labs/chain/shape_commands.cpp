@@ -1,5 +1,6 @@
 // Commands that change the chain itself: its segments and presets.
 #include <algorithm>
+#include <utility>
 
 #include "app/labs/chain/commands.hpp"
 #include "app/labs/chain/presets.hpp"
@@ -138,7 +139,14 @@ void take_preset(ChainPart& part, const Arguments& given, ChainRuntime& runtime)
     const std::size_t count =
         given.has("count") ? static_cast<std::size_t>(given.integer("count")) : preset.count;
     const std::uint32_t seed = given.has("seed") ? static_cast<std::uint32_t>(given.integer("seed")) : 1u;
-    part.chain = make_preset(name, count, seed);
+    take_chain(part, make_preset(name, count, seed));
+    if (name == reaching_arm) make_it_reach(part, runtime);
+}
+
+}  // namespace
+
+void take_chain(ChainPart& part, Chain chain) {
+    part.chain = std::move(chain);
     part.target = part.chain.position(part.chain.size() - 1);
     part.index = std::min(part.index, part.chain.size() - 1);
     part.selection.clear();
@@ -149,10 +157,7 @@ void take_preset(ChainPart& part, const Arguments& given, ChainRuntime& runtime)
     part.reach.state = {};
     shape_changed(part);
     put_target_on_led_joint(part);
-    if (name == reaching_arm) make_it_reach(part, runtime);
 }
-
-}  // namespace
 
 void add_shape_commands(CommandTable& table) {
     table.add(chain_command("chain.clear", "Remove every joint",

@@ -2,7 +2,7 @@
 
 #include <glm/trigonometric.hpp>
 
-#include "app/io/character/read.hpp"
+#include "app/io/character/map_file.hpp"
 #include "app/labs/humanoid/attachments/attachment_motion.hpp"
 #include "app/labs/humanoid/code.hpp"
 #include "app/labs/humanoid/humanoid_commands.hpp"
@@ -74,10 +74,10 @@ void HumanoidLab::work(Workspace& workspace) const {
     }
 }
 
-bool HumanoidLab::take_file(const std::string& path, Emit& emit) const {
-    if (!ends_as_character(path)) return false;
-    emit("humanoid.load", {{"path", path}});
-    return true;
+std::vector<FileKind> HumanoidLab::files() const {
+    return {{"characters", {".gltf", ".glb", ".vrm", ".fbx"}, "humanoid.load"},
+            {"motions", {".bvh"}, "humanoid.load"},
+            {"bone maps", {".json"}, "humanoid.map.load", {}, begins_map}};
 }
 
 std::vector<TestScene> HumanoidLab::test_scenes() const {

@@ -45,7 +45,7 @@ class HumanoidLab final : public Lab {
                 Emit& emit) const override;
     std::string hint(const Workspace& workspace, PickId pick) const override;
     Bounds bounds(const Workspace& workspace, bool selection_only) const override;
-    bool take_file(const std::string& path, Emit& emit) const override;
+    std::vector<FileKind> files() const override;
 
     void panel(const Workspace& workspace, Emit& emit) const override;
     void inspector(const Workspace& workspace, Emit& emit) const override;

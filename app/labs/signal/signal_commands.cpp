@@ -191,8 +191,8 @@ void reset(SignalPart& part, const Arguments&) {
     part = first_signal();
 }
 
-std::shared_ptr<const InputRows> read_rows(const std::string& path) {
-    InputRows rows = read_samples(path);
+std::shared_ptr<const InputRows> read_rows(const std::string& path, const ColumnChoice& choice) {
+    InputRows rows = read_signal(path, choice);
     if (rows.size() > max_input_rows) {
         throw Refused(path + " has " + std::to_string(rows.size()) + " rows; the maximum is " +
                       std::to_string(max_input_rows));
@@ -209,7 +209,10 @@ void set_input(SignalPart& part, const Arguments& given) {
     if (given.has("path")) {
         if (wanted.kind != InputKind::Csv) throw Refused("path is only for csv");
         wanted.path = given.text("path");
-        wanted.file = read_rows(wanted.path);
+        wanted.file = read_rows(wanted.path, {given.has("time") ? given.text("time") : "",
+                                              given.has("value") ? given.text("value") : ""});
+    } else if (given.has("time") || given.has("value")) {
+        throw Refused("time and value are columns of the file in path");
     }
     if (wanted.kind == InputKind::Csv && !wanted.file) throw Refused("path is missing (a CSV file)");
     if (wanted.kind == InputKind::Recorded) {
@@ -251,7 +254,9 @@ void add_input_commands(CommandTable& table) {
         {choice_argument("kind", false, "what goes in", input_kinds.names()),
          number_argument("amplitude", "of square, sine and noise", -max_amplitude, max_amplitude),
          number_argument("period", "seconds, of square, sine and noise", min_input_period, max_input_period),
-         text_argument("path", false, "of csv: a file with rows of dt,input")},
+         text_argument("path", false, "of csv: a file with a time and a value in each row"),
+         text_argument("time", false, "of csv: its column, by name or number; found by its name if omitted"),
+         text_argument("value", false, "of csv: its column, in the same way")},
         "Sets what goes into the first filter; omitted settings are kept", set_input));
     table.add(part_command<SignalPart>(
         signal_lab, "signal.hand", "Move the hand",

@@ -102,11 +102,8 @@ void SignalLab::drag(const Workspace& workspace, PickId pick, const Handle::Fram
 }
 
 /// A CSV file becomes the input.
-bool SignalLab::take_file(const std::string& path, Emit& emit) const {
-    const std::size_t dot = path.rfind('.');
-    if (dot == path.npos || lower_case(path.substr(dot)) != ".csv") return false;
-    emit("signal.input", {{"kind", "csv"}, {"path", path}});
-    return true;
+std::vector<FileKind> SignalLab::files() const {
+    return {{"signals", {".csv"}, "signal.input", {{"kind", "csv"}}}};
 }
 
 /// Ends the recording in the same undo step as the drag.
@@ -134,7 +131,7 @@ std::vector<MouseHelp> SignalLab::mouse_help() const {
     return {{"Left drag on the orange ball", "makes the hand's height the input"},
             {"Left drag on the blue ball, after Record", "records the desired response"},
             {"Mouse over a plot", "reads every curve at that time"},
-            {"CSV file, dropped on the window", "becomes the input"},
+            {"CSV file, opened or dropped", "becomes the input"},
             {"Left drag in the plot Fit", "draws the desired response"},
             {"Curve: drag, double-click, right-click", "moves, adds, removes a key"}};
 }

@@ -287,7 +287,7 @@ TEST(SignalInTheWindow, ACsvThatIsDroppedInVainSaysWhy) {
     const auto state = [&] { return app::parse_json(read(folder / "state.json")); };
     EXPECT_TRUE(complained(drop("signal", "hole.csv"), 0, {"hole.csv", "row 2, column 2"}));
     EXPECT_EQ(state().at("input_kind"), "square");
-    EXPECT_TRUE(complained(drop("chain", "rows.csv"), 0, {"rows.csv is not a scene", "Signal"}));
+    EXPECT_TRUE(complained(drop("chain", "hole.csv"), 0, {"hole.csv", "row 2, column 2"}));
     EXPECT_EQ(state().at("segments").size(), 8u);
 }
 

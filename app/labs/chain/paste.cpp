@@ -1,0 +1,76 @@
+// Points from the clipboard: where a joint, the target or the pole target goes, or a new chain.
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "app/document/units.hpp"
+#include "app/io/points.hpp"
+#include "app/labs/chain/commands.hpp"
+
+namespace tendril::app {
+namespace {
+
+Chain chain_through(const std::vector<glm::vec3>& points) {
+    std::vector<Segment> segments;
+    // As in presets, the head has the length of the first bone.
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const std::size_t bone = std::max<std::size_t>(i, 1);
+        segments.push_back({points[i], glm::distance(points[bone - 1], points[bone])});
+    }
+    return require_value(Chain::from_segments(std::move(segments)));
+}
+
+/// The active joint goes there; the other selected ones keep their place beside it.
+void place_selection(ChainPart& part, glm::vec3 to, ChainRuntime& runtime) {
+    const std::size_t active = *part.selection.active();
+    const glm::vec3 by = to - part.chain.position(active);
+    std::vector<JointPull> pulls;
+    for (const std::size_t joint : part.selection.all())
+        pulls.push_back({joint, joint == active ? to : part.chain.position(joint) + by});
+    pull_joints(part, pulls, runtime);
+}
+
+void paste(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
+    const std::vector<glm::vec3> points = read_points(given.text("text"), max_pasted_points);
+    if (points.size() > 1) return take_chain(part, chain_through(points));
+    if (part.chosen_point == ChainPoint::Pole) {
+        part.reach.pole = points.front();
+        return reach_again(part, runtime);
+    }
+    if (part.chosen_point || part.selection.empty()) return reach_for(part, points.front(), runtime);
+    place_selection(part, points.front(), runtime);
+}
+
+/// What was understood. `part`: before the change.
+std::string pasted_text(const ChainPart& part, const std::string& text) {
+    const std::vector<glm::vec3> points = read_points(text, max_pasted_points);
+    if (points.size() > 1)
+        return "A chain of " + std::to_string(points.size()) + " joints from the clipboard";
+    std::string told = part.chosen_point == ChainPoint::Pole ? "The pole target goes"
+                       : part.selection.empty()              ? "The target goes"
+                       : part.selection.several()            ? "The selected joints go"
+                                                             : "The selected joint goes";
+    told += " to the clipboard's point:";
+    for (const int axis : {0, 1, 2}) told += " " + fixed_text(static_cast<double>(points.front()[axis]), 3);
+    return told + " m";
+}
+
+}  // namespace
+
+void add_paste_command(CommandTable& table) {
+    Command command = chain_command(
+        "chain.paste", "Paste points from the clipboard",
+        {text_argument("text", true, "rows of x y z, as a table, a list or source code")},
+        "Three numbers: moves the selection there, or the target. More rows: a new chain through them",
+        paste);
+    command.apply = [change = std::move(command.apply)](Workspace& workspace, const Arguments& given) {
+        const std::shared_ptr<const Part> before = workspace.document.parts().at(chain_lab);
+        change(workspace, given);
+        workspace.toast(pasted_text(dynamic_cast<const ChainPart&>(*before), given.text("text")));
+    };
+    table.add(std::move(command));
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,110 @@
+#include "app/labs/files.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+#include <utility>
+
+#include "app/document/command.hpp"
+#include "app/document/json_complete.hpp"
+#include "app/document/text.hpp"
+
+namespace tendril::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// As much of a file as FileKind::begins() sees. Empty if it cannot be read.
+std::string beginning_of(const fs::path& file) {
+    constexpr std::streamsize enough = 1 << 16;
+    std::ifstream in(file, std::ios::binary);
+    std::string text(static_cast<std::size_t>(enough), '\0');
+    in.read(text.data(), enough);
+    text.resize(static_cast<std::size_t>(in.gcount()));
+    return text;
+}
+
+bool begins_scene(std::string_view text) {
+    return text.find("\"tendril_scene\"") != text.npos;
+}
+
+std::string all_kinds(const std::vector<FileRoute>& routes) {
+    std::string text;
+    for (std::size_t i = 0; i < routes.size(); ++i)
+        text += (i == 0 ? "" : i + 1 == routes.size() ? " and " : ", ") + kind_text(routes[i].kind);
+    return text;
+}
+
+/// The command that opens such files, with what it needs to run without the program's table.
+Command opener(const FileRoute& route) {
+    CommandTable own;
+    route.lab != nullptr ? route.lab->add_commands(own) : add_scene_commands(own);
+    return *own.find(route.kind.command);
+}
+
+/// Opens the lab last, so that a refusal leaves the present one open.
+void open(const Labs& labs, Workspace& workspace, const std::string& path) {
+    const FileRoute route = file_route(labs, path);
+    Json arguments = to_json(route.kind.arguments);
+    arguments["path"] = path;
+    opener(route).apply(workspace, Arguments(arguments));
+    if (route.lab != nullptr) workspace.open_lab(route.lab->name());
+    workspace.ui.file_dialog = UiState::FileDialog::None;
+}
+
+}  // namespace
+
+std::vector<FileRoute> file_routes(const Labs& labs) {
+    std::vector<FileRoute> routes{{nullptr, {"scenes", {".json"}, "scene.open", {}, begins_scene}}};
+    for (const auto& lab : labs.all())
+        for (FileKind& kind : lab->files()) routes.push_back({lab.get(), std::move(kind)});
+    return routes;
+}
+
+bool has_ending(const FileKind& kind, const fs::path& file) {
+    const std::string ending = lower_case(file.extension().string());
+    return std::find(kind.endings.begin(), kind.endings.end(), ending) != kind.endings.end();
+}
+
+std::string kind_text(const FileKind& kind) {
+    std::string endings;
+    for (const std::string& ending : kind.endings)
+        endings += (endings.empty() ? "" : ", ") + ending.substr(1);
+    return kind.plural + " (" + endings + ")";
+}
+
+FileRoute file_route(const Labs& labs, const fs::path& file) {
+    const std::vector<FileRoute> routes = file_routes(labs);
+    std::vector<FileRoute> fitting;
+    std::copy_if(routes.begin(), routes.end(), std::back_inserter(fitting),
+                 [&](const FileRoute& route) { return has_ending(route.kind, file); });
+    if (fitting.size() == 1) return fitting.front();
+    const std::string text = beginning_of(file);
+    const std::vector<FileRoute>& among = fitting.empty() ? routes : fitting;
+    for (const FileRoute& route : among)
+        if (route.kind.begins != nullptr && route.kind.begins(text)) return route;
+    if (!fitting.empty()) return fitting.front();
+    std::error_code unknown;
+    const std::string name = file.string();
+    if (fs::is_directory(file, unknown)) throw Refused(name + " is a folder");
+    if (!fs::exists(file, unknown)) throw Refused(name + ": there is no such file");
+    throw Refused(name + ": Tendril does not read this kind of file. It reads " + all_kinds(routes));
+}
+
+void add_file_command(CommandTable& table, const Labs& labs) {
+    table.add(
+        {.name = "file.open",
+         .title = "Open a file in its lab",
+         .arguments = {{.name = "path", .type = ArgumentType::Text, .help = all_kinds(file_routes(labs))}},
+         .help = "Opens a file of any kind, and the lab that reads it; undo restores what was before",
+         .effect = Effect::Edit,
+         .apply = [&labs](Workspace& w, const Arguments& a) { open(labs, w, a.text("path")); },
+         .finish =
+             [&labs](Workspace& w) {
+                 for (const FileRoute& route : file_routes(labs))
+                     if (const auto finish = opener(route).finish) finish(w);
+             }});
+}
+
+}  // namespace tendril::app

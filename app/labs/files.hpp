@@ -1,0 +1,31 @@
+// Which lab opens a file. Each lab says what it reads (Lab::files()); file.open finds the lab by the file's
+// ending, or by its text if that does not decide, and opens the file there.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/labs/labs.hpp"
+
+namespace tendril::app {
+
+struct FileRoute {
+    const Lab* lab = nullptr;  ///< null: a scene, which says itself which lab is open
+    FileKind kind;
+};
+
+/// Scenes first, then what each lab reads.
+std::vector<FileRoute> file_routes(const Labs& labs);
+
+bool has_ending(const FileKind& kind, const std::filesystem::path& file);
+/// "motions (bvh)"
+std::string kind_text(const FileKind& kind);
+
+/// How that file is opened. Throws Refused with the kinds there are if no lab reads it.
+FileRoute file_route(const Labs& labs, const std::filesystem::path& file);
+
+/// file.open
+void add_file_command(CommandTable& table, const Labs& labs);
+
+}  // namespace tendril::app

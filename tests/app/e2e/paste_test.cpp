@@ -1,0 +1,95 @@
+// Ctrl+V over the view: the lab that takes points gets them, every other says where they go.
+#include "app/app.hpp"
+#include "app/labs/chain/chain_lab.hpp"
+#include "app/live_loop.hpp"
+#include "tests/app/support/play.hpp"
+#include "tests/says.hpp"
+
+namespace tendril::test {
+namespace {
+
+using namespace app;
+
+class Paste : public testing::Test {
+  protected:
+    void take(const Event& event) { app_.tick(&event); }
+    /// As the loop sends it.
+    void paste(const std::string& text) {
+        take(KeyChange{Key::Ctrl, true});
+        take(TextInput{text});
+        take(KeyChange{Key::Ctrl, false});
+    }
+    std::string told() { return toasts().empty() ? "" : toasts().back().text; }
+    std::vector<Toast>& toasts() { return app_.workspace().ui.toasts; }
+    const ChainPart& part() { return chain_part(app_.workspace()); }
+
+    std::unique_ptr<Window> window_ = open_offscreen({1280, 720});
+    App app_{*window_};
+};
+
+TEST_F(Paste, OverTheViewMakesAChainAndUndoTakesItBack) {
+    paste("0 0 0\n1 1 0\n2 1 0\n3 1 1\n3 2 2");
+    EXPECT_EQ(part().chain.size(), 5u);
+    EXPECT_EQ(part().target, glm::vec3(3, 2, 2));
+    EXPECT_TRUE(says(told(), "chain 5 joints clipboard"));
+    app_.run({"undo", Json::object()});
+    EXPECT_EQ(part().chain.size(), 8u);
+}
+
+TEST_F(Paste, OfJunkIsRefusedAndTypedTextIsNoPaste) {
+    const Json before = app_.state();
+    paste("1 2 3\n4 5 six");
+    ASSERT_EQ(toasts().size(), 1u);
+    EXPECT_EQ(toasts()[0].kind, ToastKind::Refusal);
+    EXPECT_TRUE(says(told(), "line 2 six"));
+    toasts().clear();
+    take(TextInput{"1 2 3"});
+    EXPECT_TRUE(toasts().empty());
+    EXPECT_EQ(app_.state()["segments"], before["segments"]);
+    EXPECT_EQ(app_.state()["target"], before["target"]);
+}
+
+TEST_F(Paste, IntoATextFieldOrUnderADialogMovesNothing) {
+    take(KeyTap{*chord_from_name("ctrl+k")});
+    app_.tick(nullptr);
+    paste("1 2 3");
+    EXPECT_EQ(part().target, glm::vec3(7, 0, 0));
+    EXPECT_TRUE(toasts().empty());
+}
+
+TEST_F(Paste, InAnotherLabSaysWherePointsGoAndNothingElse) {
+    for (const auto& lab : app_.labs().all()) {
+        if (lab->name() == chain_lab) continue;
+        app_.run({"lab.open", Json{{"name", lab->name()}}});
+        app_.run({"time.pause", Json::object()});
+        toasts().clear();
+        const Document before = app_.workspace().document;
+        paste("(1, 2, 3)");
+        EXPECT_TRUE(says(told(), "Points Chain paste")) << lab->name();
+        toasts().clear();
+        paste("Remember the milk");
+        EXPECT_TRUE(toasts().empty()) << lab->name();
+        EXPECT_EQ(app_.workspace().document, before) << lab->name();
+    }
+}
+
+TEST_F(Paste, InTheWindowReadsTheClipboardAndIsReplayed) {
+    app_.start_recording();
+    const std::atomic<bool> ending{false};
+    LiveLoop loop(app_, *window_, {.config = false, .ending = ending});
+    Player none{Script{}};
+    window_->set_clipboard("[[0, 0, 0], [0, 1, 0], [0, 2, 0]]");
+    loop.turn({KeyChange{Key::Ctrl, true}, KeyChange{Key::V, true}, KeyChange{Key::V, false},
+               KeyChange{Key::Ctrl, false}},
+              0.0, none);
+    for (int i = 0; i < 10; ++i) loop.turn({}, 1.0 / 60.0, none);
+    ASSERT_EQ(part().chain.size(), 3u);
+    const TempFolder folder;
+    write(folder / "recording.jsonl", app_.recording());
+    EXPECT_TRUE(succeeded(run_program({"--headless", "--script", (folder / "recording.jsonl").string(),
+                                       "--state", (folder / "state.json").string()})));
+    EXPECT_EQ(parse_json(read(folder / "state.json"))["segments"], app_.state()["segments"]);
+}
+
+}  // namespace
+}  // namespace tendril::test

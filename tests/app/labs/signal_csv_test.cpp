@@ -1,0 +1,63 @@
+// CSV files as people have them: columns found by their names, by their places, or as chosen.
+#include "app/io/samples.hpp"
+#include "app/labs/signal/signal_part.hpp"
+#include "tests/app/labs/lab_support.hpp"
+#include "tests/app/support/temp_folder.hpp"
+#include "tests/says.hpp"
+
+namespace tendril::app {
+namespace {
+
+class SignalCsv : public LabTest {
+  protected:
+    SignalCsv() : LabTest(signal_lab) {}
+    Json file(const std::string& text, Json more = Json::object()) {
+        test::write(folder_ / "rows.csv", text);
+        more["kind"] = "csv";
+        more["path"] = (folder_ / "rows.csv").string();
+        return more;
+    }
+    std::vector<double> values() const {
+        std::vector<double> all;
+        for (const signal::Sample& row : *workspace.document.get<SignalPart>(signal_lab).input.file)
+            all.push_back(row.input);
+        return all;
+    }
+    test::TempFolder folder_;
+};
+
+TEST_F(SignalCsv, ColumnsAreFoundByNameOrAreTheOtherOfTwo) {
+    const std::vector<double> wanted{1, -2};
+    for (const char* text :
+         {"dt,input\n0.1,1\n0.1,-2\n", "0.1,1\n0.1,-2\n", "time,value\n0,1\n0.5,-2\n",
+          "t,x,y\n0,1,9\n1,-2,9\n", "Time (s),Value [mm]\n0,1\n0.5,-2\n", "left,Seconds\n1,0\n-2,0.5\n",
+          "frame,t,y\n7,0,1\n8,1,-2\n", "\"t\",\"height, in metres\"\n0,1\n1,-2\n"}) {
+        SCOPED_TRACE(text);
+        run("signal.input", file(text));
+        EXPECT_EQ(values(), wanted);
+    }
+}
+
+TEST_F(SignalCsv, UnknownColumnsAreAskedForAndChosenByNameOrNumber) {
+    const std::string text = "frame,clock,left,right\n1,0,5,1\n2,0.5,5,-2\n";
+    EXPECT_TRUE(test::says(refused("signal.input", file(text)), "row 1 time frame clock left right"));
+    EXPECT_TRUE(test::says(refused("signal.input", file(text, {{"time", "clock"}})),
+                           "row 1 value frame clock left right"));
+    EXPECT_TRUE(test::says(refused("signal.input", file(text, {{"time", "clock"}, {"value", "up"}})),
+                           "no column up frame clock left right"));
+    EXPECT_TRUE(
+        test::says(refused("signal.input", file(text, {{"time", "2"}, {"value", "5"}})), "no column 5"));
+    EXPECT_TRUE(test::says(refused("signal.input", file(text, {{"time", "2"}, {"value", "clock"}})), "same"));
+    EXPECT_TRUE(test::says(refused("signal.input", file("0,1,2\n1,1,2\n")), "time columns 1 to 3"));
+    EXPECT_TRUE(test::says(refused("signal.input", {{"kind", "sine"}, {"value", "y"}}), "value path"));
+    const std::vector<double> wanted{1, -2};
+    run("signal.input", file(text, {{"time", "Clock"}, {"value", "right"}}));
+    EXPECT_EQ(values(), wanted);
+    run("signal.input", file("0,9,1\n1,9,-2\n", {{"time", "1"}, {"value", "3"}}));
+    EXPECT_EQ(values(), wanted);
+    EXPECT_TRUE(test::says(refused("signal.input", file(text + "3,x,5,1\n", {{"time", "2"}, {"value", "4"}})),
+                           "row 4 column 2 time x"));
+}
+
+}  // namespace
+}  // namespace tendril::app
