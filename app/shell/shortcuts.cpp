@@ -122,8 +122,8 @@ std::vector<MouseHelp> Shortcuts::mouse_help(std::string_view lab, MousePreset p
                               : MouseHelp{"Two fingers sideways, tilted wheel", "shifts the view sideways"},
         {"Click on an axis in the corner", "looks from there"},
         {"File dropped on the window", "opens it"},
-        {"Click on a number", "types another: 1/3, 2*pi, 30 cm"},
-        {"Drag of a number sideways", "changes it; with Shift finer"},
+        {"Click on a number", "opens it for typing: 1/3, 2*pi, 30 cm"},
+        {"Drag a number sideways", "changes it; with Shift finer"},
     };
     for (const LabHelp& each : mouse_)
         if (lab.empty() || each.lab == lab) list.insert(list.end(), each.rows.begin(), each.rows.end());
