@@ -151,8 +151,8 @@ void show_settings(const ShellFrame& frame, Emit& emit) {
         const float scaled = std::clamp(settings.text_scale + by, 0.5f, 3.0f);
         if (row_button(title, 2, true, help)) emit("view.text_scale", {{"scale", scaled}});
     };
-    step("Smaller", -0.1f, "Makes all text smaller by a tenth of its usual size");
-    step("Larger", 0.1f, "Makes all text larger by a tenth of its usual size");
+    step("Smaller", -0.1f, "Smaller by 10 % of the usual size");
+    step("Larger", 0.1f, "Larger by 10 % of the usual size");
     ImGui::End();
 }
 

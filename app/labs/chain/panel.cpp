@@ -61,7 +61,8 @@ void mode_rows(const ChainPart& part, const Palette& colours, Emit& emit) {
         float tolerance = part.tolerance;
         if (number_field("tolerance", tolerance, 0.0005f, 0.0f, 10.0f, "%.4f m"))
             with("tolerance", tolerance);
-        explain("How far from the target the solver may stop. Less is exact and takes more iterations.");
+        explain(
+            "How far from the target the solver may stop. Smaller is more exact and takes more iterations.");
     }
 }
 
@@ -244,7 +245,7 @@ void report_rows(const ShownChain& shown, const std::vector<glm::vec3>& joints, 
     if (!shows_end(shown)) {
         verdict("In progress", palette.text);
         reading("tip to target", "%.4f m", static_cast<double>(shown_residual(part, joints)));
-        note("A step of the solve; the report comes with the last one.");
+        note("A step of the solve. The last one has the report.");
         return;
     }
     show_verdict(chain_verdict(part), palette);

@@ -138,7 +138,7 @@ void microscope_rows(const ShownChain& shown, const Palette& palette, Emit& emit
     note(describe_frame(trace, step));
     if (part.motion.path != Motion::Path::Still)
         note("The moving target waits while the microscope is open.");
-    if (trace.cut) note("The solve was longer: this is where the record ends.");
+    if (trace.cut) note("The solve took more steps; only these are kept.");
     if (row_button("|<", 4, step > 0, "One iteration back")) emit("microscope.step", {{"iterations", -1}});
     if (row_button("<", 4, step > 0, "One step back")) emit("microscope.step", {{"by", -1}});
     if (row_button(">", 4, step < trace.frames(), "One step forward")) emit("microscope.step", {{"by", 1}});
