@@ -313,10 +313,11 @@ glm::vec3 first_pole(const ChainPart& part) {
 void pole_rows(const ChainPart& part, Emit& emit) {
     if (part.chain.empty()) return;
     bool on = part.reach.pole.has_value();
-    if (ImGui::Checkbox("Pole target: the elbow points at it", &on)) {
+    if (ImGui::Checkbox("Pole target", &on)) {
         emit("chain.pole", on ? ArgumentList{{"to", first_pole(part)}} : ArgumentList{{"off", true}});
     }
-    explain("Turns the chain about the line from root to tip until it bends towards a point that you place.");
+    explain(
+        "Turns the chain about the line from root to tip until the elbow points at a ball that you place.");
     if (!part.reach.pole) return;
     glm::vec3 pole = *part.reach.pole;
     if (point_field("pole", pole, 0.01f)) emit.continuously("chain.pole", {{"to", pole}});

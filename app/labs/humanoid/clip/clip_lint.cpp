@@ -134,18 +134,18 @@ void finding_row(const HumanoidPanel& panel, const Finding& finding, int id) {
     const float width = ImGui::GetContentRegionAvail().x;
     const float mend =
         finding.has_cure ? ImGui::CalcTextSize("Fix").x + 2.0f * ImGui::GetStyle().FramePadding.x : 0.0f;
+    std::string where = "frame " + std::to_string(finding.frame);
+    if (finding.node >= 0) where += ", " + node_of(panel, finding);
     ImGui::PushID(id);
     if (ImGui::Selectable("##finding", false, ImGuiSelectableFlags_AllowItemOverlap, {width, 2.2f * line}))
         go_to_finding(panel, finding);
-    explain(finding.text.c_str());
+    explain((where + ": " + finding.text).c_str());
     const ImVec2 after = ImGui::GetCursorPos();
     const std::string value = amount(finding);
     ImGui::SetCursorPos(at);
     ImGui::TextUnformatted(fault_title(finding.fault));
     ImGui::SetCursorPos({at.x + width - ImGui::CalcTextSize(value.c_str()).x, at.y});
     ImGui::TextUnformatted(value.c_str());
-    std::string where = "frame " + std::to_string(finding.frame);
-    if (finding.node >= 0) where += ", " + node_of(panel, finding);
     ImGui::SetCursorPos({at.x, at.y + 1.1f * line});
     ImGui::TextDisabled("%s", elided(where, width - mend - 0.4f * em).c_str());
     if (finding.has_cure) {

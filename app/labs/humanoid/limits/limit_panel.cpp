@@ -98,7 +98,7 @@ void table(const HumanoidPanel& panel, Bone bone, const JointNow& joint) {
             ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, share);
         ImGui::TableNextRow();
         ImGui::TableNextColumn();
-        ImGui::TextDisabled("degrees");
+        ImGui::TextDisabled("deg");
         head("now", colours.text_dim, "From the T-pose.");
         head("adult", adult_colour(colours), "How far an adult's joint turns.");
         head("clips", clips_colour(colours), "How far the character's clips turn it, plus a degree.");
