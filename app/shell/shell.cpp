@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "app/document/command.hpp"
 #include "app/document/text.hpp"
 #include "app/shell/axis_gizmo.hpp"
 #include "app/shell/card_view.hpp"

@@ -3,6 +3,7 @@
 #include <initializer_list>
 
 #include "humanoid/feet.hpp"
+#include "humanoid/input.hpp"
 #include "humanoid/option_ranges.hpp"
 #include "rig/checks.hpp"
 
