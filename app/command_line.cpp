@@ -111,7 +111,7 @@ void SessionLine::add_to(CLI::App& line) {
     line.add_flag("--no-config", no_config, "Do not read or write settings or kept bone maps");
     line.add_flag("--list-labs", labs, "Print the labs");
     line.add_flag("--list-commands", commands, "Print every command with its arguments");
-    line.add_flag("--list-shortcuts", shortcuts, "Print the keys and mouse actions, as in the README");
+    line.add_flag("--list-shortcuts", shortcuts, "Print the keys and mouse actions, as in app/README.md");
     line.set_version_flag("--version", std::string("tendril ") + tendril::version_string);
 }
 

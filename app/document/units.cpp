@@ -36,6 +36,10 @@ std::string fixed_text(double value, int decimals) {
     return without_signed_zero(text);
 }
 
+std::string length_text(double metres) {
+    return std::abs(metres) < 1.0 ? fixed_text(1000.0 * metres, 1) + " mm" : fixed_text(metres, 2) + " m";
+}
+
 std::string count_text(std::size_t count, const char* noun) {
     return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }

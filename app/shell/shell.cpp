@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "app/document/command.hpp"
+#include "app/document/text.hpp"
 #include "app/shell/axis_gizmo.hpp"
 #include "app/shell/card_view.hpp"
 #include "app/shell/theme.hpp"
@@ -36,7 +38,7 @@ void panel_edge(const Rect& rect, bool left, float scale, Emit& emit) {
     const bool lit = ImGui::IsItemHovered() || ImGui::IsItemActive();
     if (lit) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
     if (lit && !ImGui::IsItemActive())
-        tooltip("Drag to make the panel wider or narrower; very narrow, it closes");
+        tooltip("Drag to make the panel wider or narrower; dragged very narrow, it folds");
     ImGui::GetWindowDrawList()->AddLine({left ? x - 1.0f : x, rect.min.y}, {left ? x - 1.0f : x, rect.max.y},
                                         ImGui::GetColorU32(lit ? ImGuiCol_SeparatorActive : ImGuiCol_Border));
     if (ImGui::IsItemActive() && ImGui::IsMouseDragging(ImGuiMouseButton_Left, 1.0f)) {
@@ -100,10 +102,12 @@ void menu(const ShellFrame& frame, Emit& emit) {
         }
         open = shortcut.section;
         const History& history = frame.workspace.history;
-        const bool enabled = shortcut.command == "undo"   ? history.can_undo()
-                             : shortcut.command == "redo" ? history.can_redo()
-                                                          : true;
-        if (ImGui::MenuItem(shortcut.title.c_str(), chord_label(shortcut.chord).c_str(), false, enabled)) {
+        const bool undo = shortcut.command == "undo", redo = shortcut.command == "redo";
+        const bool enabled = undo ? history.can_undo() : !redo || history.can_redo();
+        const std::string title = undo   ? undo_title(frame.commands, history)
+                                  : redo ? redo_title(frame.commands, history)
+                                         : shortcut.title;
+        if (ImGui::MenuItem(title.c_str(), chord_label(shortcut.chord).c_str(), false, enabled)) {
             emit(shortcut.command, shortcut.arguments);
         }
     }
@@ -204,17 +208,14 @@ void time_controls(const ShellFrame& frame, float from, float to, Emit& emit) {
 void tools(const ShellFrame& frame, float from, Emit& emit) {
     const Workspace& workspace = frame.workspace;
     const History& history = workspace.history;
-    const auto about = [](const char* title, const std::string& what) {
-        return what.empty() ? std::string(title) : std::string(title) + " " + what;
-    };
     const auto tool = [&](const char* command, Icon icon, const std::string& tip, bool enabled, bool active) {
         if (icon_button(command, icon, with_keys(frame, tip.c_str(), command).c_str(), enabled, active))
             emit(command);
     };
     ImGui::SameLine(from);
-    tool("undo", Icon::Undo, about("Undo", history.undo_label()), history.can_undo(), false);
+    tool("undo", Icon::Undo, undo_title(frame.commands, history), history.can_undo(), false);
     ImGui::SameLine();
-    tool("redo", Icon::Redo, about("Redo", history.redo_label()), history.can_redo(), false);
+    tool("redo", Icon::Redo, redo_title(frame.commands, history), history.can_redo(), false);
     ImGui::SameLine();
     tool("view.help", Icon::Help, "Keys and mouse", true, workspace.ui.help);
     ImGui::SameLine();
@@ -249,7 +250,21 @@ void status_bar(const ShellFrame& frame) {
     ImGui::End();
 }
 
+std::string with_change(const CommandTable& commands, const char* title, const std::string& label) {
+    const Command* const command = commands.find(label);
+    if (command == nullptr) return title;
+    return std::string(title) + ": " + lower_case(command->title.substr(0, 1)) + command->title.substr(1);
+}
+
 }  // namespace
+
+std::string undo_title(const CommandTable& commands, const History& history) {
+    return with_change(commands, "Undo", history.undo_label());
+}
+
+std::string redo_title(const CommandTable& commands, const History& history) {
+    return with_change(commands, "Redo", history.redo_label());
+}
 
 void begin_region(const char* name, const Rect& rect, glm::vec3 colour, ImVec2 padding, bool scrolls) {
     ImGui::SetNextWindowPos({rect.min.x, rect.min.y});

@@ -56,6 +56,10 @@ class Shell {
     FileDialog file_dialog_;
 };
 
+/// "Undo: move the target": names the change by its command's title; "Undo" if there is none.
+std::string undo_title(const CommandTable& commands, const History& history);
+std::string redo_title(const CommandTable& commands, const History& history);
+
 // Overlays on the scene.
 void show_help(const ShellFrame& frame, Emit& emit);
 void show_settings(const ShellFrame& frame, Emit& emit);

@@ -123,7 +123,7 @@ std::vector<MouseHelp> Shortcuts::mouse_help(std::string_view lab, MousePreset p
         {"Click on an axis in the corner", "looks from there"},
         {"File dropped on the window", "opens it in its lab"},
         {"Click on a number", "types another: 1/3, 2*pi, 30 cm"},
-        {"Drag of a number sideways", "changes it; with Shift finer"},
+        {"Drag a number sideways", "changes it; with Shift finer"},
     };
     for (const LabHelp& each : mouse_)
         if (lab.empty() || each.lab == lab) list.insert(list.end(), each.rows.begin(), each.rows.end());

@@ -415,5 +415,18 @@ TEST_P(HumanoidBody, what_it_cannot_use_is_refused_and_nothing_moves) {
 INSTANTIATE_TEST_SUITE_P(Limits, HumanoidBody, testing::Bool(),
                          [](const auto& each) { return each.param ? "default" : "none"; });
 
+TEST(HumanoidBodyMap, SaysWhichNodeIsNotBelowTheHips) {
+    std::vector<Node> nodes;
+    const Skeleton figure = make_figure({});
+    for (std::size_t i = 0; i < figure.size(); ++i) nodes.push_back(figure[i]);
+    nodes.push_back({"Foot.L", -1, {}});
+    const Skeleton skeleton = *Skeleton::make(std::move(nodes));
+    BoneMap map = match_bones(skeleton);
+    map.bones[static_cast<std::size_t>(Bone::LeftFoot)].node = static_cast<std::int32_t>(skeleton.size()) - 1;
+    const auto body = Body::make(skeleton, map);
+    ASSERT_FALSE(body);
+    EXPECT_STREQ(body.message(), "Foot.L is not below the hips. Pick another node for LeftFoot");
+}
+
 }  // namespace
 }  // namespace tendril::test

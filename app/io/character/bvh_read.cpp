@@ -271,8 +271,9 @@ Character read(Words& words, LoadProgress* progress) {
     clips.push_back(read_motion(words, hierarchy, progress));
     const LengthUnit unit = guess_unit(height_of(skeleton_of(hierarchy.nodes)));
     character.scale = unit.metres;
-    character.notes.push_back(std::string("A BVH has no unit; judging by the figure's height, it is in ") +
-                              unit.name + '.');
+    character.notes.push_back(
+        std::string("BVH files do not state a unit; judging by the figure's height, this one is in ") +
+        unit.name + '.');
     normalise(hierarchy.nodes, clips, 'y', unit.metres);
     character.skeleton = skeleton_of(std::move(hierarchy.nodes));
     for (const humanoid::Clip& clip : clips)

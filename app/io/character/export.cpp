@@ -121,7 +121,7 @@ std::string ExportReport::text() const {
     std::snprintf(numbers, sizeof numbers, ", %.4f mm", 1000.0 * worst);
     std::string text = std::to_string(frames) + (frames == 1 ? " frame" : " frames");
     text += "; worst joint " + worst_joint + numbers;
-    if (!has_feet) return text + "; no foot ever stands";
+    if (!has_feet) return text + "; no foot is ever planted";
     std::snprintf(numbers, sizeof numbers, "; skating %.1f mm before, %.1f mm after", 1000.0 * skating_before,
                   1000.0 * skating_after);
     return text + numbers;

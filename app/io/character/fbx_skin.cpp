@@ -37,7 +37,7 @@ class FbxSkinReader {
     Skin read() {
         add_below(*scene_.mRootNode);
         if (picture_outside_)
-            notes_.push_back("The pictures of its skin are not in the file: plain colours instead.");
+            notes_.push_back("Its textures are not in the file, so it is drawn in plain colours.");
         return builder_.finish();
     }
 
@@ -97,7 +97,7 @@ class FbxSkinReader {
             for (unsigned k = 0; k < bone.mNumWeights; ++k) {
                 const aiVertexWeight& weight = bone.mWeights[k];
                 if (weight.mVertexId >= mesh.mNumVertices)
-                    throw std::runtime_error(what + ": there is no corner " +
+                    throw std::runtime_error(what + ": there is no vertex " +
                                              std::to_string(weight.mVertexId));
                 if (weight.mWeight > 0.0f && weight.mWeight <= 1e6f)
                     corners.influences[weight.mVertexId].push_back(

@@ -44,7 +44,7 @@ class GltfSkinReader {
             for (std::size_t i = 0; i < model_.animations.size(); ++i)
                 skin.morph_clips.push_back(morph_clip(i));
         if (packed_) notes_.push_back("Meshes compressed with Draco cannot be read and are not shown.");
-        if (picture_lost_) notes_.push_back("A picture of its skin cannot be read: plain colours instead.");
+        if (picture_lost_) notes_.push_back("A texture cannot be read, so plain colours are drawn instead.");
         return skin;
     }
 
@@ -170,7 +170,7 @@ class GltfSkinReader {
                 throw std::runtime_error(what + ".indices: too many");
             for (const double each : accessor_rows(model_, primitive.indices, 1, what + ".indices")) {
                 if (!(each >= 0.0 && each < static_cast<double>(corners)))
-                    throw std::runtime_error(what + ".indices: there is no corner " + std::to_string(each) +
+                    throw std::runtime_error(what + ".indices: there is no vertex " + std::to_string(each) +
                                              ", it has " + std::to_string(corners));
                 list.push_back(static_cast<std::uint32_t>(each));
             }

@@ -125,15 +125,15 @@ void SkinBuilder::add_part(const std::string& what, Corners corners, std::vector
                            SkinPart material) {
     const std::size_t count = corners.positions.size(), first = mesh_.positions.size();
     if (count > max_corners - first || indices.size() > max_indices - mesh_.indices.size())
-        throw std::runtime_error(what + ": more than " + std::to_string(max_corners) + " corners or " +
+        throw std::runtime_error(what + ": more than " + std::to_string(max_corners) + " vertices or " +
                                  std::to_string(max_indices / 3) + " triangles in total");
     for (const std::uint32_t index : indices)
         if (index >= count)
-            throw std::runtime_error(what + ": there is no corner " + std::to_string(index) + ", it has " +
+            throw std::runtime_error(what + ": there is no vertex " + std::to_string(index) + ", it has " +
                                      std::to_string(count));
     for (std::size_t i = 0; i < count; ++i)
         if (!is_finite(corners.positions[i]))
-            throw std::runtime_error(what + ": corner " + std::to_string(i) + " has no finite position");
+            throw std::runtime_error(what + ": vertex " + std::to_string(i) + " has no finite position");
     if (corners.normals.size() != count) corners.normals = normals_of(corners.positions, indices);
     for (glm::vec3& normal : corners.normals) normal = unit(normal);
 
@@ -165,10 +165,11 @@ std::size_t SkinBuilder::add_morph(const std::string& what, std::string name, do
                                    std::vector<glm::vec3> positions, std::vector<glm::vec3> normals) {
     if (positions.empty()) positions.resize(last_count_, glm::vec3(0.0f));
     if (positions.size() != last_count_ || (!normals.empty() && normals.size() != last_count_))
-        throw std::runtime_error(what + ": " + std::to_string(positions.size()) + " corners, its mesh has " +
+        throw std::runtime_error(what + ": " + std::to_string(positions.size()) + " vertices, its mesh has " +
                                  std::to_string(last_count_));
     for (const glm::vec3& each : positions)
-        if (!is_finite(each)) throw std::runtime_error(what + ": a corner moves to no finite position");
+        if (!is_finite(each))
+            throw std::runtime_error(what + ": a vertex moves to a position that is not finite");
     for (glm::vec3& each : normals)
         if (!is_finite(each)) each = glm::vec3(0.0f);
     mesh_.morphs.push_back({std::move(name), static_cast<std::uint32_t>(last_first_),

@@ -63,7 +63,8 @@ void mode_rows(const ChainPart& part, const Palette& colours, Emit& emit) {
         float tolerance = part.tolerance;
         if (number_field("tolerance", tolerance, 0.0005f, 0.0f, 10.0f, "%.4f m"))
             with("tolerance", tolerance);
-        explain("How far from the target the solver may stop. Less is exact and takes more iterations.");
+        explain(
+            "How far from the target the solver may stop. Smaller is more exact and takes more iterations.");
     }
 }
 
@@ -288,7 +289,7 @@ void report_rows(const ShownChain& shown, const std::vector<glm::vec3>& joints, 
     if (!shows_end(shown)) {
         verdict("In progress", palette.text);
         reading("tip to target", "%.4f m", static_cast<double>(shown_residual(part, joints)));
-        note("A step of the solve; the report comes with the last one.");
+        note("A step of the solve. The last one has the report.");
         return;
     }
     show_verdict(chain_verdict(part), palette);
@@ -356,10 +357,11 @@ glm::vec3 first_pole(const ChainPart& part) {
 void pole_rows(const ChainPart& part, Emit& emit) {
     if (part.chain.empty()) return;
     bool on = part.reach.pole.has_value();
-    if (ImGui::Checkbox("Pole target: the elbow points at it", &on)) {
+    if (ImGui::Checkbox("Pole target", &on)) {
         emit("chain.pole", on ? ArgumentList{{"to", first_pole(part)}} : ArgumentList{{"off", true}});
     }
-    explain("Turns the chain about the line from root to tip until it bends towards a point that you place.");
+    explain(
+        "Turns the chain about the line from root to tip until the elbow points at a ball that you place.");
     if (!part.reach.pole) return;
     glm::vec3 pole = *part.reach.pole;
     if (point_field("pole", pole, 0.01f)) emit.continuously("chain.pole", {{"to", pole}});

@@ -351,10 +351,10 @@ std::string describe_frame(const Trace& trace, std::size_t frame) {
                    "the target (" +
                    joints + ").";
         case ik::Phase::Rotate:
-            return "Everything beyond turns" + about + ", so that the tip looks at the target (" + joints +
+            return "Everything beyond turns" + about + ", so that the tip points at the target (" + joints +
                    ").";
         case ik::Phase::Gradient:
-            return "All joints turn a little, as the Jacobian says (" + joints + ").";
+            return "All joints turn a little, along the gradient that the Jacobian gives (" + joints + ").";
         case ik::Phase::Pole:
             return "The chain swivels until the elbow points at the pole target (" + joints + ").";
         case ik::Phase::Limit:

@@ -58,7 +58,7 @@ std::optional<std::size_t> clicked_node(const HumanoidPart& part, PickId pick) {
 
 std::string effector_hint(const HumanoidPart& part, Effector effector) {
     const bool has_target = part.ik.target(effector).has_value();
-    return title(effector) + (has_target ? ", which has a target: drag moves it, double click lets it go."
+    return title(effector) + (has_target ? ", which has a target: drag moves it, double click removes it."
                                          : ": drag gives it a target.");
 }
 
@@ -200,7 +200,7 @@ std::string HumanoidLab::hint(const Workspace& workspace, PickId pick) const {
     const HumanoidPart& part = humanoid_part(workspace);
     const auto waiting = humanoid_runtime(workspace).panel.bone;
     const auto effector = picked_effector(pick);
-    if (pick == look_pick) return "what the head looks at: drag moves it.";
+    if (pick == look_pick) return "What the head looks at. Drag to move it.";
     if (effector && !waiting) return effector_hint(part, *effector);
     const auto node = clicked_node(part, pick);
     if (!node) return {};
@@ -214,7 +214,7 @@ std::string HumanoidLab::hint(const Workspace& workspace, PickId pick) const {
 
 std::vector<MouseHelp> HumanoidLab::mouse_help() const {
     return {{"Drag an orange ball", "gives hand, foot, head or hips a target"},
-            {"Double click on an orange ball", "lets it go"},
+            {"Double click on an orange ball", "removes the target"},
             {"Drag an arrow, a square or a ring", "moves or turns the selected hands, feet, head and hips"},
             {"Shift+click on a bone", "adds it to the selection, or takes it out"},
             {"Ctrl+drag on nothing", "draws a box that selects the nodes in it; with Shift it adds them"}};

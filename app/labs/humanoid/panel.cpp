@@ -26,19 +26,18 @@ namespace {
 constexpr PastHelp past_help{
     "What is plotted below the scene over the last ten seconds: how far the selected effector is from its "
     "target, or how far the selected joint is turned from the T-pose",
-    "Where the body was every half second"};
+    "Shows where the body was, every half second"};
 
 void rest_row(const HumanoidPanel& panel) {
     const HumanoidPart& part = panel.part;
     const char* const name = humanoid::name(part.map->rest);
     reading("rest pose", "%s", part.map->rest == humanoid::RestPose::Other ? "neither T nor A" : name);
-    explain(
-        "T: the arms are level at rest. A: they hang down by a quarter to three quarters of a right angle.");
+    explain("T: arms level at rest. A: arms lowered by 22 to 68 degrees.");
     bool on = part.t_pose;
     if (ImGui::Checkbox("Rest as a T-pose", &on)) panel.emit("humanoid.t_pose", {{"on", on}});
     explain(
-        "Shows the rest pose with arms straight out to the sides and legs straight down; the pose of the "
-        "file is the ghost.");
+        "Shows the rest pose with arms straight out and legs straight down; the ghost is the file's own "
+        "pose.");
 }
 
 void scale_row(const HumanoidPanel& panel) {
@@ -59,9 +58,9 @@ void kept_map_rows(const HumanoidPanel& panel) {
     std::string names;
     for (const humanoid::Bone bone : bones)
         names += (names.empty() ? "" : ", ") + std::string(humanoid::name(bone));
-    note("A bone map that you made for these node names differs in " + count_text(bones.size(), "bone") +
+    note("A bone map that you kept for these node names differs in " + count_text(bones.size(), "bone") +
          ": " + names + '.');
-    if (row_button("Use it", 2, true, "Maps the bones as you did then")) panel.emit("humanoid.map.use");
+    if (row_button("Use it", 2, true, "Maps the bones as in the kept map")) panel.emit("humanoid.map.use");
     if (row_button("Forget it", 2, true, "It will not be offered again")) panel.emit("humanoid.map.forget");
     end_row();
 }
@@ -117,7 +116,7 @@ void clip_rows(const HumanoidPanel& panel) {
         }
         end_search();
     }
-    explain("The motion that is shown. Type part of a name to find one.");
+    explain("The motion to play. Type part of a name to find one.");
     FieldRows(playback, "humanoid.clip", panel.emit).rows("speed", "loop", "in_place");
     if (playback.playing && !panel.workspace.clock.playing) note("Paused: press Space to play.");
 }
@@ -186,8 +185,9 @@ void node_inspector(const HumanoidPanel& panel) {
     const ShownPose& shown = panel.runtime.shown(panel.workspace);
     position_rows(shown.placed[*node].position);
     if (!shown.before.empty())
-        reading("moved by", "%.1f mm",
-                1000.0 * glm::distance(shown.placed[*node].position, shown.before[*node].position));
+        reading(
+            "moved by IK", "%s",
+            length_text(glm::distance(shown.placed[*node].position, shown.before[*node].position)).c_str());
     spring_inspector(panel);
 }
 
@@ -198,7 +198,7 @@ void target_inspector(const HumanoidPanel& panel) {
     if (!shown.refused.empty()) return note(shown.refused);
     for (const humanoid::Effector effector : all_effectors) {
         if (!panel.part.ik.target(effector)) continue;
-        reading(title(effector).c_str(), "%.1f mm", 1000.0 * shown.residual(effector).value_or(0.0));
+        reading(title(effector).c_str(), "%s", length_text(shown.residual(effector).value_or(0.0)).c_str());
         explain("How far the effector is from its target.");
     }
     if (!shown.body) return;
@@ -275,7 +275,7 @@ void bone_tooltip(const HumanoidPart& part, Bone bone) {
         text += ": " + node_name(part, match.node) + "\n" + sureness(match.confidence) + ", " +
                 fixed_text(100.0 * match.confidence, 0) + " %";
     else
-        text += humanoid::is_needed(bone) ? ": missing; the body solve needs it" : ": none; not required";
+        text += humanoid::is_needed(bone) ? ": missing; full-body IK needs it" : ": none; not required";
     if (!match.reasons.empty()) text += "\n" + match.reasons;
     ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(26.0f * ImGui::GetFontSize());
@@ -361,7 +361,7 @@ void bone_rows(const HumanoidPanel& panel) {
     if (!why.empty()) {
         ImGui::PushStyleColor(ImGuiCol_Text, colour_of(panel.colours.limit));
         ImGui::PushTextWrapPos(0.0f);
-        ImGui::TextUnformatted(("The body solve is off: " + why + ".").c_str());
+        ImGui::TextUnformatted(("Full-body IK is off: " + why + ".").c_str());
         ImGui::PopTextWrapPos();
         ImGui::PopStyleColor();
     }
@@ -379,7 +379,7 @@ Verdict humanoid_verdict(const Workspace& workspace) {
     const auto mapped =
         std::ranges::count_if(part.map->bones, [](const auto& each) { return each.node >= 0; });
     const std::string bones =
-        std::to_string(mapped) + " of " + std::to_string(humanoid::bone_count) + " bones are known.";
+        std::to_string(mapped) + " of " + std::to_string(humanoid::bone_count) + " bones mapped.";
     const ShownPose& shown = runtime.shown(workspace);
     double worst = -1.0;
     for (const humanoid::Effector effector : all_effectors)

@@ -47,7 +47,7 @@ glm::vec3 incident_colour(const Incident& incident, const Palette& palette) {
 void replay_button(const Workspace& workspace, Emit& emit) {
     const bool runs = workspace.clock.replaying;
     if (icon_button("replay", runs ? Icon::Pause : Icon::Play,
-                    runs ? "Pauses" : "Shows the last ten seconds again, at the speed of the clock",
+                    runs ? "Pauses" : "Replays the last ten seconds, at the simulation's speed",
                     !workspace.rewind.empty(), runs))
         emit(runs ? "time.pause" : "time.replay");
     ImGui::SameLine();
@@ -65,7 +65,7 @@ void record_button(const Workspace& workspace, Emit& emit) {
               colour);
     ImGui::EndDisabled();
     if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
-        ImGui::SetTooltip("Pauses, and records the last ten seconds as a video");
+        ImGui::SetTooltip("Pauses, and saves the last ten seconds as a video");
     ImGui::SetCursorScreenPos(at);
 }
 
@@ -77,7 +77,7 @@ TimeMark incident_mark(const Incident& incident, int at, const Palette& palette)
 
 void tell_incident(const Incident& incident) {
     tell_strip((incident_title(incident) + ":\n" + incident.cause +
-                ".\nClick to see what was before and what came of it.")
+                ".\nClick to compare the poses before and after.")
                    .c_str());
 }
 
@@ -104,7 +104,7 @@ StripLine past_strip(const Workspace& workspace, Emit& emit) {
 bool other_strip_button(bool shown, const std::string& other) {
     const bool asked = ImGui::Button(shown ? capitalised(other).c_str() : "Past");
     if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("Shows the strip of the %s", shown ? other.c_str() : "last ten seconds");
+        ImGui::SetTooltip("Shows the %s here", shown ? other.c_str() : "last ten seconds");
     ImGui::SameLine();
     return asked;
 }

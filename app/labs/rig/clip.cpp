@@ -176,7 +176,7 @@ double amount(const FrameLeft& left) {
 }
 
 std::string left_text(double mm, double degrees, double scale) {
-    std::string text = fixed_text(mm, 1) + " mm, " + fixed_text(degrees, 1) + "\u00b0";
+    std::string text = length_text(1e-3 * mm) + ", " + fixed_text(degrees, 1) + "\u00b0";
     if (scale >= min_shown_scale) text += ", scale " + fixed_text(scale, 3);
     return text;
 }

@@ -149,7 +149,7 @@ void marks_legend(const Palette& colours) {
     const float em = ImGui::GetFontSize();
     draw_pending(rig::Pending::Global, {at.x + 0.4f * em, at.y + 0.5f * ImGui::GetTextLineHeight()}, colours);
     ImGui::SetCursorPosX(ImGui::GetCursorPosX() + 1.2f * em);
-    note("local, global; filled: pending");
+    note("filled = not worked out yet");
 }
 
 void add_element_menu(const RigPanel& panel) {

@@ -115,7 +115,7 @@ void curve_rows(const RigPanel& panel) {
 }
 
 void solve_rows(const RigPanel& panel) {
-    if (row_button("Forward", 2, true, "Runs the units: from controls to bones. A tick does this too"))
+    if (row_button("Forward", 2, true, "Runs the units, from controls to bones, as every tick does"))
         panel.emit("rig.solve", {{"direction", "forward"}});
     if (row_button("Backward", 2, true,
                    "Sets the controls so that the bones stay as they are, if possible. Starts a take"))
@@ -142,8 +142,7 @@ void RigLab::panel(const Workspace& workspace, Emit& emit) const {
     if (open("Solve")) solve_rows(panel);
     time_rows(workspace, emit);
     if (!open("Export")) return;
-    if (row_button("Copy as C++", 1, true,
-                   "Copies the rig, as it is now, as a C++ program that uses the library"))
+    if (row_button("Copy as C++", 1, true, "This rig, as it is now, as a program that uses the library"))
         emit("rig.copy");
 }
 
@@ -176,7 +175,7 @@ void pending_rows(const RigPanel& panel, std::size_t element) {
         "the global ones of all elements below. A pending one is worked out when something reads it.");
     if (row_button(
             selected.several() ? "Read them" : "Read it", 2, true,
-            "Works out what is pending here and up to the root, and says how many transforms that was"))
+            "Works out what is pending from here up to the root, and says how many transforms that took"))
         panel.emit("rig.read", {which(panel.part, selected.all())});
     end_row();
 }

@@ -252,11 +252,6 @@ std::vector<Incident> rig_incidents(const RigPart& before, const RigPart& after)
 
 namespace {
 
-/// "12.3 mm", "1.20 m": lengths in rigs are millimetres to metres.
-std::string length_text(double metres) {
-    return metres < 1.0 ? fixed_text(1000.0 * metres, 1) + " mm" : fixed_text(metres, 2) + " m";
-}
-
 std::string added_text(const rig::Contribution& step) {
     std::string text =
         length_text(step.metres) + "  " + fixed_text(glm::degrees(step.radians), 1) + "\xC2\xB0";
@@ -320,9 +315,9 @@ void why_rows(const RigPanel& panel) {
         if (!idle || all) unit_line(panel, units[i], why.units[i]);
     }
     if (untouched > 0) {
-        const std::string count = count_text(untouched, "unit") + " did not touch it";
+        const std::string count = count_text(untouched, "unit") + " did not change it";
         if (row_button((all ? "Hide idle units" : count).c_str(), 1, true,
-                       all ? "Lists only the units that touched it" : "Lists them too"))
+                       all ? "Lists only the units that changed it" : "Lists every unit"))
             all = !all;
         end_row();
     }

@@ -416,7 +416,7 @@ const rig::Element* bones_above(const RigPart& part, const rig::Element& tip, st
 
 UnitOffer with_item(const RigPart& part, Json unit) {
     const rig::Element* item = item_of(part);
-    if (item == nullptr) return {{}, "an element"};
+    if (item == nullptr) return {{}, "add an element first"};
     unit["item"] = item->name;
     return {SharedJson(std::move(unit))};
 }
@@ -424,7 +424,7 @@ UnitOffer with_item(const RigPart& part, Json unit) {
 UnitOffer follower(const RigPart& part, Json unit) {
     const rig::Element* item = item_of(part);
     const rig::Element* other = item != nullptr ? other_than(part, *item) : nullptr;
-    if (other == nullptr) return {{}, "two elements"};
+    if (other == nullptr) return {{}, "add a second element first"};
     // A control is followed: it would only lose its own pose as a follower.
     if (const rig::Element* instead = no_control(part);
         instead != nullptr && item->kind == rig::ElementKind::Control)
@@ -449,7 +449,7 @@ UnitOffer follower(const RigPart& part, Json unit) {
 UnitOffer chain(const RigPart& part, Json unit) {
     const rig::Element* tip = item_of(part);
     const rig::Element* root = tip != nullptr ? bones_above(part, *tip, 2) : nullptr;
-    if (root == nullptr) return {{}, "a selected bone with two bones above it"};
+    if (root == nullptr) return {{}, "select a bone that has two bones above it"};
     unit["root"] = root->name;
     unit["tip"] = tip->name;
     if (const rig::Element* other = other_than(part, *tip);
@@ -480,13 +480,13 @@ UnitOffer offered_unit(const RigPart& part, std::size_t operation) {
         return with_item(part, std::move(unit));
     if (kind == "for_each") {
         const rig::Element* item = item_of(part);
-        if (item == nullptr) return {{}, "an element"};
+        if (item == nullptr) return {{}, "add an element first"};
         const std::vector<std::string> selected = roots_selected(part);
         unit["roots"] = selected.empty() ? Json::array({item->name}) : Json(selected);
         unit["body"] = Json::array();
     }
     if (kind == "set_curve") {
-        if (part.rig.definition().curves.empty()) return {{}, "a named curve"};
+        if (part.rig.definition().curves.empty()) return {{}, "add a curve first"};
         unit["curve"] = part.rig.definition().curves.front().name;
     }
     return {SharedJson(std::move(unit))};

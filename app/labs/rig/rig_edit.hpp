@@ -70,7 +70,7 @@ std::string free_element_name(const RigPart& part, const std::string& base);
 /// A unit as rig.unit.add takes it, or why there is none.
 struct UnitOffer {
     std::optional<SharedJson> unit;
-    const char* needs = "";  ///< "two bones or more", if there is no unit
+    const char* needs = "";  ///< "add an element first", if there is no unit
 };
 /// `operation` is the index in rig::Operation. The active element becomes the item, and follows the other
 /// selected elements. A for-each loops over all selected elements.

@@ -103,9 +103,9 @@ void clip_rows(const RigPart& part, Emit& emit) {
         emit("rig.clip.record");
     if (running) {
         if (row_button("Cancel", 3, true, "What is solved so far is kept")) emit("rig.clip.cancel");
-    } else if (row_button("Solve", 3, part.clip != nullptr,
-                          "Backward: looks for control values that give each frame; the timeline shows the "
-                          "errors left")) {
+    } else if (row_button(
+                   "Solve", 3, part.clip != nullptr,
+                   "Backward: finds the controls for each frame; the timeline shows the errors left")) {
         emit("rig.clip.solve");
     }
     if (row_button("Clear", 3, part.clip != nullptr, "Removes the clip")) emit("rig.clip.clear");
@@ -131,9 +131,10 @@ void rate_rows(const RigPart& part, Emit& emit) {
     if (!part.rates) return;
     const RateDifference& most = *part.rates;
     if (running) ImGui::ProgressBar(rates_done(most), {-1.0f, 0.0f}, "");
-    reading("apart", "%s mm, %s\u00b0", fixed_text(most.mm, most.mm < 10.0 ? 3 : 1).c_str(),
+    reading("apart", "%s, %s\u00b0",
+            (most.mm < 10.0 ? fixed_text(most.mm, 3) + " mm" : length_text(1e-3 * most.mm)).c_str(),
             fixed_text(most.degrees, most.degrees < 10.0 ? 3 : 1).c_str());
-    explain("The largest difference of any bone between two frame rates");
+    explain("How far apart the same bone is at two of the frame rates, at most");
     if (most.scale >= min_shown_scale) reading("", "scale %s", fixed_text(most.scale, 3).c_str());
     if (most.mm > 0.0 || most.degrees > 0.0 || most.scale > 0.0)
         note("Most: " + most.bone + ", " + most.between + ", " + fixed_text(most.seconds, 2) +
@@ -232,7 +233,7 @@ std::vector<TimeBar> clip_bars(const RigPart& part, const Palette& colours) {
     return bars;
 }
 
-/// "2.35 s: the rig cannot express left 6: 12.3 mm, 8.1 degrees are left"
+/// "2.35 s: the rig cannot express left 6: off by 12.3 mm, 8.1°"
 std::string told(const RigPart& part, std::uint64_t tick) {
     std::string text = fixed_text(static_cast<double>(tick) * tick_seconds, 2) + " s";
     if (tick < part.take.began)
@@ -245,10 +246,10 @@ std::string told(const RigPart& part, std::uint64_t tick) {
     if (!part.clip_left || frame >= part.clip_left->done()) return text + "not solved backward yet";
     const FrameLeft& left = part.clip_left->left[frame];
     if (left.expressed()) return text + "the rig can express it";
-    return text + "the rig cannot express " + part.clip->bones[left.bone] + ": " +
+    return text + "the rig cannot express " + part.clip->bones[left.bone] + ": off by " +
            left_text(static_cast<double>(left.mm), static_cast<double>(left.degrees),
                      static_cast<double>(left.scale)) +
-           " are left" + (left.stopped ? ", stopped before the end" : "");
+           (left.stopped ? ", stopped before the end" : "");
 }
 
 /// Incidents within the window, by tick of the take. `numbers`: their indices among all incidents.
@@ -270,8 +271,7 @@ std::vector<TimeMark> take_marks(const Workspace& workspace, const Window& windo
 void step_button(const RigPart& part, bool back, Emit& emit) {
     const bool possible = back ? part.take.tick > 0 : part.take.tick < max_take_ticks;
     if (icon_button(back ? "back" : "forward", back ? Icon::ChevronLeft : Icon::ChevronRight,
-                    back ? "Pauses, and goes back by a tick of the take" : "Pauses, and goes on by a tick",
-                    possible))
+                    back ? "Pauses, one tick back" : "Pauses, one tick forward", possible))
         emit("rig.time", {{"tick", back ? part.take.now() - 1 : part.take.now() + 1}});
     ImGui::SameLine();
 }

@@ -122,14 +122,14 @@ void live_lines(const RigPanel& panel, const UnitRow& row) {
 }
 
 void add_unit_menu(const RigPanel& panel) {
-    if (row_button("Add a unit", 1, true, "A list of every kind of unit; the new one runs last"))
+    if (row_button("Add a unit", 1, true, "Choose a kind; the new unit runs last"))
         ImGui::OpenPopup("add unit");
     if (!ImGui::BeginPopup("add unit")) return;
     close_popup_on_escape();
     for (std::size_t i = 0; i < std::variant_size_v<rig::Operation::Variant>; ++i) {
         const UnitOffer offer = offered_unit(panel.part, i);
         std::string title = capitalised(operation_title(i));
-        if (!offer.unit) title += std::string(": needs ") + offer.needs;
+        if (!offer.unit) title += std::string(": ") + offer.needs;
         if (!ImGui::MenuItem(title.c_str(), nullptr, false, offer.unit.has_value())) continue;
         ArgumentList arguments;
         for (const auto& [key, value] : (*offer.unit)->items()) arguments.push_back({key, SharedJson(value)});
@@ -153,9 +153,9 @@ void order_buttons(const RigPanel& panel, const std::vector<UnitRow>& rows) {
     const auto selected = unit_row(panel.part, panel.part.selected.unit);
     const auto [at, count] = selected ? place_of(rows, *selected) : std::pair(0, 0);
     const std::string& name = panel.part.selected.unit;
-    if (row_button("Up", 3, selected && at > 0, "Moves the selected unit up: it runs earlier"))
+    if (row_button("Up", 3, selected && at > 0, "The selected unit runs earlier"))
         panel.edit("rig.unit.move", {{"name", name}, {"at", at - 1}});
-    if (row_button("Down", 3, selected && at + 1 < count, "Moves it down: it runs later"))
+    if (row_button("Down", 3, selected && at + 1 < count, "The selected unit runs later"))
         panel.edit("rig.unit.move", {{"name", name}, {"at", at + 1}});
     if (row_button("Remove", 3, selected.has_value(), "Removes the selected unit"))
         panel.edit("rig.unit.remove", {{"name", name}});
@@ -265,7 +265,7 @@ class Fields {
         }
         if (!open) return;
         const std::vector<InputOffer> offers = input_offers(panel_.part, row_, *input_, index);
-        if (offers.empty()) note("Nothing in this rig gives that.");
+        if (offers.empty()) note("Nothing in this rig has such a value.");
         for (const InputOffer& offer : offers)
             if (search_row(offer.title, offer.now, typed) && !offer.now) set(*offer.value);
         end_search();
@@ -419,7 +419,7 @@ void unit_inspector(const RigPanel& panel) {
     for (std::size_t i = 0; i < outputs.size(); ++i)
         reading((std::string("gives ") + outputs[i].name).c_str(), "%s",
                 output_text(row->unit->operation, panel.part.state.units[row->at].outputs[i]).c_str());
-    if (row->inner) note("What it gives is for the last element of the for-each.");
+    if (row->inner) note("These are its outputs for the last element of the for-each.");
     if (row_button("Close", 2, true, "Deselects the unit")) select_unit(panel, "");
     end_row();
     ImGui::PopID();

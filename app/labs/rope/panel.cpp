@@ -142,7 +142,9 @@ void body_rows(const NamedWorld& world, const rope::Body& body, Emit& emit) {
     section(world.name(body).c_str());
     const BodySettings settings = settings_of(world, body);
     const FieldRows rows(settings, "rope.set", emit, {{"rope", world.name(body)}});
-    rows.row("length", {.why_not = settings.length > 0.0f ? "" : "It has no length."});
+    rows.row("length", {.why_not = settings.length > 0.0f
+                                       ? ""
+                                       : "All its particles are in one place: there is no length to scale."});
     rows.rows("mass", "radius", "stretch");
     if (settings.shear) rows.row("shear");
     if (settings.bend) rows.row("bend");

@@ -55,7 +55,7 @@ void input_section(const SignalPart& part, Emit& emit) {
         if (number_field("period", period, 0.02f, 0.1f, 60.0f, "%.2f s"))
             emit.continuously("signal.input", {{"period", period}});
         explain(input.kind == InputKind::Noise
-                    ? "The slow drift heads for a new value four times in this time."
+                    ? "The slow drift turns towards a new value four times in this time."
                     : "How long it takes until the input repeats.");
     }
     if (input.kind == InputKind::Hand) {
@@ -81,7 +81,7 @@ void export_section(Emit& emit) {
 
 /// One button with a list: fourteen buttons would be too many.
 void add_button(Emit& emit) {
-    if (row_button("Add a filter", 1, true, "A list of every kind; the new one comes last"))
+    if (row_button("Add a filter", 1, true, "Choose a kind; the new filter comes last"))
         ImGui::OpenPopup("add filter");
     if (!ImGui::BeginPopup("add filter")) return;
     close_popup_on_escape();
@@ -112,9 +112,9 @@ void chain_rows(const SignalPart& part, const Palette& palette, Emit& emit) {
     add_button(emit);
     const bool chosen = part.selected.has_value();
     const std::size_t at = part.selected.value_or(0);
-    if (row_button("Up", 3, chosen && at > 0, "Moves the selected filter up: applied earlier"))
+    if (row_button("Up", 3, chosen && at > 0, "The selected filter is applied earlier"))
         emit("signal.filter.move", {{"at", at}, {"to", at - 1}});
-    if (row_button("Down", 3, chosen && at + 1 < part.stages.size(), "Moves it down: applied later"))
+    if (row_button("Down", 3, chosen && at + 1 < part.stages.size(), "The selected filter is applied later"))
         emit("signal.filter.move", {{"at", at}, {"to", at + 1}});
     if (row_button("Remove", 3, chosen, "Removes the selected filter"))
         emit("signal.filter.remove", {{"at", at}});
@@ -232,25 +232,26 @@ std::string difference_text(double value) {
 void response_rows(const StageMeasures& measures) {
     if (measures.following == signal::Following::DoesNotFollow) {
         reading("lag", "does not follow");
-        explain("No shift in time makes the input explain even a tenth of what the output does.");
+        explain("Shifted in time by any amount, the input matches less than a tenth of the output.");
     } else {
         reading("lag", "%s", or_dash(measures.lag, 1e3, 1, "ms").c_str());
-        explain("How far the output has to be shifted back in time to fit its input best.");
+        explain("How long the output trails its input: the shift in time that makes them match best.");
     }
     reading("overshoot", "%s", or_dash(measures.overshoot, 1e2, 1, "%").c_str());
     explain("How far it goes beyond a jump of the input, relative to the jump. Needs jumps: a square wave.");
     reading("settling", "%s", or_dash(measures.settling_time, 1e3, 0, "ms").c_str());
     explain("From a jump until it stays within 2 % of it. Needs jumps: a square wave.");
     reading("jitter left", "%s", or_dash(measures.jitter, 1e2, 1, "%").c_str());
-    explain("Second differences of the output over those of the input.");
+    explain("How much of the input's trembling is left: second differences, output over input.");
 }
 
 void measure_rows(const StageMeasures& measures) {
     if (measures.following == signal::Following::Unstable) {
         reading("response", "unstable");
         explain(
-            "It runs away: more than ten times as far as its input spans, and ever farther. Lag, overshoot, "
-            "settling and jitter would be meaningless.");
+            "The output is over ten times the range of the input, and still growing: lag, overshoot, "
+            "settling and "
+            "jitter mean nothing.");
     } else {
         response_rows(measures);
     }
@@ -314,7 +315,7 @@ void fit_rows(const SignalPart& part, Emit& emit) {
         text_flush_right(left, i > 0);
         ImGui::PopID();
     }
-    note("Error left, % of the response's range. Click one to use it.");
+    note("Error left, % of the range; click to use.");
 }
 
 void SignalLab::inspector(const Workspace& workspace, Emit& emit) const {

@@ -199,15 +199,16 @@ Verdict signal_verdict(const SignalPart& part, const signal::Measures& whole) {
     if (enabled_filters(part).empty())
         return {"No filter is on", Verdict::Kind::Open, "The output is the input."};
     if (whole.following == signal::Following::Unstable)
-        return {"Runs away", Verdict::Kind::Bad, "The output moves ever farther from the input."};
+        return {"Runs away", Verdict::Kind::Bad, "The output keeps growing away from the input."};
     if (whole.following == signal::Following::DoesNotFollow)
-        return {"Does not follow", Verdict::Kind::Bad, "No shift in time makes the output match the input."};
+        return {"Does not follow", Verdict::Kind::Bad,
+                "Shifted in time by any amount, the output does not match the input."};
     std::string why;
     const auto add = [&](const std::string& what) { why += (why.empty() ? "" : ", ") + what; };
     if (whole.lag)
-        add(std::abs(*whole.lag) < 5e-5 ? "without lag" : si_text(*whole.lag, "s") + " behind the input");
+        add(std::abs(*whole.lag) < 5e-5 ? "no lag" : si_text(*whole.lag, "s") + " behind the input");
     if (whole.overshoot) {
-        add(*whole.overshoot < 5e-4 ? "without overshoot"
+        add(*whole.overshoot < 5e-4 ? "no overshoot"
                                     : "overshoots by " + fixed_text(100.0 * *whole.overshoot, 1) + " %");
     }
     if (!why.empty()) why = capitalised(why) + '.';

@@ -144,9 +144,7 @@ Expected<Body> Body::make(const Skeleton& skeleton, const BoneMap& map, const Bo
         if (!bone) continue;
         const auto before = work->joints.parent(*bone);
         const int parent = before ? link_of(work->bones, *before) : -1;
-        if ((parent < 0) != (*bone == Bone::Hips))
-            return refused("Body", name(*bone), "a node below the hips",
-                           std::string_view(skeleton[node].name));
+        if ((parent < 0) != (*bone == Bone::Hips)) return detail::not_below_hips(skeleton, node, *bone);
         Link link{};
         const ik::Limit& limit = work->joints.limit(*bone);
         link.bone = *bone, link.node = node, link.parent = parent;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "humanoid/input.hpp"
 #include "humanoid/names.hpp"
@@ -281,6 +282,13 @@ Result detail::check_map(std::string_view operation, const BoneMap& map, const S
         }
     }
     return {};
+}
+
+Result detail::not_below_hips(const Skeleton& skeleton, std::size_t node, Bone bone) noexcept {
+    char text[Result::max_message + 1];
+    std::snprintf(text, sizeof text, "%.80s is not below the hips. Pick another node for %s",
+                  skeleton[node].name.c_str(), name(bone));
+    return {ErrorCode::InvalidArgument, text};
 }
 
 const BoneMap& detail::map_or_none(const BoneMap& map, const Skeleton& skeleton) noexcept {

@@ -3,6 +3,7 @@
 #include <initializer_list>
 
 #include "humanoid/feet.hpp"
+#include "humanoid/input.hpp"
 #include "humanoid/option_ranges.hpp"
 #include "rig/checks.hpp"
 
@@ -150,9 +151,10 @@ Expected<Feet> Feet::make(const Skeleton& skeleton, const BoneMap& map, const So
         auto leg =
             detail::Limb::make(skeleton, upper, map[lower_legs[i]].node, static_cast<std::int32_t>(sole.foot),
                                static_cast<std::int32_t>(sole.toes));
-        if (!leg || !skeleton.is_below(static_cast<std::size_t>(upper), plan->hips))
-            return refused("Feet", name(upper_legs[i]),
-                           "below the hips, with shin, foot and toes below it in that order",
+        if (!skeleton.is_below(static_cast<std::size_t>(upper), plan->hips))
+            return detail::not_below_hips(skeleton, static_cast<std::size_t>(upper), upper_legs[i]);
+        if (!leg)
+            return refused("Feet", name(upper_legs[i]), "above its own shin, foot and toes, in that order",
                            std::string_view(skeleton[static_cast<std::size_t>(upper)].name));
         plan->leg_direction[i] =
             rig::detail::direction_of(

@@ -13,6 +13,9 @@ namespace tendril::humanoid::detail {
 /// check(), with `operation` in the error message.
 Result check_map(std::string_view operation, const BoneMap& map, const Skeleton& skeleton) noexcept;
 
+/// Refuses a node that was mapped to `bone`, which must be below the hips.
+Result not_below_hips(const Skeleton& skeleton, std::size_t node, Bone bone) noexcept;
+
 /// The map, or an empty one if check_map() refuses it.
 const BoneMap& map_or_none(const BoneMap& map, const Skeleton& skeleton) noexcept;
 

@@ -192,7 +192,7 @@ Expected<BodyId> World::cut(BodyId rope, std::size_t segment) {
     Body* const whole = found(rope);
     if (whole == nullptr) return missing("cut", "rope", "body", rope.index);
     if (whole->kind != Body::Kind::Rope)
-        return refused("cut", "rope", "a body of kind Rope", "a cloth or hair");
+        return Result(ErrorCode::InvalidArgument, "only ropes can be cut, not cloth or hair");
     if (const Result bad = check_index("cut", segment, whole->count - 1, "the rope", "segment"); !bad)
         return bad;
     const std::size_t kept = segment + 1;

@@ -8,6 +8,12 @@
 namespace tendril::app {
 namespace {
 
+TEST(Units, LengthsOfAMetreAndMoreAreInMetres) {
+    EXPECT_EQ(length_text(0.0123), "12.3 mm");
+    EXPECT_EQ(length_text(38.0301), "38.03 m");
+    EXPECT_EQ(length_text(-0.0), "0.0 mm");
+}
+
 TEST(Units, three_digits_and_a_prefix) {
     EXPECT_EQ(si_text(2.3, "m"), "2.30 m");
     EXPECT_EQ(si_text(0.231, "m"), "231 mm");

@@ -62,12 +62,12 @@ TEST_F(CommandLine, lists_the_chain_commands_with_exactly_these_arguments) {
 
 // The README's tables and the program's shortcuts must be the same text.
 TEST_F(CommandLine, the_readme_has_the_shortcuts) {
-    const fs::path readme = source_path("README.md");
+    const fs::path readme = source_path("app/README.md");
     ASSERT_TRUE(fs::exists(readme));
     const std::string text = read(readme), begin = "<!-- shortcuts -->\n", end = "<!-- /shortcuts -->";
     const auto from = text.find(begin), to = text.find(end);
-    ASSERT_NE(from, text.npos) << "README.md has no line " << begin;
-    ASSERT_NE(to, text.npos) << "README.md has no line " << end;
+    ASSERT_NE(from, text.npos) << "app/README.md has no line " << begin;
+    ASSERT_NE(to, text.npos) << "app/README.md has no line " << end;
     std::string found = text.substr(from + begin.size(), to - from - begin.size());
     std::string expected = run_program({"--list-shortcuts"}).out;
     const auto trim = [](std::string& s) {

@@ -140,7 +140,7 @@ TEST(OnceWrong, a_target_that_moves_to_the_end_of_the_world_ends_nothing) {
 
 TEST(OnceWrong, the_script_in_the_readme_runs) {
     const TempFolder folder;
-    std::istringstream readme(read(source_path("README.md")));
+    std::istringstream readme(read(source_path("app/README.md")));
     std::string script;
     for (std::string line; std::getline(readme, line);) {
         if (line.starts_with("    {\"") && line.find("screenshot") == std::string::npos)

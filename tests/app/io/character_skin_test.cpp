@@ -193,7 +193,7 @@ TEST(CharacterSkin, wrong_numbers_are_refused_with_their_place) {
             own.joints = raw<std::uint8_t>({0, 9, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0});
         },
         "no joint 9");
-    says([](OwnGltf& own) { own.positions = raw<float>({1, 0, 0, 1, NAN, 0, 1, 0, 1}); }, "corner 1");
+    says([](OwnGltf& own) { own.positions = raw<float>({1, 0, 0, 1, NAN, 0, 1, 0, 1}); }, "vertex 1");
     says([](OwnGltf& own) { own.primitive = R"("POSITION":0,"JOINTS_0":1)"; }, "without WEIGHTS");
     says([](OwnGltf& own) { own.primitive = R"("POSITION":99)"; }, "POSITION: there is no 99");
     says([](OwnGltf& own) { own.primitive = R"("POSITION":0,"NORMAL":6)"; }, "NORMAL");

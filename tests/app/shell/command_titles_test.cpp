@@ -8,6 +8,7 @@
 #include "app/document/command.hpp"
 #include "app/document/json_complete.hpp"
 #include "app/labs/labs.hpp"
+#include "app/shell/shell.hpp"
 #include "app/shell/shortcuts.hpp"
 #include "tests/app/support/program.hpp"
 
@@ -67,6 +68,17 @@ TEST_F(CommandTitles, StandWithTheLabThatHasThem) {
     EXPECT_EQ(lab_of("view.segments"), "chain");
     EXPECT_EQ(lab_of("rope.cut"), "rope");
     EXPECT_EQ(lab_of("view.character_bones"), "humanoid");
+}
+
+TEST_F(CommandTitles, NameWhatUndoTakesBack) {
+    Workspace workspace = make_blank_workspace(labs_);
+    workspace.lab = "chain";
+    EXPECT_EQ(undo_title(table_, workspace.history), "Undo");
+    table_.run(workspace, "chain.add", {{"length", 1}});
+    EXPECT_EQ(undo_title(table_, workspace.history), "Undo: add a joint at the tip");
+    table_.run(workspace, "undo", Json::object());
+    EXPECT_EQ(undo_title(table_, workspace.history), "Undo");
+    EXPECT_EQ(redo_title(table_, workspace.history), "Redo: add a joint at the tip");
 }
 
 // Menu, help and the README's list use the palette's titles; only a shortcut with arguments ("Save as...")

@@ -49,7 +49,7 @@ void holder_field(const HumanoidPanel& panel) {
 
 void attachment_rows(const HumanoidPanel& panel) {
     if (!folding_section(panel.workspace, "Attachments", panel.emit)) return;
-    note("Order within a tick: clip, IK, rig, ropes.");
+    note("Order in each tick: clip, IK, rig, ropes.");
     explain(
         "Feet, targets and hands are IK; look-at, the rig's Aim, and springs follow. Ropes, hair and cloth "
         "come last, and "

@@ -96,7 +96,7 @@ constexpr std::size_t max_rows = 20;
 
 const char* fault_title(humanoid::Fault fault) {
     constexpr const char* titles[] = {
-        "skates",           "floats", "sinks",      "knee pops",       "key goes the long way",
+        "skates",           "floats", "sinks",      "knee pops",       "rotation key goes the long way round",
         "beyond its limit", "jumps",  "wrong size", "lies on its side"};
     return titles[static_cast<std::size_t>(fault)];
 }
@@ -104,6 +104,7 @@ const char* fault_title(humanoid::Fault fault) {
 std::string amount(const Finding& finding) {
     const std::string unit = finding.unit;
     const double value = finding.amount;
+    if (unit == "mm" && std::abs(value) >= 1000.0) return length_text(1e-3 * value);
     const std::string number = fixed_text(value, std::abs(value) < 9.5 ? 1 : 0);
     return unit == "deg" ? number + "°" : number + (unit == "times" ? " x" : " " + unit);
 }
@@ -126,31 +127,31 @@ void cure(const HumanoidPanel& panel, const Finding& finding) {
     panel.emit("humanoid.cure", arguments);
 }
 
-/// The fault and its amount; below them its position in the clip, and the button that mends it.
+/// The fault and its amount; below them its position in the clip, and the button that fixes it.
 void finding_row(const HumanoidPanel& panel, const Finding& finding, int id) {
     const float em = ImGui::GetFontSize(), line = ImGui::GetTextLineHeight();
     const ImVec2 at = ImGui::GetCursorPos();
     const float width = ImGui::GetContentRegionAvail().x;
     const float mend =
-        finding.has_cure ? ImGui::CalcTextSize("Mend").x + 2.0f * ImGui::GetStyle().FramePadding.x : 0.0f;
+        finding.has_cure ? ImGui::CalcTextSize("Fix").x + 2.0f * ImGui::GetStyle().FramePadding.x : 0.0f;
+    std::string where = "frame " + std::to_string(finding.frame);
+    if (finding.node >= 0) where += ", " + panel.part.called(static_cast<std::size_t>(finding.node));
     ImGui::PushID(id);
     if (ImGui::Selectable("##finding", false, ImGuiSelectableFlags_AllowItemOverlap, {width, 2.2f * line}))
         go_to_finding(panel, finding);
-    explain(finding.text.c_str());
+    explain((where + ": " + finding.text).c_str());
     const ImVec2 after = ImGui::GetCursorPos();
     const std::string value = amount(finding);
     ImGui::SetCursorPos(at);
     ImGui::TextUnformatted(fault_title(finding.fault));
     ImGui::SetCursorPos({at.x + width - ImGui::CalcTextSize(value.c_str()).x, at.y});
     ImGui::TextUnformatted(value.c_str());
-    std::string where = "frame " + std::to_string(finding.frame);
-    if (finding.node >= 0) where += ", " + panel.part.called(static_cast<std::size_t>(finding.node));
     ImGui::SetCursorPos({at.x, at.y + 1.1f * line});
     ImGui::TextDisabled("%s", elided(where, width - mend - 0.4f * em).c_str());
     if (finding.has_cure) {
         ImGui::SetCursorPos({at.x + width - mend, at.y + 1.1f * line});
-        if (ImGui::SmallButton("Mend")) cure(panel, finding);
-        explain("Changes the keys around it; the rest of the motion stays as it is. Undo takes it back.");
+        if (ImGui::SmallButton("Fix")) cure(panel, finding);
+        explain("Changes the keys around it and leaves the rest of the motion alone.");
     }
     ImGui::SetCursorPos(after);
     ImGui::PopID();

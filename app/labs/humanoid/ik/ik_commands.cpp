@@ -61,7 +61,7 @@ glm::dvec3 exact_point(const Json& json) {
 
 void require_body(const IkNow& now, const HumanoidPart& part) {
     const std::string& why = now.solvers.why_no_body(part);
-    if (!why.empty()) throw std::invalid_argument("the body solve is off: " + why);
+    if (!why.empty()) throw std::invalid_argument("full-body IK is off: " + why);
 }
 
 // Commands on targets, limits, ground and feet.

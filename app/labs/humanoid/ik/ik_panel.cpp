@@ -18,19 +18,19 @@ void effector_row(const HumanoidPanel& panel, humanoid::Effector effector) {
     if (!on) {
         if (ImGui::Checkbox(name.c_str(), &on))
             panel.emit("humanoid.target", {{"effector", humanoid::name(effector)}});
-        explain("Gives it a target where it is now, as dragging its orange ball does.");
+        explain("Gives it a target where it is now. Dragging its orange ball does the same.");
         return;
     }
     const std::string id = "##" + name;
     if (ImGui::Checkbox(id.c_str(), &on))
         panel.emit("humanoid.target", {{"effector", humanoid::name(effector)}, {"weight", 0}});
-    explain("Lets it go.");
+    explain("Removes the target.");
     ImGui::SameLine();
     auto weight = static_cast<float>(target->weight);
     if (number_field(name.c_str(), weight, 0.01f, 0.01f, static_cast<float>(heaviest_target), "%.2f"))
         panel.emit.continuously("humanoid.target",
                                 {{"effector", humanoid::name(effector)}, {"weight", weight}});
-    explain("Its weight against other targets: where they conflict, the heavier one gets closer.");
+    explain("Where targets conflict, the one with more weight gets closer.");
 }
 
 }  // namespace
@@ -38,10 +38,10 @@ void effector_row(const HumanoidPanel& panel, humanoid::Effector effector) {
 void target_rows(const HumanoidPanel& panel) {
     if (!folding_section(panel.workspace, "Targets", panel.emit)) return;
     const std::string& why = panel.runtime.solvers.why_no_body(panel.part);
-    if (!why.empty()) return note("The body solve is off: " + why + ".");
+    if (!why.empty()) return note("Full-body IK is off: " + why + ".");
     for (const humanoid::Effector effector : all_effectors) effector_row(panel, effector);
     const IkSettings& ik = panel.part.ik;
-    if (row_button("Let all go", 1, ik.has_targets(), "Removes all targets")) {
+    if (row_button("Remove all targets", 1, ik.has_targets(), "The clip alone moves the body again")) {
         Json all = Json::array();
         for (const humanoid::Effector effector : all_effectors)
             if (ik.target(effector)) all.push_back(humanoid::name(effector));
@@ -51,8 +51,9 @@ void target_rows(const HumanoidPanel& panel) {
     bool apart = ik.self_collision;
     if (ImGui::Checkbox("Self-collision", &apart)) panel.emit("humanoid.self_collision", {{"on", apart}});
     explain(
-        "Hands and lower arms do not pass through the body. Outlines show what they keep out of, fitted to "
-        "the skin if the character has one.");
+        "Keeps hands and forearms from passing through the body. Outlines show the body's volume, fitted to "
+        "the "
+        "skin if there is one.");
     limit_rows(panel);
 }
 
@@ -90,7 +91,7 @@ void hand_row(const HumanoidPanel& panel, std::size_t hand) {
     const std::string side = hand_name(hand), title = "Weight over the clip, " + side;
     if (ImGui::Checkbox(title.c_str(), &timed))
         panel.emit("humanoid.hand_ik", {{"hand", side}, {"curve", timed}});
-    explain("The hand goes to its target and back over the clip's time.");
+    explain("The hand goes to its target and back as the clip plays.");
     if (curve) curve_fields(panel, hand, *curve);
     const ShownPose& shown = panel.runtime.shown(panel.workspace);
     if (!shown.hands) return;
@@ -104,8 +105,7 @@ void hand_rows(const HumanoidPanel& panel) {
     if (!folding_section(panel.workspace, "Hands and gaze", panel.emit)) return;
     const IkSettings& ik = panel.part.ik;
     const bool body = panel.runtime.solvers.body(panel.part) != nullptr;
-    const std::string no_body =
-        "The body solve is off: " + panel.runtime.solvers.why_no_body(panel.part) + ".";
+    const std::string no_body = "Full-body IK is off: " + panel.runtime.solvers.why_no_body(panel.part) + ".";
     const FieldRows hands(ik.hand_ik, "humanoid.hand_ik", panel.emit);
     hands.row("on", {.why_not = ik.hand_ik.on || body ? std::string() : no_body});
     if (ik.hand_ik.on) {
@@ -144,7 +144,7 @@ void foot_row(const HumanoidPanel& panel, std::size_t side) {
             !alone.empty()                   ? "follows the clip"
             : shown.feet->feet[side].planted ? "planted"
                                              : "in the air");
-    if (!alone.empty()) note("Left alone: " + alone + ".");
+    if (!alone.empty()) note("Not planted: " + alone + ".");
 }
 
 }  // namespace
@@ -162,7 +162,7 @@ void ground_rows(const HumanoidPanel& panel) {
     std::string path = ik.ground.mesh ? ik.ground.mesh->path : std::string();
     if (text_field("mesh file", path, "a .gltf or .glb file") && !path.empty())
         panel.emit("humanoid.ground", {{"kind", "mesh"}, {"path", path}});
-    explain("A file whose triangles become the ground. Enter reads it.");
+    explain("A file whose triangles become the ground. Enter loads it.");
     shape_rows(panel);
     const FootIkSetting& feet = ik.foot_ik;
     const FieldRows rows(feet, "humanoid.foot_ik", panel.emit);

@@ -121,16 +121,17 @@ std::span<const FieldText> field_texts<FootIkSetting>() {
     static constexpr FieldText texts[] = {
         {.name = "on",
          .label = "Foot IK",
-         .help = "Feet are planted on the ground and turned by it, knees bend, hips follow its height."},
+         .help =
+             "Plants the feet and aligns them with the ground; knees bend, and the hips follow its height."},
         {.name = "enter_speed",
          .label = "plant below",
-         .help = "A foot that is low and slower than this is planted."},
+         .help = "A foot near the ground that moves slower than this is planted."},
         {.name = "leave_speed",
          .label = "let go above",
-         .help = "A planted foot that the clip moves faster than this is let go."},
+         .help = "A planted foot is released when the clip moves it faster than this."},
         {.name = "max_angle_deg",
          .label = "foot angle",
-         .help = "The largest angle by which the ground turns a foot.",
+         .help = "The most that the ground tilts a foot.",
          .step = 0.1f,
          .decimals = 0}};
     return texts;

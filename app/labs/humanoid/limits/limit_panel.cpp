@@ -99,7 +99,7 @@ void table(const HumanoidPanel& panel, Bone bone, const JointNow& joint) {
             ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, share);
         ImGui::TableNextRow();
         ImGui::TableNextColumn();
-        ImGui::TextDisabled("degrees");
+        ImGui::TextDisabled("deg");
         head("now", colours.text_dim, "From the T-pose.");
         // Yellow letters would be too faint on white.
         const float dark = colours.theme == Theme::Light ? 0.55f : 0.0f;
@@ -217,7 +217,7 @@ void limit_rows(const HumanoidPanel& panel) {
     if (ik.joint_limits.empty()) return;
     note(count_text(ik.joint_limits.size(), "joint") +
          (ik.joint_limits.size() == 1 ? " has a range of its own." : " have ranges of their own."));
-    if (row_button("All joints alike", 1, true, "They use the choice above again"))
+    if (row_button("All joints alike", 1, true, "Sets every joint to the choice above"))
         panel.emit("humanoid.limits", {{"from", limits_from.name(ik.limits)}});
     end_row();
 }

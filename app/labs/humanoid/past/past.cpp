@@ -116,7 +116,7 @@ std::function<bool(const SharedPart&)> known_to(const Workspace& workspace) {
 PastCurve error_curve(const Workspace& workspace) {
     const HumanoidPart& now = humanoid_part(workspace);
     const auto effector = selected_effector(now);
-    const std::string name = effector ? title(*effector) + " to target" : "farthest effector to target";
+    const std::string name = effector ? title(*effector) + " to target" : "worst effector to target";
     return {.name = name,
             .of = name,
             .unit = "m",
@@ -249,11 +249,10 @@ void add_short_effectors(const HumanoidMoment& was, const HumanoidMoment& is,
         const auto before = left_of(was, each), after = left_of(is, each);
         if (!before || !after || *before >= far || *after < far) continue;
         const std::string name = title(each);
-        incidents.push_back(
-            {.kind = Incident::Kind::Status,
-             .joint = *is.part.node_of(humanoid::bone_of(each)),
-             .name = name,
-             .cause = name + " fell short of its target: " + fixed_text(1000.0 * *after, 1) + " mm left"});
+        incidents.push_back({.kind = Incident::Kind::Status,
+                             .joint = *is.part.node_of(humanoid::bone_of(each)),
+                             .name = name,
+                             .cause = name + " fell short of its target: " + length_text(*after) + " left"});
     }
 }
 

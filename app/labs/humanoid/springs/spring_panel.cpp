@@ -22,12 +22,12 @@ void spring_row(const HumanoidPanel& panel, std::size_t which) {
     ImGui::PushID(each.node.c_str());
     reading(each.node.c_str(), "%.0f\u00b0",
             glm::degrees(panel.runtime.shown(panel.workspace).springs[which].angle));
-    explain("How far the bone that swings most is turned from the clip right now.");
+    explain("How far its bones are turned from the clip now, at most.");
     const bool shown = !panel.part.selection.several() &&
                        active_name(panel.part.selection, panel.part.skeleton()) == each.node;
-    if (row_button("Settings", 2, !shown, "Selects it; its settings are in the inspector"))
+    if (row_button("Settings", 2, !shown, "Selects it and shows its settings on the right"))
         panel.emit("humanoid.select", {{"node", each.node}});
-    if (row_button("Remove", 2, true, "It follows only the clip again"))
+    if (row_button("Remove", 2, true, "Only the clip moves it again"))
         panel.emit("humanoid.spring", {{"node", each.node}, {"on", false}});
     end_row();
     ImGui::PopID();
@@ -48,7 +48,7 @@ void add_row(const HumanoidPanel& panel) {
         const std::string& name = panel.part.skeleton()[i].name;
         if (search_row(name, false, typed)) panel.emit("humanoid.spring", {{"node", name}});
     }
-    if (!any) note("All its nodes are bones of the body or already swing.");
+    if (!any) note("Every node is a bone of the body or already swings.");
     end_search();
 }
 
@@ -66,7 +66,7 @@ void put_on_springs_row(const HumanoidPanel& panel) {
     const bool free = panel.part.springs.size() + nodes.size() <= max_springs;
     const std::string too_many = "At most " + std::to_string(max_springs) + " springs";
     if (row_button(nodes.size() == 1 ? "Put on a spring" : "Put on springs", 1, free,
-                   free ? "It and everything below it trail behind the clip" : too_many.c_str()))
+                   free ? "It and everything below it then trail behind the clip" : too_many.c_str()))
         panel.emit("humanoid.spring", {of_nodes(nodes)});
     end_row();
 }
@@ -88,7 +88,7 @@ void setting_rows(const HumanoidPanel& panel, const SpringSetting& spring,
 void spring_rows(const HumanoidPanel& panel) {
     if (!folding_section(panel.workspace, "Springs", panel.emit)) return;
     if (panel.part.springs.empty())
-        note("Lets ears, antennae or a tail of the character trail behind its head or hips.");
+        note("Makes ears, antennae or a tail of the character trail behind its head or hips.");
     for (std::size_t i = 0; i < panel.part.springs.size(); ++i) spring_row(panel, i);
     if (panel.part.springs.size() < max_springs) add_row(panel);
 }
@@ -102,7 +102,7 @@ void spring_inspector(const HumanoidPanel& panel) {
     const SpringSetting& spring = part.springs[shown];
     std::vector<std::string> nodes;
     for (const std::size_t each : selected) nodes.push_back(part.springs[each].node);
-    section(nodes.size() == 1 ? ("Spring from " + spring.node + " down").c_str()
+    section(nodes.size() == 1 ? ("Spring: " + spring.node).c_str()
                               : (count_text(nodes.size(), "spring") + " selected").c_str());
     const bool alike = std::ranges::all_of(
         selected, [&](std::size_t each) { return same_settings(part.springs[each], spring); });

@@ -89,7 +89,7 @@ TEST_F(HumanoidHands, RefuseWhatDoesNotFit) {
     expect_refused("humanoid.hand_ik", {{"hand", "third"}}, {"hand must be one of"});
     run("humanoid.map", {{"bone", "LeftHand"}});
     for (const char* command : {"humanoid.hand_ik", "humanoid.look_at", "humanoid.self_collision"}) {
-        expect_refused(command, {{"on", true}}, {"the body solve is off: LeftHand is missing"});
+        expect_refused(command, {{"on", true}}, {"full-body IK is off: LeftHand is missing"});
         run(command, {{"on", false}});
     }
 }

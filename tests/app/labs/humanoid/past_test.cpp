@@ -79,7 +79,7 @@ TEST_F(HumanoidPast, ErrorsAreThoseOfTheEffectorThatIsSelectedOrTheFarthest) {
     EXPECT_EQ(humanoid_past_curve(workspace)->name, "left hand to target");
     const auto hand = values();
     plot("error", "LeftFoot");
-    EXPECT_EQ(humanoid_past_curve(workspace)->name, "farthest effector to target");
+    EXPECT_EQ(humanoid_past_curve(workspace)->name, "worst effector to target");
     const auto farthest = values();
     for (std::uint64_t tick = 0; tick < 30; tick += 4) {
         const double left = back_at(tick, residual(Effector::LeftHand)),

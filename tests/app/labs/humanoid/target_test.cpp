@@ -158,7 +158,7 @@ TEST_F(HumanoidTargets, StopAtLimitsWhichSaySo) {
 TEST_F(HumanoidTargets, NeedABody) {
     run("humanoid.map", {{"bone", "LeftHand"}});
     expect_refused("humanoid.target", {{"effector", "right_hand"}, {"to", {0, 1, 0}}},
-                   {"the body solve is off: LeftHand is missing"});
+                   {"full-body IK is off: LeftHand is missing"});
     run("humanoid.target", {{"effector", "right_hand"}, {"weight", 0}});
     expect_refused("humanoid.target", {{"effector", "tail"}, {"to", {0, 1, 0}}},
                    {"effector must be one of hips, head, left_hand"});

@@ -110,7 +110,7 @@ TEST_F(RigWhy, ThePanelFoldsAwayWhatDidNothingAndKeepsWhatIsMuted) {
     EXPECT_TRUE(says("Why is this bone here?"));
     EXPECT_TRUE(says("follow 2"));
     EXPECT_FALSE(says("follow 5")) << "bones below do not move it";
-    EXPECT_TRUE(says("5 units did not touch it"));
+    EXPECT_TRUE(says("5 units did not change it"));
     run("rig.unit.enable", {{"name", "follow 2"}, {"on", false}});
     tick();
     EXPECT_TRUE(says("follow 2"));
