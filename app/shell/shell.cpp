@@ -300,8 +300,8 @@ void Shell::side_panel(const ShellFrame& frame, bool left, Emit& emit) {
     const float width = std::max(1.0f, rect.size().x - 5.0f * scale);
     const float card = left ? 0.0f : card_height(frame, {width, rect.size().y});
     const float room = card > 0.0f ? std::max(1.0f, rect.size().y - card) : 0.0f;
-    // Each lab's panel keeps its own scroll position.
-    ImGui::BeginChild(frame.workspace.lab.c_str(), {width, room}, false,
+    ImGui::PushID(frame.workspace.lab.c_str());  // each lab's panel keeps its own scroll position
+    ImGui::BeginChild("content", {width, room}, false,
                       ImGuiWindowFlags_AlwaysUseWindowPadding | ImGuiWindowFlags_NoNavFocus |
                           ImGuiWindowFlags_AlwaysVerticalScrollbar);
     ImGui::PopStyleColor();
@@ -314,6 +314,7 @@ void Shell::side_panel(const ShellFrame& frame, bool left, Emit& emit) {
     }
     light_card_section(frame, left);
     ImGui::EndChild();
+    ImGui::PopID();
     if (card > 0.0f) {
         ImGui::SetCursorPos({5.0f * scale, room});
         ImGui::BeginChild("card", {width, card}, false, ImGuiWindowFlags_NoScrollbar);

@@ -230,7 +230,7 @@ TEST_F(Solve, arguments_it_cannot_take_are_told_with_2) {
 TEST_F(Solve, a_scene_of_that_name_opens_by_its_path) {
     write(folder_ / "solve", "{}");
     Process process(program_command({"--headless", "./solve"}), {}, folder_.path());
-    EXPECT_TRUE(complained(process.wait(), 2, {"./solve", "not a Tendril scene"}));
+    EXPECT_TRUE(complained(process.wait(), 2, {"./solve", "does not read this kind of file"}));
 }
 
 std::string many_cases(int count) {

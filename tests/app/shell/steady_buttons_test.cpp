@@ -25,7 +25,7 @@ bool is_at(const DrawnItem& item, glm::vec2 at) {
 
 /// A switch may say something else after a click, in another width.
 bool same_place(const DrawnItem& a, const DrawnItem& b) {
-    return std::abs(a.box.min.x - b.box.min.x) < 2.0f && std::abs(a.box.min.y - b.box.min.y) < 2.0f;
+    return std::abs(a.box.min.x - b.box.min.x) < 3.0f && std::abs(a.box.min.y - b.box.min.y) < 3.0f;
 }
 
 class SteadyButtons : public testing::TestWithParam<const char*> {
@@ -76,7 +76,9 @@ class SteadyButtons : public testing::TestWithParam<const char*> {
                 });
                 if (other != now.end()) {
                     ADD_FAILURE() << scene << ": after click " << i + 1 << " on \"" << name << "\", \""
-                                  << text_of(*other) << "\" is under the mouse";
+                                  << text_of(*other) << "\" is under the mouse, "
+                                  << other->box.min.y - button.box.min.y << " lower, "
+                                  << other->box.min.x - button.box.min.x << " to the right";
                     break;
                 }
             }
