@@ -8,6 +8,7 @@
 #include "app/app.hpp"
 #include "app/document/atomic_file.hpp"
 #include "app/document/command.hpp"
+#include "app/document/json_complete.hpp"
 #include "app/document/scene_file.hpp"
 #include "app/document/text.hpp"
 #include "app/labs/files.hpp"

@@ -14,6 +14,7 @@
 #include "app/fields/field_rows.hpp"
 #include "app/labs/kit/panel_rows.hpp"
 #include "app/labs/kit/past_strip.hpp"
+#include "app/labs/kit/world_file.hpp"
 #include "app/labs/rope/numbers.hpp"
 #include "app/labs/rope/past.hpp"
 #include "app/labs/rope/rope_edit.hpp"
