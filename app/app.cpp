@@ -191,7 +191,7 @@ void App::take_event(const Event& event, Emit& emit) {
 }
 
 void App::take_paste(const std::string& text, Emit& emit) {
-    if (workspace_.ui.covered() || ui_.wants_text() || busy()) return;
+    if (text.empty() || workspace_.ui.covered() || ui_.wants_text() || busy()) return;
     const Chord paste{.key = Key::V, .ctrl = true, .shift = false, .alt = false};
     if (const Shortcut* here = shortcuts_.find(paste, workspace_.lab)) {
         ArgumentList arguments = here->arguments;
@@ -203,8 +203,8 @@ void App::take_paste(const std::string& text, Emit& emit) {
         return shortcuts_.find(paste, lab->name()) != nullptr;
     });
     if (elsewhere != all.end() && holds_points(text))
-        workspace_.toast("Points on the clipboard go into the lab " + (*elsewhere)->title() +
-                         ": open it and paste there");
+        workspace_.toast("The clipboard holds points. Open the " + (*elsewhere)->title() +
+                         " lab and paste them there.");
 }
 
 void App::refuse(const std::string& why) {
@@ -245,8 +245,9 @@ void App::run_emitted(Emit& emit) {
             if (command.continuous && pointer_.dragged() != no_pick) workspace_.settings.hint_seen = true;
         } catch (const Refused& refusal) {
             refuse(refusal.what());
-            // Only the lab's own refusals become incidents, not those of other files.
-            if (command.name.starts_with(workspace_.lab + ".")) note_refusal(refusal.what());
+            // Only the lab's own refusals become incidents, not those of other files or of the clipboard.
+            if (command.name.starts_with(workspace_.lab + ".") && !command.name.ends_with(".paste"))
+                note_refusal(refusal.what());
         }
     }
 }

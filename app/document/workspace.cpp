@@ -18,16 +18,18 @@ void Workspace::open_lab(const std::string& name) {
     if (name == lab) return;
     pass_change();
     cameras[lab] = camera;
-    const bool paused_here = !clock.playing && clock.looks_back;
-    pasts[lab] = {std::move(rewind), moment, document.parts().at(lab), paused_here};
-    if (paused_here) clock.playing = true;
+    if (clock.playing)
+        clock.held = clock.looks_back = false;
+    else if (!clock.looks_back)
+        clock.held = true;
+    pasts[lab] = {std::move(rewind), moment, document.parts().at(lab), clock.looks_back};
     lab = name;
     Past past = std::exchange(pasts[name], Past());
     if (past.left != document.parts().at(name)) past = Past();
     rewind = std::move(past.rewind);
     moment = past.moment;
-    if (past.looks_back) clock.playing = false;
     clock.looks_back = past.looks_back;
+    clock.playing = !clock.held && !clock.looks_back;
     const auto seen = cameras.find(name);
     camera = seen != cameras.end() ? seen->second : first_view_of(name);
     ui.incident.reset();
@@ -68,7 +70,7 @@ void Workspace::go_to_moment(std::uint64_t ticks_back) {
     if (moment > rewind.newest()) remember_moment();
     const Rewind::Moment& newest = rewind.at(0);
     const Rewind::Moment& then = rewind.at(ticks_back);
-    if (clock.playing) clock.looks_back = true;
+    if (clock.playing) clock.looks_back = true, clock.held = false;
     clock.playing = false;
     if (then.tick == moment) return;
     if (edition == newest.edition && then.edition != newest.edition) {

@@ -25,6 +25,7 @@ inline constexpr double tick_seconds = 1.0 / 60.0;
 struct Clock {
     bool playing = true;
     bool looks_back = false;     ///< paused by going to an earlier moment: only the open lab is
+    bool held = false;           ///< paused by hand: every lab is; up to date when a lab is closed
     std::uint64_t tick = 0;      ///< simulated ticks so far
     int steps_due = 0;           ///< ticks to take even while paused
     float speed = 1.0f;          ///< seconds that pass in a lab per second

@@ -14,11 +14,8 @@ void step_through(Workspace& workspace, bool back) {
                          : workspace.history.redo(workspace.document, &place);
     if (!document) throw Refused(back ? "nothing to undo" : "nothing to redo");
     // Show the lab in which the change was made.
-    if (!place.lab.empty() && place.lab != workspace.lab) {
-        workspace.open_lab(place.lab);
-        workspace.toast(std::string(back ? "Undone" : "Redone") + " in the " + capitalised(place.lab) +
-                        " lab.");
-    }
+    const std::string shown = workspace.lab;
+    if (!place.lab.empty()) workspace.open_lab(place.lab);
     Rewind& rewind = workspace.rewind;
     if (!rewind.empty() && workspace.moment >= rewind.newest()) {  // keep the state before this step
         if (workspace.moment > rewind.newest()) workspace.remember_moment();
@@ -26,8 +23,13 @@ void step_through(Workspace& workspace, bool back) {
     }
     workspace.clock.replaying = false;
     workspace.ui.incident.reset();
+    const auto before = workspace.document.parts();
     workspace.document = std::move(*document);
     const auto parts = workspace.document.parts();
+    for (const auto& [lab, part] : parts)
+        if (const auto was = before.find(lab); lab != shown && was != before.end() && was->second != part)
+            workspace.toast(std::string(back ? "Undone" : "Redone") + " in the " + capitalised(lab) +
+                            " lab.");
     for (const auto& [lab, part] : parts) {
         if (auto instead = part->after_undo()) workspace.document.set(lab, std::move(instead));
     }

@@ -7,7 +7,7 @@
 namespace tendril::app {
 namespace {
 
-/// One end of a range: 0.001, not 0.00100000005.
+/// A bound of a range as written in files: 0.001, not 0.00100000005.
 double file_end(const Field& field, double end) {
     const auto single = static_cast<float>(end);
     if (is_angle(field)) return degrees(single).get<double>();

@@ -17,9 +17,9 @@ namespace tendril::app {
 
 /// Whether a field holds an angle: a number of unit "rad". Files, commands and panels have it in degrees.
 bool is_angle(const Field& field);
-/// A field's name in files and commands: "damping"; of an angle "twist_min_deg".
+/// A field's name in files and commands: "damping"; for an angle, "twist_min_deg".
 std::string file_name(const Field& field);
-/// Its range there, with float ends as their shortest decimals.
+/// The field's range there, with bounds as their shortest decimals.
 FieldRange file_range(const Field& field);
 
 /// A field's presentation.

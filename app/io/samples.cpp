@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "app/document/json.hpp"
 #include "app/document/text.hpp"
@@ -150,13 +151,34 @@ std::string plain_name(std::string_view name) {
 
 /// The column that the user chose by its name, or by its number from 1.
 std::size_t chosen_column(const Table& table, const Fields& names, bool named, const std::string& wanted) {
-    for (std::size_t i = 0; named && i < names.size(); ++i)
-        if (names[i] == wanted || plain_name(names[i]) == plain_name(wanted)) return i;
+    if (named) {
+        const auto exact = std::find(names.begin(), names.end(), wanted);
+        if (exact != names.end()) return static_cast<std::size_t>(exact - names.begin());
+        const auto alike = [&](std::string_view name) { return plain_name(name) == plain_name(wanted); };
+        const auto count = std::count_if(names.begin(), names.end(), alike);
+        if (count == 1)
+            return static_cast<std::size_t>(std::find_if(names.begin(), names.end(), alike) - names.begin());
+        if (count > 1)
+            table.fail(" has " + std::to_string(count) + " columns called \"" +
+                       printable(wanted.substr(0, 40)) + "\"; " + columns_text(names, named));
+    }
     const auto number = number_in(wanted);
     if (number && *number >= 1.0 && *number <= static_cast<double>(names.size()) &&
         *number == std::floor(*number))
         return static_cast<std::size_t>(*number) - 1;
     table.fail(" has no column \"" + printable(wanted.substr(0, 40)) + "\"; " + columns_text(names, named));
+}
+
+/// Seconds in the unit that a column's name gives in brackets: 1e-3 for "Time (ms)", 1 if it gives none.
+double unit_of_time(const Table& table, std::string_view name) {
+    const std::size_t open = name.find_first_of("([");
+    if (open == name.npos) return 1.0;
+    const std::string_view rest = name.substr(open + 1);
+    const std::string unit = lower_case(trimmed(rest.substr(0, rest.find_first_of(")]"))));
+    if (unit == "ms") return 1e-3;
+    if (unit == "us" || unit == "\u00b5s") return 1e-6;
+    if (unit == "s" || unit == "sec" || unit == "seconds") return 1.0;
+    table.fail(": its time is in \"" + printable(unit.substr(0, 20)) + "\"; it must be in s, ms or us");
 }
 
 std::optional<std::size_t> usual_column(const Fields& names, std::initializer_list<std::string_view> usual) {
@@ -170,6 +192,7 @@ std::optional<std::size_t> usual_column(const Fields& names, std::initializer_li
 struct Columns {
     std::size_t time = 0, input = 1, width = 2;
     bool absolute = false;  ///< time is absolute, not the time since the previous row
+    double seconds = 1.0;   ///< the unit of time
 };
 
 Columns named_columns(const Table& table, const Fields& names) {
@@ -185,17 +208,26 @@ Columns signal_columns(const Table& table, const Fields& names, bool named, cons
     std::optional<std::size_t> time, value, dt;
     if (named) dt = usual_column(names, {"dt"});
     if (named && !dt) time = usual_column(names, {"time", "t", "seconds", "sec", "s", "timestamp"});
-    if (!choice.time.empty()) time = chosen_column(table, names, named, choice.time), dt.reset();
+    if (!choice.time.empty()) {
+        time = chosen_column(table, names, named, choice.time);
+        dt.reset();
+        if (named && plain_name(names[*time]) == "dt") dt = std::exchange(time, std::nullopt);
+    }
     if (named) value = usual_column(names, {"input", "value", "x", "y", "z", "position"});
     if (!choice.value.empty()) value = chosen_column(table, names, named, choice.value);
     const auto passes = dt ? dt : time;
     if (!value && passes && names.size() == 2) value = 1 - *passes;  // the other one
     if (!passes)
-        table.fail(" does not say which column is the time: give time; " + columns_text(names, named));
+        table.fail(": cannot tell which column is the time; name it as time. " + columns_text(names, named));
     if (!value)
-        table.fail(" does not say which column is the value: give value; " + columns_text(names, named));
+        table.fail(": cannot tell which column is the value; name it as value. " +
+                   columns_text(names, named));
     if (*passes == *value) table.fail(": time and value are the same column");
-    return {.time = *passes, .input = *value, .width = names.size(), .absolute = !dt};
+    return {.time = *passes,
+            .input = *value,
+            .width = names.size(),
+            .absolute = !dt,
+            .seconds = named ? unit_of_time(table, names[*passes]) : 1.0};
 }
 
 void check_order(const Table& table, const Columns& columns, double time, double before) {
@@ -237,7 +269,8 @@ TimedSamples parse_rows(std::string_view text, const std::string& name, ColumnsO
                           named        ? ", as in the row of names"
                           : width == 2 ? ": dt,input"
                                        : ", as in the first row");
-        const double time = table.number(fields, columns.time, columns.absolute ? "time" : "dt");
+        const double time =
+            columns.seconds * table.number(fields, columns.time, columns.absolute ? "time" : "dt");
         const double input = table.number(fields, columns.input, "input");
         if (columns.absolute) {
             if (!rows.times.empty()) check_order(table, columns, time, rows.times.back());
@@ -281,10 +314,6 @@ TimedSamples read_timed_samples(const std::filesystem::path& path) {
 
 std::vector<signal::Sample> parse_samples(std::string_view text, const std::string& name) {
     return parse_timed_samples(text, name).samples;
-}
-
-std::vector<signal::Sample> read_samples(const std::filesystem::path& path) {
-    return read_timed_samples(path).samples;
 }
 
 std::vector<double> parse_response(std::string_view text, const std::string& name, std::size_t count) {

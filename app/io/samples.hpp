@@ -29,7 +29,6 @@ struct TimedSamples {
 TimedSamples parse_timed_samples(std::string_view text, const std::string& name);
 TimedSamples read_timed_samples(const std::filesystem::path& path);
 std::vector<signal::Sample> parse_samples(std::string_view text, const std::string& name);
-std::vector<signal::Sample> read_samples(const std::filesystem::path& path);
 
 /// Which columns to read, by name or by number from 1; empty: found by their usual names.
 struct ColumnChoice {

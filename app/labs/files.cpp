@@ -80,6 +80,11 @@ FileRoute file_route(const Labs& labs, const fs::path& file) {
     std::copy_if(routes.begin(), routes.end(), std::back_inserter(fitting),
                  [&](const FileRoute& route) { return has_ending(route.kind, file); });
     if (fitting.size() == 1) return fitting.front();
+    // A pipe can be read only once: it is a scene.
+    std::error_code none;
+    if (const fs::file_status status = fs::status(file, none);
+        fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status))
+        return routes.front();
     const std::string text = beginning_of(file);
     const std::vector<FileRoute>& among = fitting.empty() ? routes : fitting;
     for (const FileRoute& route : among)

@@ -172,8 +172,7 @@ TEST_F(FeetHostile, LegsThatAreNotOnTheHipsAreRefused) {
     nodes[leg].rest.translation += glm::dvec3(0, 1, 0);
     nodes[leg].parent = static_cast<std::int32_t>(nodes.size()) - 1;
     const Skeleton apart = *Skeleton::make(nodes);
-    EXPECT_TRUE(
-        test::says(Feet::make(apart, map).message(), "LeftUpperLeg is not below the hips"));
+    EXPECT_TRUE(test::says(Feet::make(apart, map).message(), "LeftUpperLeg is not below the hips"));
     EXPECT_FALSE(Feet::make(skeleton, BoneMap()));
 }
 

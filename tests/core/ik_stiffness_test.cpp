@@ -82,7 +82,7 @@ TEST(IkStiffness, StiffJointsTurnLessTheOthersMoreAndTheTipArrives) {
     }
 }
 
-/// A joint that must turn does: with every joint equally stiff, poses that reach are reached.
+/// Stiff joints still turn when they must: every reachable target is reached.
 TEST(IkStiffness, NoStiffnessKeepsATargetOutOfReach) {
     Random random(9);
     int reached = 0, reached_stiff = 0;
@@ -103,6 +103,39 @@ TEST(IkStiffness, NoStiffnessKeepsATargetOutOfReach) {
     }
     EXPECT_GE(reached, 597);
     EXPECT_GE(reached_stiff, reached - 3);
+}
+
+/// Only differences count.
+TEST(IkStiffness, JointsThatAreAllEquallyStiffAreSolvedAsIfNoneWere) {
+    Random random(21);
+    for (const Method method : {Method::Fabrik, Method::FabrikPlain, Method::Ccd, Method::JacobianTranspose,
+                                Method::Dls, Method::SvdDls}) {
+        Arm arm = some_arm(random, 4);
+        const glm::vec3 target = some_tip(arm, random);
+        Joints plain = arm.at_rest(), stiff = plain;
+        for (Joints* const joints : {&plain, &stiff}) {
+            for (Limit& each : arm.limits) each.stiffness = joints == &stiff ? ik::max_stiffness : 0.0f;
+            KeptSolver solver = arm.solver();
+            ik::Options options;
+            options.limits = arm.limits;
+            solver.solve(method, *joints, target, options);
+        }
+        EXPECT_TRUE(same_bits(plain, stiff)) << ik::name(method);
+    }
+}
+
+/// A pose in which only stiff joints can turn towards the target is not singular: nothing is bent.
+TEST(IkStiffness, AStiffLimbIsNotTakenForAStraightOne) {
+    Arm arm{{0.5f, 0.5f, 0.5f}, {{1, 0, 0}, {1, 0, 0}, {1, 0, 0}}, std::vector<Limit>(3)};
+    arm.limits[1].stiffness = ik::max_stiffness;
+    Joints joints{{0, 0, 0}, {0.5f, 0, 0}, {0.5f, 0.5f, 0}, {0.8f, 0.9f, 0}};
+    const Joints before = joints;
+    KeptSolver solver = arm.solver();
+    ik::Options options;
+    options.limits = arm.limits;
+    options.max_iterations = 1;
+    solver.solve(Method::Dls, joints, before.back() + glm::vec3(0.01f, 0.01f, 0), options);
+    for (std::size_t i = 0; i < joints.size(); ++i) EXPECT_LT(distance(joints[i], before[i]), 0.05) << i;
 }
 
 TEST(IkStiffness, IsCheckedForEveryKind) {

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
 #include <stdexcept>
+#include <utility>
 
 #include "app/labs/chain/chain_runtime.hpp"
 #include "app/labs/chain/presets.hpp"
@@ -58,6 +59,20 @@ void put_target_on_led_joint(ChainPart& part) {
     if (part.mode == ChainMode::Reach || part.chain.empty() || part.motion.path != Motion::Path::Still)
         return;
     part.target = part.chain.position(led_joint(part));
+}
+
+void enter_mode(ChainPart& part, ChainMode mode) {
+    if (part.mode == mode) return;
+    if (part.mode == ChainMode::Reach) part.reach_target = part.target;
+    const bool from_tip = part.mode == ChainMode::Backward;  // its target is on the tip, or goes on from it
+    part.mode = mode;
+    part.result.reset();
+    put_target_on_led_joint(part);
+    if (mode != ChainMode::Reach || part.chain.empty() || part.motion.path != Motion::Path::Still) return;
+    if (part.reach_target)
+        part.target = *std::exchange(part.reach_target, std::nullopt);
+    else if (!from_tip)
+        part.target = part.chain.position(part.chain.size() - 1);
 }
 
 void reach_for(ChainPart& part, glm::vec3 target, ChainRuntime& runtime) {

@@ -37,6 +37,7 @@ struct ChainPart final : Part {
     Chain chain;
     ChainMode mode = ChainMode::Backward;
     std::size_t index = 0;                      ///< the segment that WithIndex pulls
+    std::optional<glm::vec3> reach_target{};    ///< of Reach, while another mode is on; not saved
     std::array<int, 4> iterations{1, 1, 1, 1};  ///< per pull mode; only Fixed iterates
     float tolerance = 1e-4f;                    ///< metres, of Fixed
     glm::vec3 target{0.0f};
@@ -82,6 +83,8 @@ void reach_for(ChainPart& part, glm::vec3 target, ChainRuntime& runtime);
 std::size_t led_joint(const ChainPart& part);
 /// In a trailing mode, unless the target follows a path.
 void put_target_on_led_joint(ChainPart& part);
+/// A trailing mode begins with its led joint on the target, and Reach with the target that it was left with.
+void enter_mode(ChainPart& part, ChainMode mode);
 
 /// Clamps the microscope's step to the length of its trace.
 void keep_step(ChainPart& part, ChainRuntime& runtime);

@@ -98,18 +98,17 @@ void pull_joints(ChainPart& part, const std::vector<JointPull>& pulls, ChainRunt
 namespace {
 
 void set_mode(ChainPart& part, const Arguments& given) {
-    const ChainMode before = std::exchange(part.mode, chain_modes.value(given.text("mode")));
-    if (part.mode != ChainMode::Reach) part.study.close();
-    if (part.mode != ChainMode::Reach && part.chosen_point == ChainPoint::Pole) part.chosen_point.reset();
+    const ChainMode mode = chain_modes.value(given.text("mode"));
     if (given.has("index")) {
         const std::size_t index = index_of(given);
         check_index(part, index);
         part.index = index;
-    } else if (part.mode == ChainMode::WithIndex && before != part.mode && part.selection.active()) {
+    } else if (mode == ChainMode::WithIndex && part.mode != mode && part.selection.active()) {
         part.index = *part.selection.active();
     }
-    // A joint that trails far behind its target would jump to it with the first drag.
-    if (part.mode != before) put_target_on_led_joint(part);
+    enter_mode(part, mode);
+    if (part.mode != ChainMode::Reach) part.study.close();
+    if (part.mode != ChainMode::Reach && part.chosen_point == ChainPoint::Pole) part.chosen_point.reset();
     if (given.has("iterations")) {
         iterations_of(part, part.mode) = given.integer("iterations");
     }

@@ -39,9 +39,10 @@ std::vector<std::size_t> joints_to_set(const Arguments& given, const ChainPart& 
 
 /// Pulls joints, ascending and without duplicates, as chain.pull does.
 void pull_joints(ChainPart& part, const std::vector<JointPull>& pulls, ChainRuntime& runtime);
-/// Replaces the chain by another, with the target on its tail.
+/// Replaces the chain, with the target on its tail or, in a trailing mode, on the joint that the mode leads.
+/// Removes limits and the pole target.
 void take_chain(ChainPart& part, Chain chain);
-/// Solves again for the present target, in mode Reach.
+/// Solves again for the current target, in mode Reach.
 void reach_again(ChainPart& part, ChainRuntime& runtime);
 
 void add_shape_commands(CommandTable& table);

@@ -220,19 +220,18 @@ bool in_line_with_target(const ChainPart& part) {
     });
 }
 
-/// What is known about a solve that further iterations would not bring nearer.
+/// Explains a stalled solve: why more iterations would not help.
 std::string stalled_text(const ChainPart& part) {
     const ReachSettings& reach = part.reach;
     const bool limited = !reach.limits.empty();
     if (!limited && in_line_with_target(part)) {
         const float span = glm::distance(part.chain.position(0), part.chain.position(part.chain.size() - 1));
-        return std::string(span > 0.999f * part.chain.reach()
-                               ? "Straight, and the target is on its line"
-                               : "Folded onto a line, and the target is on it") +
-               ": no joint turns it nearer. Bend it" + (reach.pole ? "." : ", or add a pole target.");
+        return std::string(span > 0.999f * part.chain.reach() ? "Straight, and the target is on its line"
+                                                              : "Folded onto the line to the target") +
+               ": no joint can bring it closer. Bend it" + (reach.pole ? "." : ", or add a pole target.");
     }
     const ik::Method method = part.result->method;
-    return "The nearest pose that " + ran_text(method, {}, limited) + " finds from here. Another solver" +
+    return "This is as close as " + ran_text(method, {}, limited) + " gets from here. Another solver" +
            (ik::honours(method, ik::Option::Restarts, limited) ? ", or more restarts," : "") +
            " may get nearer.";
 }
@@ -252,7 +251,7 @@ std::string status_text(const ChainPart& part) {
         case ik::Status::Stalled:
             return stalled_text(part);
         case ik::Status::IterationLimit:
-            return "Not there yet when the iterations ran out.";
+            return "Ran out of iterations before reaching the target.";
         case ik::Status::InvalidInput:
             break;
     }

@@ -22,7 +22,7 @@ Chain chain_through(const std::vector<glm::vec3>& points) {
     return require_value(Chain::from_segments(std::move(segments)));
 }
 
-/// The active joint goes there; the other selected ones keep their place beside it.
+/// Moves the active joint there; the other selected joints keep their offsets from it.
 void place_selection(ChainPart& part, glm::vec3 to, ChainRuntime& runtime) {
     const std::size_t active = *part.selection.active();
     const glm::vec3 by = to - part.chain.position(active);
@@ -43,18 +43,19 @@ void paste(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
     place_selection(part, points.front(), runtime);
 }
 
-/// What was understood. `part`: before the change.
+/// Describes what was pasted. `part`: before the change.
 std::string pasted_text(const ChainPart& part, const std::string& text) {
     const std::vector<glm::vec3> points = read_points(text, max_pasted_points);
     if (points.size() > 1)
         return "A chain of " + std::to_string(points.size()) + " joints from the clipboard";
     std::string told = part.chosen_point == ChainPoint::Pole ? "The pole target goes"
                        : part.selection.empty()              ? "The target goes"
-                       : part.selection.several()            ? "The selected joints go"
+                       : part.selection.several()            ? "The active joint, and the others with it, go"
                                                              : "The selected joint goes";
-    told += " to the clipboard's point:";
-    for (const int axis : {0, 1, 2}) told += " " + fixed_text(static_cast<double>(points.front()[axis]), 3);
-    return told + " m";
+    told += " to (";
+    for (const int axis : {0, 1, 2})
+        told += (axis > 0 ? ", " : "") + fixed_text(static_cast<double>(points.front()[axis]), 3);
+    return told + ") m";
 }
 
 }  // namespace

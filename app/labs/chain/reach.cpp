@@ -155,7 +155,8 @@ ik::Limit limit_of(const ReachSettings& settings, std::size_t joint) {
 
 namespace {
 
-/// The world rotation of a bone from rest: as last solved, then the shortest way to where it points.
+/// A bone's world rotation from rest: that of the last solve, followed by the shortest arc to where it points
+/// now.
 glm::quat bone_rotation(const ReachSettings& settings, const Chain& chain, std::size_t bone) {
     const glm::quat before = settings.state.rotations.size() + 1 == chain.size()
                                  ? settings.state.rotations[bone]
@@ -166,14 +167,22 @@ glm::quat bone_rotation(const ReachSettings& settings, const Chain& chain, std::
     return glm::quat(from, glm::normalize(along)) * before;
 }
 
-/// Widens two half-axes of a cone until a swing is within their elliptic quadrant.
+/// Scales two half-axes of a cone until a swing is on the rim of their elliptic quadrant.
 void widen(float& up, float& left, float by_up, float by_left) {
-    const float share_up = by_up > 0.0f ? by_up / std::max(up, 1e-6f) : 0.0f,
-                share_left = by_left > 0.0f ? by_left / std::max(left, 1e-6f) : 0.0f;
-    if (share_up * share_up + share_left * share_left <= 1.0f) return;
-    constexpr float both = 1.4143f;  // a little over the root of two
-    up = std::min(std::max(up, both * by_up), glm::pi<float>());
-    left = std::min(std::max(left, both * by_left), glm::pi<float>());
+    constexpr float min_half_axis = 1e-2f;  // a half-axis of 0 cannot be scaled
+    const float wide_up = std::max(up, min_half_axis), wide_left = std::max(left, min_half_axis);
+    const float outside = std::hypot(by_up / wide_up, by_left / wide_left);
+    if (outside <= 1.0f) return;
+    constexpr float rounding = 1.0001f, half_turn = glm::pi<float>();
+    up = std::min(rounding * outside * wide_up, half_turn);
+    left = std::min(rounding * outside * wide_left, half_turn);
+    // Where one half-axis can grow no further, the other makes up for it.
+    const auto beside = [&](float by, float other) {
+        const float share = other / half_turn, rest = 1.0f - share * share;
+        return rest > 0.0f ? std::min(rounding * by / std::sqrt(rest), half_turn) : half_turn;
+    };
+    if (up == half_turn) left = std::max(left, beside(by_left, by_up));
+    if (left == half_turn) up = std::max(up, beside(by_up, by_left));
 }
 
 }  // namespace
@@ -181,6 +190,7 @@ void widen(float& up, float& left, float by_up, float by_left) {
 ik::Limit limit_around_pose(ik::JointKind kind, const ReachSettings& settings, const Chain& chain,
                             std::size_t joint, std::optional<glm::vec3> axis) {
     ik::Limit limit = ik::Limit::of(kind);
+    if (kind == ik::JointKind::Free) return limit;
     const glm::vec3 rest = chain.default_direction();
     glm::quat turn = bone_rotation(settings, chain, joint);
     if (joint > 0) turn = glm::conjugate(bone_rotation(settings, chain, joint - 1)) * turn;
@@ -188,15 +198,15 @@ ik::Limit limit_around_pose(ik::JointKind kind, const ReachSettings& settings, c
         limit.axis = *axis;
     } else if (kind == ik::JointKind::Hinge) {
         const glm::vec3 bend = glm::cross(rest, turn * rest);
-        constexpr float straight = 0.05f, along_usual_axis = 0.98f;
+        constexpr float straight = 0.05f, along_usual_axis = 0.9999f;
         if (const float size = glm::length(bend);
             size > straight && std::abs(glm::dot(bend, limit.axis)) < along_usual_axis * size)
             limit.axis = bend / size;
     }
-    if (kind == ik::JointKind::Free || ik::fault(limit, rest) != nullptr) return limit;
+    if (ik::fault(limit, rest) != nullptr) return limit;
     const ik::JointAngles at = ik::measure(limit, rest, turn);
     if (kind == ik::JointKind::Hinge) {
-        if (at.up < -0.05f) limit.min = -std::exchange(limit.max, -limit.min);
+        if (at.up < -0.05f) limit.min = -std::exchange(limit.max, 0.0f - limit.min);
         limit.min = std::min(limit.min, at.up);
         limit.max = std::max(limit.max, at.up);
         return limit;

@@ -102,11 +102,12 @@ void bones_removed(ReachSettings& settings, const std::vector<std::size_t>& join
 void forget_limits(ReachSettings& settings);
 /// The limit of a joint; free if none is set.
 ik::Limit limit_of(const ReachSettings& settings, std::size_t joint);
-/// Throws std::invalid_argument for an invalid limit.
-/// A limit of that kind, with usual angles, widened until the joint's present pose is within it. A new hinge
-/// turns about the axis of its bend, and the way that it is bent.
+/// A limit of that kind, with usual angles, widened to hold the joint's current pose, except for a hinge's
+/// twist and swings near half a turn. A new hinge takes the axis and the direction of the joint's current
+/// bend.
 ik::Limit limit_around_pose(ik::JointKind kind, const ReachSettings& settings, const Chain& chain,
                             std::size_t joint, std::optional<glm::vec3> axis);
+/// Throws std::invalid_argument for an invalid limit.
 void set_limit(ReachSettings& settings, std::size_t joint, const ik::Limit& limit, const Chain& chain);
 void set_limits(ReachSettings& settings, const std::vector<std::pair<std::size_t, ik::Limit>>& limits,
                 const Chain& chain);

@@ -154,6 +154,7 @@ void take_chain(ChainPart& part, Chain chain) {
     part.motion.path = Motion::Path::Still;
     forget_limits(part.reach);
     part.reach.pole.reset();
+    part.reach_target.reset();
     part.reach.state = {};
     shape_changed(part);
     put_target_on_led_joint(part);

@@ -27,7 +27,7 @@ Argument start_argument() {
 /// Studies need mode Reach; the chain then shows the result of a solve from the study's start.
 void open(ChainPart& part, const Arguments& given, ChainRuntime& runtime, Study::Kind kind) {
     part.study.begin(kind, start_of(given), part.chain, part.reach);
-    part.mode = ChainMode::Reach;
+    enter_mode(part, ChainMode::Reach);
     reach_for(part, part.target, runtime);
 }
 

@@ -145,7 +145,7 @@ void microscope_rows(const ShownChain& shown, const Palette& palette, Emit& emit
     note(describe_frame(trace, step));
     if (part.motion.path != Motion::Path::Still)
         note("The moving target waits while the microscope is open.");
-    if (trace.cut) note("The solve took more steps; only these are kept.");
+    if (trace.cut) note("The solve took more steps than were recorded.");
     float pace = part.study.pace > 0.0f ? part.study.pace : default_pace;
     if (number_field("play at", pace, 0.1f, slowest_pace, fastest_pace, "%.1f steps/s"))
         emit.continuously("microscope.play", {{"pace", pace}});

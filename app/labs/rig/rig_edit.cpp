@@ -370,7 +370,7 @@ std::vector<std::string> selected_but(const RigPart& part, const rig::Element& i
     return names;
 }
 
-/// A selected element that is no control, else a bone; null if there is neither.
+/// A selected element other than a control, otherwise the first bone; null if there is neither.
 const rig::Element* no_control(const RigPart& part) {
     const Elements& elements = part.rig.definition().elements;
     for (const std::size_t each : part.selected.elements.all())
@@ -425,7 +425,7 @@ UnitOffer follower(const RigPart& part, Json unit) {
     const rig::Element* item = item_of(part);
     const rig::Element* other = item != nullptr ? other_than(part, *item) : nullptr;
     if (other == nullptr) return {{}, "add a second element first"};
-    // A control is followed: it would only lose its own pose as a follower.
+    // Controls are meant to be followed; one that follows would just lose its own pose.
     if (const rig::Element* instead = no_control(part);
         instead != nullptr && item->kind == rig::ElementKind::Control)
         other = std::exchange(item, instead);

@@ -13,7 +13,7 @@ namespace tendril::humanoid::detail {
 /// check(), with `operation` in the error message.
 Result check_map(std::string_view operation, const BoneMap& map, const Skeleton& skeleton) noexcept;
 
-/// Refuses a node that was mapped to `bone`, which must be below the hips.
+/// The error for a node that is mapped to `bone` but is not below the hips.
 Result not_below_hips(const Skeleton& skeleton, std::size_t node, Bone bone) noexcept;
 
 /// The map, or an empty one if check_map() refuses it.

@@ -220,7 +220,7 @@ Expected<Rig> Rig::make(Definition definition) {
 
 namespace {
 
-/// The unit at an index among all units, those in a body following their for-each.
+/// The unit with this index; units in a body come right after their for-each.
 Unit& unit_at(std::vector<Unit>& units, std::size_t index) {
     for (Unit& unit : units) {
         if (index-- == 0) return unit;

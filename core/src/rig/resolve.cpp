@@ -99,6 +99,7 @@ void Resolver::spring(std::vector<Output>& handed_out) {
 }
 
 void Resolver::field(const std::string& name, Item& item) {
+    item.resolved = {};
     if (std::holds_alternative<ThisElement>(item.which)) {
         if (!for_each_) refuse(name + R"(: {"item": "each"} only works inside a for-each)");
         return;
@@ -185,7 +186,7 @@ Type Resolver::type_of_source(const std::string& name, FromElement& from) {
 
 Type Resolver::type_of_source(const std::string& name, FromUnit& from) {
     const auto found = layout_.units_by_name.find(from.unit);
-    if (found == layout_.units_by_name.end() || found->second >= index_) {
+    if (found == layout_.units_by_name.end() || found->second >= index_ || found->second == for_each_) {
         refuse(name + ": no unit " + quoted(from.unit) + " runs before this one");
         return Type::Number;
     }

@@ -20,15 +20,15 @@ namespace detail {
 struct Layout;
 }
 
-/// Resolves the names in a unit's inputs. The layout has the elements, the curves and the units that run
-/// before it; later ones too, if `index` is not the next.
+/// Resolves the names in a unit's inputs. The layout has the elements, the curves, the units that run before
+/// this one and, when an existing unit is replaced, those after it.
 class Resolver {
   public:
     Resolver(const Definition& definition, const detail::Layout& layout)
         : definition_(definition), layout_(layout) {}
 
-    /// Not the units in its body. `index`: of the unit among all. `for_each`: that it is in, if any. Returns
-    /// its outputs.
+    /// Does not resolve the units in its body. `index`: the unit's among all units. `for_each`: the index of
+    /// the for-each that contains it, if any. Returns its outputs.
     Expected<std::vector<Output>> resolve(Unit& unit, std::size_t index, std::optional<std::size_t> for_each);
 
   private:

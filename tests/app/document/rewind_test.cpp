@@ -127,6 +127,14 @@ TEST_F(Seek, PausesOnlyTheLabWhosePastIsLookedAt) {
     EXPECT_TRUE(playing_in("rope"));
     table.run(workspace, "time.pause", {});
     EXPECT_FALSE(playing_in("arm")) << "paused by hand, everything is";
+    EXPECT_FALSE(playing_in("rope"));
+    table.run(workspace, "time.play", {});
+    EXPECT_TRUE(playing_in("arm"));
+    seek(20);
+    EXPECT_TRUE(playing_in("rope"));
+    table.run(workspace, "time.pause", {});
+    EXPECT_FALSE(playing_in("arm")) << "looking back";
+    EXPECT_FALSE(playing_in("rope")) << "still paused by hand";
 }
 
 TEST_F(Seek, PlayingOnForgetsWhatCameAfter) {

@@ -34,7 +34,7 @@ enum class JointKind : std::uint8_t {
 /// "ball_and_socket"
 const char* name(JointKind kind) noexcept;
 
-/// Stiffer, a joint would hardly move in all the iterations of a solve.
+/// Above this, a joint would hardly move within a solve.
 inline constexpr float max_stiffness = 0.99f;
 
 /// All angles in radians.
@@ -49,10 +49,11 @@ struct Limit {
     float up = 0.0f, down = 0.0f, left = 0.0f, right = 0.0f;
     /// All other kinds: -pi <= twist_min <= twist_max <= pi.
     float twist_min = 0.0f, twist_max = 0.0f;
-    /// 0 to max_stiffness: how much the joint resists turning, compared with the others. At 0.9 it takes a
-    /// tenth of its share of each step, and the others make up for it. A stiff joint still turns as far as
-    /// the target needs, so stiffness selects among poses that reach and takes none away. Applies to every
-    /// kind.
+    /// 0 to max_stiffness: how much the joint resists turning, compared with the other joints of the chain.
+    /// Beside joints of stiffness 0, one of 0.9 takes a tenth of its share of each step, and the others make
+    /// up for it. If all are equally stiff, nothing changes. Stiffness only chooses among the poses that
+    /// reach the target; a stiff joint that must turn far costs iterations (up to 1 / (1 - stiffness) times
+    /// in CCD and FABRIK). A two-bone limb in closed form ignores it. Applies to every kind.
     float stiffness = 0.0f;
 
     bool operator==(const Limit&) const = default;

@@ -7,8 +7,8 @@
 //     Input<double> bend = FromUnit{"curve"};                                       // output of unit "curve"
 //     Input<double> bend = Each::Ratio;                                             // 0 first, 1 last
 //
-// Names are resolved once, by Rig::make, which also checks that the unit or element exists and that its value
-// has the type that the input takes. A solve compares no strings.
+// Names are resolved once, by Rig::make or Rig::with_unit, which also checks that the unit or element exists
+// and that its value has the type that the input takes. A solve compares no strings.
 #pragma once
 
 #include <cstdint>

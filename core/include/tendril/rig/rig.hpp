@@ -100,9 +100,9 @@ class Rig {
     /// that names something missing, running later or of another type, a literal out of range. The message
     /// names the unit, the input and the value.
     static Expected<Rig> make(Definition definition);
-    /// The same rig with another unit in place of the one of that name, as make() would return it. While only
-    /// values and links change, all but the definition is shared with this rig: a slider costs a copy of the
-    /// definition. Refused as by make(), and NotFound for an unknown name.
+    /// This rig with the unit of that name replaced, as make() would return it. If only values or links
+    /// change, the new rig shares everything but its definition with this one, so moving a slider costs one
+    /// copy of the definition. Refused as by make(), and NotFound for an unknown name.
     Expected<Rig> with_unit(Unit unit) const;
     Rig(const Rig&) noexcept;
     Rig(Rig&&) noexcept;

@@ -59,6 +59,12 @@ static inline bool is_inside(const LimitedJoint& joint, const glm::quat& rotatio
 /// For a joint other than a hinge, if is_inside is false.
 bool clamp_cone(const LimitedJoint& joint, glm::quat& rotation, float slack) noexcept;
 
+/// The part of a turn from one rotation to another that a joint's mobility lets through.
+static inline glm::quat mobile_part(const LimitedJoint& joint, const glm::quat& from,
+                                    const glm::quat& to) noexcept {
+    return joint.mobility < 1.0f ? math::slerp(from, to, joint.mobility) : to;
+}
+
 /// Moves a rotation to the nearest within its limit. Returns false, leaving it bit for bit, if it exceeds the
 /// limit by no more than `slack`, radians.
 static inline bool clamp(const LimitedJoint& joint, glm::quat& rotation, float slack = at_bound) noexcept {

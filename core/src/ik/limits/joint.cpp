@@ -176,7 +176,6 @@ glm::vec3 across_of(const Limit& limit, const glm::vec3& bone) noexcept {
 LimitedJoint limited_joint(const Limit& limit, const glm::vec3& rest_direction) noexcept {
     LimitedJoint joint;
     joint.kind = limit.kind;
-    joint.mobility = 1.0f - limit.stiffness;
     joint.bone = times(rest_direction, 1.0f / length(rest_direction));
     const glm::vec3 across = across_of(limit, joint.bone);
     const float size = length(across);

@@ -3,10 +3,10 @@
 // Each joint is a ball joint that rotates about any axis in the world, except those that its limit forbids: a
 // hinge keeps one axis; a joint at a bound loses the axis that leads out of the limit, if the step pushes
 // that way (an active limit). So no angles are needed, and a joint well inside its limit costs the same as a
-// ball joint. Stiff joints are weighted: with W the diagonal of mobilities, 1 - stiffness, a step is
-// W J' (J W J' + damping)^-1 e, the smallest in terms of rotation^2 / mobility (D. Whitney, "Resolved motion
-// rate control of manipulators and human prostheses", IEEE Trans. Man-Machine Systems 10(2), 1969). J W J'
-// has three rows for any number of joints, or six with a tip orientation; J is never built.
+// ball joint. Stiff joints are weighted: with W the diagonal of mobilities, a step is
+// W J' (J W J' + damping)^-1 e, which minimises the sum of rotation^2 / mobility (D. Whitney, "Resolved
+// motion rate control of manipulators and human prostheses", IEEE Trans. Man-Machine Systems 10(2), 1969). J
+// W J' has three rows for any number of joints, or six with a tip orientation; J is never built.
 //
 // Active-set projection: a step that would push a joint out of its limit is projected onto the limit (a
 // hinge's angle is fixed, a cone's swing slides along the rim), and the rest is solved again without it;

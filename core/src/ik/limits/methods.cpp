@@ -19,13 +19,6 @@ void place(const Problem& problem, Phase phase, std::size_t joint, std::size_t n
     place = to;
 }
 
-/// Lets a joint turn from `before` to `rotation`, as far as its stiffness and then its limit allow. Returns
-/// whether that is not all the way.
-bool limit_turn(const LimitedJoint& joint, const glm::quat& before, glm::quat& rotation) noexcept {
-    if (joint.mobility < 1.0f) rotation = math::slerp(before, rotation, joint.mobility);
-    return clamp(joint, rotation) || joint.mobility < 1.0f;
-}
-
 /// From the tip, which moves to the target, to the root, which leaves its position.
 template <class Watch>
 void limited_forward_reaching(Problem& problem, Watch watch) noexcept {
@@ -74,12 +67,18 @@ void limited_backward_reaching(Problem& problem, Watch watch) noexcept {
             pose.directions[i] = math::direction(before, pose.joints[i + 1], old);
             pose.rotations[i] = transported(pose.rotations[i], old, pose.directions[i]);
         }
+        const LimitedScratch& scratch = problem.scratch.limited;
+        const glm::quat parent = parent_of(pose.rotations, i);
+        if (const LimitedJoint& joint = scratch.limits[i]; joint.mobility < 1.0f) {
+            const glm::quat local = compose(conjugate(parent), pose.rotations[i]);
+            pose.rotations[i] =
+                nearly_unit(compose(parent, mobile_part(joint, scratch.pose.local[i], local)));
+            pose.directions[i] = bone_direction(problem, pose.rotations[i], i);
+        }
         place(problem, Phase::BackwardReaching, i + 1, i, pose.joints[i + 1], pose.joints[i + 1],
               moved(before, pose.directions[i], length), watch);
-        const glm::quat parent = parent_of(pose.rotations, i);
         pose.local[i] = compose(conjugate(parent), pose.rotations[i]);
-        const LimitedScratch& scratch = problem.scratch.limited;
-        if (!limit_turn(scratch.limits[i], scratch.pose.local[i], pose.local[i])) continue;
+        if (!clamp(scratch.limits[i], pose.local[i])) continue;
         pose.rotations[i] = nearly_unit(compose(parent, pose.local[i]));
         pose.directions[i] = bone_direction(problem, pose.rotations[i], i);
         place(problem, Phase::Limit, i + 1, i, pose.joints[i + 1], pose.joints[i + 1],
@@ -102,7 +101,8 @@ void ccd_sweep(Problem& problem, Watch watch) noexcept {
         const glm::quat wanted =
             placed ? *problem.options.tip_orientation : compose(rotation_towards(problem, at, tip), old);
         local[i] = unit(compose(conjugate(parent), wanted));
-        limit_turn(scratch.limits[i], scratch.pose.local[i], local[i]);
+        local[i] = mobile_part(scratch.limits[i], scratch.pose.local[i], local[i]);
+        clamp(scratch.limits[i], local[i]);
         const glm::quat by = unit(compose(compose(parent, local[i]), conjugate(old)));
         tip = plus(at, rotated(by, minus(tip, at)));
     }

@@ -46,13 +46,24 @@ void forward_kinematics(const Problem& problem, LimitedPose& pose) noexcept {
     for (std::size_t i = 0; i < problem.bones(); ++i) place_bone(problem, pose, i);
 }
 
+/// Only differences of stiffness count: the most mobile joint of a chain has mobility 1.
+static void set_mobilities(LimitedScratch& scratch, std::span<const Limit> limits) noexcept {
+    float most = 0.0f;
+    for (const Limit& limit : limits) most = std::max(most, 1.0f - limit.stiffness);
+    for (std::size_t i = 0; i < limits.size(); ++i)
+        scratch.limits[i].mobility = (1.0f - limits[i].stiffness) / most;
+}
+
 bool load_limits(Workspace& scratch, std::span<const Limit> limits) noexcept {
+    bool changed = false;
     for (std::size_t i = 0; i < limits.size(); ++i) {
         if (scratch.limited.made && limits[i] == scratch.limited.source[i]) continue;
         if (fault(limits[i], scratch.rest_directions[i])) return false;
         scratch.limited.source[i] = limits[i];
         scratch.limited.limits[i] = solvable_joint(limits[i], scratch.rest_directions[i]);
+        changed = true;
     }
+    if (changed) set_mobilities(scratch.limited, limits);
     scratch.limited.made = !limits.empty() || scratch.limited.made;
     return true;
 }

@@ -78,7 +78,9 @@ bool is_singular(Problem& problem) noexcept {
     linearize(problem, wanted);
     const float asked = dot(wanted.move, wanted.move) + dot(wanted.rotation, wanted.rotation);
     for (std::size_t i = 0; i < problem.bones(); ++i) {
-        const glm::vec3 rotation = rotation_by(problem.scratch.limited.freedoms[i], wanted);
+        // Unweighted: a stiff joint is not a singular one.
+        const JointFreedom& freedom = problem.scratch.limited.freedoms[i];
+        const glm::vec3 rotation = allowed_part(freedom, free_rotation_by(freedom, wanted));
         if (dot(rotation, rotation) > singular * singular * asked) return false;
     }
     return true;
@@ -103,7 +105,13 @@ void sample(const Problem& problem, int number) noexcept {
     LimitedScratch& scratch = problem.scratch.limited;
     std::uint64_t state = static_cast<std::uint64_t>(number) * 7919u;
     for (std::size_t i = 0; i < problem.bones(); ++i) {
-        scratch.trial.local[i] = rotation_of(scratch.limits[i], sampled_angles(scratch.limits[i], state));
+        const LimitedJoint& joint = scratch.limits[i];
+        glm::quat& local = scratch.trial.local[i];
+        local = rotation_of(joint, sampled_angles(joint, state));
+        // The first restarts leave stiff joints near where they were; the later ones try everything.
+        if (number > default_restarts / 2 || joint.mobility == 1.0f) continue;
+        local = mobile_part(joint, scratch.start.local[i], local);
+        clamp(joint, local);
     }
     forward_kinematics(problem, scratch.trial);
 }
