@@ -233,7 +233,7 @@ std::string stalled_text(const ChainPart& part) {
     const ik::Method method = part.result->method;
     return "This is as close as " + ran_text(method, {}, limited) + " gets from here. Another solver" +
            (ik::honours(method, ik::Option::Restarts, limited) ? ", or more restarts," : "") +
-           " may get nearer.";
+           " may get closer.";
 }
 
 }  // namespace

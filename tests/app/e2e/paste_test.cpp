@@ -65,7 +65,7 @@ TEST_F(Paste, InAnotherLabSaysWherePointsGoAndNothingElse) {
         toasts().clear();
         const Document before = app_.workspace().document;
         paste("(1, 2, 3)");
-        EXPECT_TRUE(says(told(), "Points Chain paste")) << lab->name();
+        EXPECT_TRUE(says(told(), "points Chain paste")) << lab->name();
         toasts().clear();
         paste("Remember the milk");
         EXPECT_TRUE(toasts().empty()) << lab->name();

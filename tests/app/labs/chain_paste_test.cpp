@@ -30,7 +30,7 @@ TEST_F(ChainPaste, OnePointMovesWhatIsSelectedOrElseTheTarget) {
     paste("new Vector3(5f, 2f, 0f)");
     EXPECT_EQ(part().target, glm::vec3(5, 2, 0));
     EXPECT_EQ(part().chain.position(7), glm::vec3(5, 2, 0));
-    EXPECT_TRUE(test::says(told(), "target clipboard 5.000 2.000 0.000"));
+    EXPECT_TRUE(test::says(told(), "target 5.000 2.000 0.000"));
 
     run("chain.select", {{"index", 3}});
     paste("(X=1,Y=2,Z=3)");

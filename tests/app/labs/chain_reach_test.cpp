@@ -288,6 +288,19 @@ TEST_F(ChainReach, a_mode_begins_with_its_joint_on_the_target) {
     EXPECT_EQ(part().index, 2u) << "with index takes the selected joint";
 }
 
+TEST_F(ChainReach, keeps_its_target_while_another_mode_is_on) {
+    reach_with(4);
+    run("chain.target", {{"to", {2, 1, 0}}});
+    run("chain.mode", {{"mode", "forward"}});
+    EXPECT_EQ(part().target, part().chain.position(0));
+    run("chain.mode", {{"mode", "reach"}});
+    EXPECT_EQ(part().target, glm::vec3(2, 1, 0));
+    EXPECT_FALSE(part().result) << "nothing was solved for it yet";
+    run("chain.mode", {{"mode", "with_index"}, {"index", 1}});
+    run("microscope.open");
+    EXPECT_EQ(part().target, glm::vec3(2, 1, 0)) << "the microscope looks at a reach";
+}
+
 TEST_F(ChainReach, a_preset_begins_without_a_pole) {
     reach_with(4);
     run("chain.pole", {{"to", {0, 3, 0}}});
