@@ -1,5 +1,6 @@
 // Stiff joints: they turn less, the others make up for it, and the tip arrives all the same.
 #include "ik_limited_support.hpp"
+#include "tests/says.hpp"
 
 namespace tendril::test::ik_stiffness_test {
 namespace {
