@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "app/app.hpp"
+#include "app/document/atomic_file.hpp"
 #include "app/document/refused.hpp"
-#include "app/document/shown_path.hpp"
 #include "app/io/clipboard_picture.hpp"
 #include "app/video_take.hpp"
 

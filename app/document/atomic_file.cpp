@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <cerrno>
+#include <cstdlib>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -177,6 +178,29 @@ void check_writable(const fs::path& path) {
     check_permission(path);
     // Creates a file to find out: permissions do not reveal read-only and virtual file systems.
     if (!stream) AtomicFile{path};
+}
+
+std::string shown_path(const fs::path& path) {
+    std::error_code ignored;
+    std::string text = fs::absolute(path, ignored).lexically_normal().string();
+    const char* const home = std::getenv("HOME");
+    const std::string under = home != nullptr ? std::string(home) + '/' : std::string();
+    if (under.size() > 2 && text.starts_with(under)) text = "~/" + text.substr(under.size());
+    if (text.size() <= longest_shown_path) return text;
+    const std::size_t first = text.find('/', 1);
+    if (first == text.npos) return text;
+    const std::string begin = text.substr(0, first) + "/...";
+    std::size_t end = text.rfind('/');
+    while (end > first) {
+        const std::size_t up = text.rfind('/', end - 1);
+        if (up <= first || begin.size() + text.size() - up > longest_shown_path) break;
+        end = up;
+    }
+    return end > first ? begin + text.substr(end) : text;
+}
+
+std::string written_text(const fs::path& path) {
+    return "Written: " + shown_path(path);
 }
 
 }  // namespace tendril::app

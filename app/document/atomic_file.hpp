@@ -1,9 +1,12 @@
 // Atomic file writes: a temporary file in the same folder is written, synced to disk and renamed over the old
-// one, so a crash leaves either the old file or the new one. The only way this program writes files.
+// one, so a crash leaves either the old file or the new one. The only way this program writes files, and how its
+// messages give their paths.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <string_view>
 
 namespace tendril::app {
@@ -38,5 +41,14 @@ class AtomicFile {
 /// Throws, as above, if `path` cannot be written: its folder is missing or not writable, or it is a folder
 /// itself. Leaves no file behind.
 void check_writable(const std::filesystem::path& path);
+
+inline constexpr std::size_t longest_shown_path = 100;
+
+/// The whole path, so that the file can be found: "~/pictures/tendril-1.png". Folders in the middle of a long
+/// one become "..."; the name is always whole.
+std::string shown_path(const std::filesystem::path& path);
+
+/// "Written: ~/pictures/tendril-1.png"
+std::string written_text(const std::filesystem::path& path);
 
 }  // namespace tendril::app

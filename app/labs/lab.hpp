@@ -9,10 +9,11 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "app/document/argument_list.hpp"
 #include "app/document/workspace.hpp"
-#include "app/labs/kit/file_kind.hpp"
 #include "app/labs/kit/setting.hpp"
 #include "app/labs/kit/shortcut.hpp"
 #include "app/view/camera.hpp"
@@ -78,6 +79,17 @@ struct TestScene {
     std::vector<CommandCall> commands;  ///< set it up from a blank document
     std::vector<std::string> words;     ///< names that exist here, for commands that take any text
     int ticks = 120;                    ///< to run before its state is compared
+};
+
+/// A kind of file that a lab reads, as a row of Lab::files().
+struct FileKind {
+    std::string plural;                ///< "characters"
+    std::vector<std::string> endings;  ///< in lower case: ".bvh"
+    std::string command;               ///< opens such a file, given as `path`
+    ArgumentList arguments{};          ///< further ones
+    /// Whether the file's text begins like one of this kind. Decides if several kinds share the ending, or
+    /// if no kind has it. Null: the ending alone decides.
+    bool (*begins)(std::string_view text) = nullptr;
 };
 
 /// Only the first functions must be overridden: names, blank part, commands, drawing. The rest have defaults.

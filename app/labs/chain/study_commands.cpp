@@ -3,7 +3,6 @@
 #include <stdexcept>
 
 #include "app/document/atomic_file.hpp"
-#include "app/document/shown_path.hpp"
 #include "app/labs/chain/chain_runtime.hpp"
 #include "app/labs/chain/commands.hpp"
 #include "app/labs/chain/draw.hpp"

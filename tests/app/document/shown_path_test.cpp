@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "app/document/shown_path.hpp"
+#include "app/document/atomic_file.hpp"
 
 namespace tendril::app {
 namespace {

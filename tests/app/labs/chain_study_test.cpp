@@ -3,7 +3,7 @@
 #include <set>
 #include <sstream>
 
-#include "app/document/shown_path.hpp"
+#include "app/document/atomic_file.hpp"
 #include "app/labs/chain/draw.hpp"
 #include "tests/app/labs/chain_support.hpp"
 #include "tests/app/support/temp_folder.hpp"

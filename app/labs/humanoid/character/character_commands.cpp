@@ -5,7 +5,6 @@
 #include <stdexcept>
 
 #include "app/document/atomic_file.hpp"
-#include "app/document/shown_path.hpp"
 #include "app/io/character/bake.hpp"
 #include "app/io/character/export.hpp"
 #include "app/io/character/map_file.hpp"
