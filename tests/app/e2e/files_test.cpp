@@ -1,4 +1,9 @@
 // A file of any kind opens in the lab that reads it, whichever lab is open and however it is opened.
+#include <sys/stat.h>
+
+#include <fstream>
+#include <thread>
+
 #include "tests/app/support/play.hpp"
 #include "tests/places.hpp"
 #include "tests/says.hpp"
@@ -98,6 +103,15 @@ TEST_F(Files, OfTheCommandLineStartTheSession) {
             play(ScriptText().command("undo", {}, true), {.more = {file.path}});  // nothing to undo
         expect_opened(played.state, file);
     }
+}
+
+TEST_F(Files, OfAPipeAreScenes) {
+    const std::string pipe = path("pipe");
+    ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+    std::thread writer([&] { std::ofstream(pipe) << read(folder_ / "arm.json"); });
+    const app::Json state = state_after(in("rope").command("file.open", {{"path", pipe}}));
+    writer.join();
+    expect_opened(state, {pipe, "chain", "segments", 7});
 }
 
 TEST_F(Files, ThatNoLabReadsAreRefusedAndChangeNothing) {

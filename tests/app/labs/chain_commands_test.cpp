@@ -242,5 +242,19 @@ TEST_F(ChainCommands, UndoOfANewSceneBringsItsFileBackToo) {
     EXPECT_TRUE(workspace.path.empty());
 }
 
+TEST_F(ChainCommands, UndoAndRedoNameTheLabThatWasNotOpen) {
+    const auto told = [&] { return workspace.ui.toasts.empty() ? "" : workspace.ui.toasts.back().text; };
+    run("chain.preset", {{"name", "arm"}});
+    run("undo");
+    EXPECT_EQ(told(), "");
+    run("lab.open", {{"name", "rope"}});
+    run("redo");
+    EXPECT_EQ(told(), "Redone in the Chain lab.");
+    EXPECT_EQ(workspace.lab, "chain");
+    run("lab.open", {{"name", "rope"}});
+    run("undo");
+    EXPECT_EQ(told(), "Undone in the Chain lab.");
+}
+
 }  // namespace
 }  // namespace tendril::app

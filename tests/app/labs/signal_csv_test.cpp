@@ -59,5 +59,26 @@ TEST_F(SignalCsv, UnknownColumnsAreAskedForAndChosenByNameOrNumber) {
                            "row 4 column 2 time x"));
 }
 
+TEST_F(SignalCsv, AnExactNameWinsOverOneThatDiffersInCaseOrUnit) {
+    const std::string text = "t,X,x,x (mm)\n0,1,2,3\n1,4,5,6\n";
+    for (const auto& [name, wanted] : std::vector<std::pair<std::string, std::vector<double>>>{
+             {"X", {1, 4}}, {"x", {2, 5}}, {"x (mm)", {3, 6}}}) {
+        run("signal.input", file(text, {{"value", name}}));
+        EXPECT_EQ(values(), wanted) << name;
+    }
+    EXPECT_TRUE(test::says(refused("signal.input", file(text, {{"value", "x (m)"}})), "3 columns called x"));
+}
+
+TEST_F(SignalCsv, TimeIsInTheUnitThatItsColumnNames) {
+    const auto step = [&] { return workspace.document.get<SignalPart>(signal_lab).input.file->at(1).dt; };
+    for (const auto& [unit, seconds] : std::vector<std::pair<std::string, double>>{
+             {"s", 20.0}, {"Seconds", 20.0}, {"ms", 0.02}, {"MS", 0.02}, {"us", 20e-6}, {"\u00b5s", 20e-6}}) {
+        run("signal.input", file("time [" + unit + "],value\n0,1\n20,2\n"));
+        EXPECT_NEAR(step(), seconds, 1e-12) << unit;
+    }
+    EXPECT_TRUE(
+        test::says(refused("signal.input", file("time (h),value\n0,1\n20,2\n")), "time h must be s ms us"));
+}
+
 }  // namespace
 }  // namespace tendril::app

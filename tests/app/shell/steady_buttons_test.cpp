@@ -11,6 +11,7 @@
 #include "app/document/json_complete.hpp"
 #include "tests/app/support/frame_record.hpp"
 #include "tests/app/support/full_scenes.hpp"
+#include "tests/places.hpp"
 
 namespace tendril::test {
 namespace {
@@ -99,6 +100,10 @@ TEST_P(SteadyButtons, StayUnderTheMouseThatClicksThem) {
         if (scenes++ % 4 == 1) check(shown.name, shown.commands);
     if (GetParam() == std::string("chain"))
         check("the microscope", {call("chain.preset", {{"name", "reaching_arm"}}), call("microscope.open")});
+    if (GetParam() == std::string("humanoid"))
+        check("faults of a motion",
+              {call("humanoid.load", {{"path", source_path("tests/app/golden/faulty_walk.bvh")}}),
+               call("humanoid.clip", {{"name", "motion"}})});
 }
 
 INSTANTIATE_TEST_SUITE_P(Labs, SteadyButtons, testing::Values("chain", "rope", "signal", "rig", "humanoid"),
