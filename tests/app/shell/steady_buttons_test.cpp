@@ -100,11 +100,32 @@ TEST_P(SteadyButtons, StayUnderTheMouseThatClicksThem) {
         if (scenes++ % 4 == 1) check(shown.name, shown.commands);
     if (GetParam() == std::string("chain"))
         check("the microscope", {call("chain.preset", {{"name", "reaching_arm"}}), call("microscope.open")});
-    if (GetParam() == std::string("humanoid"))
-        check("faults of a motion",
-              {call("humanoid.load", {{"path", source_path("tests/app/golden/faulty_walk.bvh")}}),
-               call("humanoid.clip", {{"name", "motion"}})});
 }
+
+class KeptRoom : public SteadyButtons {};
+
+TEST_P(KeptRoom, HoldsWhatIsBelowAListUntilTheMouseLeavesIt) {
+    set_up({call("humanoid.load", {{"path", source_path("tests/app/golden/faulty_walk.bvh")}}),
+            call("humanoid.clip", {{"name", "motion"}})});
+    const auto place = [&](const std::string& text) {
+        glm::vec2 last{0.0f};
+        for (const DrawnText& each : recorder_.frame().texts)
+            if (each.text == text) last = 0.5f * (each.box.min + each.box.max);
+        return last;
+    };
+    const glm::vec2 fix = place("Fix"), below = place("Targets");
+    ASSERT_TRUE(fix.y > 0.0f && below.y > fix.y);
+    for (int i = 0; i < 3; ++i) {
+        click(fix);
+        EXPECT_FLOAT_EQ(place("Targets").y, below.y) << "click " << i + 1;
+    }
+    EXPECT_LT(place("Fix").y, fix.y) << "the last finding was not fixed";
+    const Event away = MouseMove{{640.0f, 700.0f}};
+    for (int i = 0; i < 4; ++i) app_.tick(i == 0 ? &away : nullptr);
+    EXPECT_LT(place("Targets").y, below.y);
+}
+
+INSTANTIATE_TEST_SUITE_P(Lint, KeptRoom, testing::Values("humanoid"));
 
 INSTANTIATE_TEST_SUITE_P(Labs, SteadyButtons, testing::Values("chain", "rope", "signal", "rig", "humanoid"),
                          [](const auto& lab) { return std::string(lab.param); });
