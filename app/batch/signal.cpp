@@ -122,7 +122,7 @@ void print_fits(const Filters& filters, const SignalSamples& samples, const std:
 
 void run_signal(const SignalOptions& options, const std::atomic<bool>& ending) {
     const Filters filters = read_filters(options.filters);
-    const TimedSamples rows = read_timed_samples(options.samples);
+    const TimedSamples rows = read_samples(options.samples);
     if (!options.fit.empty())
         print_fits(filters, rows.samples, read_response(options.fit, rows.samples.size()), ending);
     else if (options.rates)
@@ -141,8 +141,9 @@ std::string signal_help() {
 Omitted keys take their defaults; keys that the kind does not have are ignored.
 SAMPLES is a CSV file, one row per sample: dt,input. dt is the time in seconds since
 the previous row; a row whose dt is not over 0 changes nothing. A first row may name
-the columns: dt or time, which must not decrease, and input. Prints rows of
-time,input,output.
+the columns: dt, or time, which must not decrease, in s, ms or us as in "time (ms)";
+and input or value. Of two columns, the one that is not the time is the input. Prints
+rows of time,input,output.
 --rates prints one output for each frame rate (15, 30, 60 and 144 Hz, and 60 Hz
 with uneven frames), and on stderr the maximum difference between them.
 --fit finds for every kind of filter the parameters whose output comes closest to

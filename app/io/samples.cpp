@@ -195,15 +195,8 @@ struct Columns {
     double seconds = 1.0;   ///< the unit of time
 };
 
-Columns named_columns(const Table& table, const Fields& names) {
-    const auto dt = column_named(names, {"dt"}), time = column_named(names, {"time"});
-    const auto input = column_named(names, {"input"});
-    if (!input || !(dt || time)) table.fail(" does not name columns dt and input");
-    return {.time = dt ? *dt : *time, .input = *input, .width = names.size(), .absolute = !dt};
-}
-
 /// Throws with the columns there are if they do not say which to take.
-Columns signal_columns(const Table& table, const Fields& names, bool named, const ColumnChoice& choice) {
+Columns columns_of(const Table& table, const Fields& names, bool named, const ColumnChoice& choice) {
     if (!named && names.size() == 2 && choice.time.empty() && choice.value.empty()) return {};
     std::optional<std::size_t> time, value, dt;
     if (named) dt = usual_column(names, {"dt"});
@@ -251,16 +244,12 @@ void difference(TimedSamples& rows) {
 
 }  // namespace
 
-namespace {
-
-/// `columns_of` finds the columns by the fields of the first row and whether they are names.
-template <class ColumnsOf>
-TimedSamples parse_rows(std::string_view text, const std::string& name, ColumnsOf columns_of) {
+TimedSamples parse_samples(std::string_view text, const std::string& name, const ColumnChoice& choice) {
     Table table(text, name);
     Fields fields;
     if (!table.next(fields)) table.fail_whole("has no samples");
     const bool named = names_columns(fields);
-    const Columns columns = columns_of(table, fields, named);
+    const Columns columns = columns_of(table, fields, named, choice);
     bool more = !named || table.next(fields);
     const std::size_t width = columns.width;
     TimedSamples rows;
@@ -287,33 +276,8 @@ TimedSamples parse_rows(std::string_view text, const std::string& name, ColumnsO
     return rows;
 }
 
-}  // namespace
-
-TimedSamples parse_timed_samples(std::string_view text, const std::string& name) {
-    return parse_rows(text, name, [](const Table& table, const Fields& fields, bool named) {
-        return named ? named_columns(table, fields) : Columns();
-    });
-}
-
-std::vector<signal::Sample> parse_signal(std::string_view text, const std::string& name,
-                                         const ColumnChoice& choice) {
-    return parse_rows(text, name,
-                      [&](const Table& table, const Fields& fields, bool named) {
-                          return signal_columns(table, fields, named, choice);
-                      })
-        .samples;
-}
-
-std::vector<signal::Sample> read_signal(const std::filesystem::path& path, const ColumnChoice& choice) {
-    return parse_signal(read_text_file(path), path.string(), choice);
-}
-
-TimedSamples read_timed_samples(const std::filesystem::path& path) {
-    return parse_timed_samples(read_text_file(path), path.string());
-}
-
-std::vector<signal::Sample> parse_samples(std::string_view text, const std::string& name) {
-    return parse_timed_samples(text, name).samples;
+TimedSamples read_samples(const std::filesystem::path& path, const ColumnChoice& choice) {
+    return parse_samples(read_text_file(path), path.string(), choice);
 }
 
 std::vector<double> parse_response(std::string_view text, const std::string& name, std::size_t count) {

@@ -1,10 +1,11 @@
 // Reads samples of a signal from CSV files, for the subcommand and the lab.
 //
-// Columns are separated by commas; quotes enclose a field. A first row of names is optional. Without one,
-// samples have exactly two columns, dt and input; with one, the columns are found by name, and a column
-// `time`, which must not decrease, may replace `dt`: filters then start at the first row, whatever its time.
-// Empty lines at the end are ignored; any other value that is not a finite number of at most 1e9 is refused,
-// with its file, row and column.
+// Columns are separated by commas; quotes enclose a field. The first row may name them, in any case and with
+// a unit in brackets: the time is in dt, time, t, seconds or the like, the value in input, value, x, y or the
+// like; of two columns, the value is the one that is not the time. Without names, samples have two columns,
+// dt and input. Times must not decrease; filters start at the first row, whatever its time. Empty lines at
+// the end are ignored; any other value that is not a finite number of at most 1e9 is refused, with its file,
+// row and column.
 #pragma once
 
 #include <cstddef>
@@ -24,23 +25,16 @@ struct TimedSamples {
     std::vector<double> times;
 };
 
-/// `name` is the file's, for messages: "samples.csv: row 3, column 2 (input): expected a number, found "x"".
-/// Throws std::runtime_error. Refuses a file without samples.
-TimedSamples parse_timed_samples(std::string_view text, const std::string& name);
-TimedSamples read_timed_samples(const std::filesystem::path& path);
-std::vector<signal::Sample> parse_samples(std::string_view text, const std::string& name);
-
 /// Which columns to read, by name or by number from 1; empty: found by their usual names.
 struct ColumnChoice {
     std::string time, value;
 };
 
-/// Samples of a file with any columns: the time is in dt, time, t, seconds or the like, the value in input,
-/// value, x, y or the like, whatever the case and the unit in brackets; of two columns, the value is the one
-/// that is not the time. Throws std::runtime_error with the names of the columns if that does not decide.
-std::vector<signal::Sample> parse_signal(std::string_view text, const std::string& name,
-                                         const ColumnChoice& choice = {});
-std::vector<signal::Sample> read_signal(const std::filesystem::path& path, const ColumnChoice& choice = {});
+/// `name` is the file's, for messages: "samples.csv: row 3, column 2 (input): expected a number, found "x"".
+/// Throws std::runtime_error; names the columns there are if they do not say which to take. Refuses a file
+/// without samples.
+TimedSamples parse_samples(std::string_view text, const std::string& name, const ColumnChoice& choice = {});
+TimedSamples read_samples(const std::filesystem::path& path, const ColumnChoice& choice = {});
 
 /// A response to `count` samples, one number per row: the column named output, response or value, or else the
 /// last one. So the output of `tendril signal` can be fitted.

@@ -121,7 +121,7 @@ void take_file(SignalPart& part, const std::string& path) {
     const std::string text = read_text_file(path);
     InputRows rows;
     try {
-        rows = parse_samples(text, path);
+        rows = parse_samples(text, path, {.time = {}, .value = "input"}).samples;
     } catch (const std::runtime_error&) {
         rows = rows_to_answer(part);
     }

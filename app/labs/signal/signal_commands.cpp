@@ -192,7 +192,7 @@ void reset(SignalPart& part, const Arguments&) {
 }
 
 std::shared_ptr<const InputRows> read_rows(const std::string& path, const ColumnChoice& choice) {
-    InputRows rows = read_signal(path, choice);
+    InputRows rows = read_samples(path, choice).samples;
     if (rows.size() > max_input_rows) {
         throw Refused(path + " has " + std::to_string(rows.size()) + " rows; the maximum is " +
                       std::to_string(max_input_rows));

@@ -224,6 +224,14 @@ TEST_F(SignalProgram, says_what_is_wrong_with_a_filter_and_where) {
     }
 }
 
+TEST_F(SignalProgram, finds_columns_by_name_and_unit_as_the_lab_does) {
+    const std::string filter = R"({"kind": "interp_to"})";
+    const Outcome plain = run(filter, "time,input\n0,0\n0.5,1\n");
+    ASSERT_TRUE(succeeded(plain));
+    for (const char* samples : {"Time (ms),Height\n0,0\n500,1\n", "Value [m],T\n0,0\n1,0.5\n"})
+        EXPECT_EQ(run(filter, samples).out, plain.out) << samples;
+}
+
 TEST_F(SignalProgram, says_what_is_wrong_with_samples_by_row_and_column) {
     struct Bad {
         const char* samples;
@@ -247,7 +255,7 @@ TEST_F(SignalProgram, says_what_is_wrong_with_samples_by_row_and_column) {
         {"dt\tinput\n0.1\t0\n", {"row 1", "columns are separated by commas", "tab"}},
         {"time,input\n0,0\n0.2,1\n0.1,1\n", {"row 4", "column 1 (time)", "at least 0.2", "found 0.1"}},
         {"time,input\n-1e9,0\n1e9,1\n", {"row 3", "column 1 (time)", "1e9 s after"}},
-        {"when,what\n0.1,0\n", {"row 1", "dt and input"}},
+        {"when,what\n0.1,0\n", {"row 1", "time", "when, what"}},
     };
     for (const Bad& bad : all) {
         const Outcome outcome = run(R"({"kind": "interp_to"})", bad.samples);
