@@ -36,6 +36,7 @@
 #include <vector>
 
 #include "tendril/humanoid/capsules.hpp"
+#include "tendril/humanoid/ground.hpp"
 #include "tendril/humanoid/limits.hpp"
 
 namespace tendril::humanoid {
@@ -68,6 +69,15 @@ struct BodyOptions {
     /// Metres, 0 to 1: lets the pose relax towards the clip as if the targets had moved that far. For the
     /// frames after a target is released; without it the rest of the body would stay pulled.
     double settle = 0.0;
+    /// Keeps the centre of mass (balance.hpp) over the standing feet: hips and trunk move so that it stays in
+    /// the support, while the targets are reached as nearly as that allows. Arms without a target are no
+    /// counterweight. As far as the clip is out of balance, the pose may be. Without effect if the legs allow
+    /// no soles.
+    bool balance = false;
+    /// Part of the support, from its edge to its middle, that the centre of mass keeps clear of: 0 to 0.9.
+    double reserve = 0.25;
+    const Ground* ground =
+        nullptr;  ///< which feet stand, for balance; null: the lowest sole is on the ground
 };
 
 /// Where the last solve ended, for the next one to start from. If empty, it starts from the clip's pose.
@@ -80,6 +90,7 @@ struct BodyState {
     double deepest = 0.0;                           ///< deepest overlap of two capsules, metres
     std::array<glm::dvec3, effector_count> left{};  ///< from each effector to its target, metres
     std::array<double, effector_count> weights{};   ///< of the targets; 0: no target
+    double outside = 0.0;                           ///< BodyReport::outside
     double pace = 0.0;                              ///< limit on a joint's movement in that solve, metres
     bool operator==(const BodyState&) const = default;
 };
@@ -91,6 +102,9 @@ struct BodyReport {
     std::array<double, effector_count> residuals{};  ///< metres; 0: no target
     std::array<bool, bone_count> at_limit{};         ///< joints that their limits hold back
     double penetration = 0.0;                        ///< deepest overlap of two capsules, metres
+    /// Metres by which the centre of mass leaves the safe part of the support although `balance` is on,
+    /// beyond what the clip does. While targets hold it there, above 0 but small.
+    double outside = 0.0;
 };
 
 namespace detail {
