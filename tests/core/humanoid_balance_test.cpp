@@ -78,7 +78,8 @@ TEST_F(HumanoidBalance, MassesAreThoseOfThePaper) {
     EXPECT_NEAR(sum, 1.0, 1e-12);
     const glm::dvec3 centre = masses.centre(placed(rest));
     EXPECT_NEAR(centre.x, 0.0, 1e-12);
-    // An adult's centre of mass is at 0.55 to 0.58 of the height; arms raised to the sides lift it by a little.
+    // An adult's centre of mass is at 0.55 to 0.58 of the height; arms raised to the sides lift it by a
+    // little.
     EXPECT_GT(centre.y, 0.54 * 1.8);
     EXPECT_LT(centre.y, 0.60 * 1.8);
 }
@@ -158,7 +159,8 @@ TEST_F(HumanoidBalance, AClipThatIsOutOfBalanceMayStaySo) {
     const std::vector<BodyTarget> targets{{Effector::RightHand, at(Bone::RightHand, pose)}};
     ASSERT_TRUE(body.solve(pose, targets, state, {.balance = true}));
     for (std::size_t i = 0; i < pose.size(); ++i) {
-        EXPECT_LT(glm::distance(placed(pose)[i].position, placed(clip)[i].position), 1e-3) << skeleton[i].name;
+        EXPECT_LT(glm::distance(placed(pose)[i].position, placed(clip)[i].position), 1e-3)
+            << skeleton[i].name;
     }
 }
 

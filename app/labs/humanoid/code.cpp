@@ -265,6 +265,12 @@ class HumanoidProgram {
             members.push_back(".weight = " + double_text(target.weight));
             list("targets.push_back({", members, "});");
         }
+        const humanoid::BodyOptions options = body_options(part_, solvers_);
+        if (options.balance) {
+            std::vector<std::string> members{".balance = true", ".reserve = " + double_text(options.reserve)};
+            if (options.ground != nullptr) members.push_back(".ground = &ground");
+            list("const humanoid::BodyOptions body_options{", members, "};");
+        }
         say("humanoid::BodyState body_state;");
         body_state(part_.ik_state.body);
     }
@@ -286,6 +292,7 @@ class HumanoidProgram {
         say("body_state.deepest = " + double_text(state.deepest) + ';');
         points("left", state.left);
         list("body_state.weights = {", weights, "};");
+        if (state.outside != 0.0) say("body_state.outside = " + double_text(state.outside) + ';');
         say("body_state.pace = " + double_text(state.pace) + ';');
     }
 
@@ -362,7 +369,8 @@ class HumanoidProgram {
         say(posed_ ? "std::vector<rig::Transform> pose(std::begin(pose_rows), std::end(pose_rows));"
                    : "std::vector<rig::Transform> pose = humanoid::rest_pose(*skeleton);");
         const auto solve = [&] {
-            say("if (const auto solved = body->solve(pose, targets, body_state); !solved)");
+            const std::string options = part_.ik.balance.on ? ", body_options" : "";
+            say("if (const auto solved = body->solve(pose, targets, body_state" + options + "); !solved)");
             say("    std::puts(solved.message());");
         };
         if (feet_on()) say("feet->step(pose, ground, dt, feet_state, feet_options);");

@@ -44,6 +44,14 @@ std::span<const Field> fields<app::GroundSetting>() noexcept {
 }
 
 template <>
+std::span<const Field> fields<app::BalanceSetting>() noexcept {
+    using namespace app;
+    static constexpr Field rows[] = {field<&BalanceSetting::on>("on"),
+                                     field<&BalanceSetting::reserve>("reserve", {0.0, max_reserve})};
+    return rows;
+}
+
+template <>
 std::span<const Field> fields<app::FootIkSetting>() noexcept {
     using namespace app;
     static constexpr Field rows[] = {
@@ -113,6 +121,24 @@ std::span<const FieldText> field_texts<GroundSetting>() {
          .decimals = 1,
          .scale = 100.0,
          .unit = "cm"}};
+    return texts;
+}
+
+template <>
+std::span<const FieldText> field_texts<BalanceSetting>() {
+    static constexpr FieldText texts[] = {
+        {.name = "on",
+         .label = "Balance",
+         .help = "Hips and trunk move so that the centre of mass stays over the feet; a hand stops short "
+                 "where the body would fall."},
+        {.name = "reserve",
+         .label = "reserve",
+         .help = "How far the centre of mass keeps from the edge of the feet. 0: it may come to the edge. "
+                 "90 %: it stays in the middle.",
+         .step = 0.5f,
+         .decimals = 0,
+         .scale = 100.0,
+         .unit = "%"}};
     return texts;
 }
 

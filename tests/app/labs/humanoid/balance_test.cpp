@@ -1,0 +1,106 @@
+// Balance in the Humanoid lab: a switch, what the panel says of it, its file, its code and its picture.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/labs/humanoid/humanoid_runtime.hpp"
+#include "humanoid_support.hpp"
+#include "tests/places.hpp"
+#include "tests/says.hpp"
+
+namespace tendril::app {
+namespace {
+
+class HumanoidBalanceLab : public HumanoidTest {
+  protected:
+    Json balance() { return state().at("body").at("balance"); }
+    std::string text() { return balance().at("text").get<std::string>(); }
+    /// Drags a hand from where it is, 2 cm at a time.
+    void drag(const char* effector, glm::dvec3 to) {
+        const glm::dvec3 from =
+            shown_pose(workspace)
+                .placed[*part().node_of(humanoid::bone_of(*humanoid::effector_named(effector)))]
+                .position;
+        const int steps = static_cast<int>(std::ceil(glm::distance(from, to) / 0.02)) + 1;
+        for (int i = 1; i <= steps; ++i) {
+            const glm::dvec3 at = glm::mix(from, to, static_cast<double>(i) / steps);
+            run("humanoid.target", {{"effector", effector}, {"to", {at.x, at.y, at.z}}});
+        }
+    }
+};
+
+TEST_F(HumanoidBalanceLab, ThePanelSaysWhereTheCentreOfMassIs) {
+    EXPECT_FALSE(balance().contains("text"));
+    run("humanoid.balance", {{"on", true}});
+    EXPECT_TRUE(test::says(text(), "cm inside the feet"));
+    EXPECT_GT(balance().at("margin").get<double>(), 0.03);
+    EXPECT_GE(balance().at("support").size(), 6u);
+    const auto where = [&](glm::dvec3 by) {  // the margin of a body that is pulled along by its hips
+        run("humanoid.target", {{"effector", "left_foot"}});
+        run("humanoid.target", {{"effector", "right_foot"}});
+        ShownPose shown = shown_pose(workspace);
+        shown.balance->centre += by;
+        shown.balance->margin = shown.balance->support.margin(shown.balance->centre);
+        return balance_text(part(), shown, humanoid_runtime(workspace).solvers);
+    };
+    EXPECT_TRUE(test::says(where({0.0, 0.0, 0.3}), "cm ahead of the feet"));
+    EXPECT_TRUE(test::says(where({0.0, 0.0, -0.3}), "cm behind the feet"));
+    EXPECT_TRUE(test::says(where({0.4, 0.0, 0.0}), "cm left of the feet"));
+    EXPECT_TRUE(test::says(where({-4.0, 0.0, 0.0}), "m right of the feet"));
+}
+
+TEST_F(HumanoidBalanceLab, HipsGoBackAsAHandIsDraggedAhead) {
+    const glm::dvec3 to(-0.2, 1.1, 0.95);
+    drag("right_hand", to);
+    const double without = shown_pose(workspace).placed[*part().node_of(humanoid::Bone::Hips)].position.z;
+    run("humanoid.target", {{"effector", "right_hand"}, {"weight", 0}});
+    run("humanoid.balance", {{"on", true}});
+    drag("right_hand", to);
+    EXPECT_LT(shown_pose(workspace).placed[*part().node_of(humanoid::Bone::Hips)].position.z, without - 0.08);
+    EXPECT_TRUE(test::says(text(), "cm inside the feet"));
+    EXPECT_LT(shown_pose(workspace).residual(humanoid::Effector::RightHand).value(), 1e-3);
+}
+
+TEST_F(HumanoidBalanceLab, SwitchedOnItRightsABodyThatLeans) {
+    drag("right_hand", {-0.2, 1.1, 0.95});
+    run("humanoid.balance", {{"on", true}});
+    EXPECT_GT(balance().at("margin").get<double>(), 0.0);
+}
+
+TEST_F(HumanoidBalanceLab, OffIsAsIfItHadNeverBeenOn) {
+    run("humanoid.target", {{"effector", "left_hand"}, {"to", {0.3, 1.3, 0.4}}});
+    const Json before = state();
+    run("humanoid.balance", {{"on", true}});
+    run("humanoid.balance", {{"on", false}});
+    EXPECT_EQ(state(), before);
+}
+
+TEST_F(HumanoidBalanceLab, TheCodeKeepsTheBalanceToo) {
+    run("humanoid.target", {{"effector", "left_hand"}, {"to", {0.3, 1.3, 0.4}}});
+    EXPECT_FALSE(test::says(lab().code(workspace), "body_options"));
+    run("humanoid.balance", {{"on", true}, {"reserve", 0.5}});
+    EXPECT_TRUE(test::says(lab().code(workspace), "BodyOptions body_options .balance = true .reserve = 0.5"));
+    EXPECT_TRUE(test::says(lab().code(workspace), "body->solve(pose, targets, body_state, body_options)"));
+}
+
+TEST_F(HumanoidBalanceLab, NeedsABody) {
+    run("humanoid.map", {{"bone", "LeftHand"}, {"node", ""}});
+    EXPECT_TRUE(test::says(refused("humanoid.balance", {{"on", true}}), "full-body IK is off"));
+}
+
+TEST_F(HumanoidBalanceLab, TheGroundShowsWhatTheFeetSupport) {
+    const auto strokes = [&] {
+        const Camera camera({.target = {0.0f, 0.9f, 0.0f}}, {{0.0f, 0.0f}, {1000.0f, 700.0f}});
+        DrawList list;
+        lab().draw({.workspace = workspace, .camera = camera, .palette = palette(Theme::Dark)}, list);
+        return list.strokes.size();
+    };
+    const std::size_t before = strokes();
+    run("humanoid.balance", {{"on", true}});
+    const std::size_t corners = balance().at("support").size();
+    EXPECT_EQ(strokes(), before + corners + 3);  // the outline, a line and its two ends
+}
+
+}  // namespace
+}  // namespace tendril::app
