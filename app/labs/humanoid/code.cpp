@@ -118,7 +118,8 @@ class HumanoidProgram {
     bool gaze_on() const { return part_.ik.look_at.on && solvers_.look_at(part_) != nullptr; }
     bool feet_on() const { return part_.ik.foot_ik.on && solvers_.feet(part_) != nullptr; }
     std::vector<humanoid::BodyTarget> targets() const { return body_targets(part_.ik); }
-    bool body_on() const { return body_ && (!targets().empty() || part_.ik.self_collision); }
+    bool acts() const { return body_acts(part_, part_.ik_state); }
+    bool body_on() const { return body_ && (acts() || part_.ik.self_collision); }
 
     void head() {
         const std::string file = std::filesystem::path(part_.loaded->file).filename().string();
@@ -268,6 +269,14 @@ class HumanoidProgram {
         const humanoid::BodyOptions options = body_options(part_, solvers_);
         if (options.balance) {
             std::vector<std::string> members{".balance = true", ".reserve = " + double_text(options.reserve)};
+            if (humanoid::FootstepsState steps = part_.ik_state.steps; steps.away()) {
+                std::string feet = ".feet = {";  // where they have stepped
+                for (const humanoid::FootShift& each :
+                     humanoid::advance_steps(steps, solvers_.feet(part_)->soles(), 0.0))
+                    feet += (feet.back() == '{' ? "humanoid::FootShift{" : ", humanoid::FootShift{") +
+                            braced(each.stand) + ", " + double_text(each.lift) + '}';
+                members.push_back(feet + '}');
+            }
             if (options.ground != nullptr) members.push_back(".ground = &ground");
             list("const humanoid::BodyOptions body_options{", members, "};");
         }
@@ -298,7 +307,7 @@ class HumanoidProgram {
 
     void gaze() {
         if (!gaze_on()) return;
-        const humanoid::LookAtOptions options = look_options(part_, body_on() && !targets().empty());
+        const humanoid::LookAtOptions options = look_options(part_, body_on() && acts());
         const humanoid::LookAtOptions usual;
         say("");
         make_solver("LookAt", "look", "*skeleton, map");
@@ -374,10 +383,10 @@ class HumanoidProgram {
             say("    std::puts(solved.message());");
         };
         if (feet_on()) say("feet->step(pose, ground, dt, feet_state, feet_options);");
-        if (body_on() && !targets().empty()) solve();
+        if (body_on() && acts()) solve();
         if (gaze_on()) say("look->step(pose, look_options, dt, look_state);");
         if (hands_on()) say("hands->step(pose, hand_targets, dt, hands_state, hands_options);");
-        if (body_on() && targets().empty()) solve();
+        if (body_on() && !acts()) solve();
         for (std::size_t i = 0; i < chains.size(); ++i) {
             const std::string name = "spring_" + std::to_string(i);
             if (chains[i] != nullptr)

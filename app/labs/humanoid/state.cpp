@@ -160,6 +160,7 @@ Json balance_state(const HumanoidPart& part, const ShownPose& shown, Solvers& so
     Json json = save_fields(part.ik.balance);
     if (!shown.balance) return json;
     const humanoid::Support& support = shown.balance->support;
+    json["stepping"] = part.ik_state.steps.stepping();
     json["centre"] = dpoint(shown.balance->centre);
     json["margin"] = support.count > 0 ? Json(shown.balance->margin) : Json(nullptr);
     json["text"] = balance_text(part, shown, solvers);

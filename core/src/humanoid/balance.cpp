@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "humanoid/anatomy.hpp"
+#include "humanoid/balance.hpp"
 #include "humanoid/input.hpp"
 #include "rig/math.hpp"
 
@@ -188,17 +189,25 @@ Support Support::shrunk(double part) const noexcept {
     return smaller;
 }
 
-Support find_support(const Soles& soles, const std::array<SolePoints, 2>& at, const Ground* ground) noexcept {
-    Support support;
-    double lowest = std::min({at[0].heel.y, at[0].toe.y, at[1].heel.y, at[1].toe.y});
-    const auto standing = [&](const glm::dvec3& point) {
-        if (ground == nullptr) return standing_at(point.y - lowest, soles.leg);
+namespace detail {
+
+std::array<SoleHeights, 2> sole_heights(const std::array<SolePoints, 2>& at, const Ground* ground) noexcept {
+    const double lowest = std::min({at[0].heel.y, at[0].toe.y, at[1].heel.y, at[1].toe.y});
+    const auto over = [&](const glm::dvec3& point) {
+        if (ground == nullptr) return point.y - lowest;
         const auto hit = ground->highest(point.x, point.z);
-        return hit ? standing_at(point.y - hit->height, soles.leg) : 0.0;
+        return hit ? point.y - hit->height : static_cast<double>(max_magnitude);
     };
+    return {SoleHeights{over(at[0].heel), over(at[0].toe)}, SoleHeights{over(at[1].heel), over(at[1].toe)}};
+}
+
+Support find_support(const Soles& soles, const std::array<SolePoints, 2>& at,
+                     const std::array<SoleHeights, 2>& over) noexcept {
+    Support support;
     std::array<SolePoints, 2> on = at;
     for (std::size_t side = 0; side < 2; ++side) {
-        const double heel = standing(at[side].heel), toe = standing(at[side].toe), most = std::max(heel, toe);
+        const double heel = standing_at(over[side].heel, soles.leg),
+                     toe = standing_at(over[side].toe, soles.leg), most = std::max(heel, toe);
         support.standing[side] = most;
         if (!(most > 0.0)) continue;
         on[side] = {mix(at[side].toe, at[side].heel, heel / most),
@@ -217,7 +226,7 @@ Support find_support(const Soles& soles, const std::array<SolePoints, 2>& at, co
         const glm::dvec3 aside{ahead.z, 0.0, -ahead.x};
         // The tip lifts with the toes, and shrinks with the foot.
         const double part = support.standing[side] / most;
-        const double toes = standing(at[side].toe) / std::max(support.standing[side], 1e-300);
+        const double toes = standing_at(over[side].toe, soles.leg) / std::max(support.standing[side], 1e-300);
         const glm::dvec3 tip = plus(own.toe, times(ahead, tip_part * soles.leg * std::min(toes, 1.0)));
         const std::pair<glm::dvec3, double> pairs[]{
             {own.heel, end_width}, {own.toe, ball_width}, {tip, end_width}};
@@ -229,6 +238,12 @@ Support find_support(const Soles& soles, const std::array<SolePoints, 2>& at, co
         support.middle = plus(support.middle, times(each, 1.0 / Support::max_corners));
     find_hull(points, support);
     return support;
+}
+
+}  // namespace detail
+
+Support find_support(const Soles& soles, const std::array<SolePoints, 2>& at, const Ground* ground) noexcept {
+    return detail::find_support(soles, at, detail::sole_heights(at, ground));
 }
 
 Support find_support(const Soles& soles, std::span<const Placement> placements,

@@ -230,9 +230,16 @@ Expected<BodyReport> Body::solve(std::span<rig::Transform> pose, std::span<const
         return refused("Body::solve", "options.settle", "from 0 to 1 m", options.settle);
     if (!(options.reserve >= 0.0 && options.reserve <= 0.9))
         return refused("Body::solve", "options.reserve", "from 0 to 0.9", options.reserve);
+    for (const FootShift& foot : options.feet) {
+        if (const Result bad = check_vector("Body::solve", "options.feet.stand", foot.stand); !bad)
+            return bad;
+        if (const Result bad = check_number("Body::solve", "options.feet.lift", foot.lift); !bad) return bad;
+    }
+    const bool moves_feet = options.feet_stay && options.feet != BodyOptions{}.feet;
     const bool touches = options.self_collision && !work_->pairs.empty();
-    if (!touches && std::none_of(targets.begin(), targets.end(),
-                                 [](const BodyTarget& each) { return each.weight > 0.0; })) {
+    if (!touches && !moves_feet && std::none_of(targets.begin(), targets.end(), [](const BodyTarget& each) {
+            return each.weight > 0.0;
+        })) {
         state = BodyState{};
         return BodyReport{};
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "humanoid/balance.hpp"
 #include "humanoid/body_solve.hpp"
 #include "humanoid/joint_turn.hpp"
 #include "rig/math.hpp"
@@ -40,35 +41,50 @@ SolePoints moved_sole(const SolePoints& clip, const glm::dvec3& was, const glm::
 }  // namespace
 
 /// Turns the feet as turn_ends() will. The ankle's limit may tilt a foot that stays: then it rolls over the
-/// ball or the heel, whichever would sink into the ground, and its goal moves along. Finds the support.
+/// ball or the heel, whichever would sink into the ground, and its goal moves along. Finds the support, to
+/// which a foot in the middle of a step belongs as if it did not rise.
 void BodySolve::roll_feet() noexcept {
     std::array<SolePoints, 2> soles = clip_soles_;
+    std::array<SoleHeights, 2> over = clip_heights_;
+    bool target = false;
     for (std::size_t k = 0; k < count_; ++k) {
         Goal& goal = goals_[k];
         const bool left = goal.effector == static_cast<std::size_t>(Effector::LeftFoot);
         if (!left && goal.effector != static_cast<std::size_t>(Effector::RightFoot)) continue;
+        const std::size_t side = left ? 0 : 1;
         Link& link = end_of(goal.effector);
         const glm::dquat above = work_.links[static_cast<std::size_t>(link.parent)].rotation;
         link.turn = math::compose(conjugate(above), rotation_of_end(goal));
         clamp_turn(link);
         link.rotation = math::compose(above, link.turn);
         const glm::dquat turn = math::compose(link.rotation, conjugate(link.start));
-        const SolePoints& clip = clip_soles_[left ? 0 : 1];
+        const SolePoints& clip = clip_soles_[side];
         const glm::dvec3& was = work_.placements[link.node].position;
-        SolePoints& now = soles[left ? 0 : 1];
-        if (!goal.target) {
-            now = moved_sole(clip, was, was, turn);
-            const double heel = std::max(clip.heel.y - now.heel.y, 0.0),
-                         toe = std::max(clip.toe.y - now.toe.y, 0.0), both = heel + toe;
-            goal.position = was;
-            if (both > 0.0)
-                goal.position =
-                    plus(was, mix(minus(clip.heel, now.heel), minus(clip.toe, now.toe), toe / both));
+        if (goal.target) {
+            soles[side] = moved_sole(clip, was, goal.position, turn);
+            target = true;
+            continue;
         }
-        now = moved_sole(clip, was, goal.position, turn);
+        SolePoints now = moved_sole(clip, was, was, turn);
+        const double heel = std::max(clip.heel.y - now.heel.y, 0.0),
+                     toe = std::max(clip.toe.y - now.toe.y, 0.0), both = heel + toe;
+        glm::dvec3 rolled = was;
+        if (both > 0.0) {
+            const glm::dvec3 by = mix(minus(clip.heel, now.heel), minus(clip.toe, now.toe), toe / both);
+            rolled = plus(was, times(by, std::min(both / (rolling_part * work_.soles->leg), 1.0)));
+        }
+        now = moved_sole(clip, was, rolled, turn);
+        over[side].heel += now.heel.y - clip.heel.y;
+        over[side].toe += now.toe.y - clip.toe.y;
+        const FootShift& shift = options_.feet[side];
+        soles[side] = {plus(now.heel, shift.stand), plus(now.toe, shift.stand)};
+        goal.position = plus(rolled, shift.stand);
+        goal.position.y += shift.lift;
     }
     work_.place_links(shift_);
-    safe_ = find_support(*work_.soles, soles, options_.ground).shrunk(options_.reserve);
+    // A target may take a foot anywhere.
+    if (target) over = sole_heights(soles, options_.ground);
+    safe_ = find_support(*work_.soles, soles, over).shrunk(options_.reserve);
 }
 
 /// What the clip's pose is out of balance by is allowed.
@@ -76,7 +92,8 @@ void BodySolve::start_balance() noexcept {
     balances_ = false;
     if (!options_.balance || !work_.soles) return;
     clip_soles_ = sole_points(*work_.soles, work_.placements);
-    safe_ = find_support(*work_.soles, clip_soles_, options_.ground).shrunk(options_.reserve);
+    clip_heights_ = sole_heights(clip_soles_, options_.ground);
+    safe_ = find_support(*work_.soles, clip_soles_, clip_heights_).shrunk(options_.reserve);
     if (safe_.count == 0) return;
     const glm::dvec3 centre = centre_of_mass();
     allowed_ = length(minus(centre, safe_.nearest(centre)));

@@ -178,7 +178,10 @@ void BodySolve::set_goals() noexcept {
     for (const Effector foot : {Effector::LeftFoot, Effector::RightFoot}) {
         if (!options_.feet_stay || (seen >> static_cast<unsigned>(foot) & 1u)) continue;
         const Link& link = end_of(static_cast<std::size_t>(foot));
-        add(foot, work_.placements[link.node].position, planted_foot_weight, nullptr);
+        const FootShift& shift = options_.feet[foot == Effector::LeftFoot ? 0 : 1];
+        glm::dvec3 at = work_.placements[link.node].position;
+        if (!(shift == FootShift())) at = plus(at, shift.stand), at.y += shift.lift;
+        add(foot, at, planted_foot_weight, nullptr);
     }
 }
 

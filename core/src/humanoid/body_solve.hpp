@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "humanoid/balance.hpp"
 #include "humanoid/body_tuning.hpp"
 #include "humanoid/body_work.hpp"
 
@@ -129,6 +130,7 @@ class BodySolve {
     std::size_t contact_count_ = 0;
     bool balances_ = false;
     std::array<SolePoints, 2> clip_soles_{};
+    std::array<SoleHeights, 2> clip_heights_{};
     Support safe_{};                     ///< where the centre of mass should be
     double allowed_ = 0.0;               ///< how far outside of it the clip has it, metres
     double outside_ = 0.0;               ///< how much farther it is now

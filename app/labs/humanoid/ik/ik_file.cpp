@@ -197,6 +197,7 @@ Json ik_json(const HumanoidPart& part) {
     json["look_at"] = save_fields(part.ik.look_at);
     if (!(part.ik_state.hands == humanoid::HandsState())) json["hands"] = written(part.ik_state.hands);
     if (!(part.ik_state.look == humanoid::LookAtState())) json["look"] = written(part.ik_state.look);
+    if (part.ik_state.steps.away()) json["steps"] = written(part.ik_state.steps);
     if (!(part.ik_state.feet == humanoid::FeetState())) json["feet"] = written(part.ik_state.feet);
     if (!(part.ik_state.release == Release()))
         json["release"] = release_json(part.ik_state.release, part.skeleton());
@@ -217,6 +218,10 @@ void read_ik(const JsonPlace& place, HumanoidPart& part) {
     if (const auto hands = place.optional("hands")) read_number(*hands, part.ik_state.hands);
     if (const auto look = place.optional("look")) read_number(*look, part.ik_state.look);
     if (const auto feet = place.optional("feet")) read_number(*feet, part.ik_state.feet);
+    if (const auto steps = place.optional("steps")) {
+        read_number(*steps, part.ik_state.steps);
+        if (const Result bad = humanoid::check(part.ik_state.steps); !bad) steps->fail(bad.message());
+    }
     if (const auto release = place.optional("release"))
         part.ik_state.release = read_release(*release, part.skeleton());
     if (const auto body = place.optional("body")) part.ik_state.body = read_body(*body);

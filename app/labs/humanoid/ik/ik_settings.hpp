@@ -6,6 +6,7 @@
 #include <optional>
 #include <tendril/humanoid/body.hpp>
 #include <tendril/humanoid/feet.hpp>
+#include <tendril/humanoid/footsteps.hpp>
 #include <tendril/humanoid/hands.hpp>
 #include <tendril/humanoid/look_at.hpp>
 #include <tendril/humanoid/spring_chain.hpp>
@@ -73,9 +74,11 @@ struct LookAtSetting {
 struct BalanceSetting {
     bool on = false;
     double reserve = 0.25;  ///< part of the support, from its edge inwards, to keep clear of
+    bool steps = true;      ///< a foot steps when that is not enough; needs running time
+    double step_seconds = 0.3;
     bool operator==(const BalanceSetting&) const = default;
 };
-inline constexpr double max_reserve = 0.9;
+inline constexpr double max_reserve = 0.9, min_step_seconds = 0.05, max_step_seconds = 5.0;
 
 struct IkSettings {
     std::array<std::optional<TargetSetting>, humanoid::effector_count> targets{};
@@ -113,6 +116,7 @@ struct Release {
 
 struct IkState {
     humanoid::BodyState body{};
+    humanoid::FootstepsState steps{};
     humanoid::FeetState feet{};
     humanoid::HandsState hands{};
     humanoid::LookAtState look{};

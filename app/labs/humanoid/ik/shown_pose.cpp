@@ -102,6 +102,14 @@ humanoid::BodyOptions body_options(const HumanoidPart& part, Solvers& solvers) {
     return options;
 }
 
+humanoid::FootstepOptions footstep_options(const HumanoidPart& part) {
+    return {.seconds = part.ik.balance.step_seconds};
+}
+
+bool body_acts(const HumanoidPart& part, const IkState& state) {
+    return state.steps.away() || !body_targets(part.ik).empty();
+}
+
 humanoid::FeetOptions feet_options(const HumanoidPart& part, Solvers& solvers) {
     const FootIkSetting& setting = part.ik.foot_ik;
     humanoid::FeetOptions options{.floor = solvers.floor(part),
@@ -149,19 +157,36 @@ std::optional<double> ShownPose::residual(humanoid::Effector effector) const {
 
 namespace {
 
+/// Full-body IK with the feet that step, and the next step.
+void reach_and_step(const HumanoidPart& part, Solvers& solvers, humanoid::Body& body, double dt,
+                    IkState& state, ShownPose& shown) {
+    humanoid::BodyOptions options = body_options(part, solvers);
+    const humanoid::Masses* const masses = solvers.masses(part);
+    if (masses == nullptr || !part.ik.balance.on || !part.ik.balance.steps) {
+        state.steps = {};
+        reach(body, body_targets(part.ik), options, dt, state, shown);
+        return;
+    }
+    const humanoid::Soles& soles = solvers.feet(part)->soles();
+    options.feet = humanoid::advance_steps(state.steps, soles, dt, footstep_options(part));
+    const std::vector<rig::Transform> clip = shown.local;
+    reach(body, body_targets(part.ik), options, dt, state, shown);
+    if (!(dt > 0.0) || !shown.body) return;
+    humanoid::plan_step(state.steps, soles, masses->centre(placed(part, shown.local)), placed(part, clip),
+                        state.body, options.ground);
+}
+
 /// All steps between the clip and the springs.
 void solve(const HumanoidPart& part, Solvers& solvers, double dt, IkState& state, ShownPose& shown) {
     stand(part, solvers, dt, state, shown);
-    const std::vector<humanoid::BodyTarget> targets = body_targets(part.ik);
-    const bool moves = !targets.empty() || part.ik.self_collision;
+    const bool acts = body_acts(part, state), moves = acts || part.ik.self_collision;
     humanoid::Body* const body = moves ? solvers.body(part) : nullptr;
     if (body == nullptr) state.body = {};
-    const humanoid::BodyOptions options = body_options(part, solvers);
-    if (body != nullptr && !targets.empty()) reach(*body, targets, options, dt, state, shown);
+    if (body != nullptr && acts) reach_and_step(part, solvers, *body, dt, state, shown);
     look(part, solvers, dt, state, shown);
     reach_by_hand(part, solvers, dt, state, shown);
     // Resolves collisions that the clip or hand IK alone would cause.
-    if (body != nullptr && targets.empty()) reach(*body, targets, options, dt, state, shown);
+    if (body != nullptr && !acts) reach(*body, {}, body_options(part, solvers), dt, state, shown);
     pass(state.release, dt);
     apply(state.release, shown.local, part.node_of(humanoid::Bone::Hips));
 }

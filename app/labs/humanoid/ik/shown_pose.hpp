@@ -49,7 +49,11 @@ ShownPose solve_pose(const HumanoidPart& part, Solvers& solvers, double dt, IkSt
 std::vector<rig::Transform> unsolved_pose(const HumanoidPart& part);
 /// Without the hands that hand IK moves.
 std::vector<humanoid::BodyTarget> body_targets(const IkSettings& ik);
+/// Without the feet that step.
 humanoid::BodyOptions body_options(const HumanoidPart& part, Solvers& solvers);
+humanoid::FootstepOptions footstep_options(const HumanoidPart& part);
+/// Whether full-body IK runs before gaze and hands: there is a target, or a foot has stepped away.
+bool body_acts(const HumanoidPart& part, const IkState& state);
 humanoid::FeetOptions feet_options(const HumanoidPart& part, Solvers& solvers);
 /// `body_solved`: targets hold the body, so only neck and head turn.
 humanoid::LookAtOptions look_options(const HumanoidPart& part, bool body_solved);

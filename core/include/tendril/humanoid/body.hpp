@@ -58,6 +58,13 @@ struct BodyTarget {
     double weight = 1.0;  ///< 0 to 1e3, relative to other targets; 0: ignored
 };
 
+/// Where a foot without a target stays: away from the clip's place, as footsteps.hpp moves it.
+struct FootShift {
+    glm::dvec3 stand{0.0};  ///< metres
+    double lift = 0.0;      ///< metres on top of it, upwards; for balance the foot stands even so
+    bool operator==(const FootShift&) const = default;
+};
+
 struct BodyOptions {
     int max_iterations = 20;  ///< 1 to 1000
     double tolerance = 2e-6;  ///< radians (metres for the hips), over 0 to 1; a smaller step ends the solve
@@ -76,6 +83,7 @@ struct BodyOptions {
     bool balance = false;
     /// Part of the support, from its edge to its middle, that the centre of mass keeps clear of: 0 to 0.9.
     double reserve = 0.25;
+    std::array<FootShift, 2> feet{};  ///< left, right; only feet that stay
     const Ground* ground =
         nullptr;  ///< which feet stand, for balance; null: the lowest sole is on the ground
 };
@@ -128,8 +136,8 @@ class Body {
     const BodyJoints& joints() const noexcept;
 
     /// `pose` holds the clip's local transform of every node and is replaced by the pose that reaches the
-    /// targets. Without a target, and without capsules to keep apart, it stays bit-identical and `state` is
-    /// cleared. If the clip exceeds a joint's limit, that limit is widened to the clip. Fails with
+    /// targets. Without a target, a shifted foot or capsules to keep apart, it stays bit-identical and
+    /// `state` is cleared. If the clip exceeds a joint's limit, that limit is widened to the clip. Fails with
     /// InvalidArgument, changing nothing: a number not finite or out of range, two targets of one effector, a
     /// pose without one transform per node, a state of another body, a pose without a finite solution.
     /// Allocates nothing once `state` has been used.

@@ -102,5 +102,53 @@ TEST_F(HumanoidBalanceLab, TheGroundShowsWhatTheFeetSupport) {
     EXPECT_EQ(strokes(), before + corners + 3);  // the outline, a line and its two ends
 }
 
+TEST_F(HumanoidBalanceLab, AFootStepsWhileTheSimulationRuns) {
+    run("humanoid.balance", {{"on", true}});
+    const double ahead = node("LeftFoot").z;
+    drag("right_hand", {-0.2, 1.0, 1.6});
+    EXPECT_NEAR(std::max(node("LeftFoot").z, node("RightFoot").z), ahead, 0.03);  // no time has passed
+    EXPECT_GT(shown_pose(workspace).residual(humanoid::Effector::RightHand).value(), 0.3);
+    tick();
+    tick();
+    EXPECT_TRUE(balance().at("stepping").get<bool>());
+    tick(8);
+    const Workspace other = reopened();  // in the middle of a step
+    EXPECT_EQ(humanoid_part(other).ik_state, part().ik_state);
+    EXPECT_TRUE(test::says(lab().code(workspace), ".feet = humanoid::FootShift"));
+    tick(400);
+    EXPECT_FALSE(balance().at("stepping").get<bool>());
+    EXPECT_FALSE(lab().moving(workspace));
+    EXPECT_LT(shown_pose(workspace).residual(humanoid::Effector::RightHand).value(), 0.03);
+    EXPECT_TRUE(test::says(text(), "cm inside the feet"));
+    EXPECT_GT(std::max(node("LeftFoot").z, node("RightFoot").z), ahead + 0.3);
+    // Let go, the feet step back.
+    run("humanoid.target", {{"effector", "right_hand"}, {"weight", 0}});
+    tick(400);
+    EXPECT_FALSE(part().ik_state.steps.away());
+    EXPECT_NEAR(node("RightFoot").z, ahead, 1e-6);
+}
+
+TEST_F(HumanoidBalanceLab, StepsCanBeSwitchedOff) {
+    run("humanoid.balance", {{"on", true}, {"steps", false}});
+    drag("right_hand", {-0.2, 1.0, 1.6});
+    tick(100);
+    EXPECT_FALSE(part().ik_state.steps.away());
+    run("humanoid.balance", {{"steps", true}});
+    tick(100);
+    EXPECT_TRUE(part().ik_state.steps.away());
+    run("humanoid.balance", {{"on", false}});
+    EXPECT_FALSE(part().ik_state.steps.away());
+}
+
+TEST_F(HumanoidBalanceLab, AFileWithAStepOutOfRangeIsRefused) {
+    run("humanoid.balance", {{"on", true}});
+    drag("right_hand", {-0.2, 1.0, 1.6});
+    tick(10);
+    Json scene = save_scene(workspace);
+    scene["labs"]["humanoid"]["ik"]["steps"]["left"]["part"] = 7;
+    Workspace other = make_blank_workspace(labs);
+    EXPECT_ANY_THROW(load_scene(other, scene));
+}
+
 }  // namespace
 }  // namespace tendril::app
