@@ -2,7 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <filesystem>
+#include <string>
+#include <tendril/humanoid/balance.hpp>
 
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "humanoid_support.hpp"
@@ -16,13 +20,20 @@ class HumanoidBalanceLab : public HumanoidTest {
   protected:
     Json balance() { return state().at("body").at("balance"); }
     std::string text() { return balance().at("text").get<std::string>(); }
-    /// Drags a hand from where it is, 2 cm at a time.
+    double margin_now() {
+        const ShownPose& shown = shown_pose(workspace);
+        Solvers& solvers = humanoid_runtime(workspace).solvers;
+        return humanoid::find_support(solvers.feet(part())->soles(), shown.soles)
+            .margin(solvers.masses(part())->centre(shown.placed));
+    }
+    /// Drags a hand from where it is, 2 cm at a time if 1.8 m tall.
     void drag(const char* effector, glm::dvec3 to) {
         const glm::dvec3 from =
             shown_pose(workspace)
                 .placed[*part().node_of(humanoid::bone_of(*humanoid::effector_named(effector)))]
                 .position;
-        const int steps = static_cast<int>(std::ceil(glm::distance(from, to) / 0.02)) + 1;
+        const double stride = 0.011 * part().loaded->height();
+        const int steps = static_cast<int>(std::ceil(glm::distance(from, to) / stride)) + 1;
         for (int i = 1; i <= steps; ++i) {
             const glm::dvec3 at = glm::mix(from, to, static_cast<double>(i) / steps);
             run("humanoid.target", {{"effector", effector}, {"to", {at.x, at.y, at.z}}});
@@ -148,6 +159,40 @@ TEST_F(HumanoidBalanceLab, AFileWithAStepOutOfRangeIsRefused) {
     scene["labs"]["humanoid"]["ik"]["steps"]["left"]["part"] = 7;
     Workspace other = make_blank_workspace(labs);
     EXPECT_ANY_THROW(load_scene(other, scene));
+}
+
+TEST_F(HumanoidBalanceLab, CharactersThatOthersMadeStandNoWorseWithIt) {
+    const std::filesystem::path folder = test::characters_folder();
+    if (!std::filesystem::is_directory(folder)) GTEST_SKIP() << folder << " is not there";
+    int read = 0, righted = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        const std::string ending = entry.path().extension().string();
+        if (ending != ".glb" && ending != ".gltf" && ending != ".fbx" && ending != ".bvh") continue;
+        run("humanoid.load", {{"path", entry.path().string()}});
+        if (humanoid_runtime(workspace).solvers.masses(part()) == nullptr) continue;
+        ++read;
+        const humanoid::Facing facing = humanoid::facing(part().skeleton(), *part().map);
+        const double height = part().loaded->height();
+        const glm::dvec3 hand =
+            shown_pose(workspace).placed[*part().node_of(humanoid::Bone::RightHand)].position;
+        for (const auto& [ahead, left, up] :
+             {std::array{0.5, 0.1, -0.1}, std::array{0.3, 0.0, -0.5}, std::array{0.1, -0.4, 0.0}}) {
+            const glm::dvec3 to =
+                hand + height * (ahead * facing.forward + left * facing.left + glm::dvec3(0.0, up, 0.0));
+            std::array<double, 2> margins{};
+            for (const bool on : {false, true}) {
+                run("humanoid.balance", {{"on", on}, {"steps", false}});
+                drag("right_hand", to);
+                margins[on ? 1 : 0] = margin_now() / height;
+                run("humanoid.target", {{"effector", "right_hand"}, {"weight", 0}});
+            }
+            EXPECT_GT(margins[1], std::min(margins[0], 0.0) - 0.005)
+                << entry.path() << ": " << ahead << ' ' << left << ' ' << up;
+            if (margins[0] < 0.0 && margins[1] > 0.0) ++righted;
+        }
+    }
+    EXPECT_GT(read, 5);
+    EXPECT_GT(righted, 5);
 }
 
 }  // namespace
