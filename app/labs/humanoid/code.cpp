@@ -118,7 +118,8 @@ class HumanoidProgram {
     bool gaze_on() const { return part_.ik.look_at.on && solvers_.look_at(part_) != nullptr; }
     bool feet_on() const { return part_.ik.foot_ik.on && solvers_.feet(part_) != nullptr; }
     std::vector<humanoid::BodyTarget> targets() const { return body_targets(part_.ik); }
-    bool body_on() const { return body_ && (!targets().empty() || part_.ik.self_collision); }
+    bool acts() const { return body_acts(part_, part_.ik_state); }
+    bool body_on() const { return body_ && (acts() || part_.ik.self_collision); }
 
     void head() {
         const std::string file = std::filesystem::path(part_.loaded->file).filename().string();
@@ -265,6 +266,20 @@ class HumanoidProgram {
             members.push_back(".weight = " + double_text(target.weight));
             list("targets.push_back({", members, "});");
         }
+        const humanoid::BodyOptions options = body_options(part_, solvers_);
+        if (options.balance) {
+            std::vector<std::string> members{".balance = true", ".reserve = " + double_text(options.reserve)};
+            if (humanoid::FootstepsState steps = part_.ik_state.steps; steps.away()) {
+                std::string feet = ".feet = {";  // where they have stepped
+                for (const humanoid::FootShift& each :
+                     humanoid::advance_steps(steps, solvers_.feet(part_)->soles(), 0.0))
+                    feet += (feet.back() == '{' ? "humanoid::FootShift{" : ", humanoid::FootShift{") +
+                            braced(each.stand) + ", " + double_text(each.lift) + '}';
+                members.push_back(feet + '}');
+            }
+            if (options.ground != nullptr) members.push_back(".ground = &ground");
+            list("const humanoid::BodyOptions body_options{", members, "};");
+        }
         say("humanoid::BodyState body_state;");
         body_state(part_.ik_state.body);
     }
@@ -286,12 +301,13 @@ class HumanoidProgram {
         say("body_state.deepest = " + double_text(state.deepest) + ';');
         points("left", state.left);
         list("body_state.weights = {", weights, "};");
+        if (state.outside != 0.0) say("body_state.outside = " + double_text(state.outside) + ';');
         say("body_state.pace = " + double_text(state.pace) + ';');
     }
 
     void gaze() {
         if (!gaze_on()) return;
-        const humanoid::LookAtOptions options = look_options(part_, body_on() && !targets().empty());
+        const humanoid::LookAtOptions options = look_options(part_, body_on() && acts());
         const humanoid::LookAtOptions usual;
         say("");
         make_solver("LookAt", "look", "*skeleton, map");
@@ -362,14 +378,15 @@ class HumanoidProgram {
         say(posed_ ? "std::vector<rig::Transform> pose(std::begin(pose_rows), std::end(pose_rows));"
                    : "std::vector<rig::Transform> pose = humanoid::rest_pose(*skeleton);");
         const auto solve = [&] {
-            say("if (const auto solved = body->solve(pose, targets, body_state); !solved)");
+            const std::string options = part_.ik.balance.on ? ", body_options" : "";
+            say("if (const auto solved = body->solve(pose, targets, body_state" + options + "); !solved)");
             say("    std::puts(solved.message());");
         };
         if (feet_on()) say("feet->step(pose, ground, dt, feet_state, feet_options);");
-        if (body_on() && !targets().empty()) solve();
+        if (body_on() && acts()) solve();
         if (gaze_on()) say("look->step(pose, look_options, dt, look_state);");
         if (hands_on()) say("hands->step(pose, hand_targets, dt, hands_state, hands_options);");
-        if (body_on() && targets().empty()) solve();
+        if (body_on() && !acts()) solve();
         for (std::size_t i = 0; i < chains.size(); ++i) {
             const std::string name = "spring_" + std::to_string(i);
             if (chains[i] != nullptr)

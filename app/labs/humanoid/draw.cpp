@@ -40,6 +40,7 @@ class Drawing {
         const std::size_t middle = part_.node_of(humanoid::Bone::Hips).value_or(0);
         draw_ground(view_, list_, part_.ik.ground, shown_.point(middle));
         soles();
+        balance();
         skin();
         volumes();
         if (part_.view.ghost && !shown_.before.empty()) ghost();
@@ -260,6 +261,24 @@ class Drawing {
         if (!any) dot(above(0) < above(parts) ? 0 : parts);
     }
 
+    /// What the feet support, and a plumb line from the centre of mass to the ground.
+    void balance() {
+        if (!shown_.balance || shown_.balance->support.count == 0) return;
+        const humanoid::Support& support = shown_.balance->support;
+        const glm::vec4 quiet(view_.palette.neutral, 0.8f);
+        for (std::size_t i = 0; i < support.count; ++i)
+            list_
+                .line(glm::vec3(support.corners[i]), glm::vec3(support.corners[(i + 1) % support.count]),
+                      px(1.4f), quiet)
+                .layer = Layer::Overlay;
+        const glm::vec3 centre(shown_.balance->centre);
+        const glm::vec3 foot(centre.x, static_cast<float>(support.middle.y), centre.z);
+        const glm::vec3 colour = shown_.balance->margin >= 0.0 ? view_.palette.tail : view_.palette.limit;
+        list_.line(centre, foot, px(1.0f), glm::vec4(colour, 0.5f)).layer = Layer::Overlay;
+        for (const auto& [at, radius] : {std::pair(centre, 3.0f), std::pair(foot, 4.5f)})
+            list_.sphere(at, px(radius), Unit::Pixels, glm::vec4(colour, 1.0f)).layer = Layer::Overlay;
+    }
+
     void ghost() {
         const glm::vec4 paint = faded(view_.palette, view_.palette.ghost, 0.6f);
         const auto at = [&](std::size_t i) { return glm::vec3(shown_.before[i].position); };
@@ -358,6 +377,8 @@ std::vector<LegendRow> HumanoidLab::legend(const Workspace& workspace) const {
     if (std::ranges::find(body, false) != body.end()) rows.push_back({"helper", colours.neutral});
     if (shown.feet && (shown.feet->feet[0].planted || shown.feet->feet[1].planted))
         rows.push_back({"planted", colours.tail});
+    if (shown.balance)
+        rows.push_back({"centre of mass", shown.balance->margin >= 0.0 ? colours.tail : colours.limit});
     if (!part.springs.empty()) rows.push_back({"on a spring", attached_colour(colours)});
     if (!part.attachments.list.empty()) rows.push_back({"attached", attached_colour(colours)});
     if (part.view.ghost && !shown.before.empty()) rows.push_back({"before", colours.ghost});

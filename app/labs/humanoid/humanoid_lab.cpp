@@ -35,10 +35,11 @@ bool HumanoidLab::moving(const Workspace& workspace) const {
     constexpr int until_rest = 120;
     const bool stands = part.ik.foot_ik.on && part.ik.ground.kind != humanoid::GroundKind::None;
     const bool eases = part.ik.look_at.on || (part.ik.hand_ik.on && part.ik.has_targets());
+    const bool steps = part.ik.balance.on && part.ik.balance.steps && body_acts(part, part.ik_state);
     const bool swings = !part.springs.empty();
     const bool hangs = !part.attachments.list.empty();
     return goes_on(part.playback, *part.loaded) || part.ik_state.release.left > 0.0 ||
-           ((stands || eases || swings || hangs) && part.quiet_ticks < until_rest);
+           ((stands || eases || steps || swings || hangs) && part.quiet_ticks < until_rest);
 }
 
 void HumanoidLab::step(Workspace& workspace) const {
@@ -47,8 +48,8 @@ void HumanoidLab::step(Workspace& workspace) const {
     HumanoidPart& part = workspace.document.edit<HumanoidPart>(humanoid_lab);
     const double seconds = tick_seconds * static_cast<double>(workspace.clock.speed);
     HumanoidRuntime& runtime = humanoid_runtime(workspace);
-    const bool quiet =
-        !goes_on(part.playback, *part.loaded) && at_rest(part.attachments) && at_rest(part.ik_state.springs);
+    const bool quiet = !part.ik_state.steps.stepping() && !goes_on(part.playback, *part.loaded) &&
+                       at_rest(part.attachments) && at_rest(part.ik_state.springs);
     part.quiet_ticks = quiet ? part.quiet_ticks + 1 : 0;
     advance(part.playback, *part.loaded, seconds);
     const ShownPose shown = solve_pose(part, runtime.solvers, seconds, part.ik_state);

@@ -156,12 +156,26 @@ Json joint_state(const HumanoidPart& part, Solvers& solvers, const ShownPose& sh
             {"clips", range_json(joint->clips)}};
 }
 
+Json balance_state(const HumanoidPart& part, const ShownPose& shown, Solvers& solvers) {
+    Json json = save_fields(part.ik.balance);
+    if (!shown.balance) return json;
+    const humanoid::Support& support = shown.balance->support;
+    json["stepping"] = part.ik_state.steps.stepping();
+    json["centre"] = dpoint(shown.balance->centre);
+    json["margin"] = support.count > 0 ? Json(shown.balance->margin) : Json(nullptr);
+    json["text"] = balance_text(part, shown, solvers);
+    json["support"] = Json::array();
+    for (std::size_t i = 0; i < support.count; ++i) json["support"].push_back(dpoint(support.corners[i]));
+    return json;
+}
+
 Json body_state(const Workspace& workspace, const ShownPose& shown) {
     const HumanoidPart& part = humanoid_part(workspace);
     Solvers& solvers = humanoid_runtime(workspace).solvers;
     Json json{{"usable", solvers.body(part) != nullptr},    {"why_not", solvers.why_no_body(part)},
               {"limits", limits_from.name(part.ik.limits)}, {"joint", joint_state(part, solvers, shown)},
               {"self_collision", part.ik.self_collision},   {"targets", targets_state(part, shown)}};
+    json["balance"] = balance_state(part, shown, solvers);
     for (const auto& [bone, from] : part.ik.joint_limits)
         json["joint_limits"][humanoid::name(bone)] = limits_from.name(from);
     if (shown.body) json["iterations"] = shown.body->iterations;

@@ -84,6 +84,7 @@ Result check_state(const BodyState& state, std::size_t links) noexcept {
     for (const glm::dvec3& clip : state.clip)
         if (const Result bad = check_vector("Body::solve", "state.clip", clip); !bad) return bad;
     if (const Result bad = check_number("Body::solve", "state.deepest", state.deepest); !bad) return bad;
+    if (const Result bad = check_number("Body::solve", "state.outside", state.outside); !bad) return bad;
     if (const Result bad = check_number("Body::solve", "state.pace", state.pace); !bad) return bad;
     for (const double weight : state.weights)
         if (const Result bad = check_number("Body::solve", "state.weights", weight); !bad) return bad;
@@ -177,6 +178,12 @@ Expected<Body> Body::make(const Skeleton& skeleton, const BoneMap& map, const Bo
     work->kept.resize(work->links.size());
     work->twist = TwistNodes::find(skeleton, map);
     find_tips(*work, skeleton);
+    if (const Expected<Masses> masses = find_masses(skeleton, map)) {
+        work->soles = *find_soles(skeleton, map);
+        for (const MassPoint& each : masses->points)
+            for (std::size_t i = 0; i < work->links.size(); ++i)
+                if (work->links[i].node == each.node) work->masses.push_back({each, static_cast<int>(i)});
+    }
     if (const Result bad = work->add_volumes(rest_pose(skeleton), capsules); !bad) return bad;
     work->first.resize(work->links.size() + work->tips.size());
     return Body(std::move(work));
@@ -221,9 +228,18 @@ Expected<BodyReport> Body::solve(std::span<rig::Transform> pose, std::span<const
         return refused("Body::solve", "options.twist_share", "from 0 to 1", options.twist_share);
     if (!(options.settle >= 0.0 && options.settle <= 1.0))
         return refused("Body::solve", "options.settle", "from 0 to 1 m", options.settle);
+    if (!(options.reserve >= 0.0 && options.reserve <= 0.9))
+        return refused("Body::solve", "options.reserve", "from 0 to 0.9", options.reserve);
+    for (const FootShift& foot : options.feet) {
+        if (const Result bad = check_vector("Body::solve", "options.feet.stand", foot.stand); !bad)
+            return bad;
+        if (const Result bad = check_number("Body::solve", "options.feet.lift", foot.lift); !bad) return bad;
+    }
+    const bool moves_feet = options.feet_stay && options.feet != BodyOptions{}.feet;
     const bool touches = options.self_collision && !work_->pairs.empty();
-    if (!touches && std::none_of(targets.begin(), targets.end(),
-                                 [](const BodyTarget& each) { return each.weight > 0.0; })) {
+    if (!touches && !moves_feet && std::none_of(targets.begin(), targets.end(), [](const BodyTarget& each) {
+            return each.weight > 0.0;
+        })) {
         state = BodyState{};
         return BodyReport{};
     }
@@ -268,6 +284,10 @@ void Body::Work::take(std::span<const rig::Transform> pose) noexcept {
         const glm::dquat back = conjugate(link.start);
         volume.from = rotated(back, placements[link.node].axes * volume.capsule.from);
         volume.to = rotated(back, placements[link.node].axes * volume.capsule.to);
+    }
+    for (detail::LinkMass& mass : masses) {
+        const Link& link = links[static_cast<std::size_t>(mass.link)];
+        mass.at = rotated(conjugate(link.start), placements[link.node].axes * mass.point.at);
     }
     for (detail::BodyLimb& limb : limbs) {
         const double a = length(links[static_cast<std::size_t>(limb.lower)].offset);

@@ -78,7 +78,7 @@ std::optional<BodyReport> BodySolve::run(std::span<rig::Transform> pose, BodySta
             relaxation.failed();
         }
     }
-    const double depth = deepest();
+    const double depth = deepest(), out = outside_;
     std::array<glm::dquat, bone_count> turns;
     for (std::size_t i = 0; i < work_.links.size(); ++i)
         turns[i] = rig::normalised(math::compose(work_.links[i].turn, conjugate(work_.links[i].own)));
@@ -86,11 +86,13 @@ std::optional<BodyReport> BodySolve::run(std::span<rig::Transform> pose, BodySta
     if (has_rotations()) find_contacts();  // for the report: hands and head have capsules
     if (!give(pose)) return std::nullopt;
     report(pose, result);
+    result.outside = out;
     state.pace = limit;
     state.left.fill(glm::dvec3(0.0));
     state.weights.fill(0.0);
     state.clip = clip_;
     state.deepest = depth;
+    state.outside = out;
     for (std::size_t k = 0; k < count_; ++k) {
         state.left[goals_[k].effector] = goals_[k].error;
         if (goals_[k].target) state.weights[goals_[k].effector] = goals_[k].weight;
@@ -128,7 +130,8 @@ void BodySolve::cut_to(double limit, double part) noexcept {
 }
 
 double BodySolve::goals_moved(const BodyState& state) const noexcept {
-    double most = std::max(deepest() - state.deepest, options_.settle), far = 0.0, change = 0.0;
+    double most = std::max({deepest() - state.deepest, outside_ - state.outside, options_.settle}), far = 0.0,
+           change = 0.0;
     std::array<double, effector_count> weights{};
     for (std::size_t k = 0; k < count_; ++k) {
         const Goal& goal = goals_[k];
@@ -175,7 +178,10 @@ void BodySolve::set_goals() noexcept {
     for (const Effector foot : {Effector::LeftFoot, Effector::RightFoot}) {
         if (!options_.feet_stay || (seen >> static_cast<unsigned>(foot) & 1u)) continue;
         const Link& link = end_of(static_cast<std::size_t>(foot));
-        add(foot, work_.placements[link.node].position, planted_foot_weight, nullptr);
+        const FootShift& shift = options_.feet[foot == Effector::LeftFoot ? 0 : 1];
+        glm::dvec3 at = work_.placements[link.node].position;
+        if (!(shift == FootShift())) at = plus(at, shift.stand), at.y += shift.lift;
+        add(foot, at, planted_foot_weight, nullptr);
     }
 }
 
@@ -189,6 +195,8 @@ void BodySolve::start(std::span<const rig::Transform> pose, const BodyState& sta
         widen(link);
     }
     shift_ = glm::dvec3(0.0);
+    work_.place_links(shift_);
+    start_balance();
     measure();
     for (BodyLimb& limb : work_.limbs) limb.start = limb.beyond(limb.bend);
     if (!state.turns.empty()) shift_ = state.shift;
@@ -215,6 +223,7 @@ void BodySolve::start(std::span<const rig::Transform> pose, const BodyState& sta
         work_.links.front().turn = wanted_rotation(work_.links.front(), *goals_[k].target);
     }
     work_.place_links(shift_);
+    if (balances_) roll_feet();
     for (std::size_t i = 0; i < work_.links.size(); ++i) work_.first[i] = work_.links[i].position;
     for (std::size_t i = 0; i < work_.tips.size(); ++i)
         work_.first[work_.links.size() + i] = work_.place_of(work_.tips[i]);
@@ -222,6 +231,7 @@ void BodySolve::start(std::span<const rig::Transform> pose, const BodyState& sta
 
 double BodySolve::measure() noexcept {
     work_.place_links(shift_);
+    if (balances_) roll_feet();
     for (BodyLimb& limb : work_.limbs) {
         const Link& upper = work_.links[static_cast<std::size_t>(limb.upper)];
         const Link& lower = work_.links[static_cast<std::size_t>(limb.lower)];
@@ -243,7 +253,7 @@ double BodySolve::measure() noexcept {
         cost += 0.5 * goal.weight * dot(goal.error, goal.error);
     }
     find_contacts();
-    return cost + contact_cost();
+    return cost + measure_balance() + contact_cost();
 }
 
 bool BodySolve::has_rotations() const noexcept {
@@ -263,13 +273,16 @@ void BodySolve::turn_ends() noexcept {
     work_.place_links(shift_);
 }
 
+glm::dquat BodySolve::rotation_of_end(const Goal& goal) const noexcept {
+    const Link& link = end_of(goal.effector);
+    return goal.target && goal.target->rotation ? wanted_rotation(link, *goal.target) : link.start;
+}
+
 void BodySolve::turn_end(const Goal& goal) noexcept {
     Link& link = end_of(goal.effector);
     if (link.parent < 0) return;
     Link& before = work_.links[static_cast<std::size_t>(link.parent)];
-    glm::dquat wanted = link.start;
-    if (goal.target && goal.target->rotation) wanted = wanted_rotation(link, *goal.target);
-    link.turn = math::compose(conjugate(before.rotation), wanted);
+    link.turn = math::compose(conjugate(before.rotation), rotation_of_end(goal));
     if (goal.effector == static_cast<std::size_t>(Effector::LeftHand) ||
         goal.effector == static_cast<std::size_t>(Effector::RightHand)) {
         // The lower arm takes part of the twist about its own axis, which moves no joint.

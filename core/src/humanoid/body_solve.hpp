@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "humanoid/balance.hpp"
 #include "humanoid/body_tuning.hpp"
 #include "humanoid/body_work.hpp"
 
@@ -80,6 +81,16 @@ class BodySolve {
     bool update_active_set() noexcept;
     bool block_limits() noexcept;
     bool hold_contacts() noexcept;
+    // Balance: body_balance.cpp.
+    glm::dvec3 centre_of_mass() const noexcept;
+    void roll_feet() noexcept;
+    void start_balance() noexcept;
+    double measure_balance() noexcept;
+    void find_mass_arms() noexcept;
+    void start_balance_step() noexcept;
+    void add_balance_row(const glm::dvec3& out, double by) noexcept;
+    bool hold_balance() noexcept;
+
     void find_contacts() noexcept;
     double contact_cost() const noexcept;
     /// Deepest overlap of two capsules, metres.
@@ -96,6 +107,8 @@ class BodySolve {
     bool has_rotations() const noexcept;
     void turn_ends() noexcept;
     bool give(std::span<rig::Transform> pose) noexcept;
+    /// The rotation that a goal asks of its bone, before the limit.
+    glm::dquat rotation_of_end(const Goal& goal) const noexcept;
     void turn_end(const Goal& goal) noexcept;
     void report(std::span<const rig::Transform> pose, BodyReport& report) noexcept;
 
@@ -115,6 +128,16 @@ class BodySolve {
     std::size_t row_count_ = 0;
     std::array<Contact, max_contacts> contacts_{};
     std::size_t contact_count_ = 0;
+    bool balances_ = false;
+    std::array<SolePoints, 2> clip_soles_{};
+    std::array<SoleHeights, 2> clip_heights_{};
+    Support safe_{};                     ///< where the centre of mass should be
+    double allowed_ = 0.0;               ///< how far outside of it the clip has it, metres
+    double outside_ = 0.0;               ///< how much farther it is now
+    glm::dvec3 centre_{0.0}, out_{0.0};  ///< the centre of mass; unit, horizontal, away from the safe part
+    int balance_row_ = -1;               ///< its equation; -1: inactive in this step
+    bool balance_released_ = false;
+    std::array<glm::dvec3, bone_count> mass_arms_{};  ///< from a link to the mass it moves, times that mass
     RowEquations equations_{};
     std::array<double, max_rows> forces_{};
 };

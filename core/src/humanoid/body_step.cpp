@@ -100,6 +100,7 @@ void BodySolve::find_step(double damping, const Relaxation& relaxation) noexcept
     }
     shift_back_ = times(shift_, -share);
     add_goal_rows();
+    start_balance_step();
     solve_rows(damping);
     for (int i = 0; i < max_active_set_changes && update_active_set(); ++i) solve_rows(damping);
 }
@@ -154,8 +155,8 @@ void BodySolve::solve_rows(double damping) noexcept {
 }
 
 bool BodySolve::update_active_set() noexcept {
-    const bool limits = block_limits(), contacts = hold_contacts();
-    return limits || contacts;
+    const bool limits = block_limits(), balance = hold_balance(), contacts = hold_contacts();
+    return limits || balance || contacts;
 }
 
 bool BodySolve::block_limits() noexcept {

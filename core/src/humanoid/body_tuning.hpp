@@ -11,6 +11,10 @@ namespace tendril::humanoid::detail {
 inline constexpr double planted_foot_weight = 30.0;
 /// A target 0.5 m out of reach presses capsules 2 mm into each other.
 inline constexpr double contact_weight = 250.0;
+/// Of the centre of mass, once it leaves the safe part of the support.
+inline constexpr double balance_weight = 100.0;
+/// Part of the leg's length: a tilted foot that would sink this deep rolls over the end that would sink.
+inline constexpr double rolling_part = 0.01;
 /// Of a contact that would pull: almost none, so that its equation stays solvable.
 inline constexpr double released_contact_weight = 1e-9;
 

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "humanoid/anatomy.hpp"
 #include "ik/limits/joint.hpp"
+#include "tendril/humanoid/balance.hpp"
 #include "tendril/humanoid/body.hpp"
 #include "tendril/humanoid/twist.hpp"
 
@@ -77,8 +79,15 @@ struct Pair {
     double apart;  ///< metres, between their axes
 };
 
+/// A mass point on a link, also relative to the link, in its frame, with the clip's scale.
+struct LinkMass {
+    MassPoint point;
+    int link;
+    glm::dvec3 at{0.0};
+};
+
 inline constexpr std::size_t max_contacts = 12;
-inline constexpr std::size_t max_rows = 3 * effector_count + max_contacts;
+inline constexpr std::size_t max_rows = 3 * effector_count + 1 + max_contacts;  ///< one of balance
 
 }  // namespace detail
 
@@ -92,6 +101,8 @@ struct Body::Work {
     std::vector<detail::Tip> tips;
     std::vector<detail::Volume> volumes;
     std::vector<detail::Pair> pairs;
+    std::vector<detail::LinkMass> masses;  ///< empty without soles
+    std::optional<Soles> soles;
     std::array<int, effector_count> ends{};
     TwistNodes twist;
 

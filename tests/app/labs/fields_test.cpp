@@ -98,6 +98,7 @@ std::vector<Table> all_tables() {
         table_of<FootIkSetting>(humanoid_lab, "humanoid.foot_ik", "/ik/foot_ik", Json::object(),
                                 {{"leave_speed", 100}}),
         table_of<HandIkSetting>(humanoid_lab, "humanoid.hand_ik", "/ik/hand_ik"),
+        table_of<BalanceSetting>(humanoid_lab, "humanoid.balance", "/ik/balance"),
         table_of<LookAtSetting>(humanoid_lab, "humanoid.look_at", "/ik/look_at"),
         table_of<HumanoidView>(humanoid_lab, "humanoid.view", "/view"),
         table_of<Playback>(humanoid_lab, "humanoid.clip", "/clip")};

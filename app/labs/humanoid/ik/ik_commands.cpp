@@ -235,7 +235,7 @@ void add_ik_commands(CommandTable& table) {
                    "Sets where the limits of the joints come from", set_limits));
 }
 
-// Commands on hand IK, self-collision and look-at.
+// Commands on hand IK, self-collision, balance and look-at.
 
 namespace {
 
@@ -298,6 +298,14 @@ void set_self_collision(const IkNow& now, HumanoidPart& part, const Arguments& g
     part.ik_state.body = {};
 }
 
+void set_balance(const IkNow& now, HumanoidPart& part, const Arguments& given) {
+    set_fields(given, part.ik.balance);
+    if (part.ik.balance.on) require_body(now, part);
+    if (part.ik.balance.on && now.solvers.masses(part) == nullptr)
+        throw std::invalid_argument("balance is not possible: " + now.solvers.why_no_feet(part));
+    part.ik_state.body = {};  // it moves only as far as its targets do
+}
+
 }  // namespace
 
 void add_hand_commands(CommandTable& table) {
@@ -317,6 +325,10 @@ void add_hand_commands(CommandTable& table) {
     table.add(ik_command("humanoid.self_collision", "Keep hands out of the body",
                          {{.name = "on", .type = ArgumentType::Boolean, .help = "false: turns it off"}},
                          "Keeps hands and lower arms out of the body while it reaches", set_self_collision));
+    table.add(ik_command("humanoid.balance", "Keep the body's balance", field_arguments<BalanceSetting>(),
+                         "Keeps the centre of mass over the feet while the body reaches; anything omitted "
+                         "stays as it is",
+                         set_balance));
     std::vector<Argument> gaze = field_arguments<LookAtSetting>();
     gaze.push_back(point_argument("to", false, "metres; ahead of the head if never given"));
     table.add(ik_command("humanoid.look_at", "Look at a point", std::move(gaze),

@@ -45,7 +45,7 @@ Json body_json(const humanoid::BodyState& state) {
     for (const glm::dvec3& each : state.clip) clip.push_back(dpoint(each));
     return Json{{"turns", std::move(turns)}, {"shift", dpoint(state.shift)}, {"clip", std::move(clip)},
                 {"deepest", state.deepest},  {"left", std::move(left)},      {"weights", state.weights},
-                {"pace", state.pace}};
+                {"pace", state.pace},        {"outside", state.outside}};
 }
 
 humanoid::BodyState read_body(const JsonPlace& place) {
@@ -66,6 +66,7 @@ humanoid::BodyState read_body(const JsonPlace& place) {
     }
     state.deepest = place["deepest"].real(0.0, 1e9);
     state.pace = place["pace"].real(0.0, 1e9);
+    if (const auto outside = place.optional("outside")) state.outside = outside->real(0.0, 1e9);
     return state;
 }
 
@@ -191,10 +192,12 @@ Json ik_json(const HumanoidPart& part) {
     json["ground"] = ground_json(part.ik.ground);
     json["foot_ik"] = save_fields(part.ik.foot_ik);
     json["self_collision"] = part.ik.self_collision;
+    json["balance"] = save_fields(part.ik.balance);
     json["hand_ik"] = hand_ik_json(part.ik.hand_ik);
     json["look_at"] = save_fields(part.ik.look_at);
     if (!(part.ik_state.hands == humanoid::HandsState())) json["hands"] = written(part.ik_state.hands);
     if (!(part.ik_state.look == humanoid::LookAtState())) json["look"] = written(part.ik_state.look);
+    if (part.ik_state.steps.away()) json["steps"] = written(part.ik_state.steps);
     if (!(part.ik_state.feet == humanoid::FeetState())) json["feet"] = written(part.ik_state.feet);
     if (!(part.ik_state.release == Release()))
         json["release"] = release_json(part.ik_state.release, part.skeleton());
@@ -209,11 +212,16 @@ void read_ik(const JsonPlace& place, HumanoidPart& part) {
     if (const auto ground = place.optional("ground")) read_ground(*ground, part.ik.ground);
     if (const auto foot_ik = place.optional("foot_ik")) read_foot_ik(*foot_ik, part.ik.foot_ik);
     if (const auto on = place.optional("self_collision")) part.ik.self_collision = on->flag();
+    if (const auto balance = place.optional("balance")) load_fields(*balance, part.ik.balance);
     if (const auto hand_ik = place.optional("hand_ik")) read_hand_ik(*hand_ik, part.ik.hand_ik);
     if (const auto look_at = place.optional("look_at")) load_fields(*look_at, part.ik.look_at);
     if (const auto hands = place.optional("hands")) read_number(*hands, part.ik_state.hands);
     if (const auto look = place.optional("look")) read_number(*look, part.ik_state.look);
     if (const auto feet = place.optional("feet")) read_number(*feet, part.ik_state.feet);
+    if (const auto steps = place.optional("steps")) {
+        read_number(*steps, part.ik_state.steps);
+        if (const Result bad = humanoid::check(part.ik_state.steps); !bad) steps->fail(bad.message());
+    }
     if (const auto release = place.optional("release"))
         part.ik_state.release = read_release(*release, part.skeleton());
     if (const auto body = place.optional("body")) part.ik_state.body = read_body(*body);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <tendril/humanoid/feet.hpp>
+#include <tendril/humanoid/footsteps.hpp>
 #include <tendril/humanoid/hands.hpp>
 #include <tendril/humanoid/look_at.hpp>
 
@@ -57,6 +58,23 @@ void each_number(auto& feet, auto visit) requires requires {
     visit("pelvis", feet.pelvis);
     visit("left", feet.feet[0]);
     visit("right", feet.feet[1]);
+}
+
+void each_number(auto& step, auto visit) requires requires {
+    step.part;
+}
+{
+    visit("from", step.from);
+    visit("to", step.to);
+    visit("part", step.part);
+}
+
+void each_number(auto& steps, auto visit) requires requires {
+    steps.stepping();
+}
+{
+    visit("left", steps.feet[0]);
+    visit("right", steps.feet[1]);
 }
 
 void each_number(auto& hand, auto visit) requires(

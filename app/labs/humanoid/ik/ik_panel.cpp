@@ -54,6 +54,13 @@ void target_rows(const HumanoidPanel& panel) {
         "Keeps hands and forearms from passing through the body. Outlines show the body's volume, fitted to "
         "the "
         "skin if there is one.");
+    FieldRows(ik.balance, "humanoid.balance", panel.emit)
+        .row("on", {.why_not = ik.balance.on || panel.runtime.solvers.masses(panel.part) != nullptr
+                                   ? std::string()
+                                   : "Balance is not possible: " +
+                                         panel.runtime.solvers.why_no_feet(panel.part) + "."});
+    if (const ShownPose& shown = panel.runtime.shown(panel.workspace); shown.balance)
+        reading("centre of mass", "%s", balance_text(panel.part, shown, panel.runtime.solvers).c_str());
     limit_rows(panel);
 }
 

@@ -44,6 +44,16 @@ std::span<const Field> fields<app::GroundSetting>() noexcept {
 }
 
 template <>
+std::span<const Field> fields<app::BalanceSetting>() noexcept {
+    using namespace app;
+    static constexpr Field rows[] = {
+        field<&BalanceSetting::on>("on"), field<&BalanceSetting::reserve>("reserve", {0.0, max_reserve}),
+        field<&BalanceSetting::steps>("steps"),
+        field<&BalanceSetting::step_seconds>("step_seconds", {min_step_seconds, max_step_seconds}, "s")};
+    return rows;
+}
+
+template <>
 std::span<const Field> fields<app::FootIkSetting>() noexcept {
     using namespace app;
     static constexpr Field rows[] = {
@@ -113,6 +123,28 @@ std::span<const FieldText> field_texts<GroundSetting>() {
          .decimals = 1,
          .scale = 100.0,
          .unit = "cm"}};
+    return texts;
+}
+
+template <>
+std::span<const FieldText> field_texts<BalanceSetting>() {
+    static constexpr FieldText texts[] = {
+        {.name = "on",
+         .label = "Balance",
+         .help = "Hips and trunk move so that the centre of mass stays over the feet. Where that is not "
+                 "enough a foot steps, while the simulation runs, or the hand stops short."},
+        {.name = "reserve",
+         .label = "reserve",
+         .help = "How far the centre of mass keeps from the edge of the feet. 0: it may come to the edge. "
+                 "90 %: it stays in the middle.",
+         .step = 0.5f,
+         .decimals = 0,
+         .scale = 100.0,
+         .unit = "%"},
+        {.name = "steps",
+         .label = "step to keep it",
+         .help = "A foot steps to where it catches the body when moving the hips is not enough."},
+        {.name = "step_seconds", .label = "step time", .help = "How long a foot takes to step."}};
     return texts;
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <tendril/humanoid/body.hpp>
 #include <tendril/humanoid/feet.hpp>
+#include <tendril/humanoid/footsteps.hpp>
 #include <tendril/humanoid/hands.hpp>
 #include <tendril/humanoid/look_at.hpp>
 #include <tendril/humanoid/spring_chain.hpp>
@@ -69,11 +70,22 @@ struct LookAtSetting {
     bool operator==(const LookAtSetting&) const = default;
 };
 
+/// Balance of a body that reaches: the centre of mass stays over the feet.
+struct BalanceSetting {
+    bool on = false;
+    double reserve = 0.25;  ///< part of the support, from its edge inwards, to keep clear of
+    bool steps = true;      ///< a foot steps when that is not enough; needs running time
+    double step_seconds = 0.3;
+    bool operator==(const BalanceSetting&) const = default;
+};
+inline constexpr double max_reserve = 0.9, min_step_seconds = 0.05, max_step_seconds = 5.0;
+
 struct IkSettings {
     std::array<std::optional<TargetSetting>, humanoid::effector_count> targets{};
     LimitsFrom limits = LimitsFrom::Defaults;
     std::map<humanoid::Bone, LimitsFrom> joint_limits{};  ///< joints with a source of their own
     bool self_collision = false;                          ///< keeps hands and lower arms out of the body
+    BalanceSetting balance;
     GroundSetting ground;
     FootIkSetting foot_ik;
     HandIkSetting hand_ik;
@@ -104,6 +116,7 @@ struct Release {
 
 struct IkState {
     humanoid::BodyState body{};
+    humanoid::FootstepsState steps{};
     humanoid::FeetState feet{};
     humanoid::HandsState hands{};
     humanoid::LookAtState look{};
@@ -127,6 +140,8 @@ namespace tendril {
 template <>
 std::span<const Field> fields<app::GroundSetting>() noexcept;  ///< except for its mesh
 template <>
+std::span<const Field> fields<app::BalanceSetting>() noexcept;
+template <>
 std::span<const Field> fields<app::FootIkSetting>() noexcept;
 template <>
 std::span<const Field> fields<app::HandIkSetting>() noexcept;  ///< except for its curves
@@ -137,6 +152,8 @@ namespace app {
 
 template <>
 std::span<const FieldText> field_texts<GroundSetting>();
+template <>
+std::span<const FieldText> field_texts<BalanceSetting>();
 template <>
 std::span<const FieldText> field_texts<FootIkSetting>();
 template <>

@@ -36,10 +36,9 @@ void stand(const HumanoidPart& part, Solvers& solvers, double dt, IkState& state
 }
 
 /// The stored state may belong to another body, if a file was edited; then it is reset.
-void reach(humanoid::Body& body, const std::vector<humanoid::BodyTarget>& targets, double dt, IkState& state,
-           ShownPose& shown) {
-    const humanoid::BodyOptions options{.settle = state.release.left > 0.0 ? std::min(settle_speed * dt, 1.0)
-                                                                           : 0.0};
+void reach(humanoid::Body& body, const std::vector<humanoid::BodyTarget>& targets,
+           humanoid::BodyOptions options, double dt, IkState& state, ShownPose& shown) {
+    if (state.release.left > 0.0) options.settle = std::min(settle_speed * dt, 1.0);
     Expected<humanoid::BodyReport> report = body.solve(shown.local, targets, state.body, options);
     if (!report && !(state.body == humanoid::BodyState())) {
         state.body = {};
@@ -95,6 +94,22 @@ std::vector<humanoid::BodyTarget> body_targets(const IkSettings& ik) {
     return targets;
 }
 
+/// The ground decides which feet stand only if foot IK brings them there.
+humanoid::BodyOptions body_options(const HumanoidPart& part, Solvers& solvers) {
+    humanoid::BodyOptions options{.balance = part.ik.balance.on, .reserve = part.ik.balance.reserve};
+    if (options.balance && part.ik.foot_ik.on && part.ik.ground.kind != humanoid::GroundKind::None)
+        options.ground = &solvers.ground(part);
+    return options;
+}
+
+humanoid::FootstepOptions footstep_options(const HumanoidPart& part) {
+    return {.seconds = part.ik.balance.step_seconds};
+}
+
+bool body_acts(const HumanoidPart& part, const IkState& state) {
+    return state.steps.away() || !body_targets(part.ik).empty();
+}
+
 humanoid::FeetOptions feet_options(const HumanoidPart& part, Solvers& solvers) {
     const FootIkSetting& setting = part.ik.foot_ik;
     humanoid::FeetOptions options{.floor = solvers.floor(part),
@@ -142,18 +157,36 @@ std::optional<double> ShownPose::residual(humanoid::Effector effector) const {
 
 namespace {
 
+/// Full-body IK with the feet that step, and the next step.
+void reach_and_step(const HumanoidPart& part, Solvers& solvers, humanoid::Body& body, double dt,
+                    IkState& state, ShownPose& shown) {
+    humanoid::BodyOptions options = body_options(part, solvers);
+    const humanoid::Masses* const masses = solvers.masses(part);
+    if (masses == nullptr || !part.ik.balance.on || !part.ik.balance.steps) {
+        state.steps = {};
+        reach(body, body_targets(part.ik), options, dt, state, shown);
+        return;
+    }
+    const humanoid::Soles& soles = solvers.feet(part)->soles();
+    options.feet = humanoid::advance_steps(state.steps, soles, dt, footstep_options(part));
+    const std::vector<rig::Transform> clip = shown.local;
+    reach(body, body_targets(part.ik), options, dt, state, shown);
+    if (!(dt > 0.0) || !shown.body) return;
+    humanoid::plan_step(state.steps, soles, masses->centre(placed(part, shown.local)), placed(part, clip),
+                        state.body, options.ground);
+}
+
 /// All steps between the clip and the springs.
 void solve(const HumanoidPart& part, Solvers& solvers, double dt, IkState& state, ShownPose& shown) {
     stand(part, solvers, dt, state, shown);
-    const std::vector<humanoid::BodyTarget> targets = body_targets(part.ik);
-    const bool moves = !targets.empty() || part.ik.self_collision;
+    const bool acts = body_acts(part, state), moves = acts || part.ik.self_collision;
     humanoid::Body* const body = moves ? solvers.body(part) : nullptr;
     if (body == nullptr) state.body = {};
-    if (body != nullptr && !targets.empty()) reach(*body, targets, dt, state, shown);
+    if (body != nullptr && acts) reach_and_step(part, solvers, *body, dt, state, shown);
     look(part, solvers, dt, state, shown);
     reach_by_hand(part, solvers, dt, state, shown);
     // Resolves collisions that the clip or hand IK alone would cause.
-    if (body != nullptr && targets.empty()) reach(*body, targets, dt, state, shown);
+    if (body != nullptr && !acts) reach(*body, {}, body_options(part, solvers), dt, state, shown);
     pass(state.release, dt);
     apply(state.release, shown.local, part.node_of(humanoid::Bone::Hips));
 }
@@ -171,6 +204,12 @@ ShownPose solve_pose(const HumanoidPart& part, Solvers& solvers, double dt, IkSt
     if (const humanoid::Feet* const feet = solvers.feet(part)) {
         shown.soles = humanoid::sole_points(feet->soles(), shown.placed);
         shown.has_soles = true;
+    }
+    if (const humanoid::Masses* const masses = part.ik.balance.on ? solvers.masses(part) : nullptr) {
+        const humanoid::Support support = humanoid::find_support(solvers.feet(part)->soles(), shown.soles,
+                                                                 body_options(part, solvers).ground);
+        const glm::dvec3 centre = masses->centre(shown.placed);
+        shown.balance = ShownPose::Balance{support, centre, support.margin(centre)};
     }
     if (shown.local != before) shown.before = placed(part, before);
     return shown;
@@ -193,6 +232,25 @@ void carry_springs(Workspace& workspace) {
 std::string why_alone(const HumanoidPart& part, const ShownPose& shown, std::size_t side) {
     if (part.ik.ground.kind == humanoid::GroundKind::None) return "there is no ground";
     return shown.feet ? humanoid::name(shown.feet->feet[side].alone) : "foot IK is off";
+}
+
+std::string balance_text(const HumanoidPart& part, const ShownPose& shown, Solvers& solvers) {
+    const ShownPose::Balance& balance = *shown.balance;
+    if (balance.support.count == 0) return "no foot stands";
+    const double size = std::abs(balance.margin);
+    const std::string far =
+        size < 0.995 ? fixed_text(100.0 * size, size < 0.01 ? 1 : 0) + " cm" : fixed_text(size, 2) + " m";
+    if (balance.margin >= 0.0) return far + " inside the feet";
+    const std::size_t hips = *part.node_of(humanoid::Bone::Hips);
+    const glm::dquat turn =
+        shown.placed[hips].rotation() * glm::conjugate(part.loaded->rest[hips].rotation());
+    const glm::dvec3 ahead = turn * solvers.feet(part)->soles().forward;
+    const glm::dvec3 way = balance.centre - balance.support.nearest(balance.centre);
+    const double forward = way.x * ahead.x + way.z * ahead.z, left = way.x * ahead.z - way.z * ahead.x;
+    const bool along = std::abs(forward) >= std::abs(left);
+    return far +
+           (along ? (forward > 0.0 ? " ahead of" : " behind") : (left > 0.0 ? " left of" : " right of")) +
+           " the feet";
 }
 
 std::string why_in_air(const HumanoidPart& part, const ShownPose& shown, Solvers& solvers, std::size_t side) {

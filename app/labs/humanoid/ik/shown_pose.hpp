@@ -3,6 +3,8 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <tendril/humanoid/balance.hpp>
 #include <vector>
 
 #include "app/labs/humanoid/ik/ik_settings.hpp"
@@ -23,6 +25,12 @@ struct ShownPose {
     std::vector<humanoid::SpringReport> springs;  ///< in the order of the part's springs
     std::array<humanoid::SolePoints, 2> soles{};  ///< left, right
     bool has_soles = false;
+    struct Balance {
+        humanoid::Support support;
+        glm::dvec3 centre{0.0};  ///< the centre of mass
+        double margin = 0.0;     ///< Support::margin() of it, metres
+    };
+    std::optional<Balance> balance;   ///< if balance is on
     std::array<bool, 2> hand_goes{};  ///< hand IK moves it to its target
     std::string refused;              ///< why targets are ignored: the library's message
 
@@ -41,6 +49,11 @@ ShownPose solve_pose(const HumanoidPart& part, Solvers& solvers, double dt, IkSt
 std::vector<rig::Transform> unsolved_pose(const HumanoidPart& part);
 /// Without the hands that hand IK moves.
 std::vector<humanoid::BodyTarget> body_targets(const IkSettings& ik);
+/// Without the feet that step.
+humanoid::BodyOptions body_options(const HumanoidPart& part, Solvers& solvers);
+humanoid::FootstepOptions footstep_options(const HumanoidPart& part);
+/// Whether full-body IK runs before gaze and hands: there is a target, or a foot has stepped away.
+bool body_acts(const HumanoidPart& part, const IkState& state);
 humanoid::FeetOptions feet_options(const HumanoidPart& part, Solvers& solvers);
 /// `body_solved`: targets hold the body, so only neck and head turn.
 humanoid::LookAtOptions look_options(const HumanoidPart& part, bool body_solved);
@@ -51,6 +64,9 @@ void carry_springs(Workspace& workspace);
 
 /// Why a foot follows the clip although foot IK is on; empty if it does not. `side`: 0 is left.
 std::string why_alone(const HumanoidPart& part, const ShownPose& shown, std::size_t side);
+
+/// Where the centre of mass is: "4 cm inside the feet", "7 cm ahead of the feet". Balance must be on.
+std::string balance_text(const HumanoidPart& part, const ShownPose& shown, Solvers& solvers);
 
 /// Why foot IK hardly ever plants a foot of this clip; empty if it does, or if the foot is planted now.
 std::string why_in_air(const HumanoidPart& part, const ShownPose& shown, Solvers& solvers, std::size_t side);

@@ -28,6 +28,7 @@ void Solvers::make(const HumanoidPart& part) {
     capsules_.clear();
     volume_.reset();
     feet_.reset();
+    masses_.reset();
     hands_.reset();
     look_at_.reset();
     spring_nodes_.clear();
@@ -45,6 +46,7 @@ void Solvers::make(const HumanoidPart& part) {
         why_not_ = body.message();
     if (auto hands = humanoid::Hands::make(part.skeleton(), *part.map)) hands_ = std::move(hands).value();
     if (auto look = humanoid::LookAt::make(part.skeleton(), *part.map)) look_at_ = std::move(look).value();
+    if (auto masses = humanoid::find_masses(part.skeleton(), *part.map)) masses_ = std::move(masses).value();
     Expected<humanoid::Feet> feet = humanoid::Feet::make(part.skeleton(), *part.map);
     if (feet)
         feet_ = std::move(feet).value();
@@ -94,6 +96,11 @@ const SpringChains& Solvers::springs(const HumanoidPart& part) {
             springs_.back() = std::make_unique<humanoid::SpringChain>(std::move(chain).value());
     }
     return springs_;
+}
+
+const humanoid::Masses* Solvers::masses(const HumanoidPart& part) {
+    make(part);
+    return body_ && feet_ && masses_ ? &*masses_ : nullptr;
 }
 
 const std::string& Solvers::why_no_feet(const HumanoidPart& part) {

@@ -4,7 +4,9 @@
 #include <array>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
+#include <tendril/humanoid/balance.hpp>
 #include <vector>
 
 #include "app/labs/humanoid/humanoid_part.hpp"
@@ -27,6 +29,8 @@ class Solvers {
     const std::string& why_no_body(const HumanoidPart& part);
     /// Null if the map has no legs that can be solved.
     const humanoid::Feet* feet(const HumanoidPart& part);
+    /// Null if there is no body, or no feet.
+    const humanoid::Masses* masses(const HumanoidPart& part);
     /// Null if the map is not that of a body; why_no_body() then has the reason.
     const humanoid::Hands* hands(const HumanoidPart& part);
     const humanoid::LookAt* look_at(const HumanoidPart& part);
@@ -68,6 +72,7 @@ class Solvers {
     std::vector<humanoid::BodyCapsule> capsules_;
     std::optional<std::vector<humanoid::BodyCapsule>> volume_;
     std::optional<humanoid::Feet> feet_;
+    std::optional<humanoid::Masses> masses_;
     std::optional<humanoid::Hands> hands_;
     std::optional<humanoid::LookAt> look_at_;
     std::vector<std::string> spring_nodes_;

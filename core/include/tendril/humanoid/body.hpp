@@ -36,6 +36,7 @@
 #include <vector>
 
 #include "tendril/humanoid/capsules.hpp"
+#include "tendril/humanoid/ground.hpp"
 #include "tendril/humanoid/limits.hpp"
 
 namespace tendril::humanoid {
@@ -57,6 +58,13 @@ struct BodyTarget {
     double weight = 1.0;  ///< 0 to 1e3, relative to other targets; 0: ignored
 };
 
+/// Where a foot without a target stays: away from the clip's place, as footsteps.hpp moves it.
+struct FootShift {
+    glm::dvec3 stand{0.0};  ///< metres
+    double lift = 0.0;      ///< metres on top of it, upwards; for balance the foot stands even so
+    bool operator==(const FootShift&) const = default;
+};
+
 struct BodyOptions {
     int max_iterations = 20;  ///< 1 to 1000
     double tolerance = 2e-6;  ///< radians (metres for the hips), over 0 to 1; a smaller step ends the solve
@@ -68,6 +76,16 @@ struct BodyOptions {
     /// Metres, 0 to 1: lets the pose relax towards the clip as if the targets had moved that far. For the
     /// frames after a target is released; without it the rest of the body would stay pulled.
     double settle = 0.0;
+    /// Keeps the centre of mass (balance.hpp) over the standing feet: hips and trunk move so that it stays in
+    /// the support, while the targets are reached as nearly as that allows. Arms without a target are no
+    /// counterweight. As far as the clip is out of balance, the pose may be. Without effect if the legs allow
+    /// no soles.
+    bool balance = false;
+    /// Part of the support, from its edge to its middle, that the centre of mass keeps clear of: 0 to 0.9.
+    double reserve = 0.25;
+    std::array<FootShift, 2> feet{};  ///< left, right; only feet that stay
+    const Ground* ground =
+        nullptr;  ///< which feet stand, for balance; null: the lowest sole is on the ground
 };
 
 /// Where the last solve ended, for the next one to start from. If empty, it starts from the clip's pose.
@@ -80,6 +98,7 @@ struct BodyState {
     double deepest = 0.0;                           ///< deepest overlap of two capsules, metres
     std::array<glm::dvec3, effector_count> left{};  ///< from each effector to its target, metres
     std::array<double, effector_count> weights{};   ///< of the targets; 0: no target
+    double outside = 0.0;                           ///< BodyReport::outside
     double pace = 0.0;                              ///< limit on a joint's movement in that solve, metres
     bool operator==(const BodyState&) const = default;
 };
@@ -91,6 +110,9 @@ struct BodyReport {
     std::array<double, effector_count> residuals{};  ///< metres; 0: no target
     std::array<bool, bone_count> at_limit{};         ///< joints that their limits hold back
     double penetration = 0.0;                        ///< deepest overlap of two capsules, metres
+    /// Metres by which the centre of mass leaves the safe part of the support although `balance` is on,
+    /// beyond what the clip does. While targets hold it there, above 0 but small.
+    double outside = 0.0;
 };
 
 namespace detail {
@@ -114,8 +136,8 @@ class Body {
     const BodyJoints& joints() const noexcept;
 
     /// `pose` holds the clip's local transform of every node and is replaced by the pose that reaches the
-    /// targets. Without a target, and without capsules to keep apart, it stays bit-identical and `state` is
-    /// cleared. If the clip exceeds a joint's limit, that limit is widened to the clip. Fails with
+    /// targets. Without a target, a shifted foot or capsules to keep apart, it stays bit-identical and
+    /// `state` is cleared. If the clip exceeds a joint's limit, that limit is widened to the clip. Fails with
     /// InvalidArgument, changing nothing: a number not finite or out of range, two targets of one effector, a
     /// pose without one transform per node, a state of another body, a pose without a finite solution.
     /// Allocates nothing once `state` has been used.

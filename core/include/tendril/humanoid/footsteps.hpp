@@ -1,0 +1,65 @@
+// Steps that a body takes when shifting its hips does not keep it balanced.
+//
+//     FootstepsState steps;  // persists from frame to frame
+//     // In each frame, with `placed` from the clip's pose and `solved` from the one of the last lines:
+//     options.feet = advance_steps(steps, *soles, dt);
+//     body->solve(pose, targets, body_state, options);
+//     place(skeleton, pose, solved);
+//     plan_step(steps, *soles, masses->centre(solved), placed, body_state, options.ground);
+//
+// The body falls towards its catching point: its centre of mass, and as far on as the hand that pulls most is
+// from its target. (The capture point of J. Pratt et al., "Capture point: a step toward humanoid push
+// recovery", 2006, of a body that moves slowly.) The foot nearer to that point steps under it, at most 0.7 of
+// the leg's length from the other foot, and never across it; the other one follows if one step is not enough.
+// Without targets, the feet step back to where the clip has them.
+//
+// Needs a clip that stands: feet that the clip lifts do not step.
+//
+// Cost: under a microsecond.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "tendril/humanoid/body.hpp"
+#include "tendril/humanoid/soles.hpp"
+
+namespace tendril::humanoid {
+
+struct FootstepOptions {
+    double seconds = 0.3;  ///< that a step takes: 0.05 to 5
+    double lift = 0.1;     ///< height of its arc, part of the leg's length: 0 to 1
+};
+
+/// Shifts from the clip's place, metres.
+struct Footstep {
+    glm::dvec3 from{0.0}, to{0.0};
+    double part = 1.0;  ///< of the way from one to the other: 0 to 1
+    bool operator==(const Footstep&) const = default;
+};
+
+struct FootstepsState {
+    std::array<Footstep, 2> feet{};  ///< left, right
+    /// Whether a foot is in the air.
+    bool stepping() const noexcept { return feet[0].part < 1.0 || feet[1].part < 1.0; }
+    /// Whether a foot is, or goes, elsewhere than in the clip.
+    bool away() const noexcept { return *this != FootstepsState(); }
+    bool operator==(const FootstepsState&) const = default;
+};
+/// For a state read from a file: refuses numbers that are not finite, over 1e9, or parts outside 0 to 1.
+Result check(const FootstepsState& state) noexcept;
+
+/// Moves the foot that steps on by `dt` seconds; without time it stays. Returns BodyOptions::feet. Options
+/// out of range are clamped, and a state that check() refuses is reset.
+std::array<FootShift, 2> advance_steps(FootstepsState& state, const Soles& soles, double dt,
+                                       const FootstepOptions& options = {}) noexcept;
+
+/// Begins a step if none is under way and one is needed: the last solve, which left `body`, held the centre
+/// of mass back, and a target is not reached. `clip`: placements of the pose before the solve. On `ground`, a
+/// foot steps only where there is some, and at most 0.5 of the leg's length up or down. Returns whether a
+/// step began.
+bool plan_step(FootstepsState& state, const Soles& soles, const glm::dvec3& centre,
+               std::span<const Placement> clip, const BodyState& body,
+               const Ground* ground = nullptr) noexcept;
+
+}  // namespace tendril::humanoid

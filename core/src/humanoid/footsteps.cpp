@@ -1,0 +1,140 @@
+#include "tendril/humanoid/footsteps.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "humanoid/balance.hpp"
+#include "humanoid/input.hpp"
+#include "rig/math.hpp"
+
+namespace tendril::humanoid {
+namespace {
+
+using namespace rig::detail;
+
+// Parts of the leg's length.
+constexpr double longest_step = 0.7, shortest_step = 0.08, nearest_feet = 0.18, highest_step = 0.5;
+/// From its target: a hand nearer than this needs no step.
+constexpr double close_enough = 0.02;
+constexpr double least_hold = 1e-4;  // the balance that holds the body back, as BodyState::outside
+constexpr double stands_under = 0.08;
+
+glm::dvec3 flat(const glm::dvec3& v) noexcept {
+    return {v.x, 0.0, v.z};
+}
+glm::dvec3 shortened(const glm::dvec3& v, double limit) noexcept {
+    const double size = length(v);
+    return size > limit ? times(v, limit / size) : v;
+}
+
+glm::dvec3 stand_of(const Footstep& step) noexcept {
+    const double ease = step.part * step.part * (3.0 - 2.0 * step.part);
+    return mix(step.from, step.to, ease);
+}
+
+/// How far the targets pull the body, horizontally.
+glm::dvec3 pull_of(const BodyState& body) noexcept {
+    glm::dvec3 pull{0.0};
+    for (const Effector each : {Effector::Hips, Effector::Head, Effector::LeftHand, Effector::RightHand}) {
+        const auto i = static_cast<std::size_t>(each);
+        if (!(body.weights[i] > 0.0)) continue;
+        const glm::dvec3 way = flat(body.left[i]);
+        if (dot(way, way) > dot(pull, pull)) pull = way;
+    }
+    return pull;
+}
+
+/// How much higher the ground is at the shifted sole; nullopt where there is none, or it is too steep a step.
+std::optional<double> climb(const SolePoints& sole, const glm::dvec3& shift, const Ground* ground,
+                            double leg) noexcept {
+    if (ground == nullptr) return 0.0;
+    const auto height = [&](const glm::dvec3& by) -> std::optional<double> {
+        const auto heel = ground->highest(sole.heel.x + by.x, sole.heel.z + by.z);
+        const auto toe = ground->highest(sole.toe.x + by.x, sole.toe.z + by.z);
+        if (!heel || !toe) return std::nullopt;
+        return std::max(heel->height, toe->height);
+    };
+    const auto before = height(glm::dvec3(0.0)), after = height(shift);
+    if (!before || !after || std::abs(*after - *before) > highest_step * leg) return std::nullopt;
+    return *after - *before;
+}
+
+bool begin(Footstep& step, const glm::dvec3& to) noexcept {
+    step = {step.to, to, 0.0};
+    return true;
+}
+
+}  // namespace
+
+Result check(const FootstepsState& state) noexcept {
+    for (const Footstep& each : state.feet) {
+        if (const Result bad = check_vector("footsteps", "feet.from", each.from); !bad) return bad;
+        if (const Result bad = check_vector("footsteps", "feet.to", each.to); !bad) return bad;
+        if (!(each.part >= 0.0 && each.part <= 1.0))
+            return tendril::detail::refused("footsteps", "feet.part", "from 0 to 1", each.part);
+    }
+    return {};
+}
+
+std::array<FootShift, 2> advance_steps(FootstepsState& state, const Soles& soles, double dt,
+                                       const FootstepOptions& options) noexcept {
+    if (!check(state)) state = {};
+    const double seconds = options.seconds >= 0.05 ? std::min(options.seconds, 5.0) : 0.05;
+    const double lift = weight(options.lift);
+    std::array<FootShift, 2> shifts;
+    for (std::size_t side = 0; side < 2; ++side) {
+        Footstep& step = state.feet[side];
+        if (dt > 0.0 && step.part < 1.0) step.part = std::min(step.part + dt / seconds, 1.0);
+        if (step.part >= 1.0) step = {step.to, step.to, 1.0};
+        const double arc = 4.0 * step.part * (1.0 - step.part);
+        shifts[side] = {stand_of(step), arc * (lift * soles.leg + 0.5 * std::abs(step.to.y - step.from.y))};
+    }
+    return shifts;
+}
+
+bool plan_step(FootstepsState& state, const Soles& soles, const glm::dvec3& centre,
+               std::span<const Placement> clip, const BodyState& body, const Ground* ground) noexcept {
+    if (state.stepping()) return false;
+    const bool has_targets =
+        std::any_of(body.weights.begin(), body.weights.end(), [](double each) { return each > 0.0; });
+    const double leg = soles.leg;
+    if (!has_targets) {  // home, the farther foot first
+        const double left = length(state.feet[0].to), right = length(state.feet[1].to);
+        if (!(left > 0.0 || right > 0.0)) return false;
+        return begin(state.feet[left >= right ? 0 : 1], glm::dvec3(0.0));
+    }
+    const glm::dvec3 pull = pull_of(body);
+    if (!(body.outside > least_hold * leg && length(pull) > close_enough * leg)) return false;
+    for (const Effector foot : {Effector::LeftFoot, Effector::RightFoot})
+        if (body.weights[static_cast<std::size_t>(foot)] > 0.0) return false;
+    const std::array<SolePoints, 2> at = sole_points(soles, clip);
+    const auto over = detail::sole_heights(at, ground);
+    glm::dvec3 forward = plus(flat(minus(at[0].toe, at[0].heel)), flat(minus(at[1].toe, at[1].heel)));
+    forward = direction_of(forward, 1e-9 * leg).value_or(soles.forward);
+    const glm::dvec3 left{forward.z, 0.0, -forward.x};
+    const glm::dvec3 caught = plus(flat(centre), shortened(pull, longest_step * leg));
+    std::array<glm::dvec3, 2> stands;
+    for (std::size_t side = 0; side < 2; ++side) {
+        if (std::min(over[side].heel, over[side].toe) > stands_under * leg) return false;
+        stands[side] = plus(flat(mix(at[side].heel, at[side].toe, 0.5)), flat(state.feet[side].to));
+    }
+    const std::size_t near = length(minus(caught, stands[0])) <= length(minus(caught, stands[1])) ? 0 : 1;
+    for (const std::size_t side : {near, 1 - near}) {
+        const glm::dvec3& other = stands[1 - side];
+        const glm::dvec3 aside = times(left, side == 0 ? 1.0 : -1.0);
+        glm::dvec3 way = minus(caught, other);
+        way = plus(way, times(aside, std::max(nearest_feet * leg - dot(way, aside), 0.0)));
+        way = shortened(way, longest_step * leg);
+        const glm::dvec3 there = plus(other, way);
+        if (length(minus(caught, there)) > length(minus(caught, stands[side])) - shortest_step * leg)
+            continue;
+        glm::dvec3 to = plus(flat(state.feet[side].to), minus(there, stands[side]));
+        const auto up = climb(at[side], to, ground, leg);
+        if (!up) continue;
+        to.y = *up;
+        return begin(state.feet[side], to);
+    }
+    return false;
+}
+
+}  // namespace tendril::humanoid

@@ -1,0 +1,248 @@
+// Centre of mass, support, and a body that keeps its balance while it reaches.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <random>
+#include <tendril/humanoid/balance.hpp>
+#include <tendril/humanoid/body.hpp>
+
+#include "humanoid_figure.hpp"
+#include "tests/says.hpp"
+
+namespace tendril::test {
+namespace {
+
+Skeleton scaled_figure(double scale) {
+    std::vector<Node> nodes = make_figure({}).nodes();
+    for (Node& node : nodes) node.rest.translation *= scale;
+    return *Skeleton::make(std::move(nodes));
+}
+
+class HumanoidBalance : public testing::Test {
+  protected:
+    explicit HumanoidBalance(double scale = 1.0) : scale_(scale), skeleton(scaled_figure(scale)) {}
+
+    std::vector<Placement> placed(const std::vector<rig::Transform>& pose) const {
+        std::vector<Placement> at(skeleton.size());
+        place(skeleton, pose, at);
+        return at;
+    }
+    double margin(const std::vector<rig::Transform>& pose) const {
+        const auto at = placed(pose);
+        return find_support(soles, at).margin(masses.centre(at));
+    }
+    /// Follows targets from rest: as many frames as a hand needs.
+    struct Reached {
+        std::vector<rig::Transform> pose;
+        BodyReport report;
+    };
+    Reached reach(const std::vector<BodyTarget>& targets, bool balance, int frames = 60) {
+        BodyState state;
+        Reached reached;
+        const auto from = placed(rest);
+        for (int frame = 1; frame <= frames; ++frame) {
+            std::vector<BodyTarget> now = targets;
+            const double part = std::min(1.0, 1.5 * frame / frames);
+            for (BodyTarget& each : now) {
+                const glm::dvec3 start =
+                    from[static_cast<std::size_t>(map[bone_of(each.effector)].node)].position;
+                each.position = glm::mix(start, each.position, part);
+            }
+            reached.pose = rest;
+            const auto report = body.solve(reached.pose, now, state, {.balance = balance});
+            EXPECT_TRUE(report) << report.message();
+            if (report) reached.report = *report;
+        }
+        return reached;
+    }
+    glm::dvec3 at(Bone bone, const std::vector<rig::Transform>& pose) const {
+        return placed(pose)[static_cast<std::size_t>(map[bone].node)].position;
+    }
+
+    double scale_;
+    Skeleton skeleton;
+    BoneMap map = match_bones(skeleton);
+    std::vector<rig::Transform> rest = rest_pose(skeleton);
+    Masses masses = *find_masses(skeleton, map);
+    Soles soles = *find_soles(skeleton, map);
+    Body body = *Body::make(skeleton, map, default_limits(skeleton, map));
+};
+
+TEST_F(HumanoidBalance, MassesAreThoseOfThePaper) {
+    double sum = 0.0;
+    for (const MassPoint& each : masses.points) sum += each.share;
+    EXPECT_EQ(masses.points.size(), 16u);
+    EXPECT_NEAR(sum, 1.0, 1e-12);
+    const glm::dvec3 centre = masses.centre(placed(rest));
+    EXPECT_NEAR(centre.x, 0.0, 1e-12);
+    // An adult's centre of mass is at 0.55 to 0.58 of the height; arms raised to the sides lift it by a
+    // little.
+    EXPECT_GT(centre.y, 0.54 * 1.8);
+    EXPECT_LT(centre.y, 0.60 * 1.8);
+}
+
+TEST_F(HumanoidBalance, TwoFeetSupportTheRestPose) {
+    const Support support = find_support(soles, placed(rest));
+    EXPECT_EQ(support.standing, (std::array{1.0, 1.0}));
+    ASSERT_GE(support.count, 6u);
+    // From the heels, 5 cm behind the ankles, to the tips, 6 cm ahead of the balls.
+    EXPECT_NEAR(support.margin({0.0, 1.0, -0.05}), 0.0, 1e-9);
+    EXPECT_NEAR(support.margin({0.1, 1.0, 0.15 + 0.07 * soles.leg}), 0.0, 1e-3);
+    EXPECT_NEAR(support.margin({0.0, 3.0, 1.15 + 0.07 * soles.leg}), -1.0, 1e-3);
+    EXPECT_GT(margin(rest), 0.03);
+    EXPECT_EQ(support.nearest({0.0, 1.0, 0.0}), glm::dvec3(0.0, 1.0, 0.0));
+}
+
+TEST_F(HumanoidBalance, ARisingFootLeavesTheSupportWithoutAJump) {
+    double before = 0.0;
+    for (int i = 0; i <= 200; ++i) {
+        std::array<SolePoints, 2> at = sole_points(soles, placed(rest));
+        for (glm::dvec3* each : {&at[0].heel, &at[0].toe}) each->y += 0.001 * i;
+        const double now = find_support(soles, at).margin({0.0, 0.0, 0.0});
+        if (i > 0) {
+            EXPECT_LT(std::abs(now - before), 0.008) << i << " mm";
+        }
+        before = now;
+    }
+    EXPECT_NEAR(before, -(0.1 - 0.5 * 0.11 * soles.leg), 0.02);  // beside the right foot
+}
+
+TEST_F(HumanoidBalance, NothingStandsInTheAir) {
+    const Ground ground = *Ground::flat(-1.0);
+    const Support support = find_support(soles, placed(rest), &ground);
+    EXPECT_EQ(support.count, 0u);
+    EXPECT_LT(support.margin({0.0, 0.0, 0.0}), -1e8);
+}
+
+TEST_F(HumanoidBalance, HipsGoBackWhenAHandReachesAhead) {
+    const std::vector<BodyTarget> targets{{Effector::RightHand, {-0.2, 1.1, 0.95}}};
+    const Reached off = reach(targets, false), on = reach(targets, true);
+    EXPECT_LT(margin(off.pose), -0.04);  // leans like a plank
+    EXPECT_GT(margin(on.pose), 0.02);
+    EXPECT_LT(on.report.residual, 1e-3);
+    EXPECT_LT(at(Bone::Hips, on.pose).z, at(Bone::Hips, off.pose).z - 0.08);
+}
+
+TEST_F(HumanoidBalance, BodySquatsOnTheBallsOfTheFeetToReachTheFloor) {
+    const std::vector<BodyTarget> targets{{Effector::RightHand, {-0.2, 0.15, 0.6}}};
+    const Reached on = reach(targets, true);
+    EXPECT_GT(margin(on.pose), 0.005);
+    EXPECT_LT(on.report.residual, 2e-3);
+    EXPECT_LT(at(Bone::Hips, on.pose).y, 0.7);
+    // Where the ankles turn no further, the heels rise; the balls neither sink nor slide.
+    for (const SolePoints& sole : sole_points(soles, placed(on.pose))) {
+        EXPECT_GT(sole.heel.y, -0.005);
+        EXPECT_NEAR(sole.toe.y, 0.0, 0.005);
+        EXPECT_NEAR(sole.toe.z, 0.15, 0.01);
+    }
+}
+
+TEST_F(HumanoidBalance, HandStopsShortWhereTheBodyWouldFall) {
+    const std::vector<BodyTarget> targets{{Effector::RightHand, {-0.2, 1.0, 1.6}}};
+    const Reached off = reach(targets, false), on = reach(targets, true);
+    EXPECT_LT(margin(off.pose), -0.4);
+    EXPECT_GT(margin(on.pose), 0.0);
+    EXPECT_GT(on.report.residual, 0.3);
+    EXPECT_GT(on.report.outside, 0.0);  // the hand pulls it out of the safe part, by a little
+    EXPECT_LT(on.report.outside, 0.02);
+}
+
+TEST_F(HumanoidBalance, AClipThatIsOutOfBalanceMayStaySo) {
+    std::vector<rig::Transform> pose = rest;
+    const auto hips = static_cast<std::size_t>(map[Bone::Hips].node);
+    pose[hips].rotation = glm::angleAxis(0.3, glm::dvec3(1.0, 0.0, 0.0));  // leans, feet off the floor behind
+    const std::vector<rig::Transform> clip = pose;
+    BodyState state;
+    const std::vector<BodyTarget> targets{{Effector::RightHand, at(Bone::RightHand, pose)}};
+    ASSERT_TRUE(body.solve(pose, targets, state, {.balance = true}));
+    for (std::size_t i = 0; i < pose.size(); ++i) {
+        EXPECT_LT(glm::distance(placed(pose)[i].position, placed(clip)[i].position), 1e-3)
+            << skeleton[i].name;
+    }
+}
+
+TEST_F(HumanoidBalance, WithoutATargetNothingChanges) {
+    std::vector<rig::Transform> pose = rest;
+    BodyState state;
+    ASSERT_TRUE(body.solve(pose, {}, state, {.balance = true}));
+    EXPECT_EQ(pose, rest);
+    EXPECT_EQ(state, BodyState());
+}
+
+TEST_F(HumanoidBalance, SmallMovesOfTheTargetGiveSmallMovesOfThePose) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> any(-1.0, 1.0);
+    double worst = 0.0;
+    for (int path = 0; path < 20; ++path) {
+        BodyState state;
+        std::vector<Placement> before;
+        const glm::dvec3 start = at(Bone::RightHand, rest);
+        const glm::dvec3 end(-0.3 + 0.9 * any(random), 1.0 + 0.8 * any(random), 0.3 + 0.9 * any(random));
+        const int frames = static_cast<int>(std::ceil(glm::distance(start, end) / 0.005));
+        for (int frame = 0; frame <= frames; ++frame) {
+            std::vector<rig::Transform> pose = rest;
+            const BodyTarget target{Effector::RightHand,
+                                    glm::mix(start, end, static_cast<double>(frame) / frames)};
+            ASSERT_TRUE(body.solve(pose, {&target, 1}, state, {.balance = true}));
+            const std::vector<Placement> now = placed(pose);
+            for (std::size_t i = 0; i < now.size() && frame > 0; ++i)
+                worst = std::max(worst, glm::distance(now[i].position, before[i].position));
+            before = now;
+        }
+    }
+    EXPECT_LT(worst, 13.0 * 0.005);  // as fast as without balance: body.hpp
+}
+
+TEST_F(HumanoidBalance, RefusesWhatIsOutOfRange) {
+    const BodyTarget target{Effector::RightHand, {-0.2, 1.0, 0.5}};
+    std::vector<rig::Transform> pose = rest;
+    BodyState state;
+    const auto message = [&](const BodyOptions& options) {
+        const auto report = body.solve(pose, {&target, 1}, state, options);
+        return report ? std::string() : std::string(report.message());
+    };
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    for (const double reserve : {-0.1, 0.95, nan})
+        EXPECT_TRUE(says(message({.balance = true, .reserve = reserve}), "options.reserve 0 to 0.9"));
+    EXPECT_EQ(pose, rest);
+    ASSERT_EQ(message({.balance = true}), "");
+    state.outside = nan;
+    EXPECT_TRUE(says(message({.balance = true}), "state.outside"));
+}
+
+/// Sizes from a doll to a giant.
+class HumanoidBalanceSizes : public HumanoidBalance, public testing::WithParamInterface<double> {
+  protected:
+    HumanoidBalanceSizes() : HumanoidBalance(GetParam()) {}
+};
+
+TEST_P(HumanoidBalanceSizes, NeverStandsWorseAndReachesAsNearlyAsTheFeetAllow) {
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> any(-1.0, 1.0);
+    int rescued = 0;
+    for (int i = 0; i < 60; ++i) {
+        const double x = any(random), y = any(random), z = any(random);
+        const Effector hand = i % 2 == 0 ? Effector::RightHand : Effector::LeftHand;
+        const std::vector<BodyTarget> targets{
+            {hand, scale_ * glm::dvec3(1.1 * x, 1.0 + 0.9 * y, 0.2 + 1.1 * z)}};
+        const Reached off = reach(targets, false, 120), on = reach(targets, true, 120);
+        const double before = margin(off.pose) / scale_, after = margin(on.pose) / scale_;
+        EXPECT_GT(after, std::min(before, 0.0) - 0.002) << i;
+        // Crouching to reach behind itself lifts the heels, which takes support away from where it leans.
+        EXPECT_GT(after, z > 0.0 ? -0.04 : -0.1) << i << ": " << x << ' ' << y << ' ' << z;
+        if (before < 0.0 && after > 0.0) ++rescued;
+        // The hand gives up about what the centre of mass would have been out of balance by.
+        EXPECT_LT(on.report.residual / scale_,
+                  off.report.residual / scale_ + (z > 0.0 ? 1.5 : 2.5) * std::max(0.06 - before, 0.0) + 0.05)
+            << i << ": " << x << ' ' << y << ' ' << z;
+    }
+    EXPECT_GT(rescued, 10);
+}
+
+INSTANTIATE_TEST_SUITE_P(Sizes, HumanoidBalanceSizes, testing::Values(0.1, 0.5, 1.0, 3.0, 20.0));
+
+}  // namespace
+}  // namespace tendril::test
