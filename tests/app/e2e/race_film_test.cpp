@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tests/app/support/apng.hpp"
+#include "tests/app/support/frame_record.hpp"
 #include "tests/app/support/play.hpp"
 
 namespace tendril::test {
@@ -215,6 +216,24 @@ TEST(RaceStrip, ScrubsPlaysAndStepsByMouseAndKeys) {
     EXPECT_GT(half, 0);
     EXPECT_LT(half, last);
     EXPECT_EQ(shown(opened_race().command("race.play").wait(16)), 1) << "four a second";
+}
+
+/// Of 3000 iterations those with round numbers.
+TEST(RaceStrip, NumbersARoundShareOfManyIterations) {
+    ScriptText script = opened_race();
+    script.command("chain.solver", {{"iterations", 3000}, {"tolerance", 1e-7}});
+    script.command("chain.target", {{"to", {6.5, 2.598, 0}}});
+    const FrameRecorder recorder;
+    const Json state = play(script, {.picture = true}).state;
+    ASSERT_GT(state["race_shown"]["iterations"].get<int>(), 2000);
+    const float top = state["layout"]["strip"]["min"][1].get<float>();
+    int numbered = 0;
+    for (const DrawnText& text : recorder.frame().texts) {
+        if (text.box.min.y < top || !text.text.starts_with("iteration ")) continue;
+        EXPECT_EQ(std::stoi(text.text.substr(10)) % 500, 0) << text.text;
+        ++numbered;
+    }
+    EXPECT_GE(numbered, 4);
 }
 
 }  // namespace
