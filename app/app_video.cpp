@@ -31,8 +31,9 @@ void App::take_picture(const PictureRequest& wanted) {
     if (lab().canvas_share(workspace_) > 0.0f)
         throw Refused(command + ": this lab's picture is more than a view of a scene; use --screenshot");
     try {
-        const Image image =
-            picture_of(workspace_, lab(), renderer_, picture_view(wanted.size), wanted.transparent);
+        const PictureView view = picture_view(wanted.size);
+        const auto text = picture_text(workspace_, lab(), view, wanted);
+        const Image image = picture_of(workspace_, lab(), renderer_, view, wanted.transparent, text.get());
         copies ? copy_picture(image) : write_png(wanted.path, image);
     } catch (const std::exception& error) {
         throw Refused(command + ": " + error.what());
@@ -53,7 +54,7 @@ void App::begin_video(const VideoRequest& wanted) {
         video_ =
             std::make_unique<VideoTake>(wanted, workspace_, lab(), renderer_, view, frames_a_tick(counted));
     } catch (const std::exception& error) {
-        throw Refused(std::string("view.video: ") + error.what());
+        throw Refused(wanted.command + ": " + error.what());
     }
     workspace_.ui.filming = video_->progress();
     workspace_.ui.file_dialog = UiState::FileDialog::None;
@@ -77,8 +78,9 @@ void App::write_video(bool ends) {
         workspace_.toast(written_text(video_->wanted().path));
         drop_video();
     } catch (const std::exception& error) {
+        const std::string command = video_->wanted().command;
         drop_video();
-        throw Refused(std::string("view.video: ") + error.what());
+        throw Refused(command + ": " + error.what());
     }
 }
 

@@ -13,8 +13,14 @@ int frames_a_tick(glm::ivec2 size) {
     return static_cast<int>(std::clamp<std::int64_t>(pixels_a_tick / pixels, 1, most));
 }
 
+std::unique_ptr<PictureText> picture_text(const Workspace& workspace, const Lab& lab, const PictureView& view,
+                                          const PictureLook& look) {
+    if (!look.labels.value_or(lab.labels_pictures(workspace))) return nullptr;
+    return std::make_unique<PictureText>(view.size);
+}
+
 Image picture_of(const Workspace& workspace, const Lab& lab, Renderer& renderer, const PictureView& view,
-                 bool transparent) {
+                 bool transparent, PictureText* text) {
     const std::size_t count = lab.panes(workspace).size();
     const auto draw = [&](const Palette& colours) {
         std::vector<Pane> panes;
@@ -26,7 +32,13 @@ Image picture_of(const Workspace& workspace, const Lab& lab, Renderer& renderer,
         }
         return panes;
     };
-    return draw_picture(renderer, draw, view.pose, view.size, palette(workspace.settings.theme), transparent);
+    DrawOver over;
+    if (text != nullptr)
+        over = [&](const std::vector<Pane>& panes, const Palette& colours) {
+            text->draw(panes, view.pose, lab.panes(workspace), lab.legend(workspace), colours);
+        };
+    return draw_picture(renderer, draw, view.pose, view.size, palette(workspace.settings.theme), transparent,
+                        over);
 }
 
 VideoTake::VideoTake(const VideoRequest& wanted, const Workspace& workspace, const Lab& lab,
@@ -36,6 +48,7 @@ VideoTake::VideoTake(const VideoRequest& wanted, const Workspace& workspace, con
       lab_(lab),
       renderer_(renderer),
       view_(view),
+      text_(picture_text(workspace, lab, view, wanted)),
       file_(open_video(wanted.path, {.size = view.size,
                                      .frames = wanted.frames(),
                                      .every = wanted.every,
@@ -50,8 +63,14 @@ VideoTake::VideoTake(const VideoRequest& wanted, const Workspace& workspace, con
 
 void VideoTake::work() {
     for (int i = frames_a_tick_; i > 0 && written_ < wanted_.frames(); --i) {
-        workspace_.go_to_moment(static_cast<std::uint64_t>(wanted_.from - written_ * wanted_.every));
-        file_->add(picture_of(workspace_, lab_, renderer_, view_, wanted_.transparent));
+        bool changes = true;
+        if (wanted_.show)
+            changes = wanted_.show(workspace_, written_);
+        else
+            workspace_.go_to_moment(static_cast<std::uint64_t>(wanted_.from - written_ * wanted_.every));
+        if (changes || written_ == 0)
+            frame_ = picture_of(workspace_, lab_, renderer_, view_, wanted_.transparent, text_.get());
+        file_->add(frame_);
         ++written_;
     }
 }

@@ -1,13 +1,14 @@
-// A video of the last seconds while it is being written. It copies everything it shows, so work in the window
-// can continue.
+// A video while it is being written. It copies everything it shows, so work in the window can continue.
 #pragma once
 
 #include <memory>
 
 #include "app/document/video_request.hpp"
 #include "app/document/workspace.hpp"
+#include "app/io/image.hpp"
 #include "app/io/video_file.hpp"
 #include "app/labs/lab.hpp"
+#include "app/shell/picture_text.hpp"
 #include "app/view/renderer.hpp"
 
 namespace tendril::app {
@@ -20,9 +21,14 @@ struct PictureView {
     float scale = 1.0f;
 };
 
-/// Draws the view without hover highlights, labels and panels. Throws std::runtime_error.
+/// The text of such pictures, or null if `look` and the lab want none.
+std::unique_ptr<PictureText> picture_text(const Workspace& workspace, const Lab& lab, const PictureView& view,
+                                          const PictureLook& look);
+
+/// Draws the view without hover highlights and panels, and with labels if `text` is not null. Throws
+/// std::runtime_error.
 Image picture_of(const Workspace& workspace, const Lab& lab, Renderer& renderer, const PictureView& view,
-                 bool transparent);
+                 bool transparent, PictureText* text);
 
 /// How many frames of that size, in pixels, fit in a tick. A count instead of a measured time, so that
 /// recordings replay identically.
@@ -31,7 +37,8 @@ int frames_a_tick(glm::ivec2 size);
 /// Errors are std::runtime_error. Leaves no file if destroyed before finish().
 class VideoTake {
   public:
-    /// `lab` and `renderer` must outlive it. The workspace's rewind must not be empty.
+    /// `lab` and `renderer` must outlive it. The workspace's rewind must not be empty, unless the request
+    /// shows frames of its own.
     VideoTake(const VideoRequest& wanted, const Workspace& workspace, const Lab& lab, Renderer& renderer,
               const PictureView& view, int frames_a_tick);
     /// Writes one tick's share of frames.
@@ -51,7 +58,9 @@ class VideoTake {
     const Lab& lab_;
     Renderer& renderer_;
     PictureView view_;
+    std::unique_ptr<PictureText> text_;
     std::unique_ptr<VideoFile> file_;
+    Image frame_;  ///< the last one written
     int frames_a_tick_ = 1;
     int written_ = 0;
 };

@@ -3,6 +3,7 @@
 
 #include "app/document/autosave.hpp"
 #include "app/document/command.hpp"
+#include "app/document/picture_arguments.hpp"
 #include "app/document/refused.hpp"
 #include "app/document/scene_file.hpp"
 
@@ -130,48 +131,22 @@ void add_dialog_commands(CommandTable& table) {
                }});
 }
 
-/// An unused name beside the scene's file, or in the working directory: "arm-1.png".
-std::filesystem::path picture_name(const Workspace& w) {
-    if (!w.keeps) throw Refused("path is missing");
-    const std::string stem = w.path.empty() ? "tendril" : w.path.stem().string();
-    for (int i = 1;; ++i) {
-        const std::filesystem::path path = w.path.parent_path() / (stem + "-" + std::to_string(i) + ".png");
-        std::error_code ignored;
-        if (!std::filesystem::exists(path, ignored)) return path;
-    }
-}
-
 void add_picture_command(CommandTable& table) {
-    const auto pixels = [](const char* name) {
-        return Argument{.name = name,
-                        .type = ArgumentType::Integer,
-                        .required = false,
-                        .help = "pixels; default: the view's",
-                        .low = min_picture,
-                        .high = max_picture};
-    };
     table.add({.name = "view.picture",
                .title = "Save a picture of the view",
-               .arguments = {{.name = "path",
-                              .type = ArgumentType::Text,
-                              .required = false,
-                              .help = "a PNG file; default, in a window: a new one beside the scene"},
-                             pixels("width"),
-                             pixels("height"),
-                             {.name = "transparent",
-                              .type = ArgumentType::Boolean,
-                              .required = false,
-                              .help = "with a transparent background"}},
-               .help = "Writes a picture of the scene in the view, without labels and panels",
+               .arguments = picture_arguments(
+                   {{.name = "path",
+                     .type = ArgumentType::Text,
+                     .required = false,
+                     .help = "a PNG file; default, in a window: a new one beside the scene"}}),
+               .help = "Writes a picture of the scene in the view without panels, with or without its labels",
                .effect = Effect::Look,
                .apply = [](Workspace& w, const Arguments& a) {
-                   PictureRequest wanted{a.has("path") ? std::filesystem::path(a.text("path"))
-                                                       : picture_name(w)};
+                   PictureRequest wanted;
+                   wanted.path = a.has("path") ? std::filesystem::path(a.text("path")) : new_picture(w);
                    if (wanted.path.extension() != ".png")
                        throw Refused("path must end in .png, got " + wanted.path.string());
-                   if (a.has("width")) wanted.size.x = a.integer("width");
-                   if (a.has("height")) wanted.size.y = a.integer("height");
-                   wanted.transparent = a.has("transparent") && a.boolean("transparent");
+                   set_look(a, wanted);
                    w.ui.picture = std::move(wanted);
                }});
 }

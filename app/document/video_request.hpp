@@ -1,22 +1,43 @@
-// A video of the last seconds: what was requested, and its progress.
+// Pictures and videos of the view: what was requested, and the progress of a video.
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <glm/vec2.hpp>
+#include <optional>
 #include <string>
 
 namespace tendril::app {
 
-struct VideoRequest {
-    std::filesystem::path path;
-    glm::ivec2 size{0};  ///< pixels; 0: as large as the view
-    int from = 0;        ///< ticks of 1/60 s before the newest moment in Rewind
-    int to = 0;          ///< likewise, less than `from`
-    int every = 2;       ///< ticks from one frame to the next
-    double speed = 1.0;  ///< of playback; 0.5 is slow motion
-    bool transparent = false;
+struct Workspace;
 
-    int frames() const { return (from - to) / every + 1; }
+/// How the view is drawn.
+struct PictureLook {
+    glm::ivec2 size{0};  ///< pixels; 0: as large as the view
+    bool transparent = false;
+    std::optional<bool> labels;  ///< with its labels, titles and legend; empty: if the lab wants them
+};
+
+/// A picture on its way to a file or to the clipboard.
+struct PictureRequest : PictureLook {
+    std::filesystem::path path;  ///< empty: to the clipboard
+};
+
+/// A video: of the last seconds, or of frames that a lab shows one by one.
+struct VideoRequest : PictureLook {
+    std::filesystem::path path;
+    std::string command = "view.video";  ///< that asked for it, for messages
+    int from = 0;                        ///< ticks of 1/60 s before the newest moment in Rewind
+    int to = 0;                          ///< likewise, less than `from`
+    int every = 2;                       ///< ticks from one frame to the next
+    double speed = 1.0;                  ///< of playback; 0.5 is slow motion
+
+    /// Instead of the last seconds: how many frames, and what shows one of them in a copy of the workspace.
+    /// It returns false if the frame looks like the one before.
+    int shown_frames = 0;
+    std::function<bool(Workspace&, int frame)> show{};
+
+    int frames() const { return show ? shown_frames : (from - to) / every + 1; }
 };
 
 /// Progress of the video being written.

@@ -57,13 +57,6 @@ struct Recoverable {
 
 inline constexpr int min_picture = 16, max_picture = 8192;  ///< pixels, each way
 
-/// A picture of the view, on its way to a file or to the clipboard.
-struct PictureRequest {
-    std::filesystem::path path;  ///< empty: to the clipboard
-    glm::ivec2 size{0};          ///< pixels; 0: as large as the view
-    bool transparent = false;
-};
-
 /// Transient state of the window.
 struct UiState {
     bool help = false;

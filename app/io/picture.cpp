@@ -9,10 +9,15 @@ namespace tendril::app {
 namespace {
 
 Image drawn(Renderer& renderer, const DrawScene& draw, const CameraPose& pose, glm::ivec2 size,
-            const Palette& palette, bool grid) {
+            const Palette& palette, bool grid, const DrawOver& over) {
     const OffscreenFramebuffer target(size);
-    renderer.draw(draw(palette), pose, palette,
+    const std::vector<Pane> panes = draw(palette);
+    renderer.draw(panes, pose, palette,
                   {.framebuffer = target.name(), .framebuffer_size = size, .grid = grid});
+    if (over) {
+        glBindFramebuffer(GL_FRAMEBUFFER, target.name());
+        over(panes, palette);
+    }
     return read_framebuffer(target.name(), size);
 }
 
@@ -41,11 +46,11 @@ Image matted(const Image& black, const Image& white) {
 }  // namespace
 
 Image draw_picture(Renderer& renderer, const DrawScene& draw, const CameraPose& pose, glm::ivec2 size,
-                   const Palette& palette, bool transparent) {
-    if (!transparent) return drawn(renderer, draw, pose, size, palette, true);
+                   const Palette& palette, bool transparent, const DrawOver& over) {
+    if (!transparent) return drawn(renderer, draw, pose, size, palette, true, over);
     // Colours that fade into the background fade into either of these.
-    return matted(drawn(renderer, draw, pose, size, before(palette, 0.0f), false),
-                  drawn(renderer, draw, pose, size, before(palette, 1.0f), false));
+    return matted(drawn(renderer, draw, pose, size, before(palette, 0.0f), false, over),
+                  drawn(renderer, draw, pose, size, before(palette, 1.0f), false, over));
 }
 
 }  // namespace tendril::app

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include "app/io/image.hpp"
 #include "app/view/renderer.hpp"
@@ -11,10 +12,13 @@ namespace tendril::app {
 /// Draws a lab's panes in the colours of a palette.
 using DrawScene = std::function<std::vector<Pane>(const Palette&)>;
 
+/// Draws over them, into the bound framebuffer, in the same colours.
+using DrawOver = std::function<void(const std::vector<Pane>&, const Palette&)>;
+
 /// Draws the scene in a picture of `size` pixels. With `transparent` it has no background, and transparent
-/// surfaces and shadows have partial alpha. Needs a current context; throws std::runtime_error if the driver
-/// has not enough memory.
+/// surfaces and shadows have partial alpha. `over` may be empty. Needs a current context; throws
+/// std::runtime_error if the driver has not enough memory.
 Image draw_picture(Renderer& renderer, const DrawScene& draw, const CameraPose& pose, glm::ivec2 size,
-                   const Palette& palette, bool transparent);
+                   const Palette& palette, bool transparent, const DrawOver& over);
 
 }  // namespace tendril::app

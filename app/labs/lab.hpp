@@ -70,6 +70,7 @@ struct LegendRow {
     std::string name;
     glm::vec3 colour{1.0f};
     bool ring = false;
+    std::vector<std::string> numbers{};  ///< beside it, in columns; omitted if there is no room
 };
 
 /// A starting scene for the tests that run over every lab: they send it random events and commands, and the
@@ -183,6 +184,8 @@ class Lab {
     }
     /// What the mouse would do at that pick, for the status line.
     virtual std::string hint(const Workspace&, PickId) const { return {}; }
+    /// Whether pictures and videos have the labels and the legend if the request does not say.
+    virtual bool labels_pictures(const Workspace&) const { return false; }
     /// What the camera frames: all handles by default.
     virtual Bounds bounds(const Workspace& workspace, bool selection_only) const;
 

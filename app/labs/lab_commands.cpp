@@ -7,10 +7,10 @@
 #include <glm/trigonometric.hpp>
 #include <string>
 
-#include "app/document/atomic_file.hpp"
 #include "app/document/command.hpp"
+#include "app/document/picture_arguments.hpp"
 #include "app/document/units.hpp"
-#include "app/io/video_file.hpp"
+#include "app/labs/kit/film.hpp"
 #include "app/labs/labs.hpp"
 
 namespace tendril::app {
@@ -155,15 +155,6 @@ namespace {
 
 constexpr double longest = static_cast<double>(Rewind::max_ticks) * tick_seconds;
 
-Argument pixels(const char* name, const char* help) {
-    return {.name = name,
-            .type = ArgumentType::Integer,
-            .required = false,
-            .help = help,
-            .low = min_picture,
-            .high = max_picture};
-}
-
 Argument seconds_back(const char* name, const char* help) {
     return {.name = name, .required = false, .help = help, .low = 0.0, .high = longest};
 }
@@ -197,26 +188,16 @@ void set_range(VideoRequest& wanted, const Workspace& w, const Arguments& given)
 }
 
 VideoRequest video_request(const Workspace& w, const Arguments& given) {
-    VideoRequest wanted{.path = given.text("path")};
-    if (const std::string why = why_no_video(wanted.path); !why.empty()) throw Refused(why);
-    if (given.has("width")) wanted.size.x = given.integer("width");
-    if (given.has("height")) wanted.size.y = given.integer("height");
+    VideoRequest wanted = film_request(w, given);
     if (given.has("every")) wanted.every = given.integer("every");
     if (given.has("speed")) wanted.speed = given.real("speed");
-    wanted.transparent = given.has("transparent") && given.boolean("transparent");
     const bool mp4 = wanted.path.extension() == ".mp4";
-    if (mp4 && wanted.transparent) throw Refused("transparent: MP4 has no transparency, animated PNG has");
-    for (const char* side : {"width", "height"})
-        if (mp4 && given.has(side) && given.integer(side) % 2 != 0)
-            throw Refused(std::string(side) + " of an MP4 must be even, got " +
-                          std::to_string(given.integer(side)));
     constexpr double max_per_second = 60.0;
     if (!mp4 && wanted.speed * max_per_second > max_per_second * wanted.every + 1e-6)
         throw Refused("speed of an animated PNG with every " + std::to_string(wanted.every) +
                       " must be at most " + std::to_string(wanted.every) + ", got " +
                       fixed_text(wanted.speed, 2) + ": viewers slow down above 60 frames a second");
     set_range(wanted, w, given);
-    check_writable(wanted.path);
     return wanted;
 }
 
@@ -229,36 +210,24 @@ void add_recording(CommandTable& table, const Labs& labs) {
     table.add(
         {.name = "view.video",
          .title = "Write a video of the past",
-         .arguments = {{.name = "path",
-                        .type = ArgumentType::Text,
-                        .help = "a .png file (animated), or .mp4 if ffmpeg is installed"},
-                       pixels("width", "pixels, even for MP4; default: the view's"),
-                       pixels("height", "pixels, even for MP4; default: the view's"),
-                       seconds_back("from",
-                                    "seconds back from the latest moment; default: all that is remembered"),
-                       seconds_back("to", "seconds back from the latest moment; default: 0"),
-                       {.name = "every",
-                        .type = ArgumentType::Integer,
-                        .required = false,
-                        .help =
-                            "ticks of 1/60 s from frame to frame; default: 2, which is 30 frames a second",
-                        .low = 1,
-                        .high = 60},
-                       {.name = "speed",
-                        .required = false,
-                        .help = "1 is real time, the default; below 1 is slow motion",
-                        .low = slowest,
-                        .high = fastest},
-                       {.name = "transparent",
-                        .type = ArgumentType::Boolean,
-                        .required = false,
-                        .help = "with a transparent background; PNG only"}},
-         .help = "Writes a video of the last ten seconds as the view shows them now, without labels and "
-                 "panels",
+         .arguments = film_arguments(
+             {seconds_back("from", "seconds back from the latest moment; default: all that is remembered"),
+              seconds_back("to", "seconds back from the latest moment; default: 0"),
+              {.name = "every",
+               .type = ArgumentType::Integer,
+               .required = false,
+               .help = "ticks of 1/60 s from frame to frame; default: 2, which is 30 frames a second",
+               .low = 1,
+               .high = 60},
+              {.name = "speed",
+               .required = false,
+               .help = "1 is real time, the default; below 1 is slow motion",
+               .low = slowest,
+               .high = fastest}}),
+         .help = "Writes a video of the last ten seconds as the view shows them now without panels, with or "
+                 "without labels",
          .effect = Effect::Look,
          .apply = [&labs](Workspace& w, const Arguments& a) {
-             if (w.ui.filming)
-                 throw Refused(w.ui.filming->name + " is still being written; view.end_video cancels it");
              require_view(w, labs);
              w.ui.video = video_request(w, a);
          }});
@@ -289,20 +258,13 @@ void add_recording(CommandTable& table, const Labs& labs) {
 void add_copying(CommandTable& table, const Labs& labs) {
     table.add({.name = "view.copy_picture",
                .title = "Copy the picture",
-               .arguments = {pixels("width", "pixels; default: the view's"),
-                             pixels("height", "pixels; default: the view's"),
-                             {.name = "transparent",
-                              .type = ArgumentType::Boolean,
-                              .required = false,
-                              .help = "with a transparent background"}},
+               .arguments = picture_arguments(),
                .help = "Puts a picture of the scene in the view on the clipboard; needs xclip or wl-copy",
                .effect = Effect::Look,
                .apply = [&labs](Workspace& w, const Arguments& a) {
                    require_view(w, labs);
                    PictureRequest wanted;
-                   if (a.has("width")) wanted.size.x = a.integer("width");
-                   if (a.has("height")) wanted.size.y = a.integer("height");
-                   wanted.transparent = a.has("transparent") && a.boolean("transparent");
+                   set_look(a, wanted);
                    w.ui.picture = std::move(wanted);
                }});
 }

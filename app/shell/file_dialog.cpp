@@ -84,7 +84,7 @@ void FileDialog::start(const Workspace& workspace, const Labs& labs) {
     std::error_code error;
     go_to(workspace.path.empty() ? fs::current_path(error) : fs::absolute(workspace.path).parent_path());
     confirmed_.clear();
-    if (filming()) video_.start(workspace);
+    if (filming()) video_.start(workspace, labs.find(workspace.lab)->labels_pictures(workspace));
     const std::string name = filming()  ? video_name(workspace, folder_)
                              : saving() ? workspace.path.filename().string()
                                         : std::string();

@@ -2,6 +2,11 @@
 
 #include <imgui.h>
 
+#include <algorithm>
+#include <glm/common.hpp>
+#include <string>
+#include <vector>
+
 #include "app/shell/theme.hpp"
 #include "app/view/labels.hpp"
 #include "app/widgets/fonts.hpp"
@@ -54,6 +59,89 @@ void show_labels(const DrawList& drawn, const Camera& camera, const Palette& pal
                       label.text.c_str());
     }
     ImGui::PopFont();
+}
+
+namespace {
+
+/// The legend's columns: names, then numbers. Widths in pixels, in the current font.
+struct LegendColumns {
+    std::vector<float> widths;
+    float apart = 0.0f;
+
+    LegendColumns(std::span<const LegendRow> rows, float scale) : apart(14.0f * scale) {
+        const auto take = [&](std::size_t column, const std::string& text) {
+            if (column >= widths.size()) widths.resize(column + 1, 0.0f);
+            widths[column] = std::max(widths[column], ImGui::CalcTextSize(text.c_str()).x);
+        };
+        for (const LegendRow& row : rows) {
+            take(0, row.name);
+            for (std::size_t i = 0; i < row.numbers.size(); ++i) take(i + 1, row.numbers[i]);
+        }
+    }
+    /// Leaves out the numbers, from the last column, that do not fit.
+    void fit(float room) {
+        while (widths.size() > 1 && total() > room) widths.pop_back();
+    }
+    float total() const {
+        float sum = -apart;
+        for (const float width : widths) sum += width + apart;
+        return sum;
+    }
+};
+
+LegendColumns legend_columns(std::span<const LegendRow> rows, const Rect& view, float scale) {
+    LegendColumns columns(rows, scale);
+    columns.fit(view.size().x - 48.0f * scale);
+    return columns;
+}
+
+}  // namespace
+
+Rect legend_box(std::span<const LegendRow> rows, const Rect& view, float scale, ViewCorner corner) {
+    const bool small = view.size().y < 300.0f * scale || view.size().x < 260.0f * scale;
+    if (rows.empty() || small) return {view.min, view.min};  // the picture comes first
+    ImGui::PushFont(small_font());
+    const float wide = legend_columns(rows, view, scale).total();
+    const float height = 1.35f * ImGui::GetFontSize() * static_cast<float>(rows.size());
+    ImGui::PopFont();
+    const glm::vec2 size{30.0f * scale + wide, height};
+    const glm::vec2 low_end = view.min + glm::vec2(0.0f, 12.0f * scale),
+                    high_end = view.max - size - glm::vec2(12.0f * scale);
+    const glm::vec2 at = glm::mix(low_end, high_end, corner);
+    return {at, at + size};
+}
+
+Rect show_legend(std::span<const LegendRow> rows, const Rect& view, const Palette& palette, float scale,
+                 ViewCorner corner) {
+    const Rect box = legend_box(rows, view, scale, corner);
+    if (box.size().y <= 0.0f) return box;
+    ImGui::PushFont(small_font());
+    const LegendColumns columns = legend_columns(rows, view, scale);
+    const float line = 1.35f * ImGui::GetFontSize();
+    float y = box.min.y;
+    ImDrawList* list = ImGui::GetBackgroundDrawList();
+    // A quiet ground, so that axes and grid lines do not run through the words.
+    const float edge = 6.0f * scale;
+    list->AddRectFilled({box.min.x + edge, box.min.y - edge}, {box.max.x + edge, box.max.y + 0.5f * edge},
+                        imgui_u32(palette.background_bottom, 0.82f), edge);
+    for (const LegendRow& row : rows) {
+        const ImVec2 centre{box.min.x + 18.0f * scale, y + 0.5f * ImGui::GetFontSize()};
+        if (row.ring) {
+            list->AddCircle(centre, 3.6f * scale, imgui_u32(row.colour), 20, 1.5f * scale);
+        } else {
+            list->AddCircleFilled(centre, 4.0f * scale, imgui_u32(row.colour), 20);
+        }
+        float x = centre.x + 12.0f * scale;
+        const glm::vec3 ink = row.numbers.empty() ? palette.text_dim : palette.text;
+        for (std::size_t i = 0; i < std::min(columns.widths.size(), row.numbers.size() + 1); ++i) {
+            const std::string& text = i == 0 ? row.name : row.numbers[i - 1];
+            list->AddText({x, y}, imgui_u32(ink), text.c_str());
+            x += columns.widths[i] + columns.apart;
+        }
+        y += line;
+    }
+    ImGui::PopFont();
+    return box;
 }
 
 }  // namespace tendril::app

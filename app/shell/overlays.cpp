@@ -1,4 +1,4 @@
-// Overlays on the scene: help, settings, toasts, the first hint and the legend.
+// Overlays on the scene: help, settings, toasts and the first hint.
 #include <imgui.h>
 
 #include <algorithm>
@@ -11,6 +11,7 @@
 
 #include "app/labs/lab_commands.hpp"
 #include "app/shell/axis_gizmo.hpp"
+#include "app/shell/labels_view.hpp"
 #include "app/shell/shell.hpp"
 #include "app/shell/theme.hpp"
 #include "app/widgets/fields.hpp"
@@ -170,26 +171,11 @@ void show_settings(const ShellFrame& frame, Emit& emit) {
     ImGui::End();
 }
 
-/// The legend's rectangle; empty if there is none.
-static Rect legend_box(const ShellFrame& frame, const std::vector<LegendRow>& rows) {
-    const Rect& view = frame.layout.view;
-    const float scale = frame.layout.scale;
-    const bool low = view.size().y < 300.0f * scale || view.size().x < 260.0f * scale;
-    if (rows.empty() || low) return {view.min, view.min};  // the picture comes first
-    ImGui::PushFont(small_font());
-    float widest = 0.0f;
-    for (const LegendRow& row : rows) widest = std::max(widest, ImGui::CalcTextSize(row.name.c_str()).x);
-    const float height = 1.35f * ImGui::GetFontSize() * static_cast<float>(rows.size());
-    ImGui::PopFont();
-    const float bottom = view.max.y - 12.0f * scale;
-    return {{view.min.x, bottom - height}, {view.min.x + 30.0f * scale + widest, bottom}};
-}
-
 void show_toasts(const ShellFrame& frame) {
     const float scale = frame.layout.scale;
     const Palette& colours = frame.colours();
     const Rect& view = frame.layout.view;
-    const Rect legend = legend_box(frame, frame.lab.legend(frame.workspace));
+    const Rect legend = legend_box(frame.lab.legend(frame.workspace), view, scale);
     // As wide as the view, or wider, over the panels, if the view is too narrow for legible text.
     const float margin = 32.0f * scale, legible = std::min(380.0f * scale, frame.screen().x - margin);
     const float widest =
@@ -254,35 +240,6 @@ Rect show_first_hint(const ShellFrame& frame) {
     ImGui::GetBackgroundDrawList()->AddText(ImGui::GetFont(), ImGui::GetFontSize(), at,
                                             imgui_u32(colours.text, 0.85f), text.c_str(), nullptr, wrap);
     return {{at.x, at.y}, {at.x + width, at.y + size_of(text).y}};
-}
-
-Rect show_legend(const ShellFrame& frame) {
-    const Palette& colours = frame.colours();
-    const std::vector<LegendRow> rows = frame.lab.legend(frame.workspace);
-    const Rect& view = frame.layout.view;
-    const float scale = frame.layout.scale;
-    const Rect box = legend_box(frame, rows);
-    if (box.size().y <= 0.0f) return box;
-    ImGui::PushFont(small_font());
-    const float line = 1.35f * ImGui::GetFontSize();
-    float y = box.min.y;
-    ImDrawList* list = ImGui::GetBackgroundDrawList();
-    // A quiet ground, so that axes and grid lines do not run through the words.
-    const float edge = 6.0f * scale;
-    list->AddRectFilled({box.min.x + edge, box.min.y - edge}, {box.max.x + edge, box.max.y + 0.5f * edge},
-                        imgui_u32(colours.background_bottom, 0.82f), edge);
-    for (const LegendRow& row : rows) {
-        const ImVec2 centre{view.min.x + 18.0f * scale, y + 0.5f * ImGui::GetFontSize()};
-        if (row.ring) {
-            list->AddCircle(centre, 3.6f * scale, imgui_u32(row.colour), 20, 1.5f * scale);
-        } else {
-            list->AddCircleFilled(centre, 4.0f * scale, imgui_u32(row.colour), 20);
-        }
-        list->AddText({centre.x + 12.0f * scale, y}, imgui_u32(colours.text_dim), row.name.c_str());
-        y += line;
-    }
-    ImGui::PopFont();
-    return box;
 }
 
 }  // namespace tendril::app

@@ -11,7 +11,7 @@
 namespace tendril::app {
 
 void show_pane_titles(std::span<const Pane> panes, std::span<const PaneTitle> titles, const Palette& palette,
-                      float scale) {
+                      float scale, bool has_axes) {
     if (panes.size() < 2) return;
     ImDrawList* const list = ImGui::GetBackgroundDrawList();
     const float inset = 10.0f * scale;
@@ -22,23 +22,33 @@ void show_pane_titles(std::span<const Pane> panes, std::span<const PaneTitle> ti
         const PaneTitle& title = titles[i];
         list->AddRect({rect.min.x, rect.min.y}, {rect.max.x, rect.max.y}, imgui_u32(palette.bar), 0.0f, 0,
                       2.0f * scale);
-        // The axis gizmo is in the top right corner of the whole view.
-        const bool corner = rect.min.y == panes.front().rect.min.y && rect.max.x == right;
-        const float axes = corner ? axis_gizmo_width(rect.size(), scale) : 0.0f;
+        const bool beside = has_axes && rect.min.y == panes.front().rect.min.y && rect.max.x == right;
+        const float axes = beside ? axis_gizmo_width(rect.size(), scale) : 0.0f;
         const float room = rect.size().x - 2.0f * inset - axes;
-        ImVec2 at{rect.min.x + inset, rect.min.y + 0.7f * inset};
-        const auto line = [&](const std::string& text, glm::vec3 colour) {
+        const ImVec2 corner{rect.min.x + inset, rect.min.y + 0.7f * inset};
+        const auto size_of = [&](const std::string& text, ImFont* font) {
+            ImGui::PushFont(font);
             const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, room);
-            if (at.y + size.y > rect.max.y) return;
-            list->AddText(ImGui::GetFont(), ImGui::GetFontSize(), at, imgui_u32(colour), text.c_str(), nullptr,
-                          room);
-            at.y += size.y + 1.0f * scale;
+            ImGui::PopFont();
+            return size;
         };
-        ImGui::PushFont(heading_font());
-        line(title.text, title.colour);
-        ImGui::PopFont();
+        const ImVec2 name = size_of(title.text, heading_font());
+        if (corner.y + name.y > rect.max.y) continue;
+        const float below = corner.y + name.y + 1.0f * scale;
         ImGui::PushFont(small_font());
-        if (ImGui::CalcTextSize(title.detail.c_str()).x < room) line(title.detail, palette.text_dim);
+        const float wide = ImGui::CalcTextSize(title.detail.c_str()).x, high = ImGui::GetFontSize();
+        const bool detail = !title.detail.empty() && wide < room && below + high <= rect.max.y;
+        // A quiet ground, as the legend's.
+        const float edge = 0.5f * inset;
+        list->AddRectFilled({corner.x - edge, corner.y - edge},
+                            {corner.x + std::max(name.x, detail ? wide : 0.0f) + edge,
+                             (detail ? below + high : corner.y + name.y) + edge},
+                            imgui_u32(palette.background_bottom, 0.6f), edge);
+        if (detail) list->AddText({corner.x, below}, imgui_u32(palette.text), title.detail.c_str());
+        ImGui::PopFont();
+        ImGui::PushFont(heading_font());
+        list->AddText(ImGui::GetFont(), ImGui::GetFontSize(), corner, imgui_u32(title.colour),
+                      title.text.c_str(), nullptr, room);
         ImGui::PopFont();
     }
 }

@@ -9,8 +9,9 @@
 namespace tendril::app {
 
 /// Titles in the panes' top left corners, and lines between the panes. Nothing if there is only one pane.
+/// `axes`: the axis gizmo is in the top right corner of the view.
 void show_pane_titles(std::span<const Pane> panes, std::span<const PaneTitle> titles, const Palette& palette,
-                      float scale);
+                      float scale, bool axes);
 
 /// The box that the user draws to select its contents.
 void show_selection_box(const Rect& box, const Palette& palette, float scale);

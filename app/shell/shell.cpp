@@ -9,6 +9,7 @@
 #include "app/document/text.hpp"
 #include "app/shell/axis_gizmo.hpp"
 #include "app/shell/card_view.hpp"
+#include "app/shell/labels_view.hpp"
 #include "app/shell/theme.hpp"
 #include "app/widgets/fonts.hpp"
 #include "app/widgets/icons.hpp"
@@ -342,7 +343,10 @@ void Shell::frame(const ShellFrame& frame, Emit& emit) {
         ImGui::End();
     }
     status_bar(frame);
-    overlays_ = {show_first_hint(frame), show_legend(frame), show_axis_gizmo(frame, emit)};
+    overlays_ = {
+        show_first_hint(frame),
+        show_legend(frame.lab.legend(workspace), frame.layout.view, frame.colours(), frame.layout.scale),
+        show_axis_gizmo(frame, emit)};
     card_ring_ = show_card_halo(frame, lit_);
     if (workspace.ui.help) show_help(frame, emit);
     if (workspace.ui.settings) show_settings(frame, emit);

@@ -67,9 +67,8 @@ void show_recovery(const ShellFrame& frame, Emit& emit);
 void show_quit(const ShellFrame& frame, Emit& emit);
 void show_filming(const ShellFrame& frame, Emit& emit);
 void show_toasts(const ShellFrame& frame);
-// These return their rectangles, empty if not shown.
+/// Returns its rectangle, empty if not shown.
 Rect show_first_hint(const ShellFrame& frame);
-Rect show_legend(const ShellFrame& frame);
 
 /// Begins a fixed window without decoration that fills `rect`; with `scrolls` it has a scroll bar if its
 /// contents do not fit. Always call ImGui::End() after it.

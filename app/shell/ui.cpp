@@ -53,7 +53,7 @@ Ui::~Ui() {
     ImGui::DestroyContext();
 }
 
-void Ui::load_fonts(float scale, float pixel_ratio) {
+void load_fonts(float scale, float pixel_ratio) {
     ImGuiIO& io = ImGui::GetIO();
     io.Fonts->Clear();
     const float pixels = scale * pixel_ratio;  // rasterised in pixels, shown in window coordinates

@@ -10,6 +10,10 @@
 
 namespace tendril::app {
 
+/// Loads the fonts of widgets/fonts.hpp into the current context: rasterised at scale times ratio, shown at
+/// scale.
+void load_fonts(float scale, float pixel_ratio);
+
 class Ui {
   public:
     /// Needs a current GL context.
@@ -37,8 +41,6 @@ class Ui {
     NumberEditing& numbers() { return numbers_; }
 
   private:
-    void load_fonts(float scale, float pixel_ratio);
-
     NumberEditing numbers_;
     float font_scale_ = 0.0f;
     float font_ratio_ = 0.0f;

@@ -19,7 +19,8 @@ void size_field(const char* name, int& pixels, int view, const char* help) {
 
 }  // namespace
 
-void VideoOptions::start(const Workspace& workspace) {
+void VideoOptions::start(const Workspace& workspace, bool labels) {
+    labels_ = labels;
     const Rewind& past = workspace.rewind;
     const std::uint64_t now = past.empty() ? 0 : std::max(past.newest(), workspace.moment);
     const std::uint64_t ticks = past.empty() ? 0 : std::min(now - past.oldest(), Rewind::max_ticks);
@@ -49,6 +50,8 @@ void VideoOptions::frame() {
     explain("How smooth it is. 60 a second makes the file about twice as large.");
     number_field("speed", speed_, 0.01f, static_cast<float>(slowest), static_cast<float>(fastest), "%.2f");
     explain("1 is real time, below it is slow motion.");
+    ImGui::Checkbox("Labels and legend", &labels_);
+    explain("Shows the labels of the view and its legend in the video too.");
     ImGui::BeginDisabled(mp4());
     ImGui::Checkbox("Transparent background", &transparent_);
     ImGui::EndDisabled();
@@ -66,6 +69,7 @@ std::filesystem::path VideoOptions::with_ending(std::filesystem::path path) cons
 
 ArgumentList VideoOptions::arguments(const std::filesystem::path& path) const {
     ArgumentList list{{"path", path.string()}, {"every", smooth_ == 0 || (!mp4() && speed_ > 1.0f) ? 2 : 1}};
+    list.push_back({"labels", labels_});
     if (size_.x > 0) list.push_back({"width", size_.x});
     if (size_.y > 0) list.push_back({"height", size_.y});
     if (from_ < remembered_) list.push_back({"from", from_});

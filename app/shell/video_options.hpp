@@ -12,10 +12,11 @@ namespace tendril::app {
 
 class VideoOptions {
   public:
-    static constexpr float rows = 8.0f;  ///< rows that frame() writes
+    static constexpr float rows = 9.0f;  ///< rows that frame() writes
 
-    /// Call when the dialog opens. Keeps earlier choices, except for the seconds.
-    void start(const Workspace& workspace);
+    /// Call when the dialog opens. Keeps earlier choices, except for the seconds and the labels.
+    /// `labels`: whether the lab wants them.
+    void start(const Workspace& workspace, bool labels);
     void frame();
     /// Gives a name without an extension that of the format.
     std::filesystem::path with_ending(std::filesystem::path path) const;
@@ -29,7 +30,7 @@ class VideoOptions {
     float remembered_ = 0.0f;  ///< seconds
     float from_ = 0.0f, to_ = 0.0f, speed_ = 1.0f;
     glm::ivec2 view_{0}, size_{0};  ///< pixels; 0 in size_: the view's
-    bool transparent_ = false;
+    bool transparent_ = false, labels_ = false;
     std::string why_no_mp4_;
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdio>
 #include <string>
 
@@ -20,6 +21,14 @@ double mark_seconds(double seconds_per_pixel, double apart) {
         if (step * factor >= min_step) return step * factor;
     }
     return step * 10.0;
+}
+
+/// The smallest of 1, 2, 5, 10, 20, ... that is at least `min`.
+std::size_t round_stride(float min) {
+    for (std::size_t decade = 1;; decade *= 10) {
+        for (const std::size_t factor : {1u, 2u, 5u})
+            if (!(static_cast<float>(decade * factor) < min)) return decade * factor;
+    }
 }
 
 /// The strip: its line, its head, and their use by the mouse.
@@ -136,13 +145,17 @@ bool step_timeline(const char* id, int& step, const std::vector<int>& ends) {
         step = static_cast<int>(std::lround(share * static_cast<float>(last)));
         if (ends.empty() || ends.back() == 0) step = 0;
     }
-    // A mark at each iteration's end, numbered where there is room.
-    for (std::size_t i = 0; i < ends.size(); ++i) {
+    // A mark at each iteration's end, numbered where there is room. Of many iterations only every second,
+    // fifth, tenth, ... is marked or numbered, so that neither runs together.
+    const float apart = strip.span() / std::max(1.0f, static_cast<float>(ends.size()) - 1.0f);
+    const std::size_t marked = round_stride(4.0f * Strip::unit() / apart),
+                      numbered = round_stride(60.0f * Strip::unit() / apart);
+    for (std::size_t i = 0; i < ends.size(); i += marked) {
         const float share = static_cast<float>(ends[i]) / static_cast<float>(last);
         char text[32];
         std::snprintf(text, sizeof text, i == 0 ? "start" : "iteration %zu", i);
         const bool empty = i > 0 && ends[i] == ends[i - 1];
-        strip.mark(share, empty ? nullptr : text);
+        strip.mark(share, empty || i % numbered != 0 ? nullptr : text);
     }
     strip.head(static_cast<float>(step) / static_cast<float>(last));
     return step != before;

@@ -77,16 +77,16 @@ void ChainLab::step(Workspace& workspace) const {
     workspace.toast(*stopped, ToastKind::Refusal);
 }
 
-/// Whether the microscope plays.
+/// Whether the microscope or the race plays.
 bool ChainLab::working(const Workspace& workspace) const {
     return chain_part(workspace).study.pace > 0.0f;
 }
 
 void ChainLab::work(Workspace& workspace) const {
-    const auto trace = shown_chain(workspace).trace;
+    const std::size_t last = shown_chain(workspace).last();
     const bool modified = workspace.modified();  // playback does not mark the scene as modified
     auto& part = workspace.document.edit<ChainPart>(chain_lab);
-    part.study.play(tick_seconds * static_cast<double>(workspace.clock.speed), trace ? trace->frames() : 0);
+    part.study.play(tick_seconds * static_cast<double>(workspace.clock.speed), last);
     if (!modified) workspace.saved = workspace.document;
 }
 
@@ -171,8 +171,14 @@ std::vector<LegendRow> ChainLab::legend(const Workspace& workspace) const {
         // Side by side, each pane has a title.
         for (const Racer& racer : shown.race->racers) {
             if (part.study.side_by_side && shown.race->racers.size() > 1) break;
-            rows.push_back({solver_title(racer.method), solver_colour(colours, racer.method)});
+            const RacerAt at = racer_at(racer, shown.step());
+            rows.push_back({.name = solver_title(racer.method),
+                            .colour = solver_colour(colours, racer.method),
+                            .numbers = {progress_text(at), error_reading(at)}});
         }
+        if (shown.race->racers.size() > 1 && !part.study.side_by_side)
+            rows.push_back({"joint of several solvers", colours.neutral});
+        rows.push_back({"root", colours.head});
         rows.push_back({"start", colours.ghost});
         rows.push_back({"target", colours.target});
         return rows;
@@ -194,6 +200,11 @@ std::vector<LegendRow> ChainLab::legend(const Workspace& workspace) const {
     return rows;
 }
 
+/// Without its legend nobody could tell the solvers of a race apart.
+bool ChainLab::labels_pictures(const Workspace& workspace) const {
+    return chain_part(workspace).study.kind == Study::Kind::Race;
+}
+
 std::vector<MouseHelp> ChainLab::mouse_help() const {
     return {{"Shift+click on a joint", "adds it to the selection, or takes it out"},
             {"Ctrl+drag on nothing", "draws a box that selects the joints in it; with Shift it adds them"}};
@@ -202,23 +213,17 @@ std::vector<MouseHelp> ChainLab::mouse_help() const {
 std::vector<Shortcut> ChainLab::shortcuts() const {
     constexpr bool in_menu = true, hidden = false, typing = true, repeats = true;
     const auto step = [&](const char* chord, const char* by, int count, const char* title) {
-        return Shortcut{*chord_from_name(chord),
-                        "microscope.step",
-                        {{by, count}},
-                        title,
-                        "Microscope",
-                        hidden,
-                        !typing,
-                        repeats};
+        return Shortcut{*chord_from_name(chord), "study.step", {{by, count}}, title,
+                        "Microscope and race",   hidden,       !typing,       repeats};
     };
     return {
         delete_shortcut("chain.remove_selected"),
         {*chord_from_name("ctrl+v"), "chain.paste", {}, "", "Edit", hidden},
         {*chord_from_name("b"), "view.segments", {}, "", "View", in_menu},
-        step("right", "by", 1, "Microscope: a step forward"),
-        step("left", "by", -1, "Microscope: a step back"),
-        step("shift+right", "iterations", 1, "Microscope: an iteration forward"),
-        step("shift+left", "iterations", -1, "Microscope: an iteration back"),
+        step("right", "by", 1, "Microscope, race: step forward"),
+        step("left", "by", -1, "Microscope, race: step back"),
+        step("shift+right", "iterations", 1, "Microscope, race: iteration forward"),
+        step("shift+left", "iterations", -1, "Microscope, race: iteration back"),
     };
 }
 

@@ -45,10 +45,15 @@ void take_chain(ChainPart& part, Chain chain);
 /// Solves again for the current target, in mode Reach.
 void reach_again(ChainPart& part, ChainRuntime& runtime);
 
+/// Throws Refused if no race is open.
+void check_race(const ChainPart& part);
+
 void add_shape_commands(CommandTable& table);
 void add_mode_commands(CommandTable& table);
 void add_reach_commands(CommandTable& table);
 void add_study_commands(CommandTable& table);
+/// race.save and race.record.
+void add_race_file_commands(CommandTable& table);
 void add_copy_commands(CommandTable& table);
 void add_paste_command(CommandTable& table);
 

@@ -186,6 +186,7 @@ class Drawing {
     }
 
     void labels() {
+        if (chain_.race) return;  // it does not show the joints of the chain itself
         if (view_.workspace.settings.labels == LabelMode::Always) {
             const std::size_t stride = part_.chain.size() / max_labels + 1;
             for (std::size_t i = 0; i < part_.chain.size(); i += stride) {
@@ -248,8 +249,7 @@ glm::vec3 solver_colour(const Palette& palette, ik::Method method) {
 
 ShownChain shown_chain(const Workspace& workspace) {
     const ChainPart& part = chain_part(workspace);
-    Studied studied = workspace.runtimes.of<ChainRuntime>(chain_lab).studied(part);
-    return {part, std::move(studied.trace), std::move(studied.race)};
+    return {workspace.runtimes.of<ChainRuntime>(chain_lab).studied(part), part};
 }
 
 std::vector<glm::vec3> shown_joints(const ShownChain& shown) {

@@ -1,6 +1,8 @@
 // Draws the Chain lab's scene.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <glm/vec3.hpp>
 #include <memory>
 #include <tendril/ik/method.hpp>
@@ -17,10 +19,11 @@ namespace tendril::app {
 // Scene, inspector and --state all use these functions, so that they show the same step.
 
 /// The lab's part and the result of its study. Refers to the workspace: do not store.
-struct ShownChain {
+struct ShownChain : Studied {
     const ChainPart& part;
-    std::shared_ptr<const Trace> trace;  ///< of the solve under the microscope, or null
-    std::shared_ptr<const Race> race;    ///< null if there is none
+
+    /// The step of the solve, or the iteration of the race.
+    std::size_t step() const { return std::min(part.study.step, last()); }
 };
 ShownChain shown_chain(const Workspace& workspace);
 
@@ -69,7 +72,8 @@ void draw_pole(const View& view, const ChainPart& part, DrawList& list);
 void draw_reach_sphere(const View& view, const ShownChain& shown, DrawList& list);
 /// The microscope's step, over the poses at the ends of earlier iterations.
 void draw_microscope(const View& view, const ShownChain& shown, DrawList& list);
-/// The final poses of a race: side by side only this pane's, otherwise all, drawn apart where they overlap.
+/// The poses of a race at its iteration: side by side only this pane's, otherwise all, drawn apart where they
+/// overlap.
 void draw_race(const View& view, const ShownChain& shown, DrawList& list);
 /// One pane for each solver of a side-by-side race; otherwise none.
 std::vector<PaneTitle> race_panes(const ShownChain& shown, const Palette& palette);

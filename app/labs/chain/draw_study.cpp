@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
+#include <span>
 
 #include "app/labs/chain/draw.hpp"
 
@@ -120,7 +120,7 @@ constexpr float strand_pixels = 4.5f;  ///< between adjacent strands of overlapp
 class RaceDrawing {
   public:
     RaceDrawing(const View& view, const ShownChain& shown, DrawList& list)
-        : view_(view), race_(*shown.race), study_(shown.part.study), list_(list) {}
+        : view_(view), race_(*shown.race), study_(shown.part.study), step_(shown.step()), list_(list) {}
 
     void run() {
         const glm::vec4 ghost = faded(view_.palette, view_.palette.ghost, 0.8f);
@@ -128,7 +128,7 @@ class RaceDrawing {
             list_.line(study_.start[i - 1], study_.start[i], px(2.0f), ghost);
         for (std::size_t i = 0; i < race_.racers.size(); ++i) {
             if (study_.side_by_side && i != view_.pane) continue;
-            chains_.push_back(&race_.racers[i]);
+            chains_.push_back({race_.racers[i].method, racer_at(race_.racers[i], step_).joints});
         }
         project();
         for (std::size_t c = 0; c < chains_.size(); ++c) chain(c);
@@ -136,7 +136,7 @@ class RaceDrawing {
 
   private:
     float px(float pixels) const { return pixels * view_.scale; }
-    const std::vector<glm::vec3>& joints(std::size_t c) const { return chains_[c]->joints; }
+    std::span<const glm::vec3> joints(std::size_t c) const { return chains_[c].joints; }
 
     void project() {
         for (std::size_t c = 0; c < chains_.size(); ++c) {
@@ -186,8 +186,8 @@ class RaceDrawing {
     }
 
     void chain(std::size_t c) {
-        const glm::vec4 colour(solver_colour(view_.palette, chains_[c]->method), 1.0f);
-        const std::vector<glm::vec3>& at = joints(c);
+        const glm::vec4 colour(solver_colour(view_.palette, chains_[c].method), 1.0f);
+        const std::span<const glm::vec3> at = joints(c);
         for (std::size_t i = 0; i < at.size(); ++i) {
             if (i > 0) {
                 list_.line(at[i - 1] + corner(c, i - 1, i), at[i] + corner(c, i, i), px(3.0f), colour)
@@ -215,8 +215,13 @@ class RaceDrawing {
     const View& view_;
     const Race& race_;
     const Study& study_;
+    std::size_t step_;
     DrawList& list_;
-    std::vector<const Racer*> chains_;
+    struct Posed {
+        ik::Method method;
+        std::span<const glm::vec3> joints;
+    };
+    std::vector<Posed> chains_;
     std::vector<std::vector<glm::vec2>> pixels_;  ///< of the joints of chains_
 };
 
@@ -230,9 +235,9 @@ std::vector<PaneTitle> race_panes(const ShownChain& shown, const Palette& palett
     std::vector<PaneTitle> titles;
     if (!shown.race || !shown.part.study.side_by_side) return titles;
     for (const Racer& racer : shown.race->racers) {
-        char text[96];
-        std::snprintf(text, sizeof text, "%s: %d", solver_title(racer.method), racer.report.iterations);
-        titles.push_back({text, end_text(racer), solver_colour(palette, racer.method)});
+        const RacerAt at = racer_at(racer, shown.step());
+        titles.push_back({std::string(solver_title(racer.method)) + ": " + progress_text(at),
+                          error_text(racer, at), solver_colour(palette, racer.method)});
     }
     return titles;
 }

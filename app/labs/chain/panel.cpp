@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <glm/geometric.hpp>
+#include <numeric>
+#include <optional>
 #include <string_view>
 
 #include "app/document/units.hpp"
@@ -151,26 +153,61 @@ float ChainLab::timeline_height(const Workspace& workspace) const {
     return strip_height + (plots ? past_plot_height(workspace.settings, chain_past()) : 0.0f);
 }
 
+namespace {
+
+/// Plays, steps and scrubs the microscope or the race; `ends` are the last steps of the iterations.
+void study_strip(const ShownChain& chain, const std::vector<int>& ends, Emit& emit) {
+    const bool plays = chain.part.study.pace > 0.0f, race = chain.race != nullptr;
+    const std::size_t step = chain.step();
+    if (icon_button("play", plays ? Icon::Pause : Icon::Play,
+                    plays  ? "Pauses"
+                    : race ? "Plays the race, iteration by iteration"
+                           : "Plays the steps",
+                    chain.last() > 0, plays)) {
+        if (race)
+            emit("race.play", {{"on", !plays}});
+        else
+            emit(plays ? "microscope.pause" : "microscope.play");
+    }
+    ImGui::SameLine();
+    if (icon_button("back", Icon::ChevronLeft, race ? "One iteration back" : "One step back", step > 0))
+        emit("study.step", {{"by", -1}});
+    ImGui::SameLine();
+    if (icon_button("on", Icon::ChevronRight, race ? "One iteration forward" : "One step forward",
+                    step < chain.last()))
+        emit("study.step", {{"by", 1}});
+    ImGui::SameLine();
+    int shown = static_cast<int>(step);
+    if (step_timeline("solve", shown, ends)) {
+        if (race)
+            emit.continuously("race.show", {{"iteration", shown}});
+        else
+            emit.continuously("microscope.seek", {{"step", shown}});
+    }
+    if (ImGui::IsItemHovered() && !ImGui::IsItemActive())
+        tell_strip(race ? "The iterations of the race. Drag to see every chain after one of them."
+                        : "The steps of the solve. Drag to see the chain after one of them.");
+}
+
+void past_rows(const Workspace& workspace, const std::optional<StripLine>& strip, Emit& emit) {
+    past_plot(workspace, chain_past(), chain_past_curve(workspace), strip, emit);
+}
+
+}  // namespace
+
 void ChainLab::timeline(const Workspace& workspace, Emit& emit) const {
     const ShownChain chain = shown_chain(workspace);
-    const ChainPart& part = chain.part;
-    if (chain.trace) {
-        const Trace& trace = *chain.trace;
-        const bool plays = part.study.pace > 0.0f;
-        if (icon_button("play", plays ? Icon::Pause : Icon::Play, plays ? "Pauses" : "Plays the steps", true,
-                        plays))
-            emit(plays ? "microscope.pause" : "microscope.play");
-        ImGui::SameLine();
-        int shown = static_cast<int>(part.study.step);
-        if (step_timeline("solve", shown, iteration_ends(trace))) {
-            emit.continuously("microscope.seek", {{"step", shown}});
-        }
-        if (ImGui::IsItemHovered() && !ImGui::IsItemActive())
-            tell_strip("The steps of the solve. Drag to see the chain after one of them.");
-        return;
-    }
-    const StripLine strip = past_strip(workspace, emit);
-    past_plot(workspace, chain_past(), chain_past_curve(workspace), strip, emit);
+    if (chain.trace) return study_strip(chain, iteration_ends(*chain.trace), emit);
+    if (!chain.race) return past_rows(workspace, past_strip(workspace, emit), emit);
+    // The moments of the last ten seconds, or the iterations of the race: state of the panel.
+    ImGuiStorage& kept = *ImGui::GetStateStorage();
+    bool& past = *kept.GetBoolRef(ImGui::GetID("past"));
+    if (other_strip_button(past, "race")) past = !past;
+    if (past) return past_rows(workspace, past_strip(workspace, emit), emit);
+    std::vector<int> ends(chain.last() + 1);
+    std::iota(ends.begin(), ends.end(), 0);
+    study_strip(chain, ends, emit);
+    past_rows(workspace, std::nullopt, emit);
 }
 
 namespace {

@@ -50,13 +50,21 @@ Json microscope_state(const ShownChain& shown) {
     return json;
 }
 
-Json race_state(const Race& race) {
+Json race_state(const ShownChain& shown) {
+    const Race& race = *shown.race;
     Json json = Json::array();
     for (const Racer& racer : race.racers) {
         Json each = report_json(racer.method, racer.report, race.within_limits);
         each["ends_with"] = number(racer.residuals.back());
         each["restored"] = racer.restored;
         for (const glm::vec3& joint : racer.joints) each["positions"].push_back(point(joint));
+        const RacerAt at = racer_at(racer, shown.step());
+        Json positions = Json::array();
+        for (const glm::vec3& joint : at.joints) positions.push_back(point(joint));
+        each["shown"] = {{"iteration", at.iteration},
+                         {"finished", at.finished},
+                         {"residual", number(at.error)},
+                         {"positions", std::move(positions)}};
         json.push_back(std::move(each));
     }
     return json;
@@ -97,7 +105,10 @@ Json ChainLab::state(const Workspace& workspace) const {
     if (part.mode == ChainMode::Reach) json["solve"] = reach_state(part);
     const ShownChain shown = shown_chain(workspace);
     if (shown.trace) json["microscope"] = microscope_state(shown);
-    if (shown.race) json["race"] = race_state(*shown.race);
+    if (!shown.race) return json;
+    json["race"] = race_state(shown);
+    json["race_shown"] = {
+        {"iteration", shown.step()}, {"iterations", shown.last()}, {"playing", part.study.pace > 0.0f}};
     return json;
 }
 

@@ -1,7 +1,6 @@
 #include "app/labs/chain/study.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <glm/geometric.hpp>
@@ -39,7 +38,7 @@ void Study::begin(Kind as, std::optional<From> from, const Chain& chain, const R
         start = from == From::Straight ? straight(chain) : last ? last_start : positions(chain);
         start_state = from == From::Straight ? ik::State() : last ? last_state : settings.state;
     }
-    if (kind != as) step = 0;
+    if (kind != as) step = as == Kind::Race ? race_end : 0;
     kind = as;
 }
 
@@ -61,11 +60,20 @@ void Study::close() {
     pace = 0.0f;
 }
 
+void Study::go_to(std::size_t to, std::size_t last) {
+    step = to < last ? to : kind == Kind::Race ? race_end : last;
+}
+
 void Study::play(double seconds, std::size_t last) {
     const double before = passed;
     passed += static_cast<double>(pace) * seconds;
-    step = std::min(last, step + static_cast<std::size_t>(std::floor(passed) - std::floor(before)));
-    if (step == last) pace = 0.0f;
+    go_to(step + static_cast<std::size_t>(std::floor(passed) - std::floor(before)), last);
+    if (step >= last) pace = 0.0f;
+}
+
+float race_pace(std::size_t iterations) {
+    constexpr float slow = 4.0f, longest_seconds = 8.0f;
+    return std::clamp(static_cast<float>(iterations) / longest_seconds, slow, fastest_pace);
 }
 
 void Study::rewind(Chain& chain, ReachSettings& settings) const {
@@ -101,7 +109,9 @@ bool Study::operator==(const Study& other) const {
 }
 
 Json save_study(const Study& study) {
-    Json json{{"kind", study.kind == Study::Kind::Race ? "race" : "microscope"}, {"step", study.step}};
+    const bool race = study.kind == Study::Kind::Race;
+    Json json{{"kind", race ? "race" : "microscope"}, {"step", race ? 0 : study.step}};
+    if (race && study.step != Study::race_end) json["iteration"] = study.step;
     for (const glm::vec3& at : study.start) json["start"].push_back(point(at));
     save_state(json, study.start_state, study.start);
     json["solvers"] = Json::array();
@@ -123,7 +133,10 @@ Study load_study(const JsonPlace& place, const Chain& chain) {
     start.check_size(chain.size(), "positions, one for each segment");
     for (std::size_t i = 0; i < chain.size(); ++i) study.start[i] = start.element(i).point();
     study.start_state = load_state(place, study.start);
-    study.step = static_cast<std::size_t>(place["step"].integer(0, max_trace_steps));
+    const auto step = static_cast<std::size_t>(place["step"].integer(0, max_trace_steps));
+    if (study.kind == Study::Kind::Microscope) study.step = step;
+    if (const auto iteration = place.optional("iteration"); iteration && study.kind == Study::Kind::Race)
+        study.step = static_cast<std::size_t>(iteration->integer(0, max_iterations));
     study.racers.fill(false);
     place["solvers"].for_each("solvers", ik::all_methods.size(), [&](const JsonPlace& each) {
         const auto method = ik::method_named(each.text());
@@ -132,102 +145,6 @@ Study load_study(const JsonPlace& place, const Chain& chain) {
     });
     study.side_by_side = place["side_by_side"].flag();
     return study;
-}
-
-namespace {
-
-constexpr int timings = 5;
-
-/// Records what the microscope records: the residuals, and whether the best pose was restored at the end.
-class Watch final : public ik::Observer {
-  public:
-    explicit Watch(Racer& racer) : racer_(racer) {}
-    void step(const ik::Step& step) noexcept override {
-        if (step.phase == ik::Phase::RestoreBest) racer_.restored = true;
-    }
-    void iteration_done(int, float residual) noexcept override {
-        racer_.residuals.push_back(residual);
-        racer_.restored = false;  // the solver went on from the restored pose
-    }
-
-  private:
-    Racer& racer_;
-};
-
-Racer run(ik::Method method, const Chain& chain, const ReachSettings& settings, glm::vec3 target,
-          ChainRuntime& runtime) {
-    using Clock = std::chrono::steady_clock;
-    Racer racer;
-    racer.method = method;
-    const std::vector<glm::vec3> start = positions(chain);
-    ik::Solver& solver = runtime.solver(chain);
-    ReachSettings each = settings;
-    const ik::State begin = state_for(each, solver.bones());
-    const ik::Options options = solver_options(each, solver.reach());
-    Watch watch(racer);
-    const auto solve = [&](ik::Observer* observer) {
-        racer.joints = start;
-        each.state = begin;
-        racer.report = solver.solve(method, racer.joints, each.state, target, options, observer);
-    };
-    solve(&watch);
-    if (racer.residuals.empty()) racer.residuals = {glm::distance(start.back(), target)};
-    for (int i = 0; i < timings; ++i) {
-        const auto from = Clock::now();
-        solve(nullptr);
-        const double took = std::chrono::duration<double, std::micro>(Clock::now() - from).count();
-        racer.microseconds = i == 0 ? took : std::min(racer.microseconds, took);
-    }
-    return racer;
-}
-
-}  // namespace
-
-Race run_race(const Chain& chain, const ReachSettings& settings, glm::vec3 target, const Racers& racers,
-              ChainRuntime& runtime) {
-    Race race;
-    race.within_limits = !settings.limits.empty();
-    race.tolerance = reach_tolerance(settings, chain.reach());
-    for (const ik::Method method : ik::all_methods) {
-        if (racers[static_cast<std::size_t>(method)])
-            race.racers.push_back(run(method, chain, settings, target, runtime));
-    }
-    return race;
-}
-
-std::string end_text(const Racer& racer) {
-    return std::string(ik::name(racer.report.status)) + ", " +
-           si_text(static_cast<double>(racer.residuals.back()), "m") + " from the target";
-}
-
-std::string restored_text(const Racer& racer) {
-    if (!racer.restored) return {};
-    return "best pose restored: " + si_text(static_cast<double>(racer.report.residual), "m");
-}
-
-std::string race_csv(const Race& race) {
-    std::string csv = "solver,iteration,residual,microseconds,status,ran,restored\n";
-    for (const Racer& racer : race.racers) {
-        const auto last = static_cast<double>(std::max<std::size_t>(racer.residuals.size() - 1, 1));
-        for (std::size_t i = 0; i < racer.residuals.size(); ++i) {
-            char line[160];
-            std::snprintf(line, sizeof line, "\"%s\",%zu,%.9g,%.3f,", solver_title(racer.method), i,
-                          static_cast<double>(racer.residuals[i]),
-                          racer.microseconds * static_cast<double>(i) / last);
-            csv += line;
-            if (i + 1 < racer.residuals.size()) {
-                csv += ",,\n";
-                continue;
-            }
-            char restored[32] = "";
-            if (racer.restored) {
-                std::snprintf(restored, sizeof restored, "%.9g", static_cast<double>(racer.report.residual));
-            }
-            csv += std::string(ik::name(racer.report.status)) + ",\"" +
-                   ran_text(racer.method, racer.report, race.within_limits) + "\"," + restored + "\n";
-        }
-    }
-    return csv;
 }
 
 namespace {

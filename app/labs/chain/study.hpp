@@ -1,8 +1,7 @@
 // Analysing a solve with the microscope or the race. While either is open, every solve begins at the same
-// start, so that moving the target shows another path from the same pose.
+// start, so that moving the target shows another path from the same pose. Both are played and scrubbed alike.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
@@ -15,45 +14,10 @@
 #include <vector>
 
 #include "app/document/json.hpp"
+#include "app/labs/chain/race.hpp"
 #include "app/labs/chain/reach.hpp"
 
 namespace tendril::app {
-
-// A race: several solvers with the same start and target.
-
-/// Which solvers take part, indexed by ik::Method.
-using Racers = std::array<bool, ik::all_methods.size()>;
-
-struct Racer {
-    ik::Method method = ik::Method::Fabrik;
-    ik::Report report;
-    std::vector<glm::vec3> joints;  ///< the final pose
-    /// Metres, before the first iteration and after each; never empty. The last is the final one.
-    std::vector<float> residuals;
-    /// Whether the solver finally restored an earlier, better pose; the report's residual is that pose's.
-    bool restored = false;
-    /// Time of the whole solve, the fastest of several runs. It varies from run to run, so it must not appear
-    /// in --state or in compared pictures.
-    double microseconds = 0.0;
-};
-
-struct Race {
-    std::vector<Racer> racers;
-    float tolerance = 0.0f;  ///< metres
-    bool within_limits = false;
-};
-
-Race run_race(const Chain& chain, const ReachSettings& settings, glm::vec3 target, const Racers& racers,
-              ChainRuntime& runtime);
-
-/// The end of a racer: "Stalled, 310 mm from the target". restored_text: "best pose restored: 230 mm", or
-/// empty.
-std::string end_text(const Racer& racer);
-std::string restored_text(const Racer& racer);
-
-/// One row for each iteration of each solver: solver, iteration, residual, microseconds; the last row of a
-/// solver adds status, ran (see ran_text) and restored: the residual of the best pose if that was restored.
-std::string race_csv(const Race& race);
 
 // The trace of one solve: every elementary step that an observer saw, and the pose after each.
 
@@ -89,16 +53,21 @@ Trace record_trace(Chain chain, ReachSettings settings, glm::vec3 target, ChainR
 std::string describe_frame(const Trace& trace, std::size_t frame);
 
 inline constexpr float slowest_pace = 0.1f, default_pace = 8.0f, fastest_pace = 600.0f;  ///< steps per second
+/// Iterations per second: 4, but at most 8 s for the whole race.
+float race_pace(std::size_t iterations);
 inline constexpr std::size_t max_studied_segments = 512;  ///< more would clutter the scene and take too long
 
 struct Study {
     enum class Kind { None, Microscope, Race } kind = Kind::None;
     std::vector<glm::vec3> start;  ///< the start of every solve, one position per segment
     ik::State start_state;         ///< the solver's state at the start, as in ReachSettings
-    std::size_t step = 0;          ///< microscope: the number of frames shown, 0 to all of them
+    /// What is shown. Microscope: the number of frames, 0 to all of them. Race: the iteration; race_end is
+    /// the end of any race, however many iterations it takes.
+    std::size_t step = 0;
+    static constexpr std::size_t race_end = max_trace_steps;
     Racers racers{true, true, true, false, true, false, false};  ///< by ik::Method
     bool side_by_side = false;
-    float pace = 0.0f;    ///< microscope: playback in steps per second; 0: paused
+    float pace = 0.0f;    ///< playback in steps or iterations per second; 0: paused
     double passed = 0.0;  ///< steps since playback began
 
     /// The pose before the last drag (or before the last solve outside a drag), where a study that is opened
@@ -118,7 +87,9 @@ struct Study {
     /// Call before each solve: records the start if the solve is the first of its drag.
     void note_start(const Chain& chain, const ReachSettings& settings);
     void close();
-    /// Plays the microscope for `seconds`; stops at step `last`.
+    /// Shows a step, at most `last`. A race that is at its last iteration stays at its end as that changes.
+    void go_to(std::size_t to, std::size_t last);
+    /// Plays for `seconds`; stops at step `last`.
     void play(double seconds, std::size_t last);
     /// Moves the chain back to the start; does nothing if no study is open.
     void rewind(Chain& chain, ReachSettings& settings) const;
@@ -127,8 +98,11 @@ struct Study {
 
 /// The result of a study: a trace or a race. Never saved; the lab's runtime caches it.
 struct Studied {
-    std::shared_ptr<const Trace> trace;
-    std::shared_ptr<const Race> race;
+    std::shared_ptr<const Trace> trace;  ///< of the solve under the microscope, or null
+    std::shared_ptr<const Race> race;    ///< null if there is none
+
+    /// The last step of the microscope, or the last iteration of the race.
+    std::size_t last() const { return trace ? trace->frames() : race ? race->iterations() : 0; }
 };
 Studied work_out(const Study& study, Chain chain, ReachSettings settings, glm::vec3 target,
                  ChainRuntime& runtime);

@@ -1,13 +1,19 @@
 // Commands that analyse a solve: microscope.* and race.*.
 #include <algorithm>
-#include <stdexcept>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
 
-#include "app/document/atomic_file.hpp"
 #include "app/labs/chain/chain_runtime.hpp"
 #include "app/labs/chain/commands.hpp"
-#include "app/labs/chain/draw.hpp"
 
 namespace tendril::app {
+
+void check_race(const ChainPart& part) {
+    if (part.study.kind != Study::Kind::Race) throw Refused("no race is open");
+}
+
 namespace {
 
 constexpr const char* starts[] = {"last", "here", "straight"};
@@ -37,48 +43,84 @@ void open_microscope(ChainPart& part, const Arguments& given, ChainRuntime& runt
 void check_microscope(const ChainPart& part) {
     if (part.study.kind != Study::Kind::Microscope) throw Refused("the microscope is not open");
 }
-void check_race(const ChainPart& part) {
-    if (part.study.kind != Study::Kind::Race) throw Refused("no race is open");
+void check_study(const ChainPart& part) {
+    if (!part.study.open()) throw Refused("neither the microscope nor a race is open");
+}
+
+/// Shows a step, or an iteration of the race, that must exist, and pauses.
+void seek(ChainPart& part, const Arguments& given, const char* name, ChainRuntime& runtime) {
+    const std::size_t last = runtime.studied(part).last();
+    const auto to = static_cast<std::size_t>(given.integer(name));
+    if (to > last)
+        throw Refused(std::string(name) + " must be 0 to " + std::to_string(last) + ", got " +
+                      std::to_string(to));
+    part.study.go_to(to, last);
+    part.study.pace = 0.0f;
 }
 
 void seek_step(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
     check_microscope(part);
-    part.study.step = static_cast<std::size_t>(given.integer("step"));
-    part.study.pace = 0.0f;
-    const std::size_t last = runtime.studied(part).trace->frames();
-    if (part.study.step > last) {
-        throw Refused("step must be 0 to " + std::to_string(last) + ", got " +
-                      std::to_string(part.study.step));
-    }
+    seek(part, given, "step", runtime);
 }
 
+void show_iteration(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
+    check_race(part);
+    seek(part, given, "iteration", runtime);
+}
+
+/// From one iteration's end to another's.
+long end_of_iteration(const Trace& trace, std::size_t step, int by) {
+    int iteration = trace.iteration(step);
+    const bool within = step < trace.end_of_iteration(iteration);
+    if (within && by > 0) --iteration;  // the first iteration forward is the end of this one
+    return static_cast<long>(trace.end_of_iteration(iteration + by));
+}
+
+/// A race has no steps but its iterations.
 void step(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
-    check_microscope(part);
-    const std::shared_ptr<const Trace> shown = runtime.studied(part).trace;
-    const Trace& trace = *shown;
-    const auto last = static_cast<long>(trace.frames());
-    long to = static_cast<long>(part.study.step);
-    if (given.has("iterations")) {
-        int iteration = trace.iteration(part.study.step);
-        const bool within = part.study.step < trace.end_of_iteration(iteration);
-        if (within && given.integer("iterations") > 0)
-            --iteration;  // the first iteration forward is the end of this one
-        to = static_cast<long>(trace.end_of_iteration(iteration + given.integer("iterations")));
-    } else {
-        to += given.has("by") ? given.integer("by") : 1;
-    }
-    part.study.step = static_cast<std::size_t>(std::clamp(to, 0L, last));
+    check_study(part);
+    const Studied shown = runtime.studied(part);
+    const auto last = static_cast<long>(shown.last());
+    const std::size_t now = std::min(part.study.step, shown.last());
+    const int by = given.has("by") ? given.integer("by") : 1;
+    long to = static_cast<long>(now) + by;
+    if (given.has("iterations"))
+        to = shown.trace ? end_of_iteration(*shown.trace, now, given.integer("iterations"))
+                         : static_cast<long>(now) + given.integer("iterations");
+    part.study.go_to(static_cast<std::size_t>(std::clamp(to, 0L, last)), shown.last());
     part.study.pace = 0.0f;
+}
+
+void step_microscope(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
+    check_microscope(part);
+    step(part, given, runtime);
 }
 
 /// Restarts playback if it is at the last step.
-void play(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
-    check_microscope(part);
+void play(ChainPart& part, float pace, ChainRuntime& runtime) {
     Study& study = part.study;
-    study.pace = given.has("pace") ? given.number("pace") : default_pace;
+    study.pace = pace;
     study.passed = 0.0;
-    if (study.step >= runtime.studied(part).trace->frames()) study.step = 0;
+    if (study.step >= runtime.studied(part).last()) study.step = 0;
 }
+
+void play_microscope(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
+    check_microscope(part);
+    play(part, given.has("pace") ? given.number("pace") : default_pace, runtime);
+}
+
+void play_race(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
+    check_race(part);
+    const bool on = !given.has("on") || given.boolean("on");
+    if (!on && given.has("pace")) throw Refused("pace is for playing, and on is false");
+    if (!on) {
+        part.study.pace = 0.0f;
+        return;
+    }
+    const std::size_t last = runtime.studied(part).last();
+    play(part, given.has("pace") ? given.number("pace") : race_pace(last), runtime);
+}
+
 void pause(ChainPart& part, const Arguments&) {
     check_microscope(part);
     part.study.pace = 0.0f;
@@ -108,6 +150,13 @@ void lay_out_race(ChainPart& part, const Arguments& given) {
     part.study.side_by_side = given.boolean("on");
 }
 
+std::vector<Argument> step_arguments() {
+    return {integer_argument("by", "steps forward, or back if negative; default: 1", -max_trace_steps,
+                             max_trace_steps),
+            integer_argument("iterations", "iterations forward, or back if negative, to the end of one",
+                             -max_iterations, max_iterations)};
+}
+
 void add_microscope_commands(CommandTable& table) {
     table.add(chain_command("microscope.open", "Open the microscope", {start_argument()},
                             "Shows a solve step by step, always from the same start", open_microscope,
@@ -119,37 +168,21 @@ void add_microscope_commands(CommandTable& table) {
                               .low = 0,
                               .high = max_trace_steps}},
                             "Goes to a step of the solve", seek_step, Effect::Look));
-    table.add(chain_command(
-        "microscope.step", "Step through the solve",
-        {integer_argument("by", "steps forward, or back if negative; default: 1", -max_trace_steps,
-                          max_trace_steps),
-         integer_argument("iterations", "iterations forward, or back if negative, to the end of one",
-                          -max_iterations, max_iterations)},
-        "Steps forward or back through the solve", step, Effect::Look));
+    table.add(chain_command("microscope.step", "Step through the solve", step_arguments(),
+                            "Steps forward or back through the solve", step_microscope, Effect::Look));
+    table.add(chain_command("study.step", "Step through microscope or race", step_arguments(),
+                            "Steps forward or back: through the solve under the microscope, or through the "
+                            "race iteration by iteration",
+                            step, Effect::Look));
     table.add(chain_command("microscope.play", "Play the solve's steps",
                             {number_argument("pace", "steps per second; default: 8",
                                              shortest_decimal(slowest_pace), shortest_decimal(fastest_pace))},
-                            "Plays the steps up to the last", play, Effect::Look));
+                            "Plays the steps up to the last", play_microscope, Effect::Look));
     table.add(chain_command("microscope.pause", "Pause the solve's steps", {}, "Stops playing the steps",
                             pause, Effect::Look));
     table.add(chain_command("microscope.close", "Close the microscope", {},
                             "Closes the microscope; the chain stays as the solve left it", close_microscope,
                             Effect::Look));
-}
-
-/// Writes the race's results without changing the chain.
-Command race_save() {
-    return {.name = "race.save",
-            .title = "Save the race as CSV",
-            .arguments = {{.name = "path", .type = ArgumentType::Text, .help = "a CSV file to write"}},
-            .help = "Writes every solver's residual at each iteration as CSV",
-            .effect = Effect::Look,
-            .apply = [](Workspace& workspace, const Arguments& given) {
-                const ShownChain shown = shown_chain(workspace);
-                check_race(shown.part);
-                write_file_atomically(given.text("path"), race_csv(*shown.race));
-                workspace.toast(written_text(given.text("path")));
-            }};
 }
 
 }  // namespace
@@ -168,10 +201,25 @@ void add_study_commands(CommandTable& table) {
     table.add(chain_command("race.side_by_side", "Show the race side by side",
                             {{.name = "on", .type = ArgumentType::Boolean, .help = "false: overlaid"}},
                             "Shows the chains of the race beside each other", lay_out_race, Effect::Look));
-    table.add(race_save());
+    table.add(chain_command("race.show", "Show an iteration of the race",
+                            {{.name = "iteration",
+                              .type = ArgumentType::Integer,
+                              .help = "after how many iterations; a solver that took fewer stays at its end",
+                              .low = 0,
+                              .high = max_iterations}},
+                            "Shows each solver's chain as it stood after an iteration", show_iteration,
+                            Effect::Look));
+    table.add(chain_command(
+        "race.play", "Play or pause the race",
+        {switch_argument("on", "false: pauses; default: true"),
+         number_argument("pace", "iterations per second; default: 4, or more so that it takes 8 s",
+                         shortest_decimal(slowest_pace), shortest_decimal(fastest_pace))},
+        "Plays the race iteration by iteration, from its start if it is at its end", play_race,
+        Effect::Look));
     table.add(chain_command("race.close", "Close the race", {},
                             "Closes the race; the chain stays as its own solver left it", close_race,
                             Effect::Look));
+    add_race_file_commands(table);
 }
 
 }  // namespace tendril::app

@@ -55,13 +55,14 @@ void racer_row(const ShownChain& shown, ik::Method method, bool time, const Pale
         std::find_if(racers.begin(), racers.end(), [&](const Racer& r) { return r.method == method; });
     if (racer == racers.end()) return;
     ImGui::SameLine();
-    text_flush_right(time ? si_text(1e-6 * racer->microseconds, "s")
-                          : std::to_string(racer->report.iterations));
+    const RacerAt at = racer_at(*racer, shown.step());
+    text_flush_right(time ? si_text(1e-6 * racer->microseconds, "s") : std::to_string(racer->iterations()));
     if (racer->report.status == ik::Status::InvalidInput) return small_right("does not support this chain");
     const std::string ran = ran_text(method, racer->report, shown.race->within_limits);
     if (ran != solver_title(method)) small_right(ran);
-    small_right(end_text(*racer));
-    if (racer->restored) small_right(restored_text(*racer));
+    // As many lines in every iteration, so that no row moves while the race plays.
+    small_right(at.finished ? end_text(*racer) : progress_text(at) + ", " + error_reading(at));
+    if (racer->restored) small_right(at.finished ? restored_text(*racer) : " ");
 }
 
 /// A solver that does not accept this chain.
@@ -75,7 +76,8 @@ void missing_racer_row(ik::Method method, const Palette& palette) {
     small_right(needs_two_bones);
 }
 
-void race_plot(const Race& race, bool time, const Palette& palette) {
+void race_plot(const ShownChain& shown, bool time, const Palette& palette) {
+    const Race& race = *shown.race;
     std::vector<Curve> curves;
     for (const Racer& racer : race.racers) {
         Curve curve{solver_title(racer.method), solver_colour(palette, racer.method),
@@ -94,6 +96,7 @@ void race_plot(const Race& race, bool time, const Palette& palette) {
           .min_y = min_residual(race.tolerance),
           .min_x = time ? 0.0f : 1.0f,
           .level = race.tolerance,
+          .at_x = time ? -1.0f : static_cast<float>(shown.step()),
           .whole_x = !time},
          plot_lines);
 }
@@ -178,7 +181,7 @@ void race_rows(const ShownChain& shown, const Palette& palette, Emit& emit) {
             missing_racer_row(method, palette);
         }
     }
-    race_plot(*shown.race, time, palette);
+    race_plot(shown, time, palette);
     if (ImGui::Checkbox("Against time", &time)) kept.SetBool(kept_as, time);
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("Measured on this machine, the fastest of several runs");
     bool apart = shown.part.study.side_by_side;
@@ -191,6 +194,11 @@ void race_rows(const ShownChain& shown, const Palette& palette, Emit& emit) {
     end_row();
     if (row_button("Copy numbers as CSV", 1, true, "Every solver's residual at each iteration"))
         emit("race.copy");
+    if (row_button(
+            "Record the race", 1, true,
+            "Writes the race from its start to its end as an animated PNG beside the scene, with names, "
+            "iterations and errors. The command race.record also writes MP4, at any size and pace."))
+        emit("race.record");
 }
 
 }  // namespace tendril::app

@@ -35,7 +35,7 @@ TEST(RacePanes, EachSolverHasOneWithItsName) {
     std::set<std::string> titles;
     for (const Json& pane : state["panes"]) titles.insert(pane.at("title"));
     EXPECT_EQ(titles.size(), 4u);
-    EXPECT_TRUE(titles.contains("CCD: 4")) << state["panes"].dump();
+    EXPECT_TRUE(titles.contains("CCD: finished after 4")) << state["panes"].dump();
     EXPECT_EQ(state_after(race().command("race.solver", {{"name", "ccd"}, {"on", false}})).at("panes").size(),
               3u);
     EXPECT_FALSE(state_after(race().command("race.side_by_side", {{"on", false}})).contains("panes"));
@@ -80,7 +80,8 @@ TEST(RacePanes, TheyShareACameraThatAnyOfThemTurnsAndZooms) {
 TEST(RacePanes, APictureHasThemAll) {
     const TempFolder folder;
     const std::string path = (folder / "race.png").string();
-    state_after(race().command("view.picture", {{"path", path}, {"width", 802}, {"height", 602}}));
+    state_after(
+        race().command("view.picture", {{"path", path}, {"width", 802}, {"height", 602}, {"labels", false}}));
     const app::Image picture = app::read_png(path);
     ASSERT_EQ(picture.size, glm::ivec2(802, 602));
     // The target's ball is at the same position in each quarter.

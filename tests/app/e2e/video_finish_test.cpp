@@ -30,8 +30,11 @@ class VideoFinish : public testing::Test {
     /// Films with a stand-in for ffmpeg that runs `end` after it has read all frames.
     void film_with(const std::string& end) {
         install(end);
-        app_.workspace().ui.video =
-            VideoRequest{.path = folder_ / "a.mp4", .size = {64, 64}, .from = 20, .to = 0};
+        VideoRequest wanted;
+        wanted.path = folder_ / "a.mp4";
+        wanted.size = {64, 64};
+        wanted.from = 20;
+        app_.workspace().ui.video = wanted;
         tick(KeyTap{*chord_from_name("l")});
     }
     void install(const std::string& end) {

@@ -190,7 +190,7 @@ TEST(Video, IsWrittenWhileOneGoesOn) {
 TEST(Video, HasTheSizeThatIsTypedInTheDialog) {
     const TempFolder folder;
     ScriptText script = swinging_rope();
-    const glm::vec2 width(757, 348), height(757, 380), record(369, 604);
+    const glm::vec2 width(757, 316), height(757, 348), record(369, 604);
     script.key("ctrl+shift+p").wait(4).click(width).key("ctrl+a").text("320").key("enter").wait(2);
     script.click(height).key("ctrl+a").text("100*2").key("enter").wait(2).click(record).wait(80);
     EXPECT_TRUE(succeeded(run_script(script, {}, folder.path())));

@@ -1,0 +1,49 @@
+#include "app/document/picture_arguments.hpp"
+
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include "app/document/refused.hpp"
+#include "app/document/workspace.hpp"
+
+namespace tendril::app {
+
+std::vector<Argument> picture_arguments(std::vector<Argument> first) {
+    for (const char* side : {"width", "height"})
+        first.push_back({.name = side,
+                         .type = ArgumentType::Integer,
+                         .required = false,
+                         .help = "pixels, even for MP4; default: the view's",
+                         .low = min_picture,
+                         .high = max_picture});
+    first.push_back({.name = "transparent",
+                     .type = ArgumentType::Boolean,
+                     .required = false,
+                     .help = "with a transparent background; PNG only"});
+    first.push_back({.name = "labels",
+                     .type = ArgumentType::Boolean,
+                     .required = false,
+                     .help = "with labels, titles and the legend; default: while a race is open"});
+    return first;
+}
+
+void set_look(const Arguments& given, PictureLook& look) {
+    if (given.has("width")) look.size.x = given.integer("width");
+    if (given.has("height")) look.size.y = given.integer("height");
+    look.transparent = given.has("transparent") && given.boolean("transparent");
+    if (given.has("labels")) look.labels = given.boolean("labels");
+}
+
+std::filesystem::path new_picture(const Workspace& workspace) {
+    if (!workspace.keeps) throw Refused("path is missing");
+    const std::string stem = workspace.path.empty() ? "tendril" : workspace.path.stem().string();
+    for (int i = 1;; ++i) {
+        const std::filesystem::path path =
+            workspace.path.parent_path() / (stem + "-" + std::to_string(i) + ".png");
+        std::error_code ignored;
+        if (!std::filesystem::exists(path, ignored)) return path;
+    }
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,20 @@
+// Arguments that the commands for pictures and videos of the view share.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "app/document/argument.hpp"
+#include "app/document/video_request.hpp"
+
+namespace tendril::app {
+
+/// `first`, then width, height, transparent and labels.
+std::vector<Argument> picture_arguments(std::vector<Argument> first = {});
+void set_look(const Arguments& given, PictureLook& look);
+
+/// An unused name beside the scene's file, or in the working directory: "arm-1.png". Throws Refused outside a
+/// window, where a script has to give the path.
+std::filesystem::path new_picture(const Workspace& workspace);
+
+}  // namespace tendril::app

@@ -1,0 +1,173 @@
+#include "app/labs/chain/race.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <glm/geometric.hpp>
+#include <tendril/ik/observer.hpp>
+#include <tendril/ik/solver.hpp>
+#include <utility>
+
+#include "app/document/units.hpp"
+#include "app/labs/chain/chain_runtime.hpp"
+
+namespace tendril::app {
+
+void KeptPoses::add(std::span<const glm::vec3> pose) {
+    size_ = pose.size();
+    const std::size_t iteration = added_++;
+    if (iteration % stride_ != 0) return;
+    joints_.insert(joints_.end(), pose.begin(), pose.end());
+    while (joints_.size() > most_ && joints_.size() > 2 * size_) {
+        stride_ *= 2;
+        std::size_t poses = 0;
+        for (std::size_t from = 0; from < joints_.size(); from += 2 * size_, ++poses)
+            std::copy_n(joints_.begin() + static_cast<std::ptrdiff_t>(from), size_,
+                        joints_.begin() + static_cast<std::ptrdiff_t>(poses * size_));
+        joints_.resize(poses * size_);
+    }
+}
+
+int KeptPoses::kept(int iteration) const {
+    const std::size_t wanted = std::min(static_cast<std::size_t>(std::max(0, iteration)), added_ - 1);
+    return static_cast<int>(wanted - wanted % stride_);
+}
+
+std::span<const glm::vec3> KeptPoses::at(int iteration) const {
+    const std::size_t pose = static_cast<std::size_t>(kept(iteration)) / stride_;
+    return std::span(joints_).subspan(pose * size_, size_);
+}
+
+namespace {
+
+constexpr int timings = 5;
+
+/// Records what the microscope records: the pose and the residual after each iteration, and whether the best
+/// pose was restored at the end.
+class Watch final : public ik::Observer {
+  public:
+    Watch(Racer& racer, std::vector<glm::vec3> start) : racer_(racer), joints_(std::move(start)) {}
+    void step(const ik::Step& step) noexcept override {
+        joints_[step.joint] = step.to;
+        if (step.phase == ik::Phase::RestoreBest) racer_.restored = true;
+    }
+    void iteration_done(int, float residual) noexcept override {
+        racer_.residuals.push_back(residual);
+        racer_.poses.add(joints_);
+        racer_.restored = false;  // the solver went on from the restored pose
+    }
+
+  private:
+    Racer& racer_;
+    std::vector<glm::vec3> joints_;
+};
+
+Racer run(ik::Method method, const Chain& chain, const ReachSettings& settings, glm::vec3 target,
+          ChainRuntime& runtime) {
+    using Clock = std::chrono::steady_clock;
+    Racer racer;
+    racer.method = method;
+    const std::vector<glm::vec3> start = positions(chain);
+    ik::Solver& solver = runtime.solver(chain);
+    ReachSettings each = settings;
+    const ik::State begin = state_for(each, solver.bones());
+    const ik::Options options = solver_options(each, solver.reach());
+    Watch watch(racer, start);
+    const auto solve = [&](ik::Observer* observer) {
+        racer.joints = start;
+        each.state = begin;
+        racer.report = solver.solve(method, racer.joints, each.state, target, options, observer);
+    };
+    solve(&watch);
+    if (racer.residuals.empty()) racer.residuals = {glm::distance(start.back(), target)};
+    for (int i = 0; i < timings; ++i) {
+        const auto from = Clock::now();
+        solve(nullptr);
+        const double took = std::chrono::duration<double, std::micro>(Clock::now() - from).count();
+        racer.microseconds = i == 0 ? took : std::min(racer.microseconds, took);
+    }
+    return racer;
+}
+
+}  // namespace
+
+Race run_race(const Chain& chain, const ReachSettings& settings, glm::vec3 target, const Racers& racers,
+              ChainRuntime& runtime) {
+    Race race;
+    race.within_limits = !settings.limits.empty();
+    race.tolerance = reach_tolerance(settings, chain.reach());
+    for (const ik::Method method : ik::all_methods) {
+        if (racers[static_cast<std::size_t>(method)])
+            race.racers.push_back(run(method, chain, settings, target, runtime));
+    }
+    return race;
+}
+
+std::size_t Race::iterations() const {
+    int most = 0;
+    for (const Racer& racer : racers) most = std::max(most, racer.iterations());
+    return static_cast<std::size_t>(most);
+}
+
+RacerAt racer_at(const Racer& racer, std::size_t iteration) {
+    const int last = racer.iterations();
+    if (iteration >= static_cast<std::size_t>(last))
+        return {.finished = true,
+                .iteration = last,
+                .joints = racer.joints,
+                .error = racer.restored ? racer.report.residual : racer.residuals.back()};
+    const int kept = racer.poses.kept(static_cast<int>(iteration));
+    return {.iteration = kept,
+            .joints = racer.poses.at(kept),
+            .error = racer.residuals[static_cast<std::size_t>(kept)]};
+}
+
+std::string progress_text(const RacerAt& at) {
+    return (at.finished ? "finished after " : "iteration ") + std::to_string(at.iteration);
+}
+
+std::string error_reading(const RacerAt& at) {
+    return "error " + si_text(static_cast<double>(at.error), "m");
+}
+
+std::string error_text(const Racer& racer, const RacerAt& at) {
+    const std::string status = at.finished ? std::string(ik::name(racer.report.status)) + ", " : "";
+    return status + si_text(static_cast<double>(at.error), "m") + " from the target";
+}
+
+std::string end_text(const Racer& racer) {
+    return std::string(ik::name(racer.report.status)) + ", " +
+           si_text(static_cast<double>(racer.residuals.back()), "m") + " from the target";
+}
+
+std::string restored_text(const Racer& racer) {
+    if (!racer.restored) return {};
+    return "best pose restored: " + si_text(static_cast<double>(racer.report.residual), "m");
+}
+
+std::string race_csv(const Race& race) {
+    std::string csv = "solver,iteration,residual,microseconds,status,ran,restored\n";
+    for (const Racer& racer : race.racers) {
+        const auto last = static_cast<double>(std::max<std::size_t>(racer.residuals.size() - 1, 1));
+        for (std::size_t i = 0; i < racer.residuals.size(); ++i) {
+            char line[160];
+            std::snprintf(line, sizeof line, "\"%s\",%zu,%.9g,%.3f,", solver_title(racer.method), i,
+                          static_cast<double>(racer.residuals[i]),
+                          racer.microseconds * static_cast<double>(i) / last);
+            csv += line;
+            if (i + 1 < racer.residuals.size()) {
+                csv += ",,\n";
+                continue;
+            }
+            char restored[32] = "";
+            if (racer.restored) {
+                std::snprintf(restored, sizeof restored, "%.9g", static_cast<double>(racer.report.residual));
+            }
+            csv += std::string(ik::name(racer.report.status)) + ",\"" +
+                   ran_text(racer.method, racer.report, race.within_limits) + "\"," + restored + "\n";
+        }
+    }
+    return csv;
+}
+
+}  // namespace tendril::app

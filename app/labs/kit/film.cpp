@@ -1,0 +1,42 @@
+#include "app/labs/kit/film.hpp"
+
+#include <iterator>
+#include <string>
+#include <utility>
+
+#include "app/document/atomic_file.hpp"
+#include "app/document/picture_arguments.hpp"
+#include "app/document/refused.hpp"
+#include "app/io/video_file.hpp"
+
+namespace tendril::app {
+
+std::vector<Argument> film_arguments(std::vector<Argument> more, bool may_name) {
+    const std::string help = "a .png file (animated), or .mp4 if ffmpeg is installed";
+    std::vector<Argument> all = picture_arguments(
+        {{.name = "path",
+          .type = ArgumentType::Text,
+          .required = !may_name,
+          .help = help + (may_name ? "; default, in a window: a new .png beside the scene" : "")}});
+    std::move(more.begin(), more.end(), std::back_inserter(all));
+    return all;
+}
+
+VideoRequest film_request(const Workspace& workspace, const Arguments& given) {
+    const auto& filming = workspace.ui.filming;
+    if (filming) throw Refused(filming->name + " is still being written; view.end_video cancels it");
+    VideoRequest wanted;
+    wanted.path = given.has("path") ? std::filesystem::path(given.text("path")) : new_picture(workspace);
+    if (const std::string why = why_no_video(wanted.path); !why.empty()) throw Refused(why);
+    set_look(given, wanted);
+    const bool mp4 = wanted.path.extension() == ".mp4";
+    if (mp4 && wanted.transparent) throw Refused("transparent: MP4 has no transparency, animated PNG has");
+    for (const char* side : {"width", "height"})
+        if (mp4 && given.has(side) && given.integer(side) % 2 != 0)
+            throw Refused(std::string(side) + " of an MP4 must be even, got " +
+                          std::to_string(given.integer(side)));
+    check_writable(wanted.path);
+    return wanted;
+}
+
+}  // namespace tendril::app

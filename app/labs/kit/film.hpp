@@ -1,0 +1,17 @@
+// What commands that write a video share: a file, its size and look.
+#pragma once
+
+#include <vector>
+
+#include "app/document/argument.hpp"
+#include "app/document/video_request.hpp"
+#include "app/document/workspace.hpp"
+
+namespace tendril::app {
+
+/// path, then those of a picture, then `more`. With `may_name` the path may be omitted in a window.
+std::vector<Argument> film_arguments(std::vector<Argument> more, bool may_name = false);
+/// The request without its frames. Throws Refused: another video is being written, or the file cannot be.
+VideoRequest film_request(const Workspace& workspace, const Arguments& given);
+
+}  // namespace tendril::app

@@ -1,0 +1,106 @@
+#include "app/shell/picture_text.hpp"
+
+#include <backends/imgui_impl_opengl3.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <glm/common.hpp>
+
+#include "app/shell/labels_view.hpp"
+#include "app/shell/panes_view.hpp"
+#include "app/shell/ui.hpp"
+
+namespace tendril::app {
+namespace {
+
+/// Makes a context current for as long as it lives.
+class CurrentContext {
+  public:
+    explicit CurrentContext(ImGuiContext* context) : before_(ImGui::GetCurrentContext()) {
+        ImGui::SetCurrentContext(context);
+    }
+    ~CurrentContext() { ImGui::SetCurrentContext(before_); }
+    CurrentContext(const CurrentContext&) = delete;
+    CurrentContext& operator=(const CurrentContext&) = delete;
+
+  private:
+    ImGuiContext* before_;
+};
+
+/// By the picture's size alone: as large as in a window whose view is like it, and legible at 1280 x 720.
+float text_scale(glm::ivec2 size) {
+    return std::max(0.7f, std::min(static_cast<float>(size.x) / 800.0f, static_cast<float>(size.y) / 600.0f));
+}
+
+/// How much of the scene's solid strokes lies in a rectangle.
+int covered_by(const Rect& box, const DrawList& drawn, const Camera& camera) {
+    constexpr int samples = 6;
+    int count = 0;
+    for (const Stroke& stroke : drawn.strokes) {
+        if (!stroke.shadow) continue;
+        for (int i = 0; i <= samples; ++i) {
+            const glm::vec3 at = glm::mix(stroke.a, stroke.b, static_cast<float>(i) / samples);
+            const auto pixel = camera.project(at);
+            count += pixel && box.contains(*pixel) ? 1 : 0;
+        }
+    }
+    return count;
+}
+
+/// The corner where the legend covers the fewest strokes, the lower left if there are several. Titles are at
+/// the top.
+ViewCorner freest_corner(std::span<const Pane> panes, const CameraPose& pose,
+                         std::span<const LegendRow> legend, const Rect& view, float scale) {
+    ViewCorner best = lower_left;
+    int fewest = -1;
+    for (const ViewCorner corner :
+         {lower_left, ViewCorner(0.0f, 0.0f), ViewCorner(1.0f, 1.0f), ViewCorner(1.0f, 0.0f)}) {
+        if (panes.size() > 1 && corner.y == 0.0f) continue;
+        const Rect box = legend_box(legend, view, scale, corner);
+        int count = 0;
+        for (const Pane& pane : panes) count += covered_by(box, pane.drawn, pane.camera(pose));
+        if (fewest >= 0 && count >= fewest) continue;
+        fewest = count;
+        best = corner;
+    }
+    return best;
+}
+
+}  // namespace
+
+PictureText::PictureText(glm::ivec2 size)
+    : size_(size), scale_(text_scale(size)), context_(ImGui::CreateContext()) {
+    constexpr float max_raster = 2.0f;  // larger text is stretched: the glyphs would not fit a texture
+    const CurrentContext current(context_);
+    ImGuiIO& io = ImGui::GetIO();
+    io.IniFilename = nullptr;
+    io.LogFilename = nullptr;
+    io.DisplaySize = {static_cast<float>(size.x), static_cast<float>(size.y)};
+    ImGui_ImplOpenGL3_Init("#version 330");
+    load_fonts(scale_, std::min(scale_, max_raster) / scale_);
+}
+
+PictureText::~PictureText() {
+    {
+        const CurrentContext current(context_);
+        ImGui_ImplOpenGL3_Shutdown();
+    }
+    ImGui::DestroyContext(context_);
+}
+
+void PictureText::draw(std::span<const Pane> panes, const CameraPose& pose, std::span<const PaneTitle> titles,
+                       std::span<const LegendRow> legend, const Palette& palette) {
+    const CurrentContext current(context_);
+    ImGui_ImplOpenGL3_NewFrame();
+    ImGui::NewFrame();
+    const Rect view{{0.0f, 0.0f}, glm::vec2(size_)};
+    if (!corner_) corner_ = freest_corner(panes, pose, legend, view, scale_);
+    const Rect covered = show_legend(legend, view, palette, scale_, *corner_);
+    for (const Pane& pane : panes)
+        show_labels(pane.drawn, pane.camera(pose), palette, scale_, std::span(&covered, 1));
+    show_pane_titles(panes, titles, palette, scale_, false);
+    ImGui::Render();
+    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+}
+
+}  // namespace tendril::app

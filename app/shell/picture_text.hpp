@@ -1,0 +1,38 @@
+// Draws the labels, titles and legend of the view into a picture, by the functions that draw them in the
+// window, with fonts rasterised for the picture.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <optional>
+#include <span>
+
+#include "app/labs/lab.hpp"
+#include "app/view/palette.hpp"
+#include "app/view/panes.hpp"
+
+struct ImGuiContext;
+
+namespace tendril::app {
+
+class PictureText {
+  public:
+    /// For pictures of `size` pixels. Needs a current GL context, now and whenever it draws or is destroyed;
+    /// leaves the window's Dear ImGui alone.
+    explicit PictureText(glm::ivec2 size);
+    ~PictureText();
+    PictureText(const PictureText&) = delete;
+    PictureText& operator=(const PictureText&) = delete;
+
+    /// Over the scene, into the bound framebuffer. The panes have been drawn with that camera and palette.
+    void draw(std::span<const Pane> panes, const CameraPose& pose, std::span<const PaneTitle> titles,
+              std::span<const LegendRow> legend, const Palette& palette);
+
+  private:
+    glm::ivec2 size_;
+    float scale_;
+    ImGuiContext* context_;
+    std::optional<glm::vec2>
+        corner_;  ///< the legend's, for all pictures: where it covers the fewest strokes of the first
+};
+
+}  // namespace tendril::app

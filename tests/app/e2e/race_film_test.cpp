@@ -1,0 +1,240 @@
+// A race as a picture with its labels, and as a film.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "tests/app/support/apng.hpp"
+#include "tests/app/support/frame_record.hpp"
+#include "tests/app/support/play.hpp"
+
+namespace tendril::test {
+namespace {
+
+using app::Image;
+using app::Json;
+
+ScriptText opened_race() {
+    ScriptText script;
+    script.command("chain.mode", {{"mode", "reach"}});
+    script.command("race.open", {{"start", "straight"}});
+    return script.command("chain.target", {{"to", {3, 3, 1}}});
+}
+
+Json sized(const std::filesystem::path& path, Json more = Json::object()) {
+    more.update({{"path", path.string()}, {"width", 800}, {"height", 600}});
+    return more;
+}
+
+/// Whether each pixel differs.
+std::vector<bool> differing(const Image& a, const Image& b) {
+    EXPECT_EQ(a.size, b.size);
+    std::vector<bool> pixels(a.rgba.size() / 4);
+    for (std::size_t i = 0; i < a.rgba.size() && a.size == b.size; ++i)
+        if (a.rgba[i] != b.rgba[i]) pixels[i / 4] = true;
+    return pixels;
+}
+
+int count_in(const std::vector<bool>& pixels, int width, glm::ivec2 from, glm::ivec2 to) {
+    int count = 0;
+    for (int y = from.y; y < to.y; ++y)
+        for (int x = from.x; x < to.x; ++x) count += pixels[static_cast<std::size_t>(y * width + x)];
+    return count;
+}
+
+TEST(RacePicture, HasItsLegendUnlessOneDoesNotWantIt) {
+    const TempFolder folder;
+    ScriptText script = opened_race();
+    script.command("view.picture", sized(folder / "default.png"));
+    script.command("view.picture", sized(folder / "with.png", {{"labels", true}}));
+    script.command("view.picture", sized(folder / "without.png", {{"labels", false}}));
+    script.command("race.close").command("view.picture", sized(folder / "closed.png"));
+    script.command("view.picture", sized(folder / "closed_without.png", {{"labels", false}}));
+    play(script);
+    const auto picture = [&](const char* name) { return app::read_png(folder / name); };
+    EXPECT_EQ(picture("default.png").rgba, picture("with.png").rgba) << "on while a race is open";
+    EXPECT_EQ(picture("closed.png").rgba, picture("closed_without.png").rgba) << "else off";
+    const std::vector<bool> pixels = differing(picture("with.png"), picture("without.png"));
+    const int all = count_in(pixels, 800, {0, 0}, {800, 600});
+    EXPECT_GT(all, 2000);
+    EXPECT_EQ(count_in(pixels, 800, {0, 360}, {500, 600}), all) << "only the legend, in its corner";
+}
+
+TEST(RacePicture, HasItsLegendWhereItCoversNoChain) {
+    const TempFolder folder;
+    ScriptText script = opened_race();
+    for (const char* solver : {"jacobian_transpose", "dls", "svd_dls"})
+        script.command("race.solver", {{"name", solver}, {"on", true}});
+    script.command("camera.frame", {{"what", "all"}}).command("race.show", {{"iteration", 2}});
+    Json wide = sized(folder / "with.png");
+    wide.update({{"width", 1280}, {"height", 720}});
+    script.command("view.picture", wide);
+    wide.update({{"path", (folder / "without.png").string()}, {"labels", false}});
+    play(script.command("view.picture", wide));
+    const std::vector<bool> pixels =
+        differing(app::read_png(folder / "with.png"), app::read_png(folder / "without.png"));
+    EXPECT_EQ(count_in(pixels, 1280, {0, 450}, {500, 720}), 0) << "the root is there";
+    EXPECT_GT(count_in(pixels, 1280, {0, 0}, {500, 300}), 2000);
+}
+
+TEST(RacePicture, HasTheTitlesOfItsPanes) {
+    const TempFolder folder;
+    ScriptText script = opened_race();
+    script.command("race.side_by_side", {{"on", true}}).command("camera.frame", {{"what", "all"}});
+    script.command("view.picture", sized(folder / "with.png"));
+    script.command("view.picture", sized(folder / "without.png", {{"labels", false}}));
+    play(script);
+    const std::vector<bool> pixels =
+        differing(app::read_png(folder / "with.png"), app::read_png(folder / "without.png"));
+    for (const glm::ivec2 corner : {glm::ivec2(0, 0), {401, 0}, {0, 301}, {401, 301}}) {
+        EXPECT_GT(count_in(pixels, 800, corner + 4, corner + glm::ivec2(395, 60)), 1500);
+        EXPECT_EQ(count_in(pixels, 800, corner + glm::ivec2(150, 70), corner + glm::ivec2(395, 295)), 0);
+    }
+}
+
+TEST(RacePicture, LabelsOfOtherScenesAreThereOnRequest) {
+    const TempFolder folder;
+    ScriptText script;
+    script.command("chain.select", {{"index", 2}});
+    script.command("view.picture", sized(folder / "without.png"));
+    script.command("view.picture", sized(folder / "with.png", {{"labels", true}}));
+    script.command("view.picture", sized(folder / "clear.png", {{"labels", true}, {"transparent", true}}));
+    script.command("view.labels", {{"show", "always"}});
+    script.command("view.picture", sized(folder / "always.png", {{"labels", true}}));
+    play(script);
+    const Image with = app::read_png(folder / "with.png");
+    EXPECT_NE(with.rgba, app::read_png(folder / "without.png").rgba);
+    EXPECT_NE(with.rgba, app::read_png(folder / "always.png").rgba) << "the window's own labels";
+    const Image clear = app::read_png(folder / "clear.png");
+    EXPECT_EQ(clear.rgba[3], 0);
+}
+
+/// The dialog's switch is on in a race, too.
+TEST(RacePicture, IsLabelledInAVideoOfThePast) {
+    const TempFolder folder;
+    ScriptText script = opened_race();
+    const glm::vec2 target = handle(state_after(script), "target");
+    script.drag({target, target - glm::vec2(40.0f, 0.0f), target - glm::vec2(60.0f, 30.0f)});
+    const Json view{{"path", (folder / "with.png").string()}, {"labels", true}};
+    Json bare = view;
+    bare.update({{"path", (folder / "without.png").string()}, {"labels", false}});
+    script.command("view.video", view).command("view.video", bare);
+    script.key("ctrl+shift+p").wait(4).key("enter").wait(60);
+    const TempFolder scripts;
+    write(scripts / "script.jsonl", script.text());
+    EXPECT_TRUE(succeeded(
+        run_program({"--headless", "--script", (scripts / "script.jsonl").string()}, {}, folder.path())));
+    const auto first = [&](const char* name) {
+        return read_apng(read(folder / name)).frames.front().image.rgba;
+    };
+    EXPECT_EQ(first("tendril-1.png"), first("with.png"));
+    EXPECT_NE(first("tendril-1.png"), first("without.png"));
+}
+
+/// The window's own text is as it was before a picture with text was taken.
+TEST(RacePicture, ChangesNothingInTheWindow) {
+    const TempFolder folder;
+    ScriptText plain = opened_race(), pictured = opened_race();
+    plain.wait(400);
+    pictured.command("view.picture", sized(folder / "a.png")).wait(400);
+    EXPECT_EQ(play(plain, {.picture = true}).picture.rgba, play(pictured, {.picture = true}).picture.rgba);
+}
+
+TEST(RaceFilm, ShowsTheRaceFromItsStartToItsEnd) {
+    const TempFolder folder;
+    ScriptText script = opened_race();
+    const int last = state_after(script)["race_shown"]["iterations"].get<int>();
+    ASSERT_GT(last, 2);
+    script.command("race.show", {{"iteration", 1}});
+    script.command("race.record", sized(folder / "film.png", {{"pace", 10}}));
+    script.command("view.picture", sized(folder / "kept.png"));
+    for (const int k : {0, 2, last})
+        script.command("race.show", {{"iteration", k}})
+            .command("view.picture", sized(folder / (std::to_string(k) + ".png")));
+    script.command("race.show", {{"iteration", 1}}).command("view.picture", sized(folder / "1.png"));
+    play(script);
+    const auto pixels = [&](const std::string& name) { return app::read_png(folder / name).rgba; };
+    const Apng film = read_apng(read(folder / "film.png"));
+    ASSERT_EQ(film.frames.size(), static_cast<std::size_t>(3 * last + 1 + 30)) << "and a second at the end";
+    EXPECT_EQ(film.frames.front().image.rgba, pixels("0.png"));
+    EXPECT_EQ(film.frames[3].image.rgba, pixels("1.png"));
+    EXPECT_EQ(film.frames[5].image.rgba, pixels("1.png"));
+    EXPECT_EQ(film.frames[6].image.rgba, pixels("2.png"));
+    EXPECT_EQ(film.frames.back().image.rgba, pixels(std::to_string(last) + ".png"));
+    EXPECT_EQ(pixels("kept.png"), pixels("1.png")) << "the window stays where it was";
+}
+
+TEST(RaceFilm, IsTheSameEveryTimeAndTakesItsLook) {
+    const TempFolder folder;
+    ScriptText script = opened_race();
+    script.command("race.show", {{"iteration", 2}});
+    script.command("race.record", {{"path", (folder / "a.png").string()}, {"width", 200}, {"height", 150}});
+    script.command("race.side_by_side", {{"on", false}});
+    script.command("race.record", {{"path", (folder / "b.png").string()}, {"width", 200}, {"height", 150}});
+    play(script);
+    EXPECT_EQ(read(folder / "a.png"), read(folder / "b.png"));
+    EXPECT_EQ(read_apng(read(folder / "a.png")).size, glm::ivec2(200, 150));
+}
+
+TEST(RaceFilm, IsRefusedInWords) {
+    const TempFolder folder;
+    const auto refusal = [&](ScriptText script, const Json& arguments) {
+        write(folder / "script.jsonl", script.command("race.record", arguments).text());
+        const Outcome outcome = run_here({"--headless", "--script", (folder / "script.jsonl").string()});
+        EXPECT_EQ(outcome.exit_code, 1);
+        return outcome.err;
+    };
+    EXPECT_TRUE(has(refusal(ScriptText(), sized(folder / "a.png")), "no race is open"));
+    EXPECT_TRUE(has(refusal(opened_race(), Json::object()), "path is missing"));
+    EXPECT_TRUE(has(refusal(opened_race(), sized(folder / "a.gif")), "path must end in .png or .mp4"));
+    EXPECT_TRUE(
+        has(refusal(opened_race(), sized(folder / "a.png", {{"pace", 0}})), "pace must be 0.1 to 600"));
+    EXPECT_TRUE(has(refusal(opened_race(), sized("/nowhere/a.png")), "/nowhere/a.png"));
+    ScriptText elsewhere = opened_race();
+    elsewhere.command("lab.open", {{"name", "rope"}});
+    EXPECT_TRUE(has(refusal(elsewhere, sized(folder / "a.png")), "open the lab chain"));
+    EXPECT_EQ(folder.names(), std::vector<std::string>{"script.jsonl"});
+}
+
+TEST(RaceStrip, ScrubsPlaysAndStepsByMouseAndKeys) {
+    const auto shown = [](const ScriptText& script) {
+        return state_after(script)["race_shown"]["iteration"].get<int>();
+    };
+    const Json state = state_after(opened_race());
+    const int last = state["race_shown"]["iterations"].get<int>();
+    EXPECT_EQ(state["race_shown"]["iteration"], last);
+    EXPECT_EQ(shown(opened_race().key("left")), last - 1);
+    EXPECT_EQ(shown(opened_race().key("left").key("left").key("right")), last - 1);
+    const Json& strip = state["layout"]["strip"];
+    const float left = strip["min"][0].get<float>(), right = strip["max"][0].get<float>(),
+                middle = 0.5f * (strip["min"][1].get<float>() + strip["max"][1].get<float>());
+    EXPECT_EQ(shown(opened_race().click({right - 24.0f, middle + 8.0f})), last);
+    const int half = shown(opened_race().click({0.5f * (left + right) + 80.0f, middle + 8.0f}));
+    EXPECT_GT(half, 0);
+    EXPECT_LT(half, last);
+    EXPECT_EQ(shown(opened_race().command("race.play").wait(16)), 1) << "four a second";
+}
+
+/// Of 3000 iterations those with round numbers.
+TEST(RaceStrip, NumbersARoundShareOfManyIterations) {
+    ScriptText script = opened_race();
+    script.command("chain.solver", {{"iterations", 3000}, {"tolerance", 1e-7}});
+    script.command("chain.target", {{"to", {6.5, 2.598, 0}}});
+    const FrameRecorder recorder;
+    const Json state = play(script, {.picture = true}).state;
+    ASSERT_GT(state["race_shown"]["iterations"].get<int>(), 2000);
+    const float top = state["layout"]["strip"]["min"][1].get<float>();
+    int numbered = 0;
+    for (const DrawnText& text : recorder.frame().texts) {
+        if (text.box.min.y < top || !text.text.starts_with("iteration ")) continue;
+        EXPECT_EQ(std::stoi(text.text.substr(10)) % 500, 0) << text.text;
+        ++numbered;
+    }
+    EXPECT_GE(numbered, 4);
+}
+
+}  // namespace
+}  // namespace tendril::test

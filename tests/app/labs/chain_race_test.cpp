@@ -1,0 +1,208 @@
+// The race iteration by iteration: every racer stands where its solver stands after as many iterations.
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+#include <string>
+#include <tendril/ik/solver.hpp>
+#include <vector>
+
+#include "app/labs/chain/chain_runtime.hpp"
+#include "app/labs/chain/draw.hpp"
+#include "tests/app/labs/chain_support.hpp"
+#include "tests/says.hpp"
+
+namespace tendril::app {
+namespace {
+
+using test::says;
+
+class ChainRace : public ChainTest {
+  protected:
+    std::shared_ptr<const Race> race() const { return shown_chain(workspace).race; }
+    std::size_t iteration() const { return shown_chain(workspace).step(); }
+
+    /// With every solver that takes the chain.
+    void race_of(int bones) {
+        reach_with(bones);
+        run("race.open", {{"start", "straight"}});
+        for (const ik::Method method : ik::all_methods)
+            run("race.solver", {{"name", ik::name(method)}, {"on", takes(method, part().chain)}});
+    }
+    /// What the library gives from the race's start with at most `most` iterations.
+    std::vector<glm::vec3> solved(ik::Method method, int most, ik::Report& report) const {
+        ik::Solver solver(part().chain);
+        ReachSettings settings = part().reach;
+        settings.state = part().study.start_state;
+        ik::Options options = solver_options(settings, solver.reach());
+        options.max_iterations = most;
+        ik::State state = state_for(settings, solver.bones());
+        std::vector<glm::vec3> joints = part().study.start;
+        report = solver.solve(method, joints, state, part().target, options);
+        return joints;
+    }
+    std::vector<glm::vec3> points(const Json& list) const {
+        std::vector<glm::vec3> all;
+        for (const Json& at : list) all.push_back(glm::vec3(at[0], at[1], at[2]));
+        return all;
+    }
+    void tick(int count) {
+        for (int i = 0; i < count; ++i)
+            if (lab().working(workspace)) lab().work(workspace);
+    }
+};
+
+/// A solve that is cut off ends with its best pose, so only iterations that are the best so far compare.
+TEST_F(ChainRace, AnIterationIsTheLibrarysWithAsManyIterations) {
+    int compared = 0;
+    for (const int bones : {2, 4, 9}) {
+        race_of(bones);
+        for (const glm::vec3 target : {glm::vec3(1, 1, 0.5f), glm::vec3(0.4f, -1.2f, 0.9f)}) {
+            run("chain.target", {{"to", {target.x, target.y, target.z}}});
+            for (std::size_t k = 1; k <= race()->iterations(); ++k) {
+                run("race.show", {{"iteration", k}});
+                const Json racers = state()["race"];
+                for (std::size_t i = 0; i < racers.size(); ++i) {
+                    const Racer& racer = race()->racers[i];
+                    const Json& shown = racers[i]["shown"];
+                    const bool finished = static_cast<int>(k) >= racer.iterations();
+                    EXPECT_EQ(shown["finished"], finished);
+                    EXPECT_EQ(shown["iteration"], std::min(static_cast<int>(k), racer.iterations()));
+                    ik::Report report;
+                    const auto expected = solved(
+                        racer.method, finished ? part().reach.iterations : static_cast<int>(k), report);
+                    if (!finished && report.residual != racer.residuals[k]) continue;
+                    EXPECT_EQ(shown["residual"], number(report.residual)) << ik::name(racer.method);
+                    const auto seen = points(shown["positions"]);
+                    ASSERT_EQ(seen.size(), expected.size());
+                    for (std::size_t j = 0; j < seen.size(); ++j)
+                        EXPECT_LT(glm::distance(seen[j], expected[j]), 1e-5f)
+                            << ik::name(racer.method) << " iteration " << k << " joint " << j;
+                    compared += finished ? 0 : 1;
+                }
+            }
+        }
+        run("race.close");
+    }
+    EXPECT_GT(compared, 60) << "iterations on the way, not only ends";
+}
+
+TEST_F(ChainRace, OpensAtItsEndAndStaysThereAsTheTargetMoves) {
+    race_of(6);
+    run("chain.target", {{"to", {3, 3, 1}}});
+    EXPECT_EQ(iteration(), race()->iterations());
+    run("race.show", {{"iteration", 1}});
+    EXPECT_EQ(iteration(), 1u);
+    run("chain.target", {{"to", {2, 3, 1}}});
+    EXPECT_EQ(iteration(), 1u);
+    run("race.show", {{"iteration", race()->iterations()}});
+    const std::size_t before = race()->iterations();
+    run("chain.target", {{"to", {0.2, 0.1, 0.3}}});
+    EXPECT_NE(race()->iterations(), before) << "the test wants a race of another length";
+    EXPECT_EQ(iteration(), race()->iterations()) << "the end stays the end";
+}
+
+TEST_F(ChainRace, StepsAndScrubsWithinItsIterations) {
+    race_of(6);
+    run("chain.target", {{"to", {3, 3, 1}}});
+    const std::size_t last = race()->iterations();
+    run("study.step", {{"by", -1}});
+    EXPECT_EQ(iteration(), last - 1);
+    run("study.step");
+    run("study.step", {{"iterations", 5}});
+    EXPECT_EQ(iteration(), last);
+    run("study.step", {{"by", -100000}});
+    EXPECT_EQ(iteration(), 0u);
+    EXPECT_TRUE(says(refused("race.show", {{"iteration", last + 1}}),
+                     "iteration 0 " + std::to_string(last) + " " + std::to_string(last + 1)));
+    run("race.close");
+    EXPECT_TRUE(says(refused("race.show", {{"iteration", 0}}), "no race is open"));
+    EXPECT_TRUE(says(refused("race.play"), "no race is open"));
+    EXPECT_TRUE(says(refused("study.step"), "microscope race open"));
+    run("microscope.open");
+    EXPECT_TRUE(says(refused("race.show", {{"iteration", 0}}), "no race is open"));
+    run("study.step");
+    EXPECT_EQ(state()["microscope"]["step"], 1);
+}
+
+TEST_F(ChainRace, PlaysToItsEndAtALegiblePace) {
+    race_of(6);
+    run("chain.target", {{"to", {3, 3, 1}}});
+    const std::size_t last = race()->iterations();
+    ASSERT_LT(last, 32u);
+    run("race.play");
+    EXPECT_EQ(iteration(), 0u) << "from the start, as it was at the end";
+    tick(31);
+    EXPECT_EQ(iteration(), 2u) << "four a second";
+    run("race.play", {{"on", false}});
+    tick(60);
+    EXPECT_EQ(iteration(), 2u);
+    run("race.play", {{"pace", 60}});
+    tick(static_cast<int>(last));
+    EXPECT_EQ(iteration(), last);
+    EXPECT_FALSE(lab().working(workspace)) << "and stops";
+    EXPECT_FLOAT_EQ(race_pace(800), 100.0f) << "8 s for the whole";
+    EXPECT_TRUE(says(refused("race.play", {{"on", false}, {"pace", 3}}), "pace on false"));
+}
+
+TEST_F(ChainRace, ComesBackFromAFileWhereItWas) {
+    race_of(6);
+    run("chain.target", {{"to", {3, 3, 1}}});
+    run("race.show", {{"iteration", 2}});
+    const Json shown = state()["race"];
+    Workspace other = make_blank_workspace(labs);
+    const Json scene = parse_json(save_scene(workspace).dump());
+    load_scene(other, scene);
+    EXPECT_EQ(lab().state(other)["race"], shown);
+    EXPECT_EQ(lab().state(other)["race_shown"]["iteration"], 2);
+    Json old = scene;  // as written before races could be scrubbed
+    old["labs"]["chain"]["study"].erase("iteration");
+    load_scene(other, old);
+    EXPECT_EQ(lab().state(other)["race_shown"]["iteration"], race()->iterations());
+}
+
+TEST_F(ChainRace, TheLegendHasEachRacersIterationAndError) {
+    race_of(6);
+    run("chain.target", {{"to", {3, 3, 1}}});
+    run("race.show", {{"iteration", 2}});
+    const auto rows = lab().legend(workspace);
+    for (const Racer& racer : race()->racers) {
+        const auto row = std::find_if(rows.begin(), rows.end(), [&](const LegendRow& each) {
+            return each.name == solver_title(racer.method);
+        });
+        ASSERT_NE(row, rows.end()) << ik::name(racer.method);
+        ASSERT_EQ(row->numbers.size(), 2u);
+        const bool finished = racer.iterations() <= 2;
+        EXPECT_TRUE(says(row->numbers[0], finished ? "finished after" : "iteration 2"));
+        EXPECT_TRUE(says(row->numbers[1], "error"));
+    }
+    run("race.side_by_side", {{"on", true}});
+    const auto titles = lab().panes(workspace);
+    ASSERT_EQ(titles.size(), race()->racers.size());
+    for (const PaneTitle& title : titles) EXPECT_TRUE(says(title.detail, "from the target"));
+}
+
+TEST(KeptPosesTest, StayWithinTheirMemory) {
+    constexpr std::size_t joints = 8, most = 800;
+    KeptPoses poses(most);
+    std::vector<glm::vec3> pose(joints);
+    for (int i = 0; i < 5000; ++i) {
+        pose.assign(joints, glm::vec3(static_cast<float>(i)));
+        poses.add(pose);
+        ASSERT_LE(poses.bytes(), 4 * most * sizeof(glm::vec3));
+        for (const int k : {0, i / 3, i}) {
+            const int kept = poses.kept(k);
+            ASSERT_LE(kept, k);
+            ASSERT_LE(k - kept, std::max(0, i / 40)) << "evenly: at least 40 of them";
+            ASSERT_EQ(poses.at(k).front().x, static_cast<float>(kept));
+            ASSERT_EQ(poses.at(k).size(), joints);
+        }
+    }
+    for (int i = 0; i < 100; ++i) {
+        KeptPoses all(most);
+        for (int k = 0; k <= i; ++k) all.add(pose);
+        ASSERT_EQ(all.kept(i), i) << "nothing is dropped before it is full";
+    }
+}
+
+}  // namespace
+}  // namespace tendril::app
