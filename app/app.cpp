@@ -133,7 +133,7 @@ void App::compose(const Event* event, Pass pass) {
         const Pane& pane = pane_at_hand();
         const Camera camera = pane.camera(workspace_.camera);
         pointer_.take(event, input_, pointed_at(pane, camera), emit);
-        run_emitted(emit);
+        run_emitted(emit, From::View);
     }
 
     pointer_.forget_missing(workspace_, lab());
@@ -158,7 +158,7 @@ void App::compose(const Event* event, Pass pass) {
     // Each typed number is a change of its own, as each drag is.
     if (std::exchange(ui_.numbers().entered, false)) ++gesture_;
     if (pass == Pass::Picture) emit.take();
-    run_emitted(emit);
+    run_emitted(emit, From::Panel);
     if (in_tick) advance_time();
 
     divide_view();
@@ -237,10 +237,10 @@ void App::take_shortcut(Emit& emit) {
     emit(shortcut->command, shortcut->arguments);
 }
 
-void App::run_emitted(Emit& emit) {
+void App::run_emitted(Emit& emit, From from) {
     for (Emitted& command : emit.take()) {
         try {
-            run_command(command.name, command.arguments, command.continuous ? gesture_ : 0);
+            run_command(command.name, command.arguments, command.continuous ? gesture_ : 0, from);
             take_pictures();
             if (command.continuous && pointer_.dragged() != no_pick) workspace_.settings.hint_seen = true;
         } catch (const Refused& refusal) {
@@ -253,7 +253,7 @@ void App::run_emitted(Emit& emit) {
 }
 
 /// Also notes the incidents of an edit.
-void App::run_command(const std::string& name, const Json& arguments, Gesture gesture) {
+void App::run_command(const std::string& name, const Json& arguments, Gesture gesture, From from) {
     const std::string open = workspace_.lab;
     const std::shared_ptr<const Part> before = workspace_.document.parts().at(open);
     const std::uint64_t beginnings = workspace_.beginnings, moment = workspace_.moment;
@@ -263,12 +263,13 @@ void App::run_command(const std::string& name, const Json& arguments, Gesture ge
     const Effect effect = commands_->find(name)->effect;
     if (same_scene && effect == Effect::Edit) review(before, workspace_.moment);
     if (const Card* const card = shown_card(); card != nullptr && workspace_.lab == open)
-        note_command(workspace_.ui.cards[open], *card, name, arguments, effect != Effect::Look, moment);
+        note_command(workspace_.ui.cards[open], *card, name, arguments, effect != Effect::Look, moment,
+                     from == From::Panel);
 }
 
 void App::run(const RunCommand& command) {
     try {
-        run_command(command.name, command.arguments, 0);
+        run_command(command.name, command.arguments, 0, From::View);
         workspace_.pass_change();
         if (const auto& finish = commands_->find(command.name)->finish) finish(workspace_);
         take_pictures();
