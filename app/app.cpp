@@ -13,7 +13,6 @@
 #include "app/document/json_complete.hpp"
 #include "app/document/scene_file.hpp"
 #include "app/document/text.hpp"
-#include "app/io/points.hpp"
 #include "app/shell/card_watch.hpp"
 #include "app/shell/gizmo_view.hpp"
 #include "app/shell/theme.hpp"
@@ -191,20 +190,17 @@ void App::take_event(const Event& event, Emit& emit) {
 }
 
 void App::take_paste(const std::string& text, Emit& emit) {
-    if (text.empty() || workspace_.ui.covered() || ui_.wants_text() || busy()) return;
-    const Chord paste{.key = Key::V, .ctrl = true, .shift = false, .alt = false};
-    if (const Shortcut* here = shortcuts_.find(paste, workspace_.lab)) {
-        ArgumentList arguments = here->arguments;
-        arguments.push_back({"text", text});
-        return emit(here->command, std::move(arguments));
+    if (workspace_.ui.covered() || ui_.wants_text() || busy()) return;
+    if (text.empty()) return workspace_.toast("The clipboard holds no text.");
+    const TakenText here = lab().takes_text(text);
+    if (here.command) return emit(here.command->name, here.command->arguments);
+    for (const auto& other : labs_.all()) {
+        const TakenText there = other->takes_text(text);
+        if (!there.command) continue;
+        return workspace_.toast("The clipboard holds " + there.what + ". Open the " + other->title() +
+                                " lab and paste them there.");
     }
-    const auto& all = labs_.all();
-    const auto elsewhere = std::find_if(all.begin(), all.end(), [&](const auto& lab) {
-        return shortcuts_.find(paste, lab->name()) != nullptr;
-    });
-    if (elsewhere != all.end() && holds_points(text))
-        workspace_.toast("The clipboard holds points. Open the " + (*elsewhere)->title() +
-                         " lab and paste them there.");
+    if (!here.what.empty()) refuse(here.what);
 }
 
 void App::refuse(const std::string& why) {
@@ -245,9 +241,8 @@ void App::run_emitted(Emit& emit, From from) {
             if (command.continuous && pointer_.dragged() != no_pick) workspace_.settings.hint_seen = true;
         } catch (const Refused& refusal) {
             refuse(refusal.what());
-            // Only the lab's own refusals become incidents, not those of other files or of the clipboard.
-            if (command.name.starts_with(workspace_.lab + ".") && !command.name.ends_with(".paste"))
-                note_refusal(refusal.what());
+            // Only the lab's own refusals become incidents, not those of other files.
+            if (command.name.starts_with(workspace_.lab + ".")) note_refusal(refusal.what());
         }
     }
 }

@@ -84,7 +84,7 @@ class App final : public Stage {
     Json panes_state() const;
     Pointer::Scene pointed_at(const Pane& pane, const Camera& camera) const;
     void take_event(const Event& event, Emit& emit);
-    /// Text that Ctrl+V pasted over the view: the argument `text` of the command that has this key.
+    /// Text that Ctrl+V pasted over the view goes to the open lab.
     void take_paste(const std::string& text, Emit& emit);
     void take_shortcut(Emit& emit);
     void refuse(const std::string& why);
