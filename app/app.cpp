@@ -13,7 +13,6 @@
 #include "app/document/json_complete.hpp"
 #include "app/document/scene_file.hpp"
 #include "app/document/text.hpp"
-#include "app/io/points.hpp"
 #include "app/shell/card_watch.hpp"
 #include "app/shell/gizmo_view.hpp"
 #include "app/shell/theme.hpp"
@@ -133,7 +132,7 @@ void App::compose(const Event* event, Pass pass) {
         const Pane& pane = pane_at_hand();
         const Camera camera = pane.camera(workspace_.camera);
         pointer_.take(event, input_, pointed_at(pane, camera), emit);
-        run_emitted(emit);
+        run_emitted(emit, From::View);
     }
 
     pointer_.forget_missing(workspace_, lab());
@@ -158,7 +157,7 @@ void App::compose(const Event* event, Pass pass) {
     // Each typed number is a change of its own, as each drag is.
     if (std::exchange(ui_.numbers().entered, false)) ++gesture_;
     if (pass == Pass::Picture) emit.take();
-    run_emitted(emit);
+    run_emitted(emit, From::Panel);
     if (in_tick) advance_time();
 
     divide_view();
@@ -191,20 +190,17 @@ void App::take_event(const Event& event, Emit& emit) {
 }
 
 void App::take_paste(const std::string& text, Emit& emit) {
-    if (text.empty() || workspace_.ui.covered() || ui_.wants_text() || busy()) return;
-    const Chord paste{.key = Key::V, .ctrl = true, .shift = false, .alt = false};
-    if (const Shortcut* here = shortcuts_.find(paste, workspace_.lab)) {
-        ArgumentList arguments = here->arguments;
-        arguments.push_back({"text", text});
-        return emit(here->command, std::move(arguments));
+    if (workspace_.ui.covered() || ui_.wants_text() || busy()) return;
+    if (text.empty()) return workspace_.toast("The clipboard holds no text.");
+    const TakenText here = lab().takes_text(text);
+    if (here.command) return emit(here.command->name, here.command->arguments);
+    for (const auto& other : labs_.all()) {
+        const TakenText there = other->takes_text(text);
+        if (!there.command) continue;
+        return workspace_.toast("The clipboard holds " + there.what + ". Open the " + other->title() +
+                                " lab and paste them there.");
     }
-    const auto& all = labs_.all();
-    const auto elsewhere = std::find_if(all.begin(), all.end(), [&](const auto& lab) {
-        return shortcuts_.find(paste, lab->name()) != nullptr;
-    });
-    if (elsewhere != all.end() && holds_points(text))
-        workspace_.toast("The clipboard holds points. Open the " + (*elsewhere)->title() +
-                         " lab and paste them there.");
+    if (!here.what.empty()) refuse(here.what);
 }
 
 void App::refuse(const std::string& why) {
@@ -237,23 +233,22 @@ void App::take_shortcut(Emit& emit) {
     emit(shortcut->command, shortcut->arguments);
 }
 
-void App::run_emitted(Emit& emit) {
+void App::run_emitted(Emit& emit, From from) {
     for (Emitted& command : emit.take()) {
         try {
-            run_command(command.name, command.arguments, command.continuous ? gesture_ : 0);
+            run_command(command.name, command.arguments, command.continuous ? gesture_ : 0, from);
             take_pictures();
             if (command.continuous && pointer_.dragged() != no_pick) workspace_.settings.hint_seen = true;
         } catch (const Refused& refusal) {
             refuse(refusal.what());
-            // Only the lab's own refusals become incidents, not those of other files or of the clipboard.
-            if (command.name.starts_with(workspace_.lab + ".") && !command.name.ends_with(".paste"))
-                note_refusal(refusal.what());
+            // Only the lab's own refusals become incidents, not those of other files.
+            if (command.name.starts_with(workspace_.lab + ".")) note_refusal(refusal.what());
         }
     }
 }
 
 /// Also notes the incidents of an edit.
-void App::run_command(const std::string& name, const Json& arguments, Gesture gesture) {
+void App::run_command(const std::string& name, const Json& arguments, Gesture gesture, From from) {
     const std::string open = workspace_.lab;
     const std::shared_ptr<const Part> before = workspace_.document.parts().at(open);
     const std::uint64_t beginnings = workspace_.beginnings, moment = workspace_.moment;
@@ -263,12 +258,13 @@ void App::run_command(const std::string& name, const Json& arguments, Gesture ge
     const Effect effect = commands_->find(name)->effect;
     if (same_scene && effect == Effect::Edit) review(before, workspace_.moment);
     if (const Card* const card = shown_card(); card != nullptr && workspace_.lab == open)
-        note_command(workspace_.ui.cards[open], *card, name, arguments, effect != Effect::Look, moment);
+        note_command(workspace_.ui.cards[open], *card, name, arguments, effect != Effect::Look, moment,
+                     from == From::Panel);
 }
 
 void App::run(const RunCommand& command) {
     try {
-        run_command(command.name, command.arguments, 0);
+        run_command(command.name, command.arguments, 0, From::View);
         workspace_.pass_change();
         if (const auto& finish = commands_->find(command.name)->finish) finish(workspace_);
         take_pictures();

@@ -84,12 +84,14 @@ class App final : public Stage {
     Json panes_state() const;
     Pointer::Scene pointed_at(const Pane& pane, const Camera& camera) const;
     void take_event(const Event& event, Emit& emit);
-    /// Text that Ctrl+V pasted over the view: the argument `text` of the command that has this key.
+    /// Text that Ctrl+V pasted over the view goes to the open lab.
     void take_paste(const std::string& text, Emit& emit);
     void take_shortcut(Emit& emit);
     void refuse(const std::string& why);
-    void run_emitted(Emit& emit);
-    void run_command(const std::string& name, const Json& arguments, Gesture gesture);
+    /// Panel: the panels and the palette emitted it. View: the rest, such as handles, keys and scripts.
+    enum class From { View, Panel };
+    void run_emitted(Emit& emit, From from);
+    void run_command(const std::string& name, const Json& arguments, Gesture gesture, From from);
     void note_refusal(const std::string& why);
     void review(const std::shared_ptr<const Part>& before, std::uint64_t moment);
     /// Executes requests for pictures and videos of the view. Throws Refused if it cannot.

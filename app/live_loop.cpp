@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <utility>
 
 #include "app/document/atomic_file.hpp"
 #include "app/document/json_complete.hpp"
@@ -112,6 +113,15 @@ void LiveLoop::sample(std::vector<Event> events) {
     }
 }
 
+/// What the menu and the palette paste is recorded as if Ctrl+V had been pressed. While a script plays it
+/// is in the script.
+void LiveLoop::paste(const Player& player) {
+    if (!std::exchange(app_.workspace().ui.pastes, false) || !player.done()) return;
+    queue_.push_back(KeyChange{Key::Ctrl, true});
+    queue_.push_back(TextInput{window_.clipboard()});
+    queue_.push_back(KeyChange{Key::Ctrl, ctrl_});
+}
+
 void LiveLoop::tick(Player& player) {
     credit_ -= tick_seconds;
     ++ticks_;
@@ -126,6 +136,7 @@ void LiveLoop::tick(Player& player) {
     } else {
         app_.tick(nullptr);
     }
+    paste(player);
 }
 
 bool LiveLoop::take_ticks(Player& player) {

@@ -34,6 +34,7 @@ class LiveLoop {
     void sample(std::vector<Event> events);
     bool take_ticks(Player& player);
     void tick(Player& player);
+    void paste(const Player& player);
     void keep_house();
 
     App& app_;

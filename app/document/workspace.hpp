@@ -68,6 +68,7 @@ struct UiState {
     glm::vec2 view_size{1000.0f, 700.0f};  ///< the 3D view, or its first pane, in window coordinates
     glm::ivec2 picture_size{1000, 700};    ///< of a picture of the whole view, pixels
     std::optional<std::string> copied;     ///< text on its way to the clipboard
+    bool pastes = false;                   ///< the clipboard's text is wanted, as by Ctrl+V
     std::optional<PictureRequest> picture;
     std::optional<VideoRequest> video;          ///< requested, not started
     std::optional<VideoProgress> filming;       ///< of the video being written

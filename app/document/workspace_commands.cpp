@@ -52,6 +52,13 @@ void add_history_commands(CommandTable& table) {
                .help = "Undoes the last change; a whole drag is one change",
                .effect = Effect::Replace,
                .apply = [](Workspace& w, const Arguments&) { step_through(w, true); }});
+    table.add(
+        {.name = "paste",
+         .title = "Paste",
+         .arguments = {},
+         .help = "Gives the clipboard's text to the lab; a script holds Ctrl and types the text instead",
+         .effect = Effect::Look,
+         .apply = [](Workspace& w, const Arguments&) { w.ui.pastes = true; }});
     table.add({.name = "redo",
                .title = "Redo",
                .arguments = {},

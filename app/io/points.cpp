@@ -180,12 +180,4 @@ std::vector<glm::vec3> read_points(std::string_view text, std::size_t most) {
     return PointReader(text, most).read();
 }
 
-bool holds_points(std::string_view text) {
-    try {
-        return !read_points(text, max_pasted_points).empty();
-    } catch (const std::runtime_error&) {
-        return false;
-    }
-}
-
 }  // namespace tendril::app

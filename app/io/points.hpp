@@ -18,7 +18,5 @@ namespace tendril::app {
 std::vector<glm::vec3> read_points(std::string_view text, std::size_t most);
 
 inline constexpr std::size_t max_pasted_points = 10'000;
-/// Whether read_points() takes the text.
-bool holds_points(std::string_view text);
 
 }  // namespace tendril::app

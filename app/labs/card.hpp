@@ -8,9 +8,10 @@
 //                  "script": [{"command": "chain.target", "to": [9, 1, 0]}]}]}]
 //
 // A step is done when the user ran one of the commands in `by`, by a drag, a panel or the palette, and then
-// all conditions in `when`, if there are any, hold at once, before another command changes the scene. A
-// command counts if it has the listed arguments; null stands for any value. `scene` sets up the card's
-// scene. `script` is for the tests, which play every step.
+// all conditions in `when`, if there are any, hold at once, before another command changes the scene. Where
+// `place` is a handle, panels and the palette do not count: the step asks for the mouse in the view. A
+// command counts if it has the listed arguments; null stands for any value. `scene` sets up the card's scene.
+// `script` is for the tests, which play every step.
 #pragma once
 
 #include <map>

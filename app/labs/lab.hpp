@@ -56,6 +56,12 @@ struct Together {
     std::string staying;  ///< which of the selected stay behind, and why; empty if none
 };
 
+/// What a lab does with text from the clipboard.
+struct TakenText {
+    std::optional<CommandCall> command;
+    std::string what;  ///< with a command: what the text holds, "points". Without: why the lab refuses it
+};
+
 /// A sphere that should be in view.
 struct Bounds {
     glm::vec3 centre{0.0f};
@@ -191,6 +197,10 @@ class Lab {
 
     /// The files it reads, besides scenes. Opening one, in whichever way, opens the lab too.
     virtual std::vector<FileKind> files() const { return {}; }
+
+    /// The command that Ctrl+V over the view runs for this text. By default the lab takes none, for no
+    /// reason.
+    virtual TakenText takes_text(const std::string& /*text*/) const { return {}; }
 
     // the panels
     virtual void panel(const Workspace&, Emit&) const {}

@@ -47,15 +47,16 @@ bool pending(const CardProgress& progress, std::size_t step) {
 }  // namespace
 
 void note_command(CardProgress& progress, const Card& card, const std::string& command, const Json& arguments,
-                  bool changes, std::uint64_t moment) {
+                  bool changes, std::uint64_t moment, bool in_panel) {
     progress.done.resize(card.steps.size());
     progress.tried.resize(card.steps.size());
     for (std::size_t i = 0; i < card.steps.size(); ++i) {
         const CardStep& step = card.steps[i];
         auto& tried = progress.tried[i];
-        const bool is_it = std::any_of(step.by.begin(), step.by.end(), [&](const CardLine& line) {
-            return matches(line, command, arguments);
-        });
+        const bool by_hand = !in_panel || step.place != CardStep::Place::Handle;
+        const bool is_it = by_hand && std::any_of(step.by.begin(), step.by.end(), [&](const CardLine& line) {
+                               return matches(line, command, arguments);
+                           });
         if (is_it) {
             tried = tried.value_or(moment);
             if (step.when.empty()) progress.done[i] = true;

@@ -39,6 +39,7 @@ std::vector<Shortcut> common_rows() {
         row("ctrl+z", "undo", {}, own, "Edit", shown, false, again),
         row("ctrl+shift+z", "redo", {}, own, "Edit", shown, false, again),
         row("ctrl+y", "redo", {}, own, "Edit", hidden, false, again),
+        row("ctrl+v", "paste", {}, own, "Edit"),
         row("f", "camera.frame", {{"what", "selection"}}, "Frame selection", "View"),
         row("home", "camera.frame", {{"what", "all"}}, "Frame all", "View"),
         row("1", "camera.view", {{"name", "front"}}, "Front", "View"),

@@ -21,6 +21,7 @@ Json ChainPart::save() const {
         json["iterations"][chain_modes.rows[i].name] = iterations[i];
     json["tolerance"] = number(tolerance);
     json["target"] = point(target);
+    if (reach_target) json["reach_target"] = point(*reach_target);
     json["selected"] = chosen_point ? Json(chain_points.name(*chosen_point)) : selection.save();
     json["default_direction"] = point(chain.default_direction());
     json["motion"] = save_motion(motion);
@@ -75,6 +76,10 @@ std::shared_ptr<Part> ChainPart::load(const Json& json, const std::string& where
             part->iterations[i] = repeats[chain_modes.rows[i].name].integer(1, max_iterations);
         part->tolerance = place["tolerance"].number(0.0f, max_magnitude);
         part->target = place["target"].point();
+        if (const auto kept = place.optional("reach_target")) {
+            if (part->mode == ChainMode::Reach) kept->fail("is for other modes than reach");
+            part->reach_target = kept->point();
+        }
         part->motion = load_motion(place["motion"]);
         part->chain = require_value(
             Chain::from_segments(load_segments(place["segments"]), place["default_direction"].point()));

@@ -218,7 +218,6 @@ std::vector<Shortcut> ChainLab::shortcuts() const {
     };
     return {
         delete_shortcut("chain.remove_selected"),
-        {*chord_from_name("ctrl+v"), "chain.paste", {}, "", "Edit", hidden},
         {*chord_from_name("b"), "view.segments", {}, "", "View", in_menu},
         step("right", "by", 1, "Microscope, race: step forward"),
         step("left", "by", -1, "Microscope, race: step back"),

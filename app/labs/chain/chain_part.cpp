@@ -21,9 +21,10 @@ ChainPart first_chain() {
 
 bool operator==(const ChainPart& a, const ChainPart& b) {
     return a.mode == b.mode && a.index == b.index && a.iterations == b.iterations &&
-           a.tolerance == b.tolerance && a.target == b.target && a.selection == b.selection &&
-           a.chosen_point == b.chosen_point && a.motion == b.motion && a.chain == b.chain &&
-           a.reach == b.reach && a.result == b.result && a.study == b.study && a.flips == b.flips;
+           a.tolerance == b.tolerance && a.target == b.target && a.reach_target == b.reach_target &&
+           a.selection == b.selection && a.chosen_point == b.chosen_point && a.motion == b.motion &&
+           a.chain == b.chain && a.reach == b.reach && a.result == b.result && a.study == b.study &&
+           a.flips == b.flips;
 }
 
 void check_range(const ChainPart& part) {

@@ -37,7 +37,7 @@ struct ChainPart final : Part {
     Chain chain;
     ChainMode mode = ChainMode::Backward;
     std::size_t index = 0;                      ///< the segment that WithIndex pulls
-    std::optional<glm::vec3> reach_target{};    ///< of Reach, while another mode is on; not saved
+    std::optional<glm::vec3> reach_target{};    ///< of Reach, while another mode is on
     std::array<int, 4> iterations{1, 1, 1, 1};  ///< per pull mode; only Fixed iterates
     float tolerance = 1e-4f;                    ///< metres, of Fixed
     glm::vec3 target{0.0f};

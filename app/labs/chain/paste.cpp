@@ -2,11 +2,13 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
 #include "app/document/units.hpp"
 #include "app/io/points.hpp"
+#include "app/labs/chain/chain_lab.hpp"
 #include "app/labs/chain/commands.hpp"
 
 namespace tendril::app {
@@ -60,13 +62,27 @@ std::string pasted_text(const ChainPart& part, const std::string& text) {
 
 }  // namespace
 
+TakenText ChainLab::takes_text(const std::string& text) const {
+    try {
+        read_points(text, max_pasted_points);
+    } catch (const std::runtime_error& error) {
+        return {.command = {}, .what = std::string("The clipboard holds no points: ") + error.what()};
+    }
+    return {.command = CommandCall{"chain.paste", {{"text", text}}}, .what = "points"};
+}
+
 void add_paste_command(CommandTable& table) {
     Command command = chain_command(
-        "chain.paste", "Paste points from the clipboard",
-        {text_argument("text", true, "rows of x y z, as a table, a list or source code")},
+        "chain.paste", "Paste points",
+        {text_argument("text", false,
+                       "rows of x y z, as a table, a list or source code; default: clipboard")},
         "Three numbers: moves the selection there, or the target. More rows: a new chain through them",
         paste);
     command.apply = [change = std::move(command.apply)](Workspace& workspace, const Arguments& given) {
+        if (!given.has("text")) {
+            workspace.ui.pastes = true;
+            return;
+        }
         const std::shared_ptr<const Part> before = workspace.document.parts().at(chain_lab);
         change(workspace, given);
         workspace.toast(pasted_text(dynamic_cast<const ChainPart&>(*before), given.text("text")));

@@ -175,6 +175,15 @@ void add_curve(RigPart& part, const Arguments& given) {
     redefine(part, std::move(definition));
 }
 
+template <Named kind>
+void rename_it(RigPart& part, const Arguments& given) {
+    rename(part, kind, given.text("name"), given.text("to"));
+}
+
+Argument new_name_argument() {
+    return text_argument("to", true, "its new name, which no other has");
+}
+
 void set_curve(RigPart& part, const Arguments& given) {
     const std::size_t at = curve_named(part, given.text("name"));
     const double value = given.real("value");
@@ -214,6 +223,9 @@ void add_element_commands(CommandTable& table) {
          each_argument("transforms", "names"),
          switch_argument("propagate", "the children move with it; default: on")},
         "Sets the input poses of elements, from which every solve begins", set_elements));
+    table.add(rig_command("rig.element.rename", "Rename an element",
+                          {element_argument("name", true, "of the element"), new_name_argument()},
+                          "Renames an element; units, paths and the clip follow", rename_it<Named::Element>));
     table.add(rig_command("rig.element.remove", "Remove elements", {name, names},
                           "Removes elements, unless others are below them or a unit uses them",
                           remove_elements));
@@ -234,6 +246,8 @@ void add_element_commands(CommandTable& table) {
         "rig.curve.add", "Add a curve",
         {text_argument("name", true, "of the curve"), number_argument("value", "default: 0", -1e9, 1e9)},
         "Adds a named curve that units can write to", add_curve));
+    table.add(rig_command("rig.curve.rename", "Rename a curve", {curve_argument(), new_name_argument()},
+                          "Renames a curve; units that write to it follow", rename_it<Named::Curve>));
     table.add(rig_command("rig.curve.set", "Set a curve's value",
                           {curve_argument(), {.name = "value", .help = "its value before the units run"}},
                           "Sets the value that a curve has before the units write to it", set_curve));
@@ -302,6 +316,8 @@ void add_unit_commands(CommandTable& table) {
     table.add(rig_command("rig.unit.set", "Change a unit's inputs",
                           unit_arguments({unit_name_argument(true)}),
                           "Changes inputs of a unit; omitted ones are kept", set));
+    table.add(rig_command("rig.unit.rename", "Rename a unit", {unit_name_argument(true), new_name_argument()},
+                          "Renames a unit; units that use its outputs follow", rename_it<Named::Unit>));
     table.add(rig_command("rig.unit.remove", "Remove a unit", {unit_name_argument(true)},
                           "Removes a unit whose outputs no other unit uses", remove_unit));
     table.add(rig_command("rig.unit.move", "Move a unit in the order",

@@ -221,6 +221,12 @@ std::optional<SharedJson> transform_fields(const RigPanel& panel, const rig::Tra
     return SharedJson(std::move(changed));
 }
 
+void name_field(const RigPanel& panel, const char* command, const std::string& name, const char* help) {
+    std::string to = name;
+    if (text_field("name", to, "a name") && to != name) panel.emit(command, {{"name", name}, {"to", to}});
+    explain(help);
+}
+
 void element_inspector(const RigPanel& panel) {
     const Selection& selected = panel.part.selected.elements;
     section(selected.several() ? "Elements" : "Element");
@@ -230,7 +236,8 @@ void element_inspector(const RigPanel& panel) {
     if (selected.several())
         note(count_text(selected.all().size(), "element") + ", " + element.name + " is shown");
     else
-        text_line("name", element.name);
+        name_field(panel, "rig.element.rename", element.name,
+                   "Type another name and press Enter: units, paths and the clip follow.");
     text_line("kind", element.control ? control_title(element.control->kind) : rig::name(element.kind));
     if (!element.parent.empty()) text_line("parent", element.parent);
     control_rows(panel);

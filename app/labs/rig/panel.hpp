@@ -57,6 +57,9 @@ void unit_inspector(const RigPanel& panel);
 /// Why a unit, or a part of it, was skipped; draws nothing if it was not.
 void warning_line(const RigPanel& panel, rig::Warning warning, float margin = 0.0f);
 
+/// The name of an element or a unit; Enter renames it by that command.
+void name_field(const RigPanel& panel, const char* command, const std::string& name, const char* help);
+
 /// Names the elements in a command: "name" for one, "names" for several.
 NamedArgument which(const RigPart& part, const std::vector<std::size_t>& elements);
 

@@ -1,10 +1,12 @@
 #include "app/labs/rig/rig_edit.hpp"
 
 #include <algorithm>
+#include <memory>
 #include <set>
 #include <stdexcept>
 #include <string_view>
 #include <tendril/rig/fields.hpp>
+#include <type_traits>
 #include <utility>
 
 #include "app/document/json_complete.hpp"
@@ -281,60 +283,64 @@ std::size_t curve_named(const RigPart& part, const std::string& name) {
 
 namespace {
 
-class Search {
+template <class T>
+inline constexpr bool is_input = false;
+template <class T>
+inline constexpr bool is_input<rig::Input<T>> = true;
+template <class T>
+inline constexpr bool is_optional = false;
+template <class T>
+inline constexpr bool is_optional<std::optional<T>> = true;
+
+/// Calls `take(unit, member, kind, name)` for every name that units refer to, bodies included. The names can
+/// be changed if the units can.
+template <class Take>
+class UsedNames {
   public:
-    Search(Named kind, const std::set<std::string>& names) : kind_(kind), names_(names) {}
+    explicit UsedNames(const Take& take) : take_(take) {}
 
-    std::optional<Use> found;
-
-    void units(const std::vector<rig::Unit>& list) {
-        for (const rig::Unit& unit : list) {
-            if (found) return;
+    void of(auto& units) {
+        for (auto& unit : units) {
             unit_ = &unit;
-            field("weight", unit.weight);
-            field("when", unit.when);
-            std::visit([&](const auto& operation) { all("", operation); }, unit.operation);
+            member("weight", unit.weight);
+            member("when", unit.when);
+            std::visit([&](auto& operation) { members("", operation); }, unit.operation);
         }
     }
 
   private:
     template <class T>
-    void all(const std::string& place, const T& of) {
-        rig::fields(of, [&](const char* name, const auto& member) { field(place + name, member); });
-        if constexpr (std::is_same_v<T, rig::SetCurve>) take("curve", Named::Curve, of.curve);
+    void members(const std::string& place, T& of) {
+        rig::fields(of, [&](const char* name, auto& each) { member(place + name, each); });
+        if constexpr (std::is_same_v<std::remove_const_t<T>, rig::SetCurve>)
+            take_(*unit_, "curve", Named::Curve, of.curve);
     }
 
-    void field(const std::string& place, const rig::Item& item) {
-        if (const auto* element = std::get_if<std::string>(&item.which))
-            take(place, Named::Element, *element);
-    }
     template <class T>
-    void field(const std::string& place, const rig::Input<T>& input) {
-        if (const auto* from = std::get_if<rig::FromElement>(&input.source)) field(place, from->element);
-        if (const auto* from = std::get_if<rig::FromUnit>(&input.source))
-            take(place, Named::Unit, from->unit);
+    void member(const std::string& place, T& of) {
+        using Member = std::remove_const_t<T>;
+        if constexpr (std::is_same_v<Member, rig::Item>) {
+            if (auto* const element = std::get_if<std::string>(&of.which))
+                take_(*unit_, place, Named::Element, *element);
+        } else if constexpr (is_input<Member>) {
+            if (auto* const from = std::get_if<rig::FromElement>(&of.source)) member(place, from->element);
+            if (auto* const from = std::get_if<rig::FromUnit>(&of.source))
+                take_(*unit_, place, Named::Unit, from->unit);
+        } else if constexpr (is_optional<Member>) {
+            if (of) member(place, *of);
+        } else if constexpr (std::is_same_v<Member, rig::AimInputs>) {
+            members(place + ".", of);
+        } else if constexpr (std::is_same_v<Member, std::vector<rig::ParentInputs>>) {
+            for (std::size_t i = 0; i < of.size(); ++i)
+                members(place + "[" + std::to_string(i) + "].", of[i]);
+        } else if constexpr (std::is_same_v<Member, std::vector<std::string>>) {
+            for (auto& root : of) take_(*unit_, place, Named::Element, root);
+        } else if constexpr (std::is_same_v<Member, rig::Body>) {
+            this->of(of.units());
+        }  // the others refer to nothing
     }
-    template <class T>
-    void field(const std::string& place, const std::optional<T>& inputs) {
-        if (inputs) field(place, *inputs);
-    }
-    void field(const std::string& place, const rig::AimInputs& inputs) { all(place + ".", inputs); }
-    void field(const std::string& place, const std::vector<rig::ParentInputs>& parents) {
-        for (std::size_t i = 0; i < parents.size(); ++i)
-            all(place + "[" + std::to_string(i) + "].", parents[i]);
-    }
-    void field(const std::string& place, const std::vector<std::string>& roots) {
-        for (const std::string& root : roots) take(place, Named::Element, root);
-    }
-    void field(const std::string&, const rig::Body& body) { units(body.units()); }
-    void field(const std::string&, const auto&) {}  // refers to nothing
 
-    void take(const std::string& place, Named kind, const std::string& name) {
-        if (!found && kind == kind_ && names_.contains(name)) found = {unit_->name, place, name};
-    }
-
-    Named kind_;
-    const std::set<std::string>& names_;
+    const Take& take_;
     const rig::Unit* unit_ = nullptr;
 };
 
@@ -342,9 +348,70 @@ class Search {
 
 std::optional<Use> first_use(const std::vector<rig::Unit>& units, Named kind,
                              const std::set<std::string>& names) {
-    Search search(kind, names);
-    search.units(units);
-    return search.found;
+    std::optional<Use> found;
+    const auto take = [&](const rig::Unit& unit, const std::string& place, Named of,
+                          const std::string& name) {
+        if (!found && of == kind && names.contains(name)) found = {unit.name, place, name};
+    };
+    UsedNames(take).of(units);
+    return found;
+}
+
+namespace {
+
+/// Throws std::invalid_argument if nothing has the name `from`, or something else has the name `to`.
+void rename_in(rig::Definition& definition, Named kind, const std::string& from, const std::string& to) {
+    const auto among = [&](auto& list, const char* what) {
+        const auto has = [&](const std::string& name) {
+            return std::ranges::find(list, name, [](const auto& each) { return each.name; });
+        };
+        const auto found = has(from);
+        if (found == list.end())
+            throw std::invalid_argument(std::string("there is no ") + what + " " + quoted(from));
+        if (has(to) != list.end())
+            throw std::invalid_argument(std::string("to: there is already ") +
+                                        (what[0] == 'e' ? "an " : "a ") + what + " " + quoted(to));
+        found->name = to;
+    };
+    if (kind == Named::Element) {
+        among(definition.elements, "element");
+        for (rig::Element& each : definition.elements)
+            if (each.parent == from) each.parent = to;
+    } else if (kind == Named::Curve) {
+        among(definition.curves, "curve");
+    } else {
+        std::set<std::string> names;
+        collect_names(definition.units, names);
+        require_unit(definition, from,
+                     [&](std::vector<rig::Unit>& units, std::size_t at) { units[at].name = to; });
+        if (names.contains(to)) throw std::invalid_argument("to: there is already a unit " + quoted(to));
+    }
+    const auto take = [&](const rig::Unit&, const std::string&, Named of, std::string& name) {
+        if (of == kind && name == from) name = to;
+    };
+    UsedNames(take).of(definition.units);
+}
+
+}  // namespace
+
+void rename(RigPart& part, Named kind, const std::string& from, const std::string& to) {
+    if (to.empty()) throw std::invalid_argument("to: a name must not be empty");
+    rig::Definition definition = part.rig.definition();
+    if (from == to) return;
+    rename_in(definition, kind, from, to);
+    part.rig = make_rig(std::move(definition));  // the order is the same, so the state fits it
+    const auto follow = [&](std::string& name) {
+        if (name == from) name = to;
+    };
+    if (kind == Named::Unit) follow(part.selected.unit);
+    if (kind != Named::Element) return;
+    for (RigWalk& walk : part.walks) follow(walk.control);
+    if (part.backward) follow(part.backward->bone);
+    if (part.rates) follow(part.rates->bone);
+    if (!part.clip) return;
+    RigClip clip = *part.clip;
+    for (std::string& bone : clip.bones) follow(bone);
+    part.clip = std::make_shared<const RigClip>(std::move(clip));
 }
 
 namespace {

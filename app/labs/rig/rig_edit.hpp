@@ -62,6 +62,11 @@ struct Use {
 std::optional<Use> first_use(const std::vector<rig::Unit>& units, Named kind,
                              const std::set<std::string>& names);
 
+/// Renames an element, a unit or a curve. Whatever refers to it follows: units, paths, the clip, the
+/// selection. State and take stay as they are, so the rig computes the same bits. Refuses an empty name, and
+/// one that is taken.
+void rename(RigPart& part, Named kind, const std::string& from, const std::string& to);
+
 // Defaults for the Add menu: elements and units with only the required inputs, filled in from the selection.
 
 /// "bone 3": the first such name that no element has.

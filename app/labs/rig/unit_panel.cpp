@@ -408,6 +408,8 @@ void unit_inspector(const RigPanel& panel) {
     note(operation + (row->inner ? ", run on each element of its for-each" : "") +
          (row->unit->enabled ? "" : ", switched off"));
     if (row->unit->enabled) warning_line(panel, panel.part.state.units[row->at].warning);
+    name_field(panel, "rig.unit.rename", row->unit->name,
+               "Type another name and press Enter: units that use its outputs follow.");
     Fields fields(panel, *row);
     for (const UnitInput& input : unit_inputs(panel.part, panel.now, *row->unit)) {
         if (input.path == "/when" && row->unit->when == rig::Unit().when) continue;  // the switch covers it

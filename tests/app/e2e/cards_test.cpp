@@ -1,6 +1,8 @@
 // The cards of things to try: plays every step of every card, and expects it to be ticked off.
 #include <imgui_internal.h>
 
+#include <optional>
+
 #include "app/app.hpp"
 #include "app/document/argument_check.hpp"
 #include "app/document/command.hpp"
@@ -10,6 +12,7 @@
 #include "app/shell/layout.hpp"
 #include "app/view/assets.hpp"
 #include "app/widgets/section_light.hpp"
+#include "tests/app/support/frame_record.hpp"
 #include "tests/app/support/panel_text.hpp"
 #include "tests/app/support/play.hpp"
 #include "tests/app/support/temp_folder.hpp"
@@ -352,6 +355,34 @@ TEST(CardsTest, a_typed_command_counts_and_a_refused_one_does_not) {
     EXPECT_FALSE(scene.done()[0]);
     scene.run("rig.control.set", {{"name", "look"}, {"value", {0.1, 0.2}}});
     EXPECT_TRUE(scene.done()[0]);
+}
+
+/// A number typed into the panel moves the target, but a step says to drag it.
+TEST(CardsTest, a_number_in_a_panel_is_no_drag) {
+    CardOnScene scene({"chain", 1}, {1280, 1800});
+    scene.run("chain.target", {{"to", {0.9, 1.2, 0.3}}});
+    scene.run("view.card", {{"open", true}, {"number", 1}});
+    ASSERT_EQ(scene.done(), std::vector<bool>(5, false));
+    FrameRecorder recorder;
+    scene.wait(2);
+    std::optional<glm::vec2> at;
+    for (const DrawnText& each : recorder.frame().texts)
+        if (each.text == "0.900 m") at = 0.5f * (each.box.min + each.box.max);  // the target's x
+    ASSERT_TRUE(at) << "the row of the target";
+    for (const Event& event : {Event(MouseMove{*at}), Event(MousePress{MouseButton::Left, true}),
+                               Event(MousePress{MouseButton::Left, false})})
+        scene.app().tick(&event);
+    scene.wait(30);
+    for (const Event& event : {Event(TextInput{"0.8"}), Event(KeyTap{{.key = Key::Enter}})})
+        scene.app().tick(&event);
+    scene.wait(60);
+    const Json state = scene.app().state();
+    const Json target = state.at("target");
+    EXPECT_NE(target, (Json{0.9, 1.2, 0.3})) << "the field was found";
+    EXPECT_EQ(state.at("solve").at("report").at("status"), "Converged");
+    EXPECT_EQ(scene.done(), std::vector<bool>(5, false));
+    scene.play(scene.card().steps[0]);
+    EXPECT_TRUE(scene.done()[0]) << "a drag ticks it";
 }
 
 TEST(CardsTest, are_hidden_without_a_window) {

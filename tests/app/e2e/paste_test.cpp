@@ -1,7 +1,11 @@
 // Ctrl+V over the view: the lab that takes points gets them, every other says where they go.
+#include <atomic>
+#include <optional>
+
 #include "app/app.hpp"
 #include "app/labs/chain/chain_lab.hpp"
 #include "app/live_loop.hpp"
+#include "tests/app/support/frame_record.hpp"
 #include "tests/app/support/play.hpp"
 #include "tests/says.hpp"
 
@@ -89,6 +93,63 @@ TEST_F(Paste, InTheWindowReadsTheClipboardAndIsReplayed) {
     EXPECT_TRUE(succeeded(run_program({"--headless", "--script", (folder / "recording.jsonl").string(),
                                        "--state", (folder / "state.json").string()})));
     EXPECT_EQ(parse_json(read(folder / "state.json"))["segments"], app_.state()["segments"]);
+}
+
+/// Neither asks for the text: the menu's row, and the command that the palette runs.
+TEST_F(Paste, FromTheMenuAndThePaletteReadsTheClipboardAndIsReplayed) {
+    const std::atomic<bool> ending{false};
+    LiveLoop loop(app_, *window_, {.config = false, .ending = ending});
+    Player none{Script{}};
+    const auto turn = [&](std::vector<Event> events) {
+        loop.turn(std::move(events), 0.0, none);
+        for (int i = 0; i < 20; ++i) loop.turn({}, 1.0 / 60.0, none);
+    };
+    const auto palette = [&](const char* typed) {
+        turn({KeyChange{Key::Ctrl, true}, KeyChange{Key::K, true}, KeyChange{Key::K, false},
+              KeyChange{Key::Ctrl, false}});
+        turn({TextInput{typed}});
+        turn({KeyChange{Key::Enter, true}, KeyChange{Key::Enter, false}});
+    };
+    app_.start_recording();
+    window_->set_clipboard("[[0, 0, 0], [0, 1, 0], [0, 2, 0]]");
+    palette("Paste points");
+    EXPECT_EQ(part().chain.size(), 3u);
+    EXPECT_FALSE(app_.workspace().ui.palette);
+
+    window_->set_clipboard("0 0 0\n0 0 1\n0 0 2\n0 0 3");
+    FrameRecorder recorder;
+    const auto click = [&](glm::vec2 at) {
+        turn({MouseMove{at}, MousePress{MouseButton::Left, true}, MousePress{MouseButton::Left, false}});
+    };
+    click({23.0f, 20.0f});
+    std::optional<glm::vec2> row, key;
+    for (const DrawnText& each : recorder.frame().texts) {
+        if (each.text == "Paste") row = 0.5f * (each.box.min + each.box.max);
+        if (each.text == "Ctrl+V") key = 0.5f * (each.box.min + each.box.max);
+    }
+    ASSERT_TRUE(row && key);
+    EXPECT_NEAR(row->y, key->y, 1.0f) << "the menu shows its key";
+    click(*row);
+    EXPECT_EQ(part().chain.size(), 4u);
+
+    const TempFolder folder;
+    write(folder / "recording.jsonl", app_.recording());
+    EXPECT_TRUE(succeeded(run_program({"--headless", "--script", (folder / "recording.jsonl").string(),
+                                       "--state", (folder / "state.json").string()})));
+    EXPECT_EQ(parse_json(read(folder / "state.json"))["segments"], app_.state()["segments"]);
+}
+
+TEST_F(Paste, OfNothingSaysSo) {
+    paste("");
+    EXPECT_TRUE(says(told(), "clipboard no text"));
+}
+
+/// The clipboard's junk is no incident of the lab.
+TEST_F(Paste, OfJunkIsNoIncident) {
+    app_.run({"chain.preset", Json{{"name", "reaching_arm"}}});
+    paste("Remember the milk");
+    EXPECT_TRUE(says(told(), "clipboard no points line 1"));
+    EXPECT_TRUE(app_.state()["events"].empty());
 }
 
 }  // namespace

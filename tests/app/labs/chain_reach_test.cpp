@@ -3,6 +3,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "tests/app/labs/chain_support.hpp"
+#include "tests/app/support/temp_folder.hpp"
 #include "tests/says.hpp"
 
 namespace tendril::app {
@@ -299,6 +300,33 @@ TEST_F(ChainReach, keeps_its_target_while_another_mode_is_on) {
     run("chain.mode", {{"mode", "with_index"}, {"index", 1}});
     run("microscope.open");
     EXPECT_EQ(part().target, glm::vec3(2, 1, 0)) << "the microscope looks at a reach";
+}
+
+TEST_F(ChainReach, saves_its_target_while_another_mode_is_on) {
+    reach_with(4);
+    run("chain.target", {{"to", {2, 1, 0}}});
+    run("chain.mode", {{"mode", "forward"}});
+    const Json saved = part().save();
+    const auto opened = part().load(saved, "chain");
+    EXPECT_EQ(opened->save(), saved);
+    EXPECT_TRUE(dynamic_cast<const ChainPart&>(*opened) == part());
+    workspace.document.set(chain_lab, opened);
+    run("chain.mode", {{"mode", "reach"}});
+    EXPECT_EQ(part().target, glm::vec3(2, 1, 0));
+
+    Json old = saved;  // of a version that did not save it
+    old.erase("reach_target");
+    workspace.document.set(chain_lab, part().load(old, "chain"));
+    run("chain.mode", {{"mode", "reach"}});
+    EXPECT_EQ(part().target, part().chain.position(4)) << "Reach begins at its tip";
+
+    Json wrong = saved;
+    wrong["reach_target"] = {1, 2};
+    EXPECT_TRUE(test::says(test::message_of([&] { part().load(wrong, "chain"); }), "chain.reach_target"));
+    wrong = saved;
+    wrong["mode"] = "reach";
+    EXPECT_TRUE(
+        test::says(test::message_of([&] { part().load(wrong, "chain"); }), "chain.reach_target reach"));
 }
 
 TEST_F(ChainReach, a_preset_begins_without_a_pole) {

@@ -4,6 +4,7 @@
 #include "app/labs/rig/rig_lab.hpp"
 #include "rig_support.hpp"
 #include "tests/app/e2e/monkey.hpp"
+#include "tests/says.hpp"
 
 namespace tendril::test {
 namespace {
@@ -61,6 +62,28 @@ TEST_F(RigApp, ADragInItsRectangleGoesWhereThePointerGoes) {
     EXPECT_LT(glm::distance(to, from + by), 1.0f) << "it moves in its own plane, under the pointer";
 }
 
+TEST_F(RigApp, AUnitIsRenamedInItsPanel) {
+    app_.run({"rig.select", Json{{"element", "head"}, {"unit", "aim"}}});
+    for (int i = 0; i < 3; ++i) app_.tick(nullptr);
+    const auto type = [&](const char* text) {
+        send(MouseMove{{1186.0f, 201.0f}});
+        send(MousePress{MouseButton::Left, true});
+        send(MousePress{MouseButton::Left, false});
+        for (int i = 0; i < 30; ++i) app_.tick(nullptr);
+        send(TextInput{text});
+        send(KeyTap{*chord_from_name("enter")});
+        for (int i = 0; i < 3; ++i) app_.tick(nullptr);
+    };
+    const auto selected = [&] { return rig_part(app_.workspace()).selected.unit; };
+    type("set head");
+    EXPECT_TRUE(says(app_.workspace().ui.toasts.back().text, "rig.unit.rename already unit set head"));
+    EXPECT_EQ(selected(), "aim");
+    type("gaze");
+    EXPECT_EQ(selected(), "gaze");
+    app_.run({"undo"});
+    EXPECT_EQ(selected(), "aim");
+}
+
 /// Opens its field, types part of a name, and clicks the remaining row.
 TEST_F(RigApp, AnInputIsChosenFromElementsThatAreFoundByName) {
     app_.run({"rig.select", Json{{"element", "head"}, {"unit", "aim"}}});
@@ -79,9 +102,9 @@ TEST_F(RigApp, AnInputIsChosenFromElementsThatAreFoundByName) {
         send(MousePress{MouseButton::Left, false});
         for (int i = 0; i < 3; ++i) app_.tick(nullptr);
     };
-    click({1190.0f, 352.0f});
+    click({1190.0f, 384.0f});
     send(TextInput{"TILT, tr"});
-    click({1000.0f, 416.0f});
+    click({1000.0f, 448.0f});
     EXPECT_EQ(std::get<std::string>(target().element.which), "tilt");
     EXPECT_EQ(target().of, rig::Of::Translation);
     EXPECT_EQ(target().space, rig::Space::Global);
@@ -89,9 +112,9 @@ TEST_F(RigApp, AnInputIsChosenFromElementsThatAreFoundByName) {
     app_.run({"undo"});
     EXPECT_EQ(target(), before);
     // Escape leaves it unchanged.
-    click({1190.0f, 352.0f});
+    click({1190.0f, 384.0f});
     send(KeyTap{*chord_from_name("escape")});
-    click({1000.0f, 416.0f});
+    click({1000.0f, 448.0f});
     EXPECT_EQ(target(), before);
 }
 
