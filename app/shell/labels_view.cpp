@@ -78,9 +78,9 @@ struct LegendColumns {
             for (std::size_t i = 0; i < row.numbers.size(); ++i) take(i + 1, row.numbers[i]);
         }
     }
-    /// Leaves out the numbers, from the last column, that do not fit.
+    /// Leaves out the numbers if they do not fit.
     void fit(float room) {
-        while (widths.size() > 1 && total() > room) widths.pop_back();
+        if (!widths.empty() && total() > room) widths.resize(1);
     }
     float total() const {
         float sum = -apart;
@@ -91,7 +91,7 @@ struct LegendColumns {
 
 LegendColumns legend_columns(std::span<const LegendRow> rows, const Rect& view, float scale) {
     LegendColumns columns(rows, scale);
-    columns.fit(view.size().x - 48.0f * scale);
+    columns.fit(0.55f * view.size().x);  // wider, it would cover the scene
     return columns;
 }
 

@@ -218,6 +218,19 @@ TEST(RaceStrip, ScrubsPlaysAndStepsByMouseAndKeys) {
     EXPECT_EQ(shown(opened_race().command("race.play").wait(16)), 1) << "four a second";
 }
 
+/// In a narrow view numbers are left to the inspector: the legend would cover the chains.
+TEST(RaceStrip, LegendHasItsNumbersWhereThereIsRoom) {
+    for (const bool narrow : {false, true}) {
+        const FrameRecorder recorder;
+        const PlayOptions options{.picture = true, .more = {"--size", narrow ? "1024x640" : "1280x720"}};
+        play(opened_race(), options);
+        int errors = 0;
+        for (const DrawnText& text : recorder.frame().texts)
+            errors += text.window == nullptr && text.text.starts_with("error ");
+        EXPECT_EQ(errors, narrow ? 0 : 4);
+    }
+}
+
 /// Of 3000 iterations those with round numbers.
 TEST(RaceStrip, NumbersARoundShareOfManyIterations) {
     ScriptText script = opened_race();
