@@ -67,6 +67,20 @@ std::filesystem::path folder_from(const char* variable, const char* below) {
 
 }  // namespace
 
+bool is_folded(const Settings& settings, const std::string& section, bool at_first) {
+    for (const std::string& of : {section, section.substr(0, section.find(':'))})
+        if (const auto chosen = settings.choices.find(fold_key(of)); chosen != settings.choices.end())
+            return chosen->second == "folded";
+    return at_first;
+}
+
+void set_folded(Settings& settings, const std::string& section, bool folded) {
+    if (section.find(':') == section.npos)
+        std::erase_if(settings.choices,
+                      [&](const auto& each) { return each.first.starts_with(fold_key(section) + ":"); });
+    settings.choices[fold_key(section)] = folded ? "folded" : "open";
+}
+
 Json save_settings(const Settings& settings) {
     Json json{{"theme", name_of(settings.theme, theme_names)},
               {"labels", name_of(settings.labels, label_names)},

@@ -28,10 +28,13 @@ struct Settings {
     bool operator==(const Settings&) const = default;
 };
 
-/// The key in `choices` that holds whether a panel's section is folded.
+/// The key in `choices` that holds whether a section is folded, "chain: Target", or all sections of a lab,
+/// "chain", that were not folded or unfolded since.
 inline std::string fold_key(const std::string& section) {
     return "section " + section;
 }
+bool is_folded(const Settings& settings, const std::string& section, bool at_first);
+void set_folded(Settings& settings, const std::string& section, bool folded);
 
 Json save_settings(const Settings& settings);
 /// Never fails, so that an old or edited file cannot stop the program: an invalid value keeps its default and

@@ -40,6 +40,10 @@ std::string length_text(double metres) {
     return std::abs(metres) < 1.0 ? fixed_text(1000.0 * metres, 1) + " mm" : fixed_text(metres, 2) + " m";
 }
 
+std::string error_text(double metres) {
+    return std::abs(metres) < 1e-5 ? "none" : si_text(metres, "m");
+}
+
 std::string count_text(std::size_t count, const char* noun) {
     return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }

@@ -17,6 +17,8 @@ std::string count_text(std::size_t count, const char* noun);
 
 /// "12.3 mm", "1.20 m": a length in metres, for bodies and rigs.
 std::string length_text(double metres);
+/// "1.2 mm"; "none" below a hundredth of a millimetre.
+std::string error_text(double metres);
 
 /// Three digits, with an SI prefix if needed: "2.30 m", "4.10 µs", "120 nm", "0 m". `unit` has no prefix
 /// ("m", "s"); a value that is not finite becomes "-".

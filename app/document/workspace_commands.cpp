@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "app/document/command.hpp"
+#include "app/document/drawn_sections.hpp"
 #include "app/document/json_complete.hpp"
 #include "app/document/text.hpp"
 
@@ -206,12 +207,11 @@ Command either(const char* name, const char* title, const char* argument, std::v
             }};
 }
 
-/// Sections that the user has folded or unfolded before.
+/// The open lab, and its sections that were drawn.
 std::vector<std::string> known_sections(const Workspace& w) {
-    const std::string before = fold_key("");
-    std::vector<std::string> names;
-    for (const auto& [key, choice] : w.settings.choices)
-        if (key.starts_with(before)) names.push_back(key.substr(before.size()));
+    std::vector<std::string> names{w.lab};
+    for (const std::string& each : w.runtimes.of<DrawnSections>("sections").names)
+        if (each.starts_with(w.lab + ":")) names.push_back(each);
     return names;
 }
 
@@ -274,7 +274,7 @@ void add_window_commands(CommandTable& table) {
                .title = "Fold or unfold a section",
                .arguments = {{.name = "section",
                               .type = ArgumentType::Text,
-                              .help = "lab and title",
+                              .help = "lab and title; a lab alone: all of its sections",
                               .known = known_sections},
                              {.name = "folded",
                               .type = ArgumentType::Boolean,
@@ -282,7 +282,7 @@ void add_window_commands(CommandTable& table) {
                .help = "Folds a section of a panel, or unfolds it",
                .effect = Effect::Look,
                .apply = [](Workspace& w, const Arguments& a) {
-                   w.settings.choices[fold_key(a.text("section"))] = a.boolean("folded") ? "folded" : "open";
+                   set_folded(w.settings, a.text("section"), a.boolean("folded"));
                }});
     table.add({.name = "view.text_scale",
                .title = "Set the text size",

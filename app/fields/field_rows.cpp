@@ -11,6 +11,7 @@
 
 #include "app/document/json_complete.hpp"
 #include "app/widgets/fields.hpp"
+#include "app/widgets/row_search.hpp"
 
 namespace tendril::app {
 namespace {
@@ -55,22 +56,44 @@ void FieldRows::row(std::string_view name, const RowOptions& options) const {
     const Field* const field = find_field(of_.table, name);
     if (field == nullptr) throw std::logic_error(command_ + " has no field " + std::string(name));
     const FieldText& text = text_of(*field);
-    if (field->type == FieldType::Choice && !text.listed) return button_rows(*field, text);
+    if (more_ == nullptr || !text.more) return draw(*field, text, options);
+    more_->add(text.label, changed(*field),
+               [rows = *this, field, &text, options] { rows.draw(*field, text, options); });
+}
+
+bool FieldRows::changed(const Field& field) const {
+    if (default_ == nullptr) return false;
+    const FieldValue now = field.get(of_.object), usual = field.get(default_);
+    const auto same = [](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); };
+    for (std::size_t i = 0; i < static_cast<std::size_t>(field.size()); ++i)
+        if (!same(now[i], usual[i])) return true;
+    return false;
+}
+
+void FieldRows::draw(const Field& field, const FieldText& text, const RowOptions& options) const {
+    note_row_of(command_, file_name(field));
+    if (field.type == FieldType::Choice && !text.listed) return button_rows(field, text);
     ImGui::BeginDisabled(!options.why_not.empty());
-    if (field->type == FieldType::Flag)
-        flag_row(*field, text);
-    else if (field->type == FieldType::Pair)
-        pair_row(*field, text);
-    else if (field->type == FieldType::Point)
-        point_row(*field, text);
-    else if (field->type == FieldType::Rotation)
-        rotation_row(*field, text);
-    else if (field->type == FieldType::Choice)
-        list_row(*field, text);
+    if (field.type == FieldType::Flag)
+        flag_row(field, text);
+    else if (field.type == FieldType::Pair)
+        pair_row(field, text);
+    else if (field.type == FieldType::Point)
+        point_row(field, text);
+    else if (field.type == FieldType::Rotation)
+        rotation_row(field, text);
+    else if (field.type == FieldType::Choice)
+        list_row(field, text);
     else
-        number_row(*field, text, options);
+        number_row(field, text, options);
     ImGui::EndDisabled();
-    explain(options.why_not.empty() ? text.help : (text.help + (' ' + options.why_not)).c_str());
+    std::string help = text.help;
+    if (!options.why_not.empty()) help += ' ' + options.why_not;
+    if (field.type == FieldType::Choice) {  // of the chosen one; the list shows the others by name alone
+        const EnumRow& now = text.choices[static_cast<std::size_t>(chosen(field, text))];
+        if (now.help != nullptr && *now.help != '\0') help += std::string("\n") + now.title + ": " + now.help;
+    }
+    explain(help.c_str());
 }
 
 ArgumentList FieldRows::arguments(const Field& field, ArgumentValue value) const {

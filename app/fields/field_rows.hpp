@@ -1,12 +1,14 @@
 // A panel's rows for the fields of a struct, with name, unit, range, tooltip and command from the table.
 #pragma once
 
+#include <concepts>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include "app/fields/fields.hpp"
 #include "app/widgets/emit.hpp"
+#include "app/widgets/more.hpp"
 
 namespace tendril::app {
 
@@ -26,13 +28,29 @@ class FieldRows {
           texts_(field_texts<Struct>()),
           command_(std::move(command)),
           emit_(emit),
-          with_(std::move(with)) {}
+          with_(std::move(with)) {
+        if constexpr (std::default_initializable<Struct>) {
+            static const Struct fresh{};
+            default_ = &fresh;
+        }
+    }
     template <class Struct>
     FieldRows(const Struct&&, std::string, Emit&, ArgumentList = {}) = delete;  // it refers to the struct
     FieldRows(FieldsOf of, std::span<const FieldText> texts, std::string command, Emit& emit,
               ArgumentList with = {})
         : of_(of), texts_(texts), command_(std::move(command)), emit_(emit), with_(std::move(with)) {}
 
+    /// Adds the rows whose texts say so to `more` instead of drawing them here. The struct must live until
+    /// they are drawn.
+    FieldRows& under(MoreRows& more) {
+        more_ = &more;
+        return *this;
+    }
+    /// Where the struct's type has no default of its own. It must live as long.
+    FieldRows& compared_with(FieldsOf usual) {
+        default_ = usual.object;
+        return *this;
+    }
     void row(std::string_view name, const RowOptions& options = {}) const;
     template <class... Names>
     void rows(Names... names) const {
@@ -44,6 +62,8 @@ class FieldRows {
     }
 
   private:
+    bool changed(const Field& field) const;
+    void draw(const Field& field, const FieldText& text, const RowOptions& options) const;
     ArgumentList arguments(const Field& field, ArgumentValue value) const;
     const FieldText& text_of(const Field& field) const;
     void flag_row(const Field& field, const FieldText& text) const;
@@ -60,6 +80,8 @@ class FieldRows {
     std::string command_;
     Emit& emit_;
     ArgumentList with_;
+    const void* default_ = nullptr;  ///< a struct with default values, if it has any
+    MoreRows* more_ = nullptr;
 };
 
 }  // namespace tendril::app

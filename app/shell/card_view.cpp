@@ -157,14 +157,13 @@ std::optional<Handle> handle_named(const ShellFrame& frame, const std::string& n
     return std::nullopt;
 }
 
-/// The current step of the shown card; null if there is no card or all steps are done.
+}  // namespace
+
 const CardStep* step_to_do(const ShellFrame& frame) {
     if (frame.card == nullptr) return nullptr;
     const std::size_t current = current_step(progress_of(frame), *frame.card);
     return current < frame.card->steps.size() ? &frame.card->steps[current] : nullptr;
 }
-
-}  // namespace
 
 float card_height(const ShellFrame& frame, glm::vec2 panel) {
     if (frame.card == nullptr) return 0.0f;

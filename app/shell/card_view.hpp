@@ -13,6 +13,8 @@ namespace tendril::app {
 float card_height(const ShellFrame& frame, glm::vec2 panel);
 /// Fills the current window; `panel` as above.
 void show_card(const ShellFrame& frame, glm::vec2 panel, Emit& emit);
+/// The current step of the shown card; null if there is no card or all steps are done.
+const CardStep* step_to_do(const ShellFrame& frame);
 /// Highlights the current step's section if it is in this side panel. Call it while filling the panel.
 void light_card_section(const ShellFrame& frame, bool left);
 /// Draws a ring around the handle of the current step if the scene shows it, and returns where. `known`

@@ -199,6 +199,7 @@ void CommandPalette::run(const std::string& name, SharedJson arguments, Emit& em
     recent_.insert(recent_.begin(), name);
     if (recent_.size() > max_recent) recent_.pop_back();
     emit("view.palette", {{"open", false}});
+    ran_ = Emitted{name, arguments, false};
     emit.typed(name, std::move(arguments));
 }
 

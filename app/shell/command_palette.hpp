@@ -4,7 +4,9 @@
 
 #include <array>
 #include <glm/vec2.hpp>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/shell/command_completion.hpp"
@@ -22,8 +24,11 @@ struct ShellFrame;
 class CommandPalette {
   public:
     void frame(const ShellFrame& frame, Emit& emit);
+    /// The command that was run since the last call.
+    std::optional<Emitted> take_run() { return std::exchange(ran_, std::nullopt); }
 
   private:
+    std::optional<Emitted> ran_;
     /// What the list offers for the line.
     struct Offer {
         TypedLine typed{};

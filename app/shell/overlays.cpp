@@ -116,22 +116,15 @@ void show_help(const ShellFrame& frame, Emit& emit) {
     ImGui::End();
 }
 
-/// The settings of the mouse and the labs.
-static void lab_settings(const ShellFrame& frame, Emit& emit) {
-    std::vector<LabSetting> settings{mouse_setting(), scroll_setting()};
-    for (const auto& lab : frame.labs.all())
-        for (LabSetting& setting : lab->settings()) settings.push_back(std::move(setting));
-    for (const LabSetting& setting : settings) {
-        std::vector<const char*> titles;
-        for (const LabSetting::Choice& choice : setting.choices) titles.push_back(choice.title.c_str());
-        std::string name = setting.key;
-        std::replace(name.begin(), name.end(), '_', ' ');
-        int chosen = static_cast<int>(setting.chosen(frame.workspace.settings));
-        if (choice_field(name.c_str(), chosen, titles.data(), static_cast<int>(titles.size())))
-            emit(setting.command,
-                 {{setting.argument, setting.choices[static_cast<std::size_t>(chosen)].name}});
-        explain(setting.help.c_str());
-    }
+static void setting_row(const LabSetting& setting, const Settings& settings, Emit& emit) {
+    std::vector<const char*> titles;
+    for (const LabSetting::Choice& choice : setting.choices) titles.push_back(choice.title.c_str());
+    std::string name = setting.key;
+    std::replace(name.begin(), name.end(), '_', ' ');
+    int chosen = static_cast<int>(setting.chosen(settings));
+    if (choice_field(name.c_str(), chosen, titles.data(), static_cast<int>(titles.size())))
+        emit(setting.command, {{setting.argument, setting.choices[static_cast<std::size_t>(chosen)].name}});
+    explain(setting.help.c_str());
 }
 
 /// A list, whose choice closes it: a button or slider would move under the mouse as the text grows.
@@ -155,7 +148,7 @@ static void text_size_row(const Settings& settings, Emit& emit) {
 void show_settings(const ShellFrame& frame, Emit& emit) {
     const Settings& settings = frame.workspace.settings;
     const float scale = frame.layout.scale;
-    if (!begin_sheet("Settings", frame.screen(), {520.0f * scale, 400.0f * scale})) {
+    if (!begin_sheet("Settings", frame.screen(), {520.0f * scale, 680.0f * scale})) {
         emit("view.settings", {{"open", false}});
     }
     text_size_row(settings, emit);
@@ -164,10 +157,17 @@ void show_settings(const ShellFrame& frame, Emit& emit) {
     int theme = settings.theme == Theme::Light, label = settings.labels == LabelMode::Always;
     if (choice_field("theme", theme, themes, 2)) emit("view.theme", {{"name", themes[theme]}});
     explain("The colours of the program: light text on a dark background, or dark on light.");
-    lab_settings(frame, emit);
     if (choice_field("labels", label, labels, 2))
         emit("view.labels", {{"show", label == 1 ? "always" : "hover"}});
     explain("When labels are shown in the picture: only under the mouse, or always.");
+    for (const LabSetting& setting : {mouse_setting(), scroll_setting()})
+        setting_row(setting, settings, emit);
+    for (const auto& lab : frame.labs.all()) {
+        const std::vector<LabSetting> of_lab = lab->settings();
+        if (of_lab.empty()) continue;
+        section(lab->title().c_str());
+        for (const LabSetting& setting : of_lab) setting_row(setting, settings, emit);
+    }
     ImGui::End();
 }
 

@@ -351,6 +351,8 @@ void Shell::frame(const ShellFrame& frame, Emit& emit) {
     if (workspace.ui.help) show_help(frame, emit);
     if (workspace.ui.settings) show_settings(frame, emit);
     palette_.frame(frame, emit);
+    unfolding_.for_step(frame, step_to_do(frame), emit);
+    if (const auto ran = palette_.take_run()) unfolding_.for_command(frame, *ran, emit);
     file_dialog_.frame(workspace, frame.labs, frame.screen(), frame.layout.scale, emit);
     show_filming(frame, emit);
     show_recovery(frame, emit);

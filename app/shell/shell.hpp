@@ -13,6 +13,7 @@
 #include "app/shell/file_dialog.hpp"
 #include "app/shell/layout.hpp"
 #include "app/shell/shortcuts.hpp"
+#include "app/shell/unfold.hpp"
 #include "app/view/draw_list.hpp"
 
 namespace tendril::app {
@@ -53,6 +54,7 @@ class Shell {
     PickId lit_ = no_pick;  ///< of the highlighted handle; see show_card_halo()
     std::optional<glm::vec2> card_ring_;
     CommandPalette palette_;
+    Unfolding unfolding_;
     FileDialog file_dialog_;
 };
 

@@ -12,6 +12,7 @@
 
 #include "app/document/units.hpp"
 #include "app/widgets/fonts.hpp"
+#include "app/widgets/icons.hpp"
 #include "app/widgets/number_entry.hpp"
 #include "app/widgets/section_light.hpp"
 #include "app/widgets/text.hpp"
@@ -106,22 +107,12 @@ bool section_button(const char* title, bool open) {
     const bool clicked = ImGui::InvisibleButton((std::string("section ") + title).c_str(), {width, line});
     const ImU32 colour = ImGui::GetColorU32(ImGui::IsItemHovered() ? ImGuiCol_Text : ImGuiCol_TextDisabled);
     if (ImGui::IsItemHovered()) ImGui::SetTooltip(open ? "Click folds this section" : "Click unfolds it");
-    ImDrawList* list = ImGui::GetWindowDrawList();
     const ImVec2 below = ImGui::GetCursorScreenPos();
     ImGui::SetCursorScreenPos(at);
     ImGui::TextUnformatted(title);
     ImGui::SetCursorScreenPos(below);
-    // The fold mark, at the right end.
-    const float half = 0.18f * line;
-    const ImVec2 mark{at.x + width - 2.0f * half, at.y + 0.5f * line};
-    const float stroke = std::max(1.0f, 0.1f * line);
-    const ImVec2 points[] = {
-        open ? ImVec2(mark.x - 1.4f * half, mark.y - 0.7f * half)
-             : ImVec2(mark.x - 0.7f * half, mark.y - 1.4f * half),
-        open ? ImVec2(mark.x, mark.y + 0.7f * half) : ImVec2(mark.x + 0.7f * half, mark.y),
-        open ? ImVec2(mark.x + 1.4f * half, mark.y - 0.7f * half)
-             : ImVec2(mark.x - 0.7f * half, mark.y + 1.4f * half)};
-    list->AddPolyline(points, 3, colour, ImDrawFlags_None, stroke);
+    draw_icon(ImGui::GetWindowDrawList(), open ? Icon::ChevronDown : Icon::ChevronRight,
+              {at.x + width - 0.45f * line, at.y + 0.5f * line}, 1.2f * line, colour);
     line_below();
     return clicked;
 }
@@ -129,30 +120,21 @@ bool section_button(const char* title, bool open) {
 void verdict(const std::string& text, glm::vec3 colour) {
     ImGui::Dummy({0.0f, 0.2f * ImGui::GetTextLineHeight()});
     ImGui::PushFont(verdict_font());
+    coloured_note(text, colour);
+    ImGui::PopFont();
+}
+
+void note(const std::string& text) {
+    const ImVec4 dim = ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled);
+    coloured_note(text, {dim.x, dim.y, dim.z});
+}
+
+void coloured_note(const std::string& text, glm::vec3 colour) {
     ImGui::PushStyleColor(ImGuiCol_Text, {colour.r, colour.g, colour.b, 1.0f});
     ImGui::PushTextWrapPos(0.0f);
     ImGui::TextUnformatted(text.c_str(), text.c_str() + text.size());
     ImGui::PopTextWrapPos();
     ImGui::PopStyleColor();
-    ImGui::PopFont();
-}
-
-void note(const std::string& text) {
-    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-    ImGui::PushTextWrapPos(0.0f);
-    ImGui::TextUnformatted(text.c_str(), text.c_str() + text.size());
-    ImGui::PopTextWrapPos();
-    ImGui::PopStyleColor();
-}
-
-void note_of(const std::vector<std::string>& all, std::size_t shown) {
-    const float wrap = std::max(1.0f, ImGui::GetContentRegionAvail().x);
-    float highest = 0.0f;
-    for (const std::string& text : all)
-        highest = std::max(highest, ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap).y);
-    const float from = ImGui::GetCursorPosY();
-    note(all[shown]);
-    ImGui::SetCursorPosY(from + highest + ImGui::GetStyle().ItemSpacing.y);
 }
 
 bool number_field(const char* name, float& value, float speed, float low, float high, const char* format) {

@@ -20,9 +20,7 @@ bool section_button(const char* title, bool open);
 void verdict(const std::string& text, glm::vec3 colour);
 /// Dim text, wrapped.
 void note(const std::string& text);
-
-/// One of several texts, with room for the longest, so that rows below do not move when another is shown.
-void note_of(const std::vector<std::string>& all, std::size_t shown);
+void coloured_note(const std::string& text, glm::vec3 colour);
 
 // Drags are clamped to the range. Typed values take effect when the user finishes (number_entry.hpp). They
 // are passed on even if out of range: the command refuses them with a message that gives the value and the

@@ -99,6 +99,10 @@ void draw_icon(ImDrawList* list, Icon icon, ImVec2 centre, float size, ImU32 col
             pen.line(-0.25f, -0.5f, 0.25f, 0.0f);
             pen.line(0.25f, 0.0f, -0.25f, 0.5f);
             break;
+        case Icon::ChevronDown:
+            pen.line(-0.5f, -0.25f, 0.0f, 0.25f);
+            pen.line(0.0f, 0.25f, 0.5f, -0.25f);
+            break;
         case Icon::Close:
             pen.line(-0.5f, -0.5f, 0.5f, 0.5f);
             pen.line(-0.5f, 0.5f, 0.5f, -0.5f);

@@ -16,6 +16,7 @@ enum class Icon {
     Gear,
     ChevronLeft,
     ChevronRight,
+    ChevronDown,
     Close,
     Check,
     Record

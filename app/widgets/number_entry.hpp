@@ -13,6 +13,8 @@
 
 namespace tendril::app {
 
+struct RowSearch;
+
 /// The last row that has a field: its position, and its number's range, for explain().
 struct RowAbove {
     int frame = -1;         ///< in which it was drawn
@@ -33,6 +35,7 @@ struct NumberEditing {
     bool entered = false;   ///< a typed number took effect since this was last read and reset
     std::string refused{};  ///< invalid text that the user left, with the reason; empty: none
     RowAbove row;
+    RowSearch* search = nullptr;  ///< that is on now; see row_search.hpp
 };
 
 /// Returns the new number in a frame in which the user changed it. `format` is a printf format with the unit

@@ -2,7 +2,6 @@
 #include "app/document/text.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <stdexcept>
 
 namespace tendril::app {

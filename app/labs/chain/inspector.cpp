@@ -31,7 +31,8 @@ void chain_rows(const ShownChain& shown, const Joints& joints) {
     reading(reaches ? "root to target" : "head to target", "%.3f m",
             static_cast<double>(glm::distance(joints.front(), part.target)));
     if (!reaches) reading("tail to target", "%.3f m", static_cast<double>(shown_residual(part, joints)));
-    reading("worst error", "%s", si_text(static_cast<double>(worst_error(shown, joints)), "m").c_str());
+    reading("worst error", "%s", error_text(static_cast<double>(worst_error(shown, joints))).c_str());
+    explain("How far the worst bone is from its length; none: less than 0.01 mm.");
 }
 
 void joint_row(const ShownChain& shown, const Joints& joints, std::size_t i, Emit& emit) {
@@ -54,7 +55,7 @@ void joint_row(const ShownChain& shown, const Joints& joints, std::size_t i, Emi
     ImGui::TableNextColumn();
     text_flush_right(fixed_text(static_cast<double>(segment.length), 3));
     ImGui::TableNextColumn();
-    text_flush_right(si_text(static_cast<double>(segment.error), "m"));
+    text_flush_right(error_text(static_cast<double>(segment.error)));
 }
 
 /// `fixed`: columns as wide as their numbers, scrolled sideways, for a panel that is too narrow.

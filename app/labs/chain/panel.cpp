@@ -37,17 +37,12 @@ float length_of_next(const Chain& chain) {
 constexpr std::array modes_in_panel{ChainMode::Reach, ChainMode::Forward, ChainMode::Backward,
                                     ChainMode::Fixed, ChainMode::WithIndex};
 
-void mode_rows(const ChainPart& part, const Palette& colours, Emit& emit) {
-    std::vector<std::string> helps;
-    std::size_t shown = 0;
+void mode_rows(const ChainPart& part, const Palette& colours, MoreRows& more, Emit& emit) {
     for (const ChainMode mode : modes_in_panel) {
         if (option_button(chain_modes.title(mode), part.mode == mode, chain_modes.help(mode)))
             emit("chain.mode", {{"mode", chain_modes.name(mode)}});
         draw_mode(mode, colours);
-        if (mode == part.mode) shown = helps.size();
-        helps.emplace_back(chain_modes.help(mode));
     }
-    note_of(helps, shown);
     study_rows(part, emit);  // above the rows that depend on the mode: opening either changes it to Reach
 
     const auto with = [&](const char* name, ArgumentValue value) {
@@ -62,11 +57,13 @@ void mode_rows(const ChainPart& part, const Palette& colours, Emit& emit) {
         int iterations = iterations_of(part, part.mode);
         if (integer_field("iterations", iterations, 1, max_iterations)) with("iterations", iterations);
         explain("The maximum number of passes per solve. More get closer to the target and cost more.");
-        float tolerance = part.tolerance;
-        if (number_field("tolerance", tolerance, 0.0005f, 0.0f, 10.0f, "%.4f m"))
-            with("tolerance", tolerance);
-        explain(
-            "How far from the target the solver may stop. Smaller is more exact and takes more iterations.");
+        more.add("tolerance", part.tolerance != ChainPart().tolerance, [&part, &emit] {
+            float tolerance = part.tolerance;
+            if (number_field("tolerance", tolerance, 0.0005f, 0.0f, 10.0f, "%.4f m"))
+                emit.continuously("chain.mode",
+                                  {{"mode", chain_modes.name(part.mode)}, {"tolerance", tolerance}});
+            explain("How far from the target the solver may stop. Less takes more iterations.");
+        });
     }
 }
 
@@ -133,19 +130,21 @@ void preset_rows(Emit& emit) {
 
 void ChainLab::panel(const Workspace& workspace, Emit& emit) const {
     const ChainPart& part = chain_part(workspace);
-    const auto open = [&](const char* title) { return folding_section(workspace, title, emit); };
-    if (open("Presets")) preset_rows(emit);
-    if (open("Mode and solver")) {
-        mode_rows(part, palette(workspace.settings.theme), emit);
-        if (part.mode == ChainMode::Reach) solver_rows(part, emit);
-    }
-    if (open("Joints")) segment_rows(part, emit);
-    if (open("Target")) target_rows(part, workspace.clock.playing, emit);
-    if (open("Analyse")) {
+    const auto section = [&](const char* title, bool at_first, const auto& rows) {
+        folding_section(workspace, title, emit, at_first, rows);
+    };
+    section("Presets", true, [&](MoreRows&) { preset_rows(emit); });
+    section("Mode and solver", true, [&](MoreRows& more) {
+        mode_rows(part, palette(workspace.settings.theme), more, emit);
+        if (part.mode == ChainMode::Reach) solver_rows(part, more, emit);
+    });
+    section("Joints", false, [&](MoreRows&) { segment_rows(part, emit); });
+    section("Target", false, [&](MoreRows&) { target_rows(part, workspace.clock.playing, emit); });
+    section("Analyse", false, [&](MoreRows& more) {
         past_view_rows(workspace, chain_past(), past_help, emit);
-        if (part.mode == ChainMode::Reach) flip_rows(part.flips, chain_flip_words, emit);
-    }
-    if (open("Export")) export_rows(emit);
+        if (part.mode == ChainMode::Reach) flip_rows(part.flips, chain_flip_words, more, emit);
+    });
+    section("Export", false, [&](MoreRows&) { export_rows(emit); });
 }
 
 float ChainLab::timeline_height(const Workspace& workspace) const {
@@ -308,24 +307,12 @@ Verdict chain_verdict(const ChainPart& part) {
     return {end + " " + distance_text(off) + " from the target", Verdict::Kind::Open};
 }
 
-namespace {
-
-void coloured_note(const std::string& text, glm::vec3 colour) {
-    ImGui::PushStyleColor(ImGuiCol_Text, {colour.r, colour.g, colour.b, 1.0f});
-    ImGui::PushTextWrapPos(0.0f);
-    ImGui::TextUnformatted(text.c_str(), text.c_str() + text.size());
-    ImGui::PopTextWrapPos();
-    ImGui::PopStyleColor();
-}
-
-}  // namespace
-
 void report_rows(const ShownChain& shown, const std::vector<glm::vec3>& joints, const Palette& palette) {
     const ChainPart& part = shown.part;
     if (!shows_end(shown)) {
         verdict("In progress", palette.text);
         reading("tip to target", "%.4f m", static_cast<double>(shown_residual(part, joints)));
-        note("A step of the solve. The last one has the report.");
+        note("This is one step of the solve. The last step shows the report.");
         return;
     }
     show_verdict(chain_verdict(part), palette);
@@ -356,32 +343,35 @@ std::string why_unused(const ReachSettings& reach, ik::Option option) {
     return std::string(solver_title(reach.method)) + " does not use this" + when + ".";
 }
 
-FieldRows solver_settings(const ReachSettings& reach, Emit& emit) {
-    return FieldRows(reach, "chain.solver", emit);
+/// A row of the solver's settings, greyed where the method ignores it.
+void solver_row(const ReachSettings& reach, const char* name, ik::Option option, MoreRows& more, Emit& emit,
+                std::optional<double> otherwise = {}) {
+    FieldRows(reach, "chain.solver", emit)
+        .under(more)
+        .row(name, {.otherwise = otherwise, .why_not = why_unused(reach, option)});
 }
 
-void stop_rows(const ReachSettings& reach, float length, Emit& emit) {
-    const FieldRows rows = solver_settings(reach, emit);
-    rows.row("iterations", {.why_not = why_unused(reach, ik::Option::MaxIterations)});
-    rows.row("tolerance", {.otherwise = reach_tolerance(reach, length)});
-    if (row_button("Default tolerance", 1, reach.tolerance.has_value(), "A thousandth of the reach"))
-        emit("chain.solver", {{"default_tolerance", true}});
-}
-
-void option_rows(const ReachSettings& reach, Emit& emit) {
-    const FieldRows rows = solver_settings(reach, emit);
-    const auto why_not = [&](ik::Option option) { return why_unused(reach, option); };
-    rows.row("snap_back", {.why_not = why_not(ik::Option::SnapBack)});
-    rows.row("soft_zone", {.why_not = why_not(ik::Option::SoftZone)});
-    rows.row("damping", {.why_not = why_not(ik::Option::Damping)});
-    rows.row("twist_deg", {.why_not = why_not(ik::Option::Twist)});
-    const std::string unused = why_not(ik::Option::Restarts);
-    rows.row("restarts", {.otherwise = default_restarts, .why_not = unused});
-    ImGui::BeginDisabled(!unused.empty());
-    if (row_button("Default restarts", 1, reach.restarts.has_value(),
-                   "8, but none while the target is dragged"))
-        emit("chain.solver", {{"default_restarts", true}});
-    ImGui::EndDisabled();
+void option_rows(const ReachSettings& reach, float length, MoreRows& more, Emit& emit) {
+    const auto row = [&](const char* name, ik::Option option, std::optional<double> otherwise = {}) {
+        solver_row(reach, name, option, more, emit, otherwise);
+    };
+    row("iterations", ik::Option::MaxIterations);
+    FieldRows(reach, "chain.solver", emit)
+        .under(more)
+        .row("tolerance", {.otherwise = reach_tolerance(reach, length)});
+    row("snap_back", ik::Option::SnapBack);
+    row("soft_zone", ik::Option::SoftZone);
+    row("damping", ik::Option::Damping);
+    row("twist_deg", ik::Option::Twist);
+    row("restarts", ik::Option::Restarts, default_restarts);
+    more.add("", false, [&reach, &emit] {
+        if (row_button("Default tolerance", 1, reach.tolerance.has_value(), "A thousandth of the reach"))
+            emit("chain.solver", {{"default_tolerance", true}});
+        if (row_button("Default restarts", 1, reach.restarts.has_value(),
+                       "8, but none while the target is dragged"))
+            emit("chain.solver", {{"default_restarts", true}});
+        end_row();
+    });
 }
 
 /// A new pole target is above the middle of the line from head to target, clear of the chain.
@@ -390,7 +380,7 @@ glm::vec3 first_pole(const ChainPart& part) {
     return middle + glm::vec3(0.0f, 0.6f * std::max(1.0f, part.chain.reach()), 0.0f);
 }
 
-void pole_rows(const ChainPart& part, Emit& emit) {
+void pole_rows(const ChainPart& part, MoreRows& more, Emit& emit) {
     if (part.chain.empty()) return;
     bool on = part.reach.pole.has_value();
     if (ImGui::Checkbox("Pole target", &on)) {
@@ -399,16 +389,17 @@ void pole_rows(const ChainPart& part, Emit& emit) {
     explain(
         "Turns the chain about the line from root to tip until the elbow points at a ball that you place.");
     if (!part.reach.pole) return;
-    glm::vec3 pole = *part.reach.pole;
-    if (point_field("pole", pole, 0.01f)) emit.continuously("chain.pole", {{"to", pole}});
-    explain("Where the pole target is: what the elbow or knee points at.");
-    solver_settings(part.reach, emit)
-        .row("pole_turn", {.why_not = why_unused(part.reach, ik::Option::PoleTurn)});
+    more.add("pole", false, [&part, &emit] {
+        glm::vec3 pole = *part.reach.pole;
+        if (point_field("pole", pole, 0.01f)) emit.continuously("chain.pole", {{"to", pole}});
+        explain("Where the pole target is. Drag the pink ball to move it.");
+    });
+    solver_row(part.reach, "pole_turn", ik::Option::PoleTurn, more, emit);
 }
 
 }  // namespace
 
-void solver_rows(const ChainPart& part, Emit& emit) {
+void solver_rows(const ChainPart& part, MoreRows& more, Emit& emit) {
     std::array<const char*, ik::all_methods.size()> titles{};
     std::transform(ik::all_methods.begin(), ik::all_methods.end(), titles.begin(), solver_title);
     int method = static_cast<int>(part.reach.method);
@@ -418,15 +409,11 @@ void solver_rows(const ChainPart& part, Emit& emit) {
     if (choice_field("##solver", method, titles.data(), static_cast<int>(titles.size()), why_not.data())) {
         emit("chain.solver", {{"name", ik::name(ik::all_methods[static_cast<std::size_t>(method)])}});
     }
-    explain("The solver that brings the tip to the target. Race, below, compares them on this chain.");
-    std::vector<std::string> notes;
-    for (const ik::Method each : ik::all_methods) notes.emplace_back(solver_help(each));
-    notes.push_back(why_not_taken(part.reach.method, part.chain) + ".");
-    const bool taken = takes(part.reach.method, part.chain);
-    note_of(notes, taken ? static_cast<std::size_t>(part.reach.method) : notes.size() - 1);
-    stop_rows(part.reach, part.chain.reach(), emit);
-    option_rows(part.reach, emit);
-    pole_rows(part, emit);
+    explain(
+        (std::string(solver_help(part.reach.method)) + " Race compares the solvers on this chain.").c_str());
+    if (!takes(part.reach.method, part.chain)) note(why_not_taken(part.reach.method, part.chain) + ".");
+    pole_rows(part, more, emit);
+    option_rows(part.reach, part.chain.reach(), more, emit);
 }
 
 }  // namespace tendril::app

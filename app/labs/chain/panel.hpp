@@ -11,7 +11,7 @@ namespace tendril::app {
 /// A small sketch of what a mode does, right-aligned beside the last item.
 void draw_mode(ChainMode mode, const Palette& colours);
 /// Panel: the solver and its options.
-void solver_rows(const ChainPart& part, Emit& emit);
+void solver_rows(const ChainPart& part, MoreRows& more, Emit& emit);
 /// Panel: microscope and race.
 void study_rows(const ChainPart& part, Emit& emit);
 /// Panel: copying.

@@ -91,11 +91,6 @@ void step(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
     part.study.pace = 0.0f;
 }
 
-void step_microscope(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
-    check_microscope(part);
-    step(part, given, runtime);
-}
-
 /// Restarts playback if it is at the last step.
 void play(ChainPart& part, float pace, ChainRuntime& runtime) {
     Study& study = part.study;
@@ -168,8 +163,6 @@ void add_microscope_commands(CommandTable& table) {
                               .low = 0,
                               .high = max_trace_steps}},
                             "Goes to a step of the solve", seek_step, Effect::Look));
-    table.add(chain_command("microscope.step", "Step through the solve", step_arguments(),
-                            "Steps forward or back through the solve", step_microscope, Effect::Look));
     table.add(chain_command("study.step", "Step through microscope or race", step_arguments(),
                             "Steps forward or back: through the solve under the microscope, or through the "
                             "race iteration by iteration",

@@ -135,11 +135,11 @@ void microscope_rows(const ShownChain& shown, const Palette& palette, Emit& emit
     const ChainPart& part = shown.part;
     const Trace& trace = *shown.trace;
     const std::size_t step = part.study.step;
-    if (row_button("|<", 4, step > 0, "One iteration back")) emit("microscope.step", {{"iterations", -1}});
-    if (row_button("<", 4, step > 0, "One step back")) emit("microscope.step", {{"by", -1}});
-    if (row_button(">", 4, step < trace.frames(), "One step forward")) emit("microscope.step", {{"by", 1}});
+    if (row_button("|<", 4, step > 0, "One iteration back")) emit("study.step", {{"iterations", -1}});
+    if (row_button("<", 4, step > 0, "One step back")) emit("study.step", {{"by", -1}});
+    if (row_button(">", 4, step < trace.frames(), "One step forward")) emit("study.step", {{"by", 1}});
     if (row_button(">|", 4, step < trace.frames(), "One iteration forward"))
-        emit("microscope.step", {{"iterations", 1}});
+        emit("study.step", {{"iterations", 1}});
     end_row();
     // Below the buttons: these texts are longer in some steps than in others.
     reading("step", "%zu of %zu", step, trace.frames());

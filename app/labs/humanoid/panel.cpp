@@ -65,15 +65,7 @@ void kept_map_rows(const HumanoidPanel& panel) {
     end_row();
 }
 
-}  // namespace
-
-HumanoidPanel humanoid_panel(const Workspace& workspace, Emit& emit) {
-    return {workspace, humanoid_part(workspace), humanoid_runtime(workspace),
-            palette(workspace.settings.theme), emit};
-}
-
-void character_rows(const HumanoidPanel& panel) {
-    if (!folding_section(panel.workspace, "Character", panel.emit)) return;
+void loaded_rows(const HumanoidPanel& panel, MoreRows& more) {
     const LoadedCharacter& loaded = *panel.part.loaded;
     std::string file = loaded.file;
     if (text_field("file", file, "type or drop one") && file != loaded.file) {
@@ -89,18 +81,21 @@ void character_rows(const HumanoidPanel& panel) {
         if (row_button("Cancel", 1, true, "The current character stays")) panel.emit("humanoid.load.cancel");
         end_row();
     }
-    if (row_button("Stick figure", 1, !loaded.file.empty(), "The built-in figure"))
-        panel.emit("humanoid.load");
-    end_row();
+    if (!loaded.file.empty()) {
+        if (row_button("Stick figure", 1, true, "Goes back to the built-in figure"))
+            panel.emit("humanoid.load");
+        end_row();
+    }
     kept_map_rows(panel);
-    scale_row(panel);
-    reading("height", "%.2f m", loaded.height());
-    rest_row(panel);
+    more.add("height", false, [&panel, &loaded] {
+        scale_row(panel);
+        reading("height", "%.2f m", loaded.height());
+    });
+    more.add("rest pose", panel.part.t_pose, [&panel] { rest_row(panel); });
     for (const std::string& text : loaded.character.notes) note(text);
 }
 
-void clip_rows(const HumanoidPanel& panel) {
-    if (!folding_section(panel.workspace, "Clip", panel.emit)) return;
+void playback_rows(const HumanoidPanel& panel, MoreRows& more) {
     const std::vector<humanoid::Clip>& clips = panel.part.loaded->clips();
     const Playback& playback = panel.part.playback;
     if (clips.empty()) return note("The character has no clips.");
@@ -117,21 +112,42 @@ void clip_rows(const HumanoidPanel& panel) {
         end_search();
     }
     explain("The motion to play. Type part of a name to find one.");
-    FieldRows(playback, "humanoid.clip", panel.emit).rows("speed", "loop", "in_place");
+    FieldRows(playback, "humanoid.clip", panel.emit).under(more).rows("speed", "loop", "in_place");
     if (playback.playing && !panel.workspace.clock.playing) note("Paused: press Space to play.");
 }
 
+}  // namespace
+
+HumanoidPanel humanoid_panel(const Workspace& workspace, Emit& emit) {
+    return {workspace, humanoid_part(workspace), humanoid_runtime(workspace),
+            palette(workspace.settings.theme), emit};
+}
+
+void character_rows(const HumanoidPanel& panel) {
+    folding_section(panel.workspace, "Character", panel.emit, true,
+                    [&](MoreRows& more) { loaded_rows(panel, more); });
+}
+
+void clip_rows(const HumanoidPanel& panel) {
+    folding_section(panel.workspace, "Clip", panel.emit, true,
+                    [&](MoreRows& more) { playback_rows(panel, more); });
+}
+
 void look_rows(const HumanoidPanel& panel) {
-    if (!folding_section(panel.workspace, "View", panel.emit)) return;
-    const FieldRows view(panel.part.view, "humanoid.view", panel.emit);
-    view.row("follow");
-    if (panel.part.loaded->character.skin.mesh) view.rows("skin", "skinning");
-    view.rows("limits", "ghost");
-    past_view_rows(panel.workspace, humanoid_past(), past_help, panel.emit);
+    folding_section(panel.workspace, "View", panel.emit, false, [&](MoreRows& more) {
+        const FieldRows view = FieldRows(panel.part.view, "humanoid.view", panel.emit).under(more);
+        view.row("follow");
+        if (panel.part.loaded->character.skin.mesh) view.rows("skin", "skinning");
+        view.rows("limits", "ghost");
+        past_view_rows(panel.workspace, humanoid_past(), past_help, panel.emit);
+        flip_rows(panel.part.flips, humanoid_flip_words, more, panel.emit);
+    });
 }
 
 void HumanoidLab::panel(const Workspace& workspace, Emit& emit) const {
     const HumanoidPanel panel = humanoid_panel(workspace, emit);
+    const bool incomplete = panel.runtime.solvers.body(panel.part) == nullptr;
+    if (incomplete) bone_rows(panel, true);  // nothing else works without
     character_rows(panel);
     clip_rows(panel);
     lint_rows(panel);
@@ -141,11 +157,8 @@ void HumanoidLab::panel(const Workspace& workspace, Emit& emit) const {
     spring_rows(panel);
     attachment_rows(panel);
     look_rows(panel);
-    if (folding_section(workspace, "What counts as a flip", emit, false))
-        flip_rows(panel.part.flips, humanoid_flip_words, emit);
     export_rows(panel);
-    bone_rows(panel);
-    map_rows(panel);
+    if (!incomplete) bone_rows(panel, false);
 }
 
 // Sections of the right panel: the selection, and the character in numbers.
@@ -355,20 +368,15 @@ void node_chooser(const HumanoidPanel& panel) {
 
 }  // namespace
 
-void bone_rows(const HumanoidPanel& panel) {
-    if (!folding_section(panel.workspace, "Bones", panel.emit)) return;
+void bone_rows(const HumanoidPanel& panel, bool open_at_first) {
+    if (!folding_section(panel.workspace, "Bones", panel.emit, open_at_first)) return;
     const std::string& why = panel.runtime.solvers.why_no_body(panel.part);
-    if (!why.empty()) {
-        ImGui::PushStyleColor(ImGuiCol_Text, colour_of(panel.colours.limit));
-        ImGui::PushTextWrapPos(0.0f);
-        ImGui::TextUnformatted(("Full-body IK is off: " + why + ".").c_str());
-        ImGui::PopTextWrapPos();
-        ImGui::PopStyleColor();
-    }
+    if (!why.empty()) coloured_note("Full-body IK is off: " + why + ".", panel.colours.limit);
     node_chooser(panel);
     note(panel.runtime.panel.bone ? "Click a node of the figure, or pick it from the list."
                                   : "To map a bone, click its row, then a node of the figure.");
     for (std::size_t i = 0; i < humanoid::bone_count; ++i) bone_row(panel, static_cast<Bone>(i));
+    map_rows(panel);
 }
 
 Verdict humanoid_verdict(const Workspace& workspace) {

@@ -25,7 +25,7 @@ Verdict humanoid_verdict(const Workspace& workspace);
 /// The file and what was done to it.
 void character_rows(const HumanoidPanel& panel);
 /// Each bone with its node and the confidence of the match.
-void bone_rows(const HumanoidPanel& panel);
+void bone_rows(const HumanoidPanel& panel, bool open_at_first);
 /// The clip and its playback.
 void clip_rows(const HumanoidPanel& panel);
 /// Effectors and their targets.

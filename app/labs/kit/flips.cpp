@@ -9,6 +9,7 @@
 #include "app/document/json_complete.hpp"
 #include "app/labs/kit/arguments.hpp"
 #include "app/widgets/fields.hpp"
+#include "app/widgets/row_search.hpp"
 
 namespace tendril::app {
 
@@ -38,23 +39,34 @@ void set_flip_rule(FlipRule& rule, const Arguments& given) {
     if (given.has("reach_share")) rule.reach_share = given.number("reach_share");
 }
 
-void flip_rows(const FlipRule& rule, const FlipWords& words, Emit& emit) {
-    const auto row = [&](const std::string& title, const char* name, float value, float speed, float low,
-                         float high, const std::string& format, const std::string& help) {
-        if (number_field(title.c_str(), value, speed, low, high, format.c_str()))
-            emit.continuously(words.command, {{name, value}});
-        explain(help.c_str());
+void flip_rows(const FlipRule& rule, const FlipWords& words, MoreRows& more, Emit& emit) {
+    struct Row {
+        std::string title;
+        const char* name;
+        float value, usual, speed, low, high;
+        std::string format, help;
     };
     const std::string mover = words.mover;
-    row("flip over", "degrees", rule.degrees, 0.5f, min_flip_degrees, max_flip_degrees, "%.0f deg",
-        "A bone that turns by more than this in a tick, while the " + mover +
-            " hardly moves, is marked as a flip");
-    row(mover + " turns", "angle_share", rule.angle_share, 0.005f, 0.0f, 1.0f, "< %.2f of it",
-        "The " + mover + " hardly moves if " + words.seen +
-            " turns by less than this share of the bone's turn");
-    row("or moves", "reach_share", rule.reach_share, 0.001f, 0.0f, 1.0f,
-        std::string("< %.3f of ") + words.size,
-        std::string("Or if it moves by less than this share of ") + words.whole);
+    const FlipRule usual;
+    const Row rows[] = {{"flip over", "degrees", rule.degrees, usual.degrees, 0.5f, min_flip_degrees,
+                         max_flip_degrees, "%.0f\u00b0",
+                         "A bone that turns by more than this in a tick, while the " + mover +
+                             " hardly moves, is marked as a flip."},
+                        {mover + " turns", "angle_share", rule.angle_share, usual.angle_share, 0.005f, 0.0f,
+                         1.0f, "< %.2f of it",
+                         "The " + mover + " hardly moves if " + words.seen +
+                             " turns by less than this share of the bone's turn."},
+                        {"or moves", "reach_share", rule.reach_share, usual.reach_share, 0.001f, 0.0f, 1.0f,
+                         std::string("< %.3f of ") + words.size,
+                         std::string("Or if it moves by less than this share of ") + words.whole + "."}};
+    for (const Row& row : rows)
+        more.add(row.title, row.value != row.usual, [row, &words, &emit] {
+            note_row_of(words.command, row.name);
+            float value = row.value;
+            if (number_field(row.title.c_str(), value, row.speed, row.low, row.high, row.format.c_str()))
+                emit.continuously(words.command, {{row.name, value}});
+            explain(row.help.c_str());
+        });
 }
 
 namespace {

@@ -9,6 +9,7 @@
 #include "app/document/argument.hpp"
 #include "app/document/json_place.hpp"
 #include "app/widgets/emit.hpp"
+#include "app/widgets/more.hpp"
 
 namespace tendril::app {
 
@@ -39,7 +40,7 @@ struct FlipWords {
 std::vector<Argument> flip_arguments(const FlipWords& words);
 void set_flip_rule(FlipRule& rule, const Arguments& given);
 /// Fields that edit the rule.
-void flip_rows(const FlipRule& rule, const FlipWords& words, Emit& emit);
+void flip_rows(const FlipRule& rule, const FlipWords& words, MoreRows& more, Emit& emit);
 
 // Likely causes of a flip in a chain that reaches for a target, judged from its joint positions alone.
 

@@ -4,17 +4,51 @@
 #include <algorithm>
 #include <utility>
 
+#include "app/document/drawn_sections.hpp"
 #include "app/widgets/fields.hpp"
+#include "app/widgets/row_search.hpp"
 
 namespace tendril::app {
 
 bool folding_section(const Workspace& workspace, const char* title, Emit& emit, bool open_at_first) {
     const std::string section = workspace.lab + ": " + title;
-    const auto& choices = workspace.settings.choices;
-    const auto chosen = choices.find(fold_key(section));
-    const bool open = chosen == choices.end() ? open_at_first : chosen->second != "folded";
+    workspace.runtimes.of<DrawnSections>("sections").names.insert(section);
+    const bool open = !is_folded(workspace.settings, section, !open_at_first);
+    if (RowSearch* const search = row_search()) {
+        search->inside.clear();
+        if (!open) search->inside.push_back(section);
+        if (search->title == title)
+            search->found.insert(search->found.end(), search->inside.begin(), search->inside.end());
+        return true;
+    }
     if (section_button(title, open)) emit("view.fold", {{"section", section}, {"folded", open}});
     return open;
+}
+
+void more_rows(const Workspace& workspace, const char* title, const MoreRows& more, Emit& emit) {
+    if (more.empty()) return;
+    const std::string section = workspace.lab + ": " + title + ", more";
+    workspace.runtimes.of<DrawnSections>("sections").names.insert(section);
+    const bool open = !is_folded(workspace.settings, section, true);
+    if (RowSearch* const search = row_search()) {
+        const std::vector<std::string> around = search->inside;
+        if (!open) search->inside.push_back(section);
+        more.draw();
+        search->inside = around;
+        return;
+    }
+    ImGui::PushID(title);
+    if (more.head(open)) emit("view.fold", {{"section", section}, {"folded", open}});
+    ImGui::PopID();
+    if (open) more.draw();
+}
+
+void folding_section(const Workspace& workspace, const char* title, Emit& emit, bool open_at_first,
+                     const std::function<void(MoreRows&)>& rows) {
+    if (!folding_section(workspace, title, emit, open_at_first)) return;
+    MoreRows more;
+    rows(more);
+    more_rows(workspace, title, more, emit);
 }
 
 bool preset_rows(const std::string& lab, const std::vector<PresetButton>& presets, const char* clears,

@@ -1,12 +1,14 @@
 // Building blocks of lab panels: folding sections, presets, verdicts. Sections stay as the user folded them.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "app/document/workspace.hpp"
 #include "app/view/palette.hpp"
 #include "app/widgets/emit.hpp"
+#include "app/widgets/more.hpp"
 
 namespace tendril::app {
 
@@ -14,6 +16,13 @@ namespace tendril::app {
 /// the settings, by lab and title.
 [[nodiscard]] bool folding_section(const Workspace& workspace, const char* title, Emit& emit,
                                    bool open_at_first = true);
+
+/// The same with its rows, of which those given to the MoreRows come last, under "More".
+void folding_section(const Workspace& workspace, const char* title, Emit& emit, bool open_at_first,
+                     const std::function<void(MoreRows&)>& rows);
+/// The end of the section `title`: its rows under "More", folded at first. Saved in the settings like a
+/// section.
+void more_rows(const Workspace& workspace, const char* title, const MoreRows& more, Emit& emit);
 
 // The section that opens a preset, empties the lab or resets it.
 

@@ -3,7 +3,6 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <cctype>
 
 #include "app/document/text.hpp"
 #include "app/document/units.hpp"

@@ -1,7 +1,6 @@
 // The element tree, which draws only the rows in view, and the fields for selected controls.
 #include <imgui.h>
 #include <algorithm>
-#include <cctype>
 #include <string_view>
 
 #include "app/document/json_complete.hpp"
@@ -183,7 +182,7 @@ void add_element_menu(const RigPanel& panel) {
 
 }  // namespace
 
-void element_tree(const RigPanel& panel) {
+void element_tree(const RigPanel& panel, MoreRows& more) {
     auto& filter = panel.runtime.panel.filter;
     const std::size_t count = panel.part.state.controls.size();
     constexpr std::size_t many = 12;  // a shorter list needs no filter
@@ -195,7 +194,7 @@ void element_tree(const RigPanel& panel) {
         filter[0] = '\0';
     }
     const std::vector<Row> rows = rows_of(panel.part, panel.now, filter.data());
-    const bool marks = pending_marks().chosen(panel.workspace.settings) == 0;
+    const bool marks = pending_marks().chosen(panel.workspace.settings) == 1;
     const float shown = std::clamp(static_cast<float>(rows.size()), 1.0f, 10.5f);
     ImGui::BeginChild("elements", {0.0f, shown * row_height() + 2.0f}, false);
     const ImVec2 spacing(ImGui::GetStyle().ItemSpacing.x, row_height() - ImGui::GetTextLineHeight());
@@ -217,6 +216,13 @@ void element_tree(const RigPanel& panel) {
                    selected.several() ? "Removes the selected elements" : "Removes the selected element"))
         panel.edit("rig.element.remove", {which(panel.part, selected.all())});
     end_row();
+    more.add("pending poses", marks, [&panel, marks] {
+        bool on = marks;
+        const LabSetting setting = pending_marks();
+        if (ImGui::Checkbox("Mark pending poses", &on))
+            panel.emit(setting.command, {{setting.argument, on ? "shown" : "hidden"}});
+        explain("Two bars beside each element, local and global: filled if not worked out yet.");
+    });
 }
 
 void draw_pending(rig::Pending pending, glm::vec2 at, const Palette& colours) {

@@ -37,10 +37,8 @@ const char* preset_help(const std::string& name) {
 
 void preset_section(Emit& emit) {
     std::vector<PresetButton> buttons;
-    for (const RigPreset& preset : rig_presets()) {
-        const bool short_title = preset.title.size() < 6;  // three of these fit in a row
-        buttons.push_back({preset.name, preset.title, preset_help(preset.name), short_title ? 3 : 1});
-    }
+    for (const RigPreset& preset : rig_presets())
+        buttons.push_back({preset.name, preset.title, preset_help(preset.name)});
     preset_rows(rig_lab, buttons, "Removes every element, curve and unit", emit);
 }
 
@@ -87,7 +85,7 @@ LabSetting pending_marks() {
         .title = "Mark pending poses in the tree",
         .argument = "marks",
         .help = "Marks in the tree of the Rig lab which local and global transforms are not worked out yet",
-        .choices = {{"shown", "Pending poses marked"}, {"hidden", "Not marked"}}};
+        .choices = {{"hidden", "not marked"}, {"shown", "marked"}}};
 }
 
 NamedArgument which(const RigPart& part, const std::vector<std::size_t>& elements) {
@@ -106,7 +104,7 @@ void select_unit(const RigPanel& panel, const std::string& name) {
 void curve_rows(const RigPanel& panel) {
     const std::vector<rig::NamedCurve>& curves = panel.part.rig.definition().curves;
     if (curves.empty()) return;
-    if (!folding_section(panel.workspace, "Curves", panel.emit)) return;
+    if (!folding_section(panel.workspace, "Curves", panel.emit, false)) return;
     for (std::size_t i = 0; i < std::min<std::size_t>(curves.size(), 100); ++i) {
         reading(curves[i].name.c_str(), "%s", fixed_text(panel.part.state.curves[i], 3).c_str());
         explain("A number that units write, such as a morph weight or a material parameter.");
@@ -133,15 +131,14 @@ void solve_rows(const RigPanel& panel) {
 
 void RigLab::panel(const Workspace& workspace, Emit& emit) const {
     const RigPanel panel = rig_panel(workspace, emit);
-    const auto open = [&](const char* title) { return folding_section(workspace, title, emit); };
-    if (open("Presets")) preset_section(emit);
+    if (folding_section(workspace, "Presets", emit)) preset_section(emit);
     walk_rows(workspace, emit);
-    if (open("Elements")) element_tree(panel);
-    if (open("Units, in order")) unit_list(panel);
+    folding_section(workspace, "Elements", emit, false, [&](MoreRows& more) { element_tree(panel, more); });
+    if (folding_section(workspace, "Units, in order", emit)) unit_list(panel);
     curve_rows(panel);
-    if (open("Solve")) solve_rows(panel);
+    if (folding_section(workspace, "Solve", emit, false)) solve_rows(panel);
     time_rows(workspace, emit);
-    if (!open("Export")) return;
+    if (!folding_section(workspace, "Export", emit, false)) return;
     if (row_button("Copy as C++", 1, true, "This rig, as it is now, as a program that uses the library"))
         emit("rig.copy");
 }

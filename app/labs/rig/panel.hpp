@@ -30,7 +30,7 @@ LabSetting pending_marks();
 
 // Left panel.
 /// Every element, indented below its parent; a click selects.
-void element_tree(const RigPanel& panel);
+void element_tree(const RigPanel& panel, MoreRows& more);
 /// Every unit in order, with the inputs and outputs of the selected one.
 void unit_list(const RigPanel& panel);
 void curve_rows(const RigPanel& panel);

@@ -227,8 +227,8 @@ const std::vector<RigPreset>& rig_presets() {
         {"aim", "Aim", aim_scene, view({0.1f, 1.15f, 0.7f}, -24.0f, 12.0f, 5.8f)},
         {"fk", "FK", fk_scene, view({0.0f, 1.2f, 0.0f}, -30.0f, 12.0f, 5.4f)},
         {"loop", "Loop", loop_scene, view({0.0f, 0.8f, 0.0f}, -30.0f, 24.0f, 5.8f)},
-        {"morph", "Morph and material", morph_scene, view({0.0f, 0.8f, 0.0f}, -16.0f, 10.0f, 4.8f)},
-        {"secondary", "Secondary motion", secondary_scene, view({0.0f, 1.3f, 0.0f}, -16.0f, 8.0f, 3.3f)}};
+        {"morph", "Morph", morph_scene, view({0.0f, 0.8f, 0.0f}, -16.0f, 10.0f, 4.8f)},
+        {"secondary", "Secondary", secondary_scene, view({0.0f, 1.3f, 0.0f}, -16.0f, 8.0f, 3.3f)}};
     return list;
 }
 

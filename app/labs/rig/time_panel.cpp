@@ -134,7 +134,7 @@ void rate_rows(const RigPart& part, Emit& emit) {
     reading("apart", "%s, %s\u00b0",
             (most.mm < 10.0 ? fixed_text(most.mm, 3) + " mm" : length_text(1e-3 * most.mm)).c_str(),
             fixed_text(most.degrees, most.degrees < 10.0 ? 3 : 1).c_str());
-    explain("How far apart the same bone is at two of the frame rates, at most");
+    explain("The largest distance and angle between the poses of one bone at two frame rates.");
     if (most.scale >= min_shown_scale) reading("", "scale %s", fixed_text(most.scale, 3).c_str());
     if (most.mm > 0.0 || most.degrees > 0.0 || most.scale > 0.0)
         note("Most: " + most.bone + ", " + most.between + ", " + fixed_text(most.seconds, 2) +
@@ -172,12 +172,12 @@ void walk_rows(const Workspace& workspace, Emit& emit) {
 
 void time_rows(const Workspace& workspace, Emit& emit) {
     const RigPart& part = rig_part(workspace);
-    if (folding_section(workspace, "Clip", emit)) clip_rows(part, emit);
-    if (folding_section(workspace, "Frame rates", emit)) rate_rows(part, emit);
-    if (folding_section(workspace, "Last ten seconds", emit))
+    if (folding_section(workspace, "Clip", emit, false)) clip_rows(part, emit);
+    folding_section(workspace, "Analyse", emit, false, [&](MoreRows& more) {
         past_view_rows(workspace, rig_past(), past_help, emit);
-    if (folding_section(workspace, "What counts as a flip", emit, false))
-        flip_rows(part.flips, rig_flip_words, emit);
+        rate_rows(part, emit);
+        flip_rows(part.flips, rig_flip_words, more, emit);
+    });
 }
 
 // The strip below the scene. Shows the take with its current tick, incidents, and clip frames that the rig
@@ -271,7 +271,7 @@ std::vector<TimeMark> take_marks(const Workspace& workspace, const Window& windo
 void step_button(const RigPart& part, bool back, Emit& emit) {
     const bool possible = back ? part.take.tick > 0 : part.take.tick < max_take_ticks;
     if (icon_button(back ? "back" : "forward", back ? Icon::ChevronLeft : Icon::ChevronRight,
-                    back ? "Pauses, one tick back" : "Pauses, one tick forward", possible))
+                    back ? "Pauses and goes back one tick" : "Pauses and goes forward one tick", possible))
         emit("rig.time", {{"tick", back ? part.take.now() - 1 : part.take.now() + 1}});
     ImGui::SameLine();
 }

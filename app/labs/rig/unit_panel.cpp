@@ -1,7 +1,6 @@
 // The units in execution order, each with its switch, time and warning, and the inspector of one unit.
 #include <imgui.h>
 #include <algorithm>
-#include <cctype>
 #include <limits>
 #include <utility>
 
@@ -167,13 +166,8 @@ void order_buttons(const RigPanel& panel, const std::vector<UnitRow>& rows) {
 void warning_line(const RigPanel& panel, rig::Warning warning, float margin) {
     const std::string text = capitalised(rig::message(warning));
     if (text.empty()) return;
-    const glm::vec3 c = panel.colours.limit;
     ImGui::SetCursorPosX(ImGui::GetCursorPosX() + margin);
-    ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(c.r, c.g, c.b, 1.0f));
-    ImGui::PushTextWrapPos(0.0f);
-    ImGui::TextUnformatted(("! " + text).c_str());
-    ImGui::PopTextWrapPos();
-    ImGui::PopStyleColor();
+    coloured_note("! " + text, panel.colours.limit);
 }
 
 void unit_list(const RigPanel& panel) {
@@ -265,7 +259,7 @@ class Fields {
         }
         if (!open) return;
         const std::vector<InputOffer> offers = input_offers(panel_.part, row_, *input_, index);
-        if (offers.empty()) note("Nothing in this rig has such a value.");
+        if (offers.empty()) note("No part of this rig has a value of this type.");
         for (const InputOffer& offer : offers)
             if (search_row(offer.title, offer.now, typed) && !offer.now) set(*offer.value);
         end_search();

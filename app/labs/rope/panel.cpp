@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "app/document/json_complete.hpp"
+#include "app/document/units.hpp"
 #include "app/fields/field_rows.hpp"
 #include "app/labs/kit/panel_rows.hpp"
 #include "app/labs/kit/past_strip.hpp"
@@ -24,6 +25,7 @@
 #include "app/labs/rope/scenes.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/plot.hpp"
+#include "app/widgets/row_search.hpp"
 
 namespace tendril::app {
 
@@ -54,43 +56,45 @@ void tool_rows(const RopePart& part, Emit& emit) {
         if (option_button(rope_tools.title(tool), part.tool == tool, tool_help(tool)))
             emit("rope.tool", {{"name", rope_tools.name(tool)}});
     }
-    note(part.tool == RopeTool::Cut ? "Click a segment of a rope to cut it there."
-                                    : "Drag any particle of a rope, and any collider.");
 }
 
 FieldRows settings_rows(const RopePart& part, Emit& emit) {
     return FieldRows(part.world->settings(), "rope.settings", emit);
 }
 
-void solver_rows(const RopePart& part, Emit& emit) {
+void solver_rows(const RopePart& part, MoreRows& more, Emit& emit) {
     const rope::Settings& now = part.world->settings();
-    const FieldRows settings = settings_rows(part, emit);
+    const FieldRows settings = settings_rows(part, emit).under(more);
     settings.row("solver");
-    note(rope_solvers.help(now.solver));
     settings.row("iterations");
-    float per_second = static_cast<float>(1.0 / now.substep);
-    if (number_field("substeps", per_second, 2.0f, 10.0f, 10000.0f, "%.0f /s"))
-        emit.continuously("rope.settings", {{"substep", 1.0f / std::max(per_second, 1e-9f)}});
-    explain(
-        "How many equal steps a simulated second is divided into. More steps follow fast motion better and "
-        "cost more.");
+    more.add("substeps", now.substep != rope::Settings().substep, [&now, &emit] {
+        note_row_of("rope.settings", "substep");
+        float per_second = static_cast<float>(1.0 / now.substep);
+        if (number_field("substeps", per_second, 2.0f, 10.0f, 10000.0f, "%.0f /s"))
+            emit.continuously("rope.settings", {{"substep", 1.0f / std::max(per_second, 1e-9f)}});
+        explain(
+            "How many equal steps a simulated second is divided into. More steps follow fast motion better "
+            "and cost more.");
+    });
     if (now.solver != rope::Solver::Relaxation) settings.row("compliance");
 }
 
-void time_rows(const Workspace& workspace, Emit& emit) {
+void time_rows(const Workspace& workspace, MoreRows& more, Emit& emit) {
     const RopePart& part = rope_part(workspace);
     float percent = 100.0f * workspace.clock.speed;
     if (number_field("speed", percent, 0.5f, 5.0f, 200.0f, "%.0f %%"))
         emit.continuously("time.speed", {{"factor", percent / 100.0f}});
     explain("How fast time passes in the lab. Under 100 % is slow motion.");
-    settings_rows(part, emit).row("longest_frame");
-    float dial = 100.0f * part.jitter.dial;
-    if (number_field("frame-time jitter", dial, 0.5f, 0.0f, 100.0f, "%.0f %%"))
-        emit.continuously("rope.jitter", {{"dial", dial / 100.0f}});
-    explain("How uneven frames are: 0 is even frames, 100 is frames of 1 to 250 ms.");
-    note(part.jitter.dial > 0.0f
-             ? "Frames of 1 to 250 ms: the picture stutters, the simulation stays the same."
-             : "Frame-time jitter makes frames uneven, like those of a program that stutters.");
+    settings_rows(part, emit).under(more).row("longest_frame");
+    more.add("frame-time jitter", part.jitter.dial > 0.0f, [&part, &emit] {
+        note_row_of("rope.jitter", "dial");
+        float dial = 100.0f * part.jitter.dial;
+        if (number_field("frame-time jitter", dial, 0.5f, 0.0f, 100.0f, "%.0f %%"))
+            emit.continuously("rope.jitter", {{"dial", dial / 100.0f}});
+        explain(
+            "How uneven frames are, like those of a program that stutters: 0 is even frames, 100 is frames "
+            "of 1 to 250 ms. The picture stutters, the simulation stays the same.");
+    });
 }
 
 constexpr PastHelp past_help{
@@ -102,27 +106,35 @@ constexpr PastHelp past_help{
 
 void RopeLab::panel(const Workspace& workspace, Emit& emit) const {
     const RopePart& part = rope_part(workspace);
-    const auto open = [&](const char* title) { return folding_section(workspace, title, emit); };
-    if (open("Presets")) scene_rows(emit);
-    if (open("Click action")) tool_rows(part, emit);
-    if (open("Add")) adding_rows(workspace, emit);
-    if (open("Solver")) solver_rows(part, emit);
-    if (open("World"))
-        settings_rows(part, emit).rows("damping", "friction", "gravity", "gravity_scale", "external");
-    if (open("Time")) time_rows(workspace, emit);
-    if (open("Show")) FieldRows(part.view, "rope.view", emit).rows("strain", "particles", "sides");
-    if (open("Last ten seconds")) past_view_rows(workspace, rope_past(), past_help, emit);
-    if (!open("Export")) return;
-    if (row_button("Copy as C++", 1, true,
-                   "Copies ropes and colliders as a C++ program that uses the library"))
-        emit("rope.copy");
-    end_row();
+    const auto section = [&](const char* title, bool at_first, const auto& rows) {
+        folding_section(workspace, title, emit, at_first, rows);
+    };
+    section("Presets", true, [&](MoreRows&) { scene_rows(emit); });
+    section("Click action", true, [&](MoreRows&) { tool_rows(part, emit); });
+    section("Add", false, [&](MoreRows&) { adding_rows(workspace, emit); });
+    section("Solver", true, [&](MoreRows& more) { solver_rows(part, more, emit); });
+    section("World", false, [&](MoreRows& more) {
+        settings_rows(part, emit)
+            .under(more)
+            .rows("damping", "friction", "gravity", "gravity_scale", "external");
+    });
+    section("Time", false, [&](MoreRows& more) { time_rows(workspace, more, emit); });
+    section("Show", false, [&](MoreRows& more) {
+        FieldRows(part.view, "rope.view", emit).under(more).rows("strain", "particles", "sides");
+        past_view_rows(workspace, rope_past(), past_help, emit);
+    });
+    section("Export", false, [&](MoreRows&) {
+        if (row_button("Copy as C++", 1, true,
+                       "Copies ropes and colliders as a C++ program that uses the library"))
+            emit("rope.copy");
+        end_row();
+    });
 }
 
 void RopeLab::inspector(const Workspace& workspace, Emit& emit) const {
     show_verdict(rope_verdict(rope_part(workspace)), palette(workspace.settings.theme));
     selection_rows(workspace, emit);
-    number_rows(workspace, palette(workspace.settings.theme));
+    number_rows(workspace, palette(workspace.settings.theme), emit);
 }
 
 float RopeLab::timeline_height(const Workspace& workspace) const {
@@ -270,6 +282,19 @@ void frame_times(const std::vector<RopeSample>& samples, const Palette& palette)
     explain("How long each frame is. The dashed line is an even frame, 16.7 ms.");
 }
 
+void length_plot(const std::vector<RopeSample>& samples, const Palette& palette) {
+    colour_mark(palette.ghost);
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextDisabled("length error");
+    ImGui::SameLine(0.0f, ImGui::GetFontSize());
+    colour_mark(palette.limit);
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextDisabled("as solved");
+    const Curve errors[] = {curve("length error", palette.ghost, samples, &RopeSample::error, 100.0f),
+                            curve("as solved", palette.limit, samples, &RopeSample::stretch, 100.0f)};
+    plot("length error", errors, {.x = "time", .x_unit = "s", .y = "", .y_unit = "%", .min_y = 1e-4f}, 9.0f);
+}
+
 }  // namespace
 
 void selection_rows(const Workspace& workspace, Emit& emit) {
@@ -287,41 +312,52 @@ void selection_rows(const Workspace& workspace, Emit& emit) {
     note("Nothing is selected. Click a rope or a collider.");
 }
 
-void number_rows(const Workspace& workspace, const Palette& palette) {
+void number_rows(const Workspace& workspace, const Palette& palette, Emit& emit) {
     const RopePart& part = rope_part(workspace);
     const rope::State& state = part.world->state();
     section("Numbers");
     reading("particles", "%zu", state.position.size());
     const RopeSample last = part.samples.empty() ? RopeSample{} : part.samples.back();
-    reading("length error", "%.4f %%", 100.0 * static_cast<double>(last.error));
+    const auto percent = [](float share) {
+        const double value = 100.0 * static_cast<double>(share);
+        return value < 0.01 ? std::string("< 0.01 %") : fixed_text(value, 2) + " %";
+    };
+    reading("length error", "%s", percent(last.error).c_str());
     explain("How far off the worst segment's length is, as you see it: after contact.");
-    reading("as solved", "%.4f %%", 100.0 * static_cast<double>(last.stretch));
-    explain("The length error that the solver left: for hair, before colliders displaced anything.");
     reading("energy", "%.3f J", static_cast<double>(last.energy));
-    reading("lost to contact", "%.3f J", static_cast<double>(last_second(part.samples).contact_loss));
-    explain("Energy lost to contact and friction in the last second, by bodies near colliders at rest.");
-    reading("substeps dropped", "%llu", static_cast<unsigned long long>(state.dropped));
-    explain(
-        "Substeps skipped so as not to fall behind: from frames over the longest frame, and where the work "
-        "exceeds what a tick allows.");
-    if (workspace.clock.measured && part.cost > 0.0f)
-        reading("time per frame", "%.0f \xc2\xb5s", static_cast<double>(part.cost));
+    const double lost = static_cast<double>(last_second(part.samples).contact_loss);
     if (part.quiet_ticks > 0) note("At rest.");
+    MoreRows more;
+    more.add("as solved", false, [&] {
+        reading("as solved", "%s", percent(last.stretch).c_str());
+        explain("The length error that the solver left: for hair, before colliders displaced anything.");
+    });
+    more.add("lost to contact", false, [&] {
+        reading("lost to contact", "%.3f J", lost);
+        explain("Energy lost to contact and friction in the last second, by bodies near colliders at rest.");
+    });
+    more.add("substeps dropped", state.dropped > 0, [&] {
+        reading("substeps dropped", "%llu", static_cast<unsigned long long>(state.dropped));
+        explain(
+            "Substeps skipped so as not to fall behind: from frames over the longest frame, and where the "
+            "work exceeds what a tick allows.");
+    });
+    if (workspace.clock.measured && part.cost > 0.0f)
+        more.add("time per frame", false,
+                 [&] { reading("time per frame", "%.0f \xc2\xb5s", static_cast<double>(part.cost)); });
+    more_rows(workspace, "Numbers", more, emit);
     if (part.samples.size() < 2) return;
     section("Last ten seconds");
-    colour_mark(palette.ghost);
-    ImGui::AlignTextToFramePadding();
-    ImGui::TextDisabled("length error");
-    ImGui::SameLine(0.0f, ImGui::GetFontSize());
-    colour_mark(palette.limit);
-    ImGui::AlignTextToFramePadding();
-    ImGui::TextDisabled("as solved");
-    const Curve errors[] = {curve("length error", palette.ghost, part.samples, &RopeSample::error, 100.0f),
-                            curve("as solved", palette.limit, part.samples, &RopeSample::stretch, 100.0f)};
-    plot("length error", errors, {.x = "time", .x_unit = "s", .y = "", .y_unit = "%", .min_y = 1e-4f}, 9.0f);
+    MoreRows plots;
+    const auto shows = [](const RopeSample& each) { return std::max(each.error, each.stretch) >= 1e-4f; };
+    if (std::ranges::any_of(part.samples, shows))
+        length_plot(part.samples, palette);
+    else
+        plots.add("length error, below 0.01 %", false, [&] { length_plot(part.samples, palette); });
     const Curve energy[] = {curve("energy", palette.accent, part.samples, &RopeSample::energy, 1.0f)};
     plot("energy", energy, {.x = "time", .x_unit = "s", .y = "energy", .y_unit = "J", .min_y = 0.0f}, 9.0f);
     frame_times(part.samples, palette);
+    more_rows(workspace, "Last ten seconds", plots, emit);
 }
 
 }  // namespace tendril::app

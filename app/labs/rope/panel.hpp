@@ -15,6 +15,6 @@ Verdict rope_verdict(const RopePart& part);
 /// The selection, and actions on it.
 void selection_rows(const Workspace& workspace, Emit& emit);
 /// Simulation statistics, and curves of the last ten seconds.
-void number_rows(const Workspace& workspace, const Palette& palette);
+void number_rows(const Workspace& workspace, const Palette& palette, Emit& emit);
 
 }  // namespace tendril::app

@@ -78,7 +78,8 @@ std::span<const FieldText> field_texts<RopeView>() {
         {.name = "particles", .label = "Particles", .help = "Draws the particles that ropes are made of."},
         {.name = "sides",
          .label = "sides",
-         .help = "How many sides ropes have in the picture. More look rounder and take longer to draw."}};
+         .help = "How many sides ropes have in the picture. More look rounder and take longer to draw.",
+         .more = true}};
     return texts;
 }
 
@@ -179,8 +180,13 @@ std::span<const FieldText> field_texts<rope::Settings>() {
         {.name = "iterations",
          .label = "iterations",
          .help = "The maximum number of passes per substep. Direct stops as soon as it has converged; with "
-                 "the others, more passes stretch a rope less and cost more."},
-        {.name = "solver", .label = "solver", .help = "How lengths are kept", .choices = solvers},
+                 "the others, more passes stretch a rope less and cost more.",
+         .more = true},
+        {.name = "solver",
+         .label = "solver",
+         .help = "How the lengths of ropes are kept.",
+         .listed = true,
+         .choices = solvers},
         {.name = "damping",
          .label = "damping",
          .help = "How fast motion dies away. Raise it if ropes swing for too long."},
@@ -188,7 +194,7 @@ std::span<const FieldText> field_texts<rope::Settings>() {
          .label = "gravity",
          .help = "The acceleration due to gravity, along each axis; Y points up. On Earth it is 0, -9.81, 0.",
          .step = 0.05f},
-        {.name = "gravity_scale", .label = "gravity scale", .help = "Multiplies gravity."},
+        {.name = "gravity_scale", .label = "gravity scale", .help = "Multiplies gravity.", .more = true},
         {.name = "external",
          .label = "wind",
          .help = "A steady acceleration of everything that moves, in addition to gravity.",
@@ -198,7 +204,8 @@ std::span<const FieldText> field_texts<rope::Settings>() {
          .help = "How elastic ropes are: the fraction of its length that a rope stretches per newton. 0 does "
                  "not stretch; relaxation ignores it.",
          .step = 1e-5f,
-         .decimals = 5},
+         .decimals = 5,
+         .more = true},
         {.name = "friction",
          .label = "friction",
          .help = "Coulomb's coefficient between ropes and colliders. At 0 ropes slide off; more holds "
@@ -210,7 +217,8 @@ std::span<const FieldText> field_texts<rope::Settings>() {
          .step = 1.0f,
          .decimals = 0,
          .scale = 1000.0,
-         .unit = "ms"}};
+         .unit = "ms",
+         .more = true}};
     return texts;
 }
 

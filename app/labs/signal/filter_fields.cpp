@@ -8,6 +8,9 @@ namespace {
 constexpr FieldText text(const char* name, const char* label, const char* help) {
     return {.name = name, .label = label, .help = help, .decimals = 3};
 }
+constexpr FieldText rare(const char* name, const char* label, const char* help) {
+    return {.name = name, .label = label, .help = help, .decimals = 3, .more = true};
+}
 
 constexpr FieldText interp_to[]{
     text("speed", "speed",
@@ -31,7 +34,7 @@ constexpr FieldText scale_bias_clamp[]{
          "How fast it eases while the value rises. Only with interp."),
     text("speed_decreasing", "speed decreasing",
          "How fast it eases while the value falls. Only with interp.")};
-constexpr FieldText critical_damping = text("critical_damping", "critical damping",
+constexpr FieldText critical_damping = text("critical_damping", "damping",
                                             "How soon swinging stops: 0 swings for ever, 1 is the fastest "
                                             "that does not overshoot, more is sluggish.");
 constexpr FieldText spring[]{
@@ -39,8 +42,8 @@ constexpr FieldText spring[]{
          "How many times a second the spring would swing without damping. Higher follows faster. At 0 there "
          "is no spring."),
     critical_damping,
-    text("force", "force", "A constant acceleration of the output: shifts where it comes to rest."),
-    text("target_velocity_amount", "target velocity amount",
+    rare("force", "force", "A constant acceleration of the output: shifts where it comes to rest."),
+    rare("target_velocity_amount", "target velocity",
          "How much of the input's velocity the spring takes into account: at 1 it follows steady motion "
          "without lag, and jumps overshoot.")};
 constexpr FieldText exponential_decay[]{text(
@@ -64,9 +67,9 @@ constexpr FieldText one_euro[]{
          "The cutoff of the low pass while the input rests. Lower it until a still hand no longer trembles."),
     text("beta", "beta",
          "By how much the cutoff rises with the input's speed. Raise it until fast motion no longer lags."),
-    text("derivative_cutoff", "derivative cutoff",
+    rare("derivative_cutoff", "derivative cutoff",
          "The cutoff of the low pass on the speed itself. Lower it where noise is taken for speed."),
-    text("reset_jump", "reset jump",
+    rare("reset_jump", "reset jump",
          "Restarts the filter at the input if the two are farther apart than this, as when a tracked hand is "
          "lost and found. 0: never.")};
 constexpr FieldText moving_average[]{

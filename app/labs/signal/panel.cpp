@@ -146,12 +146,11 @@ void chain_rows(const SignalPart& part, const Palette& palette, Emit& emit) {
 void SignalLab::panel(const Workspace& workspace, Emit& emit) const {
     const SignalPart& part = signal_part(workspace);
     const Palette& colours = palette(workspace.settings.theme);
-    const auto open = [&](const char* title) { return folding_section(workspace, title, emit); };
-    if (open("Presets")) preset_section(emit);
-    if (open("Input")) input_section(part, emit);
-    if (open("Filters")) chain_rows(part, colours, emit);
-    parameter_rows(part, colours, emit);
-    if (open("Export")) export_section(emit);
+    if (folding_section(workspace, "Presets", emit)) preset_section(emit);
+    if (folding_section(workspace, "Input", emit, false)) input_section(part, emit);
+    if (folding_section(workspace, "Filters", emit)) chain_rows(part, colours, emit);
+    parameter_rows(workspace, colours, emit);
+    if (folding_section(workspace, "Export", emit, false)) export_section(emit);
 }
 
 // The parameters of the selected filter, from the library's table; for a curve also its editor, for a spring
@@ -191,16 +190,24 @@ void spring_rows(const signal::Spring<>& spring, std::size_t at, Emit& emit) {
 
 }  // namespace
 
-void parameter_rows(const SignalPart& part, const Palette& palette, Emit& emit) {
+void parameter_rows(const Workspace& workspace, const Palette& palette, Emit& emit) {
+    const SignalPart& part = signal_part(workspace);
     if (!part.selected || *part.selected >= part.stages.size()) return;
     const std::size_t at = *part.selected;
     const signal::Filter& filter = part.stages[at].filter;
-    section(kind_title(filter).c_str());
+    const std::string title = kind_title(filter);
+    section(title.c_str());
     ImGui::PushID(static_cast<int>(at));
+    MoreRows more;
+    const signal::Filter usual = signal::kind_of(filter).blank();
     FieldRows(filter_fields(filter), filter_texts(signal::kind_of(filter)), "signal.filter.set", emit,
               {{"at", at}})
+        .under(more)
+        .compared_with(filter_fields(usual))
         .all();
-    if (const auto* spring = std::get_if<signal::Spring<>>(&filter)) spring_rows(*spring, at, emit);
+    if (const auto* spring = std::get_if<signal::Spring<>>(&filter))
+        more.add("half-life, duration, bounce", false,
+                 [spring, at, &emit] { spring_rows(*spring, at, emit); });
     if (const auto* curve = std::get_if<signal::Curve>(&filter)) {
         signal::Curve edited = *curve;
         const double before = at > 0 ? output_of(part, at - 1) : input_of(part);
@@ -211,6 +218,7 @@ void parameter_rows(const SignalPart& part, const Palette& palette, Emit& emit) 
                               {{"at", at}, {"keys", SharedJson(parameters_json(edited).at("keys"))}});
         note("Drag a key. Double-click adds one, right-click removes it.");
     }
+    more_rows(workspace, title.c_str(), more, emit);
     ImGui::PopID();
 }
 
@@ -242,7 +250,7 @@ void response_rows(const StageMeasures& measures) {
     reading("settling", "%s", or_dash(measures.settling_time, 1e3, 0, "ms").c_str());
     explain("From a jump until it stays within 2 % of it. Needs jumps: a square wave.");
     reading("jitter left", "%s", or_dash(measures.jitter, 1e2, 1, "%").c_str());
-    explain("How much of the input's trembling is left: second differences, output over input.");
+    explain("How much of the input's jitter remains: second differences, output over input.");
 }
 
 void measure_rows(const StageMeasures& measures) {

@@ -17,7 +17,7 @@ void chain_rows(const SignalPart& part, const Palette& palette, Emit& emit);
 /// How the whole chain follows its input.
 Verdict signal_verdict(const SignalPart& part, const signal::Measures& whole);
 /// The parameters of the selected filter.
-void parameter_rows(const SignalPart& part, const Palette& palette, Emit& emit);
+void parameter_rows(const Workspace& workspace, const Palette& palette, Emit& emit);
 /// The ranking of fitted filters.
 void fit_rows(const SignalPart& part, Emit& emit);
 

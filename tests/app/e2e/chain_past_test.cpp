@@ -123,7 +123,10 @@ TEST(ChainsPast, AnIncidentIsGoneToByItsNumber) {
 
 TEST(ChainsPast, ARefusedNumberIsAMarkAndNoFlip) {
     // Typed into the panel; a refused script command leaves no event.
-    const ScriptText reach = ScriptText().command("chain.mode", {{"mode", "reach"}}).wait(3);
+    const ScriptText reach = ScriptText()
+                                 .command("chain.mode", {{"mode", "reach"}})
+                                 .command("view.fold", chain_panel::unfolded())
+                                 .wait(3);
     const Json typed =
         play_refused(ScriptText(reach).click(chain_panel::iterations).wait(2).text("0").key("enter").wait(2));
     ASSERT_EQ(typed["events"].size(), 1u);

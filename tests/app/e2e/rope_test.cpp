@@ -163,8 +163,11 @@ TEST(RopeInTheWindow, UndoBringsTheLabAndTheViewAndLeavesOtherLabsAsTheyAre) {
 
 TEST(RopeInTheWindow, ButtonsAddWhatTheySay) {
     // In section "Add", below presets with the same titles.
-    ScriptText script = rope_lab().command("rope.clear").wait(2);
-    for (const glm::vec2 button : {glm::vec2(126, 449), glm::vec2(205, 449), glm::vec2(48, 449)})
+    ScriptText script = rope_lab()
+                            .command("rope.clear")
+                            .command("view.fold", {{"section", "rope: Add"}, {"folded", false}})
+                            .wait(2);
+    for (const glm::vec2 button : {glm::vec2(126, 411), glm::vec2(205, 411), glm::vec2(48, 411)})
         script.move(button).wait(2).down().up().wait(2);
     const Json added = state_after(script);
     EXPECT_EQ(added["cloths"].size(), 1u);

@@ -178,6 +178,7 @@ class CurveInTheWindow : public testing::Test {
                            {{"time", 1}, {"value", 1}}};
         script.command("lab.open", {{"name", "signal"}})
             .command("time.pause")
+            .command("view.fold", {{"section", "signal: Input"}, {"folded", false}})
             .command("signal.clear")
             .command("signal.filter.add", {{"kind", "curve"}, {"keys", keys}})
             .wait(3);
@@ -250,7 +251,10 @@ TEST_F(CurveInTheWindow, ATangentIsDraggedByItsEnd) {
 TEST(SignalInTheWindow, AFileIsTypedIntoThePanel) {
     const TempFolder folder;
     write(folder / "rows.csv", "dt,input\n0.5,7\n0.5,-7\n");
-    ScriptText script = ScriptText().command("lab.open", {{"name", "signal"}}).wait(2);
+    ScriptText script = ScriptText()
+                            .command("lab.open", {{"name", "signal"}})
+                            .command("view.fold", {{"section", "signal: Input"}, {"folded", false}})
+                            .wait(2);
     script.click({170.0f, 466.0f}).text((folder / "rows.csv").c_str());
     EXPECT_EQ(state_after(script).at("input_kind"), "square") << "not before Enter";
     const Json state = state_after(script.key("enter").wait(10));

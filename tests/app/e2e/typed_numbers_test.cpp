@@ -8,11 +8,12 @@ namespace tendril::test {
 namespace {
 
 constexpr glm::vec2 iterations_field = chain_panel::iterations;
+const app::Json unfolded = chain_panel::unfolded();
 
 /// Clicks every row of the Chain lab's solver options, from iterations to soft zone, and types.
 ScriptText typed_into_every_row(const char* text) {
     ScriptText script;
-    script.command("chain.mode", {{"mode", "reach"}});
+    script.command("chain.mode", {{"mode", "reach"}}).command("view.fold", unfolded);
     for (float y = iterations_field.y - 8.0f; y < chain_panel::soft_zone.y + 8.0f; y += 8.0f)
         script.click({iterations_field.x, y}).wait(2).text(text).key("enter").wait(30);
     return script;
@@ -55,7 +56,7 @@ TEST(TypedNumbers, InRangeAreTaken) {
 /// Types into the Chain lab's iterations field key by key; the script then goes on.
 ScriptText typed_iterations(const std::string& text) {
     ScriptText script;
-    script.command("chain.mode", {{"mode", "reach"}});
+    script.command("chain.mode", {{"mode", "reach"}}).command("view.fold", unfolded);
     script.click(iterations_field).wait(2);
     for (const char key : text) script.text(std::string(1, key).c_str());
     return script;
@@ -156,7 +157,8 @@ TEST(TypedNumbers, ThatAreNoneAreRefusedInWords) {
 
 /// Neither the click into the field nor the typed keys turn the view.
 TEST(TypedNumbers, NeverReachTheCamera) {
-    const app::Json before = state_after(ScriptText().command("chain.mode", {{"mode", "reach"}}).wait(30));
+    const app::Json before = state_after(
+        ScriptText().command("chain.mode", {{"mode", "reach"}}).command("view.fold", unfolded).wait(30));
     ScriptText script = typed_iterations("");
     for (const char* digit : {"1", "3", "7", "5"}) script.hold(digit).text(digit).release(digit);
     const app::Json after = state_after(script.key("escape").wait(30));
@@ -180,7 +182,7 @@ TEST(TypedNumbers, TabGoesToTheNextField) {
 /// FABRIK has no damping: the fields below the soft zone are greyed out.
 TEST(TypedNumbers, TabPassesByWhatCannotBeChanged) {
     ScriptText script;
-    script.command("chain.mode", {{"mode", "reach"}});
+    script.command("chain.mode", {{"mode", "reach"}}).command("view.fold", unfolded);
     const app::Json before = state_after(script).at("solve");
     script.click(chain_panel::soft_zone)
         .wait(2)
@@ -199,7 +201,7 @@ TEST(TypedNumbers, TabPassesByWhatCannotBeChanged) {
 TEST(TypedNumbers, AreScrubbedFinerWithShift) {
     const auto scrubbed = [](bool shift) {
         ScriptText script;
-        script.command("chain.mode", {{"mode", "reach"}});
+        script.command("chain.mode", {{"mode", "reach"}}).command("view.fold", unfolded);
         if (shift) script.hold("shift");
         script.drag({iterations_field, iterations_field + glm::vec2(20.0f, 0.0f),
                      iterations_field + glm::vec2(60.0f, 0.0f)});

@@ -122,8 +122,11 @@ TEST(Panels, AddStaysUnderThePointer) {
     const std::size_t before = state_after(ScriptText().wait(1))["segments"].size();
     for (const char* mode : {"forward", "backward", "fixed"}) {
         // Fixed has two more rows above it, so the button is further down.
-        ScriptText script = ScriptText().command("chain.mode", {{"mode", mode}}).wait(2);
-        const glm::vec2 at = chain_panel::add + glm::vec2(0.0f, std::string(mode) == "fixed" ? 64.0f : 0.0f);
+        ScriptText script = ScriptText()
+                                .command("chain.mode", {{"mode", mode}})
+                                .command("view.fold", {{"section", "chain: Joints"}, {"folded", false}})
+                                .wait(2);
+        const glm::vec2 at = chain_panel::add + glm::vec2(0.0f, std::string(mode) == "fixed" ? 60.0f : 0.0f);
         script.move(at).wait(2);
         for (int i = 0; i < 3; ++i) script.down().up().wait(25);
         EXPECT_EQ(state_after(script)["segments"].size(), before + 3) << mode;

@@ -105,18 +105,18 @@ TEST_F(ChainStudy, steps_go_on_and_back_and_stay_within) {
     run("chain.target", {{"to", {1, 1.5, 1}}});
     const auto step = [&] { return study().step; };
     EXPECT_EQ(step(), 0u);
-    run("microscope.step");
-    run("microscope.step", {{"by", 2}});
+    run("study.step");
+    run("study.step", {{"by", 2}});
     EXPECT_EQ(step(), 3u);
-    run("microscope.step", {{"iterations", 1}});
+    run("study.step", {{"iterations", 1}});
     EXPECT_EQ(step(), trace().end_of_iteration(1));
-    run("microscope.step", {{"iterations", 1}});
+    run("study.step", {{"iterations", 1}});
     EXPECT_EQ(step(), trace().end_of_iteration(2));
-    run("microscope.step", {{"iterations", -1}});
+    run("study.step", {{"iterations", -1}});
     EXPECT_EQ(step(), trace().end_of_iteration(1));
-    run("microscope.step", {{"by", 1000}});
+    run("study.step", {{"by", 1000}});
     EXPECT_EQ(step(), trace().frames());
-    run("microscope.step", {{"by", -100000}});
+    run("study.step", {{"by", -100000}});
     EXPECT_EQ(step(), 0u);
     EXPECT_NE(refused("microscope.seek", {{"step", 5000}}).find("5000"), std::string::npos);
 }
@@ -305,7 +305,7 @@ TEST_F(ChainStudy, what_changes_the_chain_closes_it_and_other_modes_too) {
 
 TEST_F(ChainStudy, what_cannot_be_studied_is_refused) {
     EXPECT_NE(refused("microscope.close").find("not open"), std::string::npos);
-    EXPECT_NE(refused("microscope.step").find("not open"), std::string::npos);
+    EXPECT_NE(refused("study.step").find("open"), std::string::npos);
     EXPECT_NE(refused("race.close").find("no race"), std::string::npos);
     EXPECT_NE(refused("race.save", {{"path", "a.csv"}}).find("no race"), std::string::npos);
     EXPECT_NE(refused("race.copy").find("no race"), std::string::npos);

@@ -65,7 +65,7 @@ TEST_F(CommandTitles, StandWithTheLabThatHasThem) {
     const auto lab_of = [&](const char* name) { return table_.find(name)->lab; };
     EXPECT_EQ(lab_of("undo"), "");
     EXPECT_EQ(lab_of("view.scroll"), "");
-    EXPECT_EQ(lab_of("microscope.step"), "chain");
+    EXPECT_EQ(lab_of("study.step"), "chain");
     EXPECT_EQ(lab_of("view.segments"), "chain");
     EXPECT_EQ(lab_of("rope.cut"), "rope");
     EXPECT_EQ(lab_of("view.character_bones"), "humanoid");

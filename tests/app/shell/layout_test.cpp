@@ -49,7 +49,7 @@ class LayoutTest : public testing::TestWithParam<std::string> {
         run("lab.open", {{"name", GetParam()}});
         for (const CommandCall& command : scene.commands)
             run(command.name.c_str(), to_json(command.arguments));
-        run("view.fold", {{"section", "chain: Joints, in metres"}, {"folded", false}});
+        run("view.fold", {{"section", GetParam()}, {"folded", false}});  // all of its sections
         run("time.play");
         for (int i = 0; i < scene.ticks; ++i) app_.tick(nullptr);
         run("time.pause");

@@ -1,15 +1,23 @@
-// Positions in the Chain lab's panel that tests click, in the initial window of 1280 by 720.
+// Positions in the Chain lab's panel that tests click, in the initial window of 1280 by 720, with every
+// section unfolded.
 #pragma once
 
 #include <glm/vec2.hpp>
 
+#include "app/document/json_complete.hpp"
+
 namespace tendril::test::chain_panel {
 
+/// The arguments of view.fold that unfold every section.
+inline app::Json unfolded() {
+    return {{"section", "chain"}, {"folded", false}};
+}
+
 inline constexpr glm::vec2 forward{60.0f, 274.0f};
-inline constexpr glm::vec2 target_y{173.0f, 673.0f};  ///< in the four trailing modes
-inline constexpr glm::vec2 add{48.0f, 545.0f};        ///< the button, in the four trailing modes
+inline constexpr glm::vec2 target_y{173.0f, 636.0f};  ///< in the four trailing modes
+inline constexpr glm::vec2 add{48.0f, 508.0f};        ///< the button, in the four trailing modes
 // In mode Reach:
-inline constexpr glm::vec2 iterations{173.0f, 555.0f};
-inline constexpr glm::vec2 soft_zone{173.0f, 683.0f};
+inline constexpr glm::vec2 iterations{173.0f, 523.0f};
+inline constexpr glm::vec2 soft_zone{173.0f, 619.0f};
 
 }  // namespace tendril::test::chain_panel

@@ -48,7 +48,7 @@ void holder_field(const HumanoidPanel& panel) {
 }  // namespace
 
 void attachment_rows(const HumanoidPanel& panel) {
-    if (!folding_section(panel.workspace, "Attachments", panel.emit)) return;
+    if (!folding_section(panel.workspace, "Attachments", panel.emit, false)) return;
     note("Order in each tick: clip, IK, rig, ropes.");
     explain(
         "Feet, targets and hands are IK; look-at, the rig's Aim, and springs follow. Ropes, hair and cloth "

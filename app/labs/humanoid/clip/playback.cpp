@@ -244,14 +244,17 @@ std::span<const FieldText> field_texts<Playback>() {
          .step = 0.5f,
          .decimals = 0,
          .scale = 100.0,
-         .unit = "%"},
+         .unit = "%",
+         .more = true},
         {.name = "loop",
          .label = "Loop",
          .help = "Plays the clip over and over; a walk carries on from where it is. Off: it stops at the "
-                 "end."},
+                 "end.",
+         .more = true},
         {.name = "in_place",
          .label = "In place",
-         .help = "The hips stay above the point where the clip begins."}};
+         .help = "The hips stay above the point where the clip begins.",
+         .more = true}};
     return texts;
 }
 

@@ -36,7 +36,7 @@ void effector_row(const HumanoidPanel& panel, humanoid::Effector effector) {
 }  // namespace
 
 void target_rows(const HumanoidPanel& panel) {
-    if (!folding_section(panel.workspace, "Targets", panel.emit)) return;
+    if (!folding_section(panel.workspace, "Targets", panel.emit, false)) return;
     const std::string& why = panel.runtime.solvers.why_no_body(panel.part);
     if (!why.empty()) return note("Full-body IK is off: " + why + ".");
     for (const humanoid::Effector effector : all_effectors) effector_row(panel, effector);
@@ -109,7 +109,7 @@ void hand_row(const HumanoidPanel& panel, std::size_t hand) {
 }  // namespace
 
 void hand_rows(const HumanoidPanel& panel) {
-    if (!folding_section(panel.workspace, "Hands and gaze", panel.emit)) return;
+    if (!folding_section(panel.workspace, "Hands and gaze", panel.emit, false)) return;
     const IkSettings& ik = panel.part.ik;
     const bool body = panel.runtime.solvers.body(panel.part) != nullptr;
     const std::string no_body = "Full-body IK is off: " + panel.runtime.solvers.why_no_body(panel.part) + ".";
@@ -154,25 +154,24 @@ void foot_row(const HumanoidPanel& panel, std::size_t side) {
     if (!alone.empty()) note("Not planted: " + alone + ".");
 }
 
-}  // namespace
-
-void ground_rows(const HumanoidPanel& panel) {
-    if (!folding_section(panel.workspace, "Ground and feet", panel.emit)) return;
+void standing_rows(const HumanoidPanel& panel, MoreRows& more) {
     const IkSettings& ik = panel.part.ik;
     int kind = static_cast<int>(ik.ground.kind);
     const auto titles = ground_kinds.titles();
     std::array<const char*, titles.size()> why_not{};
-    if (!ik.ground.mesh) why_not.back() = "type its path below";
+    if (!ik.ground.mesh) why_not.back() = "type its path under More";
     if (choice_field("ground", kind, titles.data(), static_cast<int>(titles.size()), why_not.data()))
         panel.emit("humanoid.ground", {{"kind", ground_kinds.name(static_cast<GroundKind>(kind))}});
     explain(ground_kinds.help(ik.ground.kind));
-    std::string path = ik.ground.mesh ? ik.ground.mesh->path : std::string();
-    if (text_field("mesh file", path, "a .gltf or .glb file") && !path.empty())
-        panel.emit("humanoid.ground", {{"kind", "mesh"}, {"path", path}});
-    explain("A file whose triangles become the ground. Enter loads it.");
+    more.add("mesh file", ik.ground.mesh != nullptr, [&panel, &ik] {
+        std::string path = ik.ground.mesh ? ik.ground.mesh->path : std::string();
+        if (text_field("mesh file", path, "a .gltf or .glb file") && !path.empty())
+            panel.emit("humanoid.ground", {{"kind", "mesh"}, {"path", path}});
+        explain("A file whose triangles become the ground. Enter loads it.");
+    });
     shape_rows(panel);
     const FootIkSetting& feet = ik.foot_ik;
-    const FieldRows rows(feet, "humanoid.foot_ik", panel.emit);
+    const FieldRows rows = FieldRows(feet, "humanoid.foot_ik", panel.emit).under(more);
     const std::string& why = panel.runtime.solvers.why_no_feet(panel.part);
     const bool none = !feet.on && !why.empty();
     rows.row("on", {.why_not = none ? "Foot IK is not possible: " + why + "." : ""});
@@ -187,6 +186,13 @@ void ground_rows(const HumanoidPanel& panel) {
     for (std::size_t side = 0; side < 2 && why_up.empty(); ++side)
         why_up = why_in_air(panel.part, shown, panel.runtime.solvers, side);
     if (!why_up.empty()) note(why_up);
+}
+
+}  // namespace
+
+void ground_rows(const HumanoidPanel& panel) {
+    folding_section(panel.workspace, "Ground and feet", panel.emit, true,
+                    [&](MoreRows& more) { standing_rows(panel, more); });
 }
 
 }  // namespace tendril::app

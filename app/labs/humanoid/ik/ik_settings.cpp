@@ -157,15 +157,18 @@ std::span<const FieldText> field_texts<FootIkSetting>() {
              "Plants the feet and aligns them with the ground; knees bend, and the hips follow its height."},
         {.name = "enter_speed",
          .label = "plant below",
-         .help = "A foot near the ground that moves slower than this is planted."},
+         .help = "A foot near the ground that moves slower than this is planted.",
+         .more = true},
         {.name = "leave_speed",
          .label = "let go above",
-         .help = "A planted foot is released when the clip moves it faster than this."},
+         .help = "A planted foot is released when the clip moves it faster than this.",
+         .more = true},
         {.name = "max_angle_deg",
          .label = "foot angle",
-         .help = "The most that the ground tilts a foot.",
+         .help = "The maximum angle by which the ground tilts a foot.",
          .step = 0.1f,
-         .decimals = 0}};
+         .decimals = 0,
+         .more = true}};
     return texts;
 }
 

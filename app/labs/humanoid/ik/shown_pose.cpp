@@ -261,10 +261,10 @@ std::string why_in_air(const HumanoidPart& part, const ShownPose& shown, Solvers
     if (slide < part.ik.foot_ik.enter_speed) return {};
     const std::string speed = fixed_text(slide, 1) + " m/s";
     if (gait->travel < 0.35 * gait->slide[side])
-        return "The feet do not rest: the clip walks in place, and they slide at " + speed +
+        return "Feet are not planted: the clip walks in place, and they slide at " + speed +
                " while low. Raise \"let go above\" and \"plant below\" over that, or use a clip that "
                "travels.";
-    return "The feet do not rest: while low they move at " + speed + ", over \"plant below\".";
+    return "Feet are not planted: near the ground they move at " + speed + ", over \"plant below\".";
 }
 
 const ShownPose& HumanoidRuntime::shown(const Workspace& workspace) {

@@ -22,7 +22,7 @@ void spring_row(const HumanoidPanel& panel, std::size_t which) {
     ImGui::PushID(each.node.c_str());
     reading(each.node.c_str(), "%.0f\u00b0",
             glm::degrees(panel.runtime.shown(panel.workspace).springs[which].angle));
-    explain("How far its bones are turned from the clip now, at most.");
+    explain("The largest angle between its bones and the clip now.");
     const bool shown = !panel.part.selection.several() &&
                        active_name(panel.part.selection, panel.part.skeleton()) == each.node;
     if (row_button("Settings", 2, !shown, "Selects it and shows its settings on the right"))
@@ -86,7 +86,7 @@ void setting_rows(const HumanoidPanel& panel, const SpringSetting& spring,
 }  // namespace
 
 void spring_rows(const HumanoidPanel& panel) {
-    if (!folding_section(panel.workspace, "Springs", panel.emit)) return;
+    if (!folding_section(panel.workspace, "Springs", panel.emit, false)) return;
     if (panel.part.springs.empty())
         note("Makes ears, antennae or a tail of the character trail behind its head or hips.");
     for (std::size_t i = 0; i < panel.part.springs.size(); ++i) spring_row(panel, i);

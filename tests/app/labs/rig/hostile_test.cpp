@@ -156,6 +156,7 @@ TEST_F(RigHostile, ABackwardSolveStopsWhereItHasTakenLongEnoughAndSaysSo) {
     EXPECT_GT(left.at("worst_mm"), 0.1);
     EXPECT_EQ(rig_part(reopened()).backward, part().backward);
     test::PanelReader reader;
+    set_folded(workspace.settings, "rig: Solve", false);
     EXPECT_NE(reader.panel(lab(), workspace).find("Stopped early"), std::string::npos);
 }
 

@@ -33,7 +33,11 @@ class RigPanels : public RigTest {
     void expect_says(const std::string& text, const std::string& what) {
         EXPECT_NE(text.find(what), std::string::npos) << what << " is not in:\n" << text;
     }
-    std::string panel_text() { return reader_.panel(lab(), workspace); }
+    /// With every section unfolded.
+    std::string panel_text() {
+        set_folded(workspace.settings, rig_lab, false);
+        return reader_.panel(lab(), workspace);
+    }
     std::string inspector_text() { return reader_.inspector(lab(), workspace); }
 
   private:

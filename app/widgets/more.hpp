@@ -1,0 +1,32 @@
+// The rows of a section that are rarely needed: they are collected while the section is drawn, and come last,
+// below a head "More" that is folded at first. The head counts the values that differ from their defaults.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace tendril::app {
+
+class MoreRows {
+  public:
+    /// `label` is in the head's tooltip, empty for none; `draw` must be valid until the end of the section.
+    void add(std::string label, bool changed, std::function<void()> draw);
+
+    bool empty() const { return rows_.empty(); }
+    /// "More", or "More (2 changed)".
+    std::string title() const;
+    /// The head; true in a frame in which it is clicked.
+    bool head(bool open) const;
+    void draw() const;
+
+  private:
+    struct Row {
+        std::string label;
+        std::function<void()> draw;
+    };
+    std::vector<Row> rows_;
+    int changed_ = 0;
+};
+
+}  // namespace tendril::app

@@ -1,0 +1,44 @@
+#include "app/widgets/row_search.hpp"
+
+#include <imgui.h>
+
+#include <algorithm>
+
+#include "app/widgets/number_entry.hpp"
+
+namespace tendril::app {
+namespace {
+
+NumberEditing& interface_state() {
+    return *static_cast<NumberEditing*>(ImGui::GetIO().UserData);
+}
+
+}  // namespace
+
+RowSearch* row_search() {
+    return interface_state().search;
+}
+
+void note_row_of(std::string_view command, std::string_view argument) {
+    RowSearch* const search = row_search();
+    if (search == nullptr || search->command != command) return;
+    if (std::ranges::find(search->arguments, argument) == search->arguments.end()) return;
+    search->found.insert(search->found.end(), search->inside.begin(), search->inside.end());
+}
+
+SearchWindow::SearchWindow(RowSearch& search) {
+    interface_state().search = &search;
+    ImGui::SetNextWindowPos({-20000.0f, -20000.0f});
+    ImGui::SetNextWindowSize({300.0f, 4000.0f});
+    ImGui::Begin("search", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoNav |
+                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
+                     ImGuiWindowFlags_NoBackground);
+}
+
+SearchWindow::~SearchWindow() {
+    ImGui::End();
+    interface_state().search = nullptr;
+}
+
+}  // namespace tendril::app

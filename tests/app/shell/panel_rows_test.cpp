@@ -1,0 +1,213 @@
+// How much a lab's panel shows when the lab is opened, and that nothing is lost under "More".
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <tendril/rope/settings.hpp>
+#include <utility>
+#include <vector>
+
+#include "app/app.hpp"
+#include "app/document/json_complete.hpp"
+#include "app/fields/fields.hpp"
+#include "app/labs/card.hpp"
+#include "app/labs/chain/reach.hpp"
+#include "app/labs/humanoid/clip/playback.hpp"
+#include "app/labs/humanoid/ik/ik_settings.hpp"
+#include "app/labs/kit/world_file.hpp"
+#include "app/labs/rope/rope_fields.hpp"
+#include "app/labs/rope/rope_part.hpp"
+#include "tests/app/support/frame_record.hpp"
+#include "tests/app/support/layout_faults.hpp"
+
+namespace tendril::test {
+namespace {
+
+using namespace app;
+
+constexpr glm::ivec2 usual_window{1440, 900};
+constexpr glm::ivec2 high_window{1440, 3000};  ///< shows every row without scrolling
+constexpr std::size_t max_rows = 18;
+
+std::vector<std::string> names_of_labs() {
+    std::vector<std::string> names;
+    const Labs labs;
+    for (const auto& lab : labs.all()) names.push_back(lab->name());
+    return names;
+}
+
+class PanelRows : public testing::TestWithParam<std::string> {
+  protected:
+    PanelRows() {
+        const Event resized = Resize{usual_window};
+        app_.tick(&resized);
+        open();
+    }
+    void open() { run("lab.open", {{"name", GetParam()}}); }
+    void run(const std::string& command, Json arguments = Json::object()) {
+        app_.run({command, std::move(arguments)});
+    }
+    /// The text of each row, from the top; a wrapped text is one row.
+    std::vector<std::string> rows() {
+        app_.settle();
+        std::vector<std::pair<float, std::string>> found;
+        for (const DrawnText& text : recorder_.frame().texts) {
+            if (text.window == nullptr || !window_name(text.window).starts_with("left/content")) continue;
+            // The mark and the value of a row are a few pixels off its name.
+            const auto same = std::ranges::find_if(
+                found, [&](const auto& row) { return std::abs(row.first - text.box.min.y) < 6.0f; });
+            if (same == found.end())
+                found.emplace_back(text.box.min.y, text.text);
+            else
+                same->second += "  " + text.text;
+        }
+        std::ranges::sort(found);
+        std::vector<std::string> rows;
+        for (auto& row : found) rows.push_back(std::move(row.second));
+        return rows;
+    }
+    static std::string joined(const std::vector<std::string>& rows) {
+        std::string all;
+        for (const std::string& row : rows) all += row + "\n";
+        return all;
+    }
+    Workspace& workspace() { return app_.workspace(); }
+
+    std::unique_ptr<Window> window_ = open_offscreen(usual_window);
+    App app_{*window_};
+    FrameRecorder recorder_;
+};
+
+TEST_P(PanelRows, AreFewWhenTheLabOpens) {
+    const std::vector<std::string> shown = rows();
+    EXPECT_GT(shown.size(), 5u);
+    EXPECT_LE(shown.size(), max_rows) << joined(shown);
+}
+
+TEST_P(PanelRows, AreFewInTheSceneOfItsCard) {
+    const Labs labs;
+    const Cards cards(labs);
+    const Card& card = cards.of(GetParam()).front();
+    for (const CardLine& line : card.scene) run(line.command, *line.arguments);
+    const std::vector<std::string> shown = rows();
+    EXPECT_LE(shown.size(), max_rows) << joined(shown);
+}
+
+TEST_P(PanelRows, AreAllReachableByOneCommand) {
+    const Event resized = Resize{high_window};
+    app_.tick(&resized);
+    const std::size_t before = rows().size();
+    run("view.fold", {{"section", GetParam()}, {"folded", false}});
+    const std::vector<std::string> all = rows();
+    EXPECT_GT(all.size(), before + 8);
+    run("view.fold", {{"section", GetParam()}, {"folded", true}});
+    EXPECT_LT(rows().size(), before) << "every section is folded";
+}
+
+INSTANTIATE_TEST_SUITE_P(Labs, PanelRows, testing::ValuesIn(names_of_labs()),
+                         [](const auto& lab) { return lab.param; });
+
+/// One lab at a time, by name.
+class RowsUnderMore : public testing::Test {
+  protected:
+    RowsUnderMore() {
+        const Event resized = Resize{high_window};
+        app_.tick(&resized);
+    }
+    void run(const std::string& command, Json arguments = Json::object()) {
+        app_.run({command, std::move(arguments)});
+    }
+    void open(const char* lab) { run("lab.open", {{"name", lab}}); }
+    void unfold_all(const char* lab) { run("view.fold", {{"section", lab}, {"folded", false}}); }
+    void type(const char* line) {
+        run("view.palette", {{"open", true}});
+        const Event text = TextInput{line}, enter = KeyTap{{Key::Enter}};
+        app_.tick(&text);
+        app_.tick(&enter);
+        for (int i = 0; i < 3; ++i) app_.tick(nullptr);
+    }
+    /// Shows the card with its first steps done.
+    void show_card(const char* lab, std::size_t number, std::size_t done) {
+        run("view.card", {{"open", true}, {"number", number}});
+        CardProgress& progress = app_.workspace().ui.cards[lab];
+        progress.done.assign(5, false);
+        progress.tried.resize(5);
+        for (std::size_t i = 0; i < done; ++i) progress.done[i] = true;
+        for (int i = 0; i < 3; ++i) app_.tick(nullptr);
+    }
+    bool shows(const std::string& label) {
+        app_.settle();
+        return std::ranges::any_of(recorder_.frame().texts, [&](const DrawnText& each) {
+            return each.window != nullptr && window_name(each.window).starts_with("left/content") &&
+                   each.text == label;
+        });
+    }
+    template <class Struct>
+    void expect_all() {
+        for (const FieldText& text : field_texts<Struct>()) {
+            EXPECT_TRUE(!text.more || shows(text.label)) << text.label;
+        }
+    }
+
+    std::unique_ptr<Window> window_ = open_offscreen(usual_window);
+    App app_{*window_};
+    FrameRecorder recorder_;
+};
+
+TEST_F(RowsUnderMore, AreShownByOpeningIt) {
+    run("chain.preset", {{"name", "reaching_arm"}});
+    EXPECT_FALSE(shows("tolerance"));
+    run("view.fold", {{"section", "chain: Mode and solver, more"}, {"folded", false}});
+    expect_all<ReachSettings>();
+    open("rope");
+    unfold_all("rope");
+    expect_all<rope::Settings>();
+    expect_all<RopeView>();
+    EXPECT_TRUE(shows("substeps"));
+    open("humanoid");
+    unfold_all("humanoid");
+    run("humanoid.foot_ik", {{"on", true}});
+    expect_all<FootIkSetting>();
+    expect_all<Playback>();
+    EXPECT_TRUE(shows("mesh file"));
+    EXPECT_TRUE(shows("flip over"));
+}
+
+TEST_F(RowsUnderMore, AreCountedInItsTitleIfTheyAreChanged) {
+    run("chain.preset", {{"name", "reaching_arm"}});
+    EXPECT_TRUE(shows("More"));
+    run("chain.solver", {{"damping", 0.3}});
+    EXPECT_TRUE(shows("More (1 changed)"));
+    run("chain.solver", {{"soft_zone", 0.1}});
+    EXPECT_TRUE(shows("More (2 changed)"));
+    EXPECT_FALSE(shows("soft zone"));
+    run("undo");
+    run("undo");
+    EXPECT_TRUE(shows("More"));
+}
+
+TEST_F(RowsUnderMore, UnfoldForACommandOfThePalette) {
+    run("chain.preset", {{"name", "reaching_arm"}});
+    run("view.fold", {{"section", "chain: Mode and solver"}, {"folded", true}});
+    EXPECT_FALSE(shows("soft zone"));
+    type("chain.solver soft_zone=0.1");
+    EXPECT_TRUE(shows("soft zone"));
+    EXPECT_FALSE(shows("moves")) << "the section Target stays folded";
+}
+
+TEST_F(RowsUnderMore, UnfoldForAStepOfACard) {
+    open("rope");
+    show_card("rope", 2, 1);
+    EXPECT_TRUE(shows("friction"));
+    EXPECT_FALSE(shows("substeps"));
+    show_card("rope", 2, 2);
+    EXPECT_TRUE(shows("substeps"));
+    run("view.fold", {{"section", "rope: Solver, more"}, {"folded", true}});
+    app_.tick(nullptr);
+    EXPECT_FALSE(shows("substeps")) << "it can be folded again";
+}
+
+}  // namespace
+}  // namespace tendril::test
