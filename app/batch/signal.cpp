@@ -141,7 +141,7 @@ std::string signal_help() {
 Omitted keys take their defaults; keys that the kind does not have are ignored.
 SAMPLES is a CSV file, one row per sample: dt,input. dt is the time in seconds since
 the previous row; a row whose dt is not over 0 changes nothing. A first row may name
-the columns: dt, or time, which must not decrease, in s, ms or us as in "time (ms)";
+the columns: dt, or time, which must not decrease, in s, ms or us as in time [ms];
 and input or value. Of two columns, the one that is not the time is the input. Prints
 rows of time,input,output.
 --rates prints one output for each frame rate (15, 30, 60 and 144 Hz, and 60 Hz
