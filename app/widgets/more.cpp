@@ -30,7 +30,7 @@ bool MoreRows::head(bool open) const {
     const bool clicked = ImGui::InvisibleButton("head", {width, 1.2f * line});
     ImGui::PopID();
     const bool hovered = ImGui::IsItemHovered();
-    if (hovered && !open && !inside.empty()) tooltip(inside);
+    if (hovered) tooltip(open ? "Click folds these rows" : inside);
     const ImU32 colour = ImGui::GetColorU32(hovered ? ImGuiCol_Text : ImGuiCol_TextDisabled);
     draw_icon(ImGui::GetWindowDrawList(), open ? Icon::ChevronDown : Icon::ChevronRight,
               {at.x + 0.35f * line, at.y + 0.6f * line}, 1.1f * line, colour);

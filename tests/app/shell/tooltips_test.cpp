@@ -84,7 +84,9 @@ class Tooltips : public TooltipTest, public testing::WithParamInterface<const ch
 TEST_P(Tooltips, StandAtEverythingInThePanels) {
     for (const Shown& shown : all_scenes(lab(), table_)) {
         SCOPED_TRACE(shown.name);
-        search_panels(opened(shown), shown.name);
+        Workspace workspace = opened(shown);
+        set_folded(workspace.settings, GetParam(), false);
+        search_panels(workspace, shown.name);
     }
     RecordProperty("items", static_cast<int>(items_.size()));
     EXPECT_GT(items_.size(), 40u) << "the search finds what there is";
