@@ -9,6 +9,7 @@
 #include <cstdarg>
 #include <cstdio>
 #include <limits>
+#include <utility>
 
 #include "app/document/units.hpp"
 #include "app/widgets/fonts.hpp"
@@ -251,6 +252,30 @@ bool contains_text(std::string_view text, std::string_view part) {
     return std::search(text.begin(), text.end(), part.begin(), part.end(), same) != text.end();
 }
 
+bool search_line(const char* id, const char* hint, SearchText& typed) {
+    const int last = std::exchange(typed.hits, 0) - 1;
+    const bool was_empty = typed.empty();
+    ImGui::SetNextItemWidth(-1.0f);
+    typed.entered = ImGui::InputTextWithHint(id, hint, typed.text.data(), typed.text.size(),
+                                             ImGuiInputTextFlags_EnterReturnsTrue);
+    const int before = typed.at;
+    const bool edited = ImGui::IsItemEdited();
+    if (edited) typed.at = typed.empty() ? -1 : 0;
+    if (ImGui::IsItemActive()) {
+        if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_DownArrow))) ++typed.at;
+        if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_UpArrow))) typed.at = std::max(0, typed.at - 1);
+        if (!edited) typed.at = std::min(typed.at, last);
+    }
+    typed.moved = typed.at != before;
+    const bool cleared = ImGui::IsItemDeactivated() && escape_pressed() && !was_empty;
+    if (cleared) {
+        typed.text[0] = '\0';
+        typed.at = -1;
+    }
+    if (cleared || (typed.entered && typed.at < 0)) ImGui::SetKeyboardFocusHere(-1);
+    return cleared;
+}
+
 /// The search line stays above its rows, which scroll.
 bool begin_search(const char* name, const std::string* shown, SearchText& typed) {
     std::string id = std::string("##") + name, preview;
@@ -266,23 +291,25 @@ bool begin_search(const char* name, const std::string* shown, SearchText& typed)
                                         shown != nullptr ? ImGuiComboFlags_None : ImGuiComboFlags_NoPreview);
     if (!open && cut) tooltip_of_button(*shown);
     if (!open) return false;
-    close_popup_on_escape();
     if (ImGui::IsWindowAppearing()) {
-        typed[0] = '\0';
+        typed = {};
         ImGui::SetKeyboardFocusHere();
     }
-    ImGui::SetNextItemWidth(-1.0f);
-    ImGui::InputTextWithHint("##typed", "Type part of a name", typed.data(), typed.size());
+    if (!search_line("##typed", "Type part of a name", typed)) close_popup_on_escape();
     ImGui::BeginChild("rows", {0.0f, 10.0f * ImGui::GetTextLineHeightWithSpacing()});
     return true;
 }
 
-bool search_row(const std::string& title, bool chosen, const SearchText& typed) {
-    if (!contains_text(title, typed.data())) return false;
-    const bool clicked = ImGui::Selectable(title.c_str(), chosen);
-    if (chosen && ImGui::IsWindowAppearing()) ImGui::SetScrollHereY();
-    if (clicked) ImGui::CloseCurrentPopup();
-    return clicked;
+bool search_row(const std::string& title, bool chosen, SearchText& typed) {
+    if (!contains_text(title, typed.text.data())) return false;
+    const bool opens_here = chosen && ImGui::IsWindowAppearing();
+    if (opens_here) typed.at = typed.hits;
+    const bool highlighted = typed.hits++ == typed.at;
+    const bool clicked = ImGui::Selectable(title.c_str(), highlighted || (chosen && typed.at < 0));
+    if (opens_here || (highlighted && typed.moved)) ImGui::SetScrollHereY();
+    const bool taken = clicked || (highlighted && typed.entered);
+    if (taken) ImGui::CloseCurrentPopup();
+    return taken;
 }
 
 void end_search() {

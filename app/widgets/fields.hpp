@@ -42,12 +42,24 @@ void keep_room(const char* id, float top);
 /// greyed title.
 bool choice_field(const char* name, int& chosen, const char* const* titles, int count,
                   const char* const* why_not = nullptr);
-/// A choice among many with a search line; keep `typed` from frame to frame. If begin_search() returns true,
-/// add rows and call end_search(); a row returns true when it is chosen. With `shown` the field is a row with
-/// a name, otherwise a small button beside the next item.
-using SearchText = std::array<char, 64>;
+/// The text that filters a list, and which of its hits is highlighted; keep it from frame to frame. Typing
+/// highlights the first hit, Up and Down move the highlight, Enter chooses it, Escape clears the text.
+struct SearchText {
+    std::array<char, 64> text{};
+    int at = -1;           ///< the highlighted hit; negative: none
+    int hits = 0;          ///< of the last frame, or so far of this one
+    bool moved = false;    ///< the highlight moved in this frame
+    bool entered = false;  ///< Enter was pressed in this frame
+
+    bool empty() const { return text[0] == '\0'; }
+};
+/// The line to type into; count the rows below it in `hits`. Returns true if Escape cleared it.
+bool search_line(const char* id, const char* hint, SearchText& typed);
+/// A choice among many with a search line. If begin_search() returns true, add rows and call end_search(); a
+/// row returns true when it is chosen. With `shown` the field is a row with a name, otherwise a small button
+/// beside the next item.
 bool begin_search(const char* name, const std::string* shown, SearchText& typed);
-bool search_row(const std::string& title, bool chosen, const SearchText& typed);
+bool search_row(const std::string& title, bool chosen, SearchText& typed);
 void end_search();
 /// Whether `text` contains `part`, ignoring case.
 bool contains_text(std::string_view text, std::string_view part);

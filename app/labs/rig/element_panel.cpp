@@ -91,7 +91,8 @@ float row_height() {
     return 1.25f * ImGui::GetTextLineHeight();
 }
 
-void draw_row(const RigPanel& panel, const Row& row, bool marks) {
+/// `highlighted`: by the filter.
+void draw_row(const RigPanel& panel, const Row& row, bool marks, bool highlighted) {
     const rig::Element& element = panel.part.rig.definition().elements[row.element];
     const rig::Pending pending = panel.part.state.elements.pending(panel.part.rig.id(row.element));
     const float line = ImGui::GetTextLineHeight(), em = ImGui::GetFontSize();
@@ -101,8 +102,9 @@ void draw_row(const RigPanel& panel, const Row& row, bool marks) {
     ImGui::PushID(static_cast<int>(row.element));
     ImVec4 colour = ImGui::GetStyleColorVec4(ImGuiCol_Header);
     if (selected.elements.active() != row.element) colour.w *= 0.5f;
+    if (highlighted) colour = ImGui::GetStyleColorVec4(ImGuiCol_HeaderHovered);
     ImGui::PushStyleColor(ImGuiCol_Header, colour);
-    if (ImGui::Selectable("##row", selected.elements.has(row.element), 0, {width, line})) {
+    if (ImGui::Selectable("##row", highlighted || selected.elements.has(row.element), 0, {width, line})) {
         if (ImGui::GetIO().KeyShift)
             panel.emit("rig.select", {{"element", element.name}, {"add", true}});
         else
@@ -128,6 +130,13 @@ void draw_row(const RigPanel& panel, const Row& row, bool marks) {
     ImGui::TextDisabled("%s", value.c_str());
 }
 
+/// Scrolls to a row, unless it is seen.
+void show_row(int row) {
+    const float top = row_height() * static_cast<float>(row);
+    const float from = ImGui::GetScrollY(), height = ImGui::GetWindowHeight();
+    if (top < from || top + row_height() > from + height) ImGui::SetScrollY(top - 0.5f * height);
+}
+
 /// Scrolls once to an element that was selected elsewhere.
 void show_selected(const RigPanel& panel, const std::vector<Row>& rows) {
     std::string& shown = panel.runtime.panel.shown;
@@ -138,9 +147,7 @@ void show_selected(const RigPanel& panel, const std::vector<Row>& rows) {
     const auto row = std::find_if(rows.begin(), rows.end(),
                                   [&](const Row& each) { return element && each.element == *element; });
     if (row == rows.end()) return;
-    const float top = row_height() * static_cast<float>(row - rows.begin());
-    const float from = ImGui::GetScrollY(), height = ImGui::GetWindowHeight();
-    if (top < from || top + row_height() > from + height) ImGui::SetScrollY(top - 0.5f * height);
+    show_row(static_cast<int>(row - rows.begin()));
 }
 
 void marks_legend(const Palette& colours) {
@@ -187,24 +194,31 @@ void element_tree(const RigPanel& panel, MoreRows& more) {
     const std::size_t count = panel.part.state.controls.size();
     constexpr std::size_t many = 12;  // a shorter list needs no filter
     if (count > many) {
-        ImGui::SetNextItemWidth(-1.0f);
-        ImGui::InputTextWithHint("##filter", "Filter by name", filter.data(), filter.size());
-        explain("Lists only elements whose names contain this.");
+        search_line("##filter", "Filter by name", filter);
+        if (!ImGui::IsItemActive() && !filter.entered) filter.at = -1;
+        explain("Lists only elements whose names contain this. Up, Down and Enter choose one.");
     } else {
-        filter[0] = '\0';
+        filter = {};
     }
-    const std::vector<Row> rows = rows_of(panel.part, panel.now, filter.data());
+    const std::vector<Row> rows = rows_of(panel.part, panel.now, filter.text.data());
+    filter.hits = static_cast<int>(rows.size());
+    const bool highlights = filter.at >= 0 && filter.at < filter.hits;
+    if (highlights && filter.entered)
+        select_element(
+            panel,
+            panel.part.rig.definition().elements[rows[static_cast<std::size_t>(filter.at)].element].name);
     const bool marks = pending_marks().chosen(panel.workspace.settings) == 1;
     const float shown = std::clamp(static_cast<float>(rows.size()), 1.0f, 10.5f);
     ImGui::BeginChild("elements", {0.0f, shown * row_height() + 2.0f}, false);
     const ImVec2 spacing(ImGui::GetStyle().ItemSpacing.x, row_height() - ImGui::GetTextLineHeight());
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, spacing);
     show_selected(panel, rows);
+    if (highlights && filter.moved) show_row(filter.at);
     ImGuiListClipper clipper;
     clipper.Begin(static_cast<int>(rows.size()), row_height());
     while (clipper.Step())
         for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i)
-            draw_row(panel, rows[static_cast<std::size_t>(i)], marks);
+            draw_row(panel, rows[static_cast<std::size_t>(i)], marks, i == filter.at);
     ImGui::PopStyleVar();
     ImGui::EndChild();
     if (marks && !rows.empty()) marks_legend(panel.colours);

@@ -2,7 +2,6 @@
 // snapshots, and data derived from the part for panels and drawing.
 #pragma once
 
-#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -13,6 +12,7 @@
 #include "app/document/runtime.hpp"
 #include "app/labs/rig/clip.hpp"
 #include "app/labs/rig/rig_part.hpp"
+#include "app/widgets/fields.hpp"
 
 namespace tendril::app {
 
@@ -70,10 +70,10 @@ class RigRuntime final : public Runtime {
 
     /// State of the interface only; nothing else depends on it.
     struct Panel {
-        std::array<char, 64> filter{};  ///< text that names in the tree must contain
-        std::array<char, 64> choice{};  ///< search text in the list of choices for an input
-        std::string shown{}, unit{};    ///< what the lists last scrolled to
-        bool all_units = false;         ///< whether to list units that did not affect the element
+        SearchText filter{};          ///< text that names in the tree must contain
+        SearchText choice{};          ///< search text in the list of choices for an input
+        std::string shown{}, unit{};  ///< what the lists last scrolled to
+        bool all_units = false;       ///< whether to list units that did not affect the element
         /// The Euler angles as last entered for `rotation`, which has many equivalent ones.
         glm::dvec3 degrees{0.0};
         glm::dquat rotation{1.0, 0.0, 0.0, 0.0};

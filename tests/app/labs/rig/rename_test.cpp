@@ -1,12 +1,11 @@
 // Renaming elements, units and curves: everything that refers to them follows, and no bit of the pose
 // changes.
-#include <cstdint>
+#include <iterator>
 #include <string>
-#include <tendril/rig/workspace.hpp>
 #include <vector>
 
-#include "app/document/argument_check.hpp"
 #include "app/document/command.hpp"
+#include "app/shell/command_line.hpp"
 #include "tests/app/labs/rig/rig_support.hpp"
 #include "tests/says.hpp"
 
