@@ -94,6 +94,7 @@ void App::start_recording(bool live) {
         if (!modified) workspace_.saved = workspace_.document;
     }
     workspace_.forget_pasts();
+    workspace_.openings.clear();  // what moves is part of the recorded scene
     recorder_.emplace(RecordingStart{.version = version_string,
                                      .size = size_,
                                      .lab = workspace_.lab,
@@ -172,6 +173,7 @@ Pointer::Scene App::pointed_at(const Pane& pane, const Camera& camera) const {
 void App::take_event(const Event& event, Emit& emit) {
     if (const auto* press = std::get_if<MousePress>(&event)) {
         if (press->down) ++gesture_;
+        if (press->down && pointer_.hovered() != no_pick && !ui_.wants_mouse()) end_opening();
     } else if (const auto* resize = std::get_if<Resize>(&event)) {
         size_ = resize->size;
         if (window_.size() != size_) window_.resize(size_);
@@ -250,6 +252,9 @@ void App::run_emitted(Emit& emit, From from) {
 /// Also notes the incidents of an edit.
 void App::run_command(const std::string& name, const Json& arguments, Gesture gesture, From from) {
     const std::string open = workspace_.lab;
+    if (const Command* const command = commands_->find(name);
+        command != nullptr && command->effect == Effect::Edit && command->lab == open)
+        end_opening();
     const std::shared_ptr<const Part> before = workspace_.document.parts().at(open);
     const std::uint64_t beginnings = workspace_.beginnings, moment = workspace_.moment;
     commands_->run(workspace_, name, arguments, gesture);

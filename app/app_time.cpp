@@ -3,6 +3,8 @@
 #include <utility>
 
 #include "app/app.hpp"
+#include "app/document/command.hpp"
+#include "app/document/json_complete.hpp"
 
 namespace tendril::app {
 
@@ -21,6 +23,24 @@ void App::note_refusal(const std::string& why) {
     workspace_.rewind.note({.tick = workspace_.moment, .cause = "refused: " + why});
 }
 
+/// The user takes over: stops what the opening moves, as if it had never moved. There is no way back to it.
+void App::end_opening() {
+    if (workspace_.openings.erase(workspace_.lab) == 0) return;
+    const std::vector<CommandCall> calls = lab().calm();
+    if (calls.empty()) return;
+    const History history = workspace_.history;
+    for (const CommandCall& call : calls) {
+        try {
+            commands_->run(workspace_, call.name, to_json(call.arguments));
+        } catch (const Refused&) {
+            continue;  // there is nothing to stop any more
+        }
+    }
+    workspace_.history = history;
+    workspace_.saved.set(workspace_.lab, workspace_.document.parts().at(workspace_.lab));
+    workspace_.rewind.clear();
+}
+
 void App::step_lab() {
     Clock& clock = workspace_.clock;
     if (!lab().moving(workspace_)) {
@@ -35,6 +55,8 @@ void App::step_lab() {
         ++workspace_.moment;
         const auto before = workspace_.document.parts().at(workspace_.lab);
         lab().step(workspace_);
+        if (workspace_.openings.contains(workspace_.lab))
+            workspace_.saved.set(workspace_.lab, workspace_.document.parts().at(workspace_.lab));
         review(before, workspace_.moment - 1);
     }
     ++clock.tick;

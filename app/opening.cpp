@@ -24,14 +24,23 @@ bool opens_alive(const SessionOptions& options) {
 
 void open_alive(App& app) {
     Workspace& workspace = app.workspace();
-    const Lab& lab = *app.labs().find(workspace.lab);
-    for (const CommandCall& call : lab.opening()) {
-        if (is_chosen(lab, workspace.settings, call.name)) continue;
-        app.commands().run(workspace, call.name, to_json(call.arguments));
-    }
+    const std::string first = workspace.lab;
+    const auto set_up = [&](const Lab& lab) {
+        workspace.open_lab(lab.name());
+        for (const CommandCall& call : lab.opening()) {
+            if (is_chosen(lab, workspace.settings, call.name)) continue;
+            app.commands().run(workspace, call.name, to_json(call.arguments));
+        }
+    };
+    for (const auto& lab : app.labs().all())
+        if (lab->name() != first) set_up(*lab);
+    set_up(*app.labs().find(first));
     workspace.saved = workspace.document;
     workspace.history.clear();
+    const auto cameras = workspace.cameras;
     workspace.start_anew();
+    workspace.cameras = cameras;
+    for (const auto& lab : app.labs().all()) workspace.openings.insert(lab->name());
 }
 
 void offer_cards(App& app) {

@@ -37,6 +37,7 @@ void Workspace::open_lab(const std::string& name) {
 }
 
 void Workspace::start_anew() {
+    openings.clear();
     ++beginnings;
     clock.replaying = false;
     clock.tick = 0;

@@ -6,6 +6,7 @@
 #include <glm/vec2.hpp>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -113,8 +114,9 @@ struct Workspace {
     std::filesystem::path config;  ///< folder for data kept between sessions; empty: none
     bool keeps = false;            ///< save it automatically: only in a live window
     UiState ui;
-    std::filesystem::path path;  ///< the scene's file; empty if it has none
-    Document saved;              ///< as last saved or opened
+    std::filesystem::path path;      ///< the scene's file; empty if it has none
+    Document saved;                  ///< as last saved or opened
+    std::set<std::string> openings;  ///< labs whose opening still moves by itself: nothing to save
 
     /// Opens a lab with the camera it had when it was last open.
     void open_lab(const std::string& name);

@@ -1,6 +1,7 @@
 #include "app/io/character/gltf_file.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -106,7 +107,7 @@ std::size_t GltfFile::add_rows(const char* type, const std::vector<float>& numbe
     const auto [place, is_new] = rows_.try_emplace({type, numbers}, 0);
     if (!is_new) return place->second;
     const std::string_view name = type;
-    const std::size_t width = name == "SCALAR" ? 1 : name == "VEC3" ? 3 : 4;
+    const std::size_t width = name == "SCALAR" ? 1 : name == "VEC3" ? 3 : name == "VEC4" ? 4 : 16;
     const std::size_t view = add_view(numbers.data(), numbers.size() * sizeof(float));
     Json& accessors = json["accessors"];
     accessors.push_back({{"bufferView", view},
@@ -122,6 +123,36 @@ std::size_t GltfFile::add_times(const std::vector<float>& times) {
     accessor["min"] = Json::array({static_cast<double>(times.front())});
     accessor["max"] = Json::array({static_cast<double>(times.back())});
     return place;
+}
+
+std::size_t GltfFile::add_positions(const std::vector<float>& numbers) {
+    const std::size_t place = add_rows("VEC3", numbers);
+    std::array<double, 3> low{1e30, 1e30, 1e30}, high{-1e30, -1e30, -1e30};
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        low[i % 3] = std::min(low[i % 3], static_cast<double>(numbers[i]));
+        high[i % 3] = std::max(high[i % 3], static_cast<double>(numbers[i]));
+    }
+    json["accessors"][place]["min"] = low;
+    json["accessors"][place]["max"] = high;
+    return place;
+}
+
+std::size_t GltfFile::add_indices(const std::vector<std::uint32_t>& indices) {
+    const std::size_t view = add_view(indices.data(), indices.size() * sizeof(std::uint32_t));
+    json["accessors"].push_back({{"bufferView", view},
+                                 {"componentType", TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT},
+                                 {"count", indices.size()},
+                                 {"type", "SCALAR"}});
+    return json["accessors"].size() - 1;
+}
+
+std::size_t GltfFile::add_joints(const std::vector<std::uint16_t>& joints) {
+    const std::size_t view = add_view(joints.data(), joints.size() * sizeof(std::uint16_t));
+    json["accessors"].push_back({{"bufferView", view},
+                                 {"componentType", TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT},
+                                 {"count", joints.size() / 4},
+                                 {"type", "VEC4"}});
+    return json["accessors"].size() - 1;
 }
 
 /// The offset in the buffer of a row of four float weights; none for other formats.

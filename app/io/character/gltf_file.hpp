@@ -1,6 +1,7 @@
 // A glTF file under construction: its JSON, and the single buffer of all its views.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -22,11 +23,16 @@ class GltfFile {
 
     nlohmann::ordered_json json;
 
-    /// Adds rows of `type` ("SCALAR", "VEC3", "VEC4"), as floats. Returns the accessor's index. Rows
+    /// Adds rows of `type` ("SCALAR", "VEC3", "VEC4", "MAT4"), as floats. Returns the accessor's index. Rows
     /// identical to earlier ones are not added again.
     std::size_t add_rows(const char* type, const std::vector<float>& numbers);
     /// The same with min and max, which glTF requires for times.
     std::size_t add_times(const std::vector<float>& times);
+    /// Positions of vertices, with the min and max that glTF requires of them.
+    std::size_t add_positions(const std::vector<float>& numbers);
+    std::size_t add_indices(const std::vector<std::uint32_t>& indices);
+    /// Four joints for each vertex.
+    std::size_t add_joints(const std::vector<std::uint16_t>& joints);
 
     /// Makes the skin weights of each vertex sum to 1, which the format requires but not every file observes.
     /// Changes only floats; weights that already do keep their bits.

@@ -212,6 +212,77 @@ void add_skins(const humanoid::Skeleton& skeleton, GltfFile& file) {
     if (!skins.empty()) file.json["skins"] = std::move(skins);
 }
 
+/// Whether the file can have all of the mesh: one tree, a joint for each node, plain colours.
+bool is_written(const Character& character) {
+    const SkinnedMesh* const mesh = character.skin.mesh.get();
+    if (mesh == nullptr || !mesh->pictures.empty() || !mesh->morphs.empty() || !mesh->tints.empty())
+        return false;
+    std::set<std::size_t> nodes;
+    for (const SkinJoint& each : character.skin.joints) nodes.insert(each.node);
+    const auto& all = character.skeleton.nodes();
+    return nodes.size() == character.skin.joints.size() &&
+           std::ranges::count_if(all, [](const humanoid::Node& node) { return node.parent < 0; }) == 1;
+}
+
+/// Of a part's colour, which glTF has in linear light.
+Json linear_colour(const glm::vec4& shown) {
+    Json colour = Json::array();
+    for (int i = 0; i < 3; ++i)
+        colour.push_back(shown[i] <= 0.04045f ? shown[i] / 12.92f
+                                              : std::pow((shown[i] + 0.055f) / 1.055f, 2.4f));
+    colour.push_back(shown[3]);
+    return colour;
+}
+
+/// The mesh, bound to the file's first skin, whose joints are all nodes.
+void add_mesh(const Character& character, GltfFile& file) {
+    const SkinnedMesh& mesh = *character.skin.mesh;
+    Json& skin = file.json["skins"][0];
+    std::vector<std::uint16_t> joint_of(character.skeleton.size());
+    for (std::size_t i = 0; i < skin["joints"].size(); ++i)
+        joint_of[skin["joints"][i].get<std::size_t>()] = static_cast<std::uint16_t>(i);
+    std::vector<float> binds(16 * joint_of.size(), 0.0f), positions, normals, weights;
+    for (std::size_t i = 0; i < joint_of.size(); ++i)
+        for (std::size_t k = 0; k < 4; ++k) binds[16 * i + 5 * k] = 1.0f;
+    for (const SkinJoint& each : character.skin.joints) {
+        float* const bind = &binds[16 * joint_of[each.node]];
+        for (int column = 0; column < 4; ++column)
+            for (int row = 0; row < 3; ++row)
+                bind[4 * column + row] = static_cast<float>(column < 3 ? each.from_bind.axes[column][row]
+                                                                       : each.from_bind.position[row]);
+    }
+    std::vector<std::uint16_t> joints;
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        put(positions, glm::dvec3(mesh.positions[i])), put(normals, glm::dvec3(mesh.normals[i]));
+        for (std::size_t k = 0; k < 4; ++k) {
+            const JointWeights& by = mesh.weights[i];
+            joints.push_back(by.weights[k] > 0.0f ? joint_of[character.skin.joints[by.joints[k]].node]
+                                                  : std::uint16_t{0});
+            weights.push_back(by.weights[k]);
+        }
+    }
+    skin["inverseBindMatrices"] = file.add_rows("MAT4", binds);
+    const Json attributes{{"POSITION", file.add_positions(positions)},
+                          {"NORMAL", file.add_rows("VEC3", normals)},
+                          {"JOINTS_0", file.add_joints(joints)},
+                          {"WEIGHTS_0", file.add_rows("VEC4", weights)}};
+    Json primitives = Json::array();
+    for (const SkinPart& part : mesh.parts) {
+        const auto first = mesh.indices.begin() + static_cast<std::ptrdiff_t>(part.first);
+        primitives.push_back(
+            {{"attributes", attributes},
+             {"indices", file.add_indices({first, first + static_cast<std::ptrdiff_t>(part.count)})},
+             {"material", primitives.size()}});
+        file.json["materials"].push_back({{"pbrMetallicRoughness",
+                                           {{"baseColorFactor", linear_colour(part.colour)},
+                                            {"metallicFactor", 0.0},
+                                            {"roughnessFactor", 0.7}}}});
+    }
+    file.json["meshes"] = Json::array({{{"name", "body"}, {"primitives", std::move(primitives)}}});
+    file.json["scenes"][0]["nodes"].push_back(file.json["nodes"].size());
+    file.json["nodes"].push_back({{"name", "body"}, {"mesh", 0}, {"skin", 0}});
+}
+
 std::string on_its_own(const Character& character, const humanoid::Clip& clip, double rate, bool binary) {
     const humanoid::Skeleton& skeleton = character.skeleton;
     GltfFile file;
@@ -227,6 +298,7 @@ std::string on_its_own(const Character& character, const humanoid::Clip& clip, d
     file.json["scenes"] = Json::array({{{"nodes", roots}}});
     file.json["nodes"] = std::move(nodes);
     add_skins(skeleton, file);
+    if (is_written(character)) add_mesh(character, file);
     Animation animation(file, clip.name, rate);
     for (const Channel& channel : clip.channels) animation.add(channel, channel.node, 1.0);
     if (!animation.is_empty()) file.json["animations"] = Json::array({animation.json()});

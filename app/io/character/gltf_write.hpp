@@ -3,7 +3,8 @@
 // A character from a glTF file keeps that file's contents: nodes, skins, materials, meshes, pictures and
 // extensions. The clip replaces its animations, but keeps their channels that move no node (morph weights).
 // Skin weights are normalised to sum to 1, as the format requires. For other characters the nodes and the
-// clip are written, in metres, Y up, with a skin so that programs recognise a skeleton.
+// clip are written, in metres, Y up, with a skin so that programs recognise a skeleton. A mesh without
+// pictures and morphs, such as the built-in figure's, is written with them.
 //
 // Keys are those of the clip, plus one at each frame in linear tracks; rotations are on one hemisphere. This
 // preserves the motion between keys: a part of an arc is an arc, and steps and cubics keep their own keys.

@@ -6,6 +6,8 @@
 #include <glm/gtc/quaternion.hpp>
 #include <map>
 
+#include "app/io/character/figure_body.hpp"
+
 namespace tendril::app {
 namespace {
 
@@ -294,6 +296,7 @@ Character stick_figure() {
     Character character;
     character.skeleton = make_skeleton();
     character.clips = {make_walk(character.skeleton), make_punch(character.skeleton)};
+    character.skin = figure_body(character.skeleton, bone_map(character));
     return character;
 }
 

@@ -1,4 +1,5 @@
-// The built-in figure: 1.8 m tall, in T-pose, facing +Z, with a computed walk and punch.
+// The built-in figure: 1.8 m tall, in T-pose, facing +Z, with a body (figure_body.hpp), and a computed walk
+// and punch.
 #pragma once
 
 #include "app/io/character/character.hpp"

@@ -232,6 +232,7 @@ std::vector<LabSetting> ChainLab::settings() const {
 
 std::vector<CommandCall> ChainLab::opening() const {
     return {{"chain.preset", {{"name", reaching_arm}}},
+            {"chain.motion", {{"path", "figure_eight"}, {"radius", 0.45f}, {"period", 9.0f}}},
             {"view.segments", {{"style", "bones"}}},
             {"view.reach_sphere", {{"show", "on"}}},
             {"camera.set",
@@ -239,6 +240,10 @@ std::vector<CommandCall> ChainLab::opening() const {
               {"yaw_deg", -8.0f},
               {"pitch_deg", 15.0f},
               {"distance", 7.0f}}}};
+}
+
+std::vector<CommandCall> ChainLab::calm() const {
+    return {{"chain.motion", {{"path", "still"}}}};
 }
 
 std::vector<TestScene> ChainLab::test_scenes() const {

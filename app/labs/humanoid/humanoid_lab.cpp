@@ -81,6 +81,20 @@ std::vector<FileKind> HumanoidLab::files() const {
             {"bone maps", {".json"}, "humanoid.map.load", {}, begins_map}};
 }
 
+/// Up the stairs, in a cape. It goes on when the user takes over: no setting is in its way.
+std::vector<CommandCall> HumanoidLab::opening() const {
+    return {{"humanoid.view", {{"skin", "solid"}, {"ghost", false}}},
+            {"humanoid.attach", {{"bone", "UpperChest"}, {"kind", "cloth"}, {"name", "cape"}}},
+            {"humanoid.ground", {{"kind", "stairs"}, {"step_height", 0.16}, {"step_depth", 0.36}}},
+            {"humanoid.foot_ik", {{"on", true}}},
+            {"humanoid.clip", {{"name", "walk"}, {"play", true}}},
+            {"camera.set",
+             {{"target", glm::vec3(0.0f, 0.95f, 0.0f)},
+              {"yaw_deg", 112.0f},
+              {"pitch_deg", 12.0f},
+              {"distance", 3.9f}}}};
+}
+
 std::vector<TestScene> HumanoidLab::test_scenes() const {
     const std::vector<std::string> words{"left_hand", "right_foot",   "walk", "punch",      "Hips",
                                          "LeftHand",  "LeftUpperArm", "Head", "HeadTop_End"};

@@ -52,6 +52,7 @@ class HumanoidLab final : public Lab {
 
     Json state(const Workspace& workspace) const override;
     std::string code(const Workspace& workspace) const override;
+    std::vector<CommandCall> opening() const override;
     std::vector<TestScene> test_scenes() const override;
 };
 

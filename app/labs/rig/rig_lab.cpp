@@ -26,6 +26,20 @@ std::string RigLab::code(const Workspace& workspace) const {
     return rig_code(rig_part(workspace));
 }
 
+/// The head follows a control that goes round above it.
+std::vector<CommandCall> RigLab::opening() const {
+    return {{"rig.motion",
+             {{"name", "tilt"},
+              {"path", "figure_eight"},
+              {"centre", glm::vec3(0.0f, 0.8f, 0.0f)},
+              {"radius", 0.6f},
+              {"period", 5.0f}}}};
+}
+
+std::vector<CommandCall> RigLab::calm() const {
+    return {{"rig.motion", {{"name", "tilt"}, {"path", "still"}}}};
+}
+
 std::vector<TestScene> RigLab::test_scenes() const {
     const std::vector<std::string> words{"head", "look",    "dial",    "shape",      "bone 2",
                                          "aim",  "curl",    "forward", "global",     "item",

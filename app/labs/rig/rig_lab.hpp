@@ -55,6 +55,8 @@ class RigLab final : public Lab {
 
     std::string code(const Workspace& workspace) const override;
     Json state(const Workspace& workspace) const override;
+    std::vector<CommandCall> opening() const override;
+    std::vector<CommandCall> calm() const override;
     std::vector<TestScene> test_scenes() const override;
 };
 

@@ -147,6 +147,16 @@ std::string RopeLab::code(const Workspace& workspace) const {
     return rope_code(rope_part(workspace));
 }
 
+/// The ball swings through the ropes that lie on it.
+std::vector<CommandCall> RopeLab::opening() const {
+    return {
+        {"rope.collider.swing", {{"name", "ball"}, {"by", glm::vec3(0.0f, 0.12f, 0.3f)}, {"period", 4.0f}}}};
+}
+
+std::vector<CommandCall> RopeLab::calm() const {
+    return {{"rope.collider.swing", {{"name", "ball"}, {"by", glm::vec3(0.0f)}}}};
+}
+
 std::vector<TestScene> RopeLab::test_scenes() const {
     const std::vector<std::string> words{"rope", "rope 2", "short 1", "cloth",
                                          "hair", "ball",   "bar",     "ground"};

@@ -22,7 +22,9 @@ class HumanoidAttach : public HumanoidTest {
     std::vector<humanoid::PlacedCapsule> capsules() const {
         const ShownPose& shown = shown_pose(workspace);
         std::vector<humanoid::PlacedCapsule> all;
-        for (const humanoid::BodyCapsule& each : humanoid::default_capsules(part().skeleton(), *part().map))
+        for (const humanoid::BodyCapsule& each :
+             humanoid::fitted_capsules(part().skeleton(), *part().map,
+                                       skin_points(part().loaded->character.skin, part().loaded->rest)))
             all.push_back(humanoid::place(each, *part().map, shown.placed));
         return all;
     }

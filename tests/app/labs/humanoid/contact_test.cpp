@@ -14,7 +14,11 @@ namespace {
 class HumanoidContacts : public HumanoidTest {
   protected:
     /// The depth of hands and lower arms in trunk and head, as drawn; metres.
-    double penetration() { return penetration(humanoid::default_capsules(part().skeleton(), *part().map)); }
+    double penetration() { return penetration(capsules()); }
+    std::vector<humanoid::BodyCapsule> capsules() const {
+        return humanoid::fitted_capsules(part().skeleton(), *part().map,
+                                         skin_points(part().loaded->character.skin, part().loaded->rest));
+    }
     double penetration(const std::vector<humanoid::BodyCapsule>& capsules) {
         const auto& placed = shown_pose(workspace).placed;
         double deepest = 0.0;

@@ -1,0 +1,148 @@
+// The openings: each lab moves by itself in a new window until the user takes over.
+#include <cmath>
+#include <glm/vec2.hpp>
+#include <map>
+
+#include "app/app.hpp"
+#include "app/document/json_complete.hpp"
+#include "app/labs/card.hpp"
+#include "app/opening.hpp"
+#include "app/view/assets.hpp"
+#include "tests/app/support/play.hpp"
+
+namespace tendril::test {
+namespace {
+
+using namespace app;
+
+class Openings : public testing::TestWithParam<std::string> {
+  protected:
+    Openings() {
+        open_alive(app_);
+        app_.run({"lab.open", Json{{"name", GetParam()}}});
+        app_.settle();
+    }
+    std::unique_ptr<Window> window_ = open_offscreen({1280, 720});
+    App app_{*window_};
+    Workspace& workspace() { return app_.workspace(); }
+    void wait(int ticks) {
+        for (int i = 0; i < ticks; ++i) app_.tick(nullptr);
+    }
+    Json part() { return workspace().document.parts().at(GetParam())->save(); }
+    bool opens() { return workspace().openings.contains(GetParam()); }
+    /// A change in the lab that moves nothing.
+    RunCommand change() const {
+        const std::map<std::string, RunCommand> all{
+            {"chain", {"chain.pole", Json{{"to", {0.3, 2.6, -0.4}}}}},
+            {"rope", {"rope.settings", Json{{"friction", 0.41}}}},
+            {"signal", {"signal.filter.add", Json{{"kind", "moving_average"}, {"window", 0.2}}}},
+            {"rig", {"rig.control.set", Json{{"name", "look"}, {"value", {0.1, 0.2}}}}},
+            {"humanoid", {"humanoid.attach", Json{{"bone", "Hips"}, {"kind", "rope"}, {"name", "tail"}}}}};
+        return all.at(GetParam());
+    }
+};
+
+/// Whether two JSON values are the same shape, with finite numbers.
+void expect_finite(const Json& json, const std::string& at) {
+    const bool finite = !json.is_number_float() || std::isfinite(json.get<double>());
+    EXPECT_TRUE(finite) << at;
+    if (!json.is_structured()) return;
+    for (const auto& [key, value] : json.items()) expect_finite(value, at + "." + key);
+}
+
+TEST_P(Openings, move_for_ten_seconds_and_leave_nothing_to_save_or_undo) {
+    const std::vector<bool> before = {workspace().modified(), workspace().history.can_undo()};
+    EXPECT_EQ(before, std::vector<bool>(2, false));
+    for (int second = 0; second < 10; ++second) {
+        const Json then = part();
+        wait(60);
+        EXPECT_NE(part(), then) << "it stands still in second " << second;
+        EXPECT_TRUE(app_.needs_ticks());
+    }
+    const Json state = app_.state();
+    expect_finite(state, "state");
+    EXPECT_FALSE(workspace().modified());
+    EXPECT_FALSE(workspace().history.can_undo());
+    EXPECT_TRUE(opens());
+    for (const Toast& toast : workspace().ui.toasts) EXPECT_NE(toast.kind, ToastKind::Refusal) << toast.text;
+}
+
+TEST_P(Openings, end_at_the_first_change_which_alone_can_be_undone) {
+    wait(90);
+    app_.run(change());
+    EXPECT_FALSE(opens());
+    EXPECT_TRUE(workspace().modified());
+    ASSERT_EQ(workspace().history.size(), 1u);
+    app_.run({"undo"});
+    EXPECT_FALSE(workspace().history.can_undo());
+    EXPECT_FALSE(opens()) << "it does not come back";
+    const Json state = app_.state();
+    if (GetParam() == "chain") {
+        EXPECT_EQ(state["motion"], "still");
+    }
+    if (GetParam() == "rope" || GetParam() == "rig") {
+        EXPECT_TRUE(part().value(GetParam() == "rope" ? "swings" : "walks", Json::object()).empty());
+    }
+    if (GetParam() == "humanoid") {
+        EXPECT_TRUE(state["clip"]["playing"].get<bool>()) << "the walk is in nobody's way";
+    }
+}
+
+TEST_P(Openings, turning_the_view_changes_nothing) {
+    wait(30);
+    app_.run({"camera.set", Json{{"yaw_deg", 10}}});
+    EXPECT_TRUE(opens());
+    const Json then = part();
+    wait(30);
+    EXPECT_NE(part(), then);
+    EXPECT_FALSE(workspace().modified());
+}
+
+TEST_P(Openings, do_not_come_with_a_new_scene) {
+    app_.run({"scene.new"});
+    EXPECT_TRUE(workspace().openings.empty());
+    EXPECT_EQ(workspace().document.parts().at(GetParam())->save(),
+              workspace().blank.parts().at(GetParam())->save());
+}
+
+/// From the opening, not only from the card's own scene.
+TEST_P(Openings, every_step_of_the_card_plays) {
+    app_.run({"view.card", Json{{"open", true}}});
+    wait(100);
+    const Card card = read_cards(cards_source(GetParam())).front();
+    const auto done = [&] { return app_.state().at("card").at("done").get<std::vector<bool>>(); };
+    EXPECT_EQ(done(), std::vector<bool>(card.steps.size(), false)) << "time alone ticks nothing";
+    for (std::size_t i = 0; i < card.steps.size(); ++i) {
+        std::string text;
+        for (const SharedJson& line : card.steps[i].script) text += line->dump() + "\n";
+        Player player(parse_script(text, app_.commands()));
+        while (!player.done()) player.advance(app_);
+        wait(60);
+        EXPECT_TRUE(done()[i]) << card.steps[i].text;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Labs, Openings, testing::Values("chain", "rope", "signal", "rig", "humanoid"),
+                         [](const auto& lab) { return lab.param; });
+
+class ChainOpening : public Openings {};
+INSTANTIATE_TEST_SUITE_P(Labs, ChainOpening, testing::Values("chain"));
+
+/// The target stops under the mouse, not where the drag began to move it.
+TEST_P(ChainOpening, a_press_on_the_target_stops_it) {
+    wait(45);
+    app_.settle();
+    const glm::vec2 target = handle(app_.state(), "target");
+    const Event move(MouseMove{target});
+    app_.tick(&move);
+    const Event press(MousePress{MouseButton::Left, true});
+    app_.tick(&press);
+    const Json there = app_.state()["target"];
+    wait(30);
+    EXPECT_EQ(app_.state()["target"], there);
+    EXPECT_FALSE(workspace().modified());
+    EXPECT_FALSE(workspace().history.can_undo());
+}
+
+}  // namespace
+}  // namespace tendril::test
