@@ -362,6 +362,7 @@ TEST(CardsTest, a_number_in_a_panel_is_no_drag) {
     CardOnScene scene({"chain", 1}, {1280, 1800});
     scene.run("chain.target", {{"to", {0.9, 1.2, 0.3}}});
     scene.run("view.card", {{"open", true}, {"number", 1}});
+    scene.run("view.fold", {{"section", "chain: Target"}, {"folded", false}});
     ASSERT_EQ(scene.done(), std::vector<bool>(5, false));
     FrameRecorder recorder;
     scene.wait(2);

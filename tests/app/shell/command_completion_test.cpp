@@ -105,7 +105,7 @@ TEST_F(Completion, FindsWhatPeopleMean) {
         {"rig", "bone", {"rig.element.add"}},
         {"rig", "unit", {"rig.unit.add"}},
         {"rig", "control", {"rig.element.add", "rig.control.set"}},
-        {"rig", "curve", {"rig.curve.add", "rig.curve.set"}},
+        {"rig", "curve", {"rig.curve.add"}},
         {"humanoid", "character", {"humanoid.load"}},
         {"humanoid", "rope", {"humanoid.attach"}},
         {"humanoid", "bone map", {"humanoid.map", "humanoid.map.save"}},

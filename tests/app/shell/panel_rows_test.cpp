@@ -170,6 +170,8 @@ TEST_F(RowsUnderMore, AreShownByOpeningIt) {
     unfold_all("humanoid");
     run("humanoid.foot_ik", {{"on", true}});
     expect_all<FootIkSetting>();
+    run("humanoid.balance", {{"on", true}});
+    expect_all<BalanceSetting>();
     expect_all<Playback>();
     EXPECT_TRUE(shows("mesh file"));
     EXPECT_TRUE(shows("flip over"));

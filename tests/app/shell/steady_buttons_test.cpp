@@ -106,7 +106,8 @@ class KeptRoom : public SteadyButtons {};
 
 TEST_P(KeptRoom, HoldsWhatIsBelowAListUntilTheMouseLeavesIt) {
     set_up({call("humanoid.load", {{"path", source_path("tests/app/golden/faulty_walk.bvh")}}),
-            call("humanoid.clip", {{"name", "motion"}})});
+            call("humanoid.clip", {{"name", "motion"}}),
+            call("view.fold", {{"section", "humanoid: Motion lint"}, {"folded", false}})});
     const auto place = [&](const std::string& text) {
         glm::vec2 last{0.0f};
         for (const DrawnText& each : recorder_.frame().texts)

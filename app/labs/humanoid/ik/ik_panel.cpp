@@ -33,10 +33,19 @@ void effector_row(const HumanoidPanel& panel, humanoid::Effector effector) {
     explain("Where targets conflict, the one with more weight gets closer.");
 }
 
-}  // namespace
+void balance_rows(const HumanoidPanel& panel, MoreRows& more) {
+    const BalanceSetting& balance = panel.part.ik.balance;
+    const FieldRows rows = FieldRows(balance, "humanoid.balance", panel.emit).under(more);
+    const bool possible = balance.on || panel.runtime.solvers.masses(panel.part) != nullptr;
+    rows.row("on", {.why_not = possible ? std::string()
+                                        : "Balance is not possible: " +
+                                              panel.runtime.solvers.why_no_feet(panel.part) + "."});
+    if (const ShownPose& shown = panel.runtime.shown(panel.workspace); shown.balance)
+        reading("centre of mass", "%s", balance_text(panel.part, shown, panel.runtime.solvers).c_str());
+    if (balance.on) rows.rows("reserve", "steps", "step_seconds");
+}
 
-void target_rows(const HumanoidPanel& panel) {
-    if (!folding_section(panel.workspace, "Targets", panel.emit, false)) return;
+void body_rows(const HumanoidPanel& panel, MoreRows& more) {
     const std::string& why = panel.runtime.solvers.why_no_body(panel.part);
     if (!why.empty()) return note("Full-body IK is off: " + why + ".");
     for (const humanoid::Effector effector : all_effectors) effector_row(panel, effector);
@@ -52,16 +61,16 @@ void target_rows(const HumanoidPanel& panel) {
     if (ImGui::Checkbox("Self-collision", &apart)) panel.emit("humanoid.self_collision", {{"on", apart}});
     explain(
         "Keeps hands and forearms from passing through the body. Outlines show the body's volume, fitted to "
-        "the "
-        "skin if there is one.");
-    FieldRows(ik.balance, "humanoid.balance", panel.emit)
-        .row("on", {.why_not = ik.balance.on || panel.runtime.solvers.masses(panel.part) != nullptr
-                                   ? std::string()
-                                   : "Balance is not possible: " +
-                                         panel.runtime.solvers.why_no_feet(panel.part) + "."});
-    if (const ShownPose& shown = panel.runtime.shown(panel.workspace); shown.balance)
-        reading("centre of mass", "%s", balance_text(panel.part, shown, panel.runtime.solvers).c_str());
+        "the skin if there is one.");
+    balance_rows(panel, more);
     limit_rows(panel);
+}
+
+}  // namespace
+
+void target_rows(const HumanoidPanel& panel) {
+    folding_section(panel.workspace, "Targets", panel.emit, false,
+                    [&](MoreRows& more) { body_rows(panel, more); });
 }
 
 // Hands that a clip moves, and what the head looks at.

@@ -140,11 +140,16 @@ std::span<const FieldText> field_texts<BalanceSetting>() {
          .step = 0.5f,
          .decimals = 0,
          .scale = 100.0,
-         .unit = "%"},
+         .unit = "%",
+         .more = true},
         {.name = "steps",
-         .label = "step to keep it",
-         .help = "A foot steps to where it catches the body when moving the hips is not enough."},
-        {.name = "step_seconds", .label = "step time", .help = "How long a foot takes to step."}};
+         .label = "Steps",
+         .help = "A foot steps to where it catches the body when moving the hips is not enough.",
+         .more = true},
+        {.name = "step_seconds",
+         .label = "step time",
+         .help = "How long a foot takes to step.",
+         .more = true}};
     return texts;
 }
 

@@ -142,6 +142,7 @@ TEST_F(HumanoidFiles, FindingsCallANodeByItsBone) {
     run("humanoid.load", {{"path", faulty(true)}});
     run("humanoid.clip", {{"name", "walk"}});
     ASSERT_FALSE(report().findings.empty());
+    run("view.fold", {{"section", "humanoid: Motion lint"}, {"folded", false}});
     const std::string text = test::PanelReader().panel(lab(), workspace);
     EXPECT_NE(text.find(", RightLowerLeg"), text.npos) << text;
     EXPECT_EQ(text.find(", Node_"), text.npos) << text;

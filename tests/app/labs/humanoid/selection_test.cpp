@@ -152,6 +152,7 @@ TEST_F(HumanoidSelection, RowsOfTheBoneMapThatAreSelectedStandOut) {
         return strengths.size();
     };
     const glm::vec3 colour = palette(workspace.settings.theme).selection;
+    run("view.fold", {{"section", "humanoid: Bones"}, {"folded", false}});
     reader_.panel(lab(), workspace);
     EXPECT_EQ(filled(colour), 0u);
     select({"LeftHand"});

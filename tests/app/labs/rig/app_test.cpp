@@ -110,6 +110,7 @@ TEST_F(RigApp, AFilteredListTakesEnterArrowsAndEscape) {
 /// The tree of elements has the same line.
 TEST_F(RigApp, TheTreesFilterTakesEnterAndArrows) {
     app_.run({"rig.preset", Json{{"name", "loop"}}});
+    app_.run({"view.fold", Json{{"section", "rig: Elements"}, {"folded", false}}});
     const auto wait = [&] {
         for (int i = 0; i < 3; ++i) app_.tick(nullptr);
     };
