@@ -109,6 +109,7 @@ void App::start_recording(bool live) {
 void App::tick(const Event* event) {
     if (recorder_) event != nullptr ? recorder_->event(*event) : recorder_->idle_tick();
     input_.take(event);
+    const bool worked = lab().working(workspace_);
     compose(event, Pass::Tick);
     input_.end_tap();
     // A window that the event opened can only have the keyboard after a second pass; run it before the next
@@ -116,6 +117,7 @@ void App::tick(const Event* event) {
     if (event != nullptr && !std::holds_alternative<MouseMove>(*event)) compose(nullptr, Pass::Settle);
     const bool pressed = event != nullptr && std::holds_alternative<MousePress>(*event);
     settling_ = pressed ? double_click_ticks : std::max(event != nullptr ? settling_ticks : 0, settling_ - 1);
+    if (worked) settling_ = std::max(settling_, 1);  // the panels have yet to show the end of the work
     update_window();
 }
 

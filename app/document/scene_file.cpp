@@ -111,7 +111,9 @@ CameraPose load_camera(const Json& json, const std::string& where) {
 
 Json save_scene(const Workspace& workspace) {
     Json labs = Json::object();
-    for (const auto& [name, part] : workspace.document.parts()) labs[name] = part->save();
+    for (const auto& [name, part] : workspace.document.parts()) {
+        if (name == workspace.lab || !workspace.openings.contains(name)) labs[name] = part->save();
+    }
     return Json{{"tendril_scene", scene_version},
                 {"lab", workspace.lab},
                 {"camera", save_camera(workspace.camera)},

@@ -27,10 +27,14 @@ void step_through(Workspace& workspace, bool back) {
     const auto before = workspace.document.parts();
     workspace.document = std::move(*document);
     const auto parts = workspace.document.parts();
+    // A scene that was opened changed all labs; its name says so.
+    std::vector<std::string> changed;
     for (const auto& [lab, part] : parts)
-        if (const auto was = before.find(lab); lab != shown && was != before.end() && was->second != part)
-            workspace.toast(std::string(back ? "Undone" : "Redone") + " in the " + capitalised(lab) +
-                            " lab.");
+        if (const auto was = before.find(lab); was != before.end() && was->second != part)
+            changed.push_back(lab);
+    if (changed.size() == 1 && changed[0] != shown)
+        workspace.toast(std::string(back ? "Undone" : "Redone") + " in the " + capitalised(changed[0]) +
+                        " lab.");
     for (const auto& [lab, part] : parts) {
         if (auto instead = part->after_undo()) workspace.document.set(lab, std::move(instead));
     }

@@ -326,7 +326,7 @@ void report_rows(const ShownChain& shown, const std::vector<glm::vec3>& joints, 
     }
     const ReachResult& result = *part.result;
     if (result.active_limit) coloured_note(active_limit_text(*result.active_limit) + ".", palette.limit);
-    note(std::string(ik::name(result.report.status)) + ": " + status_text(part));
+    note(status_text(part));
     note(ran_text(result.method, result.report, !part.reach.limits.empty()) + ".");
     reading("iterations", "%d", result.report.iterations);
     reading("tip to target", "%.4f m", static_cast<double>(shown_residual(part, joints)));
@@ -374,10 +374,22 @@ void option_rows(const ReachSettings& reach, float length, MoreRows& more, Emit&
     });
 }
 
-/// A new pole target is above the middle of the line from head to target, clear of the chain.
+/// A new pole target is beside the middle of the line from head to tail, on the side to which the chain
+/// bends, so that adding it turns nothing. A straight chain gets it above.
 glm::vec3 first_pole(const ChainPart& part) {
-    const glm::vec3 middle = 0.5f * (part.chain.segments().front().position + part.target);
-    return middle + glm::vec3(0.0f, 0.6f * std::max(1.0f, part.chain.reach()), 0.0f);
+    const std::vector<glm::vec3> joints = positions(part.chain);
+    const glm::vec3 head = joints.front(), line = joints.back() - head;
+    const float length = glm::length(line);
+    glm::vec3 furthest{0.0f};
+    for (const glm::vec3 joint : joints) {
+        const glm::vec3 from_head = joint - head;
+        const glm::vec3 off =
+            length > 0.0f ? from_head - line * (glm::dot(from_head, line) / (length * length)) : from_head;
+        if (glm::length(off) > glm::length(furthest)) furthest = off;
+    }
+    const float bend = glm::length(furthest);
+    const glm::vec3 side = bend > 0.02f * part.chain.reach() ? furthest / bend : glm::vec3(0.0f, 1.0f, 0.0f);
+    return head + 0.5f * line + 0.6f * part.chain.reach() * side;
 }
 
 void pole_rows(const ChainPart& part, MoreRows& more, Emit& emit) {

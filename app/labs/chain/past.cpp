@@ -191,18 +191,20 @@ ReachPose reach_pose(const ChainPart& part) {
     return pose;
 }
 
-/// The first cause that applies.
-std::string cause_of(const ChainPart& before, const ChainPart& after) {
+/// The first that applies.
+FlipReason reason_of(const ChainPart& before, const ChainPart& after) {
     const ReachPose was = reach_pose(before), is = reach_pose(after);
     const float reach = after.chain.reach();
-    if (went_through_root(was, is, reach)) return "the target went through the root";
+    if (went_through_root(was, is, reach)) return through_root;
     const PolePassage pole = pole_passage(was, is);
-    if (pole.passed) return "the target's line passed the pole";
-    if (after.result->report.restarts > 0) return "the solver restarted from another pose";
-    if (limit_switched(before, after)) return "a limit switched sides";
-    if (was_straight(was, is, reach)) return "the chain was straight (collinear)";
-    if (pole.close) return "the target's line came close to the pole";
-    return "the solver switched to another pose that the target allows";
+    if (pole.passed) return passed_pole;
+    if (after.result->report.restarts > 0)
+        return {"the solver restarted from another pose", "Without restarts it keeps to the pose it is in."};
+    if (limit_switched(before, after)) return {"a limit switched sides", ""};
+    if (was_straight(was, is, reach)) return collinear_reason(is, reach);
+    if (pole.close) return close_to_pole;
+    return {"the solver switched to another pose that the target allows",
+            "Add a pole target, or limits: they leave it fewer poses."};
 }
 
 std::optional<Incident> flip(const ChainPart& before, const ChainPart& after) {
@@ -213,10 +215,12 @@ std::optional<Incident> flip(const ChainPart& before, const ChainPart& after) {
     const bool far = std::max(move.angle, move.swivel) >= rule.angle_share * turn.angle &&
                      move.distance >= rule.reach_share * move.reach;
     if (far) return std::nullopt;
+    const FlipReason reason = reason_of(before, after);
     return Incident{.kind = Incident::Kind::Flip,
                     .joint = turn.joint,
                     .degrees = glm::degrees(turn.angle),
-                    .cause = cause_of(before, after)};
+                    .cause = reason.cause,
+                    .cure = reason.cure};
 }
 
 /// "Out of reach: the target is out of reach, ...": the verdict and the meaning of its status.

@@ -60,6 +60,24 @@ struct ReachPose {
     glm::vec3 root() const { return joints.front(); }
 };
 
+/// A cause, and what prevents such flips: a clause and a sentence for display.
+struct FlipReason {
+    const char* cause;
+    const char* cure;
+};
+inline constexpr FlipReason through_root{
+    "the target went through the root",
+    "Lead the target around the root: there, every direction is equally near."};
+inline constexpr FlipReason passed_pole{
+    "the target's line passed the pole",
+    "Move the pole out of the plane in which the target moves: towards you, if you drag in the view."};
+inline constexpr FlipReason close_to_pole{"the target's line came close to the pole", passed_pole.cure};
+inline constexpr FlipReason straight_chain{
+    "the chain was straight (collinear)",
+    "Add a pole target on the side to which it should bend, or keep the target within reach."};
+inline constexpr FlipReason folded_chain{"the chain was folded onto one line (collinear)",
+                                         "Add a pole target on the side to which it should bend."};
+
 /// Whether the target passed within a fiftieth of the reach of the root. `reach`: metres, here and below.
 bool went_through_root(const ReachPose& before, const ReachPose& after, float reach);
 
@@ -73,5 +91,7 @@ PolePassage pole_passage(const ReachPose& before, const ReachPose& after);
 /// Whether the chain was straight in either pose: every joint within a fiftieth of the reach of the line from
 /// root to tip.
 bool was_straight(const ReachPose& before, const ReachPose& after, float reach);
+/// What such a chain was: straight, or folded if its tip was within half its reach of the root.
+const FlipReason& collinear_reason(const ReachPose& after, float reach);
 
 }  // namespace tendril::app

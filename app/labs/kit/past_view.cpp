@@ -297,7 +297,7 @@ void incident_row(const Workspace& workspace, std::size_t number, const Palette&
     }
     ImGui::PopStyleVar();
     ImGui::PopID();
-    if (ImGui::IsItemHovered()) tooltip(incident.cause + ".");
+    if (ImGui::IsItemHovered() && !workspace.ui.incident) tooltip(incident.cause + ".");
 }
 
 }  // namespace
@@ -314,6 +314,7 @@ void incident_rows(const Workspace& workspace, const Palette& palette, Emit& emi
         note(incident_title(*shown) + ":");
         ImGui::PushTextWrapPos(0.0f);
         ImGui::TextUnformatted((shown->cause + ".").c_str());
+        if (!shown->cure.empty()) ImGui::TextUnformatted(shown->cure.c_str());
         ImGui::PopTextWrapPos();
     }
 }

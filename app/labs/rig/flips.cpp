@@ -383,11 +383,11 @@ Cause by_reach(const Both& both, const rig::Item& root, const rig::Item& tip) {
     float reach = 0.0f;
     for (std::size_t i = 1; i < is->joints.size(); ++i)
         reach += glm::distance(is->joints[i - 1], is->joints[i]);
-    if (went_through_root(*was, *is, reach)) return "the target went through the root";
+    if (went_through_root(*was, *is, reach)) return through_root.cause;
     const PolePassage pole = pole_passage(*was, *is);
-    if (pole.passed) return "the target's line passed the pole";
-    if (was_straight(*was, *is, reach)) return "the chain was straight (collinear)";
-    if (pole.close) return "the target's line came close to the pole";
+    if (pole.passed) return passed_pole.cause;
+    if (was_straight(*was, *is, reach)) return collinear_reason(*is, reach).cause;
+    if (pole.close) return close_to_pole.cause;
     return std::nullopt;
 }
 

@@ -126,7 +126,7 @@ std::vector<Thread> threads_of(const NamedWorld& world) {
 
 PastView rope_past() {
     return past_view(
-        rope_lab, "ropes",
+        rope_lab, "scene",
         {{"tension", "tension"}, {"error", "length error"}, {"energy", "energy"}, {"speed", "speed"}},
         same_particles);
 }

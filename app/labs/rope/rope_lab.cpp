@@ -191,6 +191,18 @@ Bounds RopeLab::bounds(const Workspace& workspace, bool selection_only) const {
     return bounds_of(low, high, 0.2f);
 }
 
+namespace {
+
+/// Whether links are meant to stretch.
+bool stretches(const NamedWorld& world) {
+    if (world.settings().compliance > 0.0f) return true;
+    return std::ranges::any_of(world.state().links, [](const rope::Link& link) {
+        return link.kind == rope::Link::Kind::Stretch && link.compliance > 0.0f;
+    });
+}
+
+}  // namespace
+
 Verdict rope_verdict(const RopePart& part) {
     constexpr double seen = 0.01;  // of its length: visibly too long
     if (part.world->state().bodies.empty())
@@ -216,6 +228,9 @@ Verdict rope_verdict(const RopePart& part) {
     if (error >= seen) {
         if (before < 0.5 * error)
             return {off, Verdict::Kind::Bad, "Contact displaced links after the solve."};
+        if (stretches(*part.world))
+            return {"Stretched by " + percent, Verdict::Kind::Open,
+                    "Its stretch, or the world's compliance, lets it."};
         return {off, Verdict::Kind::Bad, "The solver did not hold them: use more iterations or substeps."};
     }
     if (last.report.suspended > 0)
