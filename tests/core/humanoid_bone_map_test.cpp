@@ -240,6 +240,25 @@ TEST(BoneMap, SaysWhatIsMissing) {
     EXPECT_FALSE(map.is_usable());
 }
 
+/// As in RobotExpressive: Body has a child named Hips, which the spine follows, and the legs beside it.
+TEST(BoneMap, HipsBesideTheLegsAreNotTheBodys) {
+    const Skeleton figure = make_figure({});
+    const BoneMap before = match_bones(figure);
+    ASSERT_TRUE(before.is_usable());
+    std::vector<Node> nodes = figure.nodes();
+    const auto node = [&](Bone bone) -> Node& { return nodes[static_cast<std::size_t>(before[bone].node)]; };
+    const auto body = static_cast<std::int32_t>(nodes.size());
+    nodes.push_back({"Body", node(Bone::Hips).parent, node(Bone::Hips).rest});
+    node(Bone::Hips).parent = node(Bone::LeftUpperLeg).parent = node(Bone::RightUpperLeg).parent = body;
+    node(Bone::Hips).rest = {};
+    const Skeleton robot = *Skeleton::make(nodes);
+    const BoneMap map = match_bones(robot);
+    EXPECT_EQ(map[Bone::Hips].node, body) << map[Bone::Hips].reasons;
+    EXPECT_TRUE(map.is_usable());
+    for (const Bone bone : {Bone::Spine, Bone::Head, Bone::LeftFoot, Bone::RightUpperLeg})
+        EXPECT_EQ(map[bone].node, before[bone].node) << name(bone);
+}
+
 TEST(BoneMap, AHandAloneIsNoBody) {
     std::vector<Node> nodes{{"hand_l", -1, {}}};
     for (int finger = 0; finger < 5; ++finger) {

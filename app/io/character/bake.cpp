@@ -59,8 +59,9 @@ Clip baked(const Skeleton& skeleton, const Clip& clip, double rate, const PoseSt
         step(pose, time, time - last);
         last = time;
         for (std::size_t node = 0; node < nodes.size(); ++node) {
-            nodes[node].is_changed |= !(pose[node] == before[node]);
-            add_key(nodes[node].channel, time, pose[node]);
+            const rig::Transform key = key_of(skeleton, pose, node);
+            nodes[node].is_changed |= !(key == key_of(skeleton, before, node));
+            add_key(nodes[node].channel, time, key);
         }
     }
     Clip result{.name = clip.name, .duration = clip.duration, .channels = {}};
@@ -72,7 +73,7 @@ Clip baked(const Skeleton& skeleton, const Clip& clip, double rate, const PoseSt
             continue;
         }
         nodes[node].channel.node = node;
-        result.channels.push_back(finished(std::move(nodes[node].channel), skeleton[node].rest));
+        result.channels.push_back(finished(std::move(nodes[node].channel), skeleton[node].key_rest()));
     }
     return result;
 }

@@ -22,15 +22,19 @@ void normalise(std::vector<humanoid::Node>& nodes, std::vector<humanoid::Clip>& 
                double scale) {
     const glm::dquat turn = to_y_up(up);
     for (humanoid::Node& node : nodes) {
-        node.rest.translation *= scale;
-        if (up == 'y' || node.parent >= 0) continue;
-        node.rest.translation = turn * node.rest.translation;
-        node.rest.rotation = turn * node.rest.rotation;
+        const auto convert = [&](rig::Transform& rest, bool is_root) {
+            rest.translation *= scale;
+            if (up == 'y' || !is_root) return;
+            rest.translation = turn * rest.translation;
+            rest.rotation = turn * rest.rotation;
+        };
+        convert(node.rest, node.parent < 0);
+        if (node.keys) convert(node.keys->rest, node.keys->parent < 0);
     }
     for (humanoid::Clip& clip : clips) {
         for (humanoid::Channel& channel : clip.channels) {
             for (glm::dvec3& value : channel.translation.values) value *= scale;
-            if (up == 'y' || nodes[channel.node].parent >= 0) continue;
+            if (up == 'y' || nodes[channel.node].key_parent() >= 0) continue;
             for (glm::dvec3& value : channel.translation.values) value = turn * value;
             for (glm::dquat& value : channel.rotation.values) value = turn * value;
         }

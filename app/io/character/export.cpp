@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <tendril/humanoid/attach.hpp>
 #include <tendril/humanoid/lint.hpp>
 
 #include "app/document/atomic_file.hpp"
@@ -59,7 +60,7 @@ class Comparison {
     Comparison(const Export& what, const Character& read, bool is_bvh, bool has_origin)
         : what_(what),
           read_(read),
-          places_(places_of(what.character.skeleton, read.skeleton, is_bvh)),
+          places_(places_of(humanoid::detached(what.character.skeleton), read.skeleton, is_bvh)),
           ratio_(has_origin ? what.character.scale : 1.0) {}
     void at(double time, ExportReport& report) {
         const Skeleton& skeleton = what_.character.skeleton;
@@ -145,9 +146,11 @@ ExportReport export_clip(const Export& what, const fs::path& path) {
     try {
         const bool is_bvh = ending == ".bvh";
         const GltfOrigin origin = is_bvh ? GltfOrigin() : origin_of(what.file);
+        Character written = what.character;
+        written.skeleton = humanoid::detached(what.character.skeleton);
         const std::string bytes =
-            is_bvh ? bvh_text(what.character.skeleton, what.corrected, what.rate)
-                   : gltf_bytes(what.character, what.corrected, what.rate, origin, ending == ".glb");
+            is_bvh ? bvh_text(written.skeleton, what.corrected, what.rate)
+                   : gltf_bytes(written, what.corrected, what.rate, origin, ending == ".glb");
         const Character read = is_bvh ? parse_bvh(bytes, name) : parse_gltf(bytes, name, {});
         const ExportReport report = report_of(what, read, is_bvh, !origin.bytes.empty());
         write_file_atomically(path, bytes);

@@ -35,8 +35,9 @@ inline constexpr double min_rate = 1.0, largest_rate = 1000.0;
 /// Whether the file name has the extension of a format that can be written: .gltf, .glb or .bvh.
 bool ends_as_export(const std::filesystem::path& path);
 
-/// Writes the file atomically, in the format of its extension. A glTF file keeps the contents of the
-/// character's own glTF file (gltf_write.hpp). Throws std::runtime_error and then writes nothing.
+/// Writes the file atomically, in the format of its extension, with the hierarchy of the character's file. A
+/// glTF file keeps the contents of the character's own glTF file (gltf_write.hpp). Throws std::runtime_error
+/// and then writes nothing.
 ExportReport export_clip(const Export& what, const std::filesystem::path& path);
 
 }  // namespace tendril::app

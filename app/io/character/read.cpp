@@ -5,6 +5,7 @@
 #include <string>
 
 #include "app/document/text.hpp"
+#include "app/io/character/attach_feet.hpp"
 #include "app/io/character/bvh.hpp"
 #include "app/io/character/fbx.hpp"
 #include "app/io/character/gltf.hpp"
@@ -53,9 +54,11 @@ Character read_character(const std::filesystem::path& path, LoadProgress* progre
     const std::string bytes = character_bytes(path);
     if (progress && progress->cancelled()) throw std::runtime_error(name + ": cancelled");
     const std::string ending = lower_case(path.extension().string());
-    if (ending == ".fbx") return parse_fbx(bytes, name, progress);
-    if (ending == ".bvh") return parse_bvh(bytes, name, progress);
-    return parse_gltf(bytes, name, path.parent_path(), progress);
+    Character character = ending == ".fbx"   ? parse_fbx(bytes, name, progress)
+                          : ending == ".bvh" ? parse_bvh(bytes, name, progress)
+                                             : parse_gltf(bytes, name, path.parent_path(), progress);
+    attach_feet(character);
+    return character;
 }
 
 }  // namespace tendril::app

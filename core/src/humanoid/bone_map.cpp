@@ -37,10 +37,12 @@ class Names {
         set(Bone::Head, topmost(Part::Head, Side::None, at(Bone::Hips)));
         limb(Side::Left, Bone::LeftShoulder, Bone::LeftUpperLeg);
         limb(Side::Right, Bone::RightShoulder, Bone::RightUpperLeg);
+        raise_hips();
         const auto or_shape = [&](Bone bone) { return at(bone) >= 0 ? at(bone) : shape[bone]; };
         column(or_shape(Bone::Hips), or_shape(Bone::Head));
     }
     Nodes found;
+    bool raised = false;  ///< the hips are not the node of that name
 
   private:
     std::int32_t at(Bone bone) const { return found[static_cast<std::size_t>(bone)]; }
@@ -85,6 +87,17 @@ class Names {
                 return each;
         return -1;
     }
+    /// The first such node from the root down, with one of `parts` above it; one beside or below the hips if
+    /// there is one, since a file may have several rigs.
+    std::int32_t leg_node(Part part, Side side, std::initializer_list<Part> parts) const {
+        const std::int32_t hips = at(Bone::Hips);
+        for (const std::int32_t around : {hips >= 0 ? parent(hips) : -1, -1})
+            for (const std::int32_t node : skeleton_.order())
+                if (reading(node).part == part && reading(node).side == side && below(node, around) &&
+                    (parts.size() == 0 || above(node, side, parts) >= 0))
+                    return node;
+        return -1;
+    }
     void limb(Side side, Bone shoulder, Bone upper_leg) {
         const auto next = [](Bone bone, int by) { return static_cast<Bone>(static_cast<int>(bone) + by); };
         const std::int32_t hand = topmost(Part::Hand, side, at(Bone::Hips));
@@ -99,17 +112,37 @@ class Names {
         if (upper >= 0) set(shoulder, above(upper, side, {Part::Shoulder, Part::ShoulderArm}));
 
         // Legs may be siblings of the node named hips. A foot without a leg above it, as in IK rigs, is not
-        // the body's.
-        std::int32_t foot = topmost(Part::Foot, side, -1);
-        if (foot >= 0 && above(foot, side, {Part::LowerLeg, Part::Leg}) < 0) foot = -1;
+        // the body's: attached() first (attach.hpp).
+        const std::int32_t foot = leg_node(Part::Foot, side, {Part::LowerLeg, Part::Leg});
         lower =
-            foot >= 0 ? above(foot, side, {Part::LowerLeg, Part::Leg}) : topmost(Part::LowerLeg, side, -1);
+            foot >= 0 ? above(foot, side, {Part::LowerLeg, Part::Leg}) : leg_node(Part::LowerLeg, side, {});
+        if (lower < 0) lower = leg_node(Part::Leg, side, {Part::UpperLeg, Part::Leg});
         const std::int32_t thigh =
-            lower >= 0 ? above(lower, side, {Part::UpperLeg, Part::Leg}) : topmost(Part::UpperLeg, side, -1);
+            lower >= 0 ? above(lower, side, {Part::UpperLeg, Part::Leg}) : leg_node(Part::UpperLeg, side, {});
         set(next(upper_leg, 2), foot);
         set(next(upper_leg, 1), lower);
         set(upper_leg, thigh);
         if (foot >= 0) set(next(upper_leg, 3), topmost(Part::Toes, side, foot));
+    }
+    /// A node named hips may be the first of the spine, with the legs beside it. The body's hips are then the
+    /// node above both, if it is where the legs begin and no root on the floor.
+    void raise_hips() {
+        const std::int32_t left = at(Bone::LeftUpperLeg), right = at(Bone::RightUpperLeg);
+        const std::int32_t knee = at(Bone::LeftLowerLeg), named = at(Bone::Hips);
+        std::int32_t node = named;
+        if (node < 0 || left < 0 || right < 0 || knee < 0) return;
+        while (node >= 0 && !(below(left, node) && below(right, node))) node = parent(node);
+        if (node < 0 || node == named) return;
+        using namespace rig::detail;
+        std::vector<Placement> rest(skeleton_.size());
+        place(skeleton_, rest_pose(skeleton_), rest);
+        const auto place_of = [&](std::int32_t each) {
+            return rest[static_cast<std::size_t>(each)].position;
+        };
+        const glm::dvec3 middle = times(plus(place_of(left), place_of(right)), 0.5);
+        if (length(minus(place_of(node), middle)) >= length(minus(place_of(knee), place_of(left)))) return;
+        set(Bone::Hips, node);
+        raised = true;
     }
     /// Between the hips and the head: a neck, and below it one to three bones of the spine.
     void column(std::int32_t hips, std::int32_t head) {
@@ -233,6 +266,7 @@ BoneMap match_bones(const Skeleton& skeleton) {
         }
         map.bones[i] = weigh(skeleton, by_name.found[i], by_shape);
     }
+    if (by_name.raised) map[Bone::Hips].reasons = "the legs and the node named hips are below it";
     review(map, skeleton);
     return map;
 }

@@ -100,6 +100,15 @@ void sample_track(const Track<T>& track, double time, T& value) noexcept {
             cubic_of(key(last), track.values[3 * last + 2], key(next), track.values[3 * next], span, u));
 }
 
+/// A single node, from those above it; -1: the character's space.
+Placement placed_node(const Skeleton& skeleton, std::span<const rig::Transform> pose,
+                      std::int32_t node) noexcept {
+    Placement result;
+    for (; node >= 0; node = skeleton[static_cast<std::size_t>(node)].parent)
+        result = placement(pose[static_cast<std::size_t>(node)]) * result;
+    return result;
+}
+
 }  // namespace
 
 const char* name(Interpolation interpolation) noexcept {
@@ -144,8 +153,19 @@ void sample(const Channel& channel, double time, rig::Transform& local) noexcept
 
 void sample(const Clip& clip, const Skeleton& skeleton, double time,
             std::span<rig::Transform> pose) noexcept {
-    for (std::size_t i = 0; i < skeleton.size(); ++i) pose[i] = skeleton[i].rest;
+    for (std::size_t i = 0; i < skeleton.size(); ++i) pose[i] = skeleton[i].key_rest();
     for (const Channel& channel : clip.channels) sample(channel, time, pose[channel.node]);
+    for (const std::size_t node : skeleton.moved())
+        pose[node] =
+            relative(placed_node(skeleton, pose, skeleton[node].parent),
+                     placed_node(skeleton, pose, skeleton[node].keys->parent) * placement(pose[node]));
+}
+
+rig::Transform key_of(const Skeleton& skeleton, std::span<const rig::Transform> pose,
+                      std::size_t node) noexcept {
+    if (!skeleton[node].keys) return pose[node];
+    return relative(placed_node(skeleton, pose, skeleton[node].keys->parent),
+                    placed_node(skeleton, pose, skeleton[node].parent) * placement(pose[node]));
 }
 
 }  // namespace tendril::humanoid

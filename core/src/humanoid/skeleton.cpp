@@ -5,6 +5,7 @@
 #include <numeric>
 #include <unordered_map>
 
+#include "humanoid/limb.hpp"
 #include "rig/checks.hpp"
 #include "rig/math.hpp"
 
@@ -47,6 +48,16 @@ Expected<Skeleton> Skeleton::make(std::vector<Node> nodes) {
         const Expected<rig::Transform> rest = rig::checked(nodes[i].rest, "Skeleton", what);
         if (!rest) return rest.error();
         nodes[i].rest = *rest;
+        if (std::optional<KeySpace>& keys = nodes[i].keys) {
+            if (keys->parent < -1 || keys->parent >= static_cast<std::int32_t>(count))
+                return refused("Skeleton", Argument("nodes", i, "keys.parent"), "-1 or the index of a node",
+                               keys->parent);
+            std::snprintf(what, sizeof what, "nodes[%zu].keys.rest", i);
+            const Expected<rig::Transform> key_rest = rig::checked(keys->rest, "Skeleton", what);
+            if (!key_rest) return key_rest.error();
+            keys->rest = *key_rest;
+            made.moved_.push_back(i);
+        }
         if (parent >= 0) ++made.first_[static_cast<std::size_t>(parent) + 1];
     }
     std::partial_sum(made.first_.begin(), made.first_.end(), made.first_.begin());
@@ -79,6 +90,13 @@ Expected<Skeleton> Skeleton::make(std::vector<Node> nodes) {
         return refused("Skeleton", Argument("nodes", lost, "parent"), "a node that is not below it",
                        made.nodes_[lost].parent);
     }
+    for (const std::size_t node : made.moved_)
+        for (const std::int32_t from : {made.nodes_[node].parent, made.nodes_[node].keys->parent})
+            for (std::int32_t above = from; above >= 0;
+                 above = made.nodes_[static_cast<std::size_t>(above)].parent)
+                if (made.nodes_[static_cast<std::size_t>(above)].keys)
+                    return refused("Skeleton", Argument("nodes", node, "keys"),
+                                   "neither above nor below other keys", from);
     return made;
 }
 
@@ -150,6 +168,21 @@ glm::dquat Placement::rotation() const noexcept {
         default:
             return unit_quaternion(x.y - y.x, z.x + x.z, y.z + z.y, squares[3]);
     }
+}
+
+rig::Transform relative(const Placement& parent, const Placement& global) noexcept {
+    using namespace rig::detail;
+    Placement local;
+    for (int i = 0; i < 3; ++i) local.axes[i] = detail::seen_from(parent, global.axes[i]);
+    rig::Transform result;
+    for (int i = 0; i < 3; ++i) result.scale[i] = length(local.axes[i]);
+    if (dot(cross(local.axes[0], local.axes[1]), local.axes[2]) < 0.0) {
+        local.axes[2] = times(local.axes[2], -1.0);
+        result.scale.z = -result.scale.z;
+    }
+    result.rotation = local.rotation();
+    result.translation = detail::seen_from(parent, minus(global.position, parent.position));
+    return result;
 }
 
 std::vector<rig::Transform> rest_pose(const Skeleton& skeleton) {

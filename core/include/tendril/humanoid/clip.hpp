@@ -40,6 +40,7 @@ struct Track {
     bool operator==(const Track&) const = default;
 };
 
+/// Local to the node's parent, or to its key space if it has one.
 struct Channel {
     std::size_t node = 0;
     Track<glm::dvec3> translation{};  ///< metres
@@ -64,7 +65,11 @@ Result check(const Clip& clip, const Skeleton& skeleton);
 /// Writes the pose at a time in seconds: skeleton.size() transforms, local to the parents. A node without
 /// keys gets its rest transform. The clip must have passed check().
 void sample(const Clip& clip, const Skeleton& skeleton, double time, std::span<rig::Transform> pose) noexcept;
-/// One node only. Keeps the parts of `local` for which the channel has no keys.
+/// One node only, in its key space. Keeps the parts of `local` for which the channel has no keys.
 void sample(const Channel& channel, double time, rig::Transform& local) noexcept;
+/// The key that gives the node its place in the pose: the pose's own transform, unless the node has a key
+/// space of its own.
+rig::Transform key_of(const Skeleton& skeleton, std::span<const rig::Transform> pose,
+                      std::size_t node) noexcept;
 
 }  // namespace tendril::humanoid

@@ -25,10 +25,22 @@
 
 namespace tendril::humanoid {
 
+/// What a clip's keys of a node are local to, if not to its parent.
+struct KeySpace {
+    std::int32_t parent = -1;  ///< index into the list; -1: the character's space
+    rig::Transform rest{};     ///< of the node, in this space
+    bool operator==(const KeySpace&) const = default;
+};
+
 struct Node {
     std::string name{};        ///< unique, not empty
     std::int32_t parent = -1;  ///< index into the list; -1: a root
     rig::Transform rest{};     ///< local to the parent; metres
+    /// Set by attached(): the node has another parent than in its file, whose clips stay as they are.
+    std::optional<KeySpace> keys{};
+    /// The parent that a clip's keys are local to.
+    std::int32_t key_parent() const noexcept { return keys ? keys->parent : parent; }
+    const rig::Transform& key_rest() const noexcept { return keys ? keys->rest : rest; }
     bool operator==(const Node&) const = default;
 };
 
@@ -38,8 +50,8 @@ class Skeleton {
 
     /// No nodes.
     Skeleton() = default;
-    /// Refuses more than max_nodes, an empty or duplicate name, a parent out of range, cycles, and rest
-    /// transforms that rig::checked() refuses.
+    /// Refuses more than max_nodes, an empty or duplicate name, a parent out of range, cycles, rest
+    /// transforms that rig::checked() refuses, and key spaces above or below one another.
     static Expected<Skeleton> make(std::vector<Node> nodes);
 
     std::size_t size() const noexcept { return nodes_.size(); }
@@ -52,6 +64,8 @@ class Skeleton {
     std::optional<std::size_t> find(std::string_view name) const noexcept;
     /// Whether `node` is `above` or one of its descendants.
     bool is_below(std::size_t node, std::size_t above) const noexcept;
+    /// The nodes with a key space of their own.
+    std::span<const std::size_t> moved() const noexcept { return moved_; }
 
     bool operator==(const Skeleton& other) const { return nodes_ == other.nodes_; }
 
@@ -59,7 +73,8 @@ class Skeleton {
     std::vector<Node> nodes_;
     std::vector<std::int32_t> order_;
     std::vector<std::int32_t> children_;  // of all nodes, node by node
-    std::vector<std::uint32_t> first_;    // where a node's children begin in children_; size() + 1 elements
+    std::vector<std::size_t> moved_;
+    std::vector<std::uint32_t> first_;  // where a node's children begin in children_; size() + 1 elements
 };
 
 /// Where a node is in the character's space: its local point p is at axes * p + position.
@@ -76,6 +91,10 @@ struct Placement {
 /// First `child`, then `parent`.
 Placement operator*(const Placement& parent, const Placement& child) noexcept;
 Placement placement(const rig::Transform& transform) noexcept;
+
+/// The transform whose placement in `parent` is `global`; its shear is lost, and an axis without length stays
+/// one.
+rig::Transform relative(const Placement& parent, const Placement& global) noexcept;
 
 std::vector<rig::Transform> rest_pose(const Skeleton& skeleton);
 

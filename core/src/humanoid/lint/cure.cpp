@@ -139,12 +139,12 @@ void scale_by(Clip& clip, double by) {
 
 void turn_by(const Skeleton& skeleton, Clip& clip, const glm::dquat& turn) {
     for (std::size_t i = 0; i < skeleton.size(); ++i) {
-        if (skeleton[i].parent >= 0) continue;
+        if (skeleton[i].key_parent() >= 0) continue;
         const auto found = std::find_if(clip.channels.begin(), clip.channels.end(),
                                         [&](const Channel& each) { return each.node == i; });
         Channel& channel =
             found != clip.channels.end() ? *found : clip.channels.emplace_back(Channel{.node = i});
-        const rig::Transform& rest = skeleton[i].rest;
+        const rig::Transform& rest = skeleton[i].key_rest();
         if (channel.translation.times.empty())
             channel.translation = {Interpolation::Step, {0.0}, {rest.translation}};
         if (channel.rotation.times.empty()) channel.rotation = {Interpolation::Step, {0.0}, {rest.rotation}};

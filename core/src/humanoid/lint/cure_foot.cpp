@@ -192,6 +192,7 @@ Expected<Clip> cure_foot(const Check& check, const Finding& finding) {
     const std::vector<std::size_t> nodes = legs.turned(is_lowered);
     std::vector<double> times;
     std::vector<std::vector<glm::dquat>> turns(nodes.size());
+    std::vector<std::vector<glm::dvec3>> moves(nodes.size());
     std::vector<glm::dvec3> hips;
     for (std::size_t i = 0; i < plan.moves.size(); ++i) {
         const double time = check.time_of(plan.first + i);
@@ -199,7 +200,11 @@ Expected<Clip> cure_foot(const Check& check, const Finding& finding) {
             break;  // the last frame, where the clip ends a little early
         const std::vector<rig::Transform>& pose = legs.posed(plan.first + i, plan.moves[i], plan.drops[i]);
         times.push_back(time);
-        for (std::size_t k = 0; k < nodes.size(); ++k) turns[k].push_back(pose[nodes[k]].rotation);
+        for (std::size_t k = 0; k < nodes.size(); ++k) {
+            const rig::Transform key = key_of(check.skeleton, pose, nodes[k]);
+            turns[k].push_back(key.rotation);
+            moves[k].push_back(key.translation);
+        }
         hips.push_back(pose[legs.hips()].translation);
     }
     Clip cured = check.clip;
@@ -208,7 +213,10 @@ Expected<Clip> cure_foot(const Check& check, const Finding& finding) {
         const Channel was = channel;
         replace_keys(was, channel.*track, times, values);
     };
-    for (std::size_t k = 0; k < nodes.size(); ++k) replace(nodes[k], &Channel::rotation, turns[k]);
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+        replace(nodes[k], &Channel::rotation, turns[k]);
+        if (check.skeleton[nodes[k]].keys) replace(nodes[k], &Channel::translation, moves[k]);
+    }
     if (is_lowered) replace(legs.hips(), &Channel::translation, hips);
     if (const Result bad = humanoid::check(cured, check.skeleton); !bad) return bad;
     return cured;

@@ -1,0 +1,40 @@
+// Feet of IK rigs that hang outside the legs. Some exported rigs keep their control hierarchy: the foot is a
+// child of the root, where the animator moved it as an IK target, and the lower leg ends in nothing. Solvers
+// need the foot below the leg:
+//
+//     for (const LooseFoot& each : loose_feet(skeleton, match_bones(skeleton)))
+//         if (each.fits)
+//             if (auto moved = attached(skeleton, each.foot, each.leg)) skeleton = std::move(*moved);
+//
+// Clips need no change. Their keys of such a node stay local to its old parent (Node::keys), and sample()
+// converts them: at any time every node is where it was before, to rounding. key_of() converts back.
+#pragma once
+
+#include <vector>
+
+#include "tendril/humanoid/bone_map.hpp"
+
+namespace tendril::humanoid {
+
+struct LooseFoot {
+    Bone bone = Bone::LeftFoot;
+    std::size_t foot = 0;  ///< a node named as the foot of this side, not below the leg
+    std::size_t leg = 0;   ///< node of the lower leg
+    bool fits = false;     ///< at rest the lower leg may end where the foot is
+};
+
+/// At most one for each side whose lower leg the map has and has no named foot below it. The foot fits where
+/// the last node below the lower leg is; without such a node, if it continues the leg at a usual length.
+std::vector<LooseFoot> loose_feet(const Skeleton& skeleton, const BoneMap& map);
+
+/// The skeleton with the node below `to`. It stays where it is, at rest and in clips. Refuses a node that is
+/// above `to` or was moved already, and one that would be sheared there.
+Expected<Skeleton> attached(const Skeleton& skeleton, std::size_t node, std::size_t to);
+/// The skeleton as it was before attached().
+Skeleton detached(const Skeleton& skeleton);
+
+/// Whether the node has the same place in both poses, to 1e-6 of its distance from the origin, and to 1e-3 in
+/// its axes.
+bool is_same_place(const Placement& a, const Placement& b) noexcept;
+
+}  // namespace tendril::humanoid
