@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <string>
+#include <vector>
 
 #include "app/document/command.hpp"
 #include "app/document/drawn_sections.hpp"
