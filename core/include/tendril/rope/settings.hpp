@@ -23,9 +23,9 @@
 //   contacts and bending between the passes.
 //
 // Direct adds no energy: a body that gained some in a substep is slowed down until the gain is gone, in its
-// relative motion first, so that it keeps falling freely. Only moving colliders and pins do work. Near a
-// collider, Relaxation and Xpbd keep this bound too if the collider strikes the body or its links are within
-// 0.1 % of their lengths; a link further off holds energy that is not counted.
+// relative motion first, so that it keeps falling freely. Only moving colliders, pins and wind do work. Near
+// a collider, Relaxation and Xpbd keep this bound too if the collider strikes the body or its links are
+// within 0.1 % of their lengths; a link further off holds energy that is not counted.
 #pragma once
 
 #include <cstddef>
