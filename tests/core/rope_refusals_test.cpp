@@ -61,6 +61,8 @@ TEST(RopeRefusals, OfSettings) {
         if (value == -1.0f) continue;  // these may be negative
         bad([v = value](Settings& s) { s.gravity.y = v; }, "gravity", text);
         bad([v = value](Settings& s) { s.external.z = v; }, "external", text);
+        bad([v = value](Settings& s) { s.wind.x = v; }, "wind", text);
+        bad([v = value](Settings& s) { s.gusts = v; }, "gusts", text);
         bad([v = value](Settings& s) { s.gravity_scale = v; }, "gravity_scale", text);
     }
     bad([](Settings& s) { s.longest_frame = 0.0f; }, "longest_frame", "0");

@@ -47,10 +47,11 @@ class StateBits {
         add(index, generation);
     }
     void put(const rope::Settings& settings) {
-        const auto& [substep, iterations, solver, damping, gravity, gravity_scale, external, compliance,
-                     friction, longest_frame] = settings;
+        const auto& [substep, iterations, solver, damping, gravity, gravity_scale, external, wind, gusts,
+                     compliance, friction, longest_frame] = settings;
         add(substep, iterations, solver, damping, gravity, gravity_scale, external, compliance, friction,
             longest_frame);
+        if (wind != glm::vec3(0.0f)) add(wind, gusts);
     }
     void put(const rope::Body& body) {
         const auto& [id, kind, first, count, row, radius, tear, stretch] = body;

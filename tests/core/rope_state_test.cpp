@@ -54,6 +54,7 @@ TEST(RopeState, CopiesAreOfTheirOwn) {
 TEST(RopeState, EveryFieldCountsWhenStatesAreCompared) {
     const World world = busy_world(rope::Solver::Direct);
     void (*const changes[])(State&) = {
+        [](State& s) { s.settings.wind.x = 1.0f; },
         [](State& s) { s.settings.longest_frame = 1.0f; },
         [](State& s) { s.bodies[0].id.generation += 2; },
         [](State& s) { s.bodies[2].stretch += 1.0f; },

@@ -116,7 +116,7 @@ void RopeLab::panel(const Workspace& workspace, Emit& emit) const {
     section("World", false, [&](MoreRows& more) {
         settings_rows(part, emit)
             .under(more)
-            .rows("damping", "friction", "gravity", "gravity_scale", "external");
+            .rows("damping", "friction", "gravity", "gravity_scale", "wind", "gusts", "external");
     });
     section("Time", false, [&](MoreRows& more) { time_rows(workspace, more, emit); });
     section("Show", false, [&](MoreRows& more) {

@@ -53,7 +53,9 @@ const std::vector<RopeSceneEntry>& rope_scenes() {
          view({0.0f, 0.75f, 0.0f}, -24.0f, 14.0f, 4.8f)},
         {"curtain", "Curtain",
          "A ball swings into a cloth that hangs by two corners; pull it about and let go", curtain_scene,
-         view({0.0f, 1.0f, 0.0f}, -24.0f, 10.0f, 4.2f)}};
+         view({0.0f, 1.0f, 0.0f}, -24.0f, 10.0f, 4.2f)},
+        {"flag", "Flag", "A flag flutters in a gusty wind", flag_scene,
+         view({0.0f, 1.1f, 0.0f}, -32.0f, 14.0f, 4.6f)}};
     return list;
 }
 
@@ -331,6 +333,29 @@ RopeScene curtain_scene() {
     scene.swings.push_back({"ball", middle, {-0.15f, 0.0f, -0.75f}, 4.0f});
     rope::Settings settings = world.settings();
     settings.damping = 0.6f;
+    world.set_settings(settings);
+    return scene;
+}
+
+/// A flag on a pole.
+RopeScene flag_scene() {
+    RopeScene scene;
+    NamedWorld& world = scene.world;
+    add_ground(world);
+    constexpr float top = 2.0f, pole = 0.025f, at = -0.8f, length = 1.5f, height = 0.9f;
+    world.add_collider("pole", rope::Capsule{{at, 0, 0}, {at, top, 0}, pole});
+    world.add_cloth("flag", {.corner = {at + pole + 0.015f, top - 0.05f, 0},
+                             .along = {0, -height, 0},
+                             .down = {length, 0, 0},
+                             .columns = 18,
+                             .rows = 30,
+                             .density = 0.2f,
+                             .shear = 0.03f,
+                             .bend = 0.002f,  // canvas: softer cloth crumples at its free edge
+                             .pins = rope::ClothShape::Pins::Row});
+    rope::Settings settings = world.settings();
+    settings.wind = {7.0f, 0, 0.5f};
+    settings.gusts = 0.5f;
     world.set_settings(settings);
     return scene;
 }

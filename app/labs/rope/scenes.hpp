@@ -37,6 +37,7 @@ RopeScene cloth_scene();
 RopeScene hair_scene();
 RopeScene bars_scene();
 RopeScene curtain_scene();
+RopeScene flag_scene();
 
 /// Adds the ground that every scene has.
 void add_ground(NamedWorld& world);

@@ -48,6 +48,14 @@ void settings(RopeEdit& edit, const Arguments& given) {
     if (wanted != edit.seen().settings()) edit.world().set_settings(wanted);
 }
 
+/// As rope.settings does, by the names that a person looks for.
+void blow(RopeEdit& edit, const Arguments& given) {
+    rope::Settings wanted = edit.seen().settings();
+    wanted.wind = given.point("velocity");
+    if (given.has("gusts")) wanted.gusts = static_cast<float>(given.number("gusts"));
+    if (wanted != edit.seen().settings()) edit.world().set_settings(wanted);
+}
+
 void set_jitter(RopeEdit& edit, const Arguments& given) {
     edit.part.jitter.dial = given.number("dial");
     edit.part.jitter.frame = 0.0;  // the next frame already uses the new dial
@@ -89,6 +97,10 @@ void add_world_commands(CommandTable& table) {
                }});
     table.add(rope_command("rope.settings", "Set how ropes are simulated", settings_arguments(),
                            "Sets how ropes are simulated; omitted settings are kept", settings));
+    table.add(rope_command("rope.wind", "Set the wind",
+                           {point_argument("velocity", true, "of the air, m/s; 0: no air"),
+                            number_argument("gusts", "relative to it", 0.0, 1.0)},
+                           "Sets the wind that cloth flutters in", blow));
     table.add(
         rope_command("rope.jitter", "Make frame times uneven",
                      {{.name = "dial", .help = "0: even frames; 1: from 1 to 250 ms", .low = 0, .high = 1}},

@@ -34,6 +34,8 @@ Expected<BodyId> append(State& state, const char* operation, Draft draft);
 glm::dvec3 down(const Settings& settings) noexcept;
 /// Gravity plus external acceleration, m/s^2.
 glm::dvec3 acceleration(const Settings& settings) noexcept;
+/// Of the wind on a cloth that faces it, in a gust, N/m^2.
+double wind_pressure(const Settings& settings) noexcept;
 /// The compliance of a link as its solver uses it, m/N.
 double compliance(const Settings& settings, const Link& link) noexcept;
 

@@ -46,16 +46,20 @@ ClothSolver::ClothSolver(const State& state, const Plan& plan, const Plan::Islan
       first_(state.bodies[grid_.body].first),
       h_(state.settings.substep) {
     const std::size_t count = state.bodies[grid_.body].count;
-    double whole = 0.0, shortest = 1e30;
+    double whole = 0.0, shortest = 1e30, longest = 0.0;
     for (std::size_t i = first_; i < first_ + count; ++i) whole += state.mass[i];
     for (const std::uint32_t i : Plan::part(plan.links, island.links)) {
         const Link& link = state.links[i];
-        if (link.kind == Link::Kind::Stretch && link.rest > 0.0f)
+        if (link.kind == Link::Kind::Stretch && link.rest > 0.0f) {
             shortest = std::min(shortest, static_cast<double>(link.rest));
+            longest = std::max(longest, static_cast<double>(link.rest));
+        }
     }
     mass_ = whole / static_cast<double>(count);
     unit_ = mass_ / (h_ * h_);
-    const double weight = whole * detail::length(detail::acceleration(state.settings));
+    const double area = (grid_.columns - 1.0) * (grid_.rows - 1.0) * shortest * longest;
+    const double weight = whole * detail::length(detail::acceleration(state.settings)) +
+                          area * detail::wind_pressure(state.settings);
     stiffness_ = std::clamp(weight / (strain_by_weight * shortest * unit_), min_stiffness, max_stiffness);
 }
 

@@ -62,6 +62,8 @@ void Substep::Ledger::add_particle(std::size_t i) {
     fallen_ += half;
     const double moved = detail::kinetic_energy(mass, then, it_.h_);
     gained_ += moving - moved - half - it_.before_ * 0.5 * mass * detail::dot(it_.acceleration_, then);
+    if (it_.blows_)  // what the wind did is no gain
+        gained_ -= detail::dot(it_.scratch_.blown[i], now + then) * (0.5 * mass / (it_.h_ * it_.h_));
     damped_ += (1.0 - it_.damping_ * it_.damping_) * moved;
 }
 

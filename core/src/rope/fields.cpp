@@ -30,6 +30,8 @@ std::span<const Field> fields<rope::Settings>() noexcept {
         field<&Settings::gravity>("gravity", acceleration, "m/s^2"),
         field<&Settings::gravity_scale>("gravity_scale", {-max_scale, max_scale}),
         field<&Settings::external>("external", acceleration, "m/s^2"),
+        field<&Settings::wind>("wind", {-max_wind, max_wind}, "m/s"),
+        field<&Settings::gusts>("gusts", {0.0, 1.0}),
         field<&Settings::compliance>("compliance", {0.0, max_compliance}, "1/N"),
         field<&Settings::friction>("friction", {0.0, max_friction}),
         field<&Settings::longest_frame>("longest_frame", {min_longest_frame, max_longest_frame}, "s")};

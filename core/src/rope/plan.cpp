@@ -21,10 +21,16 @@ bool follows(const Link& before, const Link& link) {
     return link.a == before.b && link.kind == before.kind;
 }
 
+/// Of a cloth; 0 for others.
+std::size_t row_of(const Body& body) {
+    return body.kind == Body::Kind::Cloth ? body.row : 0;
+}
+
 }  // namespace
 
 Plan::Plan(const State& state) {
     find_chains(state);
+    find_triangles(state);
     cut_into_chunks(state);
     detail::divide_into_islands(state, *this);
     detail::find_grids(state, *this);
@@ -32,7 +38,8 @@ Plan::Plan(const State& state) {
     particles_ = state.position.size();
     joined_.reserve(state.links.size());
     for (const Link& link : state.links) joined_.push_back({link.a, link.b, link.rest, link.kind});
-    for (const Body& body : state.bodies) ranges_.push_back({body.first, body.count, body.tear > 0.0f});
+    for (const Body& body : state.bodies)
+        ranges_.push_back({body.first, body.count, row_of(body), body.tear > 0.0f});
     tears =
         std::any_of(state.bodies.begin(), state.bodies.end(), [](const Body& b) { return b.tear > 0.0f; });
 }
@@ -68,6 +75,32 @@ void Plan::find_chains(const State& state) {
     }
 }
 
+/// The surface of cloths, for the wind. Torn cells have none.
+void Plan::find_triangles(const State& state) {
+    const auto is_cloth = [](const Body& body) { return row_of(body) != 0; };
+    if (std::none_of(state.bodies.begin(), state.bodies.end(), is_cloth)) return;
+    const std::size_t particles = state.position.size();
+    whole.assign(particles, 0), triangles.assign(particles, 0);
+    constexpr unsigned right = 1, down = 2;
+    std::vector<std::uint8_t> linked(particles, 0);
+    const std::vector<std::uint32_t> body_of = detail::bodies_of_particles(state);
+    for (const Link& link : state.links) {
+        if (link.kind != Link::Kind::Stretch) continue;
+        if (link.b == link.a + 1) linked[link.a] |= right;
+        if (link.b == link.a + state.bodies[body_of[link.a]].row) linked[link.a] |= down;
+    }
+    for (const Body& body : state.bodies) {
+        if (!is_cloth(body)) continue;
+        for (std::size_t i = body.first; i + body.row + 1 < body.first + body.count; ++i) {
+            const std::size_t below = i + body.row;
+            if (linked[i] != (right | down) || (linked[i + 1] & down) == 0 || (linked[below] & right) == 0)
+                continue;
+            whole[i] = 1;
+            triangles[i] += 1, triangles[i + 1] += 2, triangles[below] += 2, triangles[below + 1] += 1;
+        }
+    }
+}
+
 bool Plan::fits(const State& state) const noexcept {
     return particles_ == state.position.size() &&
            std::equal(state.links.begin(), state.links.end(), joined_.begin(), joined_.end(),
@@ -78,7 +111,7 @@ bool Plan::fits(const State& state) const noexcept {
            std::equal(state.bodies.begin(), state.bodies.end(), ranges_.begin(), ranges_.end(),
                       [](const Body& body, const Particles& range) {
                           return body.first == range.first && body.count == range.count &&
-                                 (body.tear > 0.0f) == range.tears;
+                                 row_of(body) == range.row && (body.tear > 0.0f) == range.tears;
                       });
 }
 

@@ -73,11 +73,15 @@ struct Plan {
 
     std::vector<std::uint32_t> nodes;
     std::vector<std::uint32_t> chunk_links;
+    /// Of each particle of a cloth: whether the cell that begins there has all stretch links around it, and
+    /// in how many triangles of such cells it is. A cell is two triangles. Empty without cloth.
+    std::vector<std::uint8_t> whole, triangles;
     std::uint32_t longest = 0;  ///< links in the longest chain
     bool tears = false;
 
   private:
     void find_chains(const State& state);
+    void find_triangles(const State& state);
     void cut_into_chunks(const State& state);
     void group_chains(std::size_t particles);
 
@@ -88,7 +92,7 @@ struct Plan {
         Link::Kind kind;
     };
     struct Particles {
-        std::size_t first, count;
+        std::size_t first, count, row;
         bool tears;
     };
     std::vector<Joined> joined_;     ///< links

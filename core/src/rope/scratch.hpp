@@ -27,6 +27,7 @@ struct Touch {
 struct Scratch {
     std::vector<glm::dvec3> place;   ///< current position of each particle
     std::vector<glm::dvec3> base;    ///< position without links and colliders
+    std::vector<glm::dvec3> blown;   ///< what the wind adds to `base`; empty without one
     std::vector<double> weight;      ///< inverse mass; 0: pinned
     std::vector<double> multiplier;  ///< of each link: tension times h^2
     std::vector<Touch> touch;

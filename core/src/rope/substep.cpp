@@ -47,7 +47,8 @@ Substep::Substep(State& state, const Plan& plan, const Plan::Island& island, Scr
       local_(local),
       report_(local.done),
       h_(state.settings.substep),
-      acceleration_(detail::acceleration(state.settings)) {}
+      acceleration_(detail::acceleration(state.settings)),
+      blows_(state.settings.wind != glm::vec3(0.0f)) {}
 
 void Substep::run(bool measures) {
     measures_ = measures;
@@ -107,6 +108,7 @@ void Substep::move_particles() {
                                     [](const Pin& each, std::size_t i) { return each.particle < i; });
         for (; pin != state_.pins.end() && pin->particle < body.first + body.count; ++pin) move_pin(*pin);
     }
+    if (blows_) blow();
     each_particle([&](std::size_t i) { scratch_.place[i] = scratch_.base[i]; });
     for (const std::uint32_t i : Plan::part(plan_.links, island_.links)) {
         scratch_.multiplier[i] = static_cast<double>(state_.links[i].tension) * (h_ * h_);

@@ -1,6 +1,9 @@
 // One fixed substep of one island. Not installed.
 #pragma once
 
+#include <array>
+#include <cstddef>
+
 #include "rope/scratch.hpp"
 #include "tendril/rope/world.hpp"
 
@@ -36,6 +39,15 @@ class Substep {
     void stay_in_the_world();
     void commit();
     int passes_allowed() const;
+
+    // wind.cpp
+    struct Air {
+        glm::dvec3 by;     ///< in the substep, metres
+        double gusts;      ///< their maximum, in the same unit
+        glm::dvec3 drift;  ///< since time 0, metres
+    };
+    void blow();
+    void blow_on(const std::array<std::size_t, 3>& corners, const Air& air);
 
     /// Of the island.
     template <class Visit>
@@ -101,6 +113,7 @@ class Substep {
     double damping_ = 1.0;  ///< of velocity, in the substep
     Slowed slowed_;
     glm::dvec3 acceleration_;
+    bool blows_;  ///< whether there is wind
 };
 
 /// The energy that particles and links gain in this substep, in joules.

@@ -23,9 +23,9 @@
 //   contacts and bending between the passes.
 //
 // Direct adds no energy: a body that gained some in a substep is slowed down until the gain is gone, in its
-// relative motion first, so that it keeps falling freely. Only moving colliders and pins do work. Near a
-// collider, Relaxation and Xpbd keep this bound too if the collider strikes the body or its links are within
-// 0.1 % of their lengths; a link further off holds energy that is not counted.
+// relative motion first, so that it keeps falling freely. Only moving colliders, pins and wind do work. Near
+// a collider, Relaxation and Xpbd keep this bound too if the collider strikes the body or its links are
+// within 0.1 % of their lengths; a link further off holds energy that is not counted.
 #pragma once
 
 #include <cstddef>
@@ -53,8 +53,14 @@ struct Settings {
     /// m/s^2, each coordinate up to max_acceleration.
     glm::vec3 gravity{0.0f, -9.81f, 0.0f};
     float gravity_scale = 1.0f;  ///< -max_scale to max_scale
-    /// Acceleration in addition to gravity, m/s^2: a wind.
+    /// Acceleration in addition to gravity, m/s^2.
     glm::vec3 external{0.0f};
+    /// Velocity of the air, m/s, each coordinate up to max_wind. It pushes cloth, not ropes or hair. At 0
+    /// there is no air: nothing resists.
+    glm::vec3 wind{0.0f};
+    /// Maximum of gusts relative to the wind, in each coordinate, 0 to 1. They drift with the wind, and are
+    /// always the same ones.
+    float gusts = 0.3f;
     /// Strain per newton, 1/N, 0 to max_compliance: how much a metre of rope stretches under one newton.
     /// Relaxation ignores it.
     float compliance = 0.0f;
@@ -74,8 +80,9 @@ inline constexpr int max_iterations = 10'000;
 /// would take more links and contacts than this. Bodies that no link joins share it by particles and links.
 inline constexpr std::size_t max_pass_work = std::size_t{1} << 16;
 inline constexpr int unbounded_passes = 16;
-inline constexpr float max_rate = 1e3f, max_acceleration = 1e4f, max_scale = 1e3f, max_compliance = 1e3f,
-                       max_friction = 100.0f, min_longest_frame = 1e-3f, max_longest_frame = 10.0f;
+inline constexpr float max_rate = 1e3f, max_acceleration = 1e4f, max_wind = 1e3f, max_scale = 1e3f,
+                       max_compliance = 1e3f, max_friction = 100.0f, min_longest_frame = 1e-3f,
+                       max_longest_frame = 10.0f;
 
 /// Refuses a setting out of range; the message names `operation`, the setting and its value.
 Result check(const char* operation, const Settings& settings) noexcept;

@@ -1,0 +1,186 @@
+// Wind on cloth: a flag flutters, a free cloth drifts, and no wind throws a cloth.
+#include "rope_support.hpp"
+
+namespace tendril::test {
+namespace {
+
+using rope::ClothShape;
+using rope::Link;
+using rope::Solver;
+
+/// A flag on a pole along y; it points along x. Its edge on the pole is its first row.
+void raise_flag(World& world, float length, int rows, ClothShape::Pins pins = ClothShape::Pins::Row) {
+    world.add_cloth("flag", {.corner = {0, 0, 0},
+                             .along = {0, -0.6f * length, 0},
+                             .down = {length, 0, 0},
+                             .columns = rows * 3 / 5,
+                             .rows = rows,
+                             .density = 0.2f,
+                             .shear = 0.05f,
+                             .bend = 0.003f,
+                             .pins = pins});
+}
+
+/// Of the middle of the flag's free edge, across the wind, over 6 s after 4 s.
+struct Flutter {
+    double amplitude = 0.0;  ///< metres, from its mean: root of the mean square
+    double frequency = 0.0;  ///< crossings of the mean, Hz
+    double height = 0.0;     ///< of the edge, metres, in the mean
+};
+
+Flutter flutter_of(World& world) {
+    const rope::Body& flag = *world.find("flag");
+    const std::size_t middle = flag.first + flag.count - flag.row / 2;
+    run(world, 4.0);
+    std::vector<double> z;
+    double height = 0.0;
+    const double seconds = 6.0, substep = world.settings().substep;
+    run_substeps(world, static_cast<int>(seconds / substep), [&] {
+        const std::vector<glm::dvec3>& at = world.state().position;
+        z.push_back(at[middle].z);
+        height += glm::distance(at[flag.first + flag.count - flag.row], at[flag.first + flag.count - 1]);
+    });
+    double mean = 0.0, square = 0.0;
+    for (const double each : z) mean += each / static_cast<double>(z.size());
+    int up = 0;
+    for (std::size_t i = 0; i < z.size(); ++i) {
+        square += (z[i] - mean) * (z[i] - mean) / static_cast<double>(z.size());
+        if (i > 0 && z[i - 1] < mean && z[i] >= mean) ++up;
+    }
+    return {std::sqrt(square), up / seconds, height / static_cast<double>(z.size())};
+}
+
+/// Flags beat with a Strouhal number, frequency times length over wind, of some tenths.
+TEST(RopeWind, FlagsFlutter) {
+    for (const float length : {0.5f, 1.0f, 2.0f}) {
+        for (const float wind : {3.0f, 6.0f, 12.0f}) {
+            World world = world_with({.wind = {wind, 0, 0}});
+            raise_flag(world, length, 15);
+            const Flutter flutter = flutter_of(world);
+            const double strouhal = flutter.frequency * length / wind;
+            const std::string which = std::to_string(length) + " m at " + std::to_string(wind) +
+                                      " m/s: " + std::to_string(flutter.amplitude) + " m, " +
+                                      std::to_string(flutter.frequency) + " Hz";
+            EXPECT_GE(flutter.height, 0.5 * 0.6 * length) << which << ": it does not crumple to a tip";
+            EXPECT_GE(strouhal, 0.05) << which;
+            EXPECT_LE(strouhal, 1.0) << which;
+            EXPECT_GE(flutter.amplitude, 0.02 * length) << which;
+            EXPECT_LE(flutter.amplitude, 0.5 * length) << which;
+            EXPECT_LE(stretch(world, "flag"), 0.02) << which;
+        }
+    }
+}
+
+/// Without gusts too, once it is out of its plane: the wind drives the waves.
+TEST(RopeWind, FluttersWithoutGusts) {
+    World world = world_with({.wind = {8, 0, 0.2f}, .gusts = 0.0f});
+    raise_flag(world, 1.0f, 20);
+    const Flutter flutter = flutter_of(world);
+    EXPECT_GE(flutter.amplitude, 0.01);
+    EXPECT_GE(flutter.frequency, 0.5);
+}
+
+TEST(RopeWind, ChangesNothingAtZero) {
+    World calm = world_with({}), still = world_with({.wind = glm::vec3(0.0f), .gusts = 1.0f});
+    for (World* world : {&calm, &still}) {
+        raise_flag(*world, 1.0f, 10);
+        run(*world, 2.0);
+    }
+    EXPECT_EQ(calm.state().position, still.state().position);
+}
+
+/// The frames that time passes in change nothing.
+TEST(RopeWind, IsTheSameHoweverTimeIsDivided) {
+    World whole = world_with({.wind = {5, 1, 2}}), parts = world_with({.wind = {5, 1, 2}});
+    raise_flag(whole, 1.0f, 10);
+    raise_flag(parts, 1.0f, 10);
+    run(whole, 1.0);
+    run_substeps(parts, 240, [] {});
+    EXPECT_EQ(whole.state().position, parts.state().position);
+}
+
+/// At rest there is nothing to see: a flag without wind hangs.
+TEST(RopeWind, AFlagHangsWithoutWind) {
+    World world = world_with({.damping = 2.0f});
+    raise_flag(world, 1.0f, 12);
+    run(world, 10.0);
+    EXPECT_LE(top_speed(world), 0.02);
+}
+
+/// As seen by a steady wind, no cloth gains energy: it ends up drifting along, never faster.
+TEST(RopeWind, TakesAFreeClothAlong) {
+    for (const Solver solver : all_solvers) {
+        for (const float wind : {1.0f, 20.0f, 1000.0f}) {
+            World world = world_with({.solver = solver,
+                                      .damping = 0.0f,
+                                      .gravity = glm::vec3(0.0f),
+                                      .wind = {0, 0, wind},
+                                      .gusts = 0.0f});
+            raise_flag(world, 1.0f, 10, ClothShape::Pins::None);
+            double fastest = 0.0;
+            run_substeps(world, 4 * 240, [&] { fastest = std::max(fastest, top_speed(world)); });
+            const std::string which = std::string(name(solver)) + " at " + std::to_string(wind);
+            EXPECT_LE(fastest, 1.05 * wind) << which;
+            EXPECT_GE(world.velocity(0).z, 0.5 * wind) << which;
+            EXPECT_LE(world.velocity(0).z, 1.05 * wind) << which;
+        }
+    }
+}
+
+/// Random winds that change at once, gusts at their maximum: a pinned flag is never faster than the air.
+/// Direct also keeps it within its reach, and once the wind stops only what its taut links hold becomes
+/// motion.
+TEST(RopeWind, NoWindThrowsAFlag) {
+    for (const Solver solver : all_solvers) {
+        Random random(3);
+        for (int round = 0; round < 12; ++round) {
+            World world = world_with({.solver = solver, .damping = 0.0f, .gusts = 1.0f});
+            raise_flag(world, 1.0f, 10);
+            const double most = std::pow(10.0, 1.0 + 0.5 * (round % 5));  // to 1000 m/s
+            double fastest = 0.0, farthest = 0.0;
+            for (int change = 0; change < 6; ++change) {
+                rope::Settings settings = world.settings();
+                for (int c = 0; c < 3; ++c) settings.wind[c] = random.around(static_cast<float>(most));
+                world.set_settings(settings);
+                run_substeps(world, 60, [&] {
+                    fastest = std::max(fastest, top_speed(world));
+                    for (const glm::dvec3& p : world.state().position)
+                        farthest = std::max(farthest, glm::length(p));
+                });
+            }
+            const std::string which = std::string(name(solver)) + " up to " + std::to_string(most);
+            ASSERT_TRUE(all_finite(world)) << which;
+            const double air = std::sqrt(3.0) * (1.0 + std::sqrt(3.0)) * most;
+            EXPECT_LE(fastest, air) << which;
+            if (solver != Solver::Direct) continue;  // the others stretch it
+            EXPECT_LE(farthest, 1.1 * std::hypot(1.0, 0.6)) << which;
+            rope::Settings settings = world.settings();
+            settings.wind = glm::vec3(0.0f);
+            world.set_settings(settings);
+            run_substeps(world, 2, [] {});
+            const double start = energy(world, "flag");
+            double gain = 0.0;
+            run_substeps(world, 240, [&] { gain = std::max(gain, energy(world, "flag") - start); });
+            EXPECT_LE(gain, 0.05 * std::max(std::abs(start), weight(world))) << which;  // taut links give way
+        }
+    }
+}
+
+/// Torn cells catch no wind.
+TEST(RopeWind, SurvivesTearing) {
+    World world = world_with({.wind = {60, 5, 20}, .gusts = 1.0f});
+    world.add_cloth("flag", {.along = {0, -1, 0},
+                             .down = {1, 0, 0},
+                             .columns = 12,
+                             .rows = 12,
+                             .tear = 0.02f,
+                             .pins = ClothShape::Pins::Corners});
+    const std::size_t links = world.state().links.size();
+    run(world, 4.0);
+    EXPECT_LT(world.state().links.size(), links);
+    EXPECT_TRUE(all_finite(world));
+    EXPECT_LE(top_speed(world), 300.0);
+}
+
+}  // namespace
+}  // namespace tendril::test
