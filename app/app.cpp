@@ -229,6 +229,8 @@ void App::take_shortcut(Emit& emit) {
     // In a field, a menu or a drag Esc only ends that and keeps the selection.
     if (chord.key == Key::Escape && !workspace_.ui.covered() && (taken || busy())) return;
     const Shortcut* shortcut = shortcuts_.find(chord, workspace_.lab);
+    // What is typed into an open list chooses there.
+    if (!chord.ctrl && ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopup)) return;
     // A held key repeats stepwise commands, but no toggles.
     if (shortcut != nullptr && input_.repeated() && !shortcut->repeats) return;
     if (shortcut == nullptr || (ui_.wants_text() && !shortcut->while_typing)) return;

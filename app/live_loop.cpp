@@ -46,7 +46,6 @@ class KeptAtExit {
 
 LiveLoop::LiveLoop(App& app, Window& window, const Options& options)
     : app_(app), window_(window), options_(options) {
-    app_.workspace().keeps = true;
     if (!options_.config || config_folder().empty()) {
         options_.config = false;
         return;
@@ -64,6 +63,7 @@ LiveLoop::LiveLoop(App& app, Window& window, const Options& options)
         app_.workspace().toast("Settings: " + complaint, ToastKind::Refusal);
     kept_ = app_.workspace().settings;
     app_.workspace().config = config_folder();
+    app_.workspace().keeps = true;
     for (const std::filesystem::path& file : Autosave::left_behind(config_folder()))
         app_.workspace().ui.recoverable.push_back({file, Autosave::title(file)});
     autosave_.emplace(config_folder());

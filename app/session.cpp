@@ -96,6 +96,7 @@ int run(const SessionOptions& options) {
     const auto window = make_window(options, size);
     if (!options.size && !script.start) window->fit_screen();
     App app(*window, options.headless);
+    app.workspace().names_pictures = !options.headless;
     // A recording has its own settings, which must not replace the user's.
     const bool config = options.config && !options.headless && !script.start;
     // Off screen the config folder is only used by commands.

@@ -36,7 +36,7 @@ void set_look(const Arguments& given, PictureLook& look) {
 }
 
 std::filesystem::path new_picture(const Workspace& workspace) {
-    if (!workspace.keeps) throw Refused("path is missing");
+    if (!workspace.names_pictures) throw Refused("path is missing");
     const std::string stem = workspace.path.empty() ? "tendril" : workspace.path.stem().string();
     for (int i = 1;; ++i) {
         const std::filesystem::path path =

@@ -112,7 +112,8 @@ struct Workspace {
     bool gesture_begins = true;  ///< the running command is the first of its drag, or not part of one
     Settings settings;
     std::filesystem::path config;  ///< folder for data kept between sessions; empty: none
-    bool keeps = false;            ///< gives new pictures a name: only in a live window
+    bool keeps = false;            ///< save it automatically: only in a live window
+    bool names_pictures = false;   ///< gives new pictures a name: only in a live window
     UiState ui;
     std::filesystem::path path;      ///< the scene's file; empty if it has none
     Document saved;                  ///< as last saved or opened

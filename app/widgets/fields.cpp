@@ -175,7 +175,7 @@ bool text_field(const char* name, std::string& value, const char* hint) {
     const bool entered =
         ImGui::InputTextWithHint(id.c_str(), hint, text.data(), text.size(),
                                  ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
-    if (entered) value = text.data();
+    value = text.data();  // also before Enter, for a button beside it
     return entered && !value.empty();
 }
 
@@ -211,9 +211,8 @@ bool vector_field(const char* name, glm::vec3& value, float speed, glm::vec3 low
 
 void keep_room(const char* id, float top) {
     float& room = *ImGui::GetStateStorage()->GetFloatRef(ImGui::GetID(id), 0.0f);
-    const float used = ImGui::GetCursorPosY() - top, first = ImGui::GetCursorScreenPos().y - used,
-                mouse = ImGui::GetIO().MousePos.y, gap = ImGui::GetStyle().ItemSpacing.y;
-    if (room > used + gap && ImGui::IsWindowHovered() && mouse >= first && mouse < first + room)
+    const float used = ImGui::GetCursorPosY() - top, gap = ImGui::GetStyle().ItemSpacing.y;
+    if (room > used + gap && ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem))
         ImGui::Dummy({0.0f, room - used - gap});
     else
         room = used;

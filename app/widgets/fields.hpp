@@ -35,7 +35,7 @@ bool point_field(const char* name, glm::vec3& value, float speed, float most = 1
 /// The name on its own line, with three fields side by side below it.
 bool vector_field(const char* name, glm::vec3& value, float speed, glm::vec3 low, glm::vec3 high,
                   const char* format);
-/// Keeps the height of the rows below `top`, a cursor position in the window, while the mouse is over them: a
+/// Keeps the height of the rows below `top`, a cursor position in the window, while the mouse is in it: a
 /// click that removes a row must not bring what follows under the mouse.
 void keep_room(const char* id, float top);
 /// `why_not`, if given, has one entry per choice: null if it can be chosen, else the reason shown beside the

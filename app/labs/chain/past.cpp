@@ -200,8 +200,9 @@ FlipReason reason_of(const ChainPart& before, const ChainPart& after) {
     if (pole.passed) return passed_pole;
     if (after.result->report.restarts > 0)
         return {"the solver restarted from another pose", "Without restarts it keeps to the pose it is in."};
-    if (limit_switched(before, after)) return {"a limit switched sides", ""};
-    if (was_straight(was, is, reach)) return collinear_reason(is, reach);
+    if (limit_switched(before, after))
+        return {"a limit switched sides", "Narrow that limit: both its ends are equally good here."};
+    if (was_straight(was, is, reach)) return collinear_reason(was, is, reach);
     if (pole.close) return close_to_pole;
     return {"the solver switched to another pose that the target allows",
             "Add a pole target, or limits: they leave it fewer poses."};

@@ -126,8 +126,9 @@ bool was_straight(const ReachPose& before, const ReachPose& after, float reach) 
     return std::min(bend(before.joints), bend(after.joints)) < straight * reach;
 }
 
-const FlipReason& collinear_reason(const ReachPose& after, float reach) {
-    return glm::distance(after.root(), after.joints.back()) < 0.5f * reach ? folded_chain : straight_chain;
+const FlipReason& collinear_reason(const ReachPose& before, const ReachPose& after, float reach) {
+    const ReachPose& flat = bend(before.joints) <= bend(after.joints) ? before : after;
+    return glm::distance(flat.root(), flat.joints.back()) < 0.5f * reach ? folded_chain : straight_chain;
 }
 
 }  // namespace tendril::app

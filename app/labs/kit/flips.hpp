@@ -92,6 +92,6 @@ PolePassage pole_passage(const ReachPose& before, const ReachPose& after);
 /// root to tip.
 bool was_straight(const ReachPose& before, const ReachPose& after, float reach);
 /// What such a chain was: straight, or folded if its tip was within half its reach of the root.
-const FlipReason& collinear_reason(const ReachPose& after, float reach);
+const FlipReason& collinear_reason(const ReachPose& before, const ReachPose& after, float reach);
 
 }  // namespace tendril::app

@@ -386,7 +386,7 @@ Cause by_reach(const Both& both, const rig::Item& root, const rig::Item& tip) {
     if (went_through_root(*was, *is, reach)) return through_root.cause;
     const PolePassage pole = pole_passage(*was, *is);
     if (pole.passed) return passed_pole.cause;
-    if (was_straight(*was, *is, reach)) return collinear_reason(*is, reach).cause;
+    if (was_straight(*was, *is, reach)) return collinear_reason(*was, *is, reach).cause;
     if (pole.close) return close_to_pole.cause;
     return std::nullopt;
 }

@@ -5,6 +5,7 @@
 
 #include "app/app.hpp"
 #include "app/document/json_complete.hpp"
+#include "app/document/scene_file.hpp"
 #include "app/labs/card.hpp"
 #include "app/opening.hpp"
 #include "app/view/assets.hpp"
@@ -65,6 +66,13 @@ TEST_P(Openings, move_for_ten_seconds_and_leave_nothing_to_save_or_undo) {
     EXPECT_FALSE(workspace().history.can_undo());
     EXPECT_TRUE(opens());
     for (const Toast& toast : workspace().ui.toasts) EXPECT_NE(toast.kind, ToastKind::Refusal) << toast.text;
+}
+
+TEST_P(Openings, are_not_saved_unless_shown) {
+    wait(30);
+    const Json labs = save_scene(workspace())["labs"];
+    EXPECT_EQ(labs.size(), 1u);
+    EXPECT_TRUE(labs.contains(GetParam()));
 }
 
 TEST_P(Openings, end_at_the_first_change_which_alone_can_be_undone) {

@@ -4,9 +4,11 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "app/app.hpp"
 #include "tests/app/support/apng.hpp"
 #include "tests/app/support/frame_record.hpp"
 #include "tests/app/support/play.hpp"
@@ -216,6 +218,28 @@ TEST(RaceStrip, ScrubsPlaysAndStepsByMouseAndKeys) {
     EXPECT_GT(half, 0);
     EXPECT_LT(half, last);
     EXPECT_EQ(shown(opened_race().command("race.play").wait(16)), 1) << "four a second";
+}
+
+/// A window that nothing moves in draws nothing: the end of the race must be drawn before.
+TEST(RaceStrip, ShowsItsEndWithoutAMoveOfTheMouse) {
+    const std::unique_ptr<app::Window> window = app::open_offscreen({1280, 720});
+    app::App app(*window);
+    app.run({"chain.preset", Json{{"name", "start"}}});
+    app.run({"chain.mode", Json{{"mode", "reach"}}});
+    app.run({"chain.target", Json{{"to", {2, 3, 1}}}});
+    app.run({"race.open", Json{{"start", "straight"}}});
+    app.run({"race.play", Json{{"pace", 30}}});
+    FrameRecorder recorder;
+    for (int i = 0; i < 4000 && app.needs_ticks(); ++i) app.tick(nullptr);
+    ASSERT_FALSE(app.needs_ticks());
+    const auto texts = [&] {
+        std::vector<std::string> all;
+        for (const DrawnText& each : recorder.frame().texts) all.push_back(each.text);
+        return all;
+    };
+    const std::vector<std::string> last = texts();
+    app.settle();
+    EXPECT_EQ(last, texts());
 }
 
 /// In a narrow view numbers are left to the inspector: the legend would cover the chains.

@@ -92,6 +92,8 @@ class ChainIncidents : public ChainTest {
                        (std::abs(mark->degrees - turn.degrees) > 0.1f || !jumped(was, mark->joint, turn))) {
                 gesture.problem = where + "joint " + std::to_string(mark->joint) + " instead of " +
                                   std::to_string(turn.joint);
+            } else if (mark && mark->cure.empty()) {
+                gesture.problem = where + "no cure for \"" + mark->cause + "\"";
             } else if (mark && mark->cause != cause && mark->cause != also_) {
                 gesture.problem = where + "\"" + mark->cause + "\" instead of \"" + cause + "\"";
             }

@@ -50,7 +50,7 @@ TEST_F(ChainInspector, shows_the_step_that_is_under_the_microscope) {
     expect_says("bone in this step " + metres(bone, "%.3f m"));
     expect_says("x " + metres(joints[4].x, "%.3f m"));
     expect_says("y " + metres(joints[4].y, "%.3f m"));
-    expect_silent_about("Converged");
+    expect_silent_about("Reached");
     EXPECT_EQ(state()["microscope"]["residual"], number(residual));
     EXPECT_EQ(state()["microscope"]["lengths"][4], number(bone));
     EXPECT_EQ(state()["microscope"]["lengths"][2], 1.0);
@@ -63,7 +63,7 @@ TEST_F(ChainInspector, shows_the_step_that_is_under_the_microscope) {
 
     // The last step is the end of the solve, whose report is shown.
     run("microscope.seek", {{"step", trace.frames()}});
-    expect_says("Converged");
+    expect_says("Reached");
     expect_says("tip to target " + metres(part().result->report.residual, "%.4f m"));
     expect_says("x " + metres(part().chain.position(4).x, "%.3f m"));
 }

@@ -51,6 +51,21 @@ class ChainRace : public ChainTest {
     }
 };
 
+/// FABRIK, accelerated, bends a straight chain before its first iteration; the race shows the start all the
+/// same.
+TEST_F(ChainRace, AllStandAtTheStartBeforeTheFirstIteration) {
+    race_of(6);
+    run("chain.target", {{"to", {2, 0, 0}}});
+    run("race.show", {{"iteration", 0}});
+    const std::vector<glm::vec3> start = part().study.start;
+    const float from_target = glm::distance(start.back(), part().target);
+    for (const Json& racer : state()["race"]) {
+        if (racer["shown"]["finished"] == true) continue;  // without iterations
+        EXPECT_EQ(points(racer["shown"]["positions"]), start) << racer;
+        EXPECT_EQ(racer["shown"]["residual"], number(from_target)) << racer;
+    }
+}
+
 /// A solve that is cut off ends with its best pose, so only iterations that are the best so far compare.
 TEST_F(ChainRace, AnIterationIsTheLibrarysWithAsManyIterations) {
     int compared = 0;

@@ -30,6 +30,21 @@ TEST_F(RopeVerdict, SaysWhetherLengthsHold) {
     EXPECT_TRUE(said().starts_with("Lengths off by ")) << said();
 }
 
+TEST_F(RopeVerdict, OfElasticRopesAsksForNothing) {
+    for (const char* how : {"compliance", "stretch"}) {
+        run("rope.clear");
+        run("rope.settings", {{"compliance", 0}});
+        run("rope.add", {{"name", "line"}, {"from", {0, 2, 0}}, {"to", {1, 2, 0}}, {"pin_start", true}});
+        if (how == std::string("compliance"))
+            run("rope.settings", {{"compliance", 0.05}});
+        else
+            run("rope.set", {{"rope", "line"}, {"stretch", 0.005}});
+        wait(120);
+        EXPECT_TRUE(said().starts_with("Stretched by ")) << how << ": " << said();
+        EXPECT_TRUE(test::says(state()["why"], "stretch compliance")) << state()["why"];
+    }
+}
+
 TEST_F(RopeVerdict, SaysWhenPinsAreFurtherApartThanABodyReaches) {
     run("rope.clear");
     run("rope.add",

@@ -143,8 +143,9 @@ void finding_row(const HumanoidPanel& panel, const Finding& finding, int id) {
     const ImVec2 after = ImGui::GetCursorPos();
     const std::string value = amount(finding);
     ImGui::SetCursorPos(at);
-    ImGui::TextUnformatted(fault_title(finding.fault));
-    ImGui::SetCursorPos({at.x + width - ImGui::CalcTextSize(value.c_str()).x, at.y});
+    const float amount_width = ImGui::CalcTextSize(value.c_str()).x;
+    ImGui::TextUnformatted(elided(fault_title(finding.fault), width - amount_width - 0.4f * em).c_str());
+    ImGui::SetCursorPos({at.x + width - amount_width, at.y});
     ImGui::TextUnformatted(value.c_str());
     ImGui::SetCursorPos({at.x, at.y + 1.1f * line});
     ImGui::TextDisabled("%s", elided(where, width - mend - 0.4f * em).c_str());
