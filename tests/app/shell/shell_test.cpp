@@ -20,7 +20,7 @@ bool accepted_somewhere(const Labs& labs, const CommandTable& table, const Short
     const Lab& lab = shortcut.lab.empty() ? *labs.all().front() : *labs.find(shortcut.lab);
     for (const TestScene& scene : lab.test_scenes()) {
         Workspace workspace = make_blank_workspace(labs);
-        workspace.keeps = true;  // shortcuts belong to a window
+        workspace.names_pictures = true;  // shortcuts belong to a window
         workspace.open_lab(lab.name());
         for (const CommandCall& command : scene.commands)
             table.run(workspace, command.name, to_json(command.arguments));
