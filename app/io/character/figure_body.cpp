@@ -149,9 +149,9 @@ class FigureBody {
         }
         SkinBuilder::Corners corners;
         corners.influences.reserve(surface.positions.size());
-        for (const vec3& each : surface.positions) {
+        for (std::size_t i = 0; i < surface.positions.size(); ++i) {
             std::vector<std::pair<std::size_t, double>> by;
-            for (const auto& [bone, weight] : weights(each))
+            for (const auto& [bone, weight] : weights(surface.positions[i], surface.groups[i]))
                 by.emplace_back(joints[static_cast<std::size_t>(bone)], weight);
             corners.influences.push_back(std::move(by));
         }
@@ -241,8 +241,8 @@ class FigureBody {
     }
     vec3 way(Bone from, Bone to) const { return glm::normalize(at(to) - at(from)); }
 
-    Weights weights(const vec3& point) const {
-        const auto distance = field_.groups(point);
+    /// `distance`: of each group.
+    Weights weights(const vec3& point, const BodyField::Distances& distance) const {
         std::array<float, 5> part{};
         float limbs = 0.0f;
         for (std::size_t i = LeftArm; i <= RightLeg; ++i) {

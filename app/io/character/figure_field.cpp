@@ -58,16 +58,21 @@ void BodyField::add_chain(std::size_t group, std::span<const BodySection> sectio
     ++chains_;
 }
 
-/// To first order: the value over the length of its gradient.
-float BodyField::cone_distance(const Cone& cone, const vec3& point) const {
-    const vec3 offset = point - cone.from;
-    const float u = std::clamp(glm::dot(offset, cone.way) * cone.inverse_square, 0.0f, 1.0f);
-    vec3 away = offset - u * cone.way;
-    away += cone.flat * (glm::dot(away, cone.flat) * (cone.ratio - 1.0f));
-    const vec3 gradient = away + cone.flat * (glm::dot(away, cone.flat) * (cone.ratio - 1.0f));
-    const float length = glm::length(away);
+/// To first order: the value over the length of its gradient. In plain numbers: it is computed a million
+/// times, also in builds that inline nothing.
+float BodyField::cone_distance(const Cone& cone, const vec3& point) {
+    float x = point.x - cone.from.x, y = point.y - cone.from.y, z = point.z - cone.from.z;
+    const vec3 &way = cone.way, &flat = cone.flat;
+    const float along = (x * way.x + y * way.y + z * way.z) * cone.inverse_square,
+                u = along < 0.0f ? 0.0f : (along > 1.0f ? 1.0f : along);
+    x -= u * way.x, y -= u * way.y, z -= u * way.z;
+    const float flatter = cone.ratio - 1.0f, by = flatter * (x * flat.x + y * flat.y + z * flat.z);
+    x += by * flat.x, y += by * flat.y, z += by * flat.z;
+    const float length = std::sqrt(x * x + y * y + z * z), again = by * cone.ratio;
+    x += again * flat.x, y += again * flat.y, z += again * flat.z;
+    const float gradient = std::sqrt(x * x + y * y + z * z);
     const float radius = cone.from_radius + u * (cone.to_radius - cone.from_radius);
-    return (length - radius) * length / std::max(glm::length(gradient), 1e-9f);
+    return (length - radius) * length / (gradient > 1e-9f ? gradient : 1e-9f);
 }
 
 /// The smaller of two distances, rounded where they differ by less than `over`.
@@ -88,9 +93,6 @@ BodyField::Distances BodyField::groups(const vec3& point, std::span<const std::u
     }
     return all;
 }
-BodyField::Distances BodyField::groups(const vec3& point) const {
-    return groups(point, all_);
-}
 
 float BodyField::distance(const vec3& point, std::span<const std::uint16_t> near) const {
     const Distances all = groups(point, near);
@@ -99,16 +101,19 @@ float BodyField::distance(const vec3& point, std::span<const std::uint16_t> near
     return -melted(-body, point.y - floor, 0.4f * blend);
 }
 
-float BodyField::near(const vec3& point, float radius, std::vector<std::uint16_t>& cones) const {
-    cones.clear();
+float BodyField::near(const vec3& point, float radius, std::span<const std::uint16_t> among,
+                      std::vector<std::uint16_t>& cones) const {
     static thread_local std::vector<float> distances;
-    distances.resize(cones_.size());
+    distances.clear();
     float nearest = 1e9f;
-    for (std::size_t i = 0; i < cones_.size(); ++i)
-        nearest = std::min(nearest, distances[i] = cone_distance(cones_[i], point));
-    const float far = nearest + 2.5f * radius + blend;
-    for (const std::uint16_t i : all_)
-        if (distances[i] < far) cones.push_back(i);
+    for (const std::uint16_t i : among) {
+        distances.push_back(cone_distance(cones_[i], point));
+        nearest = std::min(nearest, distances.back());
+    }
+    cones.clear();
+    const float far = nearest + 2.5f * radius + 2.0f * blend;
+    for (std::size_t i = 0; i < among.size(); ++i)
+        if (distances[i] < far) cones.push_back(among[i]);
     return nearest;
 }
 
@@ -124,22 +129,25 @@ void BodyField::bounds(vec3& low, vec3& high) const {
 
 namespace {
 
-/// BodySurface nets over a grid whose blocks far from the surface are skipped.
+/// Surface nets over a grid; blocks far from the surface are skipped.
 class BodyNet {
   public:
     BodyNet(const BodyField& field, float cell) : field_(field), cell_(cell) {
         vec3 high;
         field.bounds(low_, high);
         // A corner of the grid at x = 0: a symmetric body gets a symmetric net.
-        low_.x = -cell * block * std::ceil(-low_.x / (cell * block));
-        size_ = ivec3(glm::ceil((high - low_) / (cell * block))) * block + 1;
+        low_.x = -cell * tile * std::ceil(-low_.x / (cell * tile));
+        size_ = ivec3(glm::ceil((high - low_) / (cell * tile))) * tile + 1;
         values_.assign(static_cast<std::size_t>(size_.x * size_.y * size_.z), 1.0f);
         blocks_ = (size_ - 1) / block;
         near_.resize(static_cast<std::size_t>(blocks_.x * blocks_.y * blocks_.z));
     }
 
     BodySurface made() {
-        each_block([&](const ivec3& at) { sign_block(at); });
+        for (int z = 0; z + 1 < size_.z; z += tile)
+            for (int y = 0; y + 1 < size_.y; y += tile)
+                for (int x = 0; x + 1 < size_.x; x += tile) divide({x, y, z}, tile, field_.all());
+        filled_.assign(values_.size(), 0);
         each_block([&](const ivec3& at) { fill_block(at); });
         for (int pass = 0; pass < 8 && untangle(); ++pass) {
         }
@@ -147,11 +155,13 @@ class BodyNet {
         each_block([&](const ivec3& at) { add_corners(at); });
         each_block([&](const ivec3& at) { add_faces(at); });
         for (int pass = 0; pass < 3; ++pass) relax();
+        for (std::size_t i = 0; i < cones_of_.size(); ++i)
+            surface_.groups.push_back(field_.groups(surface_.positions[i], *cones_of_[i]));
         return std::move(surface_);
     }
 
   private:
-    static constexpr int block = 4;  // cells along a side of a block
+    static constexpr int block = 2, tile = 16;  // cells along a side
     static constexpr std::uint32_t no_corner = ~0u;
 
     template <class Do>
@@ -180,21 +190,28 @@ class BodyNet {
     }
     vec3 point(const ivec3& at) const { return low_ + cell_ * vec3(at); }
 
-    void sign_block(const ivec3& at) {
-        const float radius = 0.5f * block * cell_ * 1.7320508f;
-        auto& cones = near(at);
-        const vec3 middle = point(block * at) + 0.5f * block * cell_;
-        const float away = field_.near(middle, radius, cones);
-        const bool outside = away > 1.3f * radius + field_.blend;
-        if (!outside && !(away < -1.6f * radius && middle.y - field_.floor > 2.0f * radius)) return;
-        cones.clear();
-        each_of(block * at, block + 1, [&](const ivec3& i) { values_[index(i)] = outside ? 1.0f : -1.0f; });
+    /// Finds the blocks near the surface and the cones that count there; elsewhere only the sign.
+    void divide(const ivec3& at, int side, std::span<const std::uint16_t> among) {
+        const float radius = 0.5f * static_cast<float>(side) * cell_ * 1.7320508f;
+        const vec3 middle = point(at) + 0.5f * static_cast<float>(side) * cell_;
+        std::vector<std::uint16_t> cones;
+        const float away = field_.near(middle, radius, among, cones);
+        if (away > 1.3f * radius + field_.blend) return;
+        if (away < -1.6f * radius && middle.y - field_.floor > 2.0f * radius)
+            return each_of(at, side + 1, [&](const ivec3& i) { values_[index(i)] = -1.0f; });
+        if (side == block) {
+            near(at / block) = std::move(cones);
+            return;
+        }
+        each_of(ivec3(0), 2, [&](const ivec3& i) { divide(at + side / 2 * i, side / 2, cones); });
     }
     void fill_block(const ivec3& at) {
         const auto& cones = near(at);
         if (cones.empty()) return;
-        each_of(block * at, block + 1,
-                [&](const ivec3& i) { values_[index(i)] = field_.distance(point(i), cones); });
+        each_of(block * at, block + 1, [&](const ivec3& i) {
+            if (std::exchange(filled_[index(i)], 1) == 0)
+                values_[index(i)] = field_.distance(point(i), cones);
+        });
     }
 
     /// Two opposite corners of a square inside and two outside would join two sheets in one edge: takes the
@@ -308,6 +325,7 @@ class BodyNet {
     vec3 low_{0.0f};
     ivec3 size_{0}, blocks_{0};
     std::vector<float> values_{};
+    std::vector<char> filled_{};  ///< whether the value is a distance, not only a sign
     std::vector<std::uint32_t> corner_of_{};
     std::vector<std::vector<std::uint16_t>> near_{};             ///< cones, of each block
     std::vector<const std::vector<std::uint16_t>*> cones_of_{};  ///< of each corner of the surface

@@ -30,10 +30,12 @@ class BodyField {
 
     /// About the distance from the surface, negative inside. `near`: the cones that count here.
     float distance(const glm::vec3& point, std::span<const std::uint16_t> near) const;
-    /// Of each group alone.
-    Distances groups(const glm::vec3& point) const;
-    /// The cones that count within `radius` of the point, and the distance there.
-    float near(const glm::vec3& point, float radius, std::vector<std::uint16_t>& cones) const;
+    /// Of each group alone; over 1e8 if none of its cones is near.
+    Distances groups(const glm::vec3& point, std::span<const std::uint16_t> near) const;
+    std::span<const std::uint16_t> all() const { return all_; }
+    /// Those of `among` that count within `radius` of the point; returns the distance there.
+    float near(const glm::vec3& point, float radius, std::span<const std::uint16_t> among,
+               std::vector<std::uint16_t>& cones) const;
     /// A box around everything.
     void bounds(glm::vec3& low, glm::vec3& high) const;
 
@@ -43,9 +45,8 @@ class BodyField {
         float inverse_square, from_radius, to_radius, ratio;
         std::uint16_t chain, group;
     };
-    float cone_distance(const Cone& cone, const glm::vec3& point) const;
+    static float cone_distance(const Cone& cone, const glm::vec3& point);
     static float melted(float a, float b, float over);
-    Distances groups(const glm::vec3& point, std::span<const std::uint16_t> near) const;
 
     std::vector<Cone> cones_{};
     std::vector<std::uint16_t> all_{};
@@ -54,7 +55,8 @@ class BodyField {
 
 struct BodySurface {
     std::vector<glm::vec3> positions{}, normals{};
-    std::vector<std::uint32_t> indices{};  ///< counter-clockwise, seen from outside
+    std::vector<std::uint32_t> indices{};        ///< counter-clockwise, seen from outside
+    std::vector<BodyField::Distances> groups{};  ///< of each group alone, at each position
 };
 
 /// The field's surface, closed, from a grid of cubes of that size.

@@ -292,12 +292,15 @@ humanoid::Clip make_punch(const Skeleton& skeleton) {
 
 }  // namespace
 
-Character stick_figure() {
-    Character character;
-    character.skeleton = make_skeleton();
-    character.clips = {make_walk(character.skeleton), make_punch(character.skeleton)};
-    character.skin = figure_body(character.skeleton, bone_map(character));
-    return character;
+const Character& stick_figure() {
+    static const Character figure = [] {
+        Character character;
+        character.skeleton = make_skeleton();
+        character.clips = {make_walk(character.skeleton), make_punch(character.skeleton)};
+        character.skin = figure_body(character.skeleton, bone_map(character));
+        return character;
+    }();
+    return figure;
 }
 
 }  // namespace tendril::app

@@ -41,7 +41,7 @@ SharedCharacter shared(std::string file, std::string path, Character character) 
 
 SharedCharacter load_character(const std::string& file, LoadProgress* progress) {
     if (file.empty()) {
-        static const SharedCharacter figure = shared({}, {}, stick_figure());  // 4 ms, and always the same
+        static const SharedCharacter figure = shared({}, {}, stick_figure());
         return figure;
     }
     return shared(file, std::filesystem::absolute(file).lexically_normal().string(),
