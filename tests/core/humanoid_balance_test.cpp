@@ -96,6 +96,22 @@ TEST_F(HumanoidBalance, TwoFeetSupportTheRestPose) {
     EXPECT_EQ(support.nearest({0.0, 1.0, 0.0}), glm::dvec3(0.0, 1.0, 0.0));
 }
 
+TEST_F(HumanoidBalance, ARotationIsBlendedInOnceHoweverLongItIsHeld) {
+    const auto turned = [&](bool balance, int frames) {
+        BodyTarget foot{.effector = Effector::LeftFoot,
+                        .position = at(Bone::LeftFoot, rest),
+                        .rotation = glm::angleAxis(0.6, glm::dvec3(0.0, 1.0, 0.0)),
+                        .weight = 0.3};
+        const auto pose = reach({foot}, balance, frames).pose;
+        const auto node = static_cast<std::size_t>(map[Bone::LeftFoot].node);
+        const glm::dquat now = placed(pose)[node].rotation(), was = placed(rest)[node].rotation();
+        return 2.0 * std::acos(std::min(1.0, std::abs((now * glm::conjugate(was)).w)));
+    };
+    const double once = turned(false, 60);
+    EXPECT_GT(once, 0.05);
+    for (const int frames : {1, 10, 60}) EXPECT_NEAR(turned(true, frames), once, 0.02) << frames;
+}
+
 TEST_F(HumanoidBalance, ARisingFootLeavesTheSupportWithoutAJump) {
     double before = 0.0;
     for (int i = 0; i <= 200; ++i) {

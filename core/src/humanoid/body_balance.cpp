@@ -54,6 +54,7 @@ void BodySolve::roll_feet() noexcept {
         const std::size_t side = left ? 0 : 1;
         Link& link = end_of(goal.effector);
         const glm::dquat above = work_.links[static_cast<std::size_t>(link.parent)].rotation;
+        link.rotation = math::compose(above, link.own);  // a rotation is blended in once, not at each round
         link.turn = math::compose(conjugate(above), rotation_of_end(goal));
         clamp_turn(link);
         link.rotation = math::compose(above, link.turn);

@@ -282,6 +282,9 @@ void BodySolve::turn_end(const Goal& goal) noexcept {
     Link& link = end_of(goal.effector);
     if (link.parent < 0) return;
     Link& before = work_.links[static_cast<std::size_t>(link.parent)];
+    const bool foot = goal.effector == static_cast<std::size_t>(Effector::LeftFoot) ||
+                      goal.effector == static_cast<std::size_t>(Effector::RightFoot);
+    if (foot && balances_) link.rotation = math::compose(before.rotation, link.own);  // as roll_feet() does
     link.turn = math::compose(conjugate(before.rotation), rotation_of_end(goal));
     if (goal.effector == static_cast<std::size_t>(Effector::LeftHand) ||
         goal.effector == static_cast<std::size_t>(Effector::RightHand)) {

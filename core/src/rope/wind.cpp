@@ -3,8 +3,9 @@
 // it, so that a flag flutters; gusts start the waves.
 //
 // The air's force is a drag on the motion relative to it, applied implicitly: in a substep a triangle covers
-// a part of the difference, never more. Added up over the triangles of a cloth, this cannot raise its kinetic
-// energy as seen by the air, in however strong a wind. The ledger counts the work of the wind (energy.cpp).
+// a part of the difference, never more. Added up over the triangles of a cloth without pins, this cannot
+// raise its kinetic energy as seen by the air, in however strong a wind. The ledger counts the work of the
+// wind (energy.cpp).
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -26,7 +27,7 @@ constexpr double eddy = 1.0;  // metres: the distance over which gusts differ
 /// A random number from -1 to 1 in each coordinate: the gust at a corner of the lattice of eddies.
 dvec3 corner_gust(std::uint64_t x, std::uint64_t y, std::uint64_t z) {
     // The finaliser of MurmurHash3 (A. Appleby, public domain).
-    std::uint64_t bits = (x << 42) ^ (y << 21) ^ z;
+    std::uint64_t bits = (x << 42) ^ (y << 21) ^ z ^ 0x9e3779b97f4a7c15ULL;
     bits = (bits ^ (bits >> 33)) * 0xff51afd7ed558ccdULL;
     bits = (bits ^ (bits >> 33)) * 0xc4ceb9fe1a85ec53ULL;
     bits ^= bits >> 33;
@@ -38,12 +39,13 @@ dvec3 corner_gust(std::uint64_t x, std::uint64_t y, std::uint64_t z) {
 
 /// Smooth noise from -1 to 1 in each coordinate, with one value per unit of length.
 dvec3 smooth_gust(const dvec3& at) {
-    constexpr double period = 1 << 20;
+    constexpr std::uint64_t period = 1u << 20;
+    constexpr auto lap = static_cast<double>(period);
     std::uint64_t cell[3];
     double part[3];
     for (int c = 0; c < 3; ++c) {
         const double whole = std::floor(at[c]), from = at[c] - whole;
-        cell[c] = static_cast<std::uint64_t>(whole - period * std::floor(whole / period));
+        cell[c] = static_cast<std::uint64_t>(whole - lap * std::floor(whole / lap));
         part[c] = from * from * (3.0 - 2.0 * from);
     }
     dvec3 sum(0.0);
@@ -51,7 +53,7 @@ dvec3 smooth_gust(const dvec3& at) {
         const unsigned x = k & 1, y = k >> 1 & 1, z = k >> 2;
         const double weight = (x != 0 ? part[0] : 1.0 - part[0]) * (y != 0 ? part[1] : 1.0 - part[1]) *
                               (z != 0 ? part[2] : 1.0 - part[2]);
-        sum += weight * corner_gust(cell[0] + x, cell[1] + y, cell[2] + z);
+        sum += weight * corner_gust((cell[0] + x) % period, (cell[1] + y) % period, (cell[2] + z) % period);
     }
     return sum;
 }
