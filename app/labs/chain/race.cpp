@@ -43,28 +43,39 @@ namespace {
 constexpr int timings = 5;
 
 /// Records the pose and the residual after each iteration, and whether the best pose was restored at the end.
-/// Iteration 0 is the common start, before a solver prepares the chain in its own way: FABRIK, accelerated,
-/// bends a straight one.
+/// Iteration 0 is the common start, not what a solver makes of it before its first iteration: FABRIK,
+/// accelerated, bends a straight chain there.
 class Watch final : public ik::Observer {
   public:
-    Watch(Racer& racer, const std::vector<glm::vec3>& start, float residual)
-        : racer_(racer), joints_(start), start_(start), residual_(residual) {}
+    Watch(Racer& racer, const std::vector<glm::vec3>& start, float residual) : racer_(racer), joints_(start) {
+        add(joints_, residual);
+    }
     void step(const ik::Step& step) noexcept override {
         joints_[step.joint] = step.to;
         if (step.phase == ik::Phase::RestoreBest) racer_.restored = true;
     }
-    void iteration_done(int, float residual) noexcept override {
-        const bool first = racer_.residuals.empty();
-        racer_.residuals.push_back(first ? residual_ : residual);
-        racer_.poses.add(first ? start_ : joints_);
+    void iteration_done(int iteration, float residual) noexcept override {
+        if (iteration > 0) add(joints_, residual);
         racer_.restored = false;  // the solver went on from the restored pose
+    }
+    /// A chain that only had to be stretched towards its target has moved without an iteration.
+    void finish() {
+        if (racer_.residuals.size() == 1 && racer_.joints != joints_at_start())
+            add(racer_.joints, racer_.report.residual);
     }
 
   private:
+    std::vector<glm::vec3> joints_at_start() const {
+        const std::span<const glm::vec3> start = racer_.poses.at(0);
+        return {start.begin(), start.end()};
+    }
+    void add(std::span<const glm::vec3> joints, float residual) {
+        racer_.residuals.push_back(residual);
+        racer_.poses.add(joints);
+    }
+
     Racer& racer_;
     std::vector<glm::vec3> joints_;
-    const std::vector<glm::vec3>& start_;
-    float residual_;  ///< of the start, metres
 };
 
 Racer run(ik::Method method, const Chain& chain, const ReachSettings& settings, glm::vec3 target,
@@ -77,15 +88,14 @@ Racer run(ik::Method method, const Chain& chain, const ReachSettings& settings, 
     ReachSettings each = settings;
     const ik::State begin = state_for(each, solver.bones());
     const ik::Options options = solver_options(each, solver.reach());
-    const float from_target = glm::distance(start.back(), target);
-    Watch watch(racer, start, from_target);
+    Watch watch(racer, start, glm::distance(start.back(), target));
     const auto solve = [&](ik::Observer* observer) {
         racer.joints = start;
         each.state = begin;
         racer.report = solver.solve(method, racer.joints, each.state, target, options, observer);
     };
     solve(&watch);
-    if (racer.residuals.empty()) racer.residuals = {from_target};
+    watch.finish();
     for (int i = 0; i < timings; ++i) {
         const auto from = Clock::now();
         solve(nullptr);

@@ -54,7 +54,9 @@ void record_race(Workspace& workspace, const Arguments& given) {
     const double frames = std::ceil(static_cast<double>(last) * frames_per_second / pace) + 1.0 + end_frames;
     if (frames > max_frames)
         throw Refused("pace must be at least " +
-                      std::to_string(static_cast<int>(std::ceil(static_cast<double>(last) / 600.0))) +
+                      fixed_text(0.01 * std::ceil(100.0 * static_cast<double>(last) * frames_per_second /
+                                                  (max_frames - 1.0 - end_frames)),
+                                 2) +
                       " for a race of " + std::to_string(last) +
                       " iterations: a film lasts up to 10 minutes");
     VideoRequest wanted = film_request(workspace, given);
