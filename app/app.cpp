@@ -175,7 +175,10 @@ Pointer::Scene App::pointed_at(const Pane& pane, const Camera& camera) const {
 void App::take_event(const Event& event, Emit& emit) {
     if (const auto* press = std::get_if<MousePress>(&event)) {
         if (press->down) ++gesture_;
-        if (press->down && pointer_.hovered() != no_pick && !ui_.wants_mouse()) end_opening();
+        const HeldKeys held{.shift = input_.shift(), .ctrl = input_.ctrl(), .alt = input_.alt()};
+        const bool takes = press->down && press->button == MouseButton::Left &&
+                           !mouse_action(mouse_preset(workspace_.settings), press->button, held);
+        if (takes && pointer_.hovered() != no_pick && !ui_.wants_mouse()) end_opening();
     } else if (const auto* resize = std::get_if<Resize>(&event)) {
         size_ = resize->size;
         if (window_.size() != size_) window_.resize(size_);
@@ -229,7 +232,7 @@ void App::take_shortcut(Emit& emit) {
     // In a field, a menu or a drag Esc only ends that and keeps the selection.
     if (chord.key == Key::Escape && !workspace_.ui.covered() && (taken || busy())) return;
     const Shortcut* shortcut = shortcuts_.find(chord, workspace_.lab);
-    // What is typed into an open list chooses there.
+    // An open popup handles its own keys.
     if (!chord.ctrl && ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopup)) return;
     // A held key repeats stepwise commands, but no toggles.
     if (shortcut != nullptr && input_.repeated() && !shortcut->repeats) return;
@@ -259,9 +262,13 @@ void App::run_command(const std::string& name, const Json& arguments, Gesture ge
     if (const Command* const command = commands_->find(name);
         command != nullptr && command->effect == Effect::Edit && command->lab == open)
         end_opening();
-    const std::shared_ptr<const Part> before = workspace_.document.parts().at(open);
+    const auto all = workspace_.document.parts();
+    const std::shared_ptr<const Part>& before = all.at(open);
     const std::uint64_t beginnings = workspace_.beginnings, moment = workspace_.moment;
     commands_->run(workspace_, name, arguments, gesture);
+    // What was changed in a lab that was not open is no opening any more.
+    std::erase_if(workspace_.openings,
+                  [&](const std::string& lab) { return workspace_.document.parts().at(lab) != all.at(lab); });
     divide_view();  // the next command, such as framing everything, uses the new panes
     const bool same_scene = workspace_.lab == open && workspace_.beginnings == beginnings;
     const Effect effect = commands_->find(name)->effect;

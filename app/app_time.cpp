@@ -23,7 +23,8 @@ void App::note_refusal(const std::string& why) {
     workspace_.rewind.note({.tick = workspace_.moment, .cause = "refused: " + why});
 }
 
-/// The user takes over: stops what the opening moves, as if it had never moved. There is no way back to it.
+/// The user takes over: stops the opening where it is. This is not an undo step, and the opening does not
+/// resume.
 void App::end_opening() {
     if (workspace_.openings.erase(workspace_.lab) == 0) return;
     const std::vector<CommandCall> calls = lab().calm();
@@ -90,7 +91,12 @@ void App::advance_time() {
         workspace_.pass_change();
     }
     while (clock.steps_due > 0) step_lab();
-    if (lab().working(workspace_)) lab().work(workspace_);
+    if (lab().working(workspace_)) {
+        const auto before = workspace_.document.parts().at(workspace_.lab);
+        lab().work(workspace_);
+        if (workspace_.document.parts().at(workspace_.lab) != before)
+            workspace_.openings.erase(workspace_.lab);
+    }
     pass_video();
     watch_shown_card();
     auto& toasts = workspace_.ui.toasts;

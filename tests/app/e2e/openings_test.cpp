@@ -43,7 +43,7 @@ class Openings : public testing::TestWithParam<std::string> {
     }
 };
 
-/// Whether two JSON values are the same shape, with finite numbers.
+/// Expects every number in the JSON to be finite.
 void expect_finite(const Json& json, const std::string& at) {
     const bool finite = !json.is_number_float() || std::isfinite(json.get<double>());
     EXPECT_TRUE(finite) << at;
@@ -73,6 +73,31 @@ TEST_P(Openings, are_not_saved_unless_shown) {
     const Json labs = save_scene(workspace())["labs"];
     EXPECT_EQ(labs.size(), 1u);
     EXPECT_TRUE(labs.contains(GetParam()));
+}
+
+TEST_P(Openings, of_another_lab_ends_where_something_is_changed_there) {
+    const std::string elsewhere = GetParam() == "chain" ? "rope" : "chain";
+    app_.run({"lab.open", Json{{"name", elsewhere}}});
+    app_.run(change());
+    EXPECT_FALSE(opens());
+    EXPECT_TRUE(workspace().modified());
+    app_.run({"lab.open", Json{{"name", GetParam()}}});
+    wait(60);
+    EXPECT_TRUE(workspace().modified());
+    app_.run({"lab.open", Json{{"name", elsewhere}}});
+    EXPECT_TRUE(save_scene(workspace())["labs"].contains(GetParam()));
+}
+
+TEST_P(Openings, go_on_where_the_view_is_turned) {
+    const Json state = app_.state();
+    for (const Json& handle : state.at("handles")) {
+        if (!handle.at("pixel").is_array()) continue;
+        const glm::vec2 at{handle["pixel"][0].get<float>(), handle["pixel"][1].get<float>()};
+        for (const Event& event : {Event(MouseMove{at}), Event(MousePress{MouseButton::Right, true}),
+                                   Event(MousePress{MouseButton::Right, false})})
+            app_.tick(&event);
+    }
+    EXPECT_TRUE(opens());
 }
 
 TEST_P(Openings, end_at_the_first_change_which_alone_can_be_undone) {
