@@ -113,8 +113,8 @@ void LiveLoop::sample(std::vector<Event> events) {
     }
 }
 
-/// What the menu and the palette paste is recorded as if Ctrl+V had been pressed. While a script plays it
-/// is in the script.
+/// A paste from the menu or the palette is recorded as Ctrl+V. While a script plays, the script supplies the
+/// text.
 void LiveLoop::paste(const Player& player) {
     if (!std::exchange(app_.workspace().ui.pastes, false) || !player.done()) return;
     queue_.push_back(KeyChange{Key::Ctrl, true});

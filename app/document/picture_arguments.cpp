@@ -14,17 +14,17 @@ std::vector<Argument> picture_arguments(std::vector<Argument> first) {
         first.push_back({.name = side,
                          .type = ArgumentType::Integer,
                          .required = false,
-                         .help = "pixels, even for MP4; default: the view's",
+                         .help = "pixels; default: the view's",
                          .low = min_picture,
                          .high = max_picture});
     first.push_back({.name = "transparent",
                      .type = ArgumentType::Boolean,
                      .required = false,
-                     .help = "with a transparent background; PNG only"});
+                     .help = "with a transparent background"});
     first.push_back({.name = "labels",
                      .type = ArgumentType::Boolean,
                      .required = false,
-                     .help = "with labels, titles and the legend; default: while a race is open"});
+                     .help = "draws labels, titles and the legend; default: only while a race is open"});
     return first;
 }
 

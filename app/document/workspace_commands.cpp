@@ -63,7 +63,7 @@ void add_history_commands(CommandTable& table) {
         {.name = "paste",
          .title = "Paste",
          .arguments = {},
-         .help = "Gives the clipboard's text to the lab; a script holds Ctrl and types the text instead",
+         .help = "Pastes the clipboard's text into the lab. In a script, hold Ctrl and send the text instead",
          .effect = Effect::Look,
          .apply = [](Workspace& w, const Arguments&) { w.ui.pastes = true; }});
     table.add({.name = "redo",

@@ -119,8 +119,8 @@ class Lab {
     /// What to try first: "Drag the orange ball." Empty: none.
     virtual const char* invitation() const { return ""; }
 
-    /// Commands that turn the blank part into the scene that a new window opens on, best one that moves by
-    /// itself. Those that change a setting are skipped if the user has already chosen it.
+    /// Commands that turn the blank part into the scene that a new window opens on, preferably one that
+    /// moves by itself. Those that change a setting are skipped if the user has already chosen it.
     virtual std::vector<CommandCall> opening() const { return {}; }
     /// Commands that stop what would compete with the user in the opening. Run once, before the first change
     /// in the lab or the first press on something in it; not a step to undo.

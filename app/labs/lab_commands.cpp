@@ -224,8 +224,8 @@ void add_recording(CommandTable& table, const Labs& labs) {
                .help = "1 is real time, the default; below 1 is slow motion",
                .low = slowest,
                .high = fastest}}),
-         .help = "Writes a video of the last ten seconds as the view shows them now without panels, with or "
-                 "without labels",
+         .help = "Writes a video of the last ten seconds as the view shows them now, without panels; "
+                 "labels are optional",
          .effect = Effect::Look,
          .apply = [&labs](Workspace& w, const Arguments& a) {
              require_view(w, labs);

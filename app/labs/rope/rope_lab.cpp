@@ -230,7 +230,7 @@ Verdict rope_verdict(const RopePart& part) {
             return {off, Verdict::Kind::Bad, "Contact displaced links after the solve."};
         if (stretches(*part.world))
             return {"Stretched by " + percent, Verdict::Kind::Open,
-                    "Its stretch, or the world's compliance, lets it."};
+                    "It may stretch: its own stretch, or the compliance under Solver, is above 0."};
         return {off, Verdict::Kind::Bad, "The solver did not hold them: use more iterations or substeps."};
     }
     if (last.report.suspended > 0)

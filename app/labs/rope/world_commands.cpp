@@ -48,7 +48,7 @@ void settings(RopeEdit& edit, const Arguments& given) {
     if (wanted != edit.seen().settings()) edit.world().set_settings(wanted);
 }
 
-/// As rope.settings does, by the names that a person looks for.
+/// The wind settings of rope.settings, under a name that is easy to find.
 void blow(RopeEdit& edit, const Arguments& given) {
     rope::Settings wanted = edit.seen().settings();
     wanted.wind = given.point("velocity");
@@ -99,7 +99,7 @@ void add_world_commands(CommandTable& table) {
                            "Sets how ropes are simulated; omitted settings are kept", settings));
     table.add(rope_command("rope.wind", "Set the wind",
                            {point_argument("velocity", true, "of the air, m/s; 0: no air"),
-                            number_argument("gusts", "relative to it", 0.0, 1.0)},
+                            number_argument("gusts", "strength of the gusts relative to the wind", 0.0, 1.0)},
                            "Sets the wind that cloth flutters in", blow));
     table.add(
         rope_command("rope.jitter", "Make frame times uneven",
