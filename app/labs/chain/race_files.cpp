@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "app/document/atomic_file.hpp"
+#include "app/document/units.hpp"
 #include "app/labs/chain/commands.hpp"
 #include "app/labs/chain/draw.hpp"
 #include "app/labs/kit/film.hpp"
