@@ -3,6 +3,9 @@
 // A frame is what the window does for a mouse move in mid-drag: one tick (input, commands, chain, panels,
 // draw list) and one picture, at 1280x720. Counters: frames per second, GL draw calls, and the cost relative
 // to ten segments, measured in the same run.
+//
+// The openings of the labs move by themselves until the first change: a frame of each, and its cost relative
+// to the Chain lab's.
 #include <benchmark/benchmark.h>
 #include <glad/gl.h>
 
@@ -11,6 +14,7 @@
 
 #include "app/app.hpp"
 #include "app/document/json_complete.hpp"
+#include "app/opening.hpp"
 
 namespace tendril::app {
 namespace {
@@ -66,6 +70,46 @@ void drag_frame(benchmark::State& state) {
                            benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 BENCHMARK(drag_frame)->Arg(10)->Arg(1000)->Arg(10000)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+/// The program on the opening of that lab.
+struct Opening {
+    std::unique_ptr<Window> window = open_offscreen(size);
+    App app{*window};
+
+    explicit Opening(const char* lab) {
+        open_alive(app);
+        app.run({.name = "lab.open", .arguments = Json{{"name", lab}}});
+    }
+    void frame() {
+        app.tick(nullptr);
+        app.draw();
+        glFinish();
+    }
+};
+
+void opening_frame(benchmark::State& state, const char* lab) {
+    const double baseline = [] {
+        Opening chain("chain");
+        chain.frame();
+        const auto start = std::chrono::steady_clock::now();
+        for (int i = 0; i < 60; ++i) chain.frame();
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / 60;
+    }();
+    Opening opening(lab);
+    opening.frame();
+    for (auto _ : state) opening.frame();
+    state.counters["fps"] =
+        benchmark::Counter(static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
+    state.counters["draw_calls"] = opening.app.draw_calls();
+    state.counters["times_chain"] =
+        benchmark::Counter(static_cast<double>(state.iterations()) * baseline,
+                           benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+BENCHMARK_CAPTURE(opening_frame, chain, "chain")->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK_CAPTURE(opening_frame, rope, "rope")->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK_CAPTURE(opening_frame, signal, "signal")->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK_CAPTURE(opening_frame, rig, "rig")->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK_CAPTURE(opening_frame, humanoid, "humanoid")->Unit(benchmark::kMillisecond)->UseRealTime();
 
 void start_to_first_picture(benchmark::State& state) {
     for (auto _ : state) {
