@@ -126,7 +126,7 @@ glm::dvec3 missing_velocity(const Playback& playback, const LoadedCharacter& cha
     if (!(to > from)) return glm::dvec3(0.0);
     const humanoid::Skeleton& skeleton = character.skeleton();
     const auto at = [&](double time) { return hips_at(skeleton, sampled(clip, skeleton, time), *hips).at; };
-    const Complex velocity = playback.speed * (at(to) - at(from)) / (to - from);
+    const Complex velocity = (at(to) - at(from)) / (to - from);
     return {velocity.imag(), 0.0, velocity.real()};
 }
 

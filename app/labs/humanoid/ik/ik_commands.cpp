@@ -161,7 +161,6 @@ void set_ground(const IkNow& now, HumanoidPart& part, const Arguments& given) {
     if (ground.kind == humanoid::GroundKind::Mesh && !ground.mesh)
         throw std::invalid_argument("path is missing: the file with the mesh");
     make_ground(ground);
-    part.ik_state.feet = {};
     // Rising ground would bury a character that has walked far or has no foot IK.
     const bool level = ground.kind == humanoid::GroundKind::None || ground.kind == humanoid::GroundKind::Flat;
     if (ground.kind == before || level) return;
