@@ -114,16 +114,18 @@ std::vector<std::string> bake_grounds() {
 
 void run_bake(const BakeOptions& options) {
     // The command line's own check accepts NaN.
-    if (!(options.fps >= min_rate && options.fps <= largest_rate))
-        throw std::runtime_error("--fps: must be 1 to 1000, got " + std::to_string(options.fps));
+    if (options.fps && !(*options.fps >= min_rate && *options.fps <= largest_rate))
+        throw std::runtime_error("--fps: must be 1 to 1000, got " + std::to_string(*options.fps));
     const Character character = read_character(options.file);
     const Clip& clip = clip_named(character, options);
     const fs::path out = options.out.empty() ? place_beside(options.file) : fs::path(options.out);
+    const double rate = options.fps.value_or(humanoid::frame_rate(clip));
     Clip corrected = clip;
+    humanoid::Ground ground;
     if (options.ground != "none") {
         try {
-            corrected = with_feet_on(make_ground({.kind = ground_kinds.value(options.ground)}),
-                                     character.skeleton, bone_map(character), clip, options.fps);
+            ground = make_ground({.kind = ground_kinds.value(options.ground)});
+            corrected = with_feet_on(ground, character.skeleton, bone_map(character), clip, rate);
         } catch (const std::runtime_error& error) {
             throw std::runtime_error(fs::path(options.file).filename().string() + ": " + error.what());
         }
@@ -132,7 +134,8 @@ void run_bake(const BakeOptions& options) {
                                              .file = options.file,
                                              .original = clip,
                                              .corrected = corrected,
-                                             .rate = options.fps},
+                                             .rate = rate,
+                                             .ground = &ground},
                                             out);
     Progress progress;
     Output print(progress);

@@ -19,8 +19,8 @@ struct BakeOptions {
     std::string file;  ///< path of the character
     std::string clip;  ///< by name; empty: the first
     std::string ground = "none";
-    double fps = 60.0;
-    std::string out;  ///< path; empty: FILE_baked beside the file
+    std::optional<double> fps{};  ///< frames per second; the clip's own by default
+    std::string out;              ///< path; empty: FILE_baked beside the file
 };
 /// The names of the grounds.
 std::vector<std::string> bake_grounds();

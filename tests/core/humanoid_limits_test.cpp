@@ -101,6 +101,22 @@ TEST_F(HumanoidLimits, exchanged_sides_bend_the_same_way) {
     }
 }
 
+/// A shoulder bone that is next to nothing is no collar bone: the whole arm turns there.
+TEST_F(HumanoidLimits, a_stub_of_a_shoulder_turns_as_the_arm_does) {
+    EXPECT_GT(excess(Bone::LeftShoulder, 70.0, {0, 0, -1}), 45.0f);
+    std::vector<Node> nodes = skeleton.nodes();
+    for (const Bone bone : {Bone::LeftShoulder, Bone::RightShoulder}) {
+        const std::size_t arm = node(bone == Bone::LeftShoulder ? Bone::LeftUpperArm : Bone::RightUpperArm);
+        nodes[node(bone)].rest.translation += nodes[arm].rest.translation * 0.8;
+        nodes[arm].rest.translation *= 0.2;
+    }
+    skeleton = *Skeleton::make(nodes);
+    joints = *BodyJoints::make(skeleton, map, default_limits(skeleton, map));
+    EXPECT_EQ(excess(Bone::LeftShoulder, 70.0, {0, 0, -1}), 0.0f);
+    EXPECT_EQ(excess(Bone::RightShoulder, 70.0, {0, 0, 1}), 0.0f);
+    EXPECT_GT(excess(Bone::LeftShoulder, 80.0, {0, 1, 0}), 20.0f) << "not to the back, as no arm does";
+}
+
 TEST_F(HumanoidLimits, joints_bend_the_way_they_do_in_people) {
     EXPECT_EQ(excess(Bone::LeftLowerArm, 100.0, {0, -1, 0}), 0.0f);  // the hand forward
     EXPECT_NEAR(excess(Bone::LeftLowerArm, 20.0, {0, 1, 0}), 20.0f, 1e-2);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tendril/humanoid/attach.hpp>
 #include <tendril/humanoid/lint.hpp>
 #include <utility>
 
@@ -293,6 +294,66 @@ TEST(Lint, finds_a_scale_of_nothing_and_of_the_other_side) {
         const Skeleton skeleton = snake();
         EXPECT_EQ(cure(skeleton, match_bones(skeleton), clip, report.findings[0]).code(),
                   ErrorCode::InvalidArgument);
+    }
+}
+
+/// Keys of a node that was attached elsewhere stay in its old parent's space, and so do the sizes they are
+/// compared with.
+TEST(Lint, compares_keys_of_an_attached_node_with_its_rest_in_their_own_space) {
+    std::vector<Node> nodes = snake().nodes();
+    nodes.push_back({"side", 0, {.translation = {0.0, 0.5, 0.0}, .scale = {-0.01, 0.01, 0.01}}});
+    Skeleton skeleton = *Skeleton::make(nodes);
+    Clip clip = winding(30.0, 30);
+    for (const char* name : {"joint4", "joint3", "joint2"}) {
+        const std::size_t node = *skeleton.find(name);
+        const auto moved = attached(skeleton, node, *skeleton.find("side"));
+        ASSERT_TRUE(moved) << moved.message();
+        Channel& channel = clip.channels[node];
+        channel.scale = {Interpolation::Linear, {0.0, 0.5}, {glm::dvec3(1.0), glm::dvec3(1.0)}};
+        channel.translation = {Interpolation::Linear, {0.0}, {skeleton[node].rest.translation}};
+        const LintReport report = lint(*moved, match_bones(*moved), clip);
+        EXPECT_TRUE(report.findings.empty()) << texts(report);
+        channel.scale.values[1].y = -1.0;
+        EXPECT_EQ(lint(*moved, match_bones(*moved), clip).findings.size(), 1u) << name;
+        channel.scale = {};
+    }
+    // Of another size they are found to be so.
+    for (const char* name : {"joint1", "joint2", "joint3", "joint4"})
+        clip.channels[*skeleton.find(name)].translation = {
+            Interpolation::Linear, {0.0}, {skeleton[*skeleton.find(name)].rest.translation}};
+    clip.channels.push_back(
+        {.node = 5, .translation = {Interpolation::Linear, {0.0}, {skeleton[5].rest.translation}}});
+    skeleton = *attached(skeleton, 4, 5);
+    EXPECT_TRUE(lint(skeleton, match_bones(skeleton), clip).findings.empty());
+    for (Channel& channel : clip.channels)
+        for (glm::dvec3& value : channel.translation.values) value *= 100.0;
+    const LintReport report = lint(skeleton, match_bones(skeleton), clip);
+    ASSERT_FALSE(report.findings.empty());
+    EXPECT_EQ(report.findings[0].fault, Fault::Scale);
+}
+
+/// What attach.hpp says: below a bone that is scaled unevenly, a node keeps its position but not its axes.
+TEST(Lint, an_attached_node_keeps_its_position_below_an_uneven_scale) {
+    std::vector<Node> nodes = snake().nodes();
+    nodes.push_back({"side", 0, {.translation = {0.3, 0.5, 0.0}}});
+    const Skeleton before = *Skeleton::make(nodes), after = *attached(before, 4, 5);
+    Clip clip = winding(30.0, 30);
+    for (const bool even : {true, false}) {
+        const glm::dvec3 scale = even ? glm::dvec3(2.0) : glm::dvec3(1.0, 3.0, 1.0);
+        clip.channels.resize(5);
+        clip.channels.push_back({.node = 5, .scale = {Interpolation::Linear, {0.0}, {scale}}});
+        bool same = true;
+        for (double time = 0.0; time < 0.9; time += 0.05) {
+            std::vector<rig::Transform> pose(6);
+            std::vector<Placement> was(6), is(6);
+            sample(clip, before, time, pose);
+            place(before, pose, was);
+            sample(clip, after, time, pose);
+            place(after, pose, is);
+            EXPECT_LT(glm::distance(was[4].position, is[4].position), 1e-12);
+            same = same && is_same_place(was[4], is[4]);
+        }
+        EXPECT_EQ(same, even);
     }
 }
 

@@ -96,6 +96,15 @@ class Comparison {
     std::vector<Placement> wanted_{}, found_{};
 };
 
+/// Whether the original has that fault too: of the same joint, at the same time or next to it.
+bool is_known(const humanoid::Finding& finding, const humanoid::LintReport& original) {
+    constexpr std::size_t near = 3;  // frames
+    return std::ranges::any_of(original.findings, [&](const humanoid::Finding& each) {
+        return each.fault == finding.fault && each.node == finding.node &&
+               each.first <= finding.last + near && finding.first <= each.last + near;
+    });
+}
+
 ExportReport report_of(const Export& what, const Character& read, bool is_bvh, bool has_origin) {
     ExportReport report;
     const double frames = std::floor(what.corrected.duration * what.rate + 1e-9) + 1.0;
@@ -109,10 +118,33 @@ ExportReport report_of(const Export& what, const Character& read, bool is_bvh, b
     const Skeleton& skeleton = what.character.skeleton;
     const humanoid::BoneMap map = bone_map(what.character);
     const humanoid::LintReport before = lint(skeleton, map, what.original, {.rate = what.rate}),
-                               after = lint(skeleton, map, what.corrected, {.rate = what.rate});
+                               after = lint(skeleton, map, what.corrected,
+                                            {.rate = what.rate, .ground = what.ground});
+    report.rate = what.rate;
+    report.findings = after.findings.size();
+    for (const humanoid::Finding& each : after.findings)
+        if (!is_known(each, before)) report.new_findings.push_back(each.text);
     report.has_feet = before.has_floor && after.has_floor;
     if (report.has_feet) report.skating_before = before.skating, report.skating_after = after.skating;
     return report;
+}
+
+}  // namespace
+
+namespace {
+
+/// "7 findings in the written clip, 2 of them new: ..."
+std::string findings_text(const ExportReport& report) {
+    constexpr std::size_t named = 2;
+    if (report.findings == 0) return "no findings in the written clip";
+    std::string text = std::to_string(report.findings) + (report.findings == 1 ? " finding" : " findings") +
+                       " in the written clip, ";
+    const std::size_t fresh = report.new_findings.size();
+    if (fresh == 0) return text + "none of them new";
+    text += std::to_string(fresh) + " of them new: ";
+    for (std::size_t i = 0; i < std::min(fresh, named); ++i)
+        text += (i > 0 ? ", " : "") + report.new_findings[i];
+    return fresh > named ? text + " and " + std::to_string(fresh - named) + " more" : text;
 }
 
 }  // namespace
@@ -121,11 +153,15 @@ std::string ExportReport::text() const {
     char numbers[160];
     std::snprintf(numbers, sizeof numbers, ", %.4f mm", 1000.0 * worst);
     std::string text = std::to_string(frames) + (frames == 1 ? " frame" : " frames");
+    char numbers_of_rate[40];
+    std::snprintf(numbers_of_rate, sizeof numbers_of_rate, " at %.5g fps", rate);
+    text += numbers_of_rate;
     text += "; worst joint " + worst_joint + numbers;
-    if (!has_feet) return text + "; no foot is ever planted";
+    const std::string found = "; " + findings_text(*this);
+    if (!has_feet) return text + "; no foot is ever planted" + found;
     std::snprintf(numbers, sizeof numbers, "; skating %.1f mm before, %.1f mm after", 1000.0 * skating_before,
                   1000.0 * skating_after);
-    return text + numbers;
+    return text + numbers + found;
 }
 
 bool ends_as_export(const fs::path& path) {

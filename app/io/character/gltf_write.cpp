@@ -26,10 +26,17 @@ const glm::dquat& part_of(const rig::Transform& local, const Track<glm::dquat>&,
     return local.rotation;
 }
 
+/// Whether the track has a key for each frame already: times in files are rounded, and drift from the frames.
+bool is_at_rate(const std::vector<double>& times, double rate) {
+    return std::abs((times.back() - times.front()) * rate / static_cast<double>(times.size() - 1) - 1.0) <
+           1e-3;
+}
+
 /// A linear track with additional keys at each frame between its first and its last key.
 template <class T>
 Track<T> with_frames(const Channel& channel, const Track<T>& track, double rate) {
     if (track.interpolation != Interpolation::Linear || track.times.size() < 2 || !(rate > 0.0)) return track;
+    if (is_at_rate(track.times, rate)) return track;
     Track<T> result{track.interpolation, {}, {}};
     auto frame = static_cast<std::size_t>(std::ceil(track.times.front() * rate));
     for (std::size_t i = 0; i < track.times.size(); ++i) {

@@ -9,6 +9,7 @@
 #include "app/io/character/bvh.hpp"
 #include "app/io/character/fbx.hpp"
 #include "app/io/character/gltf.hpp"
+#include "app/io/character/unique_names.hpp"
 
 namespace tendril::app {
 namespace {
@@ -58,6 +59,9 @@ Character read_character(const std::filesystem::path& path, LoadProgress* progre
                           : ending == ".bvh" ? parse_bvh(bytes, name, progress)
                                              : parse_gltf(bytes, name, path.parent_path(), progress);
     attach_feet(character);
+    UniqueNames names;
+    for (std::size_t i = 0; i < character.clips.size(); ++i)
+        character.clips[i].name = names.add(std::move(character.clips[i].name), i);
     return character;
 }
 

@@ -1,4 +1,4 @@
-// Makes node names unique, as a skeleton requires: files omit and repeat them.
+// Makes the names of nodes and clips unique, so that each can be named: files omit and repeat them.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@ namespace tendril::app {
 
 class UniqueNames {
   public:
-    /// Returns `name`, with `_2`, `_3` and so on appended if it is taken; an empty one becomes `node_7`, by
-    /// its index in the file.
+    /// Returns `name`, with `_2`, `_3` and so on appended if it is taken; a node's empty one becomes
+    /// `node_7`, by its index in the file.
     std::string add(std::string name, std::size_t place) {
         if (name.empty()) name = "node_" + std::to_string(place);
         std::string unique = name;

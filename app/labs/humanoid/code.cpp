@@ -212,6 +212,11 @@ class HumanoidProgram {
         code_ += hills_text;
     }
 
+    humanoid::FeetState feet_state() {
+        IkState state = part_.ik_state;
+        return solve_pose(part_, solvers_, 0.0, state).feet_state;
+    }
+
     void feet() {
         if (!feet_on()) return;
         const humanoid::FeetOptions options = feet_options(part_, solvers_);
@@ -225,7 +230,7 @@ class HumanoidProgram {
                                           {".max_turn", options.max_turn}})
             members.push_back(name + (" = " + double_text(value)));
         list("const humanoid::FeetOptions feet_options{", members, "};");
-        say("humanoid::FeetState feet_state" + state_text(part_.ik_state.feet) + ';');
+        say("humanoid::FeetState feet_state" + state_text(feet_state()) + ';');
     }
 
     void limits() {

@@ -12,10 +12,11 @@ std::span<const tendril::Field> tendril::fields<tendril::app::HumanoidView>() no
     static constexpr auto skins = skin_looks.name_array();
     static constexpr auto ways = skinnings.name_array();
     static constexpr auto joints = limits_shown.name_array();
+    static constexpr auto clips = judged_clips.name_array();
     static constexpr Field rows[] = {
-        field<&HumanoidView::ghost>("ghost"), field<&HumanoidView::follow>("follow"),
-        field<&HumanoidView::skin>("skin", skins), field<&HumanoidView::skinning>("skinning", ways),
-        field<&HumanoidView::limits>("limits", joints)};
+        field<&HumanoidView::ghost>("ghost"),           field<&HumanoidView::follow>("follow"),
+        field<&HumanoidView::skin>("skin", skins),      field<&HumanoidView::skinning>("skinning", ways),
+        field<&HumanoidView::limits>("limits", joints), field<&HumanoidView::judged>("judged", clips)};
     return rows;
 }
 
@@ -42,6 +43,13 @@ std::span<const FieldText> field_texts<HumanoidView>() {
          .help = "How far joints turn: an adult's range, with the clips' range over it",
          .listed = true,
          .choices = limits_shown.rows},
+        {.name = "judged",
+         .label = "judge",
+         .help =
+             "What Motion lint judges: the clip as it was read, or the result that is shown and exported, "
+             "with everything that IK does to it",
+         .listed = true,
+         .choices = judged_clips.rows},
         {.name = "follow",
          .label = "Camera follows",
          .help = "The camera follows the character as it walks."}};

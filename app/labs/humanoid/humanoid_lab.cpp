@@ -33,13 +33,12 @@ void HumanoidLab::add_commands(CommandTable& table) const {
 bool HumanoidLab::moving(const Workspace& workspace) const {
     const HumanoidPart& part = humanoid_part(workspace);
     constexpr int until_rest = 120;
-    const bool stands = part.ik.foot_ik.on && part.ik.ground.kind != humanoid::GroundKind::None;
     const bool eases = part.ik.look_at.on || (part.ik.hand_ik.on && part.ik.has_targets());
     const bool steps = part.ik.balance.on && part.ik.balance.steps && body_acts(part, part.ik_state);
     const bool swings = !part.springs.empty();
     const bool hangs = !part.attachments.list.empty();
     return goes_on(part.playback, *part.loaded) || part.ik_state.release.left > 0.0 ||
-           ((stands || eases || steps || swings || hangs) && part.quiet_ticks < until_rest);
+           ((eases || steps || swings || hangs) && part.quiet_ticks < until_rest);
 }
 
 void HumanoidLab::step(Workspace& workspace) const {

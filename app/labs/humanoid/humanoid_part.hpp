@@ -43,12 +43,19 @@ enum class LimitsShown : std::uint8_t { None, Selected, All };
 inline constexpr EnumNames<LimitsShown, 3> limits_shown{
     "limits", {{"none", "no joint"}, {"selected", "selected joints"}, {"all", "all joints"}}};
 
+/// What Motion lint judges: the clip as read, or the result that is shown and exported.
+enum class JudgedClip : std::uint8_t { Clip, Result };
+
+inline constexpr EnumNames<JudgedClip, 2> judged_clips{"judged",
+                                                       {{"clip", "the clip"}, {"result", "the result"}}};
+
 struct HumanoidView {
     SkinLook skin = SkinLook::Transparent;
     Skinning skinning = Skinning::TwistSpread;
     bool ghost = true;   ///< of the pose before anything changed it
     bool follow = true;  ///< the camera follows a character that walks
     LimitsShown limits = LimitsShown::Selected;
+    JudgedClip judged = JudgedClip::Clip;
     bool operator==(const HumanoidView&) const = default;
 };
 

@@ -59,6 +59,18 @@ class DefaultLimits {
             limit.twist_max = radians(whole.twist / count), limit.twist_min = -limit.twist_max;
         }
     }
+    /// Whether the shoulder is too short for a collar bone: where rigs have such a stub, the whole arm turns
+    /// about it.
+    bool is_stub(Bone shoulder, Bone upper, Bone lower, Bone hand) const {
+        constexpr double stub = 0.1;  // of the arm's length; a collar bone is a quarter of it
+        for (const Bone each : {shoulder, upper, lower, hand})
+            if (map_[each].node < 0) return false;
+        const auto way = [&](Bone from, Bone to) {
+            return length(minus(rest_[static_cast<std::size_t>(map_[to].node)].position,
+                                rest_[static_cast<std::size_t>(map_[from].node)].position));
+        };
+        return way(shoulder, upper) < stub * (way(upper, lower) + way(lower, hand));
+    }
     void limb(BodyLimits& limits, bool left) const {
         const auto side = [left](Bone of_left) { return left ? of_left : mirrored(of_left); };
         const auto at = [&](Bone of_left) -> ik::Limit& {
@@ -69,10 +81,13 @@ class DefaultLimits {
         // About this axis the arm goes up; about the perpendicular one, the body's up, the left arm goes
         // back.
         const glm::dvec3 raises = cross(out, facing_.up);
-        at(Bone::LeftShoulder) =
-            ball(ik::JointKind::BallAndSocket, raises, {30.0, 10.0, 20.0, 25.0, 15.0}, lies_left);
         at(Bone::LeftUpperArm) =
             ball(ik::JointKind::BallAndSocket, raises, {95.0, 100.0, 50.0, 135.0, 90.0}, lies_left);
+        at(Bone::LeftShoulder) =
+            is_stub(side(Bone::LeftShoulder), side(Bone::LeftUpperArm), side(Bone::LeftLowerArm),
+                    side(Bone::LeftHand))
+                ? at(Bone::LeftUpperArm)
+                : ball(ik::JointKind::BallAndSocket, raises, {30.0, 10.0, 20.0, 25.0, 15.0}, lies_left);
         at(Bone::LeftLowerArm) = hinge(side(Bone::LeftLowerArm), cross(out, facing_.forward), 150.0);
         at(Bone::LeftHand) = ball(ik::JointKind::Gliding, raises, {70.0, 80.0, 20.0, 35.0, 85.0}, lies_left);
         // About this axis legs go forward and toes up; about the perpendicular one, forward, they go left.

@@ -5,7 +5,6 @@
 #include <stdexcept>
 
 #include "app/document/atomic_file.hpp"
-#include "app/io/character/bake.hpp"
 #include "app/io/character/export.hpp"
 #include "app/io/character/map_file.hpp"
 #include "app/labs/humanoid/attachments/attachment_motion.hpp"
@@ -342,29 +341,18 @@ std::size_t clip_for(const HumanoidPart& part, const Arguments& given) {
     return static_cast<std::size_t>(found - clips.begin());
 }
 
-/// The clip as displayed, played once from its start.
-Clip as_shown(const Workspace& workspace, std::size_t clip, double rate) {
-    HumanoidPart part = humanoid_part(workspace);
-    part.playback = {.clip = clip, .loop = false};
-    IkState state;
-    Solvers& solvers = humanoid_runtime(workspace).solvers;
-    const Clip& before = part.loaded->clips()[clip];
-    return baked(part.skeleton(), before, rate, [&](std::span<rig::Transform> pose, double time, double dt) {
-        part.playback.time = time;
-        const ShownPose shown = solve_pose(part, solvers, dt, state);
-        std::ranges::copy(shown.local, pose.begin());
-    });
-}
-
 void export_shown(Workspace& workspace, const Arguments& given) {
     const HumanoidPart& part = humanoid_part(workspace);
     const std::size_t clip = clip_for(part, given);
-    const double rate = given.has("fps") ? given.real("fps") : 60.0;
+    const Clip& original = part.loaded->clips()[clip];
+    const double rate = given.has("fps") ? given.real("fps") : humanoid::frame_rate(original);
+    Solvers& solvers = humanoid_runtime(workspace).solvers;
     const ExportReport report = export_clip({.character = part.loaded->character,
                                              .file = part.loaded->path,
-                                             .original = part.loaded->clips()[clip],
-                                             .corrected = as_shown(workspace, clip, rate),
-                                             .rate = rate},
+                                             .original = original,
+                                             .corrected = clip_as_shown(part, solvers, clip, rate),
+                                             .rate = rate,
+                                             .ground = ground_of_feet(part, solvers)},
                                             given.text("path"));
     workspace.toast(written_text(given.text("path")) + ". " + report.text());
 }
@@ -407,15 +395,16 @@ void add_humanoid_file_commands(CommandTable& table) {
                                    {text_argument("path", true, "a JSON file that humanoid.map.save wrote")},
                                    "Applies a saved bone map", load_map)));
     add_kept_map_commands(table);
-    table.add(
-        {.name = "humanoid.export",
-         .title = "Export a clip",
-         .arguments = {text_argument("path", true, "a .gltf, .glb or .bvh file to write"),
-                       clip_argument("clip", "which one; default: the chosen one, or the first"),
-                       number_argument("fps", "frames per second; default: 60", min_rate, largest_rate)},
-         .help = "Writes a clip with everything that IK does to it, and says how close the file comes",
-         .effect = Effect::Look,
-         .apply = export_shown});
+    table.add({.name = "humanoid.export",
+               .title = "Export a clip",
+               .arguments = {text_argument("path", true, "a .gltf, .glb or .bvh file to write"),
+                             clip_argument("clip", "which one; default: the chosen one, or the first"),
+                             number_argument("fps", "frames per second; default: the clip's own", min_rate,
+                                             largest_rate)},
+               .help = "Writes a clip with everything that IK does to it; says how close the file comes, and "
+                       "what Motion lint finds in it",
+               .effect = Effect::Look,
+               .apply = export_shown});
     table.add(part_command<HumanoidPart>(
         humanoid_lab, "humanoid.cure", "Fix a fault in a clip",
         {choice_argument("kind", true, "of fault", fault_names()),

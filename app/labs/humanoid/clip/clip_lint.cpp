@@ -2,9 +2,13 @@
 
 #include <imgui.h>
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "app/document/units.hpp"
+#include "app/fields/field_rows.hpp"
+#include "app/io/character/bake.hpp"
+#include "app/labs/humanoid/ik/shown_pose.hpp"
 #include "app/labs/humanoid/panel.hpp"
 #include "app/labs/kit/panel_rows.hpp"
 #include "app/widgets/fields.hpp"
@@ -20,6 +24,8 @@ using humanoid::LintReport;
 
 /// Frames times nodes that can be judged within a tick or two.
 constexpr double soon_judged = 60'000.0;
+/// How many times as long the result takes: every frame is solved.
+constexpr double result_times = 10.0;
 
 std::optional<BodyLimits> limits_for(const HumanoidPart& part) {
     if (part.ik.limits == LimitsFrom::Defaults || !part.map->is_usable()) return std::nullopt;
@@ -28,9 +34,20 @@ std::optional<BodyLimits> limits_for(const HumanoidPart& part) {
                                     humanoid::default_limits(part.skeleton(), *part.map));
 }
 
-LintReport lint_of(const HumanoidPart& part, const Clip& clip) {
+LintReport lint_of(const HumanoidPart& part, const Clip& clip, const humanoid::Ground* ground = nullptr,
+                   double rate = 0.0) {
     const std::optional<BodyLimits> limits = limits_for(part);
-    return lint(part.skeleton(), *part.map, clip, {.limits = limits ? &*limits : nullptr});
+    return lint(part.skeleton(), *part.map, clip,
+                {.rate = rate, .limits = limits ? &*limits : nullptr, .ground = ground});
+}
+
+/// Of the clip as shown. Nothing of it has a cure: cures change the clip.
+LintReport lint_of_result(const HumanoidPart& part, Solvers& solvers) {
+    const double rate = humanoid::frame_rate(*part.clip());
+    LintReport report = lint_of(part, clip_as_shown(part, solvers, *part.playback.clip, rate),
+                                ground_of_feet(part, solvers), rate);
+    for (Finding& each : report.findings) each.has_cure = false;
+    return report;
 }
 
 bool is_meant(const Finding& finding, const ClipCure& cure, const humanoid::Skeleton& skeleton) {
@@ -42,23 +59,48 @@ bool is_meant(const Finding& finding, const ClipCure& cure, const humanoid::Skel
 
 }  // namespace
 
-const LintReport* ClipLint::report(const HumanoidPart& part) {
-    const Clip* const clip = part.clip();
-    if (!clip) return nullptr;
-    if (report_ && judged_ == Judged{part.loaded, part.map, part.playback.clip, part.ik.limits})
-        return &*report_;
-    const double frames = clip->duration * humanoid::frame_rate(*clip);
-    if (frames * static_cast<double>(part.skeleton().size()) > soon_judged) return nullptr;
-    return judge(part);
+Clip clip_as_shown(HumanoidPart part, Solvers& solvers, std::size_t clip, double rate) {
+    part.playback = {.clip = clip, .loop = false};
+    IkState state;
+    const Clip& before = part.loaded->clips()[clip];
+    return baked(part.skeleton(), before, rate, [&](std::span<rig::Transform> pose, double time, double dt) {
+        // In ticks, as it plays, also at a lower rate: springs depend on the length of a step.
+        const int steps = std::max(1, static_cast<int>(std::ceil(dt / tick_seconds - 1e-6)));
+        for (int i = 1; i <= steps; ++i) {
+            part.playback.time = time - dt * (1.0 - static_cast<double>(i) / steps);
+            const ShownPose shown = solve_pose(part, solvers, dt / steps, state);
+            if (i == steps) std::ranges::copy(shown.local, pose.begin());
+        }
+    });
 }
 
-const LintReport* ClipLint::judge(const HumanoidPart& part) {
+const humanoid::Ground* ground_of_feet(const HumanoidPart& part, Solvers& solvers) {
+    return part.ik.foot_ik.on && solvers.feet(part) != nullptr ? &solvers.ground(part) : nullptr;
+}
+
+ClipLint::Judged ClipLint::wanted(const HumanoidPart& part) {
+    Judged judged{part.loaded, part.map, part.playback.clip, part.ik.limits};
+    if (part.view.judged == JudgedClip::Result) judged.ik = part.ik, judged.springs = part.springs;
+    return judged;
+}
+
+const LintReport* ClipLint::report(const HumanoidPart& part, Solvers& solvers) {
     const Clip* const clip = part.clip();
     if (!clip) return nullptr;
-    const Judged wanted{part.loaded, part.map, part.playback.clip, part.ik.limits};
-    if (!report_ || !(judged_ == wanted)) {
-        report_ = lint_of(part, *clip);
-        judged_ = wanted;
+    if (report_ && judged_ == wanted(part)) return &*report_;
+    const double frames = clip->duration * humanoid::frame_rate(*clip),
+                 each = part.view.judged == JudgedClip::Result ? result_times : 1.0;
+    if (each * frames * static_cast<double>(part.skeleton().size()) > soon_judged) return nullptr;
+    return judge(part, solvers);
+}
+
+const LintReport* ClipLint::judge(const HumanoidPart& part, Solvers& solvers) {
+    const Clip* const clip = part.clip();
+    if (!clip) return nullptr;
+    if (!report_ || !(judged_ == wanted(part))) {
+        report_ =
+            part.view.judged == JudgedClip::Result ? lint_of_result(part, solvers) : lint_of(part, *clip);
+        judged_ = wanted(part);
     }
     return &*report_;
 }
@@ -162,10 +204,11 @@ void finding_row(const HumanoidPanel& panel, const Finding& finding, int id) {
 
 static void findings_rows(const HumanoidPanel& panel) {
     if (!panel.part.clip()) return note("Choose a clip to see what is wrong with it.");
-    const humanoid::LintReport* report = panel.runtime.lint.report(panel.part);
+    FieldRows(panel.part.view, "humanoid.view", panel.emit).rows("judged");
+    const humanoid::LintReport* report = panel.runtime.lint.report(panel.part, panel.runtime.solvers);
     if (!report) {
         if (row_button("Check this clip", 1, true, "It is long: this takes a few seconds"))
-            panel.runtime.lint.judge(panel.part);
+            panel.runtime.lint.judge(panel.part, panel.runtime.solvers);
         end_row();
         return;
     }

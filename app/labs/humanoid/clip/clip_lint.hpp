@@ -1,4 +1,4 @@
-// The lint report of the chosen clip, cached, and cures for its faults.
+// The lint report of the chosen clip, as read or as IK leaves it, cached; and cures for its faults.
 #pragma once
 
 #include <optional>
@@ -6,16 +6,24 @@
 #include <tendril/humanoid/lint.hpp>
 
 #include "app/labs/humanoid/humanoid_part.hpp"
+#include "app/labs/humanoid/ik/solvers.hpp"
 
 namespace tendril::app {
 
-/// The report is kept until character, bone map, clip or limits change.
+/// The clip as displayed, played once from its start: what an export writes.
+humanoid::Clip clip_as_shown(HumanoidPart part, Solvers& solvers, std::size_t clip, double rate);
+/// The ground that foot IK puts the feet on; null if it does not.
+const humanoid::Ground* ground_of_feet(const HumanoidPart& part, Solvers& solvers);
+
+/// The report is kept until character, bone map, clip or limits change; that of the result also until
+/// anything of IK or the springs does.
 class ClipLint {
   public:
-    /// Null without a clip, and for clips so long that a frame would stall: those need judge().
-    const humanoid::LintReport* report(const HumanoidPart& part);
+    /// Of the clip, or of what is shown of it: HumanoidView::judged says which. Null without a clip, and for
+    /// clips so long that a frame would stall: those need judge().
+    const humanoid::LintReport* report(const HumanoidPart& part, Solvers& solvers);
     /// Judges the clip, however long it is.
-    const humanoid::LintReport* judge(const HumanoidPart& part);
+    const humanoid::LintReport* judge(const HumanoidPart& part, Solvers& solvers);
 
   private:
     struct Judged {
@@ -23,8 +31,11 @@ class ClipLint {
         std::shared_ptr<const humanoid::BoneMap> map;
         std::optional<std::size_t> clip;
         LimitsFrom limits = LimitsFrom::Defaults;
+        std::optional<IkSettings> ik{};  ///< for the result
+        std::vector<SpringSetting> springs{};
         bool operator==(const Judged&) const = default;
     };
+    static Judged wanted(const HumanoidPart& part);
     Judged judged_{};
     std::optional<humanoid::LintReport> report_;
 };

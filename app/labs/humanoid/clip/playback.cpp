@@ -126,7 +126,7 @@ glm::dvec3 missing_velocity(const Playback& playback, const LoadedCharacter& cha
     if (!(to > from)) return glm::dvec3(0.0);
     const humanoid::Skeleton& skeleton = character.skeleton();
     const auto at = [&](double time) { return hips_at(skeleton, sampled(clip, skeleton, time), *hips).at; };
-    const Complex velocity = playback.speed * (at(to) - at(from)) / (to - from);
+    const Complex velocity = (at(to) - at(from)) / (to - from);
     return {velocity.imag(), 0.0, velocity.real()};
 }
 
@@ -162,7 +162,7 @@ void buttons(const HumanoidPanel& panel) {
 
 /// Marks of the lint: low bars over the duration of a finding, a full one at its worst frame.
 std::vector<TimeBar> lint_marks(const HumanoidPanel& panel, int ticks) {
-    const humanoid::LintReport* const report = panel.runtime.lint.report(panel.part);
+    const humanoid::LintReport* const report = panel.runtime.lint.report(panel.part, panel.runtime.solvers);
     if (!report || report->findings.empty()) return {};
     std::vector<TimeBar> bars(static_cast<std::size_t>(ticks) + 1);
     const auto tick_of = [&](std::size_t frame) {

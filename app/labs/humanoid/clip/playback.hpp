@@ -41,7 +41,7 @@ void go_to(Playback& playback, const LoadedCharacter& character, double seconds)
 std::vector<rig::Transform> animated_pose(const Playback& playback, const LoadedCharacter& character,
                                           std::optional<std::size_t> hips);
 
-/// The hips' ground velocity that playing in place removes at that moment, m/s.
+/// The hips' ground velocity that playing in place removes at that moment, m/s at the recorded speed.
 glm::dvec3 missing_velocity(const Playback& playback, const LoadedCharacter& character,
                             std::optional<std::size_t> hips);
 

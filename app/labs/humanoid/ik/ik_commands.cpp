@@ -161,7 +161,6 @@ void set_ground(const IkNow& now, HumanoidPart& part, const Arguments& given) {
     if (ground.kind == humanoid::GroundKind::Mesh && !ground.mesh)
         throw std::invalid_argument("path is missing: the file with the mesh");
     make_ground(ground);
-    part.ik_state.feet = {};
     // Rising ground would bury a character that has walked far or has no foot IK.
     const bool level = ground.kind == humanoid::GroundKind::None || ground.kind == humanoid::GroundKind::Flat;
     if (ground.kind == before || level) return;
@@ -239,16 +238,25 @@ void add_ik_commands(CommandTable& table) {
 
 namespace {
 
+/// The default, which suits a punch of 1.2 s, stretched over the clip.
+HandCurve curve_over(const humanoid::Clip* clip) {
+    if (clip == nullptr) return {};
+    const HandCurve usual;
+    // In whole hundredths, as the panel shows them.
+    const auto at = [&](double time) { return std::round(100.0 * time / 1.2 * clip->duration) / 100.0; };
+    return {at(usual.begin), at(usual.full), at(usual.until), at(usual.end)};
+}
+
 /// Sets the curve of a hand.
-void set_curve(HandIkSetting& setting, std::size_t hand, const Arguments& given) {
-    std::optional<HandCurve>& curve = setting.curves[hand];
+void set_curve(HumanoidPart& part, std::size_t hand, const Arguments& given) {
+    std::optional<HandCurve>& curve = part.ik.hand_ik.curves[hand];
     if (given.has("curve") && !given.boolean("curve")) {
         curve.reset();
         return;
     }
     const bool times = given.has("begin") || given.has("full") || given.has("until") || given.has("end");
     if (!times && !given.has("curve")) return;
-    HandCurve set = curve.value_or(HandCurve());
+    HandCurve set = curve.value_or(curve_over(part.clip()));
     if (given.has("begin")) set.begin = given.real("begin");
     if (given.has("full")) set.full = given.real("full");
     if (given.has("until")) set.until = given.real("until");
@@ -263,8 +271,8 @@ void set_hand_ik(const IkNow& now, HumanoidPart& part, const Arguments& given) {
     set_fields(given, setting);
     if (setting.on) require_body(now, part);
     const std::string hand = given.has("hand") ? given.text("hand") : "both";
-    if (hand != "right") set_curve(setting, 0, given);
-    if (hand != "left") set_curve(setting, 1, given);
+    if (hand != "right") set_curve(part, 0, given);
+    if (hand != "left") set_curve(part, 1, given);
 }
 
 /// In front of the head, for a look-at that has no position yet.

@@ -198,7 +198,6 @@ Json ik_json(const HumanoidPart& part) {
     if (!(part.ik_state.hands == humanoid::HandsState())) json["hands"] = written(part.ik_state.hands);
     if (!(part.ik_state.look == humanoid::LookAtState())) json["look"] = written(part.ik_state.look);
     if (part.ik_state.steps.away()) json["steps"] = written(part.ik_state.steps);
-    if (!(part.ik_state.feet == humanoid::FeetState())) json["feet"] = written(part.ik_state.feet);
     if (!(part.ik_state.release == Release()))
         json["release"] = release_json(part.ik_state.release, part.skeleton());
     if (!(part.ik_state.body == humanoid::BodyState())) json["body"] = body_json(part.ik_state.body);
@@ -217,7 +216,6 @@ void read_ik(const JsonPlace& place, HumanoidPart& part) {
     if (const auto look_at = place.optional("look_at")) load_fields(*look_at, part.ik.look_at);
     if (const auto hands = place.optional("hands")) read_number(*hands, part.ik_state.hands);
     if (const auto look = place.optional("look")) read_number(*look, part.ik_state.look);
-    if (const auto feet = place.optional("feet")) read_number(*feet, part.ik_state.feet);
     if (const auto steps = place.optional("steps")) {
         read_number(*steps, part.ik_state.steps);
         if (const Result bad = humanoid::check(part.ik_state.steps); !bad) steps->fail(bad.message());

@@ -117,7 +117,6 @@ struct Release {
 struct IkState {
     humanoid::BodyState body{};
     humanoid::FootstepsState steps{};
-    humanoid::FeetState feet{};
     humanoid::HandsState hands{};
     humanoid::LookAtState look{};
     std::vector<humanoid::SpringChainState> springs{};  ///< in the order of the part's springs

@@ -24,15 +24,15 @@ bool is_hand(const IkSettings& ik, humanoid::Effector effector) {
 }
 
 /// Brings the feet to the ground.
-void stand(const HumanoidPart& part, Solvers& solvers, double dt, IkState& state, ShownPose& shown) {
+void stand(const HumanoidPart& part, Solvers& solvers, ShownPose& shown) {
     const humanoid::Feet* const feet = part.ik.foot_ik.on ? solvers.feet(part) : nullptr;
-    if (feet == nullptr) {
-        state.feet = {};
-        return;
-    }
+    if (feet == nullptr) return;
+    FeetHistory::Before before = solvers.feet_history().before(part, solvers);
     const humanoid::FeetReport report =
-        feet->step(shown.local, solvers.ground(part), dt, state.feet, feet_options(part, solvers));
-    if (report.valid) shown.feet = report;
+        feet->step(shown.local, solvers.ground(part), before.dt, before.state, feet_options(part, solvers));
+    if (!report.valid) return;
+    shown.feet = report;
+    shown.feet_state = before.state;
 }
 
 /// The stored state may belong to another body, if a file was edited; then it is reset.
@@ -178,7 +178,7 @@ void reach_and_step(const HumanoidPart& part, Solvers& solvers, humanoid::Body& 
 
 /// All steps between the clip and the springs.
 void solve(const HumanoidPart& part, Solvers& solvers, double dt, IkState& state, ShownPose& shown) {
-    stand(part, solvers, dt, state, shown);
+    stand(part, solvers, shown);
     const bool acts = body_acts(part, state), moves = acts || part.ik.self_collision;
     humanoid::Body* const body = moves ? solvers.body(part) : nullptr;
     if (body == nullptr) state.body = {};
@@ -257,7 +257,7 @@ std::string why_in_air(const HumanoidPart& part, const ShownPose& shown, Solvers
     if (!shown.feet || shown.feet->feet[side].planted || !why_alone(part, shown, side).empty()) return {};
     const Solvers::Gait* const gait = solvers.gait(part);
     if (gait == nullptr) return {};
-    const double slide = gait->slide[side] * part.playback.speed;
+    const double slide = gait->slide[side];
     if (slide < part.ik.foot_ik.enter_speed) return {};
     const std::string speed = fixed_text(slide, 1) + " m/s";
     if (gait->travel < 0.35 * gait->slide[side])

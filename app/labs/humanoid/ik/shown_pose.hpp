@@ -22,6 +22,7 @@ struct ShownPose {
     std::optional<humanoid::HandsReport> hands;   ///< if hand IK is on
     std::optional<humanoid::LookAtReport> look;   ///< if look-at is on
     std::optional<humanoid::FeetReport> feet;     ///< if foot IK is on
+    humanoid::FeetState feet_state;               ///< what it remembers then
     std::vector<humanoid::SpringReport> springs;  ///< in the order of the part's springs
     std::array<humanoid::SolePoints, 2> soles{};  ///< left, right
     bool has_soles = false;
@@ -40,7 +41,8 @@ struct ShownPose {
 };
 
 /// Solves the pose `dt` seconds after `state` and updates `state`. With 0 no time passes, and the same part
-/// gives the same pose again.
+/// gives the same pose again. Feet on the ground depend only on the part: on its settings and the clip's
+/// time.
 ShownPose solve_pose(const HumanoidPart& part, Solvers& solvers, double dt, IkState& state);
 
 // What the solvers are given, also for exported code.

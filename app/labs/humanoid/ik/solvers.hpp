@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/labs/humanoid/humanoid_part.hpp"
+#include "app/labs/humanoid/ik/feet_history.hpp"
 #include "app/labs/humanoid/springs/springs.hpp"
 
 namespace tendril::app {
@@ -53,6 +54,7 @@ class Solvers {
     /// The volume of the mapped bones, on which attachments rest.
     const std::vector<humanoid::BodyCapsule>& volume(const HumanoidPart& part);
     const humanoid::Ground& ground(const HumanoidPart& part);
+    FeetHistory& feet_history() { return feet_history_; }
     /// The ranges to choose joint limits from.
     const LimitRanges& limits(const HumanoidPart& part);
 
@@ -82,6 +84,7 @@ class Solvers {
     std::map<std::size_t, Gait> gaits_;     // by clip
     std::optional<GroundSetting> ground_of_;
     humanoid::Ground ground_;
+    FeetHistory feet_history_;
     std::unique_ptr<LimitRanges> ranges_;
 };
 

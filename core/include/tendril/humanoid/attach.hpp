@@ -7,7 +7,9 @@
 //             if (auto moved = attached(skeleton, each.foot, each.leg)) skeleton = std::move(*moved);
 //
 // Clips need no change. Their keys of such a node stay local to its old parent (Node::keys), and sample()
-// converts them: at any time every node is where it was before, to rounding. key_of() converts back.
+// converts them: at any time every node is where it was before, to rounding. Only where the leg is scaled
+// unevenly, other than along the foot's own axes, the foot would be sheared: it keeps its position but not
+// its axes, and is_same_place() tells. key_of() converts back.
 #pragma once
 
 #include <vector>

@@ -36,6 +36,7 @@
 
 #include "tendril/humanoid/bone_map.hpp"
 #include "tendril/humanoid/clip.hpp"
+#include "tendril/humanoid/ground.hpp"
 #include "tendril/humanoid/limits.hpp"
 
 namespace tendril::humanoid {
@@ -71,6 +72,9 @@ struct LintSettings {
     /// what no clip of a human should do, above all knees that bend the wrong way.
     const BodyLimits* limits = nullptr;
     double beyond = 2.0;  ///< degrees that a joint may exceed `limits`
+    /// What the feet stand on, owned by the caller: heights are measured from there. Null, or no ground: a
+    /// level floor, found in the clip.
+    const Ground* ground = nullptr;
 };
 
 /// The rest of a longer clip is not judged.
@@ -80,7 +84,7 @@ struct LintReport {
     double rate = 30.0;               ///< frames per second
     std::size_t frames = 0;           ///< number of frames judged
     bool has_floor = false;           ///< feet stand in this clip, and were judged
-    double floor = 0.0;               ///< height of the clip's floor, metres
+    double floor = 0.0;               ///< height of the clip's floor, metres; from the ground, if given
     double skating = 0.0;             ///< maximum slide of a standing foot, metres, even if tolerated
     std::vector<Finding> findings{};  ///< by frame
 };

@@ -66,6 +66,19 @@ Rest look_at_rest(std::vector<Foot>& feet, double hips) {
     return rest;
 }
 
+/// Where a point is and which way is up there, as if the ground were a level floor at height 0.
+struct OnGround {
+    glm::dvec3 position, up;
+};
+OnGround on_ground(const Ground* ground, const glm::dvec3& position) {
+    constexpr double from = 0.5;  // metres above the point
+    const auto hit = ground == nullptr || ground->kind() == GroundKind::None
+                         ? std::nullopt
+                         : ground->below({position.x, position.y + from, position.z});
+    if (!hit) return {position, up};
+    return {{position.x, position.y - hit->height, position.z}, hit->normal};
+}
+
 void record(const Check& check, FeetMotion& motion) {
     const Skeleton& skeleton = check.skeleton;
     const auto hips = static_cast<std::size_t>(check.map[Bone::Hips].node);
@@ -76,9 +89,11 @@ void record(const Check& check, FeetMotion& motion) {
         place(skeleton, pose, placed);
         motion.hips.push_back(placed[hips].position);
         for (Foot& foot : motion.feet) {
-            for (const SolePoint& point : foot.points) foot.positions.push_back(placed[point.node].position);
-            foot.ups.push_back(
-                rotated(conjugate(placed[static_cast<std::size_t>(foot.node)].rotation()), up));
+            const Placement& ankle = placed[static_cast<std::size_t>(foot.node)];
+            const auto on = [&](const glm::dvec3& at) { return on_ground(check.settings.ground, at); };
+            for (const SolePoint& point : foot.points)
+                foot.positions.push_back(on(placed[point.node].position).position);
+            foot.ups.push_back(rotated(conjugate(ankle.rotation()), on(ankle.position).up));
         }
     }
 }

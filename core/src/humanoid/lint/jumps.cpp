@@ -124,7 +124,7 @@ void check_snaps(Check& check, std::int32_t node, const std::vector<double>& ben
         const double amount = std::abs(bends[in ? i - 1 : i + 1] - bends[i]);
         check.add(Fault::KneePop, node, i, i, i, amount, "deg",
                   "snaps " + std::string(in ? "straight" : "out of straight") + " by " + shown(amount) +
-                      " degrees");
+                      " degrees: lower the hips there or bring the foot nearer");
     }
 }
 

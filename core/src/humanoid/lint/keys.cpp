@@ -43,7 +43,7 @@ void check_signs_of(Check& check, const Channel& channel) {
 void check_scale_keys(Check& check, const Channel& channel) {
     const Track<glm::dvec3>& track = channel.scale;
     const bool cubic = track.interpolation == Interpolation::Cubic;
-    const glm::dvec3& rest = check.skeleton[channel.node].rest.scale;
+    const glm::dvec3& rest = check.skeleton[channel.node].key_rest().scale;
     for (std::size_t i = 0; i < track.times.size(); ++i) {
         const glm::dvec3& value = track.values[cubic ? 3 * i + 1 : i];
         for (int axis = 0; axis < 3; ++axis) {
@@ -80,8 +80,8 @@ std::optional<double> size_of_clip(const Skeleton& skeleton, const Clip& clip) {
     std::vector<double> ratios;
     for (const Channel& channel : clip.channels) {
         const Track<glm::dvec3>& track = channel.translation;
-        if (track.times.empty() || skeleton[channel.node].parent < 0) continue;
-        const double rest = length(skeleton[channel.node].rest.translation);
+        if (track.times.empty() || skeleton[channel.node].key_parent() < 0) continue;
+        const double rest = length(skeleton[channel.node].key_rest().translation);
         const double now = length(track.values[track.interpolation == Interpolation::Cubic ? 1 : 0]);
         if (rest > 1e-6) ratios.push_back(now / rest);
     }

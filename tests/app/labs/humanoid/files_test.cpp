@@ -1,4 +1,5 @@
 // Saving and loading bone maps, exporting clips as shown, finding and fixing faults.
+#include <fstream>
 #include "app/io/character/export.hpp"
 #include "app/io/character/map_file.hpp"
 #include "app/io/character/read.hpp"
@@ -8,6 +9,7 @@
 #include "tests/app/support/panel_text.hpp"
 #include "tests/app/support/temp_folder.hpp"
 #include "tests/places.hpp"
+#include "tests/says.hpp"
 
 namespace tendril::app {
 namespace {
@@ -18,7 +20,8 @@ class HumanoidFiles : public HumanoidTest {
   protected:
     std::string path(const char* name) const { return (folder_ / name).string(); }
     const humanoid::LintReport& report() {
-        const humanoid::LintReport* const found = humanoid_runtime(workspace).lint.report(part());
+        const humanoid::LintReport* const found =
+            humanoid_runtime(workspace).lint.report(part(), humanoid_runtime(workspace).solvers);
         EXPECT_NE(found, nullptr);
         static const humanoid::LintReport none;
         return found ? *found : none;
@@ -106,6 +109,106 @@ TEST_F(HumanoidFiles, AClipIsExportedWithWhatIkDoesToIt) {
         climbed = placed[0].position.y;
     }
     EXPECT_GT(climbed, 1.2);
+}
+
+/// The faults of the clip, those of the result, and those that an export tells of.
+TEST_F(HumanoidFiles, TheResultIsJudgedAndAnExportTellsWhatIsNewInIt) {
+    run("humanoid.clip", {{"name", "walk"}, {"time", 0}});
+    EXPECT_TRUE(report().findings.empty());
+    // A target behind the left foot for the whole clip: it is dragged along, above the floor.
+    run("humanoid.target", {{"effector", "left_foot"}, {"to", {0.1, 0.05, 0.3}}});
+    EXPECT_TRUE(report().findings.empty()) << "the clip has none";
+    run("humanoid.view", {{"judged", "result"}});
+    ASSERT_FALSE(report().findings.empty());
+    for (const humanoid::Finding& each : report().findings) EXPECT_FALSE(each.has_cure) << each.text;
+    const std::size_t count = report().findings.size();
+    run("humanoid.export", {{"path", path("out.glb")}});
+    const std::string told = workspace.ui.toasts.back().text;
+    EXPECT_TRUE(test::says(told, std::to_string(count) + " in the written clip, " + std::to_string(count) +
+                                     " of them new " + report().findings[0].text.substr(0, 12)))
+        << told;
+    // Reopened, the file has what was told.
+    run("humanoid.load", {{"path", path("out.glb")}});
+    run("humanoid.clip", {{"index", 0}});
+    EXPECT_EQ(report().findings.size(), count);
+    EXPECT_EQ(report().rate, 60.0);
+    // A fault that the clip had before is not new.
+    run("humanoid.load", {{"path", faulty()}});
+    run("humanoid.export", {{"path", path("again.glb")}});
+    EXPECT_TRUE(test::says(workspace.ui.toasts.back().text, "1 finding in the written clip none of them new"))
+        << workspace.ui.toasts.back().text;
+    const std::string panel = [&] {
+        run("view.fold", {{"section", "humanoid: Motion lint"}, {"folded", false}});
+        run("humanoid.clip", {{"index", 0}});
+        return test::PanelReader().panel(lab(), workspace);
+    }();
+    EXPECT_NE(panel.find("the result"), panel.npos) << panel;
+}
+
+/// On stairs the floor is where the ground is: feet that stand on them neither float nor sink.
+TEST_F(HumanoidFiles, TheResultIsJudgedOnItsGround) {
+    run("humanoid.ground", {{"kind", "stairs"}, {"step_height", 0.16}, {"step_depth", 0.36}});
+    run("humanoid.clip", {{"name", "walk"}, {"time", 0}});
+    run("humanoid.view", {{"judged", "result"}});
+    for (const humanoid::Finding& each : report().findings) {
+        EXPECT_NE(each.fault, humanoid::Fault::Sinking) << each.text;
+        EXPECT_NE(each.fault, humanoid::Fault::Floating) << each.text;
+    }
+    run("humanoid.ground", {{"kind", "slope"}, {"angle_deg", 18}});
+    EXPECT_TRUE(report().findings.empty()) << report().findings[0].text;
+    // Without foot IK, the clip walks into the slope, but it is no longer judged on it.
+    run("humanoid.foot_ik", {{"on", false}});
+    EXPECT_TRUE(report().findings.empty());
+}
+
+TEST_F(HumanoidFiles, AnExportKeepsTheClipsFrameRate) {
+    for (const auto& [frame_time, rate] :
+         {std::pair{"0.016667", 60.0}, {"0.04", 25.0}, {"0.0083333", 120.0}}) {
+        std::string text = bvh_figure();
+        const std::size_t frames = text.find("Frames:"), at = text.find("Frame Time:");
+        ASSERT_NE(at, text.npos);
+        const std::string row = text.substr(text.rfind('\n', text.size() - 2) + 1);
+        text = text.substr(0, frames) + "Frames: 240\nFrame Time: " + frame_time + "\n";
+        for (int i = 0; i < 240; ++i) text += row;
+        test::write(path("in.bvh"), text);
+        run("humanoid.load", {{"path", path("in.bvh")}});
+        for (const char* name : {"out.glb", "out.bvh"}) {
+            run("humanoid.export", {{"path", path(name)}});
+            EXPECT_EQ(humanoid::frame_rate(read_character(path(name)).clips.at(0)), rate) << name;
+            EXPECT_TRUE(test::says(workspace.ui.toasts.back().text,
+                                   "at " + std::to_string(static_cast<int>(rate)) + " fps"))
+                << workspace.ui.toasts.back().text;
+        }
+    }
+}
+
+/// Two clips of one name can each be chosen.
+TEST_F(HumanoidFiles, ClipsOfOneNameAreToldApart) {
+    run("humanoid.export", {{"path", path("one.gltf")}, {"clip", "walk"}});
+    std::ifstream file(path("one.gltf"));
+    Json json = Json::parse(file);
+    json["animations"].push_back(json["animations"][0]);
+    test::write(path("two.gltf"), json.dump());
+    run("humanoid.load", {{"path", path("two.gltf")}});
+    ASSERT_EQ(part().loaded->clips().size(), 2u);
+    EXPECT_EQ(part().loaded->clips()[0].name, "walk");
+    EXPECT_EQ(part().loaded->clips()[1].name, "walk_2");
+    run("humanoid.clip", {{"name", "walk_2"}});
+    EXPECT_EQ(part().playback.clip, 1u);
+}
+
+/// The hand goes to its target and back within the clip, however long that is.
+TEST_F(HumanoidFiles, TheWeightOfAHandFitsTheClip) {
+    for (const char* clip : {"walk", "punch"}) {
+        run("humanoid.load");
+        run("humanoid.clip", {{"name", clip}});
+        run("humanoid.hand_ik", {{"on", true}, {"hand", "left"}, {"curve", true}});
+        const HandCurve curve = *part().ik.hand_ik.curves[0];
+        const double whole = part().clip()->duration;
+        EXPECT_NEAR(curve.begin, 0.25 * whole, 0.01);
+        EXPECT_NEAR(curve.end, 0.71 * whole, 0.01);
+    }
+    EXPECT_TRUE(part().ik.hand_ik.curves[0] == HandCurve()) << "of a punch";
 }
 
 TEST_F(HumanoidFiles, FaultsAreFoundAndMendedAndTheCuresAreSaved) {
