@@ -126,6 +126,66 @@ TEST_F(HumanoidBalance, ARisingFootLeavesTheSupportWithoutAJump) {
     EXPECT_NEAR(before, -(0.1 - 0.5 * 0.11 * soles.leg), 0.02);  // beside the right foot
 }
 
+double area_of(const Support& support) {
+    double twice = 0.0;
+    for (std::size_t i = 0; i < support.count; ++i) {
+        const glm::dvec3 &a = support.corners[i], &b = support.corners[(i + 1) % support.count];
+        twice += a.x * b.z - b.x * a.z;
+    }
+    return 0.5 * twice;
+}
+
+TEST_F(HumanoidBalance, APitchingFootChangesTheSupportWithoutAJump) {
+    const std::array<SolePoints, 2> flat = sole_points(soles, placed(rest));
+    for (const double roll : {0.0, 1e-6, 0.01, 0.2}) {
+        for (const bool both : {false, true}) {
+            Support before;
+            for (int i = 0; i <= 7200; ++i) {
+                std::array<SolePoints, 2> at = flat;
+                const double pitch = 2.0 * 3.14159265358979 * i / 7200.0;
+                const glm::dquat turn = glm::angleAxis(roll, glm::dvec3(0.0, 0.0, 1.0)) *
+                                        glm::angleAxis(pitch, glm::dvec3(1.0, 0.0, 0.0));
+                for (std::size_t side = 0; side < (both ? 2 : 1); ++side) {  // about the toe, or the heel
+                    glm::dvec3& far = pitch < 3.14159265358979 ? at[side].heel : at[side].toe;
+                    const glm::dvec3 near = pitch < 3.14159265358979 ? at[side].toe : at[side].heel;
+                    far = near + turn * (far - near);
+                }
+                const Support now = find_support(soles, at);
+                ASSERT_GT(now.count, 0u);
+                if (i > 0 && i != 3600) {  // there the other end takes over
+                    EXPECT_NEAR(area_of(now), area_of(before), 1e-3) << i << ' ' << roll;
+                    EXPECT_LT(glm::distance(now.middle, before.middle), 2e-3) << i << ' ' << roll;
+                }
+                before = now;
+            }
+        }
+    }
+}
+
+TEST_F(HumanoidBalance, MassesAreFiniteHoweverTheNodesAreScaled) {
+    for (int exponent = -300; exponent <= 300; exponent += 10) {
+        const double scale = std::pow(10.0, exponent);
+        for (std::size_t i = 0; i < skeleton.size(); ++i) {
+            std::vector<Node> nodes = skeleton.nodes();
+            nodes[i].rest.scale = glm::dvec3(scale);
+            const auto odd = Skeleton::make(std::move(nodes));
+            if (!odd) continue;
+            const BoneMap names = match_bones(*odd);
+            const auto found = find_masses(*odd, names);
+            const auto feet = find_soles(*odd, names);
+            if (!found) continue;
+            ASSERT_TRUE(feet) << feet.message();
+            std::vector<Placement> where(odd->size());
+            place(*odd, rest_pose(*odd), where);
+            const glm::dvec3 centre = found->centre(where);
+            for (const MassPoint& each : found->points)
+                EXPECT_TRUE(std::isfinite(each.at.x + each.at.y + each.at.z)) << exponent << ' ' << i;
+            EXPECT_TRUE(std::isfinite(centre.x + centre.y + centre.z)) << exponent << ' ' << i;
+            EXPECT_TRUE(std::isfinite(find_support(*feet, where).margin(centre))) << exponent << ' ' << i;
+        }
+    }
+}
+
 TEST_F(HumanoidBalance, NothingStandsInTheAir) {
     const Ground ground = *Ground::flat(-1.0);
     const Support support = find_support(soles, placed(rest), &ground);
