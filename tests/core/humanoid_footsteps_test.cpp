@@ -139,6 +139,29 @@ TEST_F(HumanoidFootsteps, OnStairsAFootLandsOnAStep) {
     EXPECT_TRUE(climbed);
 }
 
+TEST_F(HumanoidFootsteps, AFootClimbsOneStairAfterAnother) {
+    const Ground stairs = *Ground::stairs(0.3, 0.4);
+    ground = &stairs;
+    const auto hips = static_cast<std::size_t>(map[Bone::Hips].node);
+    rest[hips].translation.z -= 0.3;
+    const glm::dvec3 from{-0.72, 1.45, -0.3}, to{-0.2, 2.0, 1.9};
+    double highest = 0.0;
+    for (int i = 1; i <= 900; ++i) {
+        solve({{Effector::RightHand, glm::mix(from, to, std::min(1.0, i / 600.0))}});
+        for (const SolePoints& sole : sole_points(soles, solved)) highest = std::max(highest, sole.toe.y);
+    }
+    EXPECT_FALSE(steps.stepping());
+    std::array<double, 2> up{};
+    for (std::size_t side = 0; side < 2; ++side) {
+        const SolePoints sole = sole_points(soles, solved)[side];
+        up[side] = stairs.highest(sole.toe.x, sole.toe.z)->height;
+        EXPECT_NEAR(sole.toe.y, up[side], 0.03) << side;
+    }
+    // From the ground of the clip, the second stair is more than half a leg up.
+    EXPECT_GT(0.6, 0.5 * soles.leg);
+    EXPECT_NEAR(std::max(up[0], up[1]), 0.6, 1e-6);
+}
+
 TEST_F(HumanoidFootsteps, StepsEndForAnyTarget) {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> any(-1.0, 1.0);

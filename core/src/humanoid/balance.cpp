@@ -131,8 +131,8 @@ double standing_at(double height, double leg) noexcept {
     return inside * inside * (3.0 - 2.0 * inside);
 }
 
-/// Unit length up to 60 degrees of pitch. From there on it shrinks, to zero for a vertical sole, where it turns
-/// round.
+/// Unit length up to 60 degrees of pitch. From there on it shrinks, to zero for a vertical sole, where it
+/// turns round.
 glm::dvec3 seen_from_above(const glm::dvec3& sole) noexcept {
     const glm::dvec3 level{sole.x, 0.0, sole.z};
     const double size = std::max(length(level), 0.5 * length(sole));

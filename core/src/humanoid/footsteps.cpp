@@ -44,9 +44,10 @@ glm::dvec3 pull_of(const BodyState& body) noexcept {
     return pull;
 }
 
-/// How much higher the ground is at the shifted sole; nullopt where there is none, or it is too steep a step.
-std::optional<double> climb(const SolePoints& sole, const glm::dvec3& shift, const Ground* ground,
-                            double leg) noexcept {
+/// How much higher the ground is at the sole shifted to `to` than below the clip's; nullopt where there is
+/// none, or where it is too high a step from where the sole stands, shifted by `from`.
+std::optional<double> climb(const SolePoints& sole, const glm::dvec3& from, const glm::dvec3& to,
+                            const Ground* ground, double leg) noexcept {
     if (ground == nullptr) return 0.0;
     const auto height = [&](const glm::dvec3& by) -> std::optional<double> {
         const auto heel = ground->highest(sole.heel.x + by.x, sole.heel.z + by.z);
@@ -54,9 +55,9 @@ std::optional<double> climb(const SolePoints& sole, const glm::dvec3& shift, con
         if (!heel || !toe) return std::nullopt;
         return std::max(heel->height, toe->height);
     };
-    const auto before = height(glm::dvec3(0.0)), after = height(shift);
-    if (!before || !after || std::abs(*after - *before) > highest_step * leg) return std::nullopt;
-    return *after - *before;
+    const auto clip = height(glm::dvec3(0.0)), before = height(from), after = height(to);
+    if (!clip || !before || !after || std::abs(*after - *before) > highest_step * leg) return std::nullopt;
+    return *after - *clip;
 }
 
 bool begin(Footstep& step, const glm::dvec3& to) noexcept {
@@ -129,7 +130,7 @@ bool plan_step(FootstepsState& state, const Soles& soles, const glm::dvec3& cent
         if (length(minus(caught, there)) > length(minus(caught, stands[side])) - shortest_step * leg)
             continue;
         glm::dvec3 to = plus(flat(state.feet[side].to), minus(there, stands[side]));
-        const auto up = climb(at[side], to, ground, leg);
+        const auto up = climb(at[side], state.feet[side].to, to, ground, leg);
         if (!up) continue;
         to.y = *up;
         return begin(state.feet[side], to);

@@ -56,8 +56,8 @@ std::array<FootShift, 2> advance_steps(FootstepsState& state, const Soles& soles
 
 /// Begins a step if none is under way and one is needed: the last solve, which left `body`, held the centre
 /// of mass back, and a target is not reached. `clip`: placements of the pose before the solve. On `ground`, a
-/// foot steps only where there is some, and at most 0.5 of the leg's length up or down. Returns whether a
-/// step began.
+/// foot steps only where there is some, and at most 0.5 of the leg's length up or down from where it stands.
+/// Returns whether a step began.
 bool plan_step(FootstepsState& state, const Soles& soles, const glm::dvec3& centre,
                std::span<const Placement> clip, const BodyState& body,
                const Ground* ground = nullptr) noexcept;
