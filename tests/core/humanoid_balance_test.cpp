@@ -58,6 +58,7 @@ class HumanoidBalance : public testing::Test {
         }
         return reached;
     }
+    static glm::dvec3 plus_z(const glm::dvec3& point, double by) { return point + glm::dvec3(0.0, 0.0, by); }
     glm::dvec3 at(Bone bone, const std::vector<rig::Transform>& pose) const {
         return placed(pose)[static_cast<std::size_t>(map[bone].node)].position;
     }
@@ -224,6 +225,34 @@ TEST_F(HumanoidBalance, HandStopsShortWhereTheBodyWouldFall) {
     EXPECT_GT(on.report.residual, 0.3);
     EXPECT_GT(on.report.outside, 0.0);  // the hand pulls it out of the safe part, by a little
     EXPECT_LT(on.report.outside, 0.02);
+}
+
+TEST_F(HumanoidBalance, AFootSupportsWhereItIsNotWhereItIsAskedToBe) {
+    const glm::dvec3 foot = at(Bone::LeftFoot, rest), hand = at(Bone::RightHand, rest);
+    for (const double far : {0.3, 0.6, 1.0, 2.0, 3.0}) {
+        BodyState state;
+        std::vector<rig::Transform> pose = rest;
+        std::vector<Placement> before;
+        double moved = 0.0;
+        BodyReport last;
+        for (int frame = 1; frame <= 600; ++frame) {
+            const double part = std::min(1.0, frame / 240.0);
+            const BodyTarget targets[]{
+                {Effector::LeftFoot, plus_z(foot, part * far)},
+                {Effector::RightHand, glm::mix(hand, glm::dvec3(-0.3, 1.1, 2.0), part)}};
+            pose = rest;
+            const auto report = body.solve(pose, targets, state, {.balance = true});
+            ASSERT_TRUE(report) << report.message();
+            last = *report;
+            const std::vector<Placement> now = placed(pose);
+            for (std::size_t i = 0; i < now.size() && frame > 480; ++i)
+                moved = std::max(moved, glm::distance(now[i].position, before[i].position));
+            before = now;
+        }
+        EXPECT_GT(margin(pose), -0.01) << far;
+        EXPECT_LT(last.outside, 0.04) << far;
+        EXPECT_LT(moved, 1e-4) << far;  // it rests
+    }
 }
 
 TEST_F(HumanoidBalance, AClipThatIsOutOfBalanceMayStaySo) {

@@ -40,18 +40,24 @@ SolePoints moved_sole(const SolePoints& clip, const glm::dvec3& was, const glm::
 
 }  // namespace
 
+std::optional<std::size_t> BodySolve::side_of(const Goal& goal) noexcept {
+    if (goal.effector == static_cast<std::size_t>(Effector::LeftFoot)) return 0;
+    if (goal.effector == static_cast<std::size_t>(Effector::RightFoot)) return 1;
+    return std::nullopt;
+}
+
 /// Turns the feet as turn_ends() will. The ankle's limit may tilt a foot that stays: then it rolls over the
 /// ball or the heel, whichever would sink into the ground, and its goal moves along. Finds the support, to
 /// which a foot in the middle of a step belongs as if it did not rise.
 void BodySolve::roll_feet() noexcept {
-    std::array<SolePoints, 2> soles = clip_soles_;
+    std::array<SolePoints, 2>& soles = soles_ = clip_soles_;
     std::array<SoleHeights, 2> over = clip_heights_;
     bool target = false;
     for (std::size_t k = 0; k < count_; ++k) {
         Goal& goal = goals_[k];
-        const bool left = goal.effector == static_cast<std::size_t>(Effector::LeftFoot);
-        if (!left && goal.effector != static_cast<std::size_t>(Effector::RightFoot)) continue;
-        const std::size_t side = left ? 0 : 1;
+        const auto foot = side_of(goal);
+        if (!foot) continue;
+        const std::size_t side = *foot;
         Link& link = end_of(goal.effector);
         const glm::dquat above = work_.links[static_cast<std::size_t>(link.parent)].rotation;
         link.rotation = math::compose(above, link.own);  // a rotation is blended in once, not at each round
@@ -62,7 +68,7 @@ void BodySolve::roll_feet() noexcept {
         const SolePoints& clip = clip_soles_[side];
         const glm::dvec3& was = work_.placements[link.node].position;
         if (goal.target) {
-            soles[side] = moved_sole(clip, was, goal.position, turn);
+            soles[side] = moved_sole(clip, was, link.position, turn);
             target = true;
             continue;
         }
@@ -83,7 +89,7 @@ void BodySolve::roll_feet() noexcept {
         goal.position.y += shift.lift;
     }
     work_.place_links(shift_);
-    // A target may take a foot anywhere.
+    // A target may take a foot anywhere, or be out of its reach: the foot supports where it is.
     if (target) over = sole_heights(soles, options_.ground);
     safe_ = find_support(*work_.soles, soles, over).shrunk(options_.reserve);
 }
@@ -152,7 +158,35 @@ void BodySolve::add_balance_row(const glm::dvec3& out, double by) noexcept {
         columns_[i][row_count_] = cross(mass_arms_[i], times(out, -1.0));
         steps_[i].rows |= 1u << row_count_;
     }
+    for (std::size_t k = 0; k < count_; ++k)
+        if (const glm::dvec3 along = support_gradient(goals_[k], out); along != glm::dvec3(0.0))
+            for (int axis = 0; axis < 3; ++axis) {
+                const std::size_t row = 3 * k + static_cast<std::size_t>(axis);
+                rows_[row_count_].shift = plus(rows_[row_count_].shift, times(rows_[row].shift, along[axis]));
+                for (std::size_t i = 0; i < work_.links.size(); ++i)
+                    if (steps_[i].rows >> row & 1u)
+                        columns_[i][row_count_] =
+                            plus(columns_[i][row_count_], times(columns_[i][row], along[axis]));
+            }
     ++row_count_;
+}
+
+/// A foot that follows a target carries its part of the support along: how far the point of the safe part
+/// nearest to the centre of mass moves along `out` as the foot moves along each axis.
+glm::dvec3 BodySolve::support_gradient(const Goal& goal, const glm::dvec3& out) const noexcept {
+    const auto side = side_of(goal);
+    if (!side || !goal.target) return glm::dvec3(0.0);
+    const double step = 1e-3 * work_.soles->leg, now = dot(safe_.nearest(centre_), out);
+    glm::dvec3 gradient{0.0};
+    for (int axis = 0; axis < 3; ++axis) {
+        std::array<SolePoints, 2> moved = soles_;
+        SolePoints& sole = moved[*side];
+        sole.heel[axis] += step, sole.toe[axis] += step;
+        const Support support =
+            find_support(*work_.soles, moved, sole_heights(moved, options_.ground)).shrunk(options_.reserve);
+        if (support.count > 0) gradient[axis] = (dot(support.nearest(centre_), out) - now) / step;
+    }
+    return gradient;
 }
 
 bool BodySolve::hold_balance() noexcept {

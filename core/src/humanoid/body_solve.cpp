@@ -266,9 +266,7 @@ bool BodySolve::has_rotations() const noexcept {
 void BodySolve::turn_ends() noexcept {
     work_.place_links(shift_);
     for (std::size_t k = 0; k < count_; ++k) {
-        const bool foot = goals_[k].effector == static_cast<std::size_t>(Effector::LeftFoot) ||
-                          goals_[k].effector == static_cast<std::size_t>(Effector::RightFoot);
-        if (foot || goals_[k].target->rotation) turn_end(goals_[k]);
+        if (side_of(goals_[k]) || goals_[k].target->rotation) turn_end(goals_[k]);
     }
     work_.place_links(shift_);
 }
@@ -282,9 +280,8 @@ void BodySolve::turn_end(const Goal& goal) noexcept {
     Link& link = end_of(goal.effector);
     if (link.parent < 0) return;
     Link& before = work_.links[static_cast<std::size_t>(link.parent)];
-    const bool foot = goal.effector == static_cast<std::size_t>(Effector::LeftFoot) ||
-                      goal.effector == static_cast<std::size_t>(Effector::RightFoot);
-    if (foot && balances_) link.rotation = math::compose(before.rotation, link.own);  // as roll_feet() does
+    if (side_of(goal) && balances_)
+        link.rotation = math::compose(before.rotation, link.own);  // as roll_feet() does
     link.turn = math::compose(conjugate(before.rotation), rotation_of_end(goal));
     if (goal.effector == static_cast<std::size_t>(Effector::LeftHand) ||
         goal.effector == static_cast<std::size_t>(Effector::RightHand)) {

@@ -89,6 +89,8 @@ class BodySolve {
     void find_mass_arms() noexcept;
     void start_balance_step() noexcept;
     void add_balance_row(const glm::dvec3& out, double by) noexcept;
+    static std::optional<std::size_t> side_of(const Goal& goal) noexcept;  ///< of a foot: 0 is left
+    glm::dvec3 support_gradient(const Goal& goal, const glm::dvec3& out) const noexcept;
     bool hold_balance() noexcept;
 
     void find_contacts() noexcept;
@@ -131,6 +133,7 @@ class BodySolve {
     bool balances_ = false;
     std::array<SolePoints, 2> clip_soles_{};
     std::array<SoleHeights, 2> clip_heights_{};
+    std::array<SolePoints, 2> soles_{};  ///< in the pose being solved
     Support safe_{};                     ///< where the centre of mass should be
     double allowed_ = 0.0;               ///< how far outside of it the clip has it, metres
     double outside_ = 0.0;               ///< how much farther it is now
