@@ -60,7 +60,7 @@ class HumanoidFootsteps : public testing::Test {
 TEST_F(HumanoidFootsteps, AFootStepsToWhereTheBodyIsCaught) {
     const BodyReport report = reach({-0.2, 1.0, 1.6});
     EXPECT_GE(begun, 1);
-    EXPECT_LE(begun, 6);
+    EXPECT_LE(begun, 2);
     EXPECT_FALSE(steps.stepping());
     EXPECT_LT(report.residual, 0.03);  // half a metre short without a step
     EXPECT_GT(margin(), 0.0);
@@ -159,21 +159,24 @@ TEST_F(HumanoidFootsteps, AFootClimbsOneStairAfterAnother) {
     }
     // From the ground of the clip, the second stair is more than half a leg up.
     EXPECT_GT(0.6, 0.5 * soles.leg);
-    EXPECT_NEAR(std::max(up[0], up[1]), 0.6, 1e-6);
+    EXPECT_GT(std::max(up[0], up[1]), 0.59);
 }
 
 TEST_F(HumanoidFootsteps, StepsEndForAnyTarget) {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> any(-1.0, 1.0);
+    int few = 0;
     for (int i = 0; i < 40; ++i) {
         state = {}, steps = {}, begun = 0;
         const double x = any(random), y = any(random), z = any(random);
         const BodyReport report = reach({-0.3 + 1.3 * x, 1.0 + 0.9 * y, 0.3 + 1.3 * z});
-        EXPECT_LE(begun, 12) << i;
+        EXPECT_LE(begun, 4) << i;
+        few += begun <= 2;
         EXPECT_FALSE(steps.stepping()) << i;
-        EXPECT_LT(report.residual, 0.1) << i;
+        EXPECT_LT(report.residual, 0.03) << i;
         EXPECT_GT(margin(), 0.0) << i;
     }
+    EXPECT_GE(few, 30);
 }
 
 TEST_F(HumanoidFootsteps, BadStatesAreReset) {

@@ -271,8 +271,7 @@ void BodySolve::turn_ends() noexcept {
     work_.place_links(shift_);
 }
 
-glm::dquat BodySolve::rotation_of_end(const Goal& goal) const noexcept {
-    const Link& link = end_of(goal.effector);
+glm::dquat BodySolve::rotation_of_end(const Goal& goal, const Link& link) const noexcept {
     return goal.target && goal.target->rotation ? wanted_rotation(link, *goal.target) : link.start;
 }
 
@@ -282,7 +281,7 @@ void BodySolve::turn_end(const Goal& goal) noexcept {
     Link& before = work_.links[static_cast<std::size_t>(link.parent)];
     if (side_of(goal) && balances_)
         link.rotation = math::compose(before.rotation, link.own);  // as roll_feet() does
-    link.turn = math::compose(conjugate(before.rotation), rotation_of_end(goal));
+    link.turn = math::compose(conjugate(before.rotation), rotation_of_end(goal, link));
     if (goal.effector == static_cast<std::size_t>(Effector::LeftHand) ||
         goal.effector == static_cast<std::size_t>(Effector::RightHand)) {
         // The lower arm takes part of the twist about its own axis, which moves no joint.
