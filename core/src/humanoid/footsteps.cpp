@@ -15,8 +15,6 @@ using namespace rig::detail;
 // Parts of the leg's length.
 constexpr double longest_step = 0.9, usual_step = 0.5, shortest_step = 0.08, nearest_feet = 0.18,
                  highest_step = 0.5;
-/// From its target: a hand nearer than this needs no step.
-constexpr double close_enough = 0.02;
 constexpr double least_hold = 1e-4;  // the balance that holds the body back, as BodyState::outside
 constexpr double stands_under = 0.08;
 
@@ -109,7 +107,7 @@ bool plan_step(FootstepsState& state, const Soles& soles, const glm::dvec3& cent
     double hold = body.outside;  // by balance, or by a leg that is stretched as far as it goes
     for (const Effector foot : {Effector::LeftFoot, Effector::RightFoot})
         hold = std::max(hold, length(body.left[static_cast<std::size_t>(foot)]));
-    if (!(hold > least_hold * leg && length(pull) > close_enough * leg)) return false;
+    if (!(hold > least_hold * leg && length(pull) > no_step_within * leg)) return false;
     for (const Effector foot : {Effector::LeftFoot, Effector::RightFoot})
         if (body.weights[static_cast<std::size_t>(foot)] > 0.0) return false;
     const std::array<SolePoints, 2> at = sole_points(soles, clip);
