@@ -113,6 +113,23 @@ TEST_F(HumanoidBalance, ARotationIsBlendedInOnceHoweverLongItIsHeld) {
     for (const int frames : {1, 10, 60}) EXPECT_NEAR(turned(true, frames), once, 0.02) << frames;
 }
 
+TEST_F(HumanoidBalance, ARotationOfNoWeightHasNoEffect) {
+    const auto foot = [&](bool balance, double weight, bool rotated) {
+        BodyTarget target{.effector = Effector::LeftFoot,
+                          .position = at(Bone::LeftFoot, rest) + glm::dvec3(0.0, 0.3, 0.3),
+                          .weight = weight};
+        if (rotated) target.rotation = glm::angleAxis(0.6, glm::dvec3(0.0, 1.0, 0.0));
+        const auto node = static_cast<std::size_t>(map[Bone::LeftFoot].node);
+        return placed(reach({target}, balance).pose)[node].rotation();
+    };
+    for (const bool balance : {false, true}) {
+        for (const double weight : {0.0, 1e-3}) {
+            const glm::dquat off = foot(balance, weight, true) * glm::conjugate(foot(balance, weight, false));
+            EXPECT_LT(glm::length(glm::dvec3(off.x, off.y, off.z)), 1e-3) << balance << ' ' << weight;
+        }
+    }
+}
+
 TEST_F(HumanoidBalance, ARisingFootLeavesTheSupportWithoutAJump) {
     double before = 0.0;
     for (int i = 0; i <= 200; ++i) {

@@ -52,7 +52,6 @@ std::optional<std::size_t> BodySolve::side_of(const Goal& goal) noexcept {
 BodySolve::FootPlace BodySolve::foot_at(const Goal& goal, std::size_t side,
                                         const glm::dquat& above) const noexcept {
     Link link = end_of(goal.effector);
-    link.rotation = math::compose(above, link.own);  // a rotation is blended in once, not at each round
     link.turn = math::compose(conjugate(above), rotation_of_end(goal, link));
     clamp_turn(link);
     FootPlace place{link.turn, goal.position, {}, clip_heights_[side]};

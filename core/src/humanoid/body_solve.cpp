@@ -15,10 +15,10 @@ using namespace rig::detail;
 
 namespace {
 
-/// The rotation that a target asks of its bone, blended in by its weight.
-glm::dquat wanted_rotation(const Link& link, const BodyTarget& target) noexcept {
+/// The rotation that a target asks of its bone, blended in by its weight from the one without it.
+glm::dquat wanted_rotation(const Link& link, const BodyTarget& target, const glm::dquat& without) noexcept {
     const glm::dquat whole = math::compose(rig::normalised(*target.rotation), conjugate(link.rest));
-    return rig::blend(link.rotation, whole, target.weight);
+    return rig::blend(without, whole, target.weight);
 }
 
 }  // namespace
@@ -220,7 +220,8 @@ void BodySolve::start(std::span<const rig::Transform> pose, const BodyState& sta
         if (goals_[k].effector != static_cast<std::size_t>(Effector::Hips) || !goals_[k].target->rotation)
             continue;
         hips_given_ = true;
-        work_.links.front().turn = wanted_rotation(work_.links.front(), *goals_[k].target);
+        work_.links.front().turn =
+            wanted_rotation(work_.links.front(), *goals_[k].target, work_.links.front().rotation);
     }
     work_.place_links(shift_);
     if (balances_) roll_feet();
@@ -272,15 +273,14 @@ void BodySolve::turn_ends() noexcept {
 }
 
 glm::dquat BodySolve::rotation_of_end(const Goal& goal, const Link& link) const noexcept {
-    return goal.target && goal.target->rotation ? wanted_rotation(link, *goal.target) : link.start;
+    if (!goal.target || !goal.target->rotation) return link.start;
+    return wanted_rotation(link, *goal.target, side_of(goal) ? link.start : link.rotation);
 }
 
 void BodySolve::turn_end(const Goal& goal) noexcept {
     Link& link = end_of(goal.effector);
     if (link.parent < 0) return;
     Link& before = work_.links[static_cast<std::size_t>(link.parent)];
-    if (side_of(goal) && balances_)
-        link.rotation = math::compose(before.rotation, link.own);  // as roll_feet() does
     link.turn = math::compose(conjugate(before.rotation), rotation_of_end(goal, link));
     if (goal.effector == static_cast<std::size_t>(Effector::LeftHand) ||
         goal.effector == static_cast<std::size_t>(Effector::RightHand)) {
