@@ -272,6 +272,22 @@ TEST_F(HumanoidBalance, AFootSupportsWhereItIsNotWhereItIsAskedToBe) {
     }
 }
 
+TEST_F(HumanoidBalance, StandsWhereverAFootAndAHandAreAskedToGo) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> any(-1.0, 1.0);
+    int falls = 0;
+    for (int i = 0; i < 30; ++i) {
+        const double fx = any(random), fz = any(random), hx = any(random), hy = any(random), hz = any(random);
+        const std::vector<BodyTarget> targets{
+            {Effector::LeftFoot, at(Bone::LeftFoot, rest) + glm::dvec3(1.5 * fx, 0.0, 2.5 * fz)},
+            {Effector::RightHand, {-0.3 + 1.2 * hx, 1.1 + 0.7 * hy, 1.2 * hz}}};
+        const double stands = margin(reach(targets, true, 300).pose);
+        EXPECT_GT(stands, -0.25) << i;
+        if (stands < -0.01) ++falls;
+    }
+    EXPECT_LE(falls, 3);
+}
+
 TEST_F(HumanoidBalance, AClipThatIsOutOfBalanceMayStaySo) {
     std::vector<rig::Transform> pose = rest;
     const auto hips = static_cast<std::size_t>(map[Bone::Hips].node);

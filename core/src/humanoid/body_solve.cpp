@@ -55,12 +55,12 @@ std::optional<BodyReport> BodySolve::run(std::span<rig::Transform> pose, BodySta
         const double part = std::min(1.0, max_step_turn / size), travelled = travel();
         apply(part);
         const double next = measure();
-        if (const double now = travel(); now > limit) {
-            cut_to(limit, part * std::max(limit - travelled, 0.0) / (now - travelled));
-            break;
-        }
         // The turn back is exact to first order: its square may cost as much.
         if (next <= cost + back_ * back_ * back_ * back_) {
+            if (const double now = travel(); now > limit) {
+                cut_to(limit, part * std::max(limit - travelled, 0.0) / (now - travelled));
+                break;
+            }
             result.settled = next > min_stalled_cost && std::abs(cost - next) < stalled_share * cost;
             cost = next;
             trust.succeeded();
