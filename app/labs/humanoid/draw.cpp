@@ -273,7 +273,7 @@ class Drawing {
                 .layer = Layer::Overlay;
         const glm::vec3 centre(shown_.balance->centre);
         const glm::vec3 foot(centre.x, static_cast<float>(support.middle.y), centre.z);
-        const glm::vec3 colour = shown_.balance->margin >= 0.0 ? view_.palette.tail : view_.palette.limit;
+        const glm::vec3 colour = balance_colour(part_, shown_, view_.palette);
         list_.line(centre, foot, px(1.0f), glm::vec4(colour, 0.5f)).layer = Layer::Overlay;
         for (const auto& [at, radius] : {std::pair(centre, 3.0f), std::pair(foot, 4.5f)})
             list_.sphere(at, px(radius), Unit::Pixels, glm::vec4(colour, 1.0f)).layer = Layer::Overlay;
@@ -353,6 +353,10 @@ LabSetting helpers_setting() {
             .choices = {{"shown", "Nodes beside the body shown"}, {"hidden", "The body alone"}}};
 }
 
+glm::vec3 balance_colour(const HumanoidPart& part, const ShownPose& shown, const Palette& colours) {
+    return shown.balance->margin >= 0.0 || part.ik_state.steps.stepping() ? colours.tail : colours.limit;
+}
+
 std::vector<LabSetting> HumanoidLab::settings() const {
     return {bones_setting(), helpers_setting(), humanoid_past().plot, humanoid_past().ghosts};
 }
@@ -377,8 +381,7 @@ std::vector<LegendRow> HumanoidLab::legend(const Workspace& workspace) const {
     if (std::ranges::find(body, false) != body.end()) rows.push_back({"helper", colours.neutral});
     if (shown.feet && (shown.feet->feet[0].planted || shown.feet->feet[1].planted))
         rows.push_back({"planted", colours.tail});
-    if (shown.balance)
-        rows.push_back({"centre of mass", shown.balance->margin >= 0.0 ? colours.tail : colours.limit});
+    if (shown.balance) rows.push_back({"centre of mass", balance_colour(part, shown, colours)});
     if (!part.springs.empty()) rows.push_back({"on a spring", attached_colour(colours)});
     if (!part.attachments.list.empty()) rows.push_back({"attached", attached_colour(colours)});
     if (part.view.ghost && !shown.before.empty()) rows.push_back({"before", colours.ghost});

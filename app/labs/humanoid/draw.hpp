@@ -3,6 +3,7 @@
 
 #include "app/labs/humanoid/ik/shown_pose.hpp"
 #include "app/labs/lab.hpp"
+#include "app/view/palette.hpp"
 
 namespace tendril::app {
 
@@ -28,5 +29,8 @@ std::vector<bool> swinging_nodes(const HumanoidPart& part, Solvers& solvers);
 
 /// Where a bone without a child is drawn to end, in the node's space.
 glm::dvec3 end_of(const HumanoidPart& part, std::size_t node);
+
+/// Of the centre of mass: a warning where it is outside the feet, unless a foot is stepping to catch it.
+glm::vec3 balance_colour(const HumanoidPart& part, const ShownPose& shown, const Palette& colours);
 
 }  // namespace tendril::app

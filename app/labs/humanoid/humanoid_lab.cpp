@@ -50,7 +50,9 @@ void HumanoidLab::step(Workspace& workspace) const {
     const bool quiet = !part.ik_state.steps.stepping() && !goes_on(part.playback, *part.loaded) &&
                        at_rest(part.attachments) && at_rest(part.ik_state.springs);
     part.quiet_ticks = quiet ? part.quiet_ticks + 1 : 0;
+    const Playback playback = part.playback;
     advance(part.playback, *part.loaded, seconds);
+    carry_targets(part, playback);
     const ShownPose shown = solve_pose(part, runtime.solvers, seconds, part.ik_state);
     advance(part.attachments, wearer_of(part, runtime.solvers, shown), runtime.ropes, seconds);
     if (follows) workspace.camera.target += standing_at(workspace) - before;

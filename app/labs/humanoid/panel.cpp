@@ -112,7 +112,9 @@ void playback_rows(const HumanoidPanel& panel, MoreRows& more) {
         end_search();
     }
     explain("The motion to play. Type part of a name to find one.");
-    FieldRows(playback, "humanoid.clip", panel.emit).under(more).rows("speed", "loop", "in_place");
+    FieldRows(playback, "humanoid.clip", panel.emit)
+        .under(more)
+        .rows("speed", "loop", "in_place", "carry_targets");
     if (playback.playing && !panel.workspace.clock.playing) note("Paused: press Space to play.");
 }
 

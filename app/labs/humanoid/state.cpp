@@ -164,6 +164,7 @@ Json balance_state(const HumanoidPart& part, const ShownPose& shown, Solvers& so
     json["centre"] = dpoint(shown.balance->centre);
     json["margin"] = support.count > 0 ? Json(shown.balance->margin) : Json(nullptr);
     json["text"] = balance_text(part, shown, solvers);
+    if (const std::string why = why_no_balance(part, shown, solvers); !why.empty()) json["note"] = why;
     json["support"] = Json::array();
     for (std::size_t i = 0; i < support.count; ++i) json["support"].push_back(dpoint(support.corners[i]));
     return json;
@@ -281,6 +282,7 @@ Json clip_state(const HumanoidPart& part) {
                 {"speed", playback.speed},
                 {"loop", playback.loop},
                 {"in_place", playback.in_place},
+                {"carry_targets", playback.carry_targets},
                 {"rounds", playback.rounds}};
 }
 

@@ -6,6 +6,7 @@
 #include "humanoid/anatomy.hpp"
 #include "humanoid/balance.hpp"
 #include "humanoid/input.hpp"
+#include "humanoid/limb.hpp"
 #include "rig/math.hpp"
 
 namespace tendril::humanoid {
@@ -73,7 +74,7 @@ class MassFinder {
     void add(Bone bone, const glm::dvec3& centre, double share) {
         const auto node = static_cast<std::size_t>(map_[bone].node);
         masses_.points.push_back(
-            {node, glm::inverse(at_[node].axes) * minus(centre, at_[node].position), share});
+            {node, detail::seen_from(at_[node], minus(centre, at_[node].position)), share});
     }
     void hand(Bone lower, Bone end) {
         const glm::dvec3& wrist = position(end);
@@ -128,6 +129,14 @@ double standing_at(double height, double leg) noexcept {
     const double part = (lifted_above - height / leg) / (lifted_above - stands_below);
     const double inside = part > 0.0 ? std::min(part, 1.0) : 0.0;
     return inside * inside * (3.0 - 2.0 * inside);
+}
+
+/// Unit length up to 60 degrees of pitch. From there on it shrinks, to zero for a vertical sole, where it
+/// turns round.
+glm::dvec3 seen_from_above(const glm::dvec3& sole) noexcept {
+    const glm::dvec3 level{sole.x, 0.0, sole.z};
+    const double size = std::max(length(level), 0.5 * length(sole));
+    return size > 0.0 ? times(level, 1.0 / size) : glm::dvec3(0.0);
 }
 
 glm::dvec3 nearest_on(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& point) noexcept {
@@ -221,8 +230,7 @@ Support find_support(const Soles& soles, const std::array<SolePoints, 2>& at,
         const SolePoints& own = on[side];
         const SolePoints& other = on[1 - side];
         const glm::dvec3 centre = mix(other.heel, other.toe, 0.5);
-        const glm::dvec3 all{at[side].toe.x - at[side].heel.x, 0.0, at[side].toe.z - at[side].heel.z};
-        const glm::dvec3 ahead = direction_of(all, 1e-9 * soles.leg).value_or(soles.forward);
+        const glm::dvec3 ahead = seen_from_above(minus(at[side].toe, at[side].heel));
         const glm::dvec3 aside{ahead.z, 0.0, -ahead.x};
         // The tip lifts with the toes, and shrinks with the foot.
         const double part = support.standing[side] / most;

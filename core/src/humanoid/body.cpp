@@ -5,6 +5,7 @@
 
 #include "humanoid/body_solve.hpp"
 #include "humanoid/input.hpp"
+#include "humanoid/limb.hpp"
 #include "rig/checks.hpp"
 #include "rig/math.hpp"
 
@@ -368,7 +369,7 @@ void Body::Work::give(std::span<rig::Transform> pose, const glm::dvec3& shift) c
     glm::dvec3 own = shift;
     if (const std::int32_t above = parents[hips.node]; above >= 0) {
         const Placement& from = placements[static_cast<std::size_t>(above)];
-        own = glm::inverse(from.axes) * shift;
+        own = detail::seen_from(from, shift);
     }
     pose[hips.node].translation = plus(pose[hips.node].translation, own);
 }

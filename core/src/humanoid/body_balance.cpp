@@ -40,52 +40,74 @@ SolePoints moved_sole(const SolePoints& clip, const glm::dvec3& was, const glm::
 
 }  // namespace
 
-/// Turns the feet as turn_ends() will. The ankle's limit may tilt a foot that stays: then it rolls over the
-/// ball or the heel, whichever would sink into the ground, and its goal moves along. Finds the support, to
-/// which a foot in the middle of a step belongs as if it did not rise.
+std::optional<std::size_t> BodySolve::side_of(const Goal& goal) noexcept {
+    if (goal.effector == static_cast<std::size_t>(Effector::LeftFoot)) return 0;
+    if (goal.effector == static_cast<std::size_t>(Effector::RightFoot)) return 1;
+    return std::nullopt;
+}
+
+/// The foot as turn_ends() will turn it, if its parent bone is rotated by `above`. The ankle's limit may tilt
+/// a foot that stays: then it rolls over the ball or the heel, whichever would sink into the ground, and its
+/// goal moves along.
+BodySolve::FootPlace BodySolve::foot_at(const Goal& goal, std::size_t side,
+                                        const glm::dquat& above) const noexcept {
+    Link link = end_of(goal.effector);
+    link.turn = math::compose(conjugate(above), rotation_of_end(goal, link));
+    clamp_turn(link);
+    FootPlace place{link.turn, goal.position, {}, clip_heights_[side]};
+    const glm::dquat turn = math::compose(math::compose(above, link.turn), conjugate(link.start));
+    const SolePoints& clip = clip_soles_[side];
+    const glm::dvec3& was = work_.placements[link.node].position;
+    if (goal.target) {  // it may be out of reach: the foot supports where it is
+        place.sole = moved_sole(clip, was, link.position, turn);
+        return place;
+    }
+    SolePoints now = moved_sole(clip, was, was, turn);
+    const double heel = std::max(clip.heel.y - now.heel.y, 0.0), toe = std::max(clip.toe.y - now.toe.y, 0.0),
+                 both = heel + toe;
+    glm::dvec3 rolled = was;
+    if (both > 0.0) {
+        const glm::dvec3 by = mix(minus(clip.heel, now.heel), minus(clip.toe, now.toe), toe / both);
+        rolled = plus(was, times(by, std::min(both / (rolling_part * work_.soles->leg), 1.0)));
+    }
+    now = moved_sole(clip, was, rolled, turn);
+    place.over.heel += now.heel.y - clip.heel.y;
+    place.over.toe += now.toe.y - clip.toe.y;
+    const FootShift& shift = options_.feet[side];
+    place.sole = {plus(now.heel, shift.stand), plus(now.toe, shift.stand)};
+    place.goal = plus(rolled, shift.stand);
+    place.goal.y += shift.lift;
+    return place;
+}
+
+/// The safe part of the support. A foot in the middle of a step belongs to it as if it did not rise; a target
+/// may take a foot anywhere over the ground.
+Support BodySolve::safe_support(const std::array<SolePoints, 2>& soles,
+                                const std::array<SoleHeights, 2>& over) const noexcept {
+    return find_support(*work_.soles, soles, foot_target_ ? sole_heights(soles, options_.ground) : over)
+        .shrunk(options_.reserve);
+}
+
+/// Turns the feet, moves the goals of those that roll, and finds the support.
 void BodySolve::roll_feet() noexcept {
-    std::array<SolePoints, 2> soles = clip_soles_;
-    std::array<SoleHeights, 2> over = clip_heights_;
-    bool target = false;
+    soles_ = clip_soles_;
+    over_ = clip_heights_;
+    foot_target_ = false;
     for (std::size_t k = 0; k < count_; ++k) {
         Goal& goal = goals_[k];
-        const bool left = goal.effector == static_cast<std::size_t>(Effector::LeftFoot);
-        if (!left && goal.effector != static_cast<std::size_t>(Effector::RightFoot)) continue;
-        const std::size_t side = left ? 0 : 1;
+        const auto side = side_of(goal);
+        if (!side) continue;
         Link& link = end_of(goal.effector);
         const glm::dquat above = work_.links[static_cast<std::size_t>(link.parent)].rotation;
-        link.rotation = math::compose(above, link.own);  // a rotation is blended in once, not at each round
-        link.turn = math::compose(conjugate(above), rotation_of_end(goal));
-        clamp_turn(link);
-        link.rotation = math::compose(above, link.turn);
-        const glm::dquat turn = math::compose(link.rotation, conjugate(link.start));
-        const SolePoints& clip = clip_soles_[side];
-        const glm::dvec3& was = work_.placements[link.node].position;
-        if (goal.target) {
-            soles[side] = moved_sole(clip, was, goal.position, turn);
-            target = true;
-            continue;
-        }
-        SolePoints now = moved_sole(clip, was, was, turn);
-        const double heel = std::max(clip.heel.y - now.heel.y, 0.0),
-                     toe = std::max(clip.toe.y - now.toe.y, 0.0), both = heel + toe;
-        glm::dvec3 rolled = was;
-        if (both > 0.0) {
-            const glm::dvec3 by = mix(minus(clip.heel, now.heel), minus(clip.toe, now.toe), toe / both);
-            rolled = plus(was, times(by, std::min(both / (rolling_part * work_.soles->leg), 1.0)));
-        }
-        now = moved_sole(clip, was, rolled, turn);
-        over[side].heel += now.heel.y - clip.heel.y;
-        over[side].toe += now.toe.y - clip.toe.y;
-        const FootShift& shift = options_.feet[side];
-        soles[side] = {plus(now.heel, shift.stand), plus(now.toe, shift.stand)};
-        goal.position = plus(rolled, shift.stand);
-        goal.position.y += shift.lift;
+        const FootPlace place = foot_at(goal, *side, above);
+        link.turn = place.turn;
+        goal.position = place.goal;
+        soles_[*side] = place.sole;
+        over_[*side] = place.over;
+        foot_target_ = foot_target_ || goal.target;
     }
     work_.place_links(shift_);
-    // A target may take a foot anywhere.
-    if (target) over = sole_heights(soles, options_.ground);
-    safe_ = find_support(*work_.soles, soles, over).shrunk(options_.reserve);
+    safe_ = safe_support(soles_, over_);
 }
 
 /// What the clip's pose is out of balance by is allowed.
@@ -152,7 +174,50 @@ void BodySolve::add_balance_row(const glm::dvec3& out, double by) noexcept {
         columns_[i][row_count_] = cross(mass_arms_[i], times(out, -1.0));
         steps_[i].rows |= 1u << row_count_;
     }
+    for (std::size_t k = 0; k < count_; ++k)
+        if (const auto side = side_of(goals_[k])) add_support_columns(k, *side, out);
     ++row_count_;
+}
+
+/// The support moves with the feet: a foot that follows a target takes its part along, and one that rolls
+/// lifts its heel or its toes off the ground. Adds to the row of balance how that moves the safe part's point
+/// nearest to the centre of mass along `out`.
+void BodySolve::add_support_columns(std::size_t goal_index, std::size_t side,
+                                    const glm::dvec3& out) noexcept {
+    constexpr double step = 1e-3;  // radians, and parts of the leg
+    const Goal& goal = goals_[goal_index];
+    const Link& foot = end_of(goal.effector);
+    const glm::dquat above = work_.links[static_cast<std::size_t>(foot.parent)].rotation;
+    const double now = dot(safe_.nearest(centre_), out);
+    const auto moved_by = [&](const SolePoints& sole, const SoleHeights& heights) {
+        std::array<SolePoints, 2> soles = soles_;
+        std::array<SoleHeights, 2> over = over_;
+        soles[side] = sole, over[side] = heights;
+        const Support support = safe_support(soles, over);
+        return support.count > 0 ? dot(support.nearest(centre_), out) - now : 0.0;
+    };
+    glm::dvec3 by_move{0.0}, by_turn{0.0};
+    const double far = step * work_.soles->leg;
+    for (int axis = 0; axis < 3; ++axis) {
+        glm::dvec3 unit{0.0};
+        unit[axis] = 1.0;
+        const FootPlace turned = foot_at(goal, side, math::compose(rotation_about(unit, step), above));
+        by_turn[axis] = moved_by(turned.sole, turned.over) / step;
+        if (!goal.target) continue;
+        const SolePoints& sole = soles_[side];
+        const glm::dvec3 by = times(unit, far);
+        by_move[axis] = moved_by({plus(sole.heel, by), plus(sole.toe, by)}, over_[side]) / far;
+    }
+    Row& balance = rows_[row_count_];
+    for (std::size_t i = 0; i < work_.links.size(); ++i) {
+        const Link& link = work_.links[i];
+        if (!(link.effectors >> goal.effector & 1u) || &link == &foot || steps_[i].rows == 0) continue;
+        glm::dvec3& column = columns_[i][row_count_];
+        column = plus(column, by_turn);
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            column = plus(column, times(columns_[i][3 * goal_index + axis], by_move[static_cast<int>(axis)]));
+    }
+    balance.shift = plus(balance.shift, by_move);
 }
 
 bool BodySolve::hold_balance() noexcept {

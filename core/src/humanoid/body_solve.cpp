@@ -15,10 +15,10 @@ using namespace rig::detail;
 
 namespace {
 
-/// The rotation that a target asks of its bone, blended in by its weight.
-glm::dquat wanted_rotation(const Link& link, const BodyTarget& target) noexcept {
+/// The rotation that a target asks of its bone, blended in by its weight from the one without it.
+glm::dquat wanted_rotation(const Link& link, const BodyTarget& target, const glm::dquat& without) noexcept {
     const glm::dquat whole = math::compose(rig::normalised(*target.rotation), conjugate(link.rest));
-    return rig::blend(link.rotation, whole, target.weight);
+    return rig::blend(without, whole, target.weight);
 }
 
 }  // namespace
@@ -55,12 +55,12 @@ std::optional<BodyReport> BodySolve::run(std::span<rig::Transform> pose, BodySta
         const double part = std::min(1.0, max_step_turn / size), travelled = travel();
         apply(part);
         const double next = measure();
-        if (const double now = travel(); now > limit) {
-            cut_to(limit, part * std::max(limit - travelled, 0.0) / (now - travelled));
-            break;
-        }
         // The turn back is exact to first order: its square may cost as much.
         if (next <= cost + back_ * back_ * back_ * back_) {
+            if (const double now = travel(); now > limit) {
+                cut_to(limit, part * std::max(limit - travelled, 0.0) / (now - travelled));
+                break;
+            }
             result.settled = next > min_stalled_cost && std::abs(cost - next) < stalled_share * cost;
             cost = next;
             trust.succeeded();
@@ -220,7 +220,8 @@ void BodySolve::start(std::span<const rig::Transform> pose, const BodyState& sta
         if (goals_[k].effector != static_cast<std::size_t>(Effector::Hips) || !goals_[k].target->rotation)
             continue;
         hips_given_ = true;
-        work_.links.front().turn = wanted_rotation(work_.links.front(), *goals_[k].target);
+        work_.links.front().turn =
+            wanted_rotation(work_.links.front(), *goals_[k].target, work_.links.front().rotation);
     }
     work_.place_links(shift_);
     if (balances_) roll_feet();
@@ -266,26 +267,21 @@ bool BodySolve::has_rotations() const noexcept {
 void BodySolve::turn_ends() noexcept {
     work_.place_links(shift_);
     for (std::size_t k = 0; k < count_; ++k) {
-        const bool foot = goals_[k].effector == static_cast<std::size_t>(Effector::LeftFoot) ||
-                          goals_[k].effector == static_cast<std::size_t>(Effector::RightFoot);
-        if (foot || goals_[k].target->rotation) turn_end(goals_[k]);
+        if (side_of(goals_[k]) || goals_[k].target->rotation) turn_end(goals_[k]);
     }
     work_.place_links(shift_);
 }
 
-glm::dquat BodySolve::rotation_of_end(const Goal& goal) const noexcept {
-    const Link& link = end_of(goal.effector);
-    return goal.target && goal.target->rotation ? wanted_rotation(link, *goal.target) : link.start;
+glm::dquat BodySolve::rotation_of_end(const Goal& goal, const Link& link) const noexcept {
+    if (!goal.target || !goal.target->rotation) return link.start;
+    return wanted_rotation(link, *goal.target, side_of(goal) ? link.start : link.rotation);
 }
 
 void BodySolve::turn_end(const Goal& goal) noexcept {
     Link& link = end_of(goal.effector);
     if (link.parent < 0) return;
     Link& before = work_.links[static_cast<std::size_t>(link.parent)];
-    const bool foot = goal.effector == static_cast<std::size_t>(Effector::LeftFoot) ||
-                      goal.effector == static_cast<std::size_t>(Effector::RightFoot);
-    if (foot && balances_) link.rotation = math::compose(before.rotation, link.own);  // as roll_feet() does
-    link.turn = math::compose(conjugate(before.rotation), rotation_of_end(goal));
+    link.turn = math::compose(conjugate(before.rotation), rotation_of_end(goal, link));
     if (goal.effector == static_cast<std::size_t>(Effector::LeftHand) ||
         goal.effector == static_cast<std::size_t>(Effector::RightHand)) {
         // The lower arm takes part of the twist about its own axis, which moves no joint.

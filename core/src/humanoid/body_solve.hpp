@@ -61,6 +61,13 @@ class BodySolve {
         std::array<glm::dvec3, 3> outward{};  ///< orthonormal directions blocked by the limit
     };
 
+    struct FootPlace {
+        glm::dquat turn;  ///< Link::turn
+        glm::dvec3 goal;  ///< of a foot that stays, moved along as it rolls
+        SolePoints sole;
+        SoleHeights over;
+    };
+
     void set_goals() noexcept;
     void start(std::span<const rig::Transform> pose, const BodyState& state) noexcept;
     /// Updates links, limbs, goals and contacts; returns half the weighted sum of squared errors.
@@ -89,6 +96,11 @@ class BodySolve {
     void find_mass_arms() noexcept;
     void start_balance_step() noexcept;
     void add_balance_row(const glm::dvec3& out, double by) noexcept;
+    static std::optional<std::size_t> side_of(const Goal& goal) noexcept;  ///< of a foot: 0 is left
+    FootPlace foot_at(const Goal& goal, std::size_t side, const glm::dquat& above) const noexcept;
+    Support safe_support(const std::array<SolePoints, 2>& soles,
+                         const std::array<SoleHeights, 2>& over) const noexcept;
+    void add_support_columns(std::size_t goal_index, std::size_t side, const glm::dvec3& out) noexcept;
     bool hold_balance() noexcept;
 
     void find_contacts() noexcept;
@@ -108,7 +120,7 @@ class BodySolve {
     void turn_ends() noexcept;
     bool give(std::span<rig::Transform> pose) noexcept;
     /// The rotation that a goal asks of its bone, before the limit.
-    glm::dquat rotation_of_end(const Goal& goal) const noexcept;
+    glm::dquat rotation_of_end(const Goal& goal, const Link& link) const noexcept;
     void turn_end(const Goal& goal) noexcept;
     void report(std::span<const rig::Transform> pose, BodyReport& report) noexcept;
 
@@ -131,6 +143,9 @@ class BodySolve {
     bool balances_ = false;
     std::array<SolePoints, 2> clip_soles_{};
     std::array<SoleHeights, 2> clip_heights_{};
+    std::array<SolePoints, 2> soles_{};  ///< in the pose being solved, as are their heights
+    std::array<SoleHeights, 2> over_{};
+    bool foot_target_ = false;           ///< a foot has a target
     Support safe_{};                     ///< where the centre of mass should be
     double allowed_ = 0.0;               ///< how far outside of it the clip has it, metres
     double outside_ = 0.0;               ///< how much farther it is now

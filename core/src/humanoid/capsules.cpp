@@ -5,6 +5,7 @@
 
 #include "humanoid/anatomy.hpp"
 #include "humanoid/input.hpp"
+#include "humanoid/limb.hpp"
 #include "rig/math.hpp"
 
 namespace tendril::humanoid {
@@ -69,10 +70,9 @@ class DefaultCapsules {
             plus(at(bone).position, times(along, end * size_)), radius);
     }
     void put(Bone bone, const glm::dvec3& from, const glm::dvec3& to, double radius) {
-        const glm::dmat3 axes = at(bone).axes;
-        const glm::dmat3 back = glm::determinant(axes) != 0.0 ? glm::inverse(axes) : glm::dmat3(1.0);
-        capsules_.push_back({bone, back * minus(from, at(bone).position), back * minus(to, at(bone).position),
-                             radius * size_});
+        const Placement& own = at(bone);
+        capsules_.push_back({bone, detail::seen_from(own, minus(from, own.position)),
+                             detail::seen_from(own, minus(to, own.position)), radius * size_});
     }
 
     const BoneMap& map_;

@@ -13,9 +13,8 @@ namespace {
 using namespace rig::detail;
 
 // Parts of the leg's length.
-constexpr double longest_step = 0.7, shortest_step = 0.08, nearest_feet = 0.18, highest_step = 0.5;
-/// From its target: a hand nearer than this needs no step.
-constexpr double close_enough = 0.02;
+constexpr double longest_step = 0.9, usual_step = 0.5, shortest_step = 0.08, nearest_feet = 0.18,
+                 highest_step = 0.5;
 constexpr double least_hold = 1e-4;  // the balance that holds the body back, as BodyState::outside
 constexpr double stands_under = 0.08;
 
@@ -44,9 +43,10 @@ glm::dvec3 pull_of(const BodyState& body) noexcept {
     return pull;
 }
 
-/// How much higher the ground is at the shifted sole; nullopt where there is none, or it is too steep a step.
-std::optional<double> climb(const SolePoints& sole, const glm::dvec3& shift, const Ground* ground,
-                            double leg) noexcept {
+/// How much higher the ground is at the sole shifted to `to` than below the clip's; nullopt where there is
+/// none, or where it is too high a step from where the sole stands, shifted by `from`.
+std::optional<double> climb(const SolePoints& sole, const glm::dvec3& from, const glm::dvec3& to,
+                            const Ground* ground, double leg) noexcept {
     if (ground == nullptr) return 0.0;
     const auto height = [&](const glm::dvec3& by) -> std::optional<double> {
         const auto heel = ground->highest(sole.heel.x + by.x, sole.heel.z + by.z);
@@ -54,9 +54,9 @@ std::optional<double> climb(const SolePoints& sole, const glm::dvec3& shift, con
         if (!heel || !toe) return std::nullopt;
         return std::max(heel->height, toe->height);
     };
-    const auto before = height(glm::dvec3(0.0)), after = height(shift);
-    if (!before || !after || std::abs(*after - *before) > highest_step * leg) return std::nullopt;
-    return *after - *before;
+    const auto clip = height(glm::dvec3(0.0)), before = height(from), after = height(to);
+    if (!clip || !before || !after || std::abs(*after - *before) > highest_step * leg) return std::nullopt;
+    return *after - *clip;
 }
 
 bool begin(Footstep& step, const glm::dvec3& to) noexcept {
@@ -104,7 +104,10 @@ bool plan_step(FootstepsState& state, const Soles& soles, const glm::dvec3& cent
         return begin(state.feet[left >= right ? 0 : 1], glm::dvec3(0.0));
     }
     const glm::dvec3 pull = pull_of(body);
-    if (!(body.outside > least_hold * leg && length(pull) > close_enough * leg)) return false;
+    double hold = body.outside;  // by balance, or by a leg that is stretched as far as it goes
+    for (const Effector foot : {Effector::LeftFoot, Effector::RightFoot})
+        hold = std::max(hold, length(body.left[static_cast<std::size_t>(foot)]));
+    if (!(hold > least_hold * leg && length(pull) > no_step_within * leg)) return false;
     for (const Effector foot : {Effector::LeftFoot, Effector::RightFoot})
         if (body.weights[static_cast<std::size_t>(foot)] > 0.0) return false;
     const std::array<SolePoints, 2> at = sole_points(soles, clip);
@@ -112,7 +115,8 @@ bool plan_step(FootstepsState& state, const Soles& soles, const glm::dvec3& cent
     glm::dvec3 forward = plus(flat(minus(at[0].toe, at[0].heel)), flat(minus(at[1].toe, at[1].heel)));
     forward = direction_of(forward, 1e-9 * leg).value_or(soles.forward);
     const glm::dvec3 left{forward.z, 0.0, -forward.x};
-    const glm::dvec3 caught = plus(flat(centre), shortened(pull, longest_step * leg));
+    const double far = std::clamp(length(pull), usual_step * leg, longest_step * leg);
+    const glm::dvec3 caught = plus(flat(centre), times(pull, far / length(pull)));
     std::array<glm::dvec3, 2> stands;
     for (std::size_t side = 0; side < 2; ++side) {
         if (std::min(over[side].heel, over[side].toe) > stands_under * leg) return false;
@@ -125,14 +129,16 @@ bool plan_step(FootstepsState& state, const Soles& soles, const glm::dvec3& cent
         glm::dvec3 way = minus(caught, other);
         way = plus(way, times(aside, std::max(nearest_feet * leg - dot(way, aside), 0.0)));
         way = shortened(way, longest_step * leg);
-        const glm::dvec3 there = plus(other, way);
-        if (length(minus(caught, there)) > length(minus(caught, stands[side])) - shortest_step * leg)
-            continue;
-        glm::dvec3 to = plus(flat(state.feet[side].to), minus(there, stands[side]));
-        const auto up = climb(at[side], to, ground, leg);
-        if (!up) continue;
-        to.y = *up;
-        return begin(state.feet[side], to);
+        for (const double part : {1.0, 0.8, 0.6, 0.4}) {  // less far where the ground allows no more
+            const glm::dvec3 there = mix(stands[side], plus(other, way), part);
+            if (length(minus(caught, there)) > length(minus(caught, stands[side])) - shortest_step * leg)
+                break;
+            glm::dvec3 to = plus(flat(state.feet[side].to), minus(there, stands[side]));
+            const auto up = climb(at[side], state.feet[side].to, to, ground, leg);
+            if (!up) continue;
+            to.y = *up;
+            return begin(state.feet[side], to);
+        }
     }
     return false;
 }

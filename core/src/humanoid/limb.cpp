@@ -87,7 +87,7 @@ bool is_moderate(const Placement& p) noexcept {
 glm::dvec3 seen_from(const Placement& at, const glm::dvec3& v) noexcept {
     const glm::dvec3 &x = at.axes[0], &y = at.axes[1], &z = at.axes[2];
     const double volume = dot(x, cross(y, z));
-    if (!(std::abs(volume) > 1e-200)) return glm::dvec3(0.0);
+    if (!(std::abs(volume) > 1e-200 && std::abs(volume) < 1e200)) return glm::dvec3(0.0);
     const glm::dvec3 parts{dot(cross(y, z), v), dot(cross(z, x), v), dot(cross(x, y), v)};
     return times(parts, 1.0 / volume);
 }

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <complex>
 #include <glm/gtc/quaternion.hpp>
+#include <glm/vector_relational.hpp>
 #include <optional>
 #include <stdexcept>
+#include <tendril/magnitude.hpp>
 
 #include "app/labs/humanoid/humanoid_commands.hpp"
 #include "app/labs/humanoid/humanoid_lab.hpp"
@@ -115,6 +117,28 @@ std::vector<rig::Transform> animated_pose(const Playback& playback, const Loaded
     for (std::size_t i = 0; i < pose.size(); ++i)
         if (skeleton[i].parent < 0) pose[i] = rig::compose(transform(ground), pose[i]);
     return pose;
+}
+
+void carry_targets(HumanoidPart& part, const Playback& before) {
+    const Playback& now = part.playback;
+    const auto hips = part.node_of(humanoid::Bone::Hips);
+    if (!now.carry_targets || now.in_place || !hips || !now.clip || now.clip != before.clip ||
+        now.rounds == before.rounds || !part.ik.has_targets())
+        return;
+    const humanoid::Skeleton& skeleton = part.skeleton();
+    const humanoid::Clip& clip = *part.clip();
+    const rig::Transform along =
+        transform(of_rounds(hips_at(skeleton, sampled(clip, skeleton, 0.0), *hips),
+                            hips_at(skeleton, sampled(clip, skeleton, clip.duration), *hips),
+                            static_cast<double>(now.rounds - before.rounds)));
+    for (std::optional<TargetSetting>& target : part.ik.targets) {
+        if (!target) continue;
+        const glm::dvec3 at = along.translation + along.rotation * target->position;
+        constexpr auto most = static_cast<double>(max_magnitude);
+        if (glm::any(glm::greaterThan(glm::abs(at), glm::dvec3(most)))) continue;
+        target->position = at;
+        if (target->rotation) target->rotation = rig::normalised(along.rotation * *target->rotation);
+    }
 }
 
 glm::dvec3 missing_velocity(const Playback& playback, const LoadedCharacter& character,
@@ -229,7 +253,8 @@ template <>
 std::span<const tendril::Field> tendril::fields<tendril::app::Playback>() noexcept {
     using app::Playback;
     static constexpr Field rows[] = {field<&Playback::speed>("speed", {0.0, app::fastest_clip}),
-                                     field<&Playback::loop>("loop"), field<&Playback::in_place>("in_place")};
+                                     field<&Playback::loop>("loop"), field<&Playback::in_place>("in_place"),
+                                     field<&Playback::carry_targets>("carry_targets")};
     return rows;
 }
 
@@ -254,6 +279,11 @@ std::span<const FieldText> field_texts<Playback>() {
         {.name = "in_place",
          .label = "In place",
          .help = "The hips stay above the point where the clip begins.",
+         .more = true},
+        {.name = "carry_targets",
+         .label = "Carry targets",
+         .help = "Targets move along each time the clip starts over, so that every round reaches them. Off: "
+                 "they stay where they are, and a clip that travels leaves them behind.",
          .more = true}};
     return texts;
 }
@@ -305,6 +335,7 @@ void set_clip(HumanoidPart& part, const Arguments& given) {
     // Playing again from the end starts over.
     if (play && !given.has("time") && !playback.loop && playback.time >= part.clip()->duration)
         go_to(playback, *part.loaded, 0.0);
+    carry_targets(part, before);
     if (!(playback == before)) part.quiet_ticks = 0;
 }
 

@@ -17,6 +17,8 @@ namespace tendril::app {
 inline constexpr double fastest_clip = 10.0;
 inline constexpr std::int64_t max_rounds = 1'000'000;
 
+struct HumanoidPart;
+
 struct Playback {
     std::optional<std::size_t> clip;  ///< in the character's list; none: the rest pose
     bool playing = false;
@@ -25,6 +27,7 @@ struct Playback {
     double speed = 1.0;       ///< 0 to fastest_clip
     bool loop = true;
     bool in_place = false;
+    bool carry_targets = true;  ///< from round to round; off: they stay where they are in the world
     bool operator==(const Playback&) const = default;
 };
 
@@ -40,6 +43,10 @@ void go_to(Playback& playback, const LoadedCharacter& character, double seconds)
 /// over from round to round; without it each round restarts at the same position.
 std::vector<rig::Transform> animated_pose(const Playback& playback, const LoadedCharacter& character,
                                           std::optional<std::size_t> hips);
+
+/// Takes the targets from the round that `before` was in along to the current one, so that the clip reaches
+/// them in each round alike.
+void carry_targets(HumanoidPart& part, const Playback& before);
 
 /// The hips' ground velocity that playing in place removes at that moment, m/s at the recorded speed.
 glm::dvec3 missing_velocity(const Playback& playback, const LoadedCharacter& character,

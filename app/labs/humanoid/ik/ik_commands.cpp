@@ -1,6 +1,7 @@
 #include "app/labs/humanoid/ik/ik_commands.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/trigonometric.hpp>
 #include <stdexcept>
@@ -164,7 +165,9 @@ void set_ground(const IkNow& now, HumanoidPart& part, const Arguments& given) {
     // Rising ground would bury a character that has walked far or has no foot IK.
     const bool level = ground.kind == humanoid::GroundKind::None || ground.kind == humanoid::GroundKind::Flat;
     if (ground.kind == before || level) return;
+    const Playback playback = part.playback;
     part.playback.rounds = 0;
+    carry_targets(part, playback);
     if (now.solvers.feet(part) != nullptr) part.ik.foot_ik.on = true;
 }
 
@@ -247,6 +250,24 @@ HandCurve curve_over(const humanoid::Clip* clip) {
     return {at(usual.begin), at(usual.full), at(usual.until), at(usual.end)};
 }
 
+constexpr std::array<const char*, 4> curve_times{"begin", "full", "until", "end"};
+
+/// Times that are not given move along, so that the four may be typed in any order.
+HandCurve with_times(const HandCurve& curve, const Arguments& given) {
+    std::array<double, 4> times{curve.begin, curve.full, curve.until, curve.end};
+    for (std::size_t i = 0; i < 4; ++i) {
+        if (!given.has(curve_times[i])) continue;
+        times[i] = given.real(curve_times[i]);
+        for (std::size_t k = 0; k < 4; ++k)
+            if (!given.has(curve_times[k]))
+                times[k] = k < i ? std::min(times[k], times[i]) : std::max(times[k], times[i]);
+    }
+    if (!std::ranges::is_sorted(times))
+        throw std::invalid_argument(
+            "from (begin), full from (full), full to (until) and to (end) must be in ascending order");
+    return {times[0], times[1], times[2], times[3]};
+}
+
 /// Sets the curve of a hand.
 void set_curve(HumanoidPart& part, std::size_t hand, const Arguments& given) {
     std::optional<HandCurve>& curve = part.ik.hand_ik.curves[hand];
@@ -254,16 +275,8 @@ void set_curve(HumanoidPart& part, std::size_t hand, const Arguments& given) {
         curve.reset();
         return;
     }
-    const bool times = given.has("begin") || given.has("full") || given.has("until") || given.has("end");
-    if (!times && !given.has("curve")) return;
-    HandCurve set = curve.value_or(curve_over(part.clip()));
-    if (given.has("begin")) set.begin = given.real("begin");
-    if (given.has("full")) set.full = given.real("full");
-    if (given.has("until")) set.until = given.real("until");
-    if (given.has("end")) set.end = given.real("end");
-    if (!(set.begin <= set.full && set.full <= set.until && set.until <= set.end))
-        throw std::invalid_argument("begin, full, until and end must be in ascending order");
-    curve = set;
+    const bool times = std::ranges::any_of(curve_times, [&](const char* each) { return given.has(each); });
+    if (times || given.has("curve")) curve = with_times(curve.value_or(curve_over(part.clip())), given);
 }
 
 void set_hand_ik(const IkNow& now, HumanoidPart& part, const Arguments& given) {
@@ -324,8 +337,10 @@ void add_hand_commands(CommandTable& table) {
     for (Argument& each : std::vector<Argument>{
              choice_argument("hand", false, "whose curve; both if omitted", {"left", "right", "both"}),
              switch_argument("curve", "the weight follows the clip's time"),
-             seconds("begin", "of the clip: weight 0 until then"), seconds("full", "weight 1 from then on"),
-             seconds("until", "weight 1 until then"), seconds("end", "weight 0 from then on")})
+             seconds("begin",
+                     "of the clip: weight 0 until then; moves the other times along if it passes them"),
+             seconds("full", "weight 1 from then on"), seconds("until", "weight 1 until then"),
+             seconds("end", "weight 0 from then on")})
         hands.push_back(std::move(each));
     table.add(ik_command("humanoid.hand_ik", "Set hand IK", std::move(hands),
                          "Blends the hands from the clip to their targets; anything omitted stays as it is",

@@ -40,8 +40,11 @@ void balance_rows(const HumanoidPanel& panel, MoreRows& more) {
     rows.row("on", {.why_not = possible ? std::string()
                                         : "Balance is not possible: " +
                                               panel.runtime.solvers.why_no_feet(panel.part) + "."});
-    if (const ShownPose& shown = panel.runtime.shown(panel.workspace); shown.balance)
+    if (const ShownPose& shown = panel.runtime.shown(panel.workspace); shown.balance) {
         reading("centre of mass", "%s", balance_text(panel.part, shown, panel.runtime.solvers).c_str());
+        const std::string why = why_no_balance(panel.part, shown, panel.runtime.solvers);
+        if (!why.empty()) note(why);
+    }
     if (balance.on) rows.rows("reserve", "steps", "step_seconds");
 }
 
@@ -86,17 +89,24 @@ void curve_fields(const HumanoidPanel& panel, std::size_t hand, const HandCurve&
     const auto set = [&](const char* argument, float value) {
         panel.emit.continuously("humanoid.hand_ik", {{"hand", side}, {argument, value}});
     };
-    constexpr auto far = static_cast<float>(max_curve);
-    auto begin = static_cast<float>(curve.begin), full = static_cast<float>(curve.full),
-         until = static_cast<float>(curve.until), end = static_cast<float>(curve.end);
-    if (number_field((side + " from").c_str(), begin, 0.005f, 0.0f, full, "%.2f s")) set("begin", begin);
-    explain("Until then the hand follows the clip.");
-    if (number_field((side + " full from").c_str(), full, 0.005f, begin, until, "%.2f s")) set("full", full);
-    explain("From then on the hand is on its target.");
-    if (number_field((side + " full to").c_str(), until, 0.005f, full, end, "%.2f s")) set("until", until);
-    explain("Until then the hand is on its target; afterwards it goes back to the clip.");
-    if (number_field((side + " to").c_str(), end, 0.005f, until, far, "%.2f s")) set("end", end);
-    explain("From then on the hand follows the clip.");
+    struct Row {
+        const char *title, *argument, *help;
+        double HandCurve::*time;
+    };
+    // Any order while typing: a time that passes another one moves it along.
+    constexpr Row rows[]{
+        {" from", "begin", "Until then the hand follows the clip.", &HandCurve::begin},
+        {" full from", "full", "From then on the hand is on its target.", &HandCurve::full},
+        {" full to", "until", "Until then the hand is on its target; afterwards it goes back to the clip.",
+         &HandCurve::until},
+        {" to", "end", "From then on the hand follows the clip.", &HandCurve::end}};
+    for (const Row& row : rows) {
+        auto time = static_cast<float>(curve.*row.time);
+        if (number_field((side + row.title).c_str(), time, 0.005f, 0.0f, static_cast<float>(max_curve),
+                         "%.2f s"))
+            set(row.argument, time);
+        explain(row.help);
+    }
 }
 
 void hand_row(const HumanoidPanel& panel, std::size_t hand) {

@@ -131,8 +131,10 @@ std::span<const FieldText> field_texts<BalanceSetting>() {
     static constexpr FieldText texts[] = {
         {.name = "on",
          .label = "Balance",
-         .help = "Hips and trunk move so that the centre of mass stays over the feet. Where that is not "
-                 "enough a foot steps, while the simulation runs, or the hand stops short."},
+         .help =
+             "Hips and trunk move so that the centre of mass stays over the feet. Where that is not "
+             "enough a foot steps, while the simulation runs, or the hand stops short. Hands that hand IK "
+             "moves take no part."},
         {.name = "reserve",
          .label = "reserve",
          .help = "How far the centre of mass keeps from the edge of the feet. 0: it may come to the edge. "
@@ -144,7 +146,9 @@ std::span<const FieldText> field_texts<BalanceSetting>() {
          .more = true},
         {.name = "steps",
          .label = "Steps",
-         .help = "A foot steps to where it catches the body when moving the hips is not enough.",
+         .help =
+             "A foot steps to where it catches the body when moving the hips is not enough, unless the clip "
+             "lifts the other one.",
          .more = true},
         {.name = "step_seconds",
          .label = "step time",

@@ -236,6 +236,7 @@ std::string why_alone(const HumanoidPart& part, const ShownPose& shown, std::siz
 
 std::string balance_text(const HumanoidPart& part, const ShownPose& shown, Solvers& solvers) {
     const ShownPose::Balance& balance = *shown.balance;
+    if (part.ik_state.steps.stepping()) return "stepping";
     if (balance.support.count == 0) return "no foot stands";
     const double size = std::abs(balance.margin);
     const std::string far =
@@ -251,6 +252,25 @@ std::string balance_text(const HumanoidPart& part, const ShownPose& shown, Solve
     return far +
            (along ? (forward > 0.0 ? " ahead of" : " behind") : (left > 0.0 ? " left of" : " right of")) +
            " the feet";
+}
+
+std::string why_no_balance(const HumanoidPart& part, const ShownPose& shown, Solvers& solvers) {
+    if (!shown.balance) return {};
+    if (!body_acts(part, part.ik_state)) {
+        if (part.ik.hand_target(0) || part.ik.hand_target(1))
+            return "Balance does not act: hand IK moves the arms alone. Turn it off to let the body reach.";
+        return "Balance acts once something has a target.";
+    }
+    if (!shown.body) return {};
+    const humanoid::Soles& soles = solvers.feet(part)->soles();
+    const bool wanted = part.ik.balance.steps && shown.body->outside > 0.0 &&
+                        shown.body->residual > humanoid::no_step_within * soles.leg;
+    if (!wanted || part.ik_state.steps.stepping() || shown.before.empty()) return {};
+    const humanoid::Support clip =
+        humanoid::find_support(soles, shown.before, body_options(part, solvers).ground);
+    return std::min(clip.standing[0], clip.standing[1]) > 0.0
+               ? std::string()
+               : "No foot steps while the clip lifts one: it waits until both stand.";
 }
 
 std::string why_in_air(const HumanoidPart& part, const ShownPose& shown, Solvers& solvers, std::size_t side) {

@@ -67,8 +67,11 @@ void carry_springs(Workspace& workspace);
 /// Why a foot follows the clip although foot IK is on; empty if it does not. `side`: 0 is left.
 std::string why_alone(const HumanoidPart& part, const ShownPose& shown, std::size_t side);
 
-/// Where the centre of mass is: "4 cm inside the feet", "7 cm ahead of the feet". Balance must be on.
+/// Where the centre of mass is: "4 cm inside the feet", "7 cm ahead of the feet"; "stepping" while a foot is
+/// in the air. Balance must be on.
 std::string balance_text(const HumanoidPart& part, const ShownPose& shown, Solvers& solvers);
+/// Why balance, or a foot that would step, does nothing although it is on; empty if it acts.
+std::string why_no_balance(const HumanoidPart& part, const ShownPose& shown, Solvers& solvers);
 
 /// Why foot IK hardly ever plants a foot of this clip; empty if it does, or if the foot is planted now.
 std::string why_in_air(const HumanoidPart& part, const ShownPose& shown, Solvers& solvers, std::size_t side);

@@ -14,7 +14,8 @@
 // Support: each foot has six corners, two each at the heel, at the ball (both from Soles) and at the tip of
 // the toes, which is 0.07 of the leg's length ahead of the ball. The ball is 0.11 of that length wide, heel
 // and tip are 0.08 (R. Drillis and R. Contini, "Body segment parameters", 1966: a foot is 0.152 of the height
-// long and 0.055 wide, thigh and shin together are 0.491).
+// long and 0.055 wide, thigh and shin together are 0.491). A sole pitched by more than 60 degrees narrows, to
+// a point when it is vertical: from above it then has no direction.
 //
 // A pose is not a motion: who walks or runs is out of balance for half of each step and does not fall.
 //

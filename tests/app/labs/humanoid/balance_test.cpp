@@ -8,6 +8,7 @@
 #include <string>
 #include <tendril/humanoid/balance.hpp>
 
+#include "app/labs/humanoid/draw.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "humanoid_support.hpp"
 #include "tests/places.hpp"
@@ -137,6 +138,33 @@ TEST_F(HumanoidBalanceLab, AFootStepsWhileTheSimulationRuns) {
     tick(400);
     EXPECT_FALSE(part().ik_state.steps.away());
     EXPECT_NEAR(node("RightFoot").z, ahead, 1e-6);
+}
+
+TEST_F(HumanoidBalanceLab, AStepIsNoAlarm) {
+    run("humanoid.balance", {{"on", true}});
+    drag("right_hand", {-0.2, 1.0, 1.6});
+    for (int i = 0; i < 400; ++i) {
+        tick();
+        const ShownPose& shown = shown_pose(workspace);
+        if (part().ik_state.steps.stepping()) {
+            EXPECT_EQ(text(), "stepping");
+            EXPECT_EQ(balance_colour(part(), shown, palette(Theme::Dark)), palette(Theme::Dark).tail);
+        } else {
+            EXPECT_TRUE(test::says(text(), "inside the feet")) << i << ": " << text();
+        }
+    }
+}
+
+TEST_F(HumanoidBalanceLab, ItSaysWhyItDoesNotAct) {
+    const auto why = [&] { return balance().value("note", std::string()); };
+    run("humanoid.balance", {{"on", true}});
+    EXPECT_TRUE(test::says(why(), "acts once something has a target"));
+    run("humanoid.target", {{"effector", "right_hand"}, {"to", {-0.2, 1.0, 0.5}}});
+    EXPECT_EQ(why(), "");
+    run("humanoid.hand_ik", {{"on", true}});
+    EXPECT_TRUE(test::says(why(), "does not act hand IK moves the arms alone"));
+    run("humanoid.target", {{"effector", "head"}});
+    EXPECT_EQ(why(), "");
 }
 
 TEST_F(HumanoidBalanceLab, StepsCanBeSwitchedOff) {

@@ -1,6 +1,7 @@
 // Clips: the pose at a moment, and how they continue.
 #include <fstream>
 
+#include "app/labs/humanoid/ik/shown_pose.hpp"
 #include "humanoid_support.hpp"
 #include "tests/app/support/temp_folder.hpp"
 
@@ -10,6 +11,28 @@ namespace {
 using HumanoidClips = HumanoidTest;
 
 constexpr double walk_seconds = 1.1, walk_metres = 1.1;
+
+TEST_F(HumanoidClips, TargetsGoAlongFromRoundToRound) {
+    run("humanoid.clip", {{"name", "walk"}, {"time", 0.3}});
+    const glm::dvec3 hand = bone("LeftHand");
+    const glm::dvec3 to = hand + glm::dvec3(0.05, 0.1, 0.1);
+    run("humanoid.target", {{"effector", "left_hand"}, {"to", {to.x, to.y, to.z}}});
+    const auto at = [&] { return part().ik.target(humanoid::Effector::LeftHand)->position; };
+    const double duration = part().clip()->duration;
+    const auto short_by = [&] { return *shown_pose(workspace).residual(humanoid::Effector::LeftHand); };
+    EXPECT_LT(short_by(), 1e-3);
+    run("humanoid.clip", {{"play", true}, {"loop", true}});
+    tick(static_cast<int>(3.0 * duration * 60.0));  // three rounds on, at about the same time of the clip
+    EXPECT_EQ(part().playback.rounds, 3);
+    EXPECT_GT(at().z, to.z + 1.0);
+    EXPECT_LT(short_by(), 0.01);
+    run("humanoid.clip", {{"play", false}, {"time", 0.3}});  // and back to the first
+    EXPECT_LT(glm::distance(at(), to), 1e-6);
+    run("humanoid.clip", {{"carry_targets", false}, {"time", 0.3 + 3.0 * duration}});
+    EXPECT_LT(glm::distance(at(), to), 1e-6);
+    EXPECT_GT(short_by(), 0.5);
+    EXPECT_FALSE(humanoid_part(reopened()).playback.carry_targets);
+}
 
 TEST_F(HumanoidClips, ShowAMomentWithoutATick) {
     run("humanoid.clip", {{"name", "walk"}, {"time", 0.5}});

@@ -1,5 +1,6 @@
 // Hand IK, look-at and self-collision, by the lab's commands and --state.
 #include <algorithm>
+#include <array>
 #include <glm/gtc/quaternion.hpp>
 #include <tendril/humanoid/capsules.hpp>
 
@@ -82,6 +83,25 @@ TEST_F(HumanoidHands, ComeFromAFileAsTheyWere) {
     for (int i = 0; i < 30; ++i) lab().step(other);
     tick(30);
     EXPECT_EQ(lab().state(other), state());
+}
+
+TEST_F(HumanoidHands, TimesMayBeTypedInAnyOrder) {
+    run("humanoid.target", {{"effector", "left_hand"}});
+    run("humanoid.hand_ik", {{"on", true}, {"hand", "left"}, {"curve", true}});
+    const auto times = [&] {
+        const HandCurve& curve = *part().ik.hand_ik.curves[0];
+        return std::array{curve.begin, curve.full, curve.until, curve.end};
+    };
+    run("humanoid.hand_ik", {{"hand", "left"}, {"begin", 1.0}});  // beyond all the others
+    EXPECT_EQ(times(), (std::array{1.0, 1.0, 1.0, 1.0}));
+    run("humanoid.hand_ik", {{"hand", "left"}, {"full", 1.2}});
+    run("humanoid.hand_ik", {{"hand", "left"}, {"until", 1.5}});
+    run("humanoid.hand_ik", {{"hand", "left"}, {"end", 1.75}});
+    EXPECT_EQ(times(), (std::array{1.0, 1.2, 1.5, 1.75}));
+    run("humanoid.hand_ik", {{"hand", "left"}, {"end", 0.5}});
+    EXPECT_EQ(times(), (std::array{0.5, 0.5, 0.5, 0.5}));
+    expect_refused("humanoid.hand_ik", {{"begin", 0.6}, {"full", 0.5}},
+                   {"from", "full from", "full to", "must be in ascending order"});
 }
 
 TEST_F(HumanoidHands, RefuseWhatDoesNotFit) {
