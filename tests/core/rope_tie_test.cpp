@@ -1,5 +1,6 @@
 // Ties between particles of any bodies.
 #include "rope_support.hpp"
+#include "tests/says.hpp"
 
 namespace tendril::test {
 namespace {
@@ -142,6 +143,127 @@ TEST(RopeTie, CableOfABridgeIsAParabola) {
     EXPECT_LT(worst, 0.01 * sag);
     EXPECT_LT(stretch(world, "cable"), 1e-3);
     EXPECT_LT(top_speed(world), 1e-3);
+}
+
+std::string add_tied_body(World& world, Random& random) {
+    const glm::vec3 at = random.point(0.8f) + glm::vec3(0, 1, 0);
+    switch (random.below(4)) {
+        case 0:
+            return world.add_cloth(
+                {.corner = at,
+                 .along = {0.5f, 0, 0},
+                 .down = {0, -0.1f, 0.5f},
+                 .columns = 4,
+                 .rows = 5,
+                 .tear = random.chance(3) ? 0.2f : 0.0f,
+                 .pins = random.chance(2) ? rope::ClothShape::Pins::Corners : rope::ClothShape::Pins::None});
+        case 1:
+            return world.add_hair({.roots = {{at, {0, -1, 0}}, {at + glm::vec3(0.05f, 0, 0), {1, -1, 0}}},
+                                   .length = 0.4f,
+                                   .segments = 5});
+        default: {
+            const glm::vec3 to = at + random.point(0.8f);
+            return world.add_rope({.from = at,
+                                   .to = to,
+                                   .segments = 1 + static_cast<int>(random.below(14)),
+                                   .length = glm::distance(at, to) * (1.0f + random.part()),
+                                   .density = std::pow(10.0f, 4.0f * random.part() - 2.0f),
+                                   .pin_start = random.chance(2),
+                                   .pin_end = random.chance(4)});
+        }
+    }
+}
+
+/// Bodies with ties of every length and strength, some drawn together from afar, some torn and untied while
+/// they run: nothing is ever NaN. Where no tie draws anything, nothing gains energy, among balls at rest or
+/// without.
+TEST(RopeTie, RandomScenesStayFiniteAndGainNoEnergy) {
+    double worst = 0.0;
+    for (std::uint64_t seed = 0; seed < 1000; ++seed) {
+        Random random(seed);
+        World world =
+            world_with({.solver = random.chance(4) ? Solver::Xpbd : Solver::Direct, .damping = 0.0f});
+        const bool draws = random.chance(2), direct = world.settings().solver == Solver::Direct;
+        for (std::uint32_t i = 0; i < 2 + random.below(4); ++i) add_tied_body(world, random);
+        if (random.chance(2))
+            world.add_collider("ball", rope::Sphere{random.point(0.5f) - glm::vec3(0, 1.2f, 0), 0.3f});
+        const auto particles = static_cast<std::uint32_t>(world.size());
+        for (std::uint32_t i = 0; i < 1 + random.below(8); ++i) {
+            const std::size_t a = random.below(particles), b = random.below(particles);
+            if (a == b) continue;
+            const auto apart =
+                static_cast<float>(glm::distance(world.core().position(a), world.core().position(b)));
+            allowed(world.core().tie(a, b,
+                                     {.length = !draws             ? apart
+                                                : random.chance(2) ? 0.0f
+                                                                   : 0.3f * random.part(),
+                                      .strength = random.chance(3) ? 30.0f * random.part() : 0.0f}));
+        }
+        // A slack rope of one segment starts too short.
+        const bool bound = direct && !draws && world.core().length_error() < 1e-3;
+        const double start = world.core().energy(), scale = weight(world);
+        for (int i = 0; i < 40; ++i) {
+            world.advance(1.0 / 60.0);
+            ASSERT_TRUE(all_finite(world)) << seed;
+            if (bound) worst = std::max(worst, (world.core().energy() - start) / scale);
+            if (i == 20 && !world.state().ties.empty()) allow(world.core().untie(world.state().ties[0].id));
+        }
+    }
+    EXPECT_LT(worst, 0.01);  // of the energy of a fall of a metre
+}
+
+/// Editing, rollback, other workspaces and threads.
+TEST(RopeTie, SameBitsFromAnyCopy) {
+    World world;
+    world.add_rope("line",
+                   {.from = {0, 2, 0}, .to = {1, 2, 0}, .segments = 20, .pin_start = true, .pin_end = true});
+    world.add_cloth(
+        "sheet",
+        {.corner = {0, 1.9f, 0}, .along = {1, 0, 0}, .down = {0, -1, 0.2f}, .columns = 6, .rows = 6});
+    world.add_rope("tail", {.from = {0.5f, 1, 0.2f}, .to = {0.5f, 0.5f, 0.2f}, .segments = 8});
+    for (int i = 0; i < 6; ++i) tie(world, "line", 4 * i, "sheet", i, {.length = 0.02f});
+    tie(world, "sheet", -3, "tail", 0, {.strength = 100.0f});
+    run(world, 0.5);
+    World copy(world.state());
+    copy.use_vector_unit("none");
+    EXPECT_EQ(copy.state().ties, world.state().ties);
+    run(world, 1.0);
+    run(copy, 1.0);
+    EXPECT_TRUE(same_bits(world.state(), copy.state()));
+}
+
+TEST(RopeTie, StaysOnItsParticleThroughEdits) {
+    World world;
+    world.add_rope("first", {.from = {0, 3, 0}, .to = {1, 3, 0}, .segments = 4});
+    world.add_rope("line",
+                   {.from = {0, 2, 0}, .to = {1, 2, 0}, .segments = 10, .pin_start = true, .pin_end = true});
+    world.add_rope("tail", {.from = {0.8f, 2, 0}, .to = {0.8f, 1, 0}, .segments = 8});
+    const rope::TieId knot = tie(world, "line", 8, "tail", 0), other = tie(world, "first", 0, "line", 1);
+    world.cut("line", 4);
+    EXPECT_EQ(world.core().find(knot)->a, particle_of(world, "line", 8));
+    EXPECT_EQ(world.find("line")->count, 5u);
+    world.remove("first");
+    EXPECT_EQ(world.core().find(other), nullptr);
+    EXPECT_EQ(world.core().position(world.core().find(knot)->b), glm::dvec3(glm::vec3(0.8f, 2, 0)));
+    run(world, 1.0);
+    EXPECT_LT(gap(world, knot), 1e-6);
+    EXPECT_FALSE(world.core().untie(other));
+    allow(world.core().untie(knot));
+    EXPECT_TRUE(world.state().ties.empty());
+}
+
+TEST(RopeTie, Refusals) {
+    World world;
+    world.add_rope("rope", {.segments = 4});
+    const auto refused = [](const auto& given) { return std::string(given.error().message()); };
+    EXPECT_TRUE(says(refused(world.core().tie(0, 9)), "tie 9"));
+    EXPECT_TRUE(says(refused(world.core().tie(2, 2)), "tie b another particle 2"));
+    EXPECT_TRUE(says(refused(world.core().tie(0, 1, {.length = -1.0f})), "length -1"));
+    EXPECT_TRUE(says(world.core().untie({}).message(), "untie tie"));
+    rope::State state = world.state();
+    state.ties.push_back({.id = {}, .a = 0, .b = 99});
+    rope::number_slots(state);
+    EXPECT_TRUE(says(refused(rope::World::from_state(state)), "ties[0] existing"));
 }
 
 }  // namespace
