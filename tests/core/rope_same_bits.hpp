@@ -16,9 +16,10 @@ class StateBits {
   public:
     explicit StateBits(const rope::State& state) {
         const auto& [settings, bodies, links, position, displacement, mass, pins, colliders, body_slots,
-                     collider_slots, remainder, displaced_in, substeps, dropped] = state;
+                     collider_slots, ties, tie_slots, remainder, displaced_in, substeps, dropped] = state;
         add(settings, bodies, links, position, displacement, mass, pins, colliders, body_slots,
             collider_slots, remainder, displaced_in, substeps, dropped);
+        if (!tie_slots.empty()) add(ties, tie_slots);
     }
     bool operator==(const StateBits&) const = default;
 
@@ -60,6 +61,10 @@ class StateBits {
     void put(const rope::Link& link) {
         const auto& [a, b, rest, kind, compliance, tension] = link;
         add(a, b, rest, kind, compliance, tension);
+    }
+    void put(const rope::Tie& tie) {
+        const auto& [id, a, b, length, strength, now, tension] = tie;
+        add(id, a, b, length, strength, now, tension);
     }
     void put(const rope::Pin& pin) {
         const auto& [particle, goal, seconds, collider] = pin;

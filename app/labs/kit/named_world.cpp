@@ -25,7 +25,7 @@ auto* named(const List& list, const std::vector<std::string>& names, std::string
     return found == list.end() ? nullptr : &*found;
 }
 
-/// Names by the slot of their body or collider. Throws if one is empty or used twice.
+/// Names by the slot of what they name. Throws if one is empty or used twice.
 template <class List>
 std::vector<std::string> by_slot(const List& list, const std::vector<std::string>& given, const char* kind) {
     std::vector<std::string> names;
@@ -43,11 +43,12 @@ std::vector<std::string> by_slot(const List& list, const std::vector<std::string
 }  // namespace
 
 NamedWorld::NamedWorld(rope::State state, const std::vector<std::string>& bodies,
-                       const std::vector<std::string>& colliders) {
+                       const std::vector<std::string>& colliders, const std::vector<std::string>& ties) {
     rope::number_slots(state);
     put(std::move(state));
     bodies_ = by_slot(this->state().bodies, bodies, "bodies");
     colliders_ = by_slot(this->state().colliders, colliders, "colliders");
+    ties_ = by_slot(this->state().ties, ties, "ties");
 }
 
 void NamedWorld::put(rope::State state) {
@@ -60,6 +61,9 @@ const rope::Body* NamedWorld::find(std::string_view body) const {
 const rope::Collider* NamedWorld::find_collider(std::string_view collider) const {
     return named(state().colliders, colliders_, collider);
 }
+const rope::Tie* NamedWorld::find_tie(std::string_view tie) const {
+    return named(state().ties, ties_, tie);
+}
 rope::BodyId NamedWorld::id(std::string_view body) const {
     const rope::Body* found = find(body);
     return found == nullptr ? rope::BodyId{} : found->id;
@@ -67,6 +71,11 @@ rope::BodyId NamedWorld::id(std::string_view body) const {
 rope::ColliderId NamedWorld::collider_id(std::string_view collider) const {
     const rope::Collider* found = find_collider(collider);
     return found == nullptr ? rope::ColliderId{} : found->id;
+}
+
+rope::TieId NamedWorld::tie_id(std::string_view tie) const {
+    const rope::Tie* found = find_tie(tie);
+    return found == nullptr ? rope::TieId{} : found->id;
 }
 
 void NamedWorld::check_free(const char* operation, std::string_view body) const {
@@ -136,6 +145,22 @@ void NamedWorld::attach(std::size_t particle, std::string_view collider) {
 }
 void NamedWorld::unpin(std::size_t particle) {
     require_ok(world_.unpin(particle));
+}
+
+std::string NamedWorld::tie(const std::string& name, std::size_t a, std::size_t b,
+                            const rope::TieShape& shape) {
+    if (!name.empty() && find_tie(name) != nullptr) refuse("tie", "one that no other tie has", name);
+    std::string unused = name;
+    for (int i = 1; unused.empty() || find_tie(unused) != nullptr; ++i)
+        unused = i == 1 ? "tie" : "tie " + std::to_string(i);
+    set_name(ties_, require_value(world_.tie(a, b, shape)).index, unused);
+    return unused;
+}
+void NamedWorld::set_tie(std::string_view name, const rope::TieShape& shape) {
+    require_ok(world_.set_tie(tie_id(name), shape));
+}
+void NamedWorld::untie(std::string_view name) {
+    require_ok(world_.untie(tie_id(name)));
 }
 
 void NamedWorld::add_collider(const std::string& name, const rope::Shape& shape) {

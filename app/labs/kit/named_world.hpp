@@ -1,4 +1,4 @@
-// A rope world with named bodies and colliders: the library uses handles, users and files use names.
+// A rope world with named bodies, colliders and ties: the library uses handles, users and files use names.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@
 namespace tendril::app {
 
 inline constexpr std::size_t max_lab_particles = 100'000;  ///< more would make scene files too large
-inline constexpr std::size_t max_lab_colliders = 1'000;
+inline constexpr std::size_t max_lab_colliders = 1'000, max_lab_ties = 1'000;
 
 inline constexpr EnumNames<rope::Solver, 3> rope_solvers{
     "solver",
@@ -27,11 +27,11 @@ inline constexpr EnumNames<rope::Solver, 3> rope_solvers{
 class NamedWorld {
   public:
     NamedWorld() = default;
-    /// Names are in the order of the state's bodies and colliders. Throws std::invalid_argument if the state
-    /// is invalid, or if a name is empty or used twice.
+    /// Names are in the order of the state's bodies, colliders and ties. Throws std::invalid_argument if the
+    /// state is invalid, or if a name is empty or used twice.
     NamedWorld(rope::State state, const std::vector<std::string>& bodies,
-               const std::vector<std::string>& colliders);
-    /// Replaces the state. Its bodies and colliders must already have names.
+               const std::vector<std::string>& colliders, const std::vector<std::string>& ties = {});
+    /// Replaces the state. Its bodies, colliders and ties must already have names.
     void put(rope::State state);
 
     const rope::World& world() const { return world_; }
@@ -41,10 +41,12 @@ class NamedWorld {
     // Null, or a null handle, if nothing has that name.
     const rope::Body* find(std::string_view body) const;
     const rope::Collider* find_collider(std::string_view collider) const;
+    const rope::Tie* find_tie(std::string_view tie) const;
     /// The collider that a pin moves with; null if there is none.
     const rope::Collider* holder(const rope::Pin& pin) const { return world_.find(pin.collider); }
     const std::string& name(const rope::Body& body) const { return bodies_[body.id.index]; }
     const std::string& name(const rope::Collider& collider) const { return colliders_[collider.id.index]; }
+    const std::string& name(const rope::Tie& tie) const { return ties_[tie.id.index]; }
 
     // The rest throws std::invalid_argument if the library refuses, or if a name is taken or unknown.
     void set_settings(const rope::Settings& settings);
@@ -68,6 +70,10 @@ class NamedWorld {
     void attach(std::size_t particle, std::string_view collider);
     void unpin(std::size_t particle);
     bool pinned(std::size_t particle) const { return world_.pinned(particle); }
+    /// Returns the tie's name; an empty `name` becomes "tie", "tie 2", ...
+    std::string tie(const std::string& name, std::size_t a, std::size_t b, const rope::TieShape& shape = {});
+    void set_tie(std::string_view name, const rope::TieShape& shape);
+    void untie(std::string_view name);
     void add_collider(const std::string& name, const rope::Shape& shape);
     void move_collider(std::string_view name, const glm::vec3& to, double seconds = 0.0);
     void move_capsule(std::string_view name, const rope::Capsule& to, double seconds = 0.0);
@@ -96,9 +102,10 @@ class NamedWorld {
     std::string name_body(rope::BodyId body, const std::string& wanted, const std::string& stem, int first);
     rope::BodyId id(std::string_view body) const;
     rope::ColliderId collider_id(std::string_view collider) const;
+    rope::TieId tie_id(std::string_view tie) const;
 
     rope::World world_;
-    std::vector<std::string> bodies_, colliders_;  ///< by slot
+    std::vector<std::string> bodies_, colliders_, ties_;  ///< by slot
 };
 
 }  // namespace tendril::app

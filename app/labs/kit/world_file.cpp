@@ -137,6 +137,27 @@ rope::Pin load_pin(const JsonPlace& place, std::size_t particles, const Names& c
     return pin;
 }
 
+Json save_tie(const rope::Tie& tie, const std::string& name) {
+    const rope::TieShape shape{.length = tie.length, .strength = tie.strength};
+    Json json{{"name", name}, {"a", tie.a}, {"b", tie.b}, {"now", number(tie.now)}};
+    json.update(save_fields(shape));
+    if (tie.tension != 0.0f || std::signbit(tie.tension)) json["tension"] = number(tie.tension);
+    return json;
+}
+
+rope::Tie load_tie(const JsonPlace& place, std::size_t particles) {
+    const std::size_t last = particles == 0 ? 0 : particles - 1;
+    rope::TieShape shape;
+    load_fields(place, shape);
+    rope::Tie tie;
+    tie.a = static_cast<std::uint32_t>(place["a"].index(last));
+    tie.b = static_cast<std::uint32_t>(place["b"].index(last));
+    tie.length = shape.length, tie.strength = shape.strength;
+    tie.now = place["now"].number();
+    if (const auto tension = place.optional("tension")) tie.tension = load_tension(*tension);
+    return tie;
+}
+
 Json save_collider(const rope::Collider& collider, const std::string& name) {
     Json json{{"name", name}};
     json.update(save_shape(collider.shape));
@@ -205,7 +226,7 @@ Json save_world(const NamedWorld& world) {
     for (const rope::Pin& pin : state.pins) pins.push_back(save_pin(world, pin));
     for (const rope::Collider& collider : state.colliders)
         colliders.push_back(save_collider(collider, world.name(collider)));
-    return Json{{"settings", save_fields(state.settings)},
+    Json json{{"settings", save_fields(state.settings)},
                 {"remainder", state.remainder},
                 {"moved_in", state.displaced_in},
                 {"substeps", state.substeps},
@@ -215,13 +236,17 @@ Json save_world(const NamedWorld& world) {
                 {"pins", std::move(pins)},
                 {"particles", std::move(particles)},
                 {"links", std::move(links)}};
+    if (state.ties.empty()) return json;
+    Json& ties = json["ties"] = Json::array();
+    for (const rope::Tie& tie : state.ties) ties.push_back(save_tie(tie, world.name(tie)));
+    return json;
 }
 
 NamedWorld load_world(const JsonPlace& place) {
     constexpr std::uint64_t most = std::uint64_t{1} << 53;
     constexpr std::size_t max_links = 8 * max_lab_particles;  // a cloth has six for each particle
     rope::State state;
-    Names body_names, collider_names;
+    Names body_names, collider_names, tie_names;
     // Sizes first: oversized lists are refused before they are read.
     place["particles"].for_each("particles", max_lab_particles,
                                 [&](const JsonPlace& row) { load_particle(state, row); });
@@ -244,7 +269,12 @@ NamedWorld load_world(const JsonPlace& place) {
     });
     place["links"].for_each("links", max_links,
                             [&](const JsonPlace& row) { state.links.push_back(load_link(row, size)); });
-    return {std::move(state), body_names, collider_names};
+    if (const auto ties = place.optional("ties"))
+        ties->for_each("ties", max_lab_ties, [&](const JsonPlace& each) {
+            state.ties.push_back(load_tie(each, size));
+            tie_names.push_back(each["name"].text());
+        });
+    return {std::move(state), body_names, collider_names, tie_names};
 }
 
 }  // namespace tendril::app

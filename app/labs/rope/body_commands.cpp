@@ -81,10 +81,12 @@ void remove_body(RopeEdit& edit, const Arguments& given) {
 void remove_selected(RopeEdit& edit, const Arguments&) {
     const std::optional<RopeSelection> selection = edit.part.selection;
     if (!selection) throw Refused("nothing is selected");
-    if (selection->collider.empty())
-        edit.world().remove(selection->body);
-    else
+    if (!selection->tie.empty())
+        edit.world().untie(selection->tie);
+    else if (!selection->collider.empty())
         edit.world().remove_collider(selection->collider);
+    else
+        edit.world().remove(selection->body);
     forget_missing(edit.part);
 }
 
@@ -232,14 +234,6 @@ void add_body_commands(CommandTable& table) {
 // The panel's rows that add objects, at a free position, and select them.
 
 namespace {
-
-/// "ball", "ball 2", ...: the first unused name.
-template <class Taken>
-std::string free_name(const std::string& kind, Taken taken) {
-    std::string name = kind;
-    for (int i = 2; taken(name); ++i) name = kind + " " + std::to_string(i);
-    return name;
-}
 
 /// The centre of the view, or the nearest free position to its right and towards the viewer.
 glm::vec3 free_place(const Workspace& workspace) {

@@ -13,9 +13,10 @@ namespace tendril::app {
 Command rope_command(const char* name, const char* title, std::vector<Argument> arguments, const char* help,
                      void (*change)(RopeEdit&, const Arguments&), Effect effect = Effect::Edit);
 
-/// Arguments completed with the names of bodies or colliders.
+/// Arguments completed with the names of bodies, colliders or ties.
 Argument body_argument(const char* name, bool required, const char* help);
 Argument collider_argument(const char* name, bool required, const char* help);
+Argument tie_argument(const char* name, bool required, const char* help);
 Argument rope_argument(bool required, const char* help);
 Argument particle_argument(bool required, const char* help);
 /// For commands that treat several particles alike.
@@ -24,6 +25,7 @@ Argument particles_argument();
 void add_world_commands(CommandTable& table);
 void add_body_commands(CommandTable& table);
 void add_collider_commands(CommandTable& table);
+void add_tie_commands(CommandTable& table);
 void add_look_commands(CommandTable& table);
 
 }  // namespace tendril::app

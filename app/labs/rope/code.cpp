@@ -159,6 +159,12 @@ class RopeProgram {
             name(world_.name(collider));
             add("colliders", members);
         }
+        for (const rope::Tie& tie : state.ties) {
+            name(world_.name(tie));
+            add("ties", {".id = {}", ".a = " + std::to_string(tie.a), ".b = " + std::to_string(tie.b),
+                         ".length = " + literal(tie.length), ".strength = " + literal(tie.strength),
+                         ".now = " + literal(tie.now), ".tension = " + literal(tie.tension)});
+        }
         say("rope::number_slots(state);");
         for (const rope::Pin& pin : state.pins) {
             const std::string holder =

@@ -39,6 +39,7 @@ class Drawing {
         }
         weights();
         catchable_links();
+        for (std::size_t i = 0; i < world_.state().ties.size(); ++i) tie(i);
         particles();
         labels();
     }
@@ -47,8 +48,7 @@ class Drawing {
     float px(float pixels) const { return pixels * view_.scale; }
     bool lit(PickId pick) const { return view_.hovered == pick || view_.dragged == pick; }
     bool chosen(const rope::Body& body) const {
-        return part_.selection && part_.selection->collider.empty() &&
-               part_.selection->body == world_.name(body);
+        return part_.selection && part_.selection->of_particles() && part_.selection->body == world_.name(body);
     }
     bool chosen(const rope::Body& body, std::size_t i) const {
         return chosen(body) && part_.selection->particles.has(i);
@@ -153,6 +153,27 @@ class Drawing {
         stroke.pick = particle_pick(particle);
     }
 
+    /// A thin link with a knot at each end; one knot if the particles coincide.
+    void tie(std::size_t i) {
+        const rope::Tie& tie = world_.state().ties[i];
+        const PickId pick = tie_pick(i);
+        const bool selected = part_.selection && part_.selection->tie == world_.name(tie);
+        const glm::vec4 colour(selected    ? view_.palette.selection
+                               : lit(pick) ? view_.palette.accent
+                                           : glm::mix(view_.palette.joint, view_.palette.text, 0.35f),
+                               1.0f);
+        const glm::vec3 a = positions_[tie.a], b = positions_[tie.b];
+        const float thick = std::max(thickness(tie.a), thickness(tie.b));
+        solid(list_.sphere(a, 1.4f * thick, Unit::Metres, colour), pick);
+        if (tie.now < thick) return;
+        solid(list_.sphere(b, 1.4f * thick, Unit::Metres, colour), pick);
+        solid(list_.bone(a, b, 0.6f * thick, 0.6f * thick, colour), pick);
+    }
+    float thickness(std::size_t particle) const {
+        const rope::Body& body = *picked_particle(world_, particle_pick(particle))->body;
+        return std::max(body.radius, px(2.0f) * view_.camera.metres_per_pixel(positions_[particle]));
+    }
+
     void particles() {
         std::vector<bool> pinned(world_.size());
         for (const rope::Pin& pin : world_.state().pins) pinned[pin.particle] = !pin.collider;
@@ -200,6 +221,8 @@ class Drawing {
         }
         for (const rope::Body& body : state.bodies)
             if (always) add(positions_[body.first], world_.name(body), false);
+        for (std::size_t i = 0; i < state.ties.size(); ++i)
+            if (shown == tie_pick(i)) add(positions_[state.ties[i].a], world_.name(state.ties[i]), true);
         if (const auto place = picked_particle(world_, shown)) {
             const std::size_t particle = place->body->first + place->index;
             add(positions_[particle],

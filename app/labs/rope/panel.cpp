@@ -46,6 +46,8 @@ const char* tool_help(RopeTool tool) {
             return "A click on a particle pins it where it is, or lets a pinned one move again.";
         case RopeTool::Cut:
             return "A click on a rope cuts that segment.";
+        case RopeTool::Tie:
+            return "A click on one particle and then on another ties the two.";
         default:
             return "A click selects: the inspector then shows the settings.";
     }
@@ -303,13 +305,15 @@ void selection_rows(const Workspace& workspace, Emit& emit) {
     if (part.selection) {
         if (const rope::Collider* collider = part.world->find_collider(part.selection->collider))
             return collider_rows(part, *collider, emit);
+        if (const rope::Tie* tie = part.world->find_tie(part.selection->tie))
+            return tie_rows(part, *tie, emit);
         const rope::Body* body = part.world->find(part.selection->body);
         if (body != nullptr && part.selection->particles.several())
             return several_rows(part, *body, part.selection->particles.all(), emit);
         if (body != nullptr && part.selection->particle() < body->count)
             return particle_rows(part, *body, part.selection->particle(), emit);
     }
-    note("Nothing is selected. Click a rope or a collider.");
+    note("Nothing is selected. Click a rope, a collider or a tie.");
 }
 
 void number_rows(const Workspace& workspace, const Palette& palette, Emit& emit) {

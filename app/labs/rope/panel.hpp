@@ -12,6 +12,8 @@ namespace tendril::app {
 void adding_rows(const Workspace& workspace, Emit& emit);
 /// How well lengths are kept.
 Verdict rope_verdict(const RopePart& part);
+/// Of a selected tie.
+void tie_rows(const RopePart& part, const rope::Tie& tie, Emit& emit);
 /// The selection, and actions on it.
 void selection_rows(const Workspace& workspace, Emit& emit);
 /// Simulation statistics, and curves of the last ten seconds.

@@ -136,7 +136,7 @@ std::optional<PastCurve> rope_past_curve(const Workspace& workspace) {
     if (!view.plots(workspace.settings)) return std::nullopt;
     const auto what = static_cast<Number>(view.chosen(workspace.settings));
     std::optional<RopeSelection> selection = rope_part(workspace).selection;
-    if (selection && !selection->collider.empty()) selection.reset();
+    if (selection && !selection->of_particles()) selection.reset();
     const Told words = told(what);
     const std::string name = selection ? words.of_some + measured_name(what, *selection) : words.of_all;
     std::string of = name;

@@ -68,13 +68,20 @@ Handle particle_handle(const NamedWorld& world, const ParticlePlace& place) {
 
 const rope::Collider* picked_collider(const NamedWorld& world, PickId pick) {
     const auto& colliders = world.state().colliders;
-    if (!is_collider_pick(pick)) return nullptr;
-    const std::size_t index = static_cast<std::size_t>(pick) - max_lab_particles;
+    if (pick < collider_pick(0)) return nullptr;
+    const auto index = static_cast<std::size_t>(pick - collider_pick(0));
     return index < colliders.size() ? &colliders[index] : nullptr;
 }
 
+const rope::Tie* picked_tie(const NamedWorld& world, PickId pick) {
+    const auto& ties = world.state().ties;
+    if (pick < tie_pick(0)) return nullptr;
+    const auto index = static_cast<std::size_t>(pick - tie_pick(0));
+    return index < ties.size() ? &ties[index] : nullptr;
+}
+
 std::optional<ParticlePlace> picked_particle(const NamedWorld& world, PickId pick) {
-    if (pick < 0 || is_collider_pick(pick)) return std::nullopt;
+    if (pick < 0 || pick >= collider_pick(0)) return std::nullopt;
     const auto particle = static_cast<std::size_t>(pick);
     for (const rope::Body& body : world.state().bodies)
         if (particle >= body.first && particle < body.first + body.count)
@@ -153,6 +160,29 @@ void RopeLab::drop(const Workspace& workspace, PickId, Emit& emit) const {
     if (rope_part(workspace).hold) emit.continuously("rope.let_go");
 }
 
+namespace {
+
+/// With the Tie action, a click on a second particle ties it to the selected one.
+std::optional<ParticlePlace> tied_from(const RopePart& part, const ParticlePlace& to) {
+    if (part.tool != RopeTool::Tie || !part.selection || !part.selection->of_particles()) return std::nullopt;
+    const ParticlePlace from{part.world->find(part.selection->body), part.selection->particle()};
+    if (from.body == nullptr || (from.body == to.body && from.index == to.index)) return std::nullopt;
+    return from;
+}
+
+/// Selects the tie, so that its length and strength can be set.
+void tie_places(const NamedWorld& world, const ParticlePlace& a, const ParticlePlace& b, Emit& emit) {
+    const std::string name = free_name("tie", [&](const auto& n) { return world.find_tie(n) != nullptr; });
+    emit("rope.tie", {{"a", world.name(*a.body)},
+                      {"a_particle", a.index},
+                      {"b", world.name(*b.body)},
+                      {"b_particle", b.index},
+                      {"name", name}});
+    emit("rope.select", {{"tie", name}});
+}
+
+}  // namespace
+
 void RopeLab::click(const Workspace& workspace, PickId pick, Emit& emit) const {
     const RopePart& part = rope_part(workspace);
     const NamedWorld& world = *part.world;
@@ -160,11 +190,16 @@ void RopeLab::click(const Workspace& workspace, PickId pick, Emit& emit) const {
         emit("rope.select", {{"collider", world.name(*collider)}});
         return;
     }
+    if (const auto* tie = picked_tie(world, pick)) {
+        emit("rope.select", {{"tie", world.name(*tie)}});
+        return;
+    }
     const auto place = picked_particle(world, pick);
     if (!place) {
         if (part.selection) emit("rope.select");
         return;
     }
+    if (const auto from = tied_from(part, *place)) return tie_places(world, *from, *place, emit);
     emit("rope.select", of_particle(world, *place));
     if (part.tool == RopeTool::Pin) {
         const bool pinned = world.pinned(place->body->first + place->index);
@@ -231,6 +266,8 @@ std::string RopeLab::hint(const Workspace& workspace, PickId pick) const {
         return part.world->name(*collider) + " (" + rope::kind(collider->shape) +
                "): drag moves it, and it pushes what it meets. Click selects it.";
     }
+    if (const auto* tie = picked_tie(*part.world, pick))
+        return part.world->name(*tie) + ": click selects it.";
     const auto place = picked_particle(*part.world, pick);
     if (!place) return {};
     const std::string name = part.world->name(*place->body) + ", particle " + std::to_string(place->index);
@@ -243,6 +280,9 @@ std::string RopeLab::hint(const Workspace& workspace, PickId pick) const {
             if (place->body->kind != rope::Body::Kind::Rope) return name + ": only ropes can be cut.";
             if (place->body->count > 1) return name + ": click cuts here.";
             break;
+        case RopeTool::Tie:
+            if (tied_from(part, *place)) return name + ": click ties it to the selected particle.";
+            return name + ": click it, then what to tie it to.";
     }
     if (const rope::Collider* holder = holder_of(*part.world, place->body->first + place->index))
         return name + " (attached to " + part.world->name(*holder) + "): drag moves both.";

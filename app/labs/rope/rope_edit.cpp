@@ -107,14 +107,21 @@ const rope::Collider& collider_of(const NamedWorld& world, const std::string& na
     return *collider;
 }
 
-NamedParticle named_particle(const NamedWorld& world, const Arguments& given) {
-    const rope::Body& body = body_of(world, given.text("rope"));
-    const auto index = static_cast<std::size_t>(given.integer("particle"));
+const rope::Tie& tie_of(const NamedWorld& world, const std::string& name) {
+    const rope::Tie* tie = world.find_tie(name);
+    if (tie == nullptr) throw Refused("there is no tie \"" + name + "\"");
+    return *tie;
+}
+
+NamedParticle named_particle(const NamedWorld& world, const Arguments& given, const char* rope,
+                             const char* particle) {
+    const rope::Body& body = body_of(world, given.text(rope));
+    const auto index = static_cast<std::size_t>(given.integer(particle));
     if (index >= body.count) {
-        throw Refused("particle " + std::to_string(index) + " is out of range, \"" + given.text("rope") +
+        throw Refused("particle " + std::to_string(index) + " is out of range, \"" + given.text(rope) +
                       "\" has " + std::to_string(body.count));
     }
-    return {given.text("rope"), index, body.first + index};
+    return {given.text(rope), index, body.first + index};
 }
 
 std::vector<NamedParticle> named_particles(const NamedWorld& world, const Arguments& given) {
@@ -194,8 +201,9 @@ void forget_missing(RopePart& part) {
         RopeSelection& selection = *part.selection;
         const rope::Body* body = world.find(selection.body);
         selection.particles.keep_below(body != nullptr ? body->count : 0);
-        const bool stays = selection.collider.empty() ? !selection.particles.empty()
-                                                      : world.find_collider(selection.collider) != nullptr;
+        const bool stays = !selection.tie.empty()        ? world.find_tie(selection.tie) != nullptr
+                           : !selection.collider.empty() ? world.find_collider(selection.collider) != nullptr
+                                                         : !selection.particles.empty();
         if (!stays) part.selection.reset();
     }
     std::erase_if(part.swings,
@@ -213,6 +221,13 @@ Argument collider_argument(const char* name, bool required, const char* help) {
     return offering(text_argument(name, required, help), [](const Workspace& w) {
         const NamedWorld& world = *rope_part(w).world;
         return names(world.state().colliders, [&](const rope::Collider& each) { return world.name(each); });
+    });
+}
+
+Argument tie_argument(const char* name, bool required, const char* help) {
+    return offering(text_argument(name, required, help), [](const Workspace& w) {
+        const NamedWorld& world = *rope_part(w).world;
+        return names(world.state().ties, [&](const rope::Tie& tie) { return world.name(tie); });
     });
 }
 

@@ -46,13 +46,15 @@ void check_work(const NamedWorld& world);
 /// Throw Refused if there is none of that name.
 const rope::Body& body_of(const NamedWorld& world, const std::string& name);
 const rope::Collider& collider_of(const NamedWorld& world, const std::string& name);
-/// The particle that `rope` and `particle` name.
+const rope::Tie& tie_of(const NamedWorld& world, const std::string& name);
+/// The particle that two arguments name.
 struct NamedParticle {
     std::string body;
     std::size_t index = 0;     ///< in the body
     std::size_t particle = 0;  ///< in the world
 };
-NamedParticle named_particle(const NamedWorld& world, const Arguments& given);
+NamedParticle named_particle(const NamedWorld& world, const Arguments& given, const char* rope = "rope",
+                             const char* particle = "particle");
 /// The particles given by `particle` or `particles`, of one rope. Throws Refused if neither or both are
 /// given, or one does not exist.
 std::vector<NamedParticle> named_particles(const NamedWorld& world, const Arguments& given);
@@ -60,6 +62,14 @@ std::vector<NamedParticle> named_particles(const NamedWorld& world, const Argume
 /// throws Refused if a particle is given twice.
 std::vector<rope::PinPlace> pin_places(const Arguments& given, const std::vector<NamedParticle>& named,
                                        const char* one, const char* each);
+
+/// "ball", "ball 2", ...: the first unused name.
+template <class Taken>
+std::string free_name(const std::string& kind, Taken taken) {
+    std::string name = kind;
+    for (int i = 2; taken(name); ++i) name = kind + " " + std::to_string(i);
+    return name;
+}
 
 /// The particles that a drag still holds, as indices in the world.
 std::vector<std::size_t> held_particles(const RopePart& part);

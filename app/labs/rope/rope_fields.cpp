@@ -115,6 +115,22 @@ std::span<const FieldText> field_texts<rope::ClothShape>() {
 }
 
 template <>
+std::span<const FieldText> field_texts<rope::TieShape>() {
+    static constexpr FieldText texts[] = {
+        {.name = "length",
+         .label = "length",
+         .help = "How far apart it keeps its two particles; 0: in one place.",
+         .step = 0.005f,
+         .decimals = 3},
+        {.name = "strength",
+         .label = "tears at",
+         .help = "The force at which it tears; 0: never.",
+         .step = 0.5f,
+         .decimals = 1}};
+    return texts;
+}
+
+template <>
 std::span<const FieldText> field_texts<rope::HairShape>() {
     static constexpr FieldText texts[] = {
         {.name = "length", .label = "length", .help = "Of a strand; default: 0.5."},

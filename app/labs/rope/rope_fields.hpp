@@ -45,6 +45,8 @@ std::span<const FieldText> field_texts<rope::RopeShape>();
 template <>
 std::span<const FieldText> field_texts<rope::ClothShape>();
 template <>
+std::span<const FieldText> field_texts<rope::TieShape>();
+template <>
 std::span<const FieldText> field_texts<rope::HairShape>();
 template <>
 std::span<const FieldText> field_texts<rope::HairPatch>();

@@ -54,6 +54,7 @@ std::vector<Swing> load_swings(const JsonPlace& place, const NamedWorld& world) 
 Json save_selection(const std::optional<RopeSelection>& selection) {
     if (!selection) return nullptr;
     if (!selection->collider.empty()) return Json{{"collider", selection->collider}};
+    if (!selection->tie.empty()) return Json{{"tie", selection->tie}};
     return Json{{"rope", selection->body}, {"particle", selection->particles.save()}};
 }
 
@@ -65,6 +66,13 @@ std::optional<RopeSelection> load_selection(const JsonPlace& place, const NamedW
         selection.collider = collider.text();
         if (world.find_collider(selection.collider) == nullptr)
             collider.fail("there is no collider " + json_summary(collider.json()));
+        return selection;
+    }
+    if (place.has("tie")) {
+        const JsonPlace tie = place["tie"];
+        selection.tie = tie.text();
+        if (world.find_tie(selection.tie) == nullptr)
+            tie.fail("there is no tie " + json_summary(tie.json()));
         return selection;
     }
     const JsonPlace rope = place["rope"];
@@ -167,6 +175,21 @@ Json collider_state(const RopePart& part, const rope::Collider& collider) {
     return json;
 }
 
+Json tie_state(const NamedWorld& world, const rope::Tie& tie) {
+    Json json{{"name", world.name(tie)},
+              {"length", number(tie.length)},
+              {"strength", number(tie.strength)},
+              {"tension", number(tie.tension)}};
+    const auto end = [&](const char* body, const char* index, std::size_t particle) {
+        const ParticlePlace place = *picked_particle(world, particle_pick(particle));
+        json[body] = world.name(*place.body);
+        json[index] = place.index;
+    };
+    end("a", "a_particle", tie.a);
+    end("b", "b_particle", tie.b);
+    return json;
+}
+
 Json report_state(const RopeReport& report) {
     return {{"inside", report.inside},
             {"unconverged", report.unconverged},
@@ -177,6 +200,7 @@ Json report_state(const RopeReport& report) {
 Json selection_state(const std::optional<RopeSelection>& selection) {
     if (!selection) return nullptr;
     if (!selection->collider.empty()) return Json{{"collider", selection->collider}};
+    if (!selection->tie.empty()) return Json{{"tie", selection->tie}};
     return Json{{"rope", selection->body},
                 {"particle", selection->particle()},
                 {"particles", selection->particles.all()}};
@@ -198,6 +222,8 @@ Json RopeLab::state(const Workspace& workspace) const {
         list.push_back(body_state(world, body, pinned));
     }
     for (const rope::Collider& collider : now.colliders) colliders.push_back(collider_state(part, collider));
+    Json ties = Json::array();
+    for (const rope::Tie& tie : now.ties) ties.push_back(tie_state(world, tie));
     Json held = nullptr;
     if (part.hold)
         held = {{"rope", part.hold->body},
@@ -212,6 +238,7 @@ Json RopeLab::state(const Workspace& workspace) const {
                 {"cloths", std::move(cloths)},
                 {"hair", std::move(hair)},
                 {"colliders", std::move(colliders)},
+                {"ties", std::move(ties)},
                 {"substeps", now.substeps},
                 {"substeps_dropped", now.dropped},
                 {"settings", save_fields(now.settings)},

@@ -66,6 +66,10 @@ std::optional<Bounds> selection_bounds(const RopePart& part) {
     const NamedWorld& world = *part.world;
     if (const rope::Collider* collider = world.find_collider(part.selection->collider))
         return Bounds{rope::centre(collider->shape), std::max(2.0f * rope::size(collider->shape), 0.2f)};
+    if (const rope::Tie* tie = world.find_tie(part.selection->tie)) {
+        const glm::vec3 a = world.position(tie->a), b = world.position(tie->b);
+        return bounds_of(glm::min(a, b), glm::max(a, b), 0.3f);
+    }
     const rope::Body* body = world.find(part.selection->body);
     if (body == nullptr) return std::nullopt;
     glm::vec3 low(1e30f), high(-1e30f);
@@ -90,6 +94,7 @@ void RopeLab::add_commands(CommandTable& table) const {
     add_world_commands(table);
     add_body_commands(table);
     add_collider_commands(table);
+    add_tie_commands(table);
     add_look_commands(table);
 }
 
@@ -138,7 +143,7 @@ std::vector<Shortcut> RopeLab::shortcuts() const {
 
 std::vector<MouseHelp> RopeLab::mouse_help() const {
     return {
-        {"Left click", "selects, pins or unpins, or cuts, as the panel says"},
+        {"Left click", "selects, pins or unpins, cuts or ties, as the panel says"},
         {"Shift+click on a rope", "adds a particle to the selection, or takes it out"},
         {"Ctrl+drag on nothing", "draws a box that selects particles of one rope; with Shift it adds them"}};
 }

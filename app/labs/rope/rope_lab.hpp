@@ -9,18 +9,20 @@
 
 namespace tendril::app {
 
-/// Pick ids: particles by their index in the world, colliders by their index in its list. Valid per frame.
+/// Pick ids: particles by their index in the world, colliders and ties by their index in its lists. Valid per
+/// frame.
 inline PickId particle_pick(std::size_t particle) {
     return static_cast<PickId>(particle);
 }
 inline PickId collider_pick(std::size_t index) {
     return static_cast<PickId>(max_lab_particles + index);
 }
-inline bool is_collider_pick(PickId pick) {
-    return pick >= static_cast<PickId>(max_lab_particles);
+inline PickId tie_pick(std::size_t index) {
+    return static_cast<PickId>(max_lab_particles + max_lab_colliders + index);
 }
-/// What was picked; null if the world has changed since.
+/// What was picked; null if it is something else, or the world has changed since.
 const rope::Collider* picked_collider(const NamedWorld& world, PickId pick);
+const rope::Tie* picked_tie(const NamedWorld& world, PickId pick);
 struct ParticlePlace {
     const rope::Body* body = nullptr;
     std::size_t index = 0;  ///< in the body

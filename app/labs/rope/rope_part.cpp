@@ -11,7 +11,7 @@ std::size_t bytes_of(const rope::State& state) {
     constexpr std::size_t particle = 3 * sizeof(glm::dvec3) + sizeof(double);
     return state.position.size() * particle + state.links.size() * sizeof(rope::Link) +
            state.bodies.size() * sizeof(rope::Body) + state.pins.size() * sizeof(rope::Pin) +
-           state.colliders.size() * sizeof(rope::Collider);
+           state.colliders.size() * sizeof(rope::Collider) + state.ties.size() * sizeof(rope::Tie);
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ inline constexpr const char* rope_lab = "rope";
 inline constexpr std::uint64_t max_lab_work = 50'000'000;
 
 /// What a click on an object in the scene does.
-enum class RopeTool : std::uint8_t { Move, Pin, Cut };
+enum class RopeTool : std::uint8_t { Move, Pin, Cut, Tie };
 
 /// A collider that swings to and fro. Its centre is middle + sin(2 pi t / period) * swing.
 struct Swing {
@@ -41,11 +41,13 @@ struct Hold {
     bool operator==(const Hold&) const = default;
 };
 
-/// The selection: particles of a body, or a collider.
+/// The selection: particles of a body, a collider or a tie.
 struct RopeSelection {
     std::string body;
     Selection particles;   ///< of the body; at least one
     std::string collider;  ///< if not empty, the collider is selected instead of particles
+    std::string tie;       ///< the same for a tie
+    bool of_particles() const { return collider.empty() && tie.empty(); }
     std::size_t particle() const { return particles.active().value_or(0); }
     bool operator==(const RopeSelection&) const = default;
 };
@@ -126,8 +128,8 @@ namespace tendril::app {
 inline constexpr int min_sides = 3, max_sides = 64;
 inline constexpr double min_jitter_frame = 0.001, max_jitter_frame = 0.25;  ///< seconds
 
-inline constexpr EnumNames<RopeTool, 3> rope_tools{
-    "tool", {{"move", "Select"}, {"pin", "Pin or unpin"}, {"cut", "Cut"}}};
+inline constexpr EnumNames<RopeTool, 4> rope_tools{
+    "tool", {{"move", "Select"}, {"pin", "Pin or unpin"}, {"cut", "Cut"}, {"tie", "Tie"}}};
 
 }  // namespace tendril::app
 

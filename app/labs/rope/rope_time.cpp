@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "app/labs/kit/motion.hpp"
+#include "app/labs/rope/rope_edit.hpp"
 #include "app/labs/rope/rope_part.hpp"
 
 namespace tendril::app {
@@ -98,7 +99,9 @@ RopeReport pass_time(RopePart& part, double seconds, rope::Workspace& workspace)
             jitter.frame = jitter_frame(jitter.dial, ++jitter.frames);
         }
     }
+    const bool torn = world->state().ties.size() != part.world->state().ties.size();
     part.world = std::move(world);
+    if (torn) forget_missing(part);
     return tick.report;
 }
 
@@ -131,7 +134,9 @@ bool at_rest(const RopePart& part) {
     const rope::State& state = part.world->state();
     const auto on_its_way = [](const auto& each) { return each.seconds > 0.0; };
     if (!part.swings.empty() || std::any_of(state.colliders.begin(), state.colliders.end(), on_its_way) ||
-        std::any_of(state.pins.begin(), state.pins.end(), on_its_way))
+        std::any_of(state.pins.begin(), state.pins.end(), on_its_way) ||
+        std::any_of(state.ties.begin(), state.ties.end(),
+                    [](const rope::Tie& tie) { return tie.now != tie.length; }))
         return false;
     for (std::size_t i = 0; i < part.world->size(); ++i)
         if (glm::length(part.world->velocity(i)) > still_speed) return false;

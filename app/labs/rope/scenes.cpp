@@ -55,7 +55,9 @@ const std::vector<RopeSceneEntry>& rope_scenes() {
          "A ball swings into a cloth that hangs by two corners; pull it about and let go", curtain_scene,
          view({0.0f, 1.0f, 0.0f}, -24.0f, 10.0f, 4.2f)},
         {"flag", "Flag", "A flag flutters in a gusty wind", flag_scene,
-         view({0.0f, 1.1f, 0.0f}, -32.0f, 14.0f, 4.6f)}};
+         view({0.0f, 1.1f, 0.0f}, -32.0f, 14.0f, 4.6f)},
+        {"line", "Cloth on a rope", "A cloth tied to a rope, which bends under it, in a light wind",
+         line_scene, view({0.0f, 1.15f, 0.0f}, -26.0f, 12.0f, 4.4f)}};
     return list;
 }
 
@@ -356,6 +358,43 @@ RopeScene flag_scene() {
     rope::Settings settings = world.settings();
     settings.wind = {7.0f, 0, 0.5f};
     settings.gusts = 0.5f;
+    world.set_settings(settings);
+    return scene;
+}
+
+/// A washing line: a cloth hangs by ties on a slack rope between two posts.
+RopeScene line_scene() {
+    RopeScene scene;
+    NamedWorld& world = scene.world;
+    add_ground(world);
+    constexpr float end = 1.1f, height = 1.8f, post = 0.05f, half = 0.5f, tie = 0.04f;
+    constexpr int columns = 13, segments = 48, apart = 2;
+    for (const float x : {-end, end})
+        world.add_collider(x < 0 ? "left post" : "right post",
+                           rope::Capsule{{x, 0, 0}, {x, height + 0.05f, 0}, post});
+    const float from = end - post - 0.02f;
+    world.add_rope("line", {.from = {-from, height, 0},
+                            .to = {from, height, 0},
+                            .segments = segments,
+                            .length = 2.0f * from * 1.04f,
+                            .radius = 0.015f,
+                            .density = 0.3f,
+                            .pin_start = true,
+                            .pin_end = true});
+    world.add_cloth("sheet", {.corner = {-half, height - 0.34f, 0},
+                              .along = {2.0f * half, 0, 0},
+                              .down = {0, -0.8f, 0},
+                              .columns = columns,
+                              .rows = 11});
+    // Each to the particle of the rope above it.
+    for (int column = 0; column < columns; column += apart) {
+        const float part = 0.5f + half * (2.0f * static_cast<float>(column) / (columns - 1) - 1.0f) / (2.0f * from);
+        world.tie({}, world.particle("line", static_cast<std::size_t>(std::lround(part * segments))),
+                  world.particle("sheet", static_cast<std::size_t>(column)), {.length = tie});
+    }
+    rope::Settings settings = world.settings();
+    settings.wind = {0.4f, 0, 2.2f};
+    settings.damping = 0.4f;
     world.set_settings(settings);
     return scene;
 }

@@ -38,6 +38,7 @@ RopeScene hair_scene();
 RopeScene bars_scene();
 RopeScene curtain_scene();
 RopeScene flag_scene();
+RopeScene line_scene();
 
 /// Adds the ground that every scene has.
 void add_ground(NamedWorld& world);

@@ -244,11 +244,14 @@ namespace {
 void select(RopeEdit& edit, const Arguments& given) {
     const bool particle = given.has("rope") || given.has("particle") || given.has("particles");
     const bool add = given.has("add") && given.boolean("add");
-    if (particle && given.has("collider"))
-        throw Refused("a particle or a collider can be selected, not both");
+    if (particle + given.has("collider") + given.has("tie") > 1)
+        throw Refused("a particle, a collider or a tie can be selected, not two of them");
     if (given.has("collider")) {
         collider_of(edit.seen(), given.text("collider"));
-        edit.part.selection = RopeSelection{{}, {}, given.text("collider")};
+        edit.part.selection = RopeSelection{{}, {}, given.text("collider"), {}};
+    } else if (given.has("tie")) {
+        tie_of(edit.seen(), given.text("tie"));
+        edit.part.selection = RopeSelection{{}, {}, {}, given.text("tie")};
     } else if (particle) {
         if (!given.has("rope")) throw Refused("rope is missing (a text)");
         if (!given.has("particle") && !given.has("particles"))
@@ -257,7 +260,7 @@ void select(RopeEdit& edit, const Arguments& given) {
         for (const NamedParticle& each : named_particles(edit.seen(), given)) chosen.push_back(each.index);
         const std::string rope = given.text("rope");
         const auto& before = edit.part.selection;
-        RopeSelection selection{rope, {}, {}};
+        RopeSelection selection{rope, {}, {}, {}};
         if (add && before && before->body == rope) selection = *before;
         if (add && given.has("particle"))
             selection.particles.toggle(chosen.front());
@@ -298,11 +301,12 @@ void set_view(RopeEdit& edit, const Arguments& given) {
 
 void add_look_commands(CommandTable& table) {
     table.add(
-        rope_command("rope.select", "Select particles or a collider",
+        rope_command("rope.select", "Select particles, a collider or a tie",
                      {rope_argument(false, "of the particle"), particle_argument(false, "which"),
-                      collider_argument("collider", false, "instead of a particle"), particles_argument(),
+                      collider_argument("collider", false, "instead of a particle"),
+                      tie_argument("tie", false, "instead of a particle"), particles_argument(),
                       switch_argument("add", "true: adds particles of the same rope, or takes one out")},
-                     "Selects particles or a collider; nothing if all are omitted", select, Effect::Look));
+                     "Selects particles, a collider or a tie; nothing if all are omitted", select, Effect::Look));
     table.add(rope_command(
         "rope.hold", "Hold particles",
         {rope_argument(true, "which"), particle_argument(false, "which; at least one must be free"),

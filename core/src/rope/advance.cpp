@@ -7,6 +7,7 @@
 #include "math/tasks.hpp"
 #include "rope/contact_shape.hpp"
 #include "rope/geometry.hpp"
+#include "rope/slots.hpp"
 #include "rope/substep.hpp"
 
 namespace tendril::rope {
@@ -28,6 +29,14 @@ bool tear(State& state) {
         return length > link.rest * (1.0 + longest);
     };
     return std::erase_if(state.links, torn) > 0;
+}
+
+/// Removes the ties that pull harder than they may, but for those still drawing their particles together;
+/// returns whether there were any.
+bool tear_ties(State& state) {
+    return detail::erase_ties(state, [](const Tie& tie) {
+               return tie.strength > 0.0f && tie.now == tie.length && tie.tension > tie.strength;
+           }) > 0;
 }
 
 dvec3 half_of(const Capsule& capsule) {
@@ -163,7 +172,8 @@ Advance World::advance(double seconds, Workspace& workspace, const AdvanceOption
         ++done.substeps;
         ++state_.substeps;
         state_.displaced_in = substep;
-        if (parts.plan.tears && tear(state_)) parts.replan(state_);
+        const bool torn = parts.plan.tears && tear(state_), untied = tear_ties(state_);
+        if (torn || untied) parts.replan(state_);
     }
     return done;
 }

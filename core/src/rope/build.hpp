@@ -39,6 +39,9 @@ double wind_pressure(const Settings& settings) noexcept;
 /// The compliance of a link as its solver uses it, m/N.
 double compliance(const Settings& settings, const Link& link) noexcept;
 
+/// The distance that a tie keeps in a substep of h seconds, metres.
+double distance_kept(const Tie& tie, double h) noexcept;
+
 // Energy in joules, halfway through a substep: Verlet's velocity is the one at that time, so what a leapfrog
 // step conserves is conserved.
 

@@ -159,11 +159,28 @@ Result check_colliders(const State& state) {
     return check_handles(state.colliders, state.collider_slots, "colliders");
 }
 
+Result check_ties(const State& state) {
+    for (std::size_t i = 0; i < state.ties.size(); ++i) {
+        const Tie& tie = state.ties[i];
+        const std::size_t end = std::max(tie.a, tie.b);
+        if (end >= state.position.size() || tie.a == tie.b)
+            return refused(op, Argument("ties", i), "between two existing particles", end);
+        const std::pair<const char*, float> amounts[] = {
+            {"length", tie.length}, {"strength", tie.strength}, {"now", tie.now}};
+        for (const auto& [member, value] : amounts)
+            if (const Result r = check_length(op, Argument("ties", i, member), value); !r) return r;
+        if (!std::isfinite(tie.tension))
+            return refused(op, Argument("ties", i, "tension"), "finite", tie.tension);
+    }
+    return check_handles(state.ties, state.tie_slots, "ties");
+}
+
 }  // namespace
 
 Result check(const State& state) {
     if (const Result r = rope::check(op, state.settings); !r) return r;
-    for (const auto part : {check_particles, check_bodies, check_links, check_colliders, check_pins})
+    for (const auto part :
+         {check_particles, check_bodies, check_links, check_colliders, check_pins, check_ties})
         if (const Result r = part(state); !r) return r;
     for (const auto& [name, value] :
          {std::pair{"remainder", state.remainder}, {"displaced_in", state.displaced_in}}) {

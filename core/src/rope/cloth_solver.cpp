@@ -35,16 +35,11 @@ void detail::Cloth::resize(std::size_t columns, std::size_t rows) {
 
 ClothSolver::ClothSolver(const State& state, const Plan& plan, const Plan::Island& island, Scratch& scratch,
                          IslandScratch& local)
-    : state_(state),
-      plan_(plan),
-      island_(island),
-      scratch_(scratch),
-      local_(local),
+    : ImplicitStep(state, plan, island, scratch, local),
       grid_(plan.grids[island.grid - 1]),
       cloth_(scratch.cloths[island.grid - 1]),
       level_(cloth_.system.finest()),
-      first_(state.bodies[grid_.body].first),
-      h_(state.settings.substep) {
+      first_(state.bodies[grid_.body].first) {
     const std::size_t count = state.bodies[grid_.body].count;
     double whole = 0.0, shortest = 1e30, longest = 0.0;
     for (std::size_t i = first_; i < first_ + count; ++i) whole += state.mass[i];

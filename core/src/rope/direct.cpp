@@ -6,10 +6,10 @@
 // converges, and costs energy.
 //
 // A chain that touches colliders is solved with its contacts, by Newton's method (chain_newton.hpp). A cloth
-// that is a grid is one system with its contacts (cloth_solver.hpp). If chains share particles otherwise, as
+// that is a grid is one system with its contacts (cloth_solver.hpp), and so are bodies that ties join
+// (tied_solver.hpp). If chains share particles otherwise, as
 // in hair, contacts are resolved last: what tension draws into a collider shows as depth, and bounds
 // friction. The resulting length errors are corrected in the next substep.
-// bounds friction. The length errors that this causes are corrected in the next substep.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,6 +19,7 @@
 #include "rope/cloth_solver.hpp"
 #include "rope/geometry.hpp"
 #include "rope/substep.hpp"
+#include "rope/tied_solver.hpp"
 
 namespace tendril::rope {
 namespace {
@@ -108,9 +109,19 @@ int Substep::direct_grid() {
     return passes;
 }
 
+int Substep::direct_tied() {
+    TiedSolver tied(state_, plan_, island_, scratch_, local_);
+    const int steps = tied.solve(passes_allowed());
+    if (!tied.converged()) ++report_.unconverged;
+    if (tied.shortened()) ++report_.fallbacks;
+    measure();
+    return steps;
+}
+
 int Substep::direct() {
     if (island_.alone) return direct_alone();
     if (island_.grid != 0) return direct_grid();
+    if (island_.tied != 0) return direct_tied();
     for (const std::uint32_t i : Plan::part(plan_.soft, island_.soft)) scratch_.multiplier[i] = 0.0;
     for (const Plan::Chain& chain : Plan::part(plan_.chains, island_.chains)) {
         if (!chain.alone) std::fill_n(scratch_.multiplier.begin() + chain.first_link, chain.links, 0.0);

@@ -6,6 +6,7 @@
 #include "tendril/rope/collider.hpp"
 #include "tendril/rope/hair_roots.hpp"
 #include "tendril/rope/settings.hpp"
+#include "tendril/rope/tie.hpp"
 
 namespace tendril {
 namespace {
@@ -35,6 +36,14 @@ std::span<const Field> fields<rope::Settings>() noexcept {
         field<&Settings::compliance>("compliance", {0.0, max_compliance}, "1/N"),
         field<&Settings::friction>("friction", {0.0, max_friction}),
         field<&Settings::longest_frame>("longest_frame", {min_longest_frame, max_longest_frame}, "s")};
+    return rows;
+}
+
+template <>
+std::span<const Field> fields<rope::TieShape>() noexcept {
+    using rope::TieShape;
+    static constexpr Field rows[] = {field<&TieShape::length>("length", any_size, "m"),
+                                     field<&TieShape::strength>("strength", any_size, "N")};
     return rows;
 }
 

@@ -11,7 +11,7 @@ namespace {
 /// registers, few enough to spread a large world over threads.
 constexpr std::uint32_t island_links = 2048;
 
-/// Sets of bodies joined by links, identified by their first body (union-find).
+/// Sets of bodies joined by links or ties, identified by their first body (union-find).
 class JoinedBodies {
   public:
     explicit JoinedBodies(std::size_t bodies) : parent_(bodies) {
@@ -59,9 +59,11 @@ std::vector<std::uint32_t> make_islands(const State& state, const std::vector<st
         joined.join(body_of[link.a], body_of[link.b]);
         ++links[body_of[link.a]];
     }
+    for (const Tie& tie : state.ties) joined.join(body_of[tie.a], body_of[tie.b]);
     std::vector<std::uint8_t> shares(bodies, 0);
     for (const Plan::Chain& chain : plan.chains)
         if (!chain.alone) shares[joined.first_of(chain.body)] = 1;
+    for (const Tie& tie : state.ties) shares[joined.first_of(body_of[tie.a])] = 1;
     for (const std::uint32_t i : plan.soft) shares[joined.first_of(body_of[state.links[i].a])] = 1;
 
     std::vector<std::uint32_t> island_of(bodies, 0);
@@ -106,6 +108,10 @@ void divide_into_islands(const State& state, Plan& plan) {
     sort_by_island(islands, &Plan::Island::bodies, plan.bodies, of_body);
     sort_by_island(islands, &Plan::Island::links, plan.links, of_link);
     sort_by_island(islands, &Plan::Island::soft, plan.soft, of_link);
+    plan.ties.resize(state.ties.size());
+    std::iota(plan.ties.begin(), plan.ties.end(), std::uint32_t{0});
+    sort_by_island(islands, &Plan::Island::ties, plan.ties,
+                   [&](std::uint32_t i) { return island_of[body_of[state.ties[i].a]]; });
     const auto of_part = [&](const auto& part) { return island_of[part.body]; };
     sort_by_island(islands, &Plan::Island::chains, plan.chains, of_part);
     sort_by_island(islands, &Plan::Island::chunks, plan.chunks, of_part);

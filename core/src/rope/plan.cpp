@@ -35,9 +35,11 @@ Plan::Plan(const State& state) {
     detail::divide_into_islands(state, *this);
     detail::find_grids(state, *this);
     group_chains(state.position.size());
+    order_tied(state);
     particles_ = state.position.size();
     joined_.reserve(state.links.size());
     for (const Link& link : state.links) joined_.push_back({link.a, link.b, link.rest, link.kind});
+    for (const Tie& tie : state.ties) tied_.emplace_back(tie.a, tie.b);
     for (const Body& body : state.bodies)
         ranges_.push_back({body.first, body.count, row_of(body), body.tear > 0.0f});
     tears =
@@ -108,6 +110,10 @@ bool Plan::fits(const State& state) const noexcept {
                           return link.a == joined.a && link.b == joined.b && link.rest == joined.rest &&
                                  link.kind == joined.kind;
                       }) &&
+           std::equal(state.ties.begin(), state.ties.end(), tied_.begin(), tied_.end(),
+                      [](const Tie& tie, const detail::Elimination::Edge& edge) {
+                          return tie.a == edge.first && tie.b == edge.second;
+                      }) &&
            std::equal(state.bodies.begin(), state.bodies.end(), ranges_.begin(), ranges_.end(),
                       [](const Body& body, const Particles& range) {
                           return body.first == range.first && body.count == range.count &&
@@ -133,6 +139,34 @@ void Plan::group_chains(std::size_t particles) {
                 taken[nodes[chain.first_node + k]] = static_cast<std::uint32_t>(groups.size());
         }
         island.groups.count = static_cast<std::uint32_t>(groups.size()) - island.groups.first;
+    }
+}
+
+void Plan::order_tied(const State& state) {
+    if (state.ties.empty()) return;
+    places.resize(state.position.size());
+    for (Island& island : islands) {
+        if (island.ties.count == 0) continue;
+        std::uint32_t nodes_of_it = 0;
+        for (const std::uint32_t body : part(bodies, island.bodies))
+            for (std::size_t i = 0; i < state.bodies[body].count; ++i)
+                places[state.bodies[body].first + i] = nodes_of_it++;
+        std::vector<detail::Elimination::Edge> edges;
+        for (const std::uint32_t i : part(links, island.links))
+            edges.emplace_back(places[state.links[i].a], places[state.links[i].b]);
+        for (const std::uint32_t i : part(ties, island.ties))
+            edges.emplace_back(places[state.ties[i].a], places[state.ties[i].b]);
+        Tied& made = tied.emplace_back();
+        island.tied = static_cast<std::uint32_t>(tied.size());
+        made.order = detail::Elimination(nodes_of_it, edges);
+        std::uint32_t node = 0;
+        for (const std::uint32_t body : part(bodies, island.bodies))
+            for (std::size_t i = 0; i < state.bodies[body].count; ++i)
+                places[state.bodies[body].first + i] = made.order.place[node++];
+        for (const std::uint32_t i : part(links, island.links))
+            made.link_blocks.push_back(made.order.block(places[state.links[i].a], places[state.links[i].b]));
+        for (const std::uint32_t i : part(ties, island.ties))
+            made.tie_blocks.push_back(made.order.block(places[state.ties[i].a], places[state.ties[i].b]));
     }
 }
 

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "rope/elimination.hpp"
 #include "tendril/rope/state.hpp"
 
 namespace tendril::rope {
@@ -15,14 +16,20 @@ struct Plan {
     struct Range {
         std::uint32_t first = 0, count = 0;
     };
-    /// Bodies that no link joins to any other. Nothing in a substep reaches from one island to another, so
-    /// islands can be solved in any order and in parallel. Bodies whose chains are all alone are merged to
-    /// fill registers.
+    /// Bodies that no link or tie joins to any other. Nothing in a substep reaches from one island to
+    /// another, so islands can be solved in any order and in parallel. Bodies whose chains are all alone are
+    /// merged to fill registers.
     struct Island {
-        Range bodies{}, links{}, soft{}, chains{}, groups{}, chunks{};
+        Range bodies{}, links{}, soft{}, chains{}, groups{}, chunks{}, ties{};
         std::uint32_t particles = 0;
         bool alone = false;      ///< every chain is alone, and there are no soft links
         std::uint32_t grid = 0;  ///< 1-based index in `grids` of the one with all its links; 0: none
+        std::uint32_t tied = 0;  ///< 1-based index in `tied` if it has ties; 0: none
+    };
+    /// Bodies that ties join: the order in which their system is solved.
+    struct Tied {
+        detail::Elimination order;
+        std::vector<std::uint32_t> link_blocks, tie_blocks;  ///< of the island's links and ties
     };
     /// Consecutive stretch links: each begins at the particle where the previous one ends.
     struct Chain {
@@ -71,6 +78,10 @@ struct Plan {
     std::vector<Grid> grids;
     std::vector<GridLink> grid_links;
 
+    std::vector<std::uint32_t> ties;
+    std::vector<Tied> tied;
+    std::vector<std::uint32_t> places;  ///< of each tied particle, in the order of its system
+
     std::vector<std::uint32_t> nodes;
     std::vector<std::uint32_t> chunk_links;
     /// Of each particle of a cloth: whether the cell that begins there has all stretch links around it, and
@@ -84,6 +95,7 @@ struct Plan {
     void find_triangles(const State& state);
     void cut_into_chunks(const State& state);
     void group_chains(std::size_t particles);
+    void order_tied(const State& state);
 
     // The inputs that it depends on.
     struct Joined {
@@ -95,7 +107,8 @@ struct Plan {
         std::size_t first, count, row;
         bool tears;
     };
-    std::vector<Joined> joined_;     ///< links
+    std::vector<Joined> joined_;  ///< links
+    std::vector<detail::Elimination::Edge> tied_;
     std::vector<Particles> ranges_;  ///< bodies
     std::size_t particles_ = 0;
 };

@@ -37,6 +37,7 @@ State frozen(const World& world) {
         link.tension = 0.0f;
     }
     for (Body& body : still.bodies) body.tear = 0.0f;
+    for (Tie& tie : still.ties) tie.strength = 0.0f;
     for (Collider& collider : still.colliders) {
         collider.goal = glm::dvec3(centre(collider.shape));
         collider.seconds = 0.0;
@@ -89,6 +90,7 @@ Result drag(World& world, Workspace& workspace, Send send) {
     }
     now.settings = was.settings;
     now.links = was.links;
+    now.ties = was.ties;
     now.displacement = was.displacement;
     now.remainder = was.remainder, now.displaced_in = was.displaced_in;
     now.substeps = was.substeps, now.dropped = was.dropped;

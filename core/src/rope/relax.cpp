@@ -27,6 +27,21 @@ void Substep::satisfy_soft() {
     for (const std::uint32_t i : Plan::part(plan_.soft, island_.soft)) satisfy(i, state_.links[i].compliance);
 }
 
+void Substep::satisfy_ties() {
+    for (const std::uint32_t i : Plan::part(plan_.ties, island_.ties)) {
+        const Tie& tie = state_.ties[i];
+        const double weight_a = scratch_.weight[tie.a], weight_b = scratch_.weight[tie.b];
+        if (weight_a + weight_b == 0.0) continue;
+        const glm::dvec3 by = scratch_.place[tie.b] - scratch_.place[tie.a];
+        const double length = detail::length(by);
+        if (length <= 1e-30) continue;
+        const double change = (length - detail::distance_kept(tie, h_)) / (weight_a + weight_b);
+        scratch_.tie_multiplier[i] += change;
+        scratch_.place[tie.a] += (weight_a * change / length) * by;
+        scratch_.place[tie.b] -= (weight_b * change / length) * by;
+    }
+}
+
 /// A link stretched to more than twice its length was pulled apart by a collider that appeared. Correcting it
 /// would throw the body.
 void Substep::strike_overstretched() {
@@ -47,9 +62,10 @@ int Substep::relax() {
     strike_overstretched();
     const std::span<const std::uint32_t> links = Plan::part(plan_.links, island_.links);
     for (const std::uint32_t i : links) scratch_.multiplier[i] = 0.0;
+    for (const std::uint32_t i : Plan::part(plan_.ties, island_.ties)) scratch_.tie_multiplier[i] = 0.0;
     const int passes = passes_allowed();
     for (int pass = 0; pass < passes; ++pass) {
-        report_.work += links.size();
+        report_.work += links.size() + island_.ties.count;
         resolve_contacts(pass == 0);
         for (const std::uint32_t i : links) {
             const Link& link = state_.links[i];
@@ -57,6 +73,7 @@ int Substep::relax() {
             satisfy(i, detail::compliance(state_.settings, link));
         }
         satisfy_soft();
+        satisfy_ties();
     }
     measure();
     if (passes < state_.settings.iterations) report_.shortened = 1;

@@ -67,8 +67,10 @@ struct Scratch {
         bool any() const { return whole != 1.0 || apart != 1.0 || tension != 1.0; }
     };
     std::vector<Slowed> chain_slowed;
-    std::vector<std::uint32_t> collider_at;  ///< list index by slot
-    std::vector<detail::Cloth> cloths;       ///< of the plan's grids
+    std::vector<std::uint32_t> collider_at;       ///< list index by slot
+    std::vector<detail::Cloth> cloths;            ///< of the plan's grids
+    std::vector<detail::EliminationSystem> tied;  ///< of the plan's tied bodies
+    std::vector<double> tie_multiplier;           ///< of each tie: tension times h^2
     detail::VectorUnit unit;
     detail::GridUnit grid_unit;
     detail::ClothUnit cloth_unit;

@@ -7,6 +7,7 @@
 #include "math/checks.hpp"
 #include "tendril/rope/body.hpp"
 #include "tendril/rope/handle.hpp"
+#include "tendril/rope/state.hpp"
 
 namespace tendril::rope::detail {
 
@@ -35,6 +36,15 @@ auto* find_in(List& list, const Id& id) noexcept {
     return found == list.end() || !id ? nullptr : &*found;
 }
 
+template <class Gone>
+std::size_t erase_ties(State& state, Gone gone) noexcept {
+    return std::erase_if(state.ties, [&](const Tie& tie) {
+        const bool goes = gone(tie);
+        if (goes) free_slot(state.tie_slots, tie.id);
+        return goes;
+    });
+}
+
 inline bool owns(const Body& body, const Link& link) noexcept {
     return link.a >= body.first && link.a - body.first < body.count;
 }
@@ -43,11 +53,10 @@ inline bool owns(const Body& body, const Link& link) noexcept {
 inline Result missing(const char* operation, const char* argument, const char* kind,
                       std::uint32_t slot) noexcept {
     using tendril::detail::refused;
-    const bool body = kind[0] == 'b';
-    const Result words =
-        refused(operation, argument,
-                body ? "the handle of a body that is there" : "the handle of a collider that is there",
-                static_cast<std::size_t>(slot));
+    const char* const rule = kind[0] == 'b'   ? "the handle of a body that is there"
+                             : kind[0] == 't' ? "the handle of a tie that is there"
+                                              : "the handle of a collider that is there";
+    const Result words = refused(operation, argument, rule, static_cast<std::size_t>(slot));
     return {ErrorCode::OutOfRange, words.message()};
 }
 

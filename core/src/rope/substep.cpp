@@ -113,6 +113,9 @@ void Substep::move_particles() {
     for (const std::uint32_t i : Plan::part(plan_.links, island_.links)) {
         scratch_.multiplier[i] = static_cast<double>(state_.links[i].tension) * (h_ * h_);
     }
+    for (const std::uint32_t i : Plan::part(plan_.ties, island_.ties)) {
+        scratch_.tie_multiplier[i] = static_cast<double>(state_.ties[i].tension) * (h_ * h_);
+    }
 }
 
 /// Measures how far links are from their rest lengths, by body.
@@ -154,6 +157,11 @@ void Substep::commit() {
     });
     for (const std::uint32_t i : Plan::part(plan_.links, island_.links)) {
         state_.links[i].tension = tension_of(scratch_.multiplier[i], h_ * h_);
+    }
+    for (const std::uint32_t i : Plan::part(plan_.ties, island_.ties)) {
+        Tie& tie = state_.ties[i];
+        tie.tension = tension_of(scratch_.tie_multiplier[i], h_ * h_);
+        tie.now = static_cast<float>(detail::distance_kept(tie, h_));
     }
     slow_down();
     for (const std::uint32_t i : local_.touched) scratch_.touch[i] = Touch{};

@@ -75,12 +75,14 @@ class Substep {
     void strike_overstretched();
     void satisfy(std::uint32_t link, double compliance);
     void satisfy_soft();
+    void satisfy_ties();
 
     // direct.cpp: whole chains at once
     struct Batch;
     int direct();
     int direct_alone();
     int direct_grid();
+    int direct_tied();
     double solve_group(const Plan::Group& group, int iteration);
     double solve_batch(const Batch& batch, int iteration);
     void solve_again(std::uint32_t chain);

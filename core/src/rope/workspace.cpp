@@ -26,13 +26,16 @@ void size(Scratch& scratch, const State& state, const Plan& plan) {
     scratch.cloths.resize(plan.grids.size());
     for (std::size_t i = 0; i < plan.grids.size(); ++i)
         scratch.cloths[i].resize(plan.grids[i].columns, plan.grids[i].rows);
+    scratch.tied.resize(plan.tied.size());
+    for (std::size_t i = 0; i < plan.tied.size(); ++i) scratch.tied[i].resize(plan.tied[i].order);
+    scratch.tie_multiplier.assign(state.ties.size(), 0.0);
 }
 
 void size(IslandScratch& scratch, const State& state, const Plan& plan, std::size_t lanes) {
     scratch.touched.clear();
     scratch.touched.reserve(state.position.size());
     scratch.near.reserve(4 * plan.chunks.size());
-    const std::size_t cells = plan.grids.empty() ? 0 : state.position.size();
+    const std::size_t cells = plan.grids.empty() && plan.tied.empty() ? 0 : state.position.size();
     scratch.cloth_contacts.reserve(cells);
     scratch.earlier_contacts.reserve(cells);
     const std::size_t nodes = plan.longest + 1;

@@ -52,6 +52,7 @@ void number(List& list, std::vector<std::uint32_t>& slots) {
 void number_slots(State& state) {
     number(state.bodies, state.body_slots);
     number(state.colliders, state.collider_slots);
+    number(state.ties, state.tie_slots);
 }
 
 Expected<World> World::from_state(State state) {
@@ -70,10 +71,12 @@ Result World::set_settings(const Settings& settings) noexcept {
 void World::clear() noexcept {
     for (const Body& body : state_.bodies) detail::free_slot(state_.body_slots, body.id);
     for (const Collider& collider : state_.colliders) detail::free_slot(state_.collider_slots, collider.id);
+    for (const Tie& tie : state_.ties) detail::free_slot(state_.tie_slots, tie.id);
     State empty;
     empty.settings = state_.settings;
     empty.body_slots = std::move(state_.body_slots);
     empty.collider_slots = std::move(state_.collider_slots);
+    empty.tie_slots = std::move(state_.tie_slots);
     state_ = std::move(empty);
 }
 
@@ -115,11 +118,13 @@ Result World::remove(BodyId body) noexcept {
     const auto inside = [&](std::size_t particle) { return particle >= first && particle < end; };
     std::erase_if(state_.links, [&](const Link& link) { return inside(link.a) || inside(link.b); });
     std::erase_if(state_.pins, [&](const Pin& pin) { return inside(pin.particle); });
+    detail::erase_ties(state_, [&](const Tie& tie) { return inside(tie.a) || inside(tie.b); });
     const auto renumber = [&](auto& particle) {
         if (particle >= end) particle -= static_cast<std::remove_reference_t<decltype(particle)>>(count);
     };
     for (Link& link : state_.links) renumber(link.a), renumber(link.b);
     for (Pin& pin : state_.pins) renumber(pin.particle);
+    for (Tie& tie : state_.ties) renumber(tie.a), renumber(tie.b);
     detail::free_slot(state_.body_slots, body);
     erase_range(state_.bodies, static_cast<std::size_t>(gone - state_.bodies.data()), 1);
     for (Body& each : state_.bodies) renumber(each.first);
@@ -206,6 +211,42 @@ Expected<BodyId> World::cut(BodyId rope, std::size_t segment) {
     state_.bodies.insert(state_.bodies.begin() + (whole - state_.bodies.data()) + 1, rest);
     std::erase_if(state_.links, [&](const Link& link) { return link.a == at && link.b == at + 1; });
     return rest.id;
+}
+
+Expected<TieId> World::tie(std::size_t a, std::size_t b, const TieShape& shape) {
+    if (const Result bad = check_particle("tie", a, size()); !bad) return bad;
+    if (const Result bad = check_particle("tie", b, size()); !bad) return bad;
+    if (a == b) return refused("tie", "b", "another particle than a", b);
+    if (const Result bad = check_fields("tie", shape); !bad) return bad;
+    const auto id = detail::take_slot<TieId>(state_.tie_slots, state_.ties.size());
+    const double apart = detail::length(position(b) - position(a));
+    state_.ties.push_back({.id = id,
+                           .a = static_cast<std::uint32_t>(a),
+                           .b = static_cast<std::uint32_t>(b),
+                           .length = shape.length,
+                           .strength = shape.strength,
+                           .now = static_cast<float>(std::min(apart, static_cast<double>(max_magnitude))),
+                           .tension = 0.0f});
+    return id;
+}
+
+Result World::set_tie(TieId tie, const TieShape& shape) noexcept {
+    Tie* const there = detail::find_in(state_.ties, tie);
+    if (there == nullptr) return missing("set_tie", "tie", "tie", tie.index);
+    if (const Result bad = check_fields("set_tie", shape); !bad) return bad;
+    there->length = shape.length;
+    there->strength = shape.strength;
+    return {};
+}
+
+Result World::untie(TieId tie) noexcept {
+    if (find(tie) == nullptr) return missing("untie", "tie", "tie", tie.index);
+    detail::erase_ties(state_, [&](const Tie& each) { return each.id == tie; });
+    return {};
+}
+
+const Tie* World::find(TieId tie) const noexcept {
+    return detail::find_in(state_.ties, tie);
 }
 
 Expected<ColliderId> World::add_collider(const Shape& shape) {

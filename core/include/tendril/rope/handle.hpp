@@ -7,5 +7,6 @@ namespace tendril::rope {
 
 using BodyId = Handle<struct BodyKind>;
 using ColliderId = Handle<struct ColliderKind>;
+using TieId = Handle<struct TieKind>;
 
 }  // namespace tendril::rope

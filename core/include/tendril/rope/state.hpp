@@ -9,6 +9,7 @@
 #include "tendril/rope/body.hpp"
 #include "tendril/rope/collider.hpp"
 #include "tendril/rope/settings.hpp"
+#include "tendril/rope/tie.hpp"
 #include "tendril/vec3.hpp"
 
 namespace tendril::rope {
@@ -33,6 +34,8 @@ struct State {
     std::vector<Collider> colliders;
     /// How often each slot was taken and freed: odd while it is taken.
     std::vector<std::uint32_t> body_slots, collider_slots;
+    std::vector<Tie> ties;
+    std::vector<std::uint32_t> tie_slots;
     double remainder = 0.0;     ///< seconds not simulated yet
     double displaced_in = 0.0;  ///< seconds of the last substep; 0: nothing has moved yet
     std::uint64_t substeps = 0, dropped = 0;
@@ -40,8 +43,8 @@ struct State {
     bool operator==(const State&) const = default;
 };
 
-/// Assigns handles to the bodies (and colliders) of a hand-made state, in their order, in slots from 0,
-/// unless the first has one.
+/// Assigns handles to the bodies (and colliders, and ties) of a hand-made state, in their order, in slots
+/// from 0, unless the first has one.
 void number_slots(State& state);
 
 }  // namespace tendril::rope

@@ -22,9 +22,9 @@
 // allocates nothing once the workspace has seen the world in its shape, unless more colliders are near than
 // ever before.
 //
-// Bodies that no link joins do not affect each other. Threads can share them, and a cloth of 8 192 particles
-// or more: Workspace::use_threads. A rope is solved on one thread. Two limits are shared by such bodies in
-// proportion to size: max_pass_work, and that on searches for a way out of colliders.
+// Bodies that no link or tie joins do not affect each other. Threads can share them, and a cloth of 8 192
+// particles or more: Workspace::use_threads. A rope is solved on one thread. Two limits are shared by such
+// bodies in proportion to size: max_pass_work, and that on searches for a way out of colliders.
 #pragma once
 
 #include "tendril/result.hpp"
@@ -69,7 +69,7 @@ class World {
     const Settings& settings() const noexcept { return state_.settings; }
     Result set_settings(const Settings& settings) noexcept;
 
-    void clear() noexcept;  ///< removes all bodies and colliders; keeps the settings
+    void clear() noexcept;  ///< removes all bodies, ties and colliders; keeps the settings
     Expected<BodyId> add_rope(const RopeShape& shape);
     Expected<BodyId> add_cloth(const ClothShape& shape);
     Expected<BodyId> add_hair(const HairShape& shape);
@@ -104,6 +104,13 @@ class World {
     /// Of a rope, a row of a cloth, a strand of hair: all of its links change in proportion. Metres; refused
     /// for a body of length 0.
     Result set_length(BodyId body, float metres) noexcept;
+
+    /// Ties two particles, of one body or of two. Torn or with one of their bodies removed, ties are gone; a
+    /// cut leaves each on its particle. Refuses a particle tied to itself.
+    Expected<TieId> tie(std::size_t a, std::size_t b, const TieShape& shape = {});
+    Result set_tie(TieId tie, const TieShape& shape) noexcept;
+    Result untie(TieId tie) noexcept;
+    const Tie* find(TieId tie) const noexcept;
 
     Expected<ColliderId> add_collider(const Shape& shape);
     /// Moves a collider evenly to `to` in the next `seconds` of simulated time, 0: within the next substep.

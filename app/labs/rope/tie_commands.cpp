@@ -1,0 +1,81 @@
+// Ties: their commands, and the inspector's rows for one.
+#include <algorithm>
+#include <string>
+
+#include "app/fields/field_rows.hpp"
+#include "app/labs/kit/arguments.hpp"
+#include "app/labs/kit/panel_rows.hpp"
+#include "app/labs/rope/body_commands.hpp"
+#include "app/labs/rope/panel.hpp"
+#include "app/labs/rope/rope_fields.hpp"
+#include "app/widgets/fields.hpp"
+
+namespace tendril::app {
+namespace {
+
+void add_tie(RopeEdit& edit, const Arguments& given) {
+    const NamedWorld& world = edit.seen();
+    if (world.state().ties.size() >= max_lab_ties)
+        throw Refused("there are " + std::to_string(max_lab_ties) + " ties already, the maximum");
+    rope::TieShape shape;
+    set_fields(given, shape);
+    const std::size_t a = named_particle(world, given, "a", "a_particle").particle;
+    const std::size_t b = named_particle(world, given, "b", "b_particle").particle;
+    if (a == b) throw Refused("a particle cannot be tied to itself");
+    edit.world().tie(given.has("name") ? given.text("name") : std::string(), a, b, shape);
+}
+
+void set_tie(RopeEdit& edit, const Arguments& given) {
+    const rope::Tie& tie = tie_of(edit.seen(), given.text("name"));
+    rope::TieShape shape{.length = tie.length, .strength = tie.strength};
+    set_fields(given, shape);
+    if (shape.length != tie.length || shape.strength != tie.strength)
+        edit.world().set_tie(given.text("name"), shape);
+}
+
+void untie(RopeEdit& edit, const Arguments& given) {
+    tie_of(edit.seen(), given.text("name"));
+    edit.world().untie(given.text("name"));
+    forget_missing(edit.part);
+}
+
+}  // namespace
+
+void add_tie_commands(CommandTable& table) {
+    std::vector<Argument> arguments{body_argument("a", true, "a rope, cloth or hair"),
+                                    index_argument("a_particle", true, "of a", max_lab_particles),
+                                    body_argument("b", true, "another, or the same"),
+                                    index_argument("b_particle", true, "of b", max_lab_particles)};
+    const std::vector<Argument> shape = field_arguments<rope::TieShape>();
+    arguments.insert(arguments.end(), shape.begin(), shape.end());
+    arguments.push_back(text_argument("name", false, "default: \"tie\", \"tie 2\", ..."));
+    table.add(rope_command("rope.tie", "Tie two particles", std::move(arguments),
+                           "Ties two particles; those too far apart are drawn together", add_tie));
+    std::vector<Argument> changed = shape;
+    changed.insert(changed.begin(), tie_argument("name", true, "which"));
+    table.add(rope_command("rope.tie.set", "Change a tie", std::move(changed),
+                           "Changes the length or strength of a tie", set_tie));
+    table.add(rope_command("rope.untie", "Remove a tie", {tie_argument("name", true, "which")}, "Removes a tie", untie));
+}
+
+void tie_rows(const RopePart& part, const rope::Tie& tie, Emit& emit) {
+    const NamedWorld& world = *part.world;
+    const std::string& name = world.name(tie);
+    const auto end = [&](const char* label, std::size_t particle) {
+        const auto& bodies = world.state().bodies;
+        const auto of = std::find_if(bodies.begin(), bodies.end(), [&](const rope::Body& body) {
+            return particle - body.first < body.count;
+        });
+        reading(label, "%s, particle %zu", world.name(*of).c_str(), particle - of->first);
+    };
+    reading("tie", "%s", name.c_str());
+    end("from", tie.a);
+    end("to", tie.b);
+    reading("tension", "%.2f N", static_cast<double>(tie.tension));
+    const rope::TieShape shape{.length = tie.length, .strength = tie.strength};
+    FieldRows(shape, "rope.tie.set", emit, {{"name", name}}).rows("length", "strength");
+    if (row_button("Remove", 3, true, "Removes the tie")) emit("rope.untie", {{"name", name}});
+    end_row();
+}
+
+}  // namespace tendril::app

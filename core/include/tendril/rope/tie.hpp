@@ -1,0 +1,37 @@
+// Ties: particles of any bodies of a rope world, held together or at a distance. The hangers of a bridge, a
+// rope sewn to a cloth, a net.
+#pragma once
+
+#include <cstdint>
+
+#include "tendril/fields.hpp"
+#include "tendril/rope/handle.hpp"
+
+namespace tendril::rope {
+
+/// How a tie is made.
+struct TieShape {
+    float length = 0.0f;    ///< metres; 0: the particles coincide
+    float strength = 0.0f;  ///< newtons; a tie that pulls harder tears. 0: never
+};
+
+/// Keeps two particles at a distance, as a rod without mass: it pulls and pushes. Bodies that ties join are
+/// solved together, each a part of one system (see Settings). Two pinned particles are not moved.
+struct Tie {
+    TieId id;
+    std::uint32_t a = 0, b = 0;  ///< particles
+    float length = 0.0f;         ///< metres; 0: the particles coincide
+    float strength = 0.0f;       ///< newtons at which it tears; 0: never
+    /// The distance that it keeps now, metres. A tie made between particles too far apart, or too close,
+    /// draws them to its length at tie_speed.
+    float now = 0.0f;
+    float tension = 0.0f;  ///< newtons, from the last solve; negative in compression, never if length is 0
+    bool operator==(const Tie&) const = default;
+};
+
+inline constexpr float tie_speed = 2.0f;  ///< m/s
+
+}  // namespace tendril::rope
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::rope::TieShape>() noexcept;

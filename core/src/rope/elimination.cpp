@@ -1,0 +1,127 @@
+#include "rope/elimination.hpp"
+
+#include <algorithm>
+#include <set>
+
+namespace tendril::rope::detail {
+namespace {
+
+/// The inverse, by L D L^T: a stiff link leaves digits that cofactors would lose.
+Symmetric3 stable_inverse(const Symmetric3& a) noexcept {
+    const double d0 = 1.0 / a.xx, l10 = a.xy * d0, l20 = a.xz * d0;
+    const double d1 = 1.0 / (a.yy - l10 * a.xy), c21 = a.yz - l20 * a.xy, l21 = c21 * d1;
+    const double d2 = 1.0 / (a.zz - l20 * a.xz - l21 * c21);
+    // Rows of the inverse of L.
+    const double i20 = l10 * l21 - l20;
+    return {d0 + l10 * l10 * d1 + i20 * i20 * d2,
+            -l10 * d1 - i20 * l21 * d2,
+            i20 * d2,
+            d1 + l21 * l21 * d2,
+            -l21 * d2,
+            d2};
+}
+
+/// a b
+Matrix3 product(const Matrix3& a, const Symmetric3& b) noexcept {
+    Matrix3 c;
+    for (int r = 0; r < 3; ++r) {
+        const double x = a.m[3 * r], y = a.m[3 * r + 1], z = a.m[3 * r + 2];
+        c.m[3 * r] = x * b.xx + y * b.xy + z * b.xz;
+        c.m[3 * r + 1] = x * b.xy + y * b.yy + z * b.yz;
+        c.m[3 * r + 2] = x * b.xz + y * b.yz + z * b.zz;
+    }
+    return c;
+}
+
+double row_dot(const Matrix3& a, int i, const Matrix3& b, int j) noexcept {
+    return a.m[3 * i] * b.m[3 * j] + a.m[3 * i + 1] * b.m[3 * j + 1] + a.m[3 * i + 2] * b.m[3 * j + 2];
+}
+
+}  // namespace
+
+Elimination::Elimination(std::uint32_t nodes, std::span<const Edge> edges) : place(nodes, 0) {
+    std::vector<std::vector<std::uint32_t>> beside(nodes);  // ascending
+    const auto join = [&](std::uint32_t a, std::uint32_t b) {
+        const auto at = std::lower_bound(beside[a].begin(), beside[a].end(), b);
+        if (at == beside[a].end() || *at != b) beside[a].insert(at, b);
+    };
+    for (const Edge& edge : edges) join(edge.first, edge.second), join(edge.second, edge.first);
+    std::set<Edge> left;  // neighbours, node
+    const auto degree = [&](std::uint32_t node) { return static_cast<std::uint32_t>(beside[node].size()); };
+    for (std::uint32_t node = 0; node < nodes; ++node) left.insert({degree(node), node});
+    std::vector<std::vector<std::uint32_t>> columns;
+    columns.reserve(nodes);
+    while (!left.empty()) {
+        const std::uint32_t node = left.begin()->second;
+        left.erase(left.begin());
+        place[node] = static_cast<std::uint32_t>(columns.size());
+        columns.push_back(std::move(beside[node]));
+        for (const std::uint32_t a : columns.back()) {
+            left.erase({degree(a), a});
+            std::erase(beside[a], node);
+            for (const std::uint32_t b : columns.back())
+                if (a != b) join(a, b);
+            left.insert({degree(a), a});
+        }
+    }
+    first.reserve(nodes + 1);
+    for (std::vector<std::uint32_t>& column : columns) {
+        first.push_back(static_cast<std::uint32_t>(row.size()));
+        for (std::uint32_t& node : column) node = place[node];
+        std::sort(column.begin(), column.end());
+        row.insert(row.end(), column.begin(), column.end());
+    }
+    first.push_back(static_cast<std::uint32_t>(row.size()));
+    for (const std::vector<std::uint32_t>& column : columns)
+        for (std::size_t i = 0; i < column.size(); ++i)
+            for (std::size_t k = i + 1; k < column.size(); ++k) fill.push_back(block(column[i], column[k]));
+}
+
+std::uint32_t Elimination::block(std::uint32_t a, std::uint32_t b) const noexcept {
+    const std::uint32_t column = std::min(a, b);
+    const auto from = row.begin() + first[column], end = row.begin() + first[column + 1];
+    return static_cast<std::uint32_t>(std::lower_bound(from, end, std::max(a, b)) - row.begin());
+}
+
+void EliminationSystem::resize(const Elimination& order) {
+    diagonal.resize(order.place.size());
+    blocks.resize(order.row.size());
+    x.resize(order.place.size());
+}
+
+void EliminationSystem::clear() {
+    std::fill(diagonal.begin(), diagonal.end(), Symmetric3{});
+    std::fill(blocks.begin(), blocks.end(), Matrix3{});
+    std::fill(x.begin(), x.end(), dvec3(0.0));
+}
+
+void EliminationSystem::solve(const Elimination& order) noexcept {
+    const std::uint32_t* changed = order.fill.data();
+    const std::size_t count = diagonal.size();
+    for (std::size_t j = 0; j < count; ++j) {
+        const Symmetric3 inverse = diagonal[j] = stable_inverse(diagonal[j]);
+        const std::uint32_t end = order.first[j + 1];
+        for (std::uint32_t i = order.first[j]; i < end; ++i) {
+            const Matrix3 was = blocks[i], part = product(was, inverse);
+            Symmetric3& at = diagonal[order.row[i]];
+            at.xx -= row_dot(part, 0, was, 0), at.xy -= row_dot(part, 0, was, 1);
+            at.xz -= row_dot(part, 0, was, 2), at.yy -= row_dot(part, 1, was, 1);
+            at.yz -= row_dot(part, 1, was, 2), at.zz -= row_dot(part, 2, was, 2);
+            for (std::uint32_t k = i + 1; k < end; ++k) {
+                Matrix3& to = blocks[*changed++];
+                for (int r = 0; r < 3; ++r)
+                    for (int c = 0; c < 3; ++c) to.m[3 * r + c] -= row_dot(blocks[k], r, part, c);
+            }
+            x[order.row[i]] -= part * x[j];
+            blocks[i] = part;
+        }
+    }
+    for (std::size_t j = count; j-- > 0;) {
+        dvec3 at = diagonal[j] * x[j];
+        for (std::uint32_t i = order.first[j]; i < order.first[j + 1]; ++i)
+            at -= blocks[i].transposed_by(x[order.row[i]]);
+        x[j] = at;
+    }
+}
+
+}  // namespace tendril::rope::detail

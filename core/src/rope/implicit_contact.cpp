@@ -1,0 +1,104 @@
+// Contacts in an implicit step: of particles, and of links with colliders that fit between two particles.
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "rope/contact_shape.hpp"
+#include "rope/geometry.hpp"
+#include "rope/implicit_step.hpp"
+
+namespace tendril::rope {
+namespace {
+
+using glm::dvec3;
+
+}  // namespace
+
+/// Finds what is inside a collider, and what pressed in the previous solve. Always in the same order.
+void ImplicitStep::find_contacts(bool first) {
+    std::vector<ClothContact>&found = local_.cloth_contacts, &before = local_.earlier_contacts;
+    std::swap(found, before);
+    found.clear();
+    if (first) before.clear();
+    auto earlier = before.begin();
+    const auto force_before = [&](const ClothContact& contact) {
+        const bool known = earlier != before.end() && earlier->near == contact.near &&
+                           earlier->a == contact.a && earlier->b == contact.b;
+        return known ? (earlier++)->force : 0.0;
+    };
+    for (std::uint32_t n = 0; n < local_.near.size(); ++n) {
+        const Plan::Chunk& chunk = plan_.chunks[local_.near[n].chunk];
+        const double radius = state_.bodies[chunk.body].radius;
+        local_.done.work += chunk.count;
+        for (std::uint32_t i = chunk.first; i < chunk.first + chunk.count; ++i) {
+            ClothContact contact{.near = n, .a = i, .b = i};
+            contact.force = force_before(contact);
+            find_at_particle(contact, radius, first);
+        }
+        const double size = scratch_.colliders[local_.near[n].collider].size;
+        if (chunk.reach <= size) continue;
+        for (std::uint32_t l = 0; l < chunk.links; ++l) {
+            const std::uint32_t number = plan_.chunk_links[chunk.first_link + l];
+            const Link& link = state_.links[number];
+            ClothContact contact{.near = n, .a = link.a, .b = link.b, .link = number};
+            contact.force = force_before(contact);
+            if (link.rest > size) find_at_link(contact, radius);
+        }
+    }
+}
+
+void ImplicitStep::find_at_particle(ClothContact contact, double radius, bool first) {
+    const std::uint32_t i = contact.a;
+    if (scratch_.weight[i] == 0.0) return;
+    const Scratch::Moving& collider = collider_of(contact);
+    dvec3& place = scratch_.place[i];
+    const double travelled = first ? detail::length(place - state_.position[i]) : 0.0;
+    if (collider.far_from(place, radius + travelled)) return;
+    keep(contact,
+         first ? collider.entered(state_.position[i], place, radius, local_.done.work)
+               : surface_distance(*collider.shape, place),
+         radius);
+}
+
+void ImplicitStep::find_at_link(ClothContact contact, double radius) {
+    const Scratch::Moving& collider = collider_of(contact);
+    const dvec3 a = scratch_.place[contact.a], b = scratch_.place[contact.b], along = b - a;
+    if (scratch_.weight[contact.a] + scratch_.weight[contact.b] == 0.0) return;
+    if (collider.far_from(a + 0.5 * along, radius + 0.5 * detail::length(along))) return;
+    local_.done.work += detail::max_line_samples;
+    const std::optional<double> t = detail::nearest_between(*collider.shape, a, b, radius);
+    if (!t) return;
+    contact.t = *t;
+    keep(contact, surface_distance(*collider.shape, a + *t * along), radius);
+}
+
+void ImplicitStep::keep(ClothContact contact, const SurfaceDistance& surface, double radius) {
+    contact.gap = surface.distance - radius;
+    contact.normal = surface.normal;
+    const bool presses = contact.force > 0.0;
+    if (contact.gap >= 0.0 && !presses) return;
+    // Initially the force that lifts it out.
+    if (!presses) contact.force = -contact.gap * state_.mass[contact.a] / mass_;
+    local_.cloth_contacts.push_back(contact);
+}
+
+/// Friction, from the normal force of the previous step.
+void ImplicitStep::rub(ClothContact& contact) const {
+    const dvec3& n = contact.normal;
+    contact.at = between(contact, scratch_.place);
+    dvec3& slip = contact.slip;
+    slip = contact.at - between(contact, state_.position) - collider_of(contact).by_at(contact.at);
+    slip -= detail::dot(slip, n) * n;
+    const double size = detail::length(slip), most = state_.settings.friction * contact.force;
+    contact.drag = size * stiffness_ > most ? most / size : stiffness_;
+}
+
+/// The contact's share of the potential.
+double ImplicitStep::potential_of(const ClothContact& contact) const {
+    const dvec3 by = between(contact, scratch_.place) - contact.at;
+    const double along = detail::dot(by, contact.normal), gap = contact.gap + along;
+    const dvec3 slip = contact.slip + by - along * contact.normal;
+    return stiffness_ * gap * gap + contact.drag * detail::dot(slip, slip);
+}
+
+}  // namespace tendril::rope

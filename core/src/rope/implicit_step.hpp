@@ -1,0 +1,46 @@
+// What the implicit solvers share: of a cloth (cloth_solver.hpp) and of tied bodies (tied_solver.hpp). Each
+// minimises an incremental potential by Newton's method, in which a contact is a stiff spring along the
+// normal of a surface. Friction is a drag along it (Coulomb's law, with the force and the slip of the
+// previous solve: M. Li et al., "Incremental Potential Contact", 2020). Not installed.
+#pragma once
+
+#include "rope/scratch.hpp"
+
+namespace tendril::rope {
+
+class ImplicitStep {
+  protected:
+    ImplicitStep(const State& state, const Plan& plan, const Plan::Island& island, Scratch& scratch,
+                 IslandScratch& local)
+        : state_(state),
+          plan_(plan),
+          island_(island),
+          scratch_(scratch),
+          local_(local),
+          h_(state.settings.substep) {}
+
+    // implicit_contact.cpp
+    void find_contacts(bool first);
+    void find_at_particle(ClothContact contact, double radius, bool first);
+    void find_at_link(ClothContact contact, double radius);
+    void keep(ClothContact contact, const SurfaceDistance& surface, double radius);
+    void rub(ClothContact& contact) const;
+    double potential_of(const ClothContact& contact) const;
+    const Scratch::Moving& collider_of(const ClothContact& contact) const {
+        return scratch_.colliders[local_.near[contact.near].collider];
+    }
+    static glm::dvec3 between(const ClothContact& contact, const std::vector<glm::dvec3>& all) {
+        return (1.0 - contact.t) * all[contact.a] + contact.t * all[contact.b];
+    }
+
+    const State& state_;
+    const Plan& plan_;
+    const Plan::Island& island_;
+    Scratch& scratch_;
+    IslandScratch& local_;
+    double h_;
+    double mass_ = 0.0;       ///< mean mass of a particle, kg
+    double stiffness_ = 0.0;  ///< of contacts and of the stiffest links, times h^2 over that mass
+};
+
+}  // namespace tendril::rope

@@ -1,0 +1,216 @@
+#include "rope/tied_solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "rope/build.hpp"
+#include "rope/geometry.hpp"
+
+namespace tendril::rope {
+namespace {
+
+using detail::Symmetric3;
+using glm::dvec3;
+
+/// Of a link or tie, relative to the mean mass of its ends, over h^2. A metre of rope, 64 segments, carrying
+/// a hundred times its weight stretches by some millionths.
+constexpr double max_stiffness_between = 1e7;
+/// Of a contact, relative to the mean mass of a particle.
+constexpr double contact_stiffness = 1e6;
+constexpr int max_steps = 16, steps_near_colliders = 3;
+constexpr double turned_enough = 1e-3;  ///< then the next step would change lengths by less than a millionth
+constexpr double turned_far = 0.05;     ///< then the step is checked
+constexpr int max_halvings = 8;
+
+/// along n n^T + across (I - n n^T)
+Symmetric3 stiffness_along(const dvec3& n, double along, double across) {
+    const double by = along - across;
+    return {by * n.x * n.x + across, by * n.x * n.y, by * n.x * n.z,
+            by * n.y * n.y + across, by * n.y * n.z, by * n.z * n.z + across};
+}
+
+Symmetric3 scaled(const Symmetric3& m, double by) {
+    return {by * m.xx, by * m.xy, by * m.xz, by * m.yy, by * m.yz, by * m.zz};
+}
+
+}  // namespace
+
+TiedSolver::TiedSolver(const State& state, const Plan& plan, const Plan::Island& island, Scratch& scratch,
+                       IslandScratch& local)
+    : ImplicitStep(state, plan, island, scratch, local),
+      tied_(plan.tied[island.tied - 1]),
+      system_(scratch.tied[island.tied - 1]) {
+    double whole = 0.0;
+    each_particle([&](std::size_t i) { whole += state.mass[i]; });
+    mass_ = whole / island.particles;
+    stiffness_ = contact_stiffness;
+}
+
+template <class Visit>
+void TiedSolver::each_particle(Visit visit) const {
+    for (const std::uint32_t body : Plan::part(plan_.bodies, island_.bodies)) {
+        const std::size_t first = state_.bodies[body].first, end = first + state_.bodies[body].count;
+        for (std::size_t i = first; i < end; ++i) visit(i);
+    }
+}
+
+/// Calls `visit` with the spring of each link and tie, and the multiplier that it leaves.
+template <class Visit>
+void TiedSolver::each_spring(Visit visit) {
+    const auto most = [&](std::uint32_t a, std::uint32_t b) {
+        return max_stiffness_between * 0.5 * (state_.mass[a] + state_.mass[b]);
+    };
+    const std::span<const std::uint32_t> links = Plan::part(plan_.links, island_.links);
+    for (std::size_t k = 0; k < links.size(); ++k) {
+        const Link& link = state_.links[links[k]];
+        const double compliance = detail::compliance(state_.settings, link) / (h_ * h_);
+        const double hard = most(link.a, link.b);
+        const bool stiff = compliance * hard <= 1.0;
+        visit(Spring{link.a, link.b, tied_.link_blocks[k], link.rest,
+                     (stiff ? hard : 1.0 / compliance) / mass_, scratch_.multiplier[links[k]] / mass_, stiff},
+              scratch_.multiplier[links[k]]);
+    }
+    const std::span<const std::uint32_t> ties = Plan::part(plan_.ties, island_.ties);
+    for (std::size_t k = 0; k < ties.size(); ++k) {
+        const Tie& tie = state_.ties[ties[k]];
+        visit(Spring{tie.a, tie.b, tied_.tie_blocks[k], detail::distance_kept(tie, h_),
+                     most(tie.a, tie.b) / mass_, scratch_.tie_multiplier[ties[k]] / mass_, true},
+              scratch_.tie_multiplier[ties[k]]);
+    }
+}
+
+void TiedSolver::add(std::uint32_t particle, const Symmetric3& matrix, const dvec3& force) {
+    if (scratch_.weight[particle] == 0.0) return;
+    const std::uint32_t place = plan_.places[particle];
+    Symmetric3& at = system_.diagonal[place];
+    at.xx += matrix.xx, at.xy += matrix.xy, at.xz += matrix.xz;
+    at.yy += matrix.yy, at.yz += matrix.yz, at.zz += matrix.zz;
+    system_.x[place] += force;
+}
+
+/// Builds the system at the current positions. In the first step tension is that of the previous substep:
+/// particles that fell together show none yet.
+void TiedSolver::assemble(bool first) {
+    system_.clear();
+    each_particle([&](std::size_t i) {
+        const std::uint32_t place = plan_.places[i];
+        const bool pinned = scratch_.weight[i] == 0.0;
+        const double mass = pinned ? 1.0 : state_.mass[i] / mass_;
+        system_.diagonal[place] = {mass, 0.0, 0.0, mass, 0.0, mass};
+        if (!pinned) system_.x[place] = mass * (scratch_.base[i] - scratch_.place[i]);
+    });
+    each_spring([&](const Spring& spring, double&) {
+        const dvec3 apart = scratch_.place[spring.b] - scratch_.place[spring.a];
+        const double length = detail::length(apart);
+        Symmetric3 matrix;
+        dvec3 force;
+        if (spring.rest > 0.0) {
+            const dvec3 along = length > 1e-30 ? (1.0 / length) * apart : dvec3(1.0, 0.0, 0.0);
+            const double pull = spring.stiffness * (length - spring.rest);
+            const double taut = std::max(first ? spring.multiplier : pull, 0.0);
+            const double across = std::min(taut / std::max(length, 1e-9), spring.stiffness);
+            matrix = stiffness_along(along, spring.stiffness, across);
+            force = pull * along;
+        } else {
+            matrix = {spring.stiffness, 0.0, 0.0, spring.stiffness, 0.0, spring.stiffness};
+            force = spring.stiffness * apart;
+        }
+        add(spring.a, matrix, force);
+        add(spring.b, matrix, -force);
+        if (scratch_.weight[spring.a] > 0.0 && scratch_.weight[spring.b] > 0.0)
+            system_.blocks[spring.block].subtract(matrix);
+    });
+}
+
+void TiedSolver::add_contacts() {
+    for (ClothContact& each : local_.cloth_contacts) {
+        rub(each);
+        const dvec3& n = each.normal;
+        const double to_b = each.t, to_a = 1.0 - to_b;
+        const Symmetric3 stiff = stiffness_along(n, stiffness_, each.drag);
+        const dvec3 force = -stiffness_ * each.gap * n - each.drag * each.slip;
+        add(each.a, scaled(stiff, to_a * to_a), to_a * force);
+        if (!each.is_link()) continue;
+        add(each.b, scaled(stiff, to_b * to_b), to_b * force);
+        if (scratch_.weight[each.a] == 0.0 || scratch_.weight[each.b] == 0.0) continue;
+        system_.blocks[tied_.order.block(plan_.places[each.a], plan_.places[each.b])].subtract(
+            scaled(stiff, -to_a * to_b));
+    }
+}
+
+void TiedSolver::go(double part) {
+    each_particle([&](std::size_t i) { scratch_.place[i] += part * system_.x[plan_.places[i]]; });
+}
+
+/// The force that each link and tie contributed to the step, to first order, or has at its end.
+void TiedSolver::note_tensions(bool at_end) {
+    turned_ = 0.0;
+    each_spring([&](const Spring& spring, double& multiplier) {
+        const dvec3 apart = scratch_.place[spring.b] - scratch_.place[spring.a];
+        const dvec3 by = system_.x[plan_.places[spring.b]] - system_.x[plan_.places[spring.a]];
+        if (scratch_.weight[spring.a] + scratch_.weight[spring.b] == 0.0) {
+            multiplier = 0.0;
+        } else if (spring.rest > 0.0) {
+            const double length = detail::length(apart);
+            const dvec3 along = length > 1e-30 ? (1.0 / length) * apart : dvec3(1.0, 0.0, 0.0);
+            const double longer = length - spring.rest + (at_end ? 0.0 : detail::dot(along, by));
+            multiplier = mass_ * spring.stiffness * longer;
+            if (spring.stiff) turned_ = std::max(turned_, detail::length(by) / std::max(spring.rest, length));
+        } else {
+            multiplier = mass_ * spring.stiffness * detail::length(at_end ? apart : apart + by);
+        }
+    });
+}
+
+/// Twice the incremental potential at `place`, over the mean mass and times h^2.
+double TiedSolver::potential() {
+    double sum = 0.0;
+    each_particle([&](std::size_t i) {
+        const dvec3 beside = scratch_.place[i] - scratch_.base[i];
+        sum += state_.mass[i] / mass_ * detail::dot(beside, beside);
+    });
+    each_spring([&](const Spring& spring, double&) {
+        const double longer =
+            detail::length(scratch_.place[spring.b] - scratch_.place[spring.a]) - spring.rest;
+        sum += spring.stiffness * longer * longer;
+    });
+    for (const ClothContact& each : local_.cloth_contacts) sum += potential_of(each);
+    return sum;
+}
+
+/// A step of Newton's method. If it turns links far, it is halved until the potential does not rise.
+void TiedSolver::step(bool first) {
+    assemble(first);
+    add_contacts();
+    system_.solve(tied_.order);
+    local_.done.work += island_.links.count;
+    note_tensions(false);
+    taken_ = 1.0;
+    if (turned_ <= turned_far) return go(1.0);
+    const double before = potential(), turned = turned_;
+    go(1.0);
+    for (int i = 0; i < max_halvings && !(potential() <= before); ++i) {
+        taken_ *= 0.5;
+        go(-taken_);
+    }
+    note_tensions(true);
+    turned_ = turned;
+}
+
+int TiedSolver::solve(int iterations) {
+    const int most = std::min(max_steps, iterations), least = local_.near.empty() ? 1 : steps_near_colliders;
+    int taken = 0;
+    for (converged_ = false; taken < most && !converged_;) {
+        find_contacts(taken == 0);
+        step(taken == 0);
+        for (ClothContact& each : local_.cloth_contacts) {
+            const dvec3 moved = between(each, scratch_.place) - each.at;
+            each.force = -stiffness_ * (each.gap + detail::dot(each.normal, moved));
+        }
+        ++taken;
+        converged_ = taken >= least && turned_ <= turned_enough;
+    }
+    return taken;
+}
+
+}  // namespace tendril::rope

