@@ -27,7 +27,7 @@ struct Playback {
     double speed = 1.0;       ///< 0 to fastest_clip
     bool loop = true;
     bool in_place = false;
-    bool carry_targets = true;  ///< from round to round; off: they stay where they are in the world
+    bool carry_targets = false;  ///< from round to round; off: they stay where they are in the world
     bool operator==(const Playback&) const = default;
 };
 
