@@ -16,9 +16,10 @@ class StateBits {
   public:
     explicit StateBits(const rope::State& state) {
         const auto& [settings, bodies, links, position, displacement, mass, pins, colliders, body_slots,
-                     collider_slots, remainder, displaced_in, substeps, dropped] = state;
+                     collider_slots, remainder, displaced_in, substeps, dropped, drift] = state;
         add(settings, bodies, links, position, displacement, mass, pins, colliders, body_slots,
             collider_slots, remainder, displaced_in, substeps, dropped);
+        if (drift != glm::dvec3(0.0)) put(drift);
     }
     bool operator==(const StateBits&) const = default;
 

@@ -5,6 +5,7 @@
 
 #include "math/fork_join.hpp"
 #include "math/tasks.hpp"
+#include "rope/build.hpp"
 #include "rope/contact_shape.hpp"
 #include "rope/geometry.hpp"
 #include "rope/substep.hpp"
@@ -162,6 +163,7 @@ Advance World::advance(double seconds, Workspace& workspace, const AdvanceOption
         parts.add_up(done);
         ++done.substeps;
         ++state_.substeps;
+        detail::drift_gusts(state_);
         state_.displaced_in = substep;
         if (parts.plan.tears && tear(state_)) parts.replan(state_);
     }
