@@ -10,6 +10,7 @@
 #include "app/opening.hpp"
 #include "app/view/assets.hpp"
 #include "tests/app/support/play.hpp"
+#include "tests/app/support/temp_folder.hpp"
 
 namespace tendril::test {
 namespace {

@@ -12,6 +12,7 @@
 #include "app/document/json_complete.hpp"
 #include "tests/app/support/frame_record.hpp"
 #include "tests/app/support/full_scenes.hpp"
+#include "tests/app/support/layout_faults.hpp"
 #include "tests/places.hpp"
 
 namespace tendril::test {
@@ -106,10 +107,10 @@ TEST_P(SteadyButtons, StayUnderTheMouseThatClicksThem) {
 /// What a lab's verdict and its notes say changes by itself while time runs: what is below stays in place.
 class BelowTheVerdict : public SteadyButtons {
   protected:
-    /// Of a text in the panel `window`; 0 if it is not there.
-    float height(const std::string& window, const std::string& text) const {
+    /// Of a text in the panel `panel`; 0 if it is not there.
+    float height(const std::string& panel, const std::string& text) const {
         for (const DrawnText& each : recorder_.frame().texts)
-            if (each.window != nullptr && window_name(each.window).starts_with(window + "/content") &&
+            if (each.window != nullptr && window_name(each.window).starts_with(panel + "/content") &&
                 each.text == text)
                 return each.box.min.y;
         return 0.0f;

@@ -1,4 +1,5 @@
 // The Rig lab in the running program: dragging controls, and seeking in time.
+#include <algorithm>
 #include <glm/geometric.hpp>
 #include <optional>
 #include <string>
