@@ -5,6 +5,7 @@
 
 #include "app/app.hpp"
 #include "app/document/json_complete.hpp"
+#include "app/document/refused.hpp"
 #include "app/document/scene_file.hpp"
 #include "app/labs/card.hpp"
 #include "app/opening.hpp"
