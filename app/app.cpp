@@ -259,16 +259,24 @@ void App::run_emitted(Emit& emit, From from) {
 /// Also notes the incidents of an edit.
 void App::run_command(const std::string& name, const Json& arguments, Gesture gesture, From from) {
     const std::string open = workspace_.lab;
-    if (const Command* const command = commands_->find(name);
-        command != nullptr && command->effect == Effect::Edit && command->lab == open)
-        end_opening();
+    const Command* const command = commands_->find(name);
+    std::optional<Opening> ended;
+    if (command != nullptr && command->effect == Effect::Edit && command->lab == open) ended = end_opening();
+    const auto openings = workspace_.openings;
     const auto all = workspace_.document.parts();
     const std::shared_ptr<const Part>& before = all.at(open);
     const std::uint64_t beginnings = workspace_.beginnings, moment = workspace_.moment;
-    commands_->run(workspace_, name, arguments, gesture);
-    // What was changed in a lab that was not open is no opening any more.
-    std::erase_if(workspace_.openings,
-                  [&](const std::string& lab) { return workspace_.document.parts().at(lab) != all.at(lab); });
+    try {
+        commands_->run(workspace_, name, arguments, gesture);
+    } catch (...) {
+        if (ended) resume(std::move(*ended));
+        throw;
+    }
+    // What was changed in a lab that was not open is no opening any more, unless undo made it one again.
+    if (workspace_.openings == openings)
+        std::erase_if(workspace_.openings, [&](const std::string& lab) {
+            return workspace_.document.parts().at(lab) != all.at(lab);
+        });
     divide_view();  // the next command, such as framing everything, uses the new panes
     const bool same_scene = workspace_.lab == open && workspace_.beginnings == beginnings;
     const Effect effect = commands_->find(name)->effect;

@@ -93,7 +93,17 @@ class App final : public Stage {
     void run_emitted(Emit& emit, From from);
     void run_command(const std::string& name, const Json& arguments, Gesture gesture, From from);
     void note_refusal(const std::string& why);
-    void end_opening();
+    /// An opening as it was when it ended.
+    struct Opening {
+        Document document, saved;
+        Rewind rewind;
+        std::uint64_t edition = 0;
+    };
+    /// The user takes over: stops the open lab's opening where it is. This is not an undo step, and the
+    /// opening does not resume.
+    std::optional<Opening> end_opening();
+    /// Unless what the user wanted was refused.
+    void resume(Opening opening);
     void review(const std::shared_ptr<const Part>& before, std::uint64_t moment);
     /// Executes requests for pictures and videos of the view. Throws Refused if it cannot.
     void take_pictures();

@@ -23,12 +23,11 @@ void App::note_refusal(const std::string& why) {
     workspace_.rewind.note({.tick = workspace_.moment, .cause = "refused: " + why});
 }
 
-/// The user takes over: stops the opening where it is. This is not an undo step, and the opening does not
-/// resume.
-void App::end_opening() {
-    if (workspace_.openings.erase(workspace_.lab) == 0) return;
+std::optional<App::Opening> App::end_opening() {
+    if (workspace_.openings.erase(workspace_.lab) == 0) return std::nullopt;
+    Opening before{workspace_.document, workspace_.saved, workspace_.rewind, workspace_.edition};
     const std::vector<CommandCall> calls = lab().calm();
-    if (calls.empty()) return;
+    if (calls.empty()) return before;
     const History history = workspace_.history;
     for (const CommandCall& call : calls) {
         try {
@@ -40,6 +39,15 @@ void App::end_opening() {
     workspace_.history = history;
     workspace_.saved.set(workspace_.lab, workspace_.document.parts().at(workspace_.lab));
     workspace_.rewind.clear();
+    return before;
+}
+
+void App::resume(Opening opening) {
+    workspace_.document = std::move(opening.document);
+    workspace_.saved = std::move(opening.saved);
+    workspace_.rewind = std::move(opening.rewind);
+    workspace_.edition = opening.edition;
+    workspace_.openings.insert(workspace_.lab);
 }
 
 void App::step_lab() {

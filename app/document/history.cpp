@@ -22,6 +22,10 @@ void History::push(const Document& before, const std::string& label, Gesture ges
         entry.from.camera.reset();
         entry.to.camera.reset();
     }
+    if (from.openings == to.openings) {
+        entry.from.openings.reset();
+        entry.to.openings.reset();
+    }
     append(past_, std::move(entry), past_.empty() ? nullptr : &past_.back().document);
     trim();
 }
@@ -65,6 +69,7 @@ void History::go(Place& target, Place& origin, Place* place) {
     if (target.path) origin.path = place->path;
     if (target.camera && place->lab == origin.lab) origin.camera = place->camera;
     if (target.moment && place->lab == origin.lab) origin.moment = place->moment;
+    if (target.openings) origin.openings = place->openings;
     *place = target;
 }
 

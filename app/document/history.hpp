@@ -8,6 +8,7 @@
 #include <deque>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "app/document/camera_pose.hpp"
@@ -23,12 +24,13 @@ struct MomentId {
     std::uint64_t tick = 0, edition = 0;
 };
 
-/// Where to show a change: its lab and, if the change affected them, the file, camera and moment.
+/// Where to show a change: its lab and, if the change affected them, the file, camera, moment and openings.
 struct Place {
     std::string lab{};
-    std::optional<std::filesystem::path> path{};  ///< the scene's file
-    std::optional<CameraPose> camera{};           ///< of the lab
-    std::optional<MomentId> moment{};             ///< set by time.seek only
+    std::optional<std::filesystem::path> path{};      ///< the scene's file
+    std::optional<CameraPose> camera{};               ///< of the lab
+    std::optional<MomentId> moment{};                 ///< set by time.seek only
+    std::optional<std::set<std::string>> openings{};  ///< labs that move by themselves until they are changed
 };
 
 class History {

@@ -59,6 +59,12 @@ void Workspace::pass_change() {
     ++moment;
 }
 
+void Workspace::set_openings(std::set<std::string> labs) {
+    for (const auto* each : {&openings, &labs})
+        for (const std::string& name : *each) saved.set(name, document.parts().at(name));
+    openings = std::move(labs);
+}
+
 Workspace::BeforeAndAfter Workspace::around(const Incident& incident) const {
     if (rewind.empty() || incident.tick < rewind.oldest() || incident.tick > rewind.newest()) return {};
     const std::uint64_t back = rewind.newest() - incident.tick;

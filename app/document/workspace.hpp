@@ -130,6 +130,8 @@ struct Workspace {
     void remember_moment() { rewind.remember(moment, edition, document.parts().at(lab), clock.tick); }
     /// Counts a moment for a change by hand without a simulated tick.
     void pass_change();
+    /// Makes these labs the openings. What was one and what is one is as saved.
+    void set_openings(std::set<std::string> labs);
     /// Goes to the nearest remembered moment and pauses. Going back over a change can itself be undone.
     void go_to_moment(std::uint64_t ticks_back);
     MomentId moment_id() const { return {moment, edition}; }
@@ -139,7 +141,7 @@ struct Workspace {
         std::shared_ptr<const Part> before, after;
     };
     BeforeAndAfter around(const Incident& incident) const;
-    Place place() const { return {lab, path, camera}; }
+    Place place() const { return {lab, path, camera, std::nullopt, openings}; }
     bool modified() const { return document != saved; }
     void toast(std::string text, ToastKind kind = ToastKind::Info);
 };

@@ -40,6 +40,7 @@ void step_through(Workspace& workspace, bool back) {
     for (const auto& [lab, part] : parts) {
         if (auto instead = part->after_undo()) workspace.document.set(lab, std::move(instead));
     }
+    if (place.openings) workspace.set_openings(*place.openings);
     if (place.path) workspace.path = *place.path;
     if (place.camera) workspace.camera = *place.camera;
     if (const Rewind::Moment* then = place.moment ? rewind.find(*place.moment) : nullptr) {

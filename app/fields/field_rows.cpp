@@ -56,8 +56,11 @@ void FieldRows::row(std::string_view name, const RowOptions& options) const {
     const Field* const field = find_field(of_.table, name);
     if (field == nullptr) throw std::logic_error(command_ + " has no field " + std::string(name));
     const FieldText& text = text_of(*field);
-    if (more_ == nullptr || !text.more) return draw(*field, text, options);
-    more_->add(text.label, changed(*field),
+    if (more_ == nullptr || !text.more) {
+        note_row_of(command_, file_name(*field));
+        return draw(*field, text, options);
+    }
+    more_->add(text.label, {command_, {file_name(*field)}}, changed(*field),
                [rows = *this, field, &text, options] { rows.draw(*field, text, options); });
 }
 
@@ -71,7 +74,6 @@ bool FieldRows::changed(const Field& field) const {
 }
 
 void FieldRows::draw(const Field& field, const FieldText& text, const RowOptions& options) const {
-    note_row_of(command_, file_name(field));
     if (field.type == FieldType::Choice && !text.listed) return button_rows(field, text);
     ImGui::BeginDisabled(!options.why_not.empty());
     if (field.type == FieldType::Flag)

@@ -118,6 +118,14 @@ bool section_button(const char* title, bool open) {
     return clicked;
 }
 
+float verdict_height(int lines) {
+    const float above = 0.2f * ImGui::GetTextLineHeight() + 2.0f * ImGui::GetStyle().ItemSpacing.y;
+    ImGui::PushFont(verdict_font());
+    const float line = ImGui::GetTextLineHeight();
+    ImGui::PopFont();
+    return above + static_cast<float>(lines) * line;
+}
+
 void verdict(const std::string& text, glm::vec3 colour) {
     ImGui::Dummy({0.0f, 0.2f * ImGui::GetTextLineHeight()});
     ImGui::PushFont(verdict_font());
@@ -170,13 +178,26 @@ bool integer_slider(const char* name, int& value, int low, int high) {
 
 bool text_field(const char* name, std::string& value, const char* hint) {
     const std::string id = begin_row(name);
-    std::array<char, 1024> text{};
+    TextEditing& typed = static_cast<NumberEditing*>(ImGui::GetIO().UserData)->typed;
+    const ImGuiID own = ImGui::GetID(id.c_str());
+    const int frame = ImGui::GetFrameCount();
+    const bool edited = typed.id == own && typed.frame >= frame - 1;
+    auto text = decltype(typed.text)();
     value.copy(text.data(), text.size() - 1);
+    const auto given = text;
+    if (edited) text = typed.text;
     const bool entered =
         ImGui::InputTextWithHint(id.c_str(), hint, text.data(), text.size(),
                                  ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
-    value = text.data();  // also before Enter, for a button beside it
-    return entered && !value.empty();
+    if (ImGui::IsItemActive()) {
+        if (!edited) typed.before = given;
+        typed.id = own, typed.frame = frame, typed.text = text;
+    } else if (edited) {
+        typed.id = 0;
+    }
+    const bool left = edited && !ImGui::IsItemActive() && !escape_pressed() && text != typed.before;
+    value = text.data();
+    return (entered || left) && !value.empty();
 }
 
 bool point_field(const char* name, glm::vec3& value, float speed, float most, const char* format) {
@@ -209,13 +230,21 @@ bool vector_field(const char* name, glm::vec3& value, float speed, glm::vec3 low
     return changed;
 }
 
-void keep_room(const char* id, float top) {
+void keep_room(const char* id, float top, float min_height) {
     float& room = *ImGui::GetStateStorage()->GetFloatRef(ImGui::GetID(id), 0.0f);
-    const float used = ImGui::GetCursorPosY() - top, gap = ImGui::GetStyle().ItemSpacing.y;
-    if (room > used + gap && ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem))
-        ImGui::Dummy({0.0f, room - used - gap});
-    else
-        room = used;
+    const bool keeps = ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem);
+    room = std::max({ImGui::GetCursorPosY() - top, min_height, keeps ? room : 0.0f});
+    ImGui::SetCursorPosY(top + room);
+}
+
+float note_height(int lines) {
+    return static_cast<float>(lines) * ImGui::GetTextLineHeight() + ImGui::GetStyle().ItemSpacing.y;
+}
+
+void kept_note(const char* id, const std::string& text, int lines) {
+    const float top = ImGui::GetCursorPosY();
+    if (!text.empty()) note(text);
+    keep_room(id, top, note_height(lines));
 }
 
 bool choice_field(const char* name, int& chosen, const char* const* titles, int count,

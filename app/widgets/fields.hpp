@@ -18,6 +18,8 @@ void section(const char* title);
 bool section_button(const char* title, bool open);
 /// The panel's main message, wrapped, in the largest text.
 void verdict(const std::string& text, glm::vec3 colour);
+/// The height of a verdict of so many lines.
+float verdict_height(int lines);
 /// Dim text, wrapped.
 void note(const std::string& text);
 void coloured_note(const std::string& text, glm::vec3 colour);
@@ -28,7 +30,8 @@ void coloured_note(const std::string& text, glm::vec3 colour);
 bool number_field(const char* name, float& value, float speed, float low, float high, const char* format);
 bool integer_field(const char* name, int& value, int low, int high);
 bool integer_slider(const char* name, int& value, int low, int high);
-/// A line of text. Typing takes effect on Enter only; `hint` is shown while it is empty.
+/// A line of text. Typing takes effect on Enter, Tab or a click elsewhere, and Escape cancels it; `hint` is
+/// shown while it is empty. `value` follows what is typed in any case, for a button beside it.
 bool text_field(const char* name, std::string& value, const char* hint);
 bool point_field(const char* name, glm::vec3& value, float speed, float most = 1e9f,
                  const char* format = "%.3f m");
@@ -36,8 +39,13 @@ bool point_field(const char* name, glm::vec3& value, float speed, float most = 1
 bool vector_field(const char* name, glm::vec3& value, float speed, glm::vec3 low, glm::vec3 high,
                   const char* format);
 /// Keeps the height of the rows below `top`, a cursor position in the window, while the mouse is in it: a
-/// click that removes a row must not bring what follows under the mouse.
-void keep_room(const char* id, float top);
+/// click that removes a row must not bring what follows under the mouse. They are at least `min_height`
+/// pixels high.
+void keep_room(const char* id, float top, float min_height = 0.0f);
+/// The height of so many lines of dim text.
+float note_height(int lines);
+/// A note that comes and goes by itself, in room for so many lines; empty: nothing to say.
+void kept_note(const char* id, const std::string& text, int lines);
 /// `why_not`, if given, has one entry per choice: null if it can be chosen, else the reason shown beside the
 /// greyed title.
 bool choice_field(const char* name, int& chosen, const char* const* titles, int count,

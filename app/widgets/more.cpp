@@ -5,12 +5,13 @@
 #include <utility>
 
 #include "app/widgets/icons.hpp"
+#include "app/widgets/row_search.hpp"
 #include "app/widgets/text.hpp"
 
 namespace tendril::app {
 
-void MoreRows::add(std::string label, bool changed, std::function<void()> draw) {
-    rows_.push_back({std::move(label), std::move(draw)});
+void MoreRows::add(std::string label, RowOf of, bool changed, std::function<void()> draw) {
+    rows_.push_back({std::move(label), std::move(of), std::move(draw)});
     changed_ += changed ? 1 : 0;
 }
 
@@ -44,7 +45,10 @@ bool MoreRows::head(bool open) const {
 }
 
 void MoreRows::draw() const {
-    for (const Row& row : rows_) row.draw();
+    for (const Row& row : rows_) {
+        for (const std::string& argument : row.of.arguments) note_row_of(row.of.command, argument);
+        row.draw();
+    }
 }
 
 }  // namespace tendril::app

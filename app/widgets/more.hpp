@@ -8,10 +8,16 @@
 
 namespace tendril::app {
 
+/// What a row sets, by which the palette and the cards find and unfold it. Empty for a reading.
+struct RowOf {
+    std::string command{};
+    std::vector<std::string> arguments{};
+};
+
 class MoreRows {
   public:
     /// `label` is in the head's tooltip, empty for none; `draw` must be valid until the end of the section.
-    void add(std::string label, bool changed, std::function<void()> draw);
+    void add(std::string label, RowOf of, bool changed, std::function<void()> draw);
 
     bool empty() const { return rows_.empty(); }
     /// "More", or "More (2 changed)".
@@ -23,6 +29,7 @@ class MoreRows {
   private:
     struct Row {
         std::string label;
+        RowOf of;
         std::function<void()> draw;
     };
     std::vector<Row> rows_;

@@ -25,6 +25,14 @@ struct RowAbove {
     std::array<char, 48> format{};  ///< for the unit
 };
 
+/// The text field that is being typed into; its text outlives the frame in which another item takes the
+/// focus.
+struct TextEditing {
+    unsigned id = 0;  ///< of the field; 0: none
+    int frame = 0;    ///< in which it was last drawn
+    std::array<char, 1024> text{}, before{};
+};
+
 /// The interface's state of number fields: which one's text is being edited. ImGui's UserData points to it.
 struct NumberEditing {
     unsigned id = 0;     ///< of the field; 0: none
@@ -34,6 +42,7 @@ struct NumberEditing {
     int tabbed_in = -1;     ///< the frame in which Tab left a number: edit the next one
     bool entered = false;   ///< a typed number took effect since this was last read and reset
     std::string refused{};  ///< invalid text that the user left, with the reason; empty: none
+    TextEditing typed;
     RowAbove row;
     RowSearch* search = nullptr;  ///< that is on now; see row_search.hpp
 };

@@ -16,10 +16,12 @@ class StateBits {
   public:
     explicit StateBits(const rope::State& state) {
         const auto& [settings, bodies, links, position, displacement, mass, pins, colliders, body_slots,
-                     collider_slots, ties, tie_slots, remainder, displaced_in, substeps, dropped] = state;
+                     collider_slots, ties, tie_slots, remainder, displaced_in, substeps, dropped, drift] =
+            state;
         add(settings, bodies, links, position, displacement, mass, pins, colliders, body_slots,
             collider_slots, remainder, displaced_in, substeps, dropped);
         if (!tie_slots.empty()) add(ties, tie_slots);
+        if (drift != glm::dvec3(0.0)) put(drift);
     }
     bool operator==(const StateBits&) const = default;
 

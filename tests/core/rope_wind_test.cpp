@@ -99,6 +99,60 @@ TEST(RopeWind, IsTheSameHoweverTimeIsDivided) {
     EXPECT_EQ(whole.state().position, parts.state().position);
 }
 
+/// A slight change of the wind, or of the substep, changes the air slightly: the gusts stay where they are.
+TEST(RopeWind, AChangeMovesNoGust) {
+    World steady = world_with({.wind = {5, 0, 1}, .gusts = 1.0f});
+    raise_flag(steady, 1.0f, 10);
+    run(steady, 10.0);
+    const std::vector<glm::dvec3> start = steady.state().position;
+    const double h = steady.settings().substep;
+    const auto moved = [&start](World world, const rope::Settings& settings) {
+        world.set_settings(settings);
+        run_substeps(world, 1, [] {});
+        std::vector<glm::dvec3> by = world.state().position;
+        for (std::size_t i = 0; i < by.size(); ++i) by[i] = (by[i] - start[i]) / settings.substep;
+        return by;
+    };
+    const std::vector<glm::dvec3> usual = moved(steady, steady.settings());
+    rope::Settings other_wind = steady.settings(), other_substep = steady.settings();
+    other_wind.wind.x += 0.001f;
+    other_substep.substep = 1.0001 * h;
+    for (const rope::Settings& settings : {other_wind, other_substep}) {
+        const std::vector<glm::dvec3> now = moved(steady, settings);
+        double most = 0.0;
+        for (std::size_t i = 0; i < now.size(); ++i) most = std::max(most, glm::distance(now[i], usual[i]));
+        EXPECT_LE(most, 0.002) << "m/s, at " << settings.wind.x << " m/s, " << settings.substep << " s";
+        EXPECT_GT(most, 0.0);
+    }
+}
+
+/// Where the gusts are is part of the state.
+TEST(RopeWind, IsTheSameAgainFromAnyStateOfBefore) {
+    World world = world_with({.wind = {5, 0, 1}, .gusts = 1.0f});
+    raise_flag(world, 1.0f, 8);
+    const auto blow = [](World& any) {
+        rope::Settings settings = any.settings();
+        for (const float wind : {-3.0f, 8.0f}) {
+            settings.wind.x = wind;
+            settings.substep *= 0.9;
+            any.set_settings(settings);
+            run(any, 0.5);
+        }
+    };
+    blow(world);
+    EXPECT_GT(glm::length(world.state().drift), 0.5);
+    World again(world.state());
+    blow(world);
+    blow(again);
+    EXPECT_TRUE(same_bits(world.state(), again.state()));
+    rope::State lost = world.state();
+    lost.drift = glm::dvec3(1.0, 2.0, 3.0);
+    World other(lost);
+    run(world, 0.2);
+    run(other, 0.2);
+    EXPECT_FALSE(world.state().position == other.state().position) << "the drift says where the gusts are";
+}
+
 /// At rest there is nothing to see: a flag without wind hangs.
 TEST(RopeWind, AFlagHangsWithoutWind) {
     World world = world_with({.damping = 2.0f});

@@ -57,7 +57,8 @@ void mode_rows(const ChainPart& part, const Palette& colours, MoreRows& more, Em
         int iterations = iterations_of(part, part.mode);
         if (integer_field("iterations", iterations, 1, max_iterations)) with("iterations", iterations);
         explain("The maximum number of passes per solve. More get closer to the target and cost more.");
-        more.add("tolerance", part.tolerance != ChainPart().tolerance, [&part, &emit] {
+        const bool changed = part.tolerance != ChainPart().tolerance;
+        more.add("tolerance", {"chain.mode", {"tolerance"}}, changed, [&part, &emit] {
             float tolerance = part.tolerance;
             if (number_field("tolerance", tolerance, 0.0005f, 0.0f, 10.0f, "%.4f m"))
                 emit.continuously("chain.mode",
@@ -315,20 +316,17 @@ void report_rows(const ShownChain& shown, const std::vector<glm::vec3>& joints, 
         note("This is one step of the solve. The last step shows the report.");
         return;
     }
-    show_verdict(chain_verdict(part), palette);
-    if (part.mode != ChainMode::Reach) {
-        note(chain_modes.help(part.mode));
-        return;
-    }
-    if (!part.result) {
-        note("The tip then reaches for it.");
-        return;
-    }
-    const ReachResult& result = *part.result;
-    if (result.active_limit) coloured_note(active_limit_text(*result.active_limit) + ".", palette.limit);
-    note(status_text(part));
-    note(ran_text(result.method, result.report, !part.reach.limits.empty()) + ".");
-    reading("iterations", "%d", result.report.iterations);
+    constexpr int lines = 4;  // the limit, the status in two, what ran
+    show_verdict(chain_verdict(part), palette, lines, [&part, &palette] {
+        if (part.mode != ChainMode::Reach) return note(chain_modes.help(part.mode));
+        if (!part.result) return note("The tip then reaches for it.");
+        const ReachResult& result = *part.result;
+        if (result.active_limit) coloured_note(active_limit_text(*result.active_limit) + ".", palette.limit);
+        note(status_text(part));
+        note(ran_text(result.method, result.report, !part.reach.limits.empty()) + ".");
+    });
+    if (part.mode != ChainMode::Reach || !part.result) return;
+    reading("iterations", "%d", part.result->report.iterations);
     reading("tip to target", "%.4f m", static_cast<double>(shown_residual(part, joints)));
 }
 
@@ -364,7 +362,7 @@ void option_rows(const ReachSettings& reach, float length, MoreRows& more, Emit&
     row("damping", ik::Option::Damping);
     row("twist_deg", ik::Option::Twist);
     row("restarts", ik::Option::Restarts, default_restarts);
-    more.add("", false, [&reach, &emit] {
+    more.add("", {"chain.solver", {"default_tolerance", "default_restarts"}}, false, [&reach, &emit] {
         if (row_button("Default tolerance", 1, reach.tolerance.has_value(), "A thousandth of the reach"))
             emit("chain.solver", {{"default_tolerance", true}});
         if (row_button("Default restarts", 1, reach.restarts.has_value(),
@@ -401,7 +399,7 @@ void pole_rows(const ChainPart& part, MoreRows& more, Emit& emit) {
     explain(
         "Turns the chain about the line from root to tip until the elbow points at a ball that you place.");
     if (!part.reach.pole) return;
-    more.add("pole", false, [&part, &emit] {
+    more.add("pole", {"chain.pole", {"to"}}, false, [&part, &emit] {
         glm::vec3 pole = *part.reach.pole;
         if (point_field("pole", pole, 0.01f)) emit.continuously("chain.pole", {{"to", pole}});
         explain("Where the pole target is. Drag the pink ball to move it.");

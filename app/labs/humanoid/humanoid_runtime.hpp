@@ -37,6 +37,7 @@ class HumanoidRuntime final : public Runtime {
     struct Panel {
         std::optional<humanoid::Bone> bone;             ///< the row that waits for a node
         SearchText node{}, clip{}, holder{}, spring{};  ///< search texts
+        bool bones_first = false;                       ///< the bone map comes before the other sections
         int attach_kind = 0;                            ///< kind of attachment that Add makes
         std::string attach_to = "Hips";                 ///< bone or node to attach it to
         bool past = false;                    ///< the strip shows the last ten seconds instead of the clip

@@ -15,6 +15,7 @@
 #include "app/labs/kit/panel_rows.hpp"
 #include "app/labs/kit/past_view.hpp"
 #include "app/widgets/fields.hpp"
+#include "app/widgets/row_search.hpp"
 #include "app/widgets/text.hpp"
 
 namespace tendril::app {
@@ -87,11 +88,11 @@ void loaded_rows(const HumanoidPanel& panel, MoreRows& more) {
         end_row();
     }
     kept_map_rows(panel);
-    more.add("height", false, [&panel, &loaded] {
+    more.add("height", {"humanoid.scale", {"metres"}}, false, [&panel, &loaded] {
         scale_row(panel);
         reading("height", "%.2f m", loaded.height());
     });
-    more.add("rest pose", panel.part.t_pose, [&panel] { rest_row(panel); });
+    more.add("rest pose", {"humanoid.t_pose", {"on"}}, panel.part.t_pose, [&panel] { rest_row(panel); });
     for (const std::string& text : loaded.character.notes) note(text);
 }
 
@@ -148,7 +149,12 @@ void look_rows(const HumanoidPanel& panel) {
 
 void HumanoidLab::panel(const Workspace& workspace, Emit& emit) const {
     const HumanoidPanel panel = humanoid_panel(workspace, emit);
-    const bool incomplete = panel.runtime.solvers.body(panel.part) == nullptr;
+    bool& incomplete = panel.runtime.panel.bones_first;
+    // While the mouse is in the panel its sections stay where they are.
+    if (row_search() == nullptr &&
+        !ImGui::IsWindowHovered(ImGuiHoveredFlags_ChildWindows | ImGuiHoveredFlags_AllowWhenBlockedByPopup |
+                                ImGuiHoveredFlags_AllowWhenBlockedByActiveItem))
+        incomplete = panel.runtime.solvers.body(panel.part) == nullptr;
     if (incomplete) bone_rows(panel, true);  // nothing else works without
     character_rows(panel);
     clip_rows(panel);
@@ -222,7 +228,8 @@ void target_inspector(const HumanoidPanel& panel) {
         if (shown.body->at_limit[i])
             limited +=
                 (limited.empty() ? "" : ", ") + std::string(humanoid::name(static_cast<humanoid::Bone>(i)));
-    note(limited.empty() ? "No joint is at its limit." : "At their limits: " + limited + ".");
+    kept_note("limited", limited.empty() ? "No joint is at its limit." : "At their limits: " + limited + ".",
+              3);
 }
 
 void character_inspector(const HumanoidPanel& panel) {
@@ -372,13 +379,16 @@ void node_chooser(const HumanoidPanel& panel) {
 
 void bone_rows(const HumanoidPanel& panel, bool open_at_first) {
     if (!folding_section(panel.workspace, "Bones", panel.emit, open_at_first)) return;
-    const std::string& why = panel.runtime.solvers.why_no_body(panel.part);
-    if (!why.empty()) coloured_note("Full-body IK is off: " + why + ".", panel.colours.limit);
     node_chooser(panel);
-    note(panel.runtime.panel.bone ? "Click a node of the figure, or pick it from the list."
-                                  : "To map a bone, click its row, then a node of the figure.");
+    kept_note("how to map",
+              panel.runtime.panel.bone ? "Click a node of the figure, or pick it from the list."
+                                       : "To map a bone, click its row, then a node of the figure.",
+              2);
     for (std::size_t i = 0; i < humanoid::bone_count; ++i) bone_row(panel, static_cast<Bone>(i));
     map_rows(panel);
+    // Below the rows, which stay where they are when it comes or goes.
+    const std::string& why = panel.runtime.solvers.why_no_body(panel.part);
+    if (!why.empty()) coloured_note("Full-body IK is off: " + why + ".", panel.colours.limit);
 }
 
 Verdict humanoid_verdict(const Workspace& workspace) {

@@ -9,7 +9,6 @@
 #include "app/document/json_complete.hpp"
 #include "app/labs/kit/arguments.hpp"
 #include "app/widgets/fields.hpp"
-#include "app/widgets/row_search.hpp"
 
 namespace tendril::app {
 
@@ -60,8 +59,7 @@ void flip_rows(const FlipRule& rule, const FlipWords& words, MoreRows& more, Emi
                          std::string("< %.3f of ") + words.size,
                          std::string("Or if it moves by less than this share of ") + words.whole + "."}};
     for (const Row& row : rows)
-        more.add(row.title, row.value != row.usual, [row, &words, &emit] {
-            note_row_of(words.command, row.name);
+        more.add(row.title, {words.command, {row.name}}, row.value != row.usual, [row, &words, &emit] {
             float value = row.value;
             if (number_field(row.title.c_str(), value, row.speed, row.low, row.high, row.format.c_str()))
                 emit.continuously(words.command, {{row.name, value}});

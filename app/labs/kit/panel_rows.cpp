@@ -71,14 +71,13 @@ bool preset_rows(const std::string& lab, const std::vector<PresetButton>& preset
     return opened;
 }
 
-void show_verdict(const Verdict& said, const Palette& palette) {
+void show_verdict(const Verdict& said, const Palette& palette, int lines,
+                  const std::function<void()>& notes) {
+    const float top = ImGui::GetCursorPosY();
     verdict(said.text, said.kind == Verdict::Kind::Bad ? palette.limit : palette.text);
-    if (said.why.empty()) return;
-    // Reserve two lines even for one, so that nothing below moves when the text changes.
-    const float from = ImGui::GetCursorPosY();
-    note(said.why);
-    const float two = 2.0f * ImGui::GetTextLineHeight() + ImGui::GetStyle().ItemSpacing.y;
-    ImGui::SetCursorPosY(std::max(from + two, ImGui::GetCursorPosY()));
+    if (!said.why.empty()) note(said.why);
+    if (notes) notes();
+    keep_room("verdict", top, verdict_height(2) + note_height(lines));
 }
 
 }  // namespace tendril::app

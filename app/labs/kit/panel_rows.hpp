@@ -46,6 +46,9 @@ struct Verdict {
     std::string why{};  ///< the consequence, or what to do next; a sentence
 };
 
-void show_verdict(const Verdict& said, const Palette& palette);
+/// It and the `notes` below it have room for two of its lines and for `lines` of small text, so that nothing
+/// below moves when it says something else.
+void show_verdict(const Verdict& said, const Palette& palette, int lines = 2,
+                  const std::function<void()>& notes = {});
 
 }  // namespace tendril::app

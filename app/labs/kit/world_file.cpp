@@ -231,6 +231,7 @@ Json save_world(const NamedWorld& world) {
                 {"moved_in", state.displaced_in},
                 {"substeps", state.substeps},
                 {"dropped", state.dropped},
+                {"drift", dpoint(state.drift)},
                 {"colliders", std::move(colliders)},
                 {"bodies", std::move(bodies)},
                 {"pins", std::move(pins)},
@@ -256,6 +257,7 @@ NamedWorld load_world(const JsonPlace& place) {
     state.displaced_in = place["moved_in"].real(0.0, 10.0);
     state.substeps = place["substeps"].count(most);
     state.dropped = place["dropped"].count(most);
+    if (const auto drift = place.optional("drift")) state.drift = drift->dpoint();  // newer than the wind
     place["colliders"].for_each("colliders", max_lab_colliders, [&](const JsonPlace& each) {
         state.colliders.push_back(load_collider(each));
         collider_names.push_back(each["name"].text());

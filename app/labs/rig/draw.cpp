@@ -1,6 +1,7 @@
 #include "app/labs/rig/draw.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -76,7 +77,7 @@ class Drawing {
         const glm::vec4 paint(p_.marked(p_.view.palette.joint, i), 1.0f);
         const bool head = figures_ && figure_of(p_.part, i) == Figure::Head;
         if (head)
-            draw_head(p_.view, p_.list, pose, head_radius(p_.elements, id),
+            draw_head(p_.view, p_.list, pose, head_radius(p_.elements, id), face_of(p_.part),
                       p_.marked(p_.view.palette.joint, i), pick);
         float thickest = 0.0f;
         for (const glm::dvec3& end : bone_ends(p_.elements, id)) {
@@ -331,8 +332,15 @@ Bounds figure_bounds(const RigPart& part, const rig::Hierarchy& elements, std::s
     return {at, 0.0f};
 }
 
-void draw_head(const View& view, DrawList& list, const rig::Transform& pose, double radius, glm::vec3 colour,
-               PickId pick) {
+Face face_of(const RigPart& part) {
+    const auto share = [&](const char* curve) {
+        return static_cast<float>(std::clamp(curve_value(part, curve), 0.0, 1.0));
+    };
+    return {share("blink"), share("mouth")};
+}
+
+void draw_head(const View& view, DrawList& list, const rig::Transform& pose, double radius, const Face& face,
+               glm::vec3 colour, PickId pick) {
     // On the light theme's dark joints the face would be lost.
     if (view.palette.theme == Theme::Light) colour = glm::mix(colour, glm::vec3(1.0f), 0.5f);
     const auto size = static_cast<float>(radius);
@@ -358,16 +366,36 @@ void draw_head(const View& view, DrawList& list, const rig::Transform& pose, dou
               placed(pose, size * glm::vec3(0.0f, -0.12f, 1.06f)), 0.07f * scale, 0.12f * scale,
               glm::vec4(skin, 1.0f))
         .pick = pick;
-    // The mouth.
-    glm::vec3 last{};
-    for (int i = -3; i <= 3; ++i) {
-        const float across = 0.09f * static_cast<float>(i);
-        const glm::vec3 on(across, -0.46f + 0.9f * across * across,
-                           0.775f * std::sqrt(1.0f - across * across));
-        const glm::vec3 at = placed(pose, size * on);
-        if (i > -3)
-            list.bone(last, at, 0.035f * scale, 0.035f * scale, glm::vec4(rgb(0x7A4A46), 1.0f)).pick = pick;
-        last = at;
+    if (face.blink > 0.0f) {  // a lid comes down over each eye, from inside the head
+        const glm::vec3 lid = glm::mix(colour, skin, 0.35f);
+        const float up = 1.0f - face.blink;
+        for (const float side : {-1.0f, 1.0f})
+            ball({0.335f * side, 0.17f + 0.13f * up, 0.8f - 0.1f * up}, 0.215f - 0.02f * up, lid);
+    }
+    // The mouth: the upper lip, and the lower one that opens it.
+    const auto on_face = [&](float across, float y) {
+        const float chin = 0.16f * -y;
+        const float front = (0.94f - chin) * std::sqrt((1.0f - y * y) * (1.0f - across * across));
+        return placed(pose, size * glm::vec3(across, y, front + 0.006f));
+    };
+    constexpr int half = 3;
+    std::array<glm::vec3, 2 * half + 1> upper{}, lower{};
+    for (int i = -half; i <= half; ++i) {
+        const float across = 0.09f * static_cast<float>(i), u = static_cast<float>(i) / half;
+        const float line = -0.46f + 0.9f * across * across, open = face.mouth * (1.0f - u * u);
+        const auto at = static_cast<std::size_t>(i + half);
+        upper[at] = on_face(across, line + 0.03f * open);
+        lower[at] = on_face(across, line - 0.2f * open);
+    }
+    const auto stretch = [&](glm::vec3 a, glm::vec3 b, float wide, glm::vec3 paint) {
+        list.bone(a, b, wide * scale, wide * scale, glm::vec4(paint, 1.0f)).pick = pick;
+    };
+    const glm::vec3 lips = rgb(0x7A4A46);
+    for (std::size_t i = 0; i < upper.size(); ++i) {
+        if (face.mouth > 0.0f) stretch(upper[i], lower[i], 0.05f, rgb(0x3A1E22));
+        if (i == 0) continue;
+        stretch(upper[i - 1], upper[i], 0.035f, lips);
+        if (face.mouth > 0.0f) stretch(lower[i - 1], lower[i], 0.035f, lips);
     }
     const auto centre = glm::vec3(pose.translation);
     cast(list, centre, centre, 0.9f * scale);

@@ -15,7 +15,8 @@
 namespace tendril::app {
 
 // What the drawing adds to the poses: lengths of bones, and figures. A bone named "head" or "skull" is drawn
-// as a head facing along z; a null named "blob" as a blob, if there are curves "stretch", "bulge" and "hue".
+// as a head facing along z, whose lids and mouth the curves "blink" and "mouth" move; a null named "blob" as
+// a blob, if there are curves "stretch", "bulge" and "hue".
 
 // Each element has its own pick id, and a rotation control one for each of its rings.
 constexpr PickId element_pick(std::size_t element, int ring = -1) {
@@ -43,8 +44,14 @@ double head_radius(const rig::Hierarchy& elements, rig::ElementId bone);
 Bounds figure_bounds(const RigPart& part, const rig::Hierarchy& elements, std::size_t element);
 
 // Drawn solid in palette colours, with the pick id of the element.
-void draw_head(const View& view, DrawList& list, const rig::Transform& pose, double radius, glm::vec3 colour,
-               PickId pick);
+/// Of a face, 0 to 1: the rig's curves "blink" and "mouth", where it has them.
+struct Face {
+    float blink = 0.0f;  ///< 1: the lids are closed
+    float mouth = 0.0f;  ///< 1: wide open
+};
+Face face_of(const RigPart& part);
+void draw_head(const View& view, DrawList& list, const rig::Transform& pose, double radius, const Face& face,
+               glm::vec3 colour, PickId pick);
 void draw_blob(const View& view, DrawList& list, const rig::Transform& pose, const RigPart& part,
                glm::vec3 tint, float tinted, PickId pick);
 

@@ -230,9 +230,9 @@ void element_tree(const RigPanel& panel, MoreRows& more) {
                    selected.several() ? "Removes the selected elements" : "Removes the selected element"))
         panel.edit("rig.element.remove", {which(panel.part, selected.all())});
     end_row();
-    more.add("pending poses", marks, [&panel, marks] {
+    const LabSetting setting = pending_marks();
+    more.add("pending poses", {setting.command, {setting.argument}}, marks, [&panel, setting, marks] {
         bool on = marks;
-        const LabSetting setting = pending_marks();
         if (ImGui::Checkbox("Mark pending poses", &on))
             panel.emit(setting.command, {{setting.argument, on ? "shown" : "hidden"}});
         explain("Two bars beside each element, local and global: filled if not worked out yet.");

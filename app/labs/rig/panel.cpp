@@ -220,7 +220,9 @@ std::optional<SharedJson> transform_fields(const RigPanel& panel, const rig::Tra
 
 void name_field(const RigPanel& panel, const char* command, const std::string& name, const char* help) {
     std::string to = name;
+    ImGui::PushID(name.c_str());  // what was typed for one is not another's name
     if (text_field("name", to, "a name") && to != name) panel.emit(command, {{"name", name}, {"to", to}});
+    ImGui::PopID();
     explain(help);
 }
 
@@ -234,7 +236,7 @@ void element_inspector(const RigPanel& panel) {
         note(count_text(selected.all().size(), "element") + ", " + element.name + " is shown");
     else
         name_field(panel, "rig.element.rename", element.name,
-                   "Type another name and press Enter: units, paths and the clip follow.");
+                   "Another name: units, paths and the clip follow.");
     text_line("kind", element.control ? control_title(element.control->kind) : rig::name(element.kind));
     if (!element.parent.empty()) text_line("parent", element.parent);
     control_rows(panel);

@@ -398,6 +398,14 @@ void rename(RigPart& part, Named kind, const std::string& from, const std::strin
     if (to.empty()) throw std::invalid_argument("to: a name must not be empty");
     rig::Definition definition = part.rig.definition();
     if (from == to) return;
+    if (const auto& clip = part.clip; kind == Named::Element && clip != nullptr) {
+        const auto has = [&](const std::string& name) {
+            return std::ranges::find(clip->bones, name) != clip->bones.end();
+        };
+        if (has(from) && has(to))
+            throw std::invalid_argument("to: the clip still has a removed bone " + quoted(to) +
+                                        "; record it again first");
+    }
     rename_in(definition, kind, from, to);
     part.rig = make_rig(std::move(definition));  // the order is the same, so the state fits it
     const auto follow = [&](std::string& name) {

@@ -178,6 +178,7 @@ void unit_list(const RigPanel& panel) {
     constexpr float max_lines = 26.0f;
     // The list grows with its content up to a limit, then scrolls.
     const bool many = rows.size() > 20;
+    const float top = ImGui::GetCursorPosY();
     if (many) ImGui::BeginChild("units", {0.0f, max_lines * line}, false);
     for (const UnitRow& row : rows) {
         const rig::Warning warning = panel.part.state.units[row.at].warning;
@@ -198,6 +199,7 @@ void unit_list(const RigPanel& panel) {
     }
     if (many) ImGui::EndChild();
     if (rows.empty()) note("No units: bones stay where they are.");
+    keep_room("units", top);  // warnings come and go
     order_buttons(panel, rows);
     add_unit_menu(panel);
 }
@@ -402,8 +404,7 @@ void unit_inspector(const RigPanel& panel) {
     note(operation + (row->inner ? ", run on each element of its for-each" : "") +
          (row->unit->enabled ? "" : ", switched off"));
     if (row->unit->enabled) warning_line(panel, panel.part.state.units[row->at].warning);
-    name_field(panel, "rig.unit.rename", row->unit->name,
-               "Type another name and press Enter: units that use its outputs follow.");
+    name_field(panel, "rig.unit.rename", row->unit->name, "Another name: units that use its outputs follow.");
     Fields fields(panel, *row);
     for (const UnitInput& input : unit_inputs(panel.part, panel.now, *row->unit)) {
         if (input.path == "/when" && row->unit->when == rig::Unit().when) continue;  // the switch covers it

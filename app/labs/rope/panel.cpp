@@ -25,7 +25,6 @@
 #include "app/labs/rope/scenes.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/plot.hpp"
-#include "app/widgets/row_search.hpp"
 
 namespace tendril::app {
 
@@ -69,8 +68,8 @@ void solver_rows(const RopePart& part, MoreRows& more, Emit& emit) {
     const FieldRows settings = settings_rows(part, emit).under(more);
     settings.row("solver");
     settings.row("iterations");
-    more.add("substeps", now.substep != rope::Settings().substep, [&now, &emit] {
-        note_row_of("rope.settings", "substep");
+    const bool changed = now.substep != rope::Settings().substep;
+    more.add("substeps", {"rope.settings", {"substep"}}, changed, [&now, &emit] {
         float per_second = static_cast<float>(1.0 / now.substep);
         if (number_field("substeps", per_second, 2.0f, 10.0f, 10000.0f, "%.0f /s"))
             emit.continuously("rope.settings", {{"substep", 1.0f / std::max(per_second, 1e-9f)}});
@@ -88,8 +87,7 @@ void time_rows(const Workspace& workspace, MoreRows& more, Emit& emit) {
         emit.continuously("time.speed", {{"factor", percent / 100.0f}});
     explain("How fast time passes in the lab. Under 100 % is slow motion.");
     settings_rows(part, emit).under(more).row("longest_frame");
-    more.add("frame-time jitter", part.jitter.dial > 0.0f, [&part, &emit] {
-        note_row_of("rope.jitter", "dial");
+    more.add("frame-time jitter", {"rope.jitter", {"dial"}}, part.jitter.dial > 0.0f, [&part, &emit] {
         float dial = 100.0f * part.jitter.dial;
         if (number_field("frame-time jitter", dial, 0.5f, 0.0f, 100.0f, "%.0f %%"))
             emit.continuously("rope.jitter", {{"dial", dial / 100.0f}});
@@ -328,26 +326,25 @@ void number_rows(const Workspace& workspace, const Palette& palette, Emit& emit)
     };
     reading("length error", "%s", percent(last.error).c_str());
     explain("How far off the worst segment's length is, as you see it: after contact.");
-    reading("energy", "%.3f J", static_cast<double>(last.energy));
+    reading("energy", "%.3f J%s", static_cast<double>(last.energy), part.quiet_ticks > 0 ? ", at rest" : "");
     const double lost = static_cast<double>(last_second(part.samples).contact_loss);
-    if (part.quiet_ticks > 0) note("At rest.");
     MoreRows more;
-    more.add("as solved", false, [&] {
+    more.add("as solved", {}, false, [&] {
         reading("as solved", "%s", percent(last.stretch).c_str());
         explain("The length error that the solver left: for hair, before colliders displaced anything.");
     });
-    more.add("lost to contact", false, [&] {
+    more.add("lost to contact", {}, false, [&] {
         reading("lost to contact", "%.3f J", lost);
         explain("Energy lost to contact and friction in the last second, by bodies near colliders at rest.");
     });
-    more.add("substeps dropped", state.dropped > 0, [&] {
+    more.add("substeps dropped", {}, state.dropped > 0, [&] {
         reading("substeps dropped", "%llu", static_cast<unsigned long long>(state.dropped));
         explain(
             "Substeps skipped so as not to fall behind: from frames over the longest frame, and where the "
             "work exceeds what a tick allows.");
     });
     if (workspace.clock.measured && part.cost > 0.0f)
-        more.add("time per frame", false,
+        more.add("time per frame", {}, false,
                  [&] { reading("time per frame", "%.0f \xc2\xb5s", static_cast<double>(part.cost)); });
     more_rows(workspace, "Numbers", more, emit);
     if (part.samples.size() < 2) return;
@@ -357,7 +354,7 @@ void number_rows(const Workspace& workspace, const Palette& palette, Emit& emit)
     if (std::ranges::any_of(part.samples, shows))
         length_plot(part.samples, palette);
     else
-        plots.add("length error, below 0.01 %", false, [&] { length_plot(part.samples, palette); });
+        plots.add("length error, below 0.01 %", {}, false, [&] { length_plot(part.samples, palette); });
     const Curve energy[] = {curve("energy", palette.accent, part.samples, &RopeSample::energy, 1.0f)};
     plot("energy", energy, {.x = "time", .x_unit = "s", .y = "energy", .y_unit = "J", .min_y = 0.0f}, 9.0f);
     frame_times(part.samples, palette);

@@ -318,18 +318,20 @@ SelectedParticles selected_particles(const RopePart& part) {
 
 }  // namespace
 
-/// For a selected collider or several particles. A single particle is dragged directly.
+/// For a selected collider, a pinned particle or several particles. A free particle alone is pulled directly.
 std::optional<Handle> RopeLab::gizmo(const Workspace& workspace) const {
     const RopePart& part = rope_part(workspace);
     if (!part.selection) return std::nullopt;
-    if (part.selection->particles.several()) {
-        const SelectedParticles selected = selected_particles(part);
+    if (const SelectedParticles selected = selected_particles(part); selected.body != nullptr) {
         if (selected.movable.empty()) return std::nullopt;
         const std::size_t active = part.selection->particle();
+        const std::size_t particle = selected.body->first + active;
+        const bool pinned = part.world->pinned(particle) && !is_held(part, particle);
+        if (!pinned && !part.selection->particles.several()) return std::nullopt;
         const bool moves = std::ranges::binary_search(selected.movable, active);
         Handle shown = *handle(
             workspace, particle_pick(selected.body->first + (moves ? active : selected.movable.back())));
-        shown.drag = Drag::Position | Drag::Rotation;
+        if (selected.movable.size() > 1) shown.drag = Drag::Position | Drag::Rotation;
         return shown;
     }
     const auto& colliders = part.world->state().colliders;

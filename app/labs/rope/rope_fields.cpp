@@ -60,7 +60,9 @@ std::span<const FieldText> field_texts<BodySettings>() {
          .decimals = 4},
         {.name = "bend",
          .label = "bend",
-         .help = "How easily a cloth or a hair bends. Higher values are limper.",
+         .help = "How easily a cloth or a hair bends. Higher values are limper: a limp cloth crumples at its "
+                 "free "
+                 "edge, as it does not collide with itself yet.",
          .step = 0.001f,
          .decimals = 4},
         {.name = "tear",

@@ -244,10 +244,15 @@ Verdict rope_verdict(const RopePart& part) {
                 "solver "
                 "holds it."};
     if (report.unconverged > 0)
-        return {"Lengths hold; some steps cut short", Verdict::Kind::Open,
-                "In the last second the solver failed to converge " + std::to_string(report.unconverged) +
-                    " times. Shorter substeps help."};
-    return {"Lengths hold", Verdict::Kind::Good, "The worst link is off by " + percent + "."};
+        return {"Some steps cut short", Verdict::Kind::Open,
+                "Lengths hold, but " + count_text(report.unconverged, "step") +
+                    " of the last second did not converge. Shorter substeps help."};
+    const bool cloth = std::ranges::any_of(part.world->state().bodies, [](const rope::Body& body) {
+        return body.kind == rope::Body::Kind::Cloth;
+    });
+    return {"Lengths hold", Verdict::Kind::Good,
+            "The worst link is off by " + percent + "." +
+                (cloth ? " Cloth does not collide with itself yet." : "")};
 }
 
 }  // namespace tendril::app

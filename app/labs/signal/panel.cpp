@@ -206,7 +206,7 @@ void parameter_rows(const Workspace& workspace, const Palette& palette, Emit& em
         .compared_with(filter_fields(usual))
         .all();
     if (const auto* spring = std::get_if<signal::Spring<>>(&filter))
-        more.add("half-life, duration, bounce", false,
+        more.add("half-life, duration, bounce", {}, false,  // strength and damping have rows of their own
                  [spring, at, &emit] { spring_rows(*spring, at, emit); });
     if (const auto* curve = std::get_if<signal::Curve>(&filter)) {
         signal::Curve edited = *curve;

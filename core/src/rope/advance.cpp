@@ -5,6 +5,7 @@
 
 #include "math/fork_join.hpp"
 #include "math/tasks.hpp"
+#include "rope/build.hpp"
 #include "rope/contact_shape.hpp"
 #include "rope/geometry.hpp"
 #include "rope/slots.hpp"
@@ -171,6 +172,7 @@ Advance World::advance(double seconds, Workspace& workspace, const AdvanceOption
         parts.add_up(done);
         ++done.substeps;
         ++state_.substeps;
+        detail::drift_gusts(state_);
         state_.displaced_in = substep;
         const bool torn = parts.plan.tears && tear(state_), untied = tear_ties(state_);
         if (torn || untied) parts.replan(state_);

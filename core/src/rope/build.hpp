@@ -36,6 +36,8 @@ glm::dvec3 down(const Settings& settings) noexcept;
 glm::dvec3 acceleration(const Settings& settings) noexcept;
 /// Of the wind on a cloth that faces it, in a gust, N/m^2.
 double wind_pressure(const Settings& settings) noexcept;
+/// Carries the gusts along for a substep.
+void drift_gusts(State& state) noexcept;
 /// The compliance of a link as its solver uses it, m/N.
 double compliance(const Settings& settings, const Link& link) noexcept;
 

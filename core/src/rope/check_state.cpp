@@ -187,6 +187,8 @@ Result check(const State& state) {
         if (!(value >= 0.0 && value <= max_substep))
             return refused(op, name, "0 to the longest substep", value);
     }
+    if (!is_point(state.drift))
+        return refused(op, "drift", "finite and at most 1e9 m along each axis", worst(state.drift));
     return {};
 }
 

@@ -93,7 +93,7 @@ Result drag(World& world, Workspace& workspace, Send send) {
     now.ties = was.ties;
     now.displacement = was.displacement;
     now.remainder = was.remainder, now.displaced_in = was.displaced_in;
-    now.substeps = was.substeps, now.dropped = was.dropped;
+    now.substeps = was.substeps, now.dropped = was.dropped, now.drift = was.drift;
     Expected<World> after = World::from_state(std::move(now));
     if (!after) return after.error();
     world = std::move(*after);

@@ -42,9 +42,8 @@ class Substep {
 
     // wind.cpp
     struct Air {
-        glm::dvec3 by;     ///< in the substep, metres
-        double gusts;      ///< their maximum, in the same unit
-        glm::dvec3 drift;  ///< since time 0, metres
+        glm::dvec3 by;  ///< in the substep, metres
+        double gusts;   ///< their maximum, in the same unit
     };
     void blow();
     void blow_on(const std::array<std::size_t, 3>& corners, const Air& air);

@@ -22,7 +22,8 @@ using glm::dvec3;
 constexpr double air_density = 1.2;  // kg/m^3
 /// Coefficients of the force on a plate, of dynamic pressure times area, along its normal and along itself.
 constexpr double across_plate = 2.0, along_plate = 0.1;
-constexpr double eddy = 1.0;  // metres: the distance over which gusts differ
+constexpr double eddy = 1.0;                              // metres: the distance over which gusts differ
+constexpr std::uint64_t period = std::uint64_t{1} << 20;  // eddies after which the gusts repeat
 
 /// A random number from -1 to 1 in each coordinate: the gust at a corner of the lattice of eddies.
 dvec3 corner_gust(std::uint64_t x, std::uint64_t y, std::uint64_t z) {
@@ -39,7 +40,6 @@ dvec3 corner_gust(std::uint64_t x, std::uint64_t y, std::uint64_t z) {
 
 /// Smooth noise from -1 to 1 in each coordinate, with one value per unit of length.
 dvec3 smooth_gust(const dvec3& at) {
-    constexpr std::uint64_t period = 1u << 20;
     constexpr auto lap = static_cast<double>(period);
     std::uint64_t cell[3];
     double part[3];
@@ -65,13 +65,18 @@ double detail::wind_pressure(const Settings& settings) noexcept {
     return 0.5 * across_plate * air_density * dot(wind, wind);
 }
 
+// The drift is bounded, so that it keeps its precision.
+void detail::drift_gusts(State& state) noexcept {
+    constexpr double lap = static_cast<double>(period) * eddy;
+    state.drift += state.settings.substep * dvec3(state.settings.wind);
+    for (int c = 0; c < 3; ++c) state.drift[c] = std::fmod(state.drift[c], lap);
+}
+
 /// Adds what the wind moves cloth by to `base`.
 void Substep::blow() {
     const dvec3 wind(state_.settings.wind);
-    const double time = static_cast<double>(state_.substeps) * h_;
     const Air air{.by = h_ * wind,
-                  .gusts = h_ * static_cast<double>(state_.settings.gusts) * detail::length(wind),
-                  .drift = time * wind};
+                  .gusts = h_ * static_cast<double>(state_.settings.gusts) * detail::length(wind)};
     for (const std::uint32_t b : Plan::part(plan_.bodies, island_.bodies)) {
         const Body& body = state_.bodies[b];
         if (body.kind != Body::Kind::Cloth) continue;
@@ -103,7 +108,7 @@ void Substep::blow_on(const std::array<std::size_t, 3>& corners, const Air& air)
     const double twice = detail::length(normal);
     if (!(twice > 1e-30)) return;
     dvec3 past = air.by - (1.0 / mass) * momentum;  // how far the air moves past the triangle
-    if (air.gusts > 0.0) past += air.gusts * smooth_gust((1.0 / eddy) * (middle - air.drift));
+    if (air.gusts > 0.0) past += air.gusts * smooth_gust((1.0 / eddy) * (middle - state_.drift));
     const double grip = 0.25 * air_density * twice * detail::length(past) / mass;
     const auto reached = [grip](double coefficient) {
         const double rate = coefficient * grip;

@@ -5,11 +5,13 @@
 
 #include "app/app.hpp"
 #include "app/document/json_complete.hpp"
+#include "app/document/refused.hpp"
 #include "app/document/scene_file.hpp"
 #include "app/labs/card.hpp"
 #include "app/opening.hpp"
 #include "app/view/assets.hpp"
 #include "tests/app/support/play.hpp"
+#include "tests/app/support/temp_folder.hpp"
 
 namespace tendril::test {
 namespace {
@@ -138,6 +140,56 @@ TEST_P(Openings, do_not_come_with_a_new_scene) {
               workspace().blank.parts().at(GetParam())->save());
 }
 
+TEST_P(Openings, come_back_with_their_rule_where_a_new_scene_is_undone) {
+    const auto opened = workspace().openings;
+    const TempFolder folder;
+    const std::string file = (folder / "scene.json").string();
+    write(file, save_scene(make_blank_workspace(app_.labs())).dump());
+    for (const RunCommand& away : {RunCommand{"scene.new"}, RunCommand{"scene.open", Json{{"path", file}}}}) {
+        wait(30);
+        const Json then = part();
+        app_.run(away);
+        EXPECT_TRUE(workspace().openings.empty());
+        app_.run({"undo"});
+        EXPECT_EQ(workspace().openings, opened) << away.name;
+        EXPECT_EQ(part(), then);
+        EXPECT_FALSE(workspace().modified()) << away.name << ": there is nothing to save";
+        wait(30);
+        EXPECT_NE(part(), then) << "it goes on";
+        EXPECT_FALSE(workspace().modified());
+        EXPECT_EQ(save_scene(workspace())["labs"].size(), 1u);
+        app_.run({"redo"});
+        EXPECT_TRUE(workspace().openings.empty());
+        EXPECT_FALSE(workspace().modified()) << away.name;
+        app_.run({"undo"});
+        EXPECT_TRUE(opens());
+    }
+    app_.run(change());
+    EXPECT_FALSE(opens()) << "the first change ends it as ever";
+    EXPECT_TRUE(workspace().modified());
+    app_.run({"undo"});
+    EXPECT_FALSE(opens());
+}
+
+TEST_P(Openings, go_on_where_a_command_is_refused) {
+    wait(45);
+    const Json then = part();
+    const std::map<std::string, RunCommand> wrong{
+        {"chain", {"chain.select", Json{{"index", 99}}}},
+        {"rope", {"rope.remove", Json{{"name", "nothing"}}}},
+        {"signal", {"signal.filter.remove", Json{{"at", 99}}}},
+        {"rig", {"rig.control.set", Json{{"name", "nobody"}, {"value", 1}}}},
+        {"humanoid", {"humanoid.attach", Json{{"bone", "Nowhere"}, {"kind", "rope"}}}}};
+    EXPECT_THROW(app_.run(wrong.at(GetParam())), Refused);
+    EXPECT_TRUE(opens());
+    EXPECT_EQ(part(), then);
+    EXPECT_FALSE(workspace().modified());
+    EXPECT_FALSE(workspace().history.can_undo());
+    wait(30);
+    EXPECT_NE(part(), then);
+    EXPECT_FALSE(workspace().modified());
+}
+
 /// From the opening, not only from the card's own scene.
 TEST_P(Openings, every_step_of_the_card_plays) {
     app_.run({"view.card", Json{{"open", true}}});
@@ -157,6 +209,55 @@ TEST_P(Openings, every_step_of_the_card_plays) {
 
 INSTANTIATE_TEST_SUITE_P(Labs, Openings, testing::Values("chain", "rope", "signal", "rig", "humanoid"),
                          [](const auto& lab) { return lab.param; });
+
+class RigOpening : public Openings {};
+INSTANTIATE_TEST_SUITE_P(Labs, RigOpening, testing::Values("rig"));
+
+/// The face blinks and speaks by curves that the rig's units set.
+TEST_P(RigOpening, moves_the_lids_and_the_mouth) {
+    const auto curve = [&](const char* name) { return app_.state().at("curves").at(name).get<double>(); };
+    int blinks = 0, syllables = 0, closed = 0;
+    bool shut = false, open = false;
+    constexpr int ticks = 600;
+    for (int i = 0; i < ticks; ++i) {
+        wait(1);
+        const double lids = curve("blink"), mouth = curve("mouth");
+        closed += lids > 0.5 ? 1 : 0;
+        blinks += lids > 0.5 && !shut ? 1 : 0;
+        syllables += mouth > 0.5 && !open ? 1 : 0;
+        shut = lids > 0.5, open = mouth > 0.5;
+    }
+    EXPECT_GE(blinks, 3);
+    EXPECT_LE(blinks, 8) << "in ten seconds";
+    EXPECT_LT(closed, ticks / 5) << "the eyes are open most of the time";
+    EXPECT_GE(syllables, 12);
+    EXPECT_LE(syllables, 40);
+    app_.run(change());
+    wait(2);
+    EXPECT_EQ(curve("blink"), 0.0) << "it looks at whoever takes over";
+    EXPECT_EQ(curve("mouth"), 0.0);
+}
+
+/// Each picture differs where the lids or the mouth are.
+TEST_P(RigOpening, draws_what_the_curves_say) {
+    const auto strokes = [&](double blink, double mouth) {
+        app_.run({"rig.preset", Json{{"name", "aim"}}});
+        for (const auto& [name, value] : {std::pair{"blink", blink}, std::pair{"mouth", mouth}})
+            app_.run({"rig.curve.add", Json{{"name", name}, {"value", value}}});
+        const Camera camera(workspace().camera, {{0.0f, 0.0f}, {800.0f, 600.0f}});
+        DrawList list;
+        app_.labs().find("rig")->draw({workspace(), camera, palette(Theme::Dark)}, list);
+        std::vector<glm::vec3> places;
+        for (const Stroke& each : list.strokes) places.push_back(each.a);
+        return places;
+    };
+    const auto calm = strokes(0.0, 0.0);
+    EXPECT_EQ(calm, strokes(0.0, 0.0));
+    EXPECT_EQ(strokes(1.0, 0.0).size(), calm.size() + 2) << "two lids";
+    EXPECT_GT(strokes(0.0, 1.0).size(), calm.size()) << "an open mouth";
+    EXPECT_NE(strokes(0.5, 0.0), strokes(1.0, 0.0)) << "lids come down";
+    EXPECT_NE(strokes(0.0, 0.5), strokes(0.0, 1.0));
+}
 
 class ChainOpening : public Openings {};
 INSTANTIATE_TEST_SUITE_P(Labs, ChainOpening, testing::Values("chain"));

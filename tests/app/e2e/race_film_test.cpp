@@ -12,6 +12,7 @@
 #include "tests/app/support/apng.hpp"
 #include "tests/app/support/frame_record.hpp"
 #include "tests/app/support/play.hpp"
+#include "tests/says.hpp"
 
 namespace tendril::test {
 namespace {
@@ -183,22 +184,29 @@ TEST(RaceFilm, IsTheSameEveryTimeAndTakesItsLook) {
 
 TEST(RaceFilm, IsRefusedInWords) {
     const TempFolder folder;
-    const auto refusal = [&](ScriptText script, const Json& arguments) {
+    const auto recorded = [&](ScriptText script, const Json& arguments) {
         write(folder / "script.jsonl", script.command("race.record", arguments).text());
-        const Outcome outcome = run_here({"--headless", "--script", (folder / "script.jsonl").string()});
-        EXPECT_EQ(outcome.exit_code, 1);
-        return outcome.err;
+        return run_here({"--headless", "--script", (folder / "script.jsonl").string()});
     };
-    EXPECT_TRUE(has(refusal(ScriptText(), sized(folder / "a.png")), "no race is open"));
-    EXPECT_TRUE(has(refusal(opened_race(), Json::object()), "path is missing"));
-    EXPECT_TRUE(has(refusal(opened_race(), sized(folder / "a.gif")), "path must end in .png or .mp4"));
-    EXPECT_TRUE(
-        has(refusal(opened_race(), sized(folder / "a.png", {{"pace", 0}})), "pace must be 0.1 to 600"));
-    EXPECT_TRUE(has(refusal(opened_race(), sized("/nowhere/a.png")), "/nowhere/a.png"));
+    const auto refused = [&](const ScriptText& script, const Json& arguments, const std::string& words) {
+        const Outcome outcome = recorded(script, arguments);
+        EXPECT_EQ(outcome.exit_code, 1) << words;
+        EXPECT_TRUE(says(outcome.err, "race.record: " + words));
+        EXPECT_EQ(folder.names(), std::vector<std::string>{"script.jsonl"}) << words;
+    };
+    refused(ScriptText(), sized(folder / "a.png"), "no race is open");
+    refused(opened_race(), Json::object(), "path is missing");
+    refused(opened_race(), sized(folder / "a.gif"), "path must end in .png or .mp4 got a.gif");
+    refused(opened_race(), sized(folder / "a.png", {{"pace", 0}}), "pace must be 0.1 to 600 got 0");
+    refused(opened_race(), sized(folder / "a.png", {{"pace", 601}}), "pace must be 0.1 to 600 got 601");
+    refused(opened_race(), sized("/nowhere/a.png"), "cannot write /nowhere/a.png No such file");
     ScriptText elsewhere = opened_race();
     elsewhere.command("lab.open", {{"name", "rope"}});
-    EXPECT_TRUE(has(refusal(elsewhere, sized(folder / "a.png")), "open the lab chain"));
-    EXPECT_EQ(folder.names(), std::vector<std::string>{"script.jsonl"});
+    refused(elsewhere, sized(folder / "a.png"), "race not in view open the lab chain");
+    ScriptText back = elsewhere;
+    back.command("lab.open", {{"name", "chain"}});
+    EXPECT_EQ(recorded(back, sized(folder / "a.png")).exit_code, 0) << "it is the view that was in the way";
+    EXPECT_EQ(folder.names().size(), 2u);
 }
 
 TEST(RaceStrip, ScrubsPlaysAndStepsByMouseAndKeys) {

@@ -134,11 +134,53 @@ TEST_F(FigureBodyTest, follows_bones_that_are_near) {
     }
 }
 
+/// How far from each vertex's mirror image the nearest vertex is, at most, and how different what moves it.
+struct Asymmetry {
+    double metres = 0.0;
+    float weight = 0.0f;
+};
+
 TEST_F(FigureBodyTest, is_the_same_on_both_sides) {
+    const auto mirrored = [](const std::string& name) {
+        if (name.starts_with("Left")) return "Right" + name.substr(4);
+        return name.starts_with("Right") ? "Left" + name.substr(5) : name;
+    };
+    const auto following = [&](std::size_t vertex, bool mirror) {
+        const JointWeights& by = mesh().weights[vertex];
+        std::map<std::string, float> weights;
+        for (std::size_t k = 0; k < 4; ++k) {
+            const std::string& name = figure_.skeleton[figure_.skin.joints[by.joints[k]].node].name;
+            weights[mirror ? mirrored(name) : name] += by.weights[k];
+        }
+        return weights;
+    };
+    const auto asymmetry = [&](const std::vector<glm::dvec3>& at) {
+        Asymmetry most;
+        for (std::size_t i = 0; i < at.size(); ++i) {
+            const glm::dvec3 wanted(-at[i].x, at[i].y, at[i].z);
+            std::size_t nearest = 0;
+            double squared = 1e9;
+            for (std::size_t k = 0; k < at.size(); ++k) {
+                const glm::dvec3 off = at[k] - wanted;
+                if (const double d = glm::dot(off, off); d < squared) squared = d, nearest = k;
+            }
+            most.metres = std::max(most.metres, std::sqrt(squared));
+            auto there = following(nearest, false);
+            for (const auto& [name, weight] : following(i, true))
+                most.weight = std::max(most.weight, std::abs(weight - there[name]));
+        }
+        return most;
+    };
     const auto at = posed(figure_, {});
-    double left = 0.0, right = 0.0;
-    for (const glm::dvec3& each : at) left = std::max(left, each.x), right = std::min(right, each.x);
-    EXPECT_NEAR(left, -right, 1e-4);
+    const auto on = [&](double side) {
+        return std::ranges::count_if(at, [&](const glm::dvec3& each) { return side * each.x > 1e-3; });
+    };
+    EXPECT_EQ(on(1.0), on(-1.0));
+    const Asymmetry rest = asymmetry(at);
+    EXPECT_LT(rest.metres, 0.01) << "half an edge of its triangles";
+    EXPECT_LT(rest.weight, 0.12f) << "as much as a weight changes along that";
+    const Asymmetry crooked = asymmetry(posed(figure_, {{"LeftLowerArm", {0, 1, 0}, -15}}));
+    EXPECT_GT(crooked.metres, 0.02) << "a bent arm is seen";
 }
 
 TEST_F(FigureBodyTest, keeps_its_volume_when_it_bends) {

@@ -32,7 +32,7 @@ class RopeGizmo : public RopeTest {
     const rope::Shape& shape(const char* name) const { return world().find_collider(name)->shape; }
 };
 
-TEST_F(RopeGizmo, ThereIsOneForAColliderAndNoneForAParticle) {
+TEST_F(RopeGizmo, ThereIsOneForAColliderAndAPinAndNoneForAFreeParticle) {
     EXPECT_FALSE(gizmo());
     for (const char* name : {"ball", "bar", "crate", "wall"}) {
         select(name);
@@ -42,6 +42,21 @@ TEST_F(RopeGizmo, ThereIsOneForAColliderAndNoneForAParticle) {
     }
     run("rope.add", {{"name", "line"}, {"from", {0, 3, 0}}, {"to", {1, 3, 0}}, {"segments", 4}});
     run("rope.select", {{"rope", "line"}, {"particle", 1}});
+    EXPECT_FALSE(gizmo());
+    run("rope.pin", {{"rope", "line"}, {"particle", 1}});
+    ASSERT_TRUE(gizmo());
+    EXPECT_EQ(gizmo()->name, "line.1");
+    EXPECT_FALSE(has(gizmo()->drag, Drag::Rotation)) << "a point has no rotation";
+    run("time.pause");
+    drag({glm::vec3(0.25f, 3.2f, 0.1f)});
+    EXPECT_LT(glm::distance(gizmo()->frame.position, glm::vec3(0.25f, 3.2f, 0.1f)), 1e-4f);
+    run("rope.unpin", {{"rope", "line"}, {"particle", 1}});
+    EXPECT_FALSE(gizmo());
+}
+
+TEST_F(RopeGizmo, AParticleThatMovesWithAColliderHasNone) {
+    run("rope.preset", {{"name", "hair"}});
+    run("rope.select", {{"rope", state()["hair"][0]["name"]}, {"particle", 0}});
     EXPECT_FALSE(gizmo());
 }
 

@@ -98,8 +98,8 @@ TEST_F(RopeVerdict, SaysWhatIsNeitherHeldNorFallsOrInsideOrUnsolved) {
     part.samples.insert(part.samples.end(), 59, {.report = {.unconverged = 2}});
     part.samples.push_back({});
     const Verdict said_of_second = rope_verdict(part);
-    EXPECT_TRUE(test::says(said_of_second.text, "Lengths hold some"));
-    EXPECT_NE(said_of_second.why.find("118 times"), std::string::npos) << said_of_second.why;
+    EXPECT_TRUE(test::says(said_of_second.text, "Some steps cut short"));
+    EXPECT_NE(said_of_second.why.find("118 steps"), std::string::npos) << said_of_second.why;
     part.samples.insert(part.samples.end(), 60, {});
     EXPECT_EQ(rope_verdict(part).text, "Lengths hold") << "that was more than a second ago";
     run("rope.clear");

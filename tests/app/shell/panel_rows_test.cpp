@@ -21,6 +21,7 @@
 #include "app/labs/rope/rope_part.hpp"
 #include "tests/app/support/frame_record.hpp"
 #include "tests/app/support/layout_faults.hpp"
+#include "tests/places.hpp"
 
 namespace tendril::test {
 namespace {
@@ -198,6 +199,48 @@ TEST_F(RowsUnderMore, UnfoldForACommandOfThePalette) {
     type("chain.solver soft_zone=0.1");
     EXPECT_TRUE(shows("soft zone"));
     EXPECT_FALSE(shows("moves")) << "the section Target stays folded";
+}
+
+/// Those of field tables and those that a panel adds by itself, in every lab.
+TEST_F(RowsUnderMore, UnfoldForTheirCommandInEveryLab) {
+    struct Row {
+        const char* lab;
+        std::vector<std::pair<const char*, Json>> scene;
+        std::string line;
+        const char* label;
+    };
+    const Json walk{{"path", source_path("tests/app/golden/faulty_walk.bvh")}};
+    const std::string mesh = source_path("tests/app/golden/body.glb");
+    const Row rows[] = {
+        {"chain", {{"chain.mode", {{"mode", "fixed"}}}}, "chain.mode mode=fixed tolerance=0.01", "tolerance"},
+        {"chain",
+         {{"chain.preset", {{"name", "reaching_arm"}}}},
+         "chain.solver default_tolerance=true",
+         "Default tolerance"},
+        {"chain",
+         {{"chain.preset", {{"name", "reaching_arm"}}}},
+         "chain.solver default_restarts=true",
+         "Default restarts"},
+        {"chain", {{"chain.preset", {{"name", "reaching_arm"}}}}, "chain.pole to=[1,2,1]", "pole x"},
+        {"chain", {{"chain.mode", {{"mode", "reach"}}}}, "chain.flips degrees=40", "flip over"},
+        {"rope", {}, "rope.settings substep=0.002", "substeps"},
+        {"rope", {}, "rope.jitter dial=0.1", "frame-time jitter"},
+        {"rope", {}, "rope.settings longest_frame=0.1", "longest frame"},
+        {"rig", {}, "rig.flips degrees=40", "flip over"},
+        {"rig", {}, "view.pending_poses marks=shown", "Mark pending poses"},
+        {"humanoid", {}, "humanoid.flips degrees=40", "flip over"},
+        {"humanoid", {}, "humanoid.ground kind=mesh path=" + mesh, "mesh file"},
+        {"humanoid", {}, "humanoid.t_pose on=true", "Rest as a T-pose"},
+        {"humanoid", {{"humanoid.load", walk}}, "humanoid.scale metres=0.011", "file unit"}};
+    for (const Row& row : rows) {
+        run("scene.new");
+        open(row.lab);
+        for (const auto& [command, arguments] : row.scene) run(command, arguments);
+        run("view.fold", {{"section", row.lab}, {"folded", true}});
+        ASSERT_FALSE(shows(row.label)) << row.line;
+        type(row.line.c_str());
+        EXPECT_TRUE(shows(row.label)) << row.line;
+    }
 }
 
 TEST_F(RowsUnderMore, UnfoldForAStepOfACard) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "app/app.hpp"
@@ -11,6 +12,7 @@
 #include "app/document/json_complete.hpp"
 #include "tests/app/support/frame_record.hpp"
 #include "tests/app/support/full_scenes.hpp"
+#include "tests/app/support/layout_faults.hpp"
 #include "tests/places.hpp"
 
 namespace tendril::test {
@@ -101,6 +103,94 @@ TEST_P(SteadyButtons, StayUnderTheMouseThatClicksThem) {
     if (GetParam() == std::string("chain"))
         check("the microscope", {call("chain.preset", {{"name", "reaching_arm"}}), call("microscope.open")});
 }
+
+/// What a lab's verdict and its notes say changes by itself while time runs: what is below stays in place.
+class BelowTheVerdict : public SteadyButtons {
+  protected:
+    /// Of a text in the panel `panel`; 0 if it is not there.
+    float height(const std::string& panel, const std::string& text) const {
+        for (const DrawnText& each : recorder_.frame().texts)
+            if (each.window != nullptr && window_name(each.window).starts_with(panel + "/content") &&
+                each.text == text)
+                return each.box.min.y;
+        return 0.0f;
+    }
+    void run_for(int ticks) {
+        run("time.play");
+        for (int i = 0; i < ticks; ++i) app_.tick(nullptr);
+        run("time.pause");
+        for (int i = 0; i < 4; ++i) app_.tick(nullptr);
+    }
+    std::string verdict() { return app_.state().at("verdict"); }
+};
+
+TEST_P(BelowTheVerdict, NothingMovesWhateverItSays) {
+    const std::map<std::string, std::vector<std::vector<CommandCall>>> all{
+        {"chain",
+         {{call("chain.preset", {{"name", "reaching_arm"}})},
+          {call("chain.target", {{"to", glm::vec3(0.0f, 9.0f, 0.0f)}})},
+          {call("chain.target", {{"to", glm::vec3(0.1f, 0.2f, 0.0f)}})},
+          {call("chain.solver", {{"name", "fabrik"}, {"iterations", 1}})}}},
+        {"rope",
+         {{call("rope.preset", {{"name", "drape"}})},
+          {call("rope.preset", {{"name", "flag"}})},
+          {call("rope.settings", {{"solver", "relaxation"}, {"iterations", 1}})},
+          {call("rope.clear")}}},
+        {"signal",
+         {{call("signal.preset", {{"name", "spring"}})},
+          {call("signal.filter.enable", {{"at", 0}, {"on", false}})},
+          {call("signal.clear")}}},
+        {"rig", {{call("rig.preset", {{"name", "fk"}})}, {call("rig.clear")}}},
+        {"humanoid",
+         {{call("humanoid.load")},
+          {call("humanoid.map", {{"bone", "LeftHand"}, {"node", ""}}),
+           call("humanoid.map", {{"bone", "RightFoot"}, {"node", ""}}),
+           call("humanoid.map", {{"bone", "Head"}, {"node", ""}})}}}};
+    const std::map<std::string, std::string> below{{"chain", "Selection"},
+                                                   {"rope", "Selection"},
+                                                   {"signal", "Now"},
+                                                   {"rig", "Element"},
+                                                   {"humanoid", "Character"}};
+    set_up({});
+    std::set<std::string> said;
+    float first = 0.0f;
+    for (const std::vector<CommandCall>& each : all.at(GetParam())) {
+        for (const CommandCall& command : each) run(command.name, to_json(command.arguments));
+        run_for(60);
+        said.insert(verdict());
+        const float now = height("right", below.at(GetParam()));
+        ASSERT_GT(now, 0.0f);
+        if (first == 0.0f) first = now;
+        EXPECT_NEAR(now, first, 1.0f) << "below \"" << verdict() << "\"";
+    }
+    EXPECT_GE(said.size(), 2u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Labs, BelowTheVerdict, testing::Values("chain", "rope", "signal", "rig", "humanoid"),
+                         [](const auto& lab) { return std::string(lab.param); });
+
+class BoneMapRows : public BelowTheVerdict {};
+
+/// Also those that make the body incomplete, or complete again.
+TEST_P(BoneMapRows, StayUnderTheMouseThatMapsThem) {
+    set_up({call("view.fold", {{"section", "humanoid: Bones"}, {"folded", false}})});
+    const float before = height("left", "LeftHand");
+    ASSERT_GT(before, 0.0f);
+    const Event there = MouseMove{{60.0f, before + 8.0f}};
+    app_.tick(&there);
+    for (const char* node : {"", "LeftHand"}) {
+        run("humanoid.map", {{"bone", "LeftHand"}, {"node", node}});
+        run_for(2);
+        EXPECT_NEAR(height("left", "LeftHand"), before, 1.0f) << "mapped to \"" << node << "\"";
+    }
+    run("humanoid.map", {{"bone", "LeftHand"}, {"node", ""}});
+    const Event away = MouseMove{{640.0f, 700.0f}};
+    app_.tick(&away);
+    run_for(2);
+    EXPECT_LT(height("left", "LeftHand"), before) << "the map of an incomplete body comes first";
+}
+
+INSTANTIATE_TEST_SUITE_P(Map, BoneMapRows, testing::Values("humanoid"));
 
 class KeptRoom : public SteadyButtons {};
 

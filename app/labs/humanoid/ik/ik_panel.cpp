@@ -145,7 +145,8 @@ void hand_rows(const HumanoidPanel& panel) {
     if (!ik.look_at.on) return;
     gaze.rows("weight", "view_deg");
     const ShownPose& shown = panel.runtime.shown(panel.workspace);
-    if (shown.look && !shown.look->in_view) note("The target is outside the cone of view.");
+    const bool out_of_view = shown.look && !shown.look->in_view;
+    kept_note("out of view", out_of_view ? "The target is outside the cone of view." : "", 1);
 }
 
 // The ground, and the feet on it.
@@ -182,7 +183,7 @@ void standing_rows(const HumanoidPanel& panel, MoreRows& more) {
     if (choice_field("ground", kind, titles.data(), static_cast<int>(titles.size()), why_not.data()))
         panel.emit("humanoid.ground", {{"kind", ground_kinds.name(static_cast<GroundKind>(kind))}});
     explain(ground_kinds.help(ik.ground.kind));
-    more.add("mesh file", ik.ground.mesh != nullptr, [&panel, &ik] {
+    more.add("mesh file", {"humanoid.ground", {"path"}}, ik.ground.mesh != nullptr, [&panel, &ik] {
         std::string path = ik.ground.mesh ? ik.ground.mesh->path : std::string();
         if (text_field("mesh file", path, "a .gltf or .glb file") && !path.empty())
             panel.emit("humanoid.ground", {{"kind", "mesh"}, {"path", path}});
@@ -194,8 +195,8 @@ void standing_rows(const HumanoidPanel& panel, MoreRows& more) {
     const std::string& why = panel.runtime.solvers.why_no_feet(panel.part);
     const bool none = !feet.on && !why.empty();
     rows.row("on", {.why_not = none ? "Foot IK is not possible: " + why + "." : ""});
+    if (!feet.on) return;  // the greyed switch says why
     if (!why.empty()) return note("Foot IK is not possible: " + why + ".");
-    if (!feet.on) return;
     rows.row("max_angle_deg");
     rows.row("enter_speed", {.within = FieldRange{0.0, feet.leave_speed}});
     rows.row("leave_speed", {.within = FieldRange{feet.enter_speed, fastest_foot}});
@@ -204,7 +205,7 @@ void standing_rows(const HumanoidPanel& panel, MoreRows& more) {
     std::string why_up;
     for (std::size_t side = 0; side < 2 && why_up.empty(); ++side)
         why_up = why_in_air(panel.part, shown, panel.runtime.solvers, side);
-    if (!why_up.empty()) note(why_up);
+    kept_note("why in the air", why_up, 2);
 }
 
 }  // namespace

@@ -58,8 +58,8 @@ struct Settings {
     /// Velocity of the air, m/s, each coordinate up to max_wind. It pushes cloth, not ropes or hair. At 0
     /// there is no air: nothing resists.
     glm::vec3 wind{0.0f};
-    /// Maximum of gusts relative to the wind, in each coordinate, 0 to 1. They drift with the wind, and are
-    /// always the same ones.
+    /// Maximum of gusts relative to the wind, in each coordinate, 0 to 1. They drift with the wind
+    /// (State::drift), and are always the same ones. A change of wind or substep does not move them.
     float gusts = 0.3f;
     /// Strain per newton, 1/N, 0 to max_compliance: how much a metre of rope stretches under one newton.
     /// Relaxation ignores it.

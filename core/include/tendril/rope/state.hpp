@@ -39,6 +39,7 @@ struct State {
     double remainder = 0.0;     ///< seconds not simulated yet
     double displaced_in = 0.0;  ///< seconds of the last substep; 0: nothing has moved yet
     std::uint64_t substeps = 0, dropped = 0;
+    glm::dvec3 drift{0.0};  ///< how far the wind has carried the gusts, metres; repeats after 2^20 m
 
     bool operator==(const State&) const = default;
 };

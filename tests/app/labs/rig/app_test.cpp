@@ -1,4 +1,5 @@
 // The Rig lab in the running program: dragging controls, and seeking in time.
+#include <algorithm>
 #include <glm/geometric.hpp>
 #include <optional>
 #include <string>
@@ -75,7 +76,7 @@ TEST_F(RigApp, AFilteredListTakesEnterArrowsAndEscape) {
             for (int i = 0; i < 3; ++i) app_.tick(nullptr);
         };
         wait();
-        send(MouseMove{{1190.0f, 384.0f}});
+        send(MouseMove{{1190.0f, 413.0f}});
         send(MousePress{MouseButton::Left, true});
         send(MousePress{MouseButton::Left, false});
         wait();
@@ -148,13 +149,21 @@ TEST_F(RigApp, TheTreesFilterTakesEnterAndArrows) {
 TEST_F(RigApp, AUnitIsRenamedInItsPanel) {
     app_.run({"rig.select", Json{{"element", "head"}, {"unit", "aim"}}});
     for (int i = 0; i < 3; ++i) app_.tick(nullptr);
-    const auto type = [&](const char* text) {
-        send(MouseMove{{1186.0f, 201.0f}});
+    const auto click = [&](glm::vec2 at) {
+        send(MouseMove{at});
         send(MousePress{MouseButton::Left, true});
         send(MousePress{MouseButton::Left, false});
         for (int i = 0; i < 30; ++i) app_.tick(nullptr);
+    };
+    FrameRecorder recorder;
+    const auto type = [&](const char* text, const char* key = "enter") {
+        app_.tick(nullptr);
+        float height = 0.0f;
+        for (const DrawnText& each : recorder.frame().texts)
+            if (each.text == "name") height = 0.5f * (each.box.min.y + each.box.max.y);
+        click({1186.0f, height});
         send(TextInput{text});
-        send(KeyTap{*chord_from_name("enter")});
+        if (key != nullptr) send(KeyTap{*chord_from_name(key)});
         for (int i = 0; i < 3; ++i) app_.tick(nullptr);
     };
     const auto selected = [&] { return rig_part(app_.workspace()).selected.unit; };
@@ -165,6 +174,18 @@ TEST_F(RigApp, AUnitIsRenamedInItsPanel) {
     EXPECT_EQ(selected(), "gaze");
     app_.run({"undo"});
     EXPECT_EQ(selected(), "aim");
+    type("gaze", "escape");
+    EXPECT_EQ(selected(), "aim") << "Escape puts the name back";
+    for (const glm::vec2 elsewhere : {glm::vec2(640.0f, 660.0f), glm::vec2(60.0f, 60.0f)}) {
+        type("gaze", nullptr);
+        EXPECT_EQ(selected(), "aim") << "not before it is left";
+        click(elsewhere);
+        const auto names = rig_part(app_.workspace()).rig.unit_names();
+        EXPECT_TRUE(std::ranges::find(names, "gaze") != names.end()) << "left by a click elsewhere";
+        app_.run({"rig.preset", Json{{"name", "aim"}}});
+        app_.run({"rig.select", Json{{"element", "head"}, {"unit", "aim"}}});
+        for (int i = 0; i < 3; ++i) app_.tick(nullptr);
+    }
 }
 
 /// Opens its field, types part of a name, and clicks the remaining row.
@@ -185,9 +206,9 @@ TEST_F(RigApp, AnInputIsChosenFromElementsThatAreFoundByName) {
         send(MousePress{MouseButton::Left, false});
         for (int i = 0; i < 3; ++i) app_.tick(nullptr);
     };
-    click({1190.0f, 384.0f});
+    click({1190.0f, 413.0f});
     send(TextInput{"TILT, tr"});
-    click({1000.0f, 448.0f});
+    click({1000.0f, 477.0f});
     EXPECT_EQ(std::get<std::string>(target().element.which), "tilt");
     EXPECT_EQ(target().of, rig::Of::Translation);
     EXPECT_EQ(target().space, rig::Space::Global);
@@ -195,9 +216,9 @@ TEST_F(RigApp, AnInputIsChosenFromElementsThatAreFoundByName) {
     app_.run({"undo"});
     EXPECT_EQ(target(), before);
     // Escape leaves it unchanged.
-    click({1190.0f, 384.0f});
+    click({1190.0f, 413.0f});
     send(KeyTap{*chord_from_name("escape")});
-    click({1000.0f, 448.0f});
+    click({1000.0f, 477.0f});
     EXPECT_EQ(target(), before);
 }
 

@@ -121,6 +121,21 @@ TEST_F(RigRename, selection_walk_and_clip_follow) {
     EXPECT_NE(translation("leader"), there) << "it walks on";
 }
 
+TEST_F(RigRename, gives_no_clip_the_same_bone_twice) {
+    element("a");
+    element("b");
+    tick(3);
+    run("rig.clip.record", {{"seconds", 0.05}});
+    run("rig.element.remove", {{"name", "a"}});
+    EXPECT_TRUE(test::says(refused("rig.element.rename", {{"name", "b"}, {"to", "a"}}),
+                           "clip removed bone a record"));
+    EXPECT_EQ(part().clip->bones, (std::vector<std::string>{"a", "b"}));
+    EXPECT_TRUE(part().rig.element("b"));
+    run("rig.clip.record", {{"seconds", 0.05}});
+    run("rig.element.rename", {{"name", "b"}, {"to", "a"}});
+    EXPECT_EQ(part().clip->bones, std::vector<std::string>{"a"});
+}
+
 TEST_F(RigRename, refuses_names_that_are_empty_taken_or_unprintable) {
     element("a");
     element("b", "a");
