@@ -232,7 +232,8 @@ std::vector<LabSetting> ChainLab::settings() const {
 
 std::vector<CommandCall> ChainLab::opening() const {
     return {{"chain.preset", {{"name", reaching_arm}}},
-            {"chain.motion", {{"path", "figure_eight"}, {"radius", 0.45f}, {"period", 9.0f}}},
+            // In the plane of the view through root and pole target, so that a drag leads over the latter.
+            {"chain.motion", {{"path", "sweep"}, {"radius", 0.4f}, {"period", 9.0f}}},
             {"view.segments", {{"style", "bones"}}},
             {"view.reach_sphere", {{"show", "on"}}},
             {"camera.set",
