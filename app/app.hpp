@@ -94,6 +94,7 @@ class App final : public Stage {
     void run_command(const std::string& name, const Json& arguments, Gesture gesture, From from);
     void note_refusal(const std::string& why);
     void end_opening();
+    void drop_incidents(const Part& before);
     void review(const std::shared_ptr<const Part>& before, std::uint64_t moment);
     /// Executes requests for pictures and videos of the view. Throws Refused if it cannot.
     void take_pictures();
