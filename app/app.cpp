@@ -280,6 +280,7 @@ void App::run_command(const std::string& name, const Json& arguments, Gesture ge
     divide_view();  // the next command, such as framing everything, uses the new panes
     const bool same_scene = workspace_.lab == open && workspace_.beginnings == beginnings;
     const Effect effect = commands_->find(name)->effect;
+    if (same_scene && workspace_.document.parts().at(open) != before) drop_incidents(*before);
     if (same_scene && effect == Effect::Edit) review(before, workspace_.moment);
     if (const Card* const card = shown_card(); card != nullptr && workspace_.lab == open)
         note_command(workspace_.ui.cards[open], *card, name, arguments, effect != Effect::Look, moment,

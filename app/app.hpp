@@ -104,6 +104,7 @@ class App final : public Stage {
     std::optional<Opening> end_opening();
     /// Unless what the user wanted was refused.
     void resume(Opening opening);
+    void drop_incidents(const Part& before);
     void review(const std::shared_ptr<const Part>& before, std::uint64_t moment);
     /// Executes requests for pictures and videos of the view. Throws Refused if it cannot.
     void take_pictures();

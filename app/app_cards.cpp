@@ -16,8 +16,9 @@ const Card* App::shown_card() const {
 
 void App::watch_shown_card() {
     if (const Card* const card = shown_card())
-        watch_card(workspace_.ui.cards[workspace_.lab], *card, workspace_.document.parts().at(workspace_.lab),
-                   [this] { return lab_state(); });
+        watch_card(
+            workspace_.ui.cards[workspace_.lab], *card, workspace_.document.parts().at(workspace_.lab),
+            [this] { return lab_state(); }, pointer_.dragged() != no_pick);
 }
 
 bool App::card_is_due() const {

@@ -8,6 +8,15 @@
 
 namespace tendril::app {
 
+/// Drops the incidents of a chain or rig that is there no more.
+void App::drop_incidents(const Part& before) {
+    if (workspace_.rewind.incidents().empty() ||
+        lab().same_joints(before, *workspace_.document.parts().at(workspace_.lab)))
+        return;
+    workspace_.rewind.forget_incidents();
+    workspace_.ui.incident.reset();
+}
+
 /// Notes the open lab's incidents in a change or tick.
 void App::review(const std::shared_ptr<const Part>& before, std::uint64_t moment) {
     const auto& after = workspace_.document.parts().at(workspace_.lab);
@@ -102,8 +111,10 @@ void App::advance_time() {
     if (lab().working(workspace_)) {
         const auto before = workspace_.document.parts().at(workspace_.lab);
         lab().work(workspace_);
-        if (workspace_.document.parts().at(workspace_.lab) != before)
+        if (workspace_.document.parts().at(workspace_.lab) != before) {
             workspace_.openings.erase(workspace_.lab);
+            drop_incidents(*before);
+        }
     }
     pass_video();
     watch_shown_card();

@@ -57,7 +57,7 @@ void App::begin_video(const VideoRequest& wanted) {
         throw Refused(wanted.command + ": " + error.what());
     }
     workspace_.ui.filming = video_->progress();
-    workspace_.ui.file_dialog = UiState::FileDialog::None;
+    workspace_.close_file_dialog();
 }
 
 void App::take_pictures() {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 
 #include "app/io/picture.hpp"
 
@@ -19,19 +20,26 @@ std::unique_ptr<PictureText> picture_text(const Workspace& workspace, const Lab&
     return std::make_unique<PictureText>(view.size);
 }
 
+namespace {
+
+std::vector<Pane> drawn_panes(const Workspace& workspace, const Lab& lab, const PictureView& view,
+                              const Palette& colours) {
+    std::vector<Pane> panes;
+    const std::size_t count = lab.panes(workspace).size();
+    for (const Rect& rect : tiled({{0.0f, 0.0f}, glm::vec2(view.size)}, count, pane_gap)) {
+        panes.push_back({rect});
+        const Camera camera(view.pose, rect);
+        lab.draw({workspace, camera, colours, no_pick, no_pick, view.scale, panes.size() - 1},
+                 panes.back().drawn);
+    }
+    return panes;
+}
+
+}  // namespace
+
 Image picture_of(const Workspace& workspace, const Lab& lab, Renderer& renderer, const PictureView& view,
                  bool transparent, PictureText* text) {
-    const std::size_t count = lab.panes(workspace).size();
-    const auto draw = [&](const Palette& colours) {
-        std::vector<Pane> panes;
-        for (const Rect& rect : tiled({{0.0f, 0.0f}, glm::vec2(view.size)}, count, pane_gap)) {
-            panes.push_back({rect});
-            const Camera camera(view.pose, rect);
-            lab.draw({workspace, camera, colours, no_pick, no_pick, view.scale, panes.size() - 1},
-                     panes.back().drawn);
-        }
-        return panes;
-    };
+    const auto draw = [&](const Palette& colours) { return drawn_panes(workspace, lab, view, colours); };
     DrawOver over;
     if (text != nullptr)
         over = [&](const std::vector<Pane>& panes, const Palette& colours) {
@@ -59,6 +67,24 @@ VideoTake::VideoTake(const VideoRequest& wanted, const Workspace& workspace, con
     workspace_.ui.incident.reset();
     workspace_.clock.replaying = false;
     workspace_.pass_change();
+    if (text_) find_room();
+}
+
+/// For the legend: it must not cover what moves under it later.
+void VideoTake::find_room() {
+    constexpr int max_looks = 16;
+    Workspace ahead = workspace_;
+    std::function<bool(Workspace&, int)> show = wanted_.show;
+    const int frames = wanted_.frames(), looks = std::min(frames, max_looks);
+    const Palette& colours = palette(workspace_.settings.theme);
+    for (int i = 0; i < looks; ++i) {
+        const int frame = looks > 1 ? i * (frames - 1) / (looks - 1) : 0;
+        if (show)
+            show(ahead, frame);
+        else
+            ahead.go_to_moment(static_cast<std::uint64_t>(wanted_.from - frame * wanted_.every));
+        text_->look_at(drawn_panes(ahead, lab_, view_, colours), view_.pose, lab_.legend(ahead));
+    }
 }
 
 void VideoTake::work() {

@@ -53,6 +53,8 @@ class VideoTake {
     const VideoRequest& wanted() const { return wanted_; }
 
   private:
+    void find_room();
+
     VideoRequest wanted_;
     Workspace workspace_;
     const Lab& lab_;

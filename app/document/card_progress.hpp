@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <memory>
 #include <optional>
 #include <string>
@@ -13,12 +14,25 @@
 
 namespace tendril::app {
 
+/// A step that asks for a drag once more, after a cure for what that drag caused: what has happened so far.
+struct RepeatedDrag {
+    struct Point {
+        std::uint64_t moment = 0;
+        glm::vec3 at{0.0f};
+    };
+    std::vector<Point> path{};               ///< of the step's drags since another command changed the scene
+    std::optional<std::uint64_t> caused{};   ///< the moment of the last incident that a drag caused
+    glm::vec3 place{0.0f}, direction{0.0f};  ///< of that drag, then
+    bool cured = false;
+};
+
 struct CardProgress {
     std::size_t card = 0;      ///< index among the lab's cards
     std::vector<bool> done{};  ///< for each step; empty until the first command
     /// For each step: the moment of the command that it waits for. Empty before that, and again once another
     /// command has changed the scene.
     std::vector<std::optional<std::uint64_t>> tried{};
+    std::vector<RepeatedDrag> drags{};   ///< for each step
     std::shared_ptr<const Part> seen{};  ///< the part at the last check
     std::uint64_t ticks_to_wait = 0;     ///< until the next check
 };

@@ -44,6 +44,7 @@ class Rewind {
 
     /// Incidents older than ten seconds are dropped; if there are too many, the oldest that is not a flip.
     void note(Incident incident);
+    void forget_incidents() { incidents_.clear(); }
     const std::deque<Incident>& incidents() const { return incidents_; }
 
     bool empty() const { return moments_.empty(); }

@@ -1,6 +1,7 @@
 // Scene commands: new, open, save, recover, picture and quit.
 #include <algorithm>
 
+#include "app/document/atomic_file.hpp"
 #include "app/document/autosave.hpp"
 #include "app/document/command.hpp"
 #include "app/document/picture_arguments.hpp"
@@ -30,7 +31,7 @@ void add_file_commands(CommandTable& table) {
                .effect = Effect::Edit,
                .apply = [](Workspace& w, const Arguments& a) {
                    load_scene_file(w, a.text("path"));
-                   w.ui.file_dialog = UiState::FileDialog::None;
+                   w.close_file_dialog();
                }});
     table.add({.name = "scene.save",
                .title = "Save the scene to a file",
@@ -46,8 +47,8 @@ void add_file_commands(CommandTable& table) {
                    if (path.empty()) throw Refused("path is missing; the scene has no file yet");
                    save_scene_file(w, path);
                    w.ui.quit = w.ui.quit || w.ui.file_dialog == UiState::FileDialog::SaveAndQuit;
-                   w.ui.file_dialog = UiState::FileDialog::None;
-                   w.toast("Saved " + path.filename().string());
+                   w.close_file_dialog();
+                   w.toast("Saved: " + shown_path(path));
                }});
 }
 
@@ -126,7 +127,7 @@ void add_dialog_commands(CommandTable& table) {
                        w.ui.file_dialog = UiState::FileDialog::SaveAs;
                    } else {
                        save_scene_file(w, std::filesystem::path(w.path));
-                       w.toast("Saved " + w.path.filename().string());
+                       w.toast("Saved: " + shown_path(w.path));
                    }
                }});
 }

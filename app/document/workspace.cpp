@@ -46,6 +46,11 @@ void Workspace::start_anew() {
     cameras.clear();
 }
 
+void Workspace::close_file_dialog() {
+    ui.file_dialog = UiState::FileDialog::None;
+    if (std::exchange(ui.plays_after_dialog, false)) clock.playing = true;
+}
+
 void Workspace::forget_pasts() {
     moment = 0;
     rewind.clear();

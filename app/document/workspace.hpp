@@ -64,6 +64,7 @@ struct UiState {
     bool palette = false;
     bool settings = false;
     enum class FileDialog { None, Open, SaveAs, SaveAndQuit, Video } file_dialog = FileDialog::None;
+    bool plays_after_dialog = false;  ///< the dialog has paused the simulation
     std::vector<Toast> toasts;
     std::vector<Recoverable> recoverable;  ///< until the user answers
     glm::vec2 view_size{1000.0f, 700.0f};  ///< the 3D view, or its first pane, in window coordinates
@@ -143,6 +144,8 @@ struct Workspace {
     BeforeAndAfter around(const Incident& incident) const;
     Place place() const { return {lab, path, camera, std::nullopt, openings}; }
     bool modified() const { return document != saved; }
+    /// Closes the file dialog; what it has paused goes on.
+    void close_file_dialog();
     void toast(std::string text, ToastKind kind = ToastKind::Info);
 };
 

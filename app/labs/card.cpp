@@ -38,7 +38,14 @@ CardCondition read_condition(const JsonPlace& place) {
         check_only(place, {"event"});
         return {.kind = Kind::Noted, .name = some_text(place["event"])};
     }
-    if (!place.has("expect")) place.fail("expected one of \"expect\", \"present\", \"event\"");
+    if (place.has("avoided")) {
+        check_only(place, {"avoided", "after", "within"});
+        return {.kind = Kind::Avoided,
+                .name = some_text(place["avoided"]),
+                .cure = some_text(place["after"]),
+                .within = place["within"].number(0.001f, 1000.0f)};
+    }
+    if (!place.has("expect")) place.fail("expected one of \"expect\", \"present\", \"event\", \"avoided\"");
     try {
         return {.kind = Kind::Expected, .expect = read_expectation(place.json())};
     } catch (const std::runtime_error& error) {

@@ -12,6 +12,10 @@
 // `place` is a handle, panels and the palette do not count: the step asks for the mouse in the view. A
 // command counts if it has the listed arguments; null stands for any value. `scene` sets up the card's scene.
 // `script` is for the tests, which play every step.
+//
+// {"avoided": "flip", "after": "chain.pole", "within": 0.8} holds once a cure works: a drag by `by` caused a
+// flip, the command `after` was run, and then a drag passed within 0.8 m of the place where it flipped, from
+// one side to the other, without a flip. The commands in `by` have a point for the argument that is null.
 #pragma once
 
 #include <map>
@@ -36,9 +40,12 @@ struct CardCondition {
         Expected,  ///< the state is as expected: {"expect": PATH, ...} as in a script
         Present,   ///< the state has such a value: {"present": PATH}
         Noted,     ///< the command caused an incident of that kind: {"event": "flip"}
+        Avoided    ///< a drag that caused such an incident does so no more: {"avoided": "flip", ...}
     } kind = Kind::Expected;
     Expect expect{};
-    std::string name{};  ///< the path, or the kind of event
+    std::string name{};   ///< the path, or the kind of event
+    std::string cure{};   ///< Avoided: the command that has to come first
+    float within = 0.0f;  ///< Avoided: metres
 };
 
 struct CardStep {

@@ -50,7 +50,7 @@ void open(const Labs& labs, Workspace& workspace, const std::string& path) {
     arguments["path"] = path;
     opener(route).apply(workspace, Arguments(arguments));
     if (route.lab != nullptr) workspace.open_lab(route.lab->name());
-    workspace.ui.file_dialog = UiState::FileDialog::None;
+    workspace.close_file_dialog();
 }
 
 }  // namespace

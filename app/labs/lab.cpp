@@ -12,6 +12,16 @@ Bounds bounds_of(glm::vec3 low, glm::vec3 high, float smallest) {
     return {0.5f * (low + high), std::max(0.5f * glm::distance(low, high), smallest)};
 }
 
+void frame_unless_seen(Workspace& workspace, const Bounds& bounds) {
+    constexpr float smallest = 0.1f;  // of the view
+    const Rect view{{0.0f, 0.0f}, workspace.ui.view_size};
+    const Camera camera(workspace.camera, view);
+    const auto at = camera.project(bounds.centre);
+    const float pixels = 2.0f * bounds.radius / camera.metres_per_pixel(bounds.centre);
+    if (at && view.contains(*at) && pixels >= smallest * std::min(view.size().x, view.size().y)) return;
+    workspace.camera = framed(workspace.camera, view, bounds.centre, bounds.radius);
+}
+
 std::optional<Handle> Lab::handle(const Workspace& workspace, PickId pick) const {
     const std::vector<Handle> all = handles(workspace);
     const auto found =

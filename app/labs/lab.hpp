@@ -71,12 +71,17 @@ struct Bounds {
 /// The sphere around an axis-aligned box; its radius is at least `smallest` metres.
 Bounds bounds_of(glm::vec3 low, glm::vec3 high, float smallest = 0.5f);
 
+/// Turns the open lab's camera to what has come, unless it is in view and large enough to be seen.
+void frame_unless_seen(Workspace& workspace, const Bounds& bounds);
+
 /// A colour of the picture and what it means.
 struct LegendRow {
     std::string name;
     glm::vec3 colour{1.0f};
     bool ring = false;
     std::vector<std::string> numbers{};  ///< beside it, in columns; omitted if there is no room
+    /// The widest text of each number: its column keeps that width while the numbers change.
+    std::vector<std::string> widest{};
 };
 
 /// A starting scene for the tests that run over every lab: they send it random events and commands, and the
@@ -144,6 +149,8 @@ class Lab {
                                          const Part& /*after*/) const {
         return {};
     }
+    /// Whether incidents in `before` still concern `after`: it has the same joints. If not, they are dropped.
+    virtual bool same_joints(const Part& /*before*/, const Part& /*after*/) const { return true; }
     /// Whether a long computation is running; work() does a share of it each tick, even while paused.
     virtual bool working(const Workspace&) const { return false; }
     virtual void work(Workspace&) const {}

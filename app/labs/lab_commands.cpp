@@ -142,7 +142,7 @@ void add_closing_command(CommandTable& table, const Labs& labs) {
                .apply = [&labs](Workspace& w, const Arguments&) {
                    if (!w.ui.covered()) select_nothing(w, *labs.find(w.lab));
                    w.ui.help = w.ui.palette = w.ui.settings = false;
-                   w.ui.file_dialog = UiState::FileDialog::None;
+                   w.close_file_dialog();
                    w.ui.asks_to_quit = false;
                    w.ui.toasts.clear();
                }});
@@ -240,19 +240,22 @@ void add_recording(CommandTable& table, const Labs& labs) {
                    if (!w.ui.filming) throw Refused("no video is being written");
                    w.ui.ends_filming = true;
                }});
-    table.add({.name = "view.video_dialog",
-               .title = "Record a video",
-               .arguments = {},
-               .help = "Pauses, and shows a dialog to record the last seconds as a video",
-               .effect = Effect::Look,
-               .apply = [&labs](Workspace& w, const Arguments&) {
-                   require_view(w, labs);
-                   if (remembered_ticks(w) == 0)
-                       throw Refused("nothing has moved yet, so there is nothing to record");
-                   // Otherwise the moments just seen would drop out of the last ten seconds.
-                   w.clock.playing = w.clock.replaying = false;
-                   w.ui.file_dialog = UiState::FileDialog::Video;
-               }});
+    table.add(
+        {.name = "view.video_dialog",
+         .title = "Record a video",
+         .arguments = {},
+         .help =
+             "Shows a dialog to record the last seconds as a video; the simulation pauses until it is closed",
+         .effect = Effect::Look,
+         .apply = [&labs](Workspace& w, const Arguments&) {
+             require_view(w, labs);
+             if (remembered_ticks(w) == 0)
+                 throw Refused("nothing has moved yet, so there is nothing to record");
+             // Otherwise the moments just seen would drop out of the last ten seconds.
+             w.ui.plays_after_dialog = w.ui.plays_after_dialog || w.clock.playing;
+             w.clock.playing = w.clock.replaying = false;
+             w.ui.file_dialog = UiState::FileDialog::Video;
+         }});
 }
 
 void add_copying(CommandTable& table, const Labs& labs) {

@@ -1,8 +1,11 @@
 #include "app/shell/card_watch.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
 
 #include "app/document/json_complete.hpp"
+#include "app/labs/kit/flips.hpp"
 
 namespace tendril::app {
 namespace {
@@ -22,7 +25,64 @@ bool matches(const CardLine& line, const std::string& command, const Json& argum
     });
 }
 
-bool holds(const CardCondition& condition, std::uint64_t tried, const Json& state) {
+const CardCondition* avoided(const CardStep& step) {
+    const auto found = std::find_if(step.when.begin(), step.when.end(), [](const CardCondition& each) {
+        return each.kind == CardCondition::Kind::Avoided;
+    });
+    return found == step.when.end() ? nullptr : &*found;
+}
+
+/// Where the command moved something: its argument that is null in the line.
+std::optional<glm::vec3> moved_to(const CardLine& line, const Json& arguments) {
+    for (const auto& [key, value] : line.arguments->items()) {
+        const auto given = arguments.find(key);
+        if (value.is_null() && given != arguments.end() && given->is_array() && given->size() == 3)
+            return glm::vec3(given->at(0).get<float>(), given->at(1).get<float>(), given->at(2).get<float>());
+    }
+    return std::nullopt;
+}
+
+void note_drag(RepeatedDrag& drag, glm::vec3 to, std::uint64_t moment) {
+    constexpr std::size_t max_points = 4096;
+    if (drag.path.size() >= max_points)
+        drag.path.erase(drag.path.begin(), drag.path.begin() + max_points / 2);
+    drag.path.push_back({moment, to});
+}
+
+/// Notes where the drag was at the last incident of that kind, if it caused that one.
+void note_incident(RepeatedDrag& drag, const std::string& kind, const Json& events) {
+    for (const Json& each : events) {
+        const auto moment = each.at("tick").get<std::uint64_t>();
+        if (each.at("kind") != kind || (drag.caused && moment <= *drag.caused)) continue;
+        for (std::size_t i = 1; i < drag.path.size(); ++i) {
+            const RepeatedDrag::Point &last = drag.path[i - 1], &here = drag.path[i];
+            if (here.moment != moment || here.at == last.at) continue;
+            drag.caused = moment;
+            drag.cured = false;
+            drag.place = here.at;
+            drag.direction = glm::normalize(here.at - last.at);
+        }
+    }
+}
+
+/// Whether the cured drag has led past the place where it once caused the incident, to the other side.
+bool passed_again(const RepeatedDrag& drag, float within) {
+    if (!drag.cured) return false;
+    float side = 0.0f;       // on which it was, well away from the place
+    bool came_near = false;  // since then
+    for (std::size_t i = 0; i < drag.path.size(); ++i) {
+        const glm::vec3 here = drag.path[i].at, last = drag.path[i > 0 ? i - 1 : 0].at;
+        came_near = came_near || distance_to(drag.place, last, here) <= within;
+        const float along = glm::dot(here - drag.place, drag.direction);
+        if (std::abs(along) < 0.5f * within) continue;
+        if (came_near && side * along < 0.0f) return true;
+        side = along;
+        came_near = false;
+    }
+    return false;
+}
+
+bool holds(const CardCondition& condition, std::uint64_t tried, const RepeatedDrag& drag, const Json& state) {
     using Kind = CardCondition::Kind;
     switch (condition.kind) {
         case Kind::Expected:
@@ -35,6 +95,8 @@ bool holds(const CardCondition& condition, std::uint64_t tried, const Json& stat
                 return each.at("kind") == condition.name && each.at("tick").get<std::uint64_t>() >= tried;
             });
         }
+        case Kind::Avoided:
+            return passed_again(drag, condition.within);
     }
     return false;
 }
@@ -50,14 +112,23 @@ void note_command(CardProgress& progress, const Card& card, const std::string& c
                   bool changes, std::uint64_t moment, bool in_panel) {
     progress.done.resize(card.steps.size());
     progress.tried.resize(card.steps.size());
+    progress.drags.resize(card.steps.size());
     for (std::size_t i = 0; i < card.steps.size(); ++i) {
         const CardStep& step = card.steps[i];
         auto& tried = progress.tried[i];
         const bool by_hand = !in_panel || step.place != CardStep::Place::Handle;
-        const bool is_it = by_hand && std::any_of(step.by.begin(), step.by.end(), [&](const CardLine& line) {
-                               return matches(line, command, arguments);
-                           });
-        if (is_it) {
+        const auto line = std::find_if(step.by.begin(), step.by.end(), [&](const CardLine& each) {
+            return by_hand && matches(each, command, arguments);
+        });
+        const CardCondition* const cure = avoided(step);
+        RepeatedDrag& drag = progress.drags[i];
+        if (cure != nullptr && line != step.by.end()) {
+            if (const auto to = moved_to(*line, arguments)) note_drag(drag, *to, moment);
+        } else if (cure != nullptr && changes) {
+            drag.path.clear();
+            drag.cured = drag.caused && command == cure->cure;
+        }
+        if (line != step.by.end()) {
             tried = tried.value_or(moment);
             if (step.when.empty()) progress.done[i] = true;
             progress.seen = nullptr;
@@ -68,18 +139,26 @@ void note_command(CardProgress& progress, const Card& card, const std::string& c
 }
 
 void watch_card(CardProgress& progress, const Card& card, const std::shared_ptr<const Part>& part,
-                const std::function<Json()>& state) {
+                const std::function<Json()>& state, bool dragging) {
     if (progress.ticks_to_wait > 0) --progress.ticks_to_wait;
     if (!card_waits(progress, part) || progress.ticks_to_wait > 0) return;
     const Json now = state();
+    bool undecided = false;
     for (std::size_t i = 0; i < card.steps.size(); ++i) {
         if (!pending(progress, i)) continue;
         const auto& when = card.steps[i].when;
+        RepeatedDrag& drag = progress.drags[i];
+        if (const CardCondition* const cure = avoided(card.steps[i]))
+            note_incident(drag, cure->name, now.at("events"));
+        if (dragging && drag.cured) {
+            undecided = true;  // the rest of the drag may still cause it
+            continue;
+        }
         progress.done[i] = std::all_of(when.begin(), when.end(), [&](const CardCondition& condition) {
-            return holds(condition, *progress.tried[i], now);
+            return holds(condition, *progress.tried[i], drag, now);
         });
     }
-    progress.seen = part;
+    progress.seen = undecided ? nullptr : part;
     progress.ticks_to_wait = 1 + part->bytes() / bytes_a_tick;
 }
 

@@ -76,6 +76,7 @@ struct LegendColumns {
         for (const LegendRow& row : rows) {
             take(0, row.name);
             for (std::size_t i = 0; i < row.numbers.size(); ++i) take(i + 1, row.numbers[i]);
+            for (std::size_t i = 0; i < row.widest.size(); ++i) take(i + 1, row.widest[i]);
         }
     }
     /// Leaves out the numbers if they do not fit.

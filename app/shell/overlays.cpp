@@ -86,7 +86,7 @@ bool begin_sheet(const char* title, glm::vec2 screen, glm::vec2 wanted) {
 
 void show_help(const ShellFrame& frame, Emit& emit) {
     const float scale = frame.layout.scale;
-    if (!begin_sheet("Keys and mouse", frame.screen(), {1180.0f * scale, 640.0f * scale})) {
+    if (!begin_sheet("Keys and mouse", frame.screen(), {1180.0f * scale, 690.0f * scale})) {
         emit("view.help", {{"open", false}});
     }
     // Three columns if there is room, which shows all of it; else two, or one.

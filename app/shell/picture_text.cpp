@@ -4,7 +4,9 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <array>
 #include <glm/common.hpp>
+#include <limits>
 
 #include "app/shell/labels_view.hpp"
 #include "app/shell/panes_view.hpp"
@@ -47,24 +49,9 @@ int covered_by(const Rect& box, const DrawList& drawn, const Camera& camera) {
     return count;
 }
 
-/// The corner where the legend covers the fewest strokes, the lower left if there are several. Titles are at
-/// the top.
-ViewCorner freest_corner(std::span<const Pane> panes, const CameraPose& pose,
-                         std::span<const LegendRow> legend, const Rect& view, float scale) {
-    ViewCorner best = lower_left;
-    int fewest = -1;
-    for (const ViewCorner corner :
-         {lower_left, ViewCorner(0.0f, 0.0f), ViewCorner(1.0f, 1.0f), ViewCorner(1.0f, 0.0f)}) {
-        if (panes.size() > 1 && corner.y == 0.0f) continue;
-        const Rect box = legend_box(legend, view, scale, corner);
-        int count = 0;
-        for (const Pane& pane : panes) count += covered_by(box, pane.drawn, pane.camera(pose));
-        if (fewest >= 0 && count >= fewest) continue;
-        fewest = count;
-        best = corner;
-    }
-    return best;
-}
+/// In order of preference. Titles are at the top.
+const std::array<ViewCorner, 4> corners{lower_left, ViewCorner(0.0f, 0.0f), ViewCorner(1.0f, 1.0f),
+                                        ViewCorner(1.0f, 0.0f)};
 
 }  // namespace
 
@@ -88,13 +75,35 @@ PictureText::~PictureText() {
     ImGui::DestroyContext(context_);
 }
 
+void PictureText::look_at(std::span<const Pane> panes, const CameraPose& pose,
+                          std::span<const LegendRow> legend) {
+    const CurrentContext current(context_);
+    ImGui_ImplOpenGL3_NewFrame();
+    ImGui::NewFrame();
+    count_covered(panes, pose, legend);
+    ImGui::EndFrame();
+}
+
+/// Needs a frame, for the sizes of texts.
+void PictureText::count_covered(std::span<const Pane> panes, const CameraPose& pose,
+                                std::span<const LegendRow> legend) {
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const Rect box = legend_box(legend, {{0.0f, 0.0f}, glm::vec2(size_)}, scale_, corners[i]);
+        for (const Pane& pane : panes) covered_[i] += covered_by(box, pane.drawn, pane.camera(pose));
+        if (panes.size() > 1 && corners[i].y == 0.0f) covered_[i] = std::numeric_limits<int>::max() / 2;
+    }
+}
+
 void PictureText::draw(std::span<const Pane> panes, const CameraPose& pose, std::span<const PaneTitle> titles,
                        std::span<const LegendRow> legend, const Palette& palette) {
     const CurrentContext current(context_);
     ImGui_ImplOpenGL3_NewFrame();
     ImGui::NewFrame();
     const Rect view{{0.0f, 0.0f}, glm::vec2(size_)};
-    if (!corner_) corner_ = freest_corner(panes, pose, legend, view, scale_);
+    if (!corner_) {
+        count_covered(panes, pose, legend);
+        corner_ = corners[static_cast<std::size_t>(std::ranges::min_element(covered_) - covered_.begin())];
+    }
     const Rect covered = show_legend(legend, view, palette, scale_, *corner_);
     for (const Pane& pane : panes)
         show_labels(pane.drawn, pane.camera(pose), palette, scale_, std::span(&covered, 1));

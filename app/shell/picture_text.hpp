@@ -2,6 +2,7 @@
 // window, with fonts rasterised for the picture.
 #pragma once
 
+#include <array>
 #include <glm/vec2.hpp>
 #include <optional>
 #include <span>
@@ -23,16 +24,22 @@ class PictureText {
     PictureText(const PictureText&) = delete;
     PictureText& operator=(const PictureText&) = delete;
 
+    /// Counts what the legend would cover in each corner, so that draw() takes the freest one of all pictures
+    /// of a video. Without it, draw() goes by its first picture.
+    void look_at(std::span<const Pane> panes, const CameraPose& pose, std::span<const LegendRow> legend);
     /// Over the scene, into the bound framebuffer. The panes have been drawn with that camera and palette.
     void draw(std::span<const Pane> panes, const CameraPose& pose, std::span<const PaneTitle> titles,
               std::span<const LegendRow> legend, const Palette& palette);
 
   private:
+    void count_covered(std::span<const Pane> panes, const CameraPose& pose,
+                       std::span<const LegendRow> legend);
+
     glm::ivec2 size_;
     float scale_;
     ImGuiContext* context_;
-    std::optional<glm::vec2>
-        corner_;  ///< the legend's, for all pictures: where it covers the fewest strokes of the first
+    std::array<int, 4> covered_{};     ///< strokes under the legend in each corner, of all pictures so far
+    std::optional<glm::vec2> corner_;  ///< the legend's, for all pictures
 };
 
 }  // namespace tendril::app

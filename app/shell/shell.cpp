@@ -13,6 +13,7 @@
 #include "app/shell/theme.hpp"
 #include "app/widgets/fonts.hpp"
 #include "app/widgets/icons.hpp"
+#include "app/widgets/number_entry.hpp"
 #include "app/widgets/text.hpp"
 
 namespace tendril::app {
@@ -63,7 +64,7 @@ void folded_strip(const ShellFrame& frame, const Rect& rect, bool left, Emit& em
     if (hovered) {
         list->AddRectFilled({rect.min.x, rect.min.y}, {rect.max.x, rect.max.y},
                             ImGui::GetColorU32(ImGuiCol_ButtonHovered));
-        ImGui::SetTooltip("%s", with_keys(frame, "Show the panel", "view.panels").c_str());
+        tooltip(with_keys(frame, "Show the panel", "view.panels"));
     }
     const float inner = left ? rect.max.x - 1.0f : rect.min.x;
     list->AddLine({inner, rect.min.y}, {inner, rect.max.y}, ImGui::GetColorU32(ImGuiCol_Border));
@@ -127,7 +128,7 @@ void tab_list(const ShellFrame& frame, Emit& emit) {
     ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_Header));
     if (ImGui::Button((title + "###labs").c_str())) ImGui::OpenPopup("labs");
     ImGui::PopStyleColor();
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("The other labs");
+    if (ImGui::IsItemHovered()) tooltip("The other labs");
     const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
     place_below_bar(frame, low.x);
     if (ImGui::BeginPopup("labs")) {
@@ -167,8 +168,8 @@ void tabs(const ShellFrame& frame, float room, Emit& emit) {
         if (ImGui::Button(lab->title().c_str())) emit("lab.open", {{"name", lab->name()}});
         ImGui::PopStyleColor();
         if (ImGui::IsItemHovered())
-            ImGui::SetTooltip(open ? "The %s lab is open" : "Opens the %s lab; this one stays as it is",
-                              lab->title().c_str());
+            tooltip(open ? "The " + lab->title() + " lab is open"
+                         : "Opens the " + lab->title() + " lab; this one stays as it is");
     }
 }
 
@@ -179,7 +180,7 @@ void play_button(const ShellFrame& frame, Emit& emit) {
     if (!moving) ImGui::PopStyleColor();
     if (!ImGui::IsItemHovered()) return;
     const char* effect = !moving ? "Nothing here moves with time" : playing ? "Pause" : "Play";
-    ImGui::SetTooltip("%s", with_keys(frame, effect, "time.toggle").c_str());
+    tooltip(with_keys(frame, effect, "time.toggle"));
 }
 
 /// Centred in the window if possible, between `from` and `to`; without the time if there is little room.
@@ -326,6 +327,10 @@ void Shell::side_panel(const ShellFrame& frame, bool left, Emit& emit) {
 }
 
 void Shell::frame(const ShellFrame& frame, Emit& emit) {
+    const Layout& layout = frame.layout;
+    auto& editing = *static_cast<NumberEditing*>(ImGui::GetIO().UserData);
+    editing.middle_min = {layout.left.max.x, layout.top.max.y};
+    editing.middle_max = {layout.right.min.x, layout.status.min.y};
     top_bar(frame, emit);
     side_panel(frame, true, emit);
     side_panel(frame, false, emit);

@@ -107,7 +107,7 @@ bool section_button(const char* title, bool open) {
     const float line = ImGui::GetTextLineHeight(), width = std::max(1.0f, ImGui::GetContentRegionAvail().x);
     const bool clicked = ImGui::InvisibleButton((std::string("section ") + title).c_str(), {width, line});
     const ImU32 colour = ImGui::GetColorU32(ImGui::IsItemHovered() ? ImGuiCol_Text : ImGuiCol_TextDisabled);
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip(open ? "Click folds this section" : "Click unfolds it");
+    if (ImGui::IsItemHovered()) tooltip(open ? "Click folds this section" : "Click unfolds it");
     const ImVec2 below = ImGui::GetCursorScreenPos();
     ImGui::SetCursorScreenPos(at);
     ImGui::TextUnformatted(title);

@@ -44,7 +44,8 @@ struct NumberEditing {
     std::string refused{};  ///< invalid text that the user left, with the reason; empty: none
     TextEditing typed;
     RowAbove row;
-    RowSearch* search = nullptr;  ///< that is on now; see row_search.hpp
+    glm::vec2 middle_min{0.0f}, middle_max{0.0f};  ///< between panels and bars: where their tooltips go
+    RowSearch* search = nullptr;                   ///< that is on now; see row_search.hpp
 };
 
 /// Returns the new number in a frame in which the user changed it. `format` is a printf format with the unit

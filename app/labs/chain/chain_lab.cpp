@@ -155,12 +155,25 @@ Bounds ChainLab::bounds(const Workspace& workspace, bool selection_only) const {
         low = glm::min(low, *part.reach.pole);
         high = glm::max(high, *part.reach.pole);
     }
-    return bounds_of(low, high);
+    // A chain of a few centimetres fills the view as a long one does.
+    const float reach = part.chain.reach();
+    return bounds_of(low, high, reach > 0.0f ? std::clamp(0.5f * reach, 0.001f, 0.5f) : 0.5f);
 }
 
 std::vector<PaneTitle> ChainLab::panes(const Workspace& workspace) const {
     return race_panes(shown_chain(workspace), palette(workspace.settings.theme));
 }
+
+namespace {
+
+/// The longer text of a racer at its end and in the last iteration of the race.
+std::string widest_outcome(const Racer& racer, std::size_t last) {
+    const std::string end = outcome_text(racer, racer_at(racer, last)),
+                      running = progress_text({.iteration = static_cast<int>(last), .joints = {}});
+    return end.size() > running.size() ? end : running;
+}
+
+}  // namespace
 
 std::vector<LegendRow> ChainLab::legend(const Workspace& workspace) const {
     const Palette& colours = palette(workspace.settings.theme);
@@ -174,10 +187,11 @@ std::vector<LegendRow> ChainLab::legend(const Workspace& workspace) const {
             const RacerAt at = racer_at(racer, shown.step());
             rows.push_back({.name = solver_title(racer.method),
                             .colour = solver_colour(colours, racer.method),
-                            .numbers = {progress_text(at), error_reading(at)}});
+                            .numbers = {outcome_text(racer, at), error_reading(at)},
+                            .widest = {widest_outcome(racer, shown.last()), "error 888.8 mm"}});
         }
         if (shown.race->racers.size() > 1 && !part.study.side_by_side)
-            rows.push_back({"joint of several solvers", colours.neutral});
+            rows.push_back({"same place, drawn side by side", colours.neutral});
         rows.push_back({"root", colours.head});
         rows.push_back({"start", colours.ghost});
         rows.push_back({"target", colours.target});
@@ -232,7 +246,8 @@ std::vector<LabSetting> ChainLab::settings() const {
 
 std::vector<CommandCall> ChainLab::opening() const {
     return {{"chain.preset", {{"name", reaching_arm}}},
-            {"chain.motion", {{"path", "figure_eight"}, {"radius", 0.45f}, {"period", 9.0f}}},
+            // In the plane of the view through root and pole target, so that a drag leads over the latter.
+            {"chain.motion", {{"path", "sweep"}, {"radius", 0.4f}, {"period", 9.0f}}},
             {"view.segments", {{"style", "bones"}}},
             {"view.reach_sphere", {{"show", "on"}}},
             {"camera.set",
@@ -268,6 +283,10 @@ std::vector<TestScene> ChainLab::test_scenes() const {
 
 std::vector<Incident> ChainLab::review(const Workspace&, const Part& before, const Part& after) const {
     return chain_incidents(dynamic_cast<const ChainPart&>(before), dynamic_cast<const ChainPart&>(after));
+}
+
+bool ChainLab::same_joints(const Part& before, const Part& after) const {
+    return chain_past().same_joints(before, after);
 }
 
 }  // namespace tendril::app

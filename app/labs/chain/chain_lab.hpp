@@ -31,6 +31,7 @@ class ChainLab final : public Lab {
     std::uint64_t tick_work(const Workspace& workspace) const override;
     std::vector<Incident> review(const Workspace& workspace, const Part& before,
                                  const Part& after) const override;
+    bool same_joints(const Part& before, const Part& after) const override;
     void draw(const View& view, DrawList& list) const override;
 
     std::vector<PaneTitle> panes(const Workspace& workspace) const override;

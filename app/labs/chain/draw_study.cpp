@@ -132,6 +132,8 @@ class RaceDrawing {
         }
         project();
         for (std::size_t c = 0; c < chains_.size(); ++c) chain(c);
+        if (!study_.side_by_side)
+            for (std::size_t c = 0; c < chains_.size(); ++c) name_at_tip(c);
     }
 
   private:
@@ -210,6 +212,24 @@ class RaceDrawing {
                                          : glm::vec3(colour);
         list_.sphere(joints(c)[i], px(i == 0 ? 7.0f : 5.0f), Unit::Pixels, glm::vec4(paint, 1.0f)).shadow =
             true;
+    }
+
+    /// Chains that share a tip share a label, a name a line.
+    void name_at_tip(std::size_t c) {
+        const std::size_t tip = joints(c).size() - 1;
+        std::string names;
+        for (std::size_t d = 0; d < chains_.size(); ++d) {
+            if (d != c && !same_joint(c, d, tip)) continue;
+            if (d < c) return;
+            names += (names.empty() ? "" : "\n") + std::string(solver_title(chains_[d].method));
+        }
+        const bool alone = names == solver_title(chains_[c].method);
+        list_.labels.push_back(
+            {.at = joints(c)[tip],
+             .clearance = px(12.0f),
+             .text = std::move(names),
+             .colour = alone ? solver_colour(view_.palette, chains_[c].method) : view_.palette.text,
+             .rank = 2});
     }
 
     const View& view_;

@@ -31,8 +31,8 @@ void chain_rows(const ShownChain& shown, const Joints& joints) {
     reading(reaches ? "root to target" : "head to target", "%.3f m",
             static_cast<double>(glm::distance(joints.front(), part.target)));
     if (!reaches) reading("tail to target", "%.3f m", static_cast<double>(shown_residual(part, joints)));
-    reading("worst error", "%s", error_text(static_cast<double>(worst_error(shown, joints))).c_str());
-    explain("How far the worst bone is from its length; none: less than 0.01 mm.");
+    reading("length error", "%s", error_text(static_cast<double>(worst_error(shown, joints))).c_str());
+    explain("How far the worst bone is from its length, wherever the tip is; none: less than 0.01 mm.");
 }
 
 void joint_row(const ShownChain& shown, const Joints& joints, std::size_t i, Emit& emit) {

@@ -85,6 +85,7 @@ void add_paste_command(CommandTable& table) {
         }
         const std::shared_ptr<const Part> before = workspace.document.parts().at(chain_lab);
         change(workspace, given);
+        frame_unless_seen(workspace, ChainLab().bounds(workspace, false));
         workspace.toast(pasted_text(dynamic_cast<const ChainPart&>(*before), given.text("text")));
     };
     table.add(std::move(command));

@@ -144,8 +144,8 @@ Chain make_preset(const std::string& name, std::size_t count, std::uint32_t seed
 void make_it_reach(ChainPart& part, ChainRuntime& runtime) {
     part.mode = ChainMode::Reach;
     part.reach = {};
-    // In the opening view, target, pole target and shoulder are at a similar depth, so that a drag in the
-    // view plane can lead from one to the other.
+    // In the opening view, target, pole target and shoulder are equally deep, so that a drag of the target in
+    // the view plane leads over the pole target, and the elbow flips.
     part.reach.pole = glm::vec3(0.3f, 2.5f, -0.5f);
     constexpr std::size_t elbow = 1;
     if (part.chain.size() > elbow + 1) {

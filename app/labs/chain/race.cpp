@@ -142,6 +142,28 @@ std::string progress_text(const RacerAt& at) {
     return (at.finished ? "finished after " : "iteration ") + std::to_string(at.iteration);
 }
 
+std::string outcome_text(const Racer& racer, const RacerAt& at) {
+    if (!at.finished) return progress_text(at);
+    const std::string after = " after " + std::to_string(at.iteration);
+    switch (racer.report.status) {
+        case ik::Status::Converged:
+            break;
+        case ik::Status::Stretched:
+            return "stopped" + after + ", out of reach";
+        case ik::Status::TooClose:
+            return "stopped" + after + ", target too close";
+        case ik::Status::Limited:
+            return "stopped" + after + ", at its limits";
+        case ik::Status::Stalled:
+            return "stalled" + after + ", nothing changes";
+        case ik::Status::IterationLimit:
+            return "stopped" + after + ", none left";
+        case ik::Status::InvalidInput:
+            return "does not support this chain";
+    }
+    return progress_text(at);
+}
+
 std::string error_reading(const RacerAt& at) {
     return "error " + si_text(static_cast<double>(at.error), "m");
 }

@@ -183,7 +183,7 @@ void race_rows(const ShownChain& shown, const Palette& palette, Emit& emit) {
     }
     race_plot(shown, time, palette);
     if (ImGui::Checkbox("Against time", &time)) kept.SetBool(kept_as, time);
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Measured on this machine, the fastest of several runs");
+    if (ImGui::IsItemHovered()) tooltip("Measured on this machine, the fastest of several runs");
     bool apart = shown.part.study.side_by_side;
     if (ImGui::Checkbox("Side by side", &apart)) {
         emit("race.side_by_side", {{"on", apart}});

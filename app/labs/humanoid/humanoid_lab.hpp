@@ -19,6 +19,7 @@ class HumanoidLab final : public Lab {
     void step(Workspace& workspace) const override;
     std::vector<Incident> review(const Workspace& workspace, const Part& before,
                                  const Part& after) const override;
+    bool same_joints(const Part& before, const Part& after) const override;
     bool working(const Workspace& workspace) const override;
     void work(Workspace& workspace) const override;
     float timeline_height(const Workspace& workspace) const override;

@@ -21,6 +21,7 @@ class RigLab final : public Lab {
     double seconds(const Workspace& workspace) const override;
     std::vector<Incident> review(const Workspace& workspace, const Part& before,
                                  const Part& after) const override;
+    bool same_joints(const Part& before, const Part& after) const override;
     bool working(const Workspace& workspace) const override;
     void work(Workspace& workspace) const override;
     float timeline_height(const Workspace& workspace) const override;

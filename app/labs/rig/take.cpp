@@ -148,7 +148,7 @@ bool RigTake::operator==(const RigTake& other) const {
 }
 
 void begin_take(RigPart& part) {
-    if (part.rates && part.rates->running) part.rates.reset();  // it belongs to the old take
+    part.rates.reset();  // they belong to the old take
     for (RigWalk& each : part.walks)
         each.motion.ticks = (each.motion.ticks + part.take.tick) % ticks_per_round(each.motion);
     part.take = {.start = nullptr, .keys = nullptr, .tick = 0, .last = 0, .began = part.take.now()};
@@ -350,6 +350,10 @@ double RigLab::seconds(const Workspace& workspace) const {
 
 std::vector<Incident> RigLab::review(const Workspace&, const Part& before, const Part& after) const {
     return rig_incidents(dynamic_cast<const RigPart&>(before), dynamic_cast<const RigPart&>(after));
+}
+
+bool RigLab::same_joints(const Part& before, const Part& after) const {
+    return rig_past().same_joints(before, after);
 }
 
 bool RigLab::working(const Workspace& workspace) const {

@@ -212,9 +212,8 @@ Verdict rope_verdict(const RopePart& part) {
     constexpr double seen = 0.01;  // of its length: visibly too long
     if (part.world->state().bodies.empty())
         return {"No ropes", Verdict::Kind::Open, "Add a rope, cloth or hair, or open a preset."};
-    if (part.samples.empty())
-        return {"Not moved yet", Verdict::Kind::Open, "Space runs or pauses the simulation."};
-    const RopeSample last = part.samples.back();
+    // Before its first tick, an opened scene is judged as it stands.
+    const RopeSample last = part.samples.empty() ? sample_of(part, {}) : part.samples.back();
     const RopeReport report = last_second(part.samples);
     const auto error = static_cast<double>(last.error), before = static_cast<double>(last.stretch);
     if (report.inside > 0)

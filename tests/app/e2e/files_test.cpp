@@ -8,6 +8,8 @@
 #include "tests/places.hpp"
 #include "tests/says.hpp"
 
+#include "app/app.hpp"
+#include "app/document/atomic_file.hpp"
 #include "app/document/expectation.hpp"
 #include "app/labs/labs.hpp"
 
@@ -139,6 +141,17 @@ TEST_F(Files, ThatNoLabReadsAreRefusedAndChangeNothing) {
             EXPECT_EQ(refused.state, before);
         }
     }
+}
+
+TEST(SavedScene, IsToldWithItsFolder) {
+    const auto window = app::open_offscreen({1280, 720});
+    app::App program(*window);
+    const TempFolder folder;
+    const auto told = [&] { return program.workspace().ui.toasts.back().text; };
+    program.run({"scene.save", app::Json{{"path", (folder / "arm.json").string()}}});
+    EXPECT_EQ(told(), "Saved: " + app::shown_path(folder / "arm.json"));
+    program.run({"scene.save_dialog", app::Json::object()});
+    EXPECT_EQ(told(), "Saved: " + app::shown_path(folder / "arm.json"));
 }
 
 }  // namespace

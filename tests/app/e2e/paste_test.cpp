@@ -40,6 +40,36 @@ TEST_F(Paste, OverTheViewMakesAChainAndUndoTakesItBack) {
     EXPECT_EQ(part().chain.size(), 8u);
 }
 
+TEST_F(Paste, OfASmallArmFramesItAndOfOneInViewDoesNot) {
+    app_.run({"scene.new", Json::object()});
+    const CameraPose before = app_.workspace().camera;
+    paste("0 0 0\n3 1 0\n6 0 1");
+    EXPECT_EQ(app_.workspace().camera, before) << "all of it is seen";
+    paste("0 0 0\n0.03 0 0\n0.05 0.02 0");
+    EXPECT_LT(app_.workspace().camera.distance, 0.5f);
+    const Json state = app_.state();
+    EXPECT_GT(glm::distance(handle(state, "segment.0"), handle(state, "segment.2")), 100.0f) << "pixels";
+    const CameraPose near = app_.workspace().camera;
+    paste("90 0 0\n90.03 0 0\n90.05 0.02 0");
+    EXPECT_NE(app_.workspace().camera, near) << "it was outside";
+}
+
+TEST_F(Paste, OfAnotherChainDropsTheFlipsOfTheOneBefore) {
+    const auto flip = [&] {
+        app_.workspace().rewind.note({.kind = Incident::Kind::Flip, .joint = 1, .cause = "it was straight"});
+    };
+    const auto incidents = [&] { return app_.workspace().rewind.incidents().size(); };
+    app_.run({"chain.mode", Json{{"mode", "reach"}}});
+    flip();
+    app_.run({"chain.target", Json{{"to", {2, 3, 0}}}});
+    EXPECT_GE(incidents(), 1u) << "the chain is the same";
+    paste("0 0 0\n1 1 0\n2 1 0");
+    EXPECT_EQ(incidents(), 0u);
+    flip();
+    app_.run({"undo", Json::object()});
+    EXPECT_EQ(incidents(), 0u) << "that was the pasted chain's";
+}
+
 TEST_F(Paste, OfJunkIsRefusedAndTypedTextIsNoPaste) {
     const Json before = app_.state();
     paste("1 2 3\n4 5 six");

@@ -63,7 +63,8 @@ TEST(RacePicture, HasItsLegendUnlessOneDoesNotWantIt) {
     const std::vector<bool> pixels = differing(picture("with.png"), picture("without.png"));
     const int all = count_in(pixels, 800, {0, 0}, {800, 600});
     EXPECT_GT(all, 2000);
-    EXPECT_EQ(count_in(pixels, 800, {0, 360}, {500, 600}), all) << "only the legend, in its corner";
+    EXPECT_GT(count_in(pixels, 800, {0, 360}, {500, 600}), all / 2) << "the legend, in its corner";
+    EXPECT_LT(count_in(pixels, 800, {0, 360}, {500, 600}), all) << "and the names at the tips";
 }
 
 TEST(RacePicture, HasItsLegendWhereItCoversNoChain) {

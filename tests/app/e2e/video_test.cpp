@@ -1,6 +1,7 @@
 // The last seconds as a video: every frame is the picture of its moment, and nothing else changes.
 #include <cstdlib>
 
+#include "app/app.hpp"
 #include "app/document/command.hpp"
 #include "tests/app/support/apng.hpp"
 #include "tests/app/support/play.hpp"
@@ -300,6 +301,30 @@ TEST(CopiedPicture, SaysWhatToInstall) {
     const Environment fake =
         with_program(tools, "xclip", "echo \"Error: Can't open display: (null)\" >&2; exit 1\n");
     EXPECT_TRUE(has(run_script(copy, fake).err, "xclip failed: Error: Can't open display: (null)"));
+}
+
+TEST(VideoDialog, PausesOnlyUntilItIsClosed) {
+    const auto window = app::open_offscreen({1280, 720});
+    app::App program(*window);
+    const auto run = [&](const char* name, const Json& arguments = Json::object()) {
+        program.run({name, arguments});
+    };
+    run("chain.motion", {{"path", "circle"}});
+    for (int i = 0; i < 20; ++i) program.tick(nullptr);
+    const app::Clock& clock = program.workspace().clock;
+    ASSERT_TRUE(clock.playing);
+    run("view.video_dialog");
+    EXPECT_FALSE(clock.playing);
+    run("view.close");
+    EXPECT_TRUE(clock.playing);
+    const TempFolder folder;
+    run("view.video_dialog");
+    run("view.video", video(folder / "last.png"));
+    EXPECT_TRUE(clock.playing) << "recording it goes on as well";
+    run("time.pause");
+    run("view.video_dialog");
+    run("view.close");
+    EXPECT_FALSE(clock.playing) << "it was paused before";
 }
 
 }  // namespace

@@ -62,6 +62,25 @@ TEST_F(RaceDrawingTest, EqualChainsRunAlongLikeStrands) {
     }
 }
 
+/// Solvers that share a tip share a label.
+TEST_F(RaceDrawingTest, EveryTipHasTheNameOfItsSolver) {
+    reach_with(6);
+    run("race.open", {{"start", "straight"}});
+    run("chain.target", {{"to", Json::array({3, 3, 1})}});
+    run("race.show", {{"iteration", 2}});
+    DrawList list;
+    labs.find(chain_lab)->draw({workspace, camera_, colours_, no_pick, no_pick, 1.0f, 0}, list);
+    for (const Racer& racer : race()->racers) {
+        const glm::vec3 tip = racer_at(racer, 2).joints.back();
+        int named = 0;
+        for (const Label& each : list.labels)
+            if (each.text.find(solver_title(racer.method)) != std::string::npos &&
+                glm::distance(seen(each.at), seen(tip)) < 4.0f)
+                ++named;
+        EXPECT_GE(named, 1) << ik::name(racer.method);
+    }
+}
+
 /// Around a bend the strands meet at their corners and keep their distance.
 TEST_F(RaceDrawingTest, StrandsMeetAtTheCorners) {
     reach_with(6);

@@ -206,6 +206,31 @@ TEST_F(ChainRace, TheLegendHasEachRacersIterationAndError) {
     for (const PaneTitle& title : titles) EXPECT_TRUE(says(title.detail, "from the target"));
 }
 
+TEST_F(ChainRace, TheLegendSaysWhoStoppedShortAndKeepsItsWidths) {
+    race_of(6);
+    run("chain.target", {{"to", {30, 3, 1}}});  // out of reach
+    const auto rows = lab().legend(workspace);
+    std::size_t short_of_it = 0;
+    for (std::size_t i = 0; i < race()->racers.size(); ++i) {
+        const ik::Status status = race()->racers[i].report.status;
+        if (status == ik::Status::Converged) continue;
+        ++short_of_it;
+        EXPECT_TRUE(
+            says(rows[i].numbers[0], status == ik::Status::Stalled ? "stalled after" : "stopped after"))
+            << rows[i].numbers[0];
+    }
+    EXPECT_GT(short_of_it, 0u);
+    for (std::size_t step = 0; step <= race()->iterations(); ++step) {
+        run("race.show", {{"iteration", step}});
+        const auto now = lab().legend(workspace);
+        for (std::size_t i = 0; i < race()->racers.size(); ++i) {
+            EXPECT_EQ(now[i].widest, rows[i].widest);
+            EXPECT_LE(now[i].numbers[0].size(), now[i].widest.at(0).size());
+            EXPECT_LE(now[i].numbers[1].size(), now[i].widest.at(1).size());
+        }
+    }
+}
+
 TEST(KeptPosesTest, StayWithinTheirMemory) {
     constexpr std::size_t joints = 8, most = 800;
     KeptPoses poses(most);

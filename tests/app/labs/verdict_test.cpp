@@ -20,7 +20,7 @@ TEST_F(RopeVerdict, SaysWhetherLengthsHold) {
     run("rope.clear");
     EXPECT_EQ(said(), "No ropes");
     run("rope.preset", {{"name", "pendulum"}});
-    EXPECT_EQ(said(), "Not moved yet");
+    EXPECT_EQ(said(), "Lengths hold") << "before it has moved";
     wait(60);
     EXPECT_EQ(said(), "Lengths hold");
     // A solver that does not keep lengths, with few iterations.
@@ -28,6 +28,17 @@ TEST_F(RopeVerdict, SaysWhetherLengthsHold) {
     run("rope.settings", {{"solver", "relaxation"}, {"iterations", 1}});
     wait(60);
     EXPECT_TRUE(said().starts_with("Lengths off by ")) << said();
+}
+
+TEST_F(RopeVerdict, OfAnOpenedSceneIsTheOneItWasSavedWith) {
+    run("rope.preset", {{"name", "bridge"}});
+    run("rope.settings", {{"solver", "relaxation"}, {"iterations", 1}});
+    wait(60);
+    const std::string before = said();
+    ASSERT_TRUE(before.starts_with("Lengths off by ")) << before;
+    run("time.pause");
+    load_scene(workspace, save_scene(workspace));
+    EXPECT_EQ(said(), before);
 }
 
 TEST_F(RopeVerdict, OfElasticRopesAsksForNothing) {

@@ -65,6 +65,7 @@ TEST(CardFile, that_is_broken_is_refused_with_its_place) {
         {"/steps/0/when/0", {{"happens", "x"}}, "cards.0.steps.0.when.0: expected one of"},
         {"/steps/0/when/0", {{"expect", "x"}}, "cards.0.steps.0.when.0: expected exactly one of"},
         {"/steps/0/when/0", {{"present", "x"}, {"above", 1}}, "cards.0.steps.0.when.0: unknown member"},
+        {"/steps/0/when/0", {{"avoided", "x"}, {"after", "y"}}, "cards.0.steps.0.when.0"},
         {"/steps/0/script", Json::array(), "cards.0.steps.0.script: expected a line, found none"}};
     for (const Case& each : cases) {
         Json card = good_card();
@@ -172,6 +173,42 @@ TEST_F(CardWatch, an_event_must_be_of_that_kind_and_come_with_the_command) {
     move_ball();
     change({{"events", Json::array({event("flip", 4), event("flip", 7), event("limit", 8)})}});
     EXPECT_TRUE(done()) << "of the same drag";
+}
+
+TEST_F(CardWatch, a_drag_repeated_after_a_cure_must_lead_past_the_place_and_cause_nothing) {
+    use_conditions(Json::array({{{"avoided", "flip"}, {"after", "cure"}, {"within", 0.5}}}));
+    Json state{{"events", Json::array()}};
+    const auto drag = [&](double from, double to, double aside, double flips_at = -9.0) {
+        const double step = from < to ? 0.25 : -0.25;
+        for (double x = from; step * (to - x) >= 0.0; x += step) {
+            ++moment_;
+            run("move", {{"what", "ball"}, {"to", {x, aside, 0}}});
+            if (x == flips_at) state["events"].push_back({{"kind", "flip"}, {"tick", moment_}});
+            part_ = std::make_shared<test::TestPart>();
+            for (int i = 0; i < 3; ++i) watch(state);
+        }
+    };
+    drag(-1, 1, 0);
+    run("cure", Json::object());
+    drag(1, -1, 0);
+    EXPECT_FALSE(done()) << "nothing had happened before the cure";
+    drag(-1, 1, 0, 0);
+    drag(1, -1, 0);
+    EXPECT_FALSE(done()) << "no cure came first";
+    run("cure", Json::object());
+    EXPECT_FALSE(done());
+    drag(-1, 0, 0);
+    EXPECT_FALSE(done()) << "not yet past it";
+    drag(-0.25, -1, 0);
+    drag(-1, 1, 0.75);
+    EXPECT_FALSE(done()) << "somewhere else";
+    drag(1, -1, 0.25, 0.25);
+    EXPECT_FALSE(done()) << "it flipped again";
+    drag(-1, 1, 0.25);
+    EXPECT_FALSE(done()) << "which needs another cure";
+    run("cure", Json::object());
+    drag(1, -1, 0);
+    EXPECT_TRUE(done());
 }
 
 TEST_F(CardWatch, the_state_is_asked_for_only_when_the_part_is_another) {

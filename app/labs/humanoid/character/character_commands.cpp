@@ -176,7 +176,7 @@ void load(Workspace& workspace, const Arguments& given) {
     const std::string file = given.has("path") ? given.text("path") : std::string();
     if (given.has("path") && file.empty()) throw std::invalid_argument("path is empty");
     Loading& loading = humanoid_runtime(workspace).loading;
-    if (loads_beside(workspace, file)) return loading.begin(file);
+    if (loads_beside(workspace, file)) return loading.begin(file, workspace.lab);
     SharedCharacter character = load_character(file);
     loading.cancel();
     show(workspace, std::move(character));
@@ -234,7 +234,13 @@ void finish_loading(Workspace& workspace) {
     }
     // A single undo step, as if the command had done all of it now.
     const Document before = workspace.document;
-    const Place from = workspace.place();
+    Place from = workspace.place();
+    // The file may have been opened in another lab, which closed then.
+    if (const auto camera = workspace.cameras.find(loading.from());
+        loading.from() != workspace.lab && camera != workspace.cameras.end()) {
+        from.lab = loading.from();
+        from.camera = camera->second;
+    }
     show(workspace, std::move(character));
     workspace.rewind.forget_from(workspace.moment);
     ++workspace.edition;

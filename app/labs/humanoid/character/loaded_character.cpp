@@ -61,9 +61,10 @@ SharedCharacter rescaled(const LoadedCharacter& character, double metres) {
     return loaded;
 }
 
-void Loading::begin(const std::string& file) {
+void Loading::begin(const std::string& file, const std::string& from) {
     cancel();
     file_ = file;
+    from_ = from;
     progress_ = std::make_unique<LoadProgress>();
     done_ = false;
     thread_ = std::thread([this] {

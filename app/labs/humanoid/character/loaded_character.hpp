@@ -58,11 +58,12 @@ class Loading {
     Loading(const Loading&) = delete;
     Loading& operator=(const Loading&) = delete;
 
-    /// Starts reading; cancels a read in progress.
-    void begin(const std::string& file);
+    /// Starts reading; cancels a read in progress. `from`: the open lab, to which undo goes back.
+    void begin(const std::string& file, const std::string& from);
     void cancel();
     bool running() const { return thread_.joinable(); }
     const std::string& file() const { return file_; }
+    const std::string& from() const { return from_; }
     float part() const { return progress_->part(); }
     /// Whether take() would return without waiting.
     bool done() const { return running() && done_; }
@@ -70,7 +71,7 @@ class Loading {
     SharedCharacter take();
 
   private:
-    std::string file_;
+    std::string file_, from_;
     std::unique_ptr<LoadProgress> progress_ = std::make_unique<LoadProgress>();
     std::atomic<bool> done_{false};
     SharedCharacter read_;

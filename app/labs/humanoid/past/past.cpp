@@ -258,6 +258,10 @@ void add_short_effectors(const HumanoidMoment& was, const HumanoidMoment& is,
 
 }  // namespace
 
+bool HumanoidLab::same_joints(const Part& before, const Part& after) const {
+    return humanoid_past().same_joints(before, after);
+}
+
 std::vector<Incident> HumanoidLab::review(const Workspace& workspace, const Part& before,
                                           const Part& after) const {
     const auto& was_part = dynamic_cast<const HumanoidPart&>(before);

@@ -5,6 +5,7 @@
 #include "app/labs/humanoid/humanoid_commands.hpp"
 #include "app/labs/humanoid/humanoid_lab.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
+#include "app/labs/labs.hpp"
 #include "tests/app/labs/humanoid/humanoid_support.hpp"
 #include "tests/app/support/temp_folder.hpp"
 
@@ -65,6 +66,26 @@ TEST_F(HumanoidLoading, the_character_comes_with_a_later_tick_and_undo_brings_ba
     const auto before = workspace_.history.undo(workspace_.document);
     ASSERT_TRUE(before);
     EXPECT_TRUE(before->get<HumanoidPart>(humanoid_lab).loaded->file.empty());
+}
+
+TEST_F(HumanoidLoading, undo_goes_back_to_the_lab_that_was_open) {
+    const Labs labs;
+    const CommandTable table = make_command_table(labs);
+    workspace_ = make_blank_workspace(labs);
+    workspace_.open_lab("chain");
+    workspace_.clock.measured = true;
+    const CameraPose camera = workspace_.camera;
+    test::write(folder_ / "large.bvh", large_bvh(20));
+    table.run(workspace_, "file.open", {{"path", (folder_ / "large.bvh").string()}});
+    EXPECT_EQ(workspace_.lab, humanoid_lab);
+    wait();
+    ASSERT_FALSE(is_stick_figure());
+    table.run(workspace_, "undo", Json::object());
+    EXPECT_TRUE(is_stick_figure());
+    EXPECT_EQ(workspace_.lab, "chain");
+    EXPECT_EQ(workspace_.camera, camera);
+    table.run(workspace_, "redo", Json::object());
+    EXPECT_EQ(workspace_.lab, humanoid_lab);
 }
 
 TEST_F(HumanoidLoading, a_script_finds_it_done) {

@@ -1,4 +1,5 @@
 // Comparing frame rates tick by tick, as in the window.
+#include "app/labs/rig/take.hpp"
 #include "rig_support.hpp"
 
 namespace tendril::app {
@@ -11,6 +12,14 @@ class RigRates : public RigTest {
         run("rig.motion", {{"name", "head"}, {"path", "figure_eight"}, {"radius", 0.6}, {"period", 1.7}});
     }
 };
+
+TEST_F(RigRates, OfAnEarlierTakeAreShownNoMore) {
+    run("rig.rates");
+    ASSERT_TRUE(part().rates);
+    // As after a backward solve that found other values for the controls.
+    begin_take(workspace.document.edit<RigPart>(rig_lab));
+    EXPECT_FALSE(part().rates);
+}
 
 /// The result is the same however it is divided into ticks, restarted, or loaded from a file half way.
 TEST_F(RigRates, FrameRatesAreComparedFromTickToTick) {
