@@ -301,7 +301,7 @@ void set_view(RopeEdit& edit, const Arguments& given) {
 
 void add_look_commands(CommandTable& table) {
     table.add(
-        rope_command("rope.select", "Select particles, a collider or a tie",
+        rope_command("rope.select", "Select a particle, collider or tie",
                      {rope_argument(false, "of the particle"), particle_argument(false, "which"),
                       collider_argument("collider", false, "instead of a particle"),
                       tie_argument("tie", false, "instead of a particle"), particles_argument(),

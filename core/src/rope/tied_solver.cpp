@@ -19,7 +19,10 @@ constexpr double max_stiffness_between = 1e7;
 constexpr double contact_stiffness = 1e6;
 constexpr int max_steps = 16, steps_near_colliders = 3;
 constexpr double turned_enough = 1e-3;  ///< then the next step would change lengths by less than a millionth
-constexpr double turned_far = 0.05;     ///< then the step is checked
+/// After that many steps a larger turn is accepted, which leaves lengths right to 0.05 %.
+constexpr int few_steps = 3;
+constexpr double turned_little = 0.03;
+constexpr double turned_far = 0.05;  ///< then the step is checked
 constexpr int max_halvings = 8;
 
 /// along n n^T + across (I - n n^T)
@@ -208,7 +211,7 @@ int TiedSolver::solve(int iterations) {
             each.force = -stiffness_ * (each.gap + detail::dot(each.normal, moved));
         }
         ++taken;
-        converged_ = taken >= least && turned_ <= turned_enough;
+        converged_ = taken >= least && turned_ <= (taken < few_steps ? turned_enough : turned_little);
     }
     return taken;
 }

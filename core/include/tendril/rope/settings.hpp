@@ -20,7 +20,9 @@
 //   step of Newton's method is solved by conjugate gradients with a multigrid cycle, so the iterations hardly
 //   grow with its resolution. A step that strains links is halved until the incremental potential does not
 //   rise (M. Li et al., "Incremental Potential Contact", 2020). Hair is solved strand by strand, and its
-//   contacts and bending between the passes.
+//   contacts and bending between the passes. Bodies that ties join are one such step together, solved exactly
+//   by elimination: a rope costs about twice as much as untied, a cloth of 24 x 24 fourteen times. Their
+//   swing dies away sooner.
 //
 // Direct adds no energy: a body that gained some in a substep is slowed down until the gain is gone, in its
 // relative motion first, so that it keeps falling freely. Only moving colliders, pins and wind do work. Near
