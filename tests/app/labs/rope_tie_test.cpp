@@ -133,11 +133,17 @@ TEST_F(RopeTieTest, Refusals) {
     expect_refused("rope.tie",
                    {{"a", "above"}, {"a_particle", 0}, {"b", "below"}, {"b_particle", 1}, {"name", "tie"}},
                    {"tie"});
-    run("rope.cloth.add", {{"name", "sail"}, {"corner", {0, 1, 0}}, {"along", {1, 0, 0}}, {"down", {0, -1, 0}}, {"columns", 90}, {"rows", 90}});
-    expect_refused("rope.tie", {{"a", "above"}, {"a_particle", 0}, {"b", "sail"}, {"b_particle", 0}}, {"steps", "maximum"});
+    run("rope.cloth.add", {{"name", "sail"},
+                           {"corner", {0, 1, 0}},
+                           {"along", {1, 0, 0}},
+                           {"down", {0, -1, 0}},
+                           {"columns", 90},
+                           {"rows", 90}});
+    expect_refused("rope.tie", {{"a", "above"}, {"a_particle", 0}, {"b", "sail"}, {"b_particle", 0}},
+                   {"steps", "maximum"});
     expect_refused("rope.untie", {{"name", "knot"}}, {"knot"});
     expect_refused("rope.tie.set", {{"name", "tie"}, {"strength", -1}}, {"strength", "-1"});
-    expect_refused("rope.select", {{"tie", "tie"}, {"rope", "above"}, {"particle", 0}}, {"two"});
+    expect_refused("rope.select", {{"tie", "tie"}, {"rope", "above"}, {"particle", 0}}, {"both"});
 }
 
 }  // namespace
