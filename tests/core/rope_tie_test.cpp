@@ -59,7 +59,7 @@ TEST(RopeTie, KeepsMomentumOfFreeBodies) {
     const glm::dvec3 before = momentum(moving);
     double worst = 0.0;
     run_substeps(moving, 2400, [&] { worst = std::max(worst, glm::distance(momentum(moving), before)); });
-    EXPECT_LT(worst, 1e-5 * glm::length(before));
+    EXPECT_LT(worst, 1e-9 * glm::length(before));
     for (const rope::Tie& each : moving.state().ties) EXPECT_LT(gap(moving, each.id), 1e-5);
     EXPECT_LT(stretch(moving, "rope"), 1e-3);
 }

@@ -54,18 +54,22 @@ void folding_section(const Workspace& workspace, const char* title, Emit& emit, 
 bool preset_rows(const std::string& lab, const std::vector<PresetButton>& presets, const char* clears,
                  Emit& emit, int of) {
     bool opened = false;
-    int in_row = 0;
+    int in_row = 0, shown = 0;
     for (const PresetButton& preset : presets) {
         const char* const tooltip = preset.tooltip.empty() ? nullptr : preset.tooltip.c_str();
         const int wanted = preset.of > 0 ? preset.of : of;
-        if (std::exchange(in_row, wanted) != wanted) end_row();  // the width changes
+        if (std::exchange(in_row, wanted) != wanted) end_row(), shown = 0;  // the width changes
+        ++shown;
         if (!row_button(preset.title.c_str(), wanted, true, tooltip)) continue;
         emit(lab + ".preset", {{"name", preset.name}});
         opened = true;
     }
-    end_row();
-    if (row_button("Empty", 2, true, clears)) emit(lab + ".clear");
-    if (row_button("Reset", 2, true, "Resets this lab to its first state; undo restores it"))
+    // The last two buttons share the row of the last preset where they fill it.
+    const bool filled = in_row == 3 && shown % 3 == 1;
+    if (!filled) end_row();
+    const int last = filled ? 3 : 2;
+    if (row_button("Empty", last, true, clears)) emit(lab + ".clear");
+    if (row_button("Reset", last, true, "Resets this lab to its first state; undo restores it"))
         emit(lab + ".reset");
     end_row();
     return opened;

@@ -311,7 +311,7 @@ void selection_rows(const Workspace& workspace, Emit& emit) {
         if (body != nullptr && part.selection->particle() < body->count)
             return particle_rows(part, *body, part.selection->particle(), emit);
     }
-    note("Nothing is selected. Click a rope, a collider or a tie.");
+    note("Nothing is selected. Click a rope or a collider.");
 }
 
 void number_rows(const Workspace& workspace, const Palette& palette, Emit& emit) {

@@ -105,13 +105,30 @@ RopeReport pass_time(RopePart& part, double seconds, rope::Workspace& workspace)
     return tick.report;
 }
 
+namespace {
+
+/// Cloth that is tied is solved by elimination, whose work grows with the cube of its side.
+std::uint64_t work_of_tied_cloth(const rope::State& state) {
+    double work = 0.0;
+    for (const rope::Body& body : state.bodies) {
+        const auto holds = [&](const rope::Tie& tie) {
+            return tie.a - body.first < body.count || tie.b - body.first < body.count;
+        };
+        if (body.kind == rope::Body::Kind::Cloth && std::any_of(state.ties.begin(), state.ties.end(), holds))
+            work += 100.0 * std::pow(static_cast<double>(body.count), 1.5);
+    }
+    return static_cast<std::uint64_t>(work);
+}
+
+}  // namespace
+
 std::uint64_t work_of_substep(const NamedWorld& world) {
     const rope::State& state = world.state();
     const auto attached = static_cast<std::uint64_t>(
         std::count_if(state.pins.begin(), state.pins.end(),
                       [](const rope::Pin& pin) { return static_cast<bool>(pin.collider); }));
     return state.links.size() * static_cast<std::uint64_t>(state.settings.iterations) +
-           state.position.size() + (1 + attached) * state.colliders.size();
+           state.position.size() + (1 + attached) * state.colliders.size() + work_of_tied_cloth(state);
 }
 
 double jitter_frame(float dial, std::uint32_t number) {

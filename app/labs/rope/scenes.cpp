@@ -56,8 +56,8 @@ const std::vector<RopeSceneEntry>& rope_scenes() {
          view({0.0f, 1.0f, 0.0f}, -24.0f, 10.0f, 4.2f)},
         {"flag", "Flag", "A flag flutters in a gusty wind", flag_scene,
          view({0.0f, 1.1f, 0.0f}, -32.0f, 14.0f, 4.6f)},
-        {"line", "Cloth on a rope", "A cloth tied to a rope, which bends under it, in a light wind",
-         line_scene, view({0.0f, 1.15f, 0.0f}, -26.0f, 12.0f, 4.4f)}};
+        {"line", "Cloth line", "A cloth tied to a rope, which bends under it, in a light wind", line_scene,
+         view({0.0f, 1.15f, 0.0f}, -26.0f, 12.0f, 4.4f)}};
     return list;
 }
 
@@ -381,16 +381,17 @@ RopeScene line_scene() {
                             .density = 0.3f,
                             .pin_start = true,
                             .pin_end = true});
-    world.add_cloth("sheet", {.corner = {-half, height - 0.34f, 0},
+    world.add_cloth("cloth", {.corner = {-half, height - 0.34f, 0},
                               .along = {2.0f * half, 0, 0},
                               .down = {0, -0.8f, 0},
                               .columns = columns,
                               .rows = 11});
     // Each to the particle of the rope above it.
     for (int column = 0; column < columns; column += apart) {
-        const float part = 0.5f + half * (2.0f * static_cast<float>(column) / (columns - 1) - 1.0f) / (2.0f * from);
+        const float part =
+            0.5f + half * (2.0f * static_cast<float>(column) / (columns - 1) - 1.0f) / (2.0f * from);
         world.tie({}, world.particle("line", static_cast<std::size_t>(std::lround(part * segments))),
-                  world.particle("sheet", static_cast<std::size_t>(column)), {.length = tie});
+                  world.particle("cloth", static_cast<std::size_t>(column)), {.length = tie});
     }
     rope::Settings settings = world.settings();
     settings.wind = {0.4f, 0, 2.2f};

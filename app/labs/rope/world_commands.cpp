@@ -245,7 +245,7 @@ void select(RopeEdit& edit, const Arguments& given) {
     const bool particle = given.has("rope") || given.has("particle") || given.has("particles");
     const bool add = given.has("add") && given.boolean("add");
     if (particle + given.has("collider") + given.has("tie") > 1)
-        throw Refused("a particle, a collider or a tie can be selected, not two of them");
+        throw Refused("a particle, a collider or a tie can be selected, not both");
     if (given.has("collider")) {
         collider_of(edit.seen(), given.text("collider"));
         edit.part.selection = RopeSelection{{}, {}, given.text("collider"), {}};
@@ -300,13 +300,13 @@ void set_view(RopeEdit& edit, const Arguments& given) {
 }  // namespace
 
 void add_look_commands(CommandTable& table) {
-    table.add(
-        rope_command("rope.select", "Select particles, a collider or a tie",
-                     {rope_argument(false, "of the particle"), particle_argument(false, "which"),
-                      collider_argument("collider", false, "instead of a particle"),
-                      tie_argument("tie", false, "instead of a particle"), particles_argument(),
-                      switch_argument("add", "true: adds particles of the same rope, or takes one out")},
-                     "Selects particles, a collider or a tie; nothing if all are omitted", select, Effect::Look));
+    table.add(rope_command(
+        "rope.select", "Select a particle, collider or tie",
+        {rope_argument(false, "of the particle"), particle_argument(false, "which"),
+         collider_argument("collider", false, "instead of a particle"),
+         tie_argument("tie", false, "instead of a particle"), particles_argument(),
+         switch_argument("add", "true: adds particles of the same rope, or takes one out")},
+        "Selects particles, a collider or a tie; nothing if all are omitted", select, Effect::Look));
     table.add(rope_command(
         "rope.hold", "Hold particles",
         {rope_argument(true, "which"), particle_argument(false, "which; at least one must be free"),

@@ -40,6 +40,7 @@ class TiedSolver : ImplicitStep {
     void go(double part);
     void note_tensions(bool exact);
     double potential();
+    void keep_centre();
 
     const Plan::Tied& tied_;
     detail::EliminationSystem& system_;

@@ -99,7 +99,7 @@ std::vector<Table> all_tables() {
          .fields = fields<rope::TieShape>(),
          .texts = field_texts<rope::TieShape>(),
          .with = {{"name", "tie"}},
-         .made = {"rope.tie", {{"a", "rope"}, {"a_particle", 0}, {"b", "rope"}, {"b_particle", 9}}}},
+         .made = {"rope.preset", {{"name", "line"}}}},
         table_of<SpringSetting>(humanoid_lab, "humanoid.spring", "/springs/0", {{"node", "HeadTop_End"}}),
         table_of<GroundSetting>(humanoid_lab, "humanoid.ground", "/ik/ground"),
         table_of<FootIkSetting>(humanoid_lab, "humanoid.foot_ik", "/ik/foot_ik", Json::object(),

@@ -1,0 +1,150 @@
+// Ties in the Rope lab: commands, clicks, files, time.
+#include "app/labs/rope/code.hpp"
+#include "app/labs/rope/rope_time.hpp"
+#include "tests/app/labs/rope_support.hpp"
+#include "tests/app/support/temp_folder.hpp"
+#include "tests/says.hpp"
+
+namespace tendril::app {
+namespace {
+
+class RopeTieTest : public RopeTest {
+  protected:
+    /// Two hanging ropes, the lower one's start 0.2 m below the upper one's end.
+    void two_ropes() {
+        run("rope.clear");
+        run("rope.add", {{"name", "above"},
+                         {"from", {0, 2, 0}},
+                         {"to", {0, 1.5, 0}},
+                         {"segments", 4},
+                         {"pin_start", true}});
+        run("rope.add", {{"name", "below"}, {"from", {0, 1.3, 0}}, {"to", {0, 0.8, 0}}, {"segments", 4}});
+    }
+    void tie_them(Json more = Json::object()) {
+        Json arguments{{"a", "above"}, {"a_particle", 4}, {"b", "below"}, {"b_particle", 0}};
+        arguments.update(more);
+        run("rope.tie", arguments);
+    }
+    void click(const char* body, std::size_t index) {
+        Emit emit;
+        lab().click(workspace, particle_pick(world().find(body)->first + index), emit);
+        for (const Emitted& each : emit.take()) run(each.name.c_str(), *each.arguments);
+    }
+    double gap() const {
+        const rope::Tie& tie = world().state().ties.at(0);
+        return static_cast<double>(glm::distance(world().position(tie.a), world().position(tie.b)));
+    }
+};
+
+TEST_F(RopeTieTest, DrawsItsParticlesTogetherAndHolds) {
+    two_ropes();
+    tie_them();
+    EXPECT_NEAR(gap(), 0.2, 1e-6);
+    wait(3);  // at 2 m/s
+    EXPECT_NEAR(gap(), 0.1, 0.01);
+    wait(300);
+    EXPECT_LT(gap(), 1e-6);
+    const Json tie = state().at("ties").at(0);
+    EXPECT_EQ(tie["name"], "tie");
+    EXPECT_EQ(tie["a"], "above");
+    EXPECT_EQ(tie["a_particle"], 4);
+    EXPECT_EQ(tie["b"], "below");
+    EXPECT_EQ(tie["b_particle"], 0);
+    EXPECT_GT(tie["tension"], 4.0);
+    run("undo");
+    EXPECT_TRUE(world().state().ties.empty());
+}
+
+TEST_F(RopeTieTest, TwoClicksTieAndSelectTheTie) {
+    two_ropes();
+    run("rope.tool", {{"name", "tie"}});
+    click("above", 4);
+    EXPECT_TRUE(world().state().ties.empty());
+    EXPECT_TRUE(test::says(lab().hint(workspace, particle_pick(6)), "below particle 1 ties selected"));
+    click("below", 0);
+    ASSERT_EQ(world().state().ties.size(), 1u);
+    EXPECT_EQ(state()["selected"], Json({{"tie", "tie"}}));
+    // The next two clicks make another.
+    click("above", 2);
+    click("below", 2);
+    EXPECT_EQ(world().state().ties.size(), 2u);
+    EXPECT_EQ(state()["selected"], Json({{"tie", "tie 2"}}));
+    run("rope.remove_selected");
+    EXPECT_EQ(world().state().ties.size(), 1u);
+    EXPECT_EQ(state()["selected"], nullptr);
+}
+
+TEST_F(RopeTieTest, TearsAndIsForgotten) {
+    two_ropes();
+    tie_them({{"length", 0.2}, {"name", "thread"}});
+    wait(120);
+    run("rope.select", {{"tie", "thread"}});
+    run("rope.tie.set", {{"name", "thread"}, {"strength", 1}});
+    wait(1);
+    EXPECT_TRUE(world().state().ties.empty());
+    EXPECT_EQ(state()["selected"], nullptr);
+    wait(30);
+    EXPECT_LT(world().position(world().find("below")->first).y, 1.0f);
+}
+
+TEST_F(RopeTieTest, GoesWithItsBody) {
+    two_ropes();
+    tie_them();
+    tie_them({{"a_particle", 1}, {"b_particle", 3}, {"name", "second"}});
+    run("rope.cut", {{"rope", "above"}, {"segment", 2}});
+    EXPECT_EQ(state()["ties"][0]["a"], "above 2");
+    EXPECT_EQ(state()["ties"][0]["a_particle"], 1);
+    EXPECT_EQ(state()["ties"][1]["a"], "above");
+    run("rope.remove", {{"name", "above 2"}});
+    ASSERT_EQ(state()["ties"].size(), 1u);
+    EXPECT_EQ(state()["ties"][0]["name"], "second");
+    run("rope.untie", {{"name", "second"}});
+    EXPECT_EQ(state()["ties"], Json::array());
+}
+
+TEST_F(RopeTieTest, SavedOpenedAndRewoundItContinuesTheSame) {
+    run("rope.preset", {{"name", "line"}});
+    wait(40);
+    const test::TempFolder folder;
+    const std::string path = (folder / "scene.json").string();
+    run("scene.save", {{"path", path}});
+    wait(40);
+    const rope::State first = world().state();
+    run("scene.open", {{"path", path}});
+    wait(40);
+    EXPECT_EQ(world().state().position, first.position);
+    EXPECT_EQ(world().state().displacement, first.displacement);
+    ASSERT_EQ(world().state().ties.size(), first.ties.size());
+    for (std::size_t i = 0; i < first.ties.size(); ++i)
+        EXPECT_EQ(world().state().ties[i].tension, first.ties[i].tension);
+    EXPECT_TRUE(
+        test::says(rope_code(part()), "\"tie\" state.ties.push_back .length 0.04f rope::number_slots"));
+}
+
+TEST_F(RopeTieTest, Refusals) {
+    two_ropes();
+    tie_them();
+    expect_refused("rope.tie", {{"a", "above"}, {"a_particle", 1}, {"b", "above"}, {"b_particle", 1}},
+                   {"itself"});
+    expect_refused("rope.tie", {{"a", "above"}, {"a_particle", 9}, {"b", "below"}, {"b_particle", 1}},
+                   {"9", "above", "5"});
+    expect_refused("rope.tie", {{"a", "none"}, {"a_particle", 0}, {"b", "below"}, {"b_particle", 1}},
+                   {"none"});
+    expect_refused("rope.tie",
+                   {{"a", "above"}, {"a_particle", 0}, {"b", "below"}, {"b_particle", 1}, {"name", "tie"}},
+                   {"tie"});
+    run("rope.cloth.add", {{"name", "sail"},
+                           {"corner", {0, 1, 0}},
+                           {"along", {1, 0, 0}},
+                           {"down", {0, -1, 0}},
+                           {"columns", 90},
+                           {"rows", 90}});
+    expect_refused("rope.tie", {{"a", "above"}, {"a_particle", 0}, {"b", "sail"}, {"b_particle", 0}},
+                   {"steps", "maximum"});
+    expect_refused("rope.untie", {{"name", "knot"}}, {"knot"});
+    expect_refused("rope.tie.set", {{"name", "tie"}, {"strength", -1}}, {"strength", "-1"});
+    expect_refused("rope.select", {{"tie", "tie"}, {"rope", "above"}, {"particle", 0}}, {"both"});
+}
+
+}  // namespace
+}  // namespace tendril::app
