@@ -13,10 +13,12 @@ namespace {
 using humanoid::Interpolation;
 using humanoid::Track;
 
-/// Where two keys stand for a jump. Files keep times as floats: this is one step of them after ten minutes.
-constexpr double jump_seconds = 1.0 / 16384.0;
+/// How far apart two keys are that stand for a jump: two different times in files that keep them as floats.
+double jump_seconds(double time) {
+    return std::max(1e-7, std::abs(time) / 4194304.0);
+}
 /// Between two keys a track is compared with its curves here: at no simple fractions of whole turns.
-constexpr std::array<double, 4> compared{0.1273, 0.3119, 0.5041, 0.7867};
+constexpr std::array<double, 5> compared{0.1273, 0.3119, 0.5041, 0.6971, 0.8667};
 constexpr double max_angle = 0.02 / 57.29577951308232;
 
 glm::dvec3 toward(const glm::dvec3& value, const glm::dvec3&) {
@@ -60,7 +62,7 @@ std::vector<double> key_times(const Stack& stack, const std::vector<const Curve*
             times.insert(key.time());
             if (!with_jumps || i + 1 == curve->keys.size() || curve->keys[i + 1].value == key.value)
                 continue;
-            const double next = curve->keys[i + 1].time(), ago = std::min(jump_seconds, 0.5 * (next - key.time()));
+            const double next = curve->keys[i + 1].time(), ago = std::min(jump_seconds(next), 0.5 * (next - key.time()));
             if (key.shape == CurveKey::Shape::Constant) times.insert(next - ago);
             if (key.shape == CurveKey::Shape::ConstantNext) times.insert(key.time() + ago);
         }
@@ -116,7 +118,7 @@ class CubicPieces {
         Knot<T> to{end, at(end), from.value, from.value * 0.0};
         T leaving = (to.value - from.value) * (1.0 / span);
         to.arriving = leaving;
-        if (span > 2.0 * jump_seconds) {
+        if (span > 2.0 * jump_seconds(end)) {
             const auto near = [&](double time, const T& by) { return toward(value_(time), by); };
             leaving = (near(from.time + step, from.value) * 4.0 - from.value * 3.0 -
                        near(from.time + 2.0 * step, from.value)) *
@@ -155,7 +157,7 @@ Tolerance tolerance_for(const Body& body) {
     }
     Tolerance result;
     const double size = glm::length(high - low);
-    result.length = std::max(1e-5 * size, 1e-9);
+    result.length = std::max(2.5e-6 * size, 1e-9);
     result.levers.assign(body.bones.size(), 0.02 * size);
     for (std::size_t i = body.bones.size(); i-- > 0;) {
         const Bone& bone = body.bones[i];
@@ -212,7 +214,7 @@ Track<T> ClipWriter::track(const Stack& stack, const std::vector<const Curve*>& 
     }
     const auto is_linear = [&](std::size_t i) {
         const double span = times[i] - times[i - 1];
-        return span <= 2.0 * jump_seconds || std::ranges::none_of(compared, [&](double u) {
+        return span <= 2.0 * jump_seconds(times[i]) || std::ranges::none_of(compared, [&](double u) {
             return error(between(result.values[i - 1], result.values[i], u), value(times[i - 1] + u * span));
         });
     };

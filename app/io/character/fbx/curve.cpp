@@ -11,11 +11,12 @@ namespace {
 
 using Shape = CurveKey::Shape;
 
-// Flags of a key, by Autodesk's names.
+// Flags of a key, by the names of Autodesk's FbxAnimCurveDef.
 constexpr std::int64_t constant_flag = 0x2, linear_flag = 0x4;
 constexpr std::int64_t constant_next = 0x100;
 constexpr std::int64_t tangent_tcb = 0x200, tangent_user = 0x400;
-constexpr std::int64_t generic_clamp = 0x1000, clamp_progressive = 0x4000;
+constexpr std::int64_t generic_clamp = 0x1000, time_independent = 0x2000;
+constexpr std::int64_t clamp_progressive = 0x4000;
 constexpr std::int64_t weighted_right = 0x1000000, weighted_next_left = 0x2000000;
 constexpr std::int64_t any_velocity = 0x30000000;
 constexpr double usual_weight = 1.0 / 3.0;
@@ -31,7 +32,9 @@ struct Tangents {
 
 /// The secants before and after a key; at an end, the only one twice.
 struct Secants {
-    double before = 0.0, after = 0.0, whole = 0.0;  ///< `whole`: from neighbour to neighbour
+    double before = 0.0, after = 0.0;
+    double whole = 0.0;  ///< from neighbour to neighbour
+    double mean = 0.0;   ///< of both
     bool at_end = false;
 };
 Secants secants_at(const std::vector<CurveKey>& keys, std::size_t i) {
@@ -39,17 +42,20 @@ Secants secants_at(const std::vector<CurveKey>& keys, std::size_t i) {
         return (keys[b].value - keys[a].value) / (keys[b].time() - keys[a].time());
     };
     if (keys.size() < 2) return {.at_end = true};
-    if (i == 0) return {between(0, 1), between(0, 1), between(0, 1), true};
-    if (i + 1 == keys.size()) return {between(i - 1, i), between(i - 1, i), between(i - 1, i), true};
-    return {between(i - 1, i), between(i, i + 1), between(i - 1, i + 1), false};
+    const bool first = i == 0, last = i + 1 == keys.size();
+    const double before = first ? between(0, 1) : between(i - 1, i);
+    const double after = last ? before : between(i, i + 1);
+    if (first || last) return {before, before, before, before, true};
+    return {before, after, between(i - 1, i + 1), 0.5 * (before + after), false};
 }
 
 /// A smooth slope; clamped ones let no tangent leave the range of the neighbours' values.
 double automatic(const Secants& at, const Tangents& key) {
-    if ((key.flags & (generic_clamp | clamp_progressive)) == 0) return at.at_end ? 0.0 : at.whole;
+    const double slope = (key.flags & time_independent) != 0 ? at.whole : at.mean;
+    if ((key.flags & (generic_clamp | clamp_progressive)) == 0) return at.at_end ? 0.0 : slope;
     if (at.at_end || at.before * at.after <= 0.0) return 0.0;
     const double limit = std::min(std::abs(at.before), std::abs(at.after)) / usual_weight;
-    return std::copysign(std::min(std::abs(at.whole), limit), at.whole);
+    return std::copysign(std::min(std::abs(slope), limit), slope);
 }
 /// D. Kochanek, R. Bartels, "Interpolating splines with local tension, continuity, and bias control",
 /// SIGGRAPH 1984.
@@ -115,7 +121,7 @@ std::uint32_t packed_bits(double value) {
     return std::bit_cast<std::uint32_t>(static_cast<float>(value));
 }
 double weight_in(std::uint32_t bits) {
-    return std::clamp(static_cast<double>(bits & 0xffff) / 9999.0, 0.0001, 1.0);
+    return std::clamp(static_cast<double>(bits & 0xffff) / 10000.0, 0.0001, 1.0);
 }
 
 Tangents tangents_of(std::int64_t flags, const double* data) {
@@ -218,7 +224,7 @@ class OldKeys {
             tangents.flags = tangent_tcb;
             if (count != 3) is_lost_ = true;
         } else if (mode == 'p') {
-            tangents.flags = clamp_progressive;
+            tangents.flags = clamp_progressive | time_independent;
         } else if (mode != 'a') {
             is_lost_ = true;
         }
