@@ -46,7 +46,8 @@ TEST(FbxCurve, keys_of_each_shape_move_as_written_in_text_and_binary) {
         EXPECT_EQ(translation_in(steps).interpolation, Interpolation::Step);
         EXPECT_EQ(x_at(steps, 0.999), 1.0);
         EXPECT_EQ(x_at(steps, 1.0), 3.0);
-        const Character next = read(moved_by({{0.0, 1.0, constant_next}, {1.0, 3.0, constant_next}, {2.0, 2.0}}), way);
+        const Character next =
+            read(moved_by({{0.0, 1.0, constant_next}, {1.0, 3.0, constant_next}, {2.0, 2.0}}), way);
         EXPECT_EQ(x_at(next, 0.0), 1.0);
         EXPECT_NEAR(x_at(next, 0.001), 3.0, 1e-9);
         EXPECT_NEAR(x_at(next, 1.5), 2.0, 1e-9);
@@ -58,12 +59,14 @@ TEST(FbxCurve, keys_of_each_shape_move_as_written_in_text_and_binary) {
         EXPECT_EQ(translation_in(straight).interpolation, Interpolation::Linear);
         EXPECT_NEAR(x_at(straight, 0.5), 1.25, 1e-12);
         // Hermite's cubic from 0 to 1 within 1 s with these slopes.
-        const Character bent = read(moved_by({{0.0, 0.0, user, 3.0, -1.0}, {1.0, 1.0, user, 0.0, 0.0}, {2.0, 1.0}}), way);
+        const Character bent =
+            read(moved_by({{0.0, 0.0, user, 3.0, -1.0}, {1.0, 1.0, user, 0.0, 0.0}, {2.0, 1.0}}), way);
         EXPECT_EQ(translation_in(bent).interpolation, Interpolation::Cubic);
         for (const double u : {0.1, 0.5, 0.8})
-            EXPECT_NEAR(x_at(bent, u), 3.0 * u * u - 2.0 * u * u * u + 3.0 * (u - 2.0 * u * u + u * u * u) +
-                                           (u * u - u * u * u),
-                        1e-5);
+            EXPECT_NEAR(
+                x_at(bent, u),
+                3.0 * u * u - 2.0 * u * u * u + 3.0 * (u - 2.0 * u * u + u * u * u) + (u * u - u * u * u),
+                1e-5);
     }
 }
 
@@ -81,19 +84,18 @@ TEST(FbxCurve, weights_lengthen_the_tangents) {
 
 TEST(FbxCurve, automatic_tangents_are_those_of_the_programs_that_write_them) {
     const auto slope = [](std::int64_t flags, double last) {
-        const std::string text =
-            moved_by({{0.0, 0.0, flags}, {0.5, 1.0, flags}, {2.0, last, flags}}).text();
+        const std::string text = moved_by({{0.0, 0.0, flags}, {0.5, 1.0, flags}, {2.0, last, flags}}).text();
         const fbx::File file = fbx::read_records(text);
         for (const fbx::Record& each : file.root.child("Objects")->children)
             if (each.name == "AnimationCurve") return fbx::read_curve(each).keys.at(1).leaving;
         return std::nan("");
     };
-    EXPECT_NEAR(slope(automatic, 4.0), 2.0, 1e-9);          // the mean of both secants
+    EXPECT_NEAR(slope(automatic, 4.0), 2.0, 1e-9);  // the mean of both secants
     EXPECT_NEAR(slope(automatic, 0.25), 0.75, 1e-9);
-    EXPECT_NEAR(slope(time_independent, 4.0), 2.0, 1e-9);   // from neighbour to neighbour
+    EXPECT_NEAR(slope(time_independent, 4.0), 2.0, 1e-9);  // from neighbour to neighbour
     EXPECT_NEAR(slope(time_independent, 0.25), 0.125, 1e-9);
-    EXPECT_NEAR(slope(progressive, 0.25), 0.0, 1e-9);       // no overshoot
-    EXPECT_NEAR(slope(progressive, 1.15), 0.3, 1e-9);       // three times the smaller secant
+    EXPECT_NEAR(slope(progressive, 0.25), 0.0, 1e-9);  // no overshoot
+    EXPECT_NEAR(slope(progressive, 1.15), 0.3, 1e-9);  // three times the smaller secant
     EXPECT_NEAR(slope(tcb, 4.0), 2.0, 1e-9);
 }
 
@@ -110,7 +112,8 @@ TEST(FbxCurve, an_euler_angle_that_goes_round_is_followed_all_the_way) {
         const double time = 0.01 * i, angle = 4.0 * std::acos(-1.0) * time;
         sample(character.clips.at(0), character.skeleton, time, pose);
         place(character.skeleton, pose, placements);
-        EXPECT_LT(glm::length(placements[1].position - glm::dvec3(std::cos(angle), std::sin(angle), 0.0)), 1e-4)
+        EXPECT_LT(glm::length(placements[1].position - glm::dvec3(std::cos(angle), std::sin(angle), 0.0)),
+                  1e-4)
             << time;
     }
 }

@@ -14,7 +14,8 @@
 namespace tendril::test {
 
 struct FbxRecord {
-    using Value = std::variant<std::int64_t, double, std::string, std::vector<double>, std::vector<std::int64_t>>;
+    using Value =
+        std::variant<std::int64_t, double, std::string, std::vector<double>, std::vector<std::int64_t>>;
     std::string name{};
     std::vector<Value> values{};
     std::vector<FbxRecord> children{};
@@ -40,8 +41,12 @@ class FbxScene {
     static FbxRecord vector(const std::string& name, const glm::dvec3& value) {
         return property(name, {value.x, value.y, value.z});
     }
-    static FbxRecord properties(std::vector<FbxRecord> list) { return {"Properties70", {}, std::move(list), true}; }
-    static FbxRecord list(const std::string& name, std::vector<double> numbers) { return {name, {numbers}, {}}; }
+    static FbxRecord properties(std::vector<FbxRecord> list) {
+        return {"Properties70", {}, std::move(list), true};
+    }
+    static FbxRecord list(const std::string& name, std::vector<double> numbers) {
+        return {name, {numbers}, {}};
+    }
     static FbxRecord list(const std::string& name, std::vector<std::int64_t> numbers) {
         return {name, {numbers}, {}};
     }
@@ -82,10 +87,11 @@ class FbxScene {
                     list("KeyAttrDataFloat", data), list("KeyAttrRefCount", counts)});
     }
     std::int64_t stack(const std::string& name, double end) {
-        return add("AnimationStack", name, "",
-                   {properties({property("LocalStart", {std::int64_t{0}}),
-                                property("LocalStop", {static_cast<std::int64_t>(
-                                                          end * static_cast<double>(ticks) + 0.5)})})});
+        return add(
+            "AnimationStack", name, "",
+            {properties({property("LocalStart", {std::int64_t{0}}),
+                         property("LocalStop",
+                                  {static_cast<std::int64_t>(end * static_cast<double>(ticks) + 0.5)})})});
     }
     std::int64_t layer(std::int64_t stack, std::vector<FbxRecord> list = {}) {
         const std::int64_t id = add("AnimationLayer", "", "", {properties(std::move(list))});
@@ -147,12 +153,14 @@ class FbxScene {
             if (const auto* number = std::get_if<double>(&value)) out << *number;
             if (const auto* text = std::get_if<std::string>(&value)) {
                 const std::size_t kind = text->find("::");
-                out << '"' << (kind == text->npos ? *text : text->substr(kind + 2) + "::" + text->substr(0, kind))
+                out << '"'
+                    << (kind == text->npos ? *text : text->substr(kind + 2) + "::" + text->substr(0, kind))
                     << '"';
             }
             const auto write_list = [&](const auto& numbers) {
                 out << '*' << numbers.size() << " {\n" << tabs << "\ta: ";
-                for (std::size_t i = 0; i < numbers.size(); ++i) out << (i > 0 ? "," : "") << bits(record, numbers[i]);
+                for (std::size_t i = 0; i < numbers.size(); ++i)
+                    out << (i > 0 ? "," : "") << bits(record, numbers[i]);
                 out << '\n' << tabs << "}";
                 is_array = true;
             };
@@ -198,7 +206,8 @@ class FbxScene {
                 for (const auto number : numbers) values += raw(number);
             };
             if (const auto* numbers = std::get_if<std::vector<double>>(&value)) write_list('d', *numbers);
-            if (const auto* numbers = std::get_if<std::vector<std::int64_t>>(&value)) write_list('l', *numbers);
+            if (const auto* numbers = std::get_if<std::vector<std::int64_t>>(&value))
+                write_list('l', *numbers);
         }
         const std::size_t at = out.size(), size = wide ? 8 : 4;
         const auto put = [&](std::size_t field, std::uint64_t number) {

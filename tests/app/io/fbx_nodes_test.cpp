@@ -42,7 +42,7 @@ glm::dmat4 turned(const glm::dvec3& degrees, const std::string& order) {
 
 /// Where a node is without and with its own scale, by multiplying matrices.
 struct NaivePlace {
-    glm::dmat4 turned{1.0};       // all but `scale`
+    glm::dmat4 turned{1.0};  // all but `scale`
     glm::dvec3 scale{1.0}, own{1.0};
     glm::dmat4 whole() const { return turned * scaled(scale); }
 };
@@ -50,14 +50,15 @@ std::vector<NaivePlace> naive_places(const std::vector<NaiveNode>& nodes) {
     const char* const orders[] = {"XYZ", "XZY", "YZX", "YXZ", "ZXY", "ZYX"};
     std::vector<NaivePlace> result;
     for (const NaiveNode& node : nodes) {  // parents come first
-        const glm::dmat4 rotation =
-            node.rotates ? turned(node.pre, "XYZ") * turned(node.r, orders[node.order]) *
-                               glm::inverse(turned(node.post, "XYZ"))
-                         : turned(node.r, "XYZ");
+        const glm::dmat4 rotation = node.rotates
+                                        ? turned(node.pre, "XYZ") * turned(node.r, orders[node.order]) *
+                                              glm::inverse(turned(node.post, "XYZ"))
+                                        : turned(node.r, "XYZ");
         const glm::dmat4 local = moved(node.t) * moved(node.roff) * moved(node.rpiv) * rotation *
                                  moved(-node.rpiv) * moved(node.soff) * moved(node.spiv) * scaled(node.s) *
                                  moved(-node.spiv);
-        const NaivePlace above = node.parent < 0 ? NaivePlace() : result[static_cast<std::size_t>(node.parent)];
+        const NaivePlace above =
+            node.parent < 0 ? NaivePlace() : result[static_cast<std::size_t>(node.parent)];
         NaivePlace place{.own = node.s};
         const glm::dvec4 at = above.whole() * local[3];
         if (node.inherit == 1 || node.parent < 0) {
@@ -152,13 +153,15 @@ TEST(FbxNodes, ten_thousand_random_nodes_are_where_a_naive_evaluator_puts_them) 
 /// Two bones and a mesh that follows them, animated: one of each kind of object.
 FbxScene small_scene() {
     FbxScene scene;
-    const std::int64_t hips = scene.model("Hips", 0, {FbxScene::vector("Lcl Translation", {0.0, 100.0, 0.0})});
-    const std::int64_t knee = scene.model("Knee", hips, {FbxScene::vector("Lcl Translation", {0.0, -50.0, 0.0})});
+    const std::int64_t hips =
+        scene.model("Hips", 0, {FbxScene::vector("Lcl Translation", {0.0, 100.0, 0.0})});
+    const std::int64_t knee =
+        scene.model("Knee", hips, {FbxScene::vector("Lcl Translation", {0.0, -50.0, 0.0})});
     const std::int64_t body = scene.model("Body", 0, {}, "Mesh");
-    const std::int64_t mesh =
-        scene.add("Geometry", "", "Mesh",
-                  {FbxScene::list("Vertices", std::vector<double>{0, 100, 0, 10, 100, 0, 0, 50, 0, 10, 50, 0}),
-                   FbxScene::list("PolygonVertexIndex", std::vector<std::int64_t>{0, 1, 3, -3})});
+    const std::int64_t mesh = scene.add(
+        "Geometry", "", "Mesh",
+        {FbxScene::list("Vertices", std::vector<double>{0, 100, 0, 10, 100, 0, 0, 50, 0, 10, 50, 0}),
+         FbxScene::list("PolygonVertexIndex", std::vector<std::int64_t>{0, 1, 3, -3})});
     scene.connect(mesh, body);
     const std::int64_t skin = scene.add("Deformer", "", "Skin");
     scene.connect(skin, mesh);
@@ -167,7 +170,8 @@ FbxScene small_scene() {
             scene.add("Deformer", "", "Cluster",
                       {FbxScene::list("Indexes", points),
                        FbxScene::list("Weights", std::vector<double>(points.size(), 1.0)),
-                       FbxScene::list("Transform", std::vector<double>{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -y, 0, 1})});
+                       FbxScene::list("Transform",
+                                      std::vector<double>{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -y, 0, 1})});
         scene.connect(id, skin);
         scene.connect(bone, id);
     };

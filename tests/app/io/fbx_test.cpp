@@ -31,8 +31,8 @@ Positions model_positions(const std::string& bytes, int clip, double time) {
     std::vector<rig::Transform> locals;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         const fbx::Stack* stack = clip < 0 ? nullptr : &stacks[static_cast<std::size_t>(clip)];
-        locals.push_back(local_of(nodes[i], stack ? stack->at(nodes[i], i, stack->begin + time)
-                                                  : nodes[i].rest()));
+        locals.push_back(
+            local_of(nodes[i], stack ? stack->at(nodes[i], i, stack->begin + time) : nodes[i].rest()));
     }
     const auto unit = objects.setting("UnitScaleFactor");
     const double metres = 0.01 * (unit ? unit.record->number(unit.first) : 1.0);
@@ -50,8 +50,7 @@ Positions node_positions(const Character& character, const std::string& clip, do
     std::vector<humanoid::Placement> placements(pose.size());
     place(character.skeleton, pose, placements);
     Positions result;
-    for (std::size_t i = 0; i < pose.size(); ++i)
-        result[character.skeleton[i].name] = placements[i].position;
+    for (std::size_t i = 0; i < pose.size(); ++i) result[character.skeleton[i].name] = placements[i].position;
     return result;
 }
 
@@ -107,11 +106,14 @@ TEST(Fbx, every_node_is_where_an_independent_reader_puts_it) {
             }
             for (const Json& frame : frames) {
                 const double time = std::max(frame["t"].get<double>(), 0.0);
-                const std::string what = name + ", clip " + std::to_string(clip) + ", " + std::to_string(time);
-                EXPECT_EQ(compare(model_positions(bytes, clip, time), frame["joints"], size, what + " (models)"),
-                          frame["joints"].size());
+                const std::string what =
+                    name + ", clip " + std::to_string(clip) + ", " + std::to_string(time);
+                EXPECT_EQ(
+                    compare(model_positions(bytes, clip, time), frame["joints"], size, what + " (models)"),
+                    frame["joints"].size());
                 if (!has_skeleton) continue;
-                const std::size_t count = compare(node_positions(character, clip_name, time), frame["joints"], size, what);
+                const std::size_t count =
+                    compare(node_positions(character, clip_name, time), frame["joints"], size, what);
                 EXPECT_GE(count, frame["joints"].size() / 3) << what;
             }
         }

@@ -61,8 +61,7 @@ class StackReader {
   private:
     std::shared_ptr<const Curve> counted(Curve curve) {
         keys_ += curve.keys.size();
-        if (keys_ > max_keys)
-            throw std::runtime_error("has more than " + std::to_string(max_keys) + " keys");
+        if (keys_ > max_keys) throw std::runtime_error("has more than " + std::to_string(max_keys) + " keys");
         has_odd_ = has_odd_ || curve.is_odd;
         return curve.keys.empty() ? nullptr : std::make_shared<const Curve>(std::move(curve));
     }
@@ -92,8 +91,8 @@ class StackReader {
     }
     Layer read_layer(std::size_t object) {
         Layer layer;
-        layer.blend = objects_.integer(object, "BlendMode", 0) == 0 ? Layer::Blend::Additive
-                                                                    : Layer::Blend::Override;
+        layer.blend =
+            objects_.integer(object, "BlendMode", 0) == 0 ? Layer::Blend::Additive : Layer::Blend::Override;
         layer.turns_by_axis = objects_.integer(object, "RotationAccumulationMode", 0) != 0;
         layer.scales_by_sum = objects_.integer(object, "ScaleAccumulationMode", 0) != 0;
         layer.weight.constant.x = objects_.number(object, "Weight", 100.0);
@@ -114,7 +113,8 @@ class StackReader {
             return result;
         }
         constant.x = objects_.number(object, "d|X", constant.x);
-        constant.x = objects_.number(object, "d|DeformPercent", objects_.number(object, "d|Weight", constant.x));
+        constant.x =
+            objects_.number(object, "d|DeformPercent", objects_.number(object, "d|Weight", constant.x));
         constant.y = objects_.number(object, "d|Y", constant.y);
         constant.z = objects_.number(object, "d|Z", constant.z);
         result.constant = constant;
@@ -249,7 +249,8 @@ Values Stack::at(const Node& node, std::size_t index, double time) const {
             turning.after = part_of(turning.after, 1.0 - weight);
         } else {
             const glm::dquat from = turning.rotation(node.order), to = from_euler(value, node.order);
-            turning.after = glm::conjugate(from_euler(turning.euler, node.order)) * rig::blend(from, to, weight);
+            turning.after =
+                glm::conjugate(from_euler(turning.euler, node.order)) * rig::blend(from, to, weight);
         }
     }
     return {translation, turning.rotation(node.order), scale};
@@ -263,7 +264,7 @@ double Stack::morph_at(std::size_t object, double percent, double time) const {
         const bool is_base = &layer == &layers.front();
         const double weight = is_base ? 1.0 : std::clamp(0.01 * layer.weight.at(time).x, 0.0, 1.0);
         percent = !is_base && layer.blend == Layer::Blend::Additive ? percent + weight * value
-                                                                     : percent + weight * (value - percent);
+                                                                    : percent + weight * (value - percent);
     }
     return percent;
 }

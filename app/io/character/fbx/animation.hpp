@@ -26,9 +26,9 @@ enum class Animated : std::uint8_t { Translation, Rotation, Scale };
 struct Layer {
     enum class Blend : std::uint8_t { Additive, Override };
     Blend blend = Blend::Additive;
-    bool turns_by_axis = false;   ///< additive Euler angles, not rotations, add up
-    bool scales_by_sum = false;   ///< additive scales add up instead of multiplying
-    VectorCurves weight{};        ///< x: percent
+    bool turns_by_axis = false;  ///< additive Euler angles, not rotations, add up
+    bool scales_by_sum = false;  ///< additive scales add up instead of multiplying
+    VectorCurves weight{};       ///< x: percent
     std::map<std::size_t, std::array<std::optional<VectorCurves>, 3>> nodes{};
     std::map<std::size_t, VectorCurves> morphs{};  ///< x: percent, by the blend shape channel's object
 };

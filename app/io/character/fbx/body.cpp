@@ -171,7 +171,8 @@ bool is_apart(const Node& node) {
 
 std::vector<std::size_t> Body::scale_chain(std::size_t node) const {
     std::vector<std::size_t> chain{node};
-    while (is_apart(nodes[chain.back()])) chain.push_back(static_cast<std::size_t>(nodes[chain.back()].parent));
+    while (is_apart(nodes[chain.back()]))
+        chain.push_back(static_cast<std::size_t>(nodes[chain.back()].parent));
     return chain;
 }
 

@@ -21,15 +21,16 @@ struct Bone {
 };
 
 struct Body {
-    std::vector<Node> nodes{};           ///< of the file
-    std::vector<Bone> bones{};           ///< parents first
+    std::vector<Node> nodes{};            ///< of the file
+    std::vector<Bone> bones{};            ///< parents first
     std::vector<std::int32_t> bone_of{};  ///< for each node, the bone with its whole place; -1: none
     std::vector<bool> is_split{};         ///< for each node: two bones
 
     /// The bone's transform below its parent; `local` gives the local transform of a node of the file.
     template <class Local>
     rig::Transform transform(std::size_t bone, const Local& local) const;
-    /// The nodes whose scales make that of `node`: itself, and its parents as far as they are inherited apart.
+    /// The nodes whose scales make that of `node`: itself, and its parents as far as they are inherited
+    /// apart.
     std::vector<std::size_t> scale_chain(std::size_t node) const;
 
   private:

@@ -34,17 +34,17 @@ glm::dvec3 between(const glm::dvec3& a, const glm::dvec3& b, double part) {
 glm::dquat between(const glm::dquat& a, const glm::dquat& b, double part) {
     return rig::blend(a, b, part);
 }
-glm::dvec3 settled(const glm::dvec3& value) {
+glm::dvec3 unit_if_rotation(const glm::dvec3& value) {
     return value;
 }
-glm::dquat settled(const glm::dquat& value) {
+glm::dquat unit_if_rotation(const glm::dquat& value) {
     return rig::normalised(value);
 }
 template <class T>
 T hermite(const T& a, const T& leaving, const T& b, const T& arriving, double span, double u) {
     const double u2 = u * u, u3 = u2 * u;
-    return settled(a * (2.0 * u3 - 3.0 * u2 + 1.0) + leaving * (span * (u3 - 2.0 * u2 + u)) +
-                   b * (3.0 * u2 - 2.0 * u3) + arriving * (span * (u3 - u2)));
+    return unit_if_rotation(a * (2.0 * u3 - 3.0 * u2 + 1.0) + leaving * (span * (u3 - 2.0 * u2 + u)) +
+                            b * (3.0 * u2 - 2.0 * u3) + arriving * (span * (u3 - u2)));
 }
 double angle_between(const glm::dquat& a, const glm::dquat& b) {
     const glm::dquat apart = glm::conjugate(a) * b;
@@ -53,22 +53,21 @@ double angle_between(const glm::dquat& a, const glm::dquat& b) {
 }
 
 /// The times of the curves' keys within the stack; with jumps, also those beside the jumps of constant ones.
-std::vector<double> key_times(const Stack& stack, const std::vector<const Curve*>& curves,
-                              bool with_jumps) {
+std::vector<double> key_times(const Stack& stack, const std::vector<const Curve*>& curves, bool with_jumps) {
     std::set<double> times;
     for (const Curve* curve : curves) {
         for (std::size_t i = 0; i < curve->keys.size(); ++i) {
             const CurveKey& key = curve->keys[i];
             times.insert(key.time());
-            if (!with_jumps || i + 1 == curve->keys.size() || curve->keys[i + 1].value == key.value)
-                continue;
-            const double next = curve->keys[i + 1].time(), ago = std::min(jump_seconds(next), 0.5 * (next - key.time()));
+            if (!with_jumps || i + 1 == curve->keys.size() || curve->keys[i + 1].value == key.value) continue;
+            const double next = curve->keys[i + 1].time(),
+                         ago = std::min(jump_seconds(next), 0.5 * (next - key.time()));
             if (key.shape == CurveKey::Shape::Constant) times.insert(next - ago);
             if (key.shape == CurveKey::Shape::ConstantNext) times.insert(key.time() + ago);
         }
     }
     if (times.empty()) return {stack.begin};
-    const bool before = *times.begin() < stack.begin, after = *times.rbegin() > stack.end;
+    const bool before = *times.begin()<stack.begin, after = *times.rbegin()> stack.end;
     times.erase(times.begin(), times.lower_bound(stack.begin));
     times.erase(times.upper_bound(stack.end), times.end());
     if (before || times.empty()) times.insert(stack.begin);
@@ -84,24 +83,24 @@ bool all_constant(const std::vector<const Curve*>& curves) {
     });
 }
 
-/// A key between two pieces, with the slopes on its two sides.
+/// A key between two cubics, with the slopes on its two sides.
 template <class T>
 struct Knot {
     double time;
     T value, arriving, leaving;
 };
 
-/// Cubic pieces between the times, halved until each is close enough.
+/// Cubics between the times, halved until each is close enough.
 template <class T, class Value, class Error>
-class CubicPieces {
+class CubicSpans {
   public:
-    CubicPieces(const Value& value, const Error& error, std::size_t& keys_left)
+    CubicSpans(const Value& value, const Error& error, std::size_t& keys_left)
         : value_(value), error_(error), keys_left_(keys_left) {}
 
     std::vector<Knot<T>> fit(const std::vector<double>& times) {
         const T first = value_(times.front());
         add({times.front(), first, first * 0.0, first * 0.0});
-        for (std::size_t i = 1; i < times.size(); ++i) piece(times[i]);
+        for (std::size_t i = 1; i < times.size(); ++i) span_to(times[i]);
         return std::move(knots_);
     }
 
@@ -111,7 +110,7 @@ class CubicPieces {
         --keys_left_;
         knots_.push_back(knot);
     }
-    void piece(double end) {
+    void span_to(double end) {
         const Knot<T> from = knots_.back();
         const double span = end - from.time, step = 1e-3 * span;
         const auto at = [&](double time) { return toward(value_(time), from.value); };
@@ -123,14 +122,14 @@ class CubicPieces {
             leaving = (near(from.time + step, from.value) * 4.0 - from.value * 3.0 -
                        near(from.time + 2.0 * step, from.value)) *
                       (0.5 / step);
-            to.arriving = (to.value * 3.0 - near(end - step, to.value) * 4.0 +
-                           near(end - 2.0 * step, to.value)) *
-                          (0.5 / step);
+            to.arriving =
+                (to.value * 3.0 - near(end - step, to.value) * 4.0 + near(end - 2.0 * step, to.value)) *
+                (0.5 / step);
             for (const double u : compared) {
                 const T fitted = hermite(from.value, leaving, to.value, to.arriving, span, u);
                 if (error_(fitted, at(from.time + u * span))) {
-                    piece(from.time + 0.5 * span);
-                    return piece(end);
+                    span_to(from.time + 0.5 * span);
+                    return span_to(end);
                 }
             }
         }
@@ -163,8 +162,7 @@ Tolerance tolerance_for(const Body& body) {
         const Bone& bone = body.bones[i];
         if (bone.parent < 0) continue;
         const auto parent = static_cast<std::size_t>(bone.parent);
-        const double away =
-            glm::length(all[bone.node].position - all[body.bones[parent].node].position);
+        const double away = glm::length(all[bone.node].position - all[body.bones[parent].node].position);
         result.levers[parent] = std::max(result.levers[parent], away + result.levers[i]);
     }
     return result;
@@ -215,13 +213,14 @@ Track<T> ClipWriter::track(const Stack& stack, const std::vector<const Curve*>& 
     const auto is_linear = [&](std::size_t i) {
         const double span = times[i] - times[i - 1];
         return span <= 2.0 * jump_seconds(times[i]) || std::ranges::none_of(compared, [&](double u) {
-            return error(between(result.values[i - 1], result.values[i], u), value(times[i - 1] + u * span));
-        });
+                   return error(between(result.values[i - 1], result.values[i], u),
+                                value(times[i - 1] + u * span));
+               });
     };
     bool linear = true;
     for (std::size_t i = 1; i < times.size() && linear; ++i) linear = is_linear(i);
     if (linear) return result;
-    const std::vector<Knot<T>> knots = CubicPieces<T, Value, Error>(value, error, keys_left_).fit(times);
+    const std::vector<Knot<T>> knots = CubicSpans<T, Value, Error>(value, error, keys_left_).fit(times);
     result = {.interpolation = Interpolation::Cubic};
     for (const Knot<T>& knot : knots) {
         result.times.push_back(seconds(knot.time));
@@ -268,9 +267,9 @@ void ClipWriter::add_channel(const Stack& stack, std::size_t bone, humanoid::Cli
     const auto scales = curves_of(scale_sources(bone));
     channel.scale = track<glm::dvec3>(
         stack, scales, [&](double time) { return transform_at(time).scale; },
-        [&](const glm::dvec3& a, const glm::dvec3& b) { return glm::length(a - b) * lever > length; }, is_set);
-    if (!channel.translation.times.empty() || !channel.rotation.times.empty() ||
-        !channel.scale.times.empty())
+        [&](const glm::dvec3& a, const glm::dvec3& b) { return glm::length(a - b) * lever > length; },
+        is_set);
+    if (!channel.translation.times.empty() || !channel.rotation.times.empty() || !channel.scale.times.empty())
         clip.channels.push_back(std::move(channel));
 }
 

@@ -66,7 +66,7 @@ double kochanek(const Secants& at, const Tangents& key, bool leaving) {
            ((1.0 + bias) * (1.0 + continuity) * at.before + (1.0 - bias) * (1.0 - continuity) * at.after);
 }
 
-/// Turns what the keys say into slopes of the pieces between them.
+/// Turns what the keys say into slopes between them.
 void set_slopes(std::vector<CurveKey>& keys, const std::vector<Tangents>& tangents) {
     const auto slope = [&](std::size_t i, bool leaving) {
         const Secants at = secants_at(keys, i);
@@ -74,7 +74,7 @@ void set_slopes(std::vector<CurveKey>& keys, const std::vector<Tangents>& tangen
     };
     for (std::size_t i = 0; i + 1 < keys.size(); ++i) {
         if (keys[i].shape != Shape::Cubic) continue;
-        // A user's slopes are both with the key before the piece.
+        // A user's slopes are both with the key before.
         keys[i].leaving = tangents[i].is_user() ? tangents[i].data[0] : slope(i, true);
         keys[i].arriving = tangents[i].is_user() ? tangents[i].data[1] : slope(i + 1, false);
         keys[i].leaving_weight = tangents[i].right_weight;
@@ -148,8 +148,7 @@ double parameter_at(double x, double first, double second) {
         const double over = cubic(0.0, first, second, 1.0, u) - x;
         (over > 0.0 ? high : low) = u;
         const double v = 1.0 - u;
-        const double slope =
-            3.0 * (v * v * first + 2.0 * v * u * (second - first) + u * u * (1.0 - second));
+        const double slope = 3.0 * (v * v * first + 2.0 * v * u * (second - first) + u * u * (1.0 - second));
         const double next = u - over / slope;
         if (std::abs(over) < 1e-15) break;
         u = slope > 1e-9 && next > low && next < high ? next : 0.5 * (low + high);
@@ -286,7 +285,8 @@ Curve read_curve(const Record& record) {
     std::size_t set = 0;
     std::int64_t left = counts.empty() ? 0 : counts[0];
     for (std::size_t i = 0; i < times.size(); ++i, --left) {
-        for (; left <= 0 && set + 1 < flags.size(); ++set) left = set + 1 < counts.size() ? counts[set + 1] : 0;
+        for (; left <= 0 && set + 1 < flags.size(); ++set)
+            left = set + 1 < counts.size() ? counts[set + 1] : 0;
         const Shape shape = shape_of(flags[set]);
         if ((flags[set] & any_velocity) != 0 && shape == Shape::Cubic) keys.set_odd();
         keys.add({.ticks = times[i], .value = values[i], .shape = shape},

@@ -15,8 +15,8 @@ struct CurveKey {
     enum class Shape : std::uint8_t { Constant, ConstantNext, Linear, Cubic };
     std::int64_t ticks = 0;
     double value = 0.0;
-    Shape shape = Shape::Linear;                   ///< from this key to the next
-    double leaving = 0.0, arriving = 0.0;          ///< slopes at this key and at the next; per second
+    Shape shape = Shape::Linear;                         ///< from this key to the next
+    double leaving = 0.0, arriving = 0.0;                ///< slopes at this key and at the next; per second
     double leaving_weight = 0.0, arriving_weight = 0.0;  ///< tangent lengths in parts of the interval
     double time() const { return static_cast<double>(ticks) / ticks_per_second; }
 };

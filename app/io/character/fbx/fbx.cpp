@@ -15,7 +15,7 @@ namespace fbx {
 namespace {
 
 /// Keys of all clips: nodes can share curves, so this bounds the memory by the file's size.
-constexpr std::size_t max_clip_keys = 20'000'000, free_keys = 200'000, keys_per_byte = 16;
+constexpr std::size_t max_clip_keys = 20'000'000, free_keys = 20'000, keys_per_byte = 4;
 
 class CharacterReader {
   public:
@@ -29,7 +29,7 @@ class CharacterReader {
         const std::vector<Stack> stacks = read_stacks(file, objects, nodes, character_.notes);
         report(progress_, 0.5);
         const Body body = choose_body(objects, std::move(nodes), stacks);
-        read_unit(objects);
+        read_units(objects);
         SkinOfFile skin = read_skin(objects, body, character_.scale, character_.notes);
         report(progress_, 0.7);
         add_clips(body, stacks, skin);
@@ -48,6 +48,7 @@ class CharacterReader {
             std::vector<MorphTrack> morphs = morph_tracks(writer, stacks[i], skin.morphs);
             if (clip.channels.empty() && morphs.empty()) continue;
             any_morphs = any_morphs || !morphs.empty();
+            clip.rate = rate_;
             if (clip.name.empty()) clip.name = "clip_" + std::to_string(i);
             character_.clips.push_back(std::move(clip));
             skin.skin.morph_clips.push_back(std::move(morphs));
@@ -74,9 +75,8 @@ class CharacterReader {
         bool has_zero = false;
         for (std::size_t i = 0; i < body.bones.size(); ++i) {
             const Bone& bone = body.bones[i];
-            rig::Transform rest = body.transform(i, [&](std::size_t node) {
-                return local_of(body.nodes[node], body.nodes[node].rest());
-            });
+            rig::Transform rest = body.transform(
+                i, [&](std::size_t node) { return local_of(body.nodes[node], body.nodes[node].rest()); });
             for (int axis = 0; axis < 3; ++axis) {  // a skeleton's scales must not be 0
                 if (std::abs(rest.scale[axis]) >= 1e-9) continue;
                 rest.scale[axis] = 1e-9;
@@ -93,10 +93,20 @@ class CharacterReader {
                 throw std::runtime_error(bad.message());
     }
 
-    void read_unit(const Objects& objects) {
+    void read_units(const Objects& objects) {
         const auto unit = objects.setting("UnitScaleFactor");
         const double centimetres = unit ? unit.record->number(unit.first, 1.0) : 1.0;
         character_.scale = centimetres > 0.0 ? 0.01 * centimetres : 0.01;
+        // Autodesk's FbxTime::EMode; 14 is a rate of the file's own.
+        constexpr std::array<double, 19> rates{0.0,  120.0, 100.0, 60.0,  50.0,  48.0,   30.0,
+                                               30.0, 29.97, 29.97, 25.0,  24.0,  1000.0, 23.976,
+                                               0.0,  96.0,  72.0,  59.94, 119.88};
+        const auto mode = objects.setting("TimeMode"), own = objects.setting("CustomFrameRate");
+        const std::int64_t which = mode ? mode.record->integer(mode.first) : 0;
+        if (which == 14 && own)
+            rate_ = std::clamp(own.record->number(own.first), 0.0, 1000.0);
+        else if (which > 0 && which < static_cast<std::int64_t>(rates.size()))
+            rate_ = rates[static_cast<std::size_t>(which)];
     }
     /// The rotation from the file's axes to X right, Y up and Z to the front.
     glm::dquat to_y_up(const Objects& objects) {
@@ -107,7 +117,8 @@ class CharacterReader {
             };
             const std::int64_t which = number(name, otherwise);
             glm::dvec3 along(0.0);
-            if (which >= 0 && which < 3) along[static_cast<int>(which)] = number(name + "Sign", 1) < 0 ? -1.0 : 1.0;
+            if (which >= 0 && which < 3)
+                along[static_cast<int>(which)] = number(name + "Sign", 1) < 0 ? -1.0 : 1.0;
             return along;
         };
         const glm::dvec3 right = axis("CoordAxis", 0), up = axis("UpAxis", 1), front = axis("FrontAxis", 2);
@@ -124,6 +135,7 @@ class CharacterReader {
 
     std::string_view bytes_;
     LoadProgress* progress_;
+    double rate_ = 0.0;  // frames per second
     Character character_{};
 };
 

@@ -30,11 +30,11 @@ class LayerElement {
 
     /// The first number of a corner's row; null: it has none.
     const double* at(std::size_t corner, std::size_t point, std::size_t polygon) const {
-        std::size_t row = mapping_ == "ByPolygonVertex"                             ? corner
+        std::size_t row = mapping_ == "ByPolygonVertex"                       ? corner
                           : mapping_ == "ByVertice" || mapping_ == "ByVertex" ? point
-                          : mapping_ == "ByPolygon"                               ? polygon
-                          : mapping_ == "AllSame"                                 ? 0
-                                                                                  : values_.size();
+                          : mapping_ == "ByPolygon"                           ? polygon
+                          : mapping_ == "AllSame"                             ? 0
+                                                                              : values_.size();
         if (is_indexed_) {
             if (row >= index_.size() || index_[row] < 0) return nullptr;
             row = static_cast<std::size_t>(index_[row]);
@@ -119,8 +119,7 @@ class MeshReader {
             for (std::size_t k = 0; k < 3; ++k) key.rest[k] = static_cast<float>(normal[k]);
         if (const double* uv = uvs_.at(i, point, polygon))
             for (std::size_t k = 0; k < 2; ++k) key.rest[3 + k] = static_cast<float>(uv[k]);
-        const auto [known, is_new] =
-            to.known.emplace(key, static_cast<std::uint32_t>(to.part.points.size()));
+        const auto [known, is_new] = to.known.emplace(key, static_cast<std::uint32_t>(to.part.points.size()));
         if (!is_new) return known->second;
         to.part.points.push_back(key.point);
         to.part.positions.push_back({static_cast<float>(positions_[3 * point]),

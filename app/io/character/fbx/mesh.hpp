@@ -14,8 +14,8 @@ namespace tendril::app::fbx {
 
 /// Triangles of one material. Corners of the same point, normal and texture coordinate are one.
 struct MeshPart {
-    std::int64_t material = 0;  ///< counts the model's
-    std::vector<std::uint32_t> points{};  ///< for each corner, the geometry's point
+    std::int64_t material = 0;                      ///< counts the model's
+    std::vector<std::uint32_t> points{};            ///< for each corner, the geometry's point
     std::vector<glm::vec3> positions{}, normals{};  ///< one per corner; normals may be empty
     std::vector<glm::vec2> uvs{};                   ///< one per corner, v from the bottom; or empty
     std::vector<std::uint32_t> indices{};

@@ -49,16 +49,14 @@ Node read_node(const Objects& objects, std::size_t object, std::vector<std::stri
         node.post = from_euler(vector("PostRotation"), 0);
     }
     const std::int64_t inherit = objects.integer(object, "InheritType", 0);
-    node.inherit = inherit == 1   ? Inherit::Normal
-                   : inherit == 2 ? Inherit::NoScale
-                                  : Inherit::ByComponent;
+    node.inherit = inherit == 1 ? Inherit::Normal : inherit == 2 ? Inherit::NoScale : Inherit::ByComponent;
     node.rotation_offset = vector("RotationOffset");
     node.rotation_pivot = vector("RotationPivot");
     node.scaling_offset = vector("ScalingOffset");
     node.scaling_pivot = vector("ScalingPivot");
-    node.geometry = humanoid::placement({vector("GeometricTranslation"),
-                                         from_euler(vector("GeometricRotation"), 0),
-                                         vector("GeometricScaling", 1.0)});
+    node.geometry =
+        humanoid::placement({vector("GeometricTranslation"), from_euler(vector("GeometricRotation"), 0),
+                             vector("GeometricScaling", 1.0)});
     return node;
 }
 

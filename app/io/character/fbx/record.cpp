@@ -60,9 +60,9 @@ bool visit(const Property& property, With&& with) {
 std::string unpacked(std::string_view packed, std::size_t size) {
     std::string bytes(size, '\0');
     auto length = static_cast<uLongf>(size);
-    const int rc = uncompress(reinterpret_cast<Bytef*>(bytes.data()), &length,
-                              reinterpret_cast<const Bytef*>(packed.data()),
-                              static_cast<uLong>(packed.size()));
+    const int rc =
+        uncompress(reinterpret_cast<Bytef*>(bytes.data()), &length,
+                   reinterpret_cast<const Bytef*>(packed.data()), static_cast<uLong>(packed.size()));
     if (rc != Z_OK || length != size) throw std::runtime_error("an array that cannot be unpacked");
     return bytes;
 }

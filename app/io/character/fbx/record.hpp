@@ -51,7 +51,8 @@ struct File {
     int version = 0;  ///< 7400 for 7.4
 };
 
-/// The records keep views of `bytes`. Throws std::runtime_error with the reason and the byte or line. O(bytes).
+/// The records keep views of `bytes`. Throws std::runtime_error with the reason and the byte or line.
+/// O(bytes).
 File read_records(std::string_view bytes);
 
 // For read_records().

@@ -70,7 +70,8 @@ class TextRecords {
     std::string_view name() {
         const std::string_view name = word();
         skip_blanks();
-        if (name.empty() || at_ == text_.size() || text_[at_] != ':') fail("expected a record, \"Name: ...\"");
+        if (name.empty() || at_ == text_.size() || text_[at_] != ':')
+            fail("expected a record, \"Name: ...\"");
         ++at_;
         return name;
     }

@@ -95,12 +95,13 @@ class SkinReader {
     void add_cluster(std::size_t object, const Mesh& mesh, std::size_t model, std::size_t& joint,
                      Influences& result) {
         std::int32_t bone = -1;
-        for (const Connection& link : objects_.children(object))
-            if (const std::int32_t node = node_of_[link.object]; node >= 0 && bone < 0)
+        for (const Connection& each : objects_.children(object))
+            if (const std::int32_t node = node_of_[each.object]; node >= 0 && bone < 0)
                 bone = body_.bone_of[static_cast<std::size_t>(node)];
         if (bone < 0) return;
         const Record& record = *objects_[object].record;
-        const std::vector<double> bind = record.numbers_of("Transform"), at = record.numbers_of("TransformLink");
+        const std::vector<double> bind = record.numbers_of("Transform"),
+                                  at = record.numbers_of("TransformLink");
         Placement from_bind;
         if (bind.size() == 16)
             from_bind = placement_in(bind);
@@ -173,7 +174,8 @@ class SkinReader {
                     add_channel(channel.object, mesh, part, what);
         }
         for (const Record& shape : objects_[geometry].record->children)
-            if (shape.name == "Shape") add_morph(shape, std::string(plain_name(shape.text(0))), 0.0, mesh, part, what);
+            if (shape.name == "Shape")
+                add_morph(shape, std::string(plain_name(shape.text(0))), 0.0, mesh, part, what);
     }
     void add_channel(std::size_t channel, const Mesh& mesh, const MeshPart& part, const std::string& what) {
         std::vector<std::size_t> targets;
@@ -204,13 +206,13 @@ class SkinReader {
                 const std::int64_t at = row[part.points[i]];
                 if (at < 0 || 3 * static_cast<std::size_t>(at) + 2 >= from.size()) continue;
                 for (int k = 0; k < 3; ++k)
-                    result[i][k] =
-                        static_cast<float>(from[3 * static_cast<std::size_t>(at) + static_cast<std::size_t>(k)]);
+                    result[i][k] = static_cast<float>(
+                        from[3 * static_cast<std::size_t>(at) + static_cast<std::size_t>(k)]);
             }
             return result;
         };
-        return builder_.add_morph(what, std::move(name), std::abs(weight) <= 1e3 ? weight : 0.0, listed(moves),
-                                         turns.empty() ? std::vector<glm::vec3>() : listed(turns));
+        return builder_.add_morph(what, std::move(name), std::abs(weight) <= 1e3 ? weight : 0.0,
+                                  listed(moves), turns.empty() ? std::vector<glm::vec3>() : listed(turns));
     }
 
     const Objects& objects_;
