@@ -99,6 +99,21 @@ TEST(FbxCurve, automatic_tangents_are_those_of_the_programs_that_write_them) {
     EXPECT_NEAR(slope(tcb, 4.0), 2.0, 1e-9);
 }
 
+TEST(FbxCurve, a_user_s_slope_holds_on_both_sides_unless_it_is_broken) {
+    const std::int64_t broken = user | 0x800;
+    const auto arriving = [](std::int64_t first, std::int64_t second) {
+        const std::string text =
+            moved_by({{0.0, 0.0, first, 7.0, 5.0}, {0.5, 1.0, second, 3.0, 0.0}, {2.0, 1.0}}).text();
+        const fbx::File file = fbx::read_records(text);
+        for (const fbx::Record& each : file.root.child("Objects")->children)
+            if (each.name == "AnimationCurve") return fbx::read_curve(each).keys.at(0).arriving;
+        return std::nan("");
+    };
+    EXPECT_EQ(arriving(automatic, user), 3.0);
+    EXPECT_EQ(arriving(automatic, broken), 5.0);
+    EXPECT_EQ(arriving(user, broken), 5.0);
+}
+
 TEST(FbxCurve, an_euler_angle_that_goes_round_is_followed_all_the_way) {
     FbxScene scene;
     const std::int64_t bone = scene.model("Bone", 0, {});
@@ -147,7 +162,7 @@ TEST(FbxCurve, keys_that_go_back_in_time_are_left_out_and_said) {
     const Character character = read(moved_by({{0.0, 1.0}, {1.0, 2.0}, {0.5, 9.0}, {2.0, 3.0}}));
     EXPECT_NEAR(x_at(character, 1.5), 2.5, 1e-9);
     ASSERT_EQ(character.notes.size(), 1u);
-    EXPECT_NE(character.notes[0].find("keys are out of order"), std::string::npos);
+    EXPECT_NE(character.notes[0].find("keys out of order"), std::string::npos);
 }
 
 // ------------------------------------------------------------------------------------------- version 6.1

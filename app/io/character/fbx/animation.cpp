@@ -54,7 +54,9 @@ class StackReader {
         for (Stack& stack : stacks_) fit_to_keys(stack);
         if (has_odd_)
             notes_.push_back(
-                "Some keys are out of order, or bend time by a velocity, which is not read as written.");
+                "Some curves have keys out of order, have a velocity, or repeat beyond their keys; that is "
+                "not "
+                "read as written.");
         return std::move(stacks_);
     }
 

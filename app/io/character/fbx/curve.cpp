@@ -15,7 +15,7 @@ using Shape = CurveKey::Shape;
 constexpr std::int64_t constant_flag = 0x2, linear_flag = 0x4;
 constexpr std::int64_t constant_next = 0x100;
 constexpr std::int64_t tangent_tcb = 0x200, tangent_user = 0x400;
-constexpr std::int64_t generic_clamp = 0x1000, time_independent = 0x2000;
+constexpr std::int64_t generic_break = 0x800, generic_clamp = 0x1000, time_independent = 0x2000;
 constexpr std::int64_t clamp_progressive = 0x4000;
 constexpr std::int64_t weighted_right = 0x1000000, weighted_next_left = 0x2000000;
 constexpr std::int64_t any_velocity = 0x30000000;
@@ -27,6 +27,7 @@ struct Tangents {
     std::array<double, 3> data{};  ///< slopes, or tension, continuity and bias
     double right_weight = usual_weight, next_left_weight = usual_weight;
     bool is_user() const { return (flags & tangent_user) != 0; }
+    bool is_broken() const { return is_user() && (flags & generic_break) != 0; }
     bool is_tcb() const { return !is_user() && (flags & tangent_tcb) != 0; }
 };
 
@@ -69,14 +70,17 @@ double kochanek(const Secants& at, const Tangents& key, bool leaving) {
 /// Turns what the keys say into slopes between them.
 void set_slopes(std::vector<CurveKey>& keys, const std::vector<Tangents>& tangents) {
     const auto slope = [&](std::size_t i, bool leaving) {
+        const Tangents& key = tangents[i];
+        // A user's slope is one for both sides, unless the tangents are broken: then the key before has it.
+        if (key.is_user()) return key.data[0];
         const Secants at = secants_at(keys, i);
-        return tangents[i].is_tcb() ? kochanek(at, tangents[i], leaving) : automatic(at, tangents[i]);
+        return key.is_tcb() ? kochanek(at, key, leaving) : automatic(at, key);
     };
     for (std::size_t i = 0; i + 1 < keys.size(); ++i) {
         if (keys[i].shape != Shape::Cubic) continue;
-        // A user's slopes are both with the key before.
-        keys[i].leaving = tangents[i].is_user() ? tangents[i].data[0] : slope(i, true);
-        keys[i].arriving = tangents[i].is_user() ? tangents[i].data[1] : slope(i + 1, false);
+        const bool has_both = tangents[i].is_user() || tangents[i + 1].is_broken();
+        keys[i].leaving = slope(i, true);
+        keys[i].arriving = has_both ? tangents[i].data[1] : slope(i + 1, false);
         keys[i].leaving_weight = tangents[i].right_weight;
         keys[i].arriving_weight = tangents[i].next_left_weight;
     }
@@ -217,7 +221,7 @@ class OldKeys {
             if (count < tangents.data.size()) tangents.data[count] = value;
         }
         if (mode == 's' || mode == 'b') {
-            tangents.flags = tangent_user;
+            tangents.flags = mode == 'b' ? tangent_user | generic_break : tangent_user;
             if (count != 2) is_lost_ = true;
         } else if (mode == 't') {
             tangents.flags = tangent_tcb;
@@ -281,6 +285,11 @@ Curve read_curve(const Record& record) {
     if (flags.empty()) flags.push_back(linear_flag);
     data.resize(4 * flags.size());
     KeyList keys;
+    for (const char* outside : {"Pre-Extrapolation", "Post-Extrapolation"}) {
+        const Record* found = record.child(outside);
+        const Record* type = found ? found->child("Type") : nullptr;
+        if (type && !type->text(0).empty() && type->text(0) != "C") keys.set_odd();
+    }
     // Each set of attributes is for a number of keys; the last one for all that are left.
     std::size_t set = 0;
     std::int64_t left = counts.empty() ? 0 : counts[0];

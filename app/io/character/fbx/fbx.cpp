@@ -27,6 +27,11 @@ class CharacterReader {
         const Objects objects(file);
         std::vector<Node> nodes = read_nodes(objects, character_.notes);
         const std::vector<Stack> stacks = read_stacks(file, objects, nodes, character_.notes);
+        for (std::size_t i = 0; i < objects.size(); ++i) {
+            if (objects[i].kind != "Constraint" || objects[i].subtype == "Character") continue;
+            character_.notes.push_back("The file's constraints are not evaluated.");
+            break;
+        }
         report(progress_, 0.5);
         const Body body = choose_body(objects, std::move(nodes), stacks);
         read_units(objects);
