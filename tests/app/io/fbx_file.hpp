@@ -1,6 +1,8 @@
 // Writes FBX files for tests, text or binary: records as values, and the objects of a small scene.
 #pragma once
 
+#include <zlib.h>
+
 #include <cstdint>
 #include <cstring>
 #include <glm/vec3.hpp>
@@ -121,10 +123,11 @@ class FbxScene {
         for (const FbxRecord& each : records(version)) write_text(out, each, 0);
         return out.str();
     }
-    std::string binary(int version = 7400) const {
+    /// `packed`: arrays are compressed.
+    std::string binary(int version = 7400, bool packed = false) const {
         std::string out = "Kaydara FBX Binary  ";
         out += std::string("\0\x1a\0", 3) + raw(static_cast<std::uint32_t>(version));
-        for (const FbxRecord& each : records(version)) write_binary(out, each, version >= 7500);
+        for (const FbxRecord& each : records(version)) write_binary(out, each, version >= 7500, packed);
         out.append(version >= 7500 ? 25 : 13, '\0');
         return out;
     }
@@ -189,7 +192,7 @@ class FbxScene {
         }
         return out.str();
     }
-    static void write_binary(std::string& out, const FbxRecord& record, bool wide) {
+    static void write_binary(std::string& out, const FbxRecord& record, bool wide, bool packed) {
         std::string values;
         for (const Value& value : record.values) {
             if (const auto* number = std::get_if<std::int64_t>(&value)) values += 'L' + raw(*number);
@@ -201,9 +204,18 @@ class FbxScene {
                 values += 'S' + raw(static_cast<std::uint32_t>(written.size())) + written;
             }
             const auto write_list = [&](char kind, const auto& numbers) {
-                values += kind + raw(static_cast<std::uint32_t>(numbers.size())) + raw(std::uint32_t{0}) +
-                          raw(static_cast<std::uint32_t>(8 * numbers.size()));
-                for (const auto number : numbers) values += raw(number);
+                std::string bytes;
+                for (const auto number : numbers) bytes += raw(number);
+                if (packed) {
+                    uLongf size = compressBound(static_cast<uLong>(bytes.size()));
+                    std::string smaller(size, '\0');
+                    compress(reinterpret_cast<Bytef*>(smaller.data()), &size,
+                             reinterpret_cast<const Bytef*>(bytes.data()), static_cast<uLong>(bytes.size()));
+                    bytes = smaller.substr(0, size);
+                }
+                values += kind + raw(static_cast<std::uint32_t>(numbers.size())) +
+                          raw(std::uint32_t{packed ? 1u : 0u}) +
+                          raw(static_cast<std::uint32_t>(bytes.size())) + bytes;
             };
             if (const auto* numbers = std::get_if<std::vector<double>>(&value)) write_list('d', *numbers);
             if (const auto* numbers = std::get_if<std::vector<std::int64_t>>(&value))
@@ -216,7 +228,7 @@ class FbxScene {
         out.append(3 * size, '\0');
         out += static_cast<char>(record.name.size());
         out += record.name + values;
-        for (const FbxRecord& each : record.children) write_binary(out, each, wide);
+        for (const FbxRecord& each : record.children) write_binary(out, each, wide, packed);
         if (record.has_children || !record.children.empty()) out.append(3 * size + 1, '\0');
         put(0, out.size());
         put(1, record.values.size());

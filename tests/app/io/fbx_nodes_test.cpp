@@ -4,6 +4,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <random>
+#include <utility>
 
 #include "app/io/character/fbx/fbx.hpp"
 #include "tests/app/io/fbx_file.hpp"
@@ -118,7 +119,7 @@ FbxScene scene_of(const std::vector<NaiveNode>& nodes) {
 
 /// A written file, in one of the ways in which files are written.
 std::string bytes_of(const FbxScene& scene, int way) {
-    return way == 0 ? scene.text() : way == 1 ? scene.binary(7400) : scene.binary(7700);
+    return way == 0 ? scene.text() : way == 1 ? scene.binary(7400, true) : scene.binary(7700);
 }
 
 TEST(FbxNodes, ten_thousand_random_nodes_are_where_a_naive_evaluator_puts_them) {
@@ -212,6 +213,55 @@ TEST(FbxNodes, a_skin_follows_its_bones_and_its_blend_shapes) {
         EXPECT_LT(glm::length(glm::dvec3(skinned(draw, 3)) - glm::dvec3(0.5, 1.0, 0.0)), 1e-6);
         EXPECT_NEAR(morph_weights(character.skin, 0, 0.5).at(0), 0.25f, 1e-6f);
     }
+}
+
+/// A triangle on a bone, with a material.
+std::pair<FbxScene, std::int64_t> painted_scene() {
+    FbxScene scene;
+    const std::int64_t bone = scene.model("Bone", 0, {});
+    const std::int64_t body = scene.model("Body", bone, {}, "Mesh");
+    const FbxRecord uvs{"LayerElementUV",
+                        {std::int64_t{0}},
+                        {{"MappingInformationType", {std::string("ByPolygonVertex")}, {}},
+                         {"ReferenceInformationType", {std::string("IndexToDirect")}, {}},
+                         FbxScene::list("UV", std::vector<double>{0, 0, 1, 1}),
+                         FbxScene::list("UVIndex", std::vector<std::int64_t>{0, 1, 1})},
+                        true};
+    const std::int64_t mesh =
+        scene.add("Geometry", "", "Mesh",
+                  {FbxScene::list("Vertices", std::vector<double>{0, 0, 0, 1, 0, 0, 0, 1, 0}),
+                   FbxScene::list("PolygonVertexIndex", std::vector<std::int64_t>{0, 1, -3}), uvs});
+    scene.connect(mesh, body);
+    const std::int64_t material = scene.add(
+        "Material", "skin", "", {FbxScene::properties({FbxScene::vector("DiffuseColor", {0.5, 0.25, 1.0})})});
+    scene.connect(material, body);
+    return {scene, material};
+}
+
+TEST(FbxNodes, a_material_is_a_colour_or_the_picture_in_the_file) {
+    const auto [plain, unused] = painted_scene();
+    const Character coloured = parse_fbx(plain.binary(), "it");
+    EXPECT_EQ(coloured.skin.mesh->parts.at(0).colour, glm::vec4(0.5f, 0.25f, 1.0f, 1.0f));
+
+    auto [scene, material] = painted_scene();
+    const FbxRecord name{"RelativeFilename", {std::string("textures\\skin.png")}, {}};
+    const std::int64_t texture = scene.add("Texture", "skin", "", {name});
+    scene.connect(texture, material, "DiffuseColor");
+    const Character without = parse_fbx(scene.text(), "it");
+    EXPECT_EQ(without.skin.mesh->parts.at(0).picture, -1);
+    ASSERT_EQ(without.notes.size(), 1u);
+    EXPECT_NE(without.notes[0].find("texture skin.png is not in the file"), std::string::npos);
+
+    // One red pixel as a PNG, in base64 as text files have it.
+    const std::string png =
+        "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGP4z8AAAAMBAQDJ/pLvAAAAAElFTkSuQmCC";
+    const std::int64_t video = scene.add("Video", "skin", "Clip", {name, {"Content", {png}, {}}});
+    scene.connect(video, texture);
+    const Character painted = parse_fbx(scene.text(), "it");
+    EXPECT_EQ(painted.notes, std::vector<std::string>());
+    ASSERT_EQ(painted.skin.mesh->pictures.size(), 1u);
+    EXPECT_EQ(painted.skin.mesh->parts.at(0).picture, 0);
+    EXPECT_EQ(painted.skin.mesh->uvs.at(0), glm::vec2(0.0f, 1.0f)) << "v counts from the top";
 }
 
 // -------------------------------------------------------------------------------------------------- damage
