@@ -145,7 +145,7 @@ class CubicSpans {
 
 }  // namespace
 
-Tolerance tolerance_for(const Body& body) {
+Tolerance tolerance_for(const Body& body, double metres) {
     std::vector<rig::Transform> locals;
     for (const Node& node : body.nodes) locals.push_back(local_of(node, node.rest()));
     const std::vector<Place> all = places(body.nodes, locals);
@@ -156,8 +156,8 @@ Tolerance tolerance_for(const Body& body) {
     }
     Tolerance result;
     const double size = glm::length(high - low);
-    result.length = std::max(2.5e-6 * size, 1e-9);
-    result.levers.assign(body.bones.size(), 0.02 * size);
+    result.length = std::max(2.5e-6 * size, 1e-6 / metres);
+    result.levers.assign(body.bones.size(), std::max(0.02 * size, 0.01 / metres));
     for (std::size_t i = body.bones.size(); i-- > 0;) {
         const Bone& bone = body.bones[i];
         if (bone.parent < 0) continue;
@@ -168,8 +168,8 @@ Tolerance tolerance_for(const Body& body) {
     return result;
 }
 
-ClipWriter::ClipWriter(const Body& body, std::size_t max_clip_keys)
-    : body_(body), tolerance_(tolerance_for(body)), keys_left_(max_clip_keys) {}
+ClipWriter::ClipWriter(const Body& body, double metres, std::size_t max_clip_keys)
+    : body_(body), tolerance_(tolerance_for(body, metres)), keys_left_(max_clip_keys) {}
 
 ClipWriter::Sources ClipWriter::translation_sources(std::size_t index) const {
     const Bone& bone = body_.bones[index];
@@ -249,7 +249,7 @@ void ClipWriter::add_channel(const Stack& stack, std::size_t bone, humanoid::Cli
         return curves;
     };
     humanoid::Channel channel{.node = bone};
-    const double length = tolerance_.length, lever = std::max(tolerance_.levers[bone], 1e-9);
+    const double length = tolerance_.length, lever = tolerance_.levers[bone];
     const bool is_scale = body_.bones[bone].is_scale;
     if (!is_scale) {
         const auto moves = curves_of(translation_sources(bone));

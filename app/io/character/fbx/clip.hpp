@@ -16,13 +16,14 @@ struct Tolerance {
     double length = 1e-3;
     std::vector<double> levers{};  ///< for each bone, the distance up to which its rotation moves nodes
 };
-/// 0.005 mm of a figure of 1.8 m: the errors of a chain of nodes add up.
-Tolerance tolerance_for(const Body& body);
+/// 0.005 mm for a figure of 1.8 m, and not under 0.001 mm: the errors of a chain of nodes add up.
+/// `metres` per unit of the file.
+Tolerance tolerance_for(const Body& body, double metres);
 
 class ClipWriter {
   public:
     /// Throws std::runtime_error beyond `max_clip_keys` keys in all clips together.
-    ClipWriter(const Body& body, std::size_t max_clip_keys);
+    ClipWriter(const Body& body, double metres, std::size_t max_clip_keys);
     /// In the file's unit and axes.
     humanoid::Clip clip(const Stack& stack);
     /// The weight of a blend shape channel over the stack's time, in percent in x; empty: not animated.

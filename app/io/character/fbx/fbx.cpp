@@ -45,7 +45,8 @@ class CharacterReader {
 
   private:
     void add_clips(const Body& body, const std::vector<Stack>& stacks, SkinOfFile& skin) {
-        ClipWriter writer(body, std::min(max_clip_keys, free_keys + keys_per_byte * bytes_.size()));
+        ClipWriter writer(body, character_.scale,
+                          std::min(max_clip_keys, free_keys + keys_per_byte * bytes_.size()));
         bool any_morphs = false;
         for (std::size_t i = 0; i < stacks.size(); ++i) {
             report(progress_, 0.7 + 0.3 * static_cast<double>(i) / static_cast<double>(stacks.size()));
