@@ -115,6 +115,7 @@ class FbxScene {
         return node;
     }
     std::vector<FbxRecord> settings{};
+    std::vector<std::int64_t> ids{};  ///< for the test that makes the scene
 
     std::string text(int version = 7400) const {
         std::ostringstream out;

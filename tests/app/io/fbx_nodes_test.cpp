@@ -102,7 +102,7 @@ std::vector<NaiveNode> random_tree(std::mt19937& random, int count) {
 FbxScene scene_of(const std::vector<NaiveNode>& nodes) {
     FbxScene scene;
     scene.settings = {FbxScene::property("UnitScaleFactor", {100.0})};
-    std::vector<std::int64_t> ids;
+    std::vector<std::int64_t>& ids = scene.ids;
     for (const NaiveNode& node : nodes)
         ids.push_back(scene.model(
             node.name, node.parent < 0 ? 0 : ids[static_cast<std::size_t>(node.parent)],
@@ -149,6 +149,51 @@ TEST(FbxNodes, ten_thousand_random_nodes_are_where_a_naive_evaluator_puts_them) 
     }
     EXPECT_EQ(count, 10'000u);
     EXPECT_LT(worst, 1e-6);
+}
+
+TEST(FbxNodes, random_clips_move_as_a_naive_evaluator_moves_them) {
+    std::mt19937 random(5);
+    for (int file = 0; file < 30; ++file) {
+        const std::vector<NaiveNode> first = random_tree(random, 12);
+        std::vector<NaiveNode> last = first;
+        FbxScene scene = scene_of(first);
+        const std::int64_t layer = scene.layer(scene.stack("Take", 1.0));
+        for (std::size_t i = 0; i < last.size(); ++i) {
+            last[i].t += random_vector(random, 1.0);
+            last[i].r += random_vector(random, 60.0);
+            if (i % 2 == 0) last[i].s *= glm::exp(random_vector(random, 0.3));
+            const auto animate = [&](const char* name, const glm::dvec3& from, const glm::dvec3& to) {
+                std::vector<std::vector<FbxScene::Key>> curves;
+                for (int axis = 0; axis < 3; ++axis) curves.push_back({{0.0, from[axis]}, {1.0, to[axis]}});
+                scene.animate(layer, scene.ids.at(i), name, curves, from);
+            };
+            animate("Lcl Translation", first[i].t, last[i].t);
+            animate("Lcl Rotation", first[i].r, last[i].r);
+            animate("Lcl Scaling", first[i].s, last[i].s);
+        }
+        const Character character = parse_fbx(bytes_of(scene, file % 3), "it");
+        std::vector<rig::Transform> pose = rest_pose(character.skeleton);
+        std::vector<humanoid::Placement> placements(pose.size());
+        for (const double time : {0.0, 0.37, 0.8, 1.0}) {
+            std::vector<NaiveNode> now = first;
+            for (std::size_t i = 0; i < now.size(); ++i) {
+                now[i].t = glm::mix(first[i].t, last[i].t, time);
+                now[i].r = glm::mix(first[i].r, last[i].r, time);
+                now[i].s = glm::mix(first[i].s, last[i].s, time);
+            }
+            const std::vector<NaivePlace> known = naive_places(now);
+            sample(character.clips.at(0), character.skeleton, time, pose);
+            place(character.skeleton, pose, placements);
+            double size = 1.0;
+            for (const NaivePlace& each : known)
+                size = std::max(size, glm::length(glm::dvec3(each.turned[3])));
+            for (std::size_t i = 0; i < now.size(); ++i)
+                EXPECT_LT(glm::length(placements[*character.skeleton.find(now[i].name)].position -
+                                      glm::dvec3(known[i].turned[3])),
+                          1e-4 / 1.8 * size)
+                    << now[i].name << " at " << time << " of file " << file;
+        }
+    }
 }
 
 /// Two bones and a mesh that follows them, animated: one of each kind of object.
