@@ -77,6 +77,9 @@ TEST(Lint, says_the_frame_rate_that_keys_have) {
     EXPECT_EQ(frame_rate(winding(30.0, 40)), 30.0);
     EXPECT_NEAR(frame_rate(winding(29.97, 400)), 29.97, 1e-9);
     EXPECT_EQ(frame_rate({}), 60.0);
+    Clip said = winding(120.0, 40);  // reduced keys lie between frames
+    said.rate = 30.0;
+    EXPECT_EQ(frame_rate(said), 30.0);
     EXPECT_EQ(frame_rate(winding(2.0, 40)), 60.0);  // too slow to be a frame rate
     Clip rounded = winding(30.0, 100);              // as a file with three decimals stores it
     for (Channel& channel : rounded.channels)

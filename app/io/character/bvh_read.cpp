@@ -274,7 +274,7 @@ Character read(Words& words, LoadProgress* progress) {
     character.notes.push_back(
         std::string("BVH files do not state a unit; judging by the figure's height, this one is in ") +
         unit.name + '.');
-    normalise(hierarchy.nodes, clips, 'y', unit.metres);
+    normalise(hierarchy.nodes, clips, unit.metres);
     character.skeleton = skeleton_of(std::move(hierarchy.nodes));
     for (const humanoid::Clip& clip : clips)
         if (const Result bad = check(clip, character.skeleton); !bad)

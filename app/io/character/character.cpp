@@ -6,25 +6,14 @@
 #include <stdexcept>
 
 namespace tendril::app {
-namespace {
 
-/// The rotation from the file's up axis to Y.
-glm::dquat to_y_up(char up) {
-    const double half = std::sqrt(0.5);
-    if (up == 'z') return {half, -half, 0.0, 0.0};  // a quarter turn about X: Z becomes Y, Y becomes -Z
-    if (up == 'x') return {half, 0.0, 0.0, half};   // a quarter turn about Z: X becomes Y
-    return {1.0, 0.0, 0.0, 0.0};
-}
-
-}  // namespace
-
-void normalise(std::vector<humanoid::Node>& nodes, std::vector<humanoid::Clip>& clips, char up,
-               double scale) {
-    const glm::dquat turn = to_y_up(up);
+void normalise(std::vector<humanoid::Node>& nodes, std::vector<humanoid::Clip>& clips, double scale,
+               const glm::dquat& turn) {
+    const bool is_upright = turn == glm::dquat(1.0, 0.0, 0.0, 0.0);
     for (humanoid::Node& node : nodes) {
         const auto convert = [&](rig::Transform& rest, bool is_root) {
             rest.translation *= scale;
-            if (up == 'y' || !is_root) return;
+            if (is_upright || !is_root) return;
             rest.translation = turn * rest.translation;
             rest.rotation = turn * rest.rotation;
         };
@@ -34,7 +23,7 @@ void normalise(std::vector<humanoid::Node>& nodes, std::vector<humanoid::Clip>& 
     for (humanoid::Clip& clip : clips) {
         for (humanoid::Channel& channel : clip.channels) {
             for (glm::dvec3& value : channel.translation.values) value *= scale;
-            if (up == 'y' || nodes[channel.node].key_parent() >= 0) continue;
+            if (is_upright || nodes[channel.node].key_parent() >= 0) continue;
             for (glm::dvec3& value : channel.translation.values) value = turn * value;
             for (glm::dquat& value : channel.rotation.values) value = turn * value;
         }

@@ -25,12 +25,12 @@ struct Character {
     Skin skin{};
     std::optional<NamedBones> bones{};  ///< none: they must be matched
     double scale = 1.0;                 ///< metres per unit of the file
-    char up = 'y';                      ///< the file's axis that points up: x, y or z
     std::vector<std::string> notes{};   ///< sentences for the panel: what was guessed or omitted
 };
 
 /// Converts the file's nodes and clips to Y up and metres: rotates the roots and scales every translation.
-void normalise(std::vector<humanoid::Node>& nodes, std::vector<humanoid::Clip>& clips, char up, double scale);
+void normalise(std::vector<humanoid::Node>& nodes, std::vector<humanoid::Clip>& clips, double scale,
+               const glm::dquat& turn = {1.0, 0.0, 0.0, 0.0});
 
 /// The file's own bone map, or else the library's match.
 humanoid::BoneMap bone_map(const Character& character);

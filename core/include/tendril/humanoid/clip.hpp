@@ -53,6 +53,7 @@ struct Clip {
     std::string name{};
     double duration = 0.0;            ///< seconds, at least the time of the last key
     std::vector<Channel> channels{};  ///< at most one per node
+    double rate = 0.0;                ///< frames per second, as its file says; 0: it does not
     bool operator==(const Clip&) const = default;
 };
 

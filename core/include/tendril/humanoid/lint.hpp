@@ -61,7 +61,7 @@ struct Finding {
 };
 
 struct LintSettings {
-    double rate = 0.0;        ///< frames per second, up to 1000; 0: the clip's own, from its keys
+    double rate = 0.0;        ///< frames per second, up to 1000; 0: the clip's own
     double skating = 0.02;    ///< metres that a standing foot may slide
     double floating = 0.025;  ///< metres that a standing foot may be above the floor
     double sinking = 0.02;    ///< metres that a foot may be below it
@@ -89,7 +89,7 @@ struct LintReport {
     std::vector<Finding> findings{};  ///< by frame
 };
 
-/// Frames per second, from the spacing of the clip's keys; rounded if within 0.1 % of a whole number. 60 if
+/// Frames per second, as the clip's file says, or from the spacing of its keys; rounded if within 0.1 % of a whole number. 60 if
 /// there are too few keys, or if they give a rate not between 20 and 1000.
 double frame_rate(const Clip& clip) noexcept;
 

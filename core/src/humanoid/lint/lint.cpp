@@ -68,6 +68,7 @@ const char* name(Fault fault) noexcept {
 
 double frame_rate(const Clip& clip) noexcept {
     constexpr double otherwise = 60.0;
+    if (clip.rate >= 20.0 && clip.rate <= 1000.0) return clip.rate;
     const std::vector<double>* densest = nullptr;
     const auto look_at = [&](const std::vector<double>& times) {
         if (times.size() > 1 && (!densest || times.size() > densest->size())) densest = &times;

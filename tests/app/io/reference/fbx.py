@@ -142,12 +142,15 @@ class File:
         t, r, s = (self._animated(model, name, get(name, rest)[:3], stack, tick)
                    for name, rest in (("Lcl Translation", zero), ("Lcl Rotation", zero),
                                       ("Lcl Scaling", [1.0, 1.0, 1.0])))
-        order = int(get("RotationOrder", [0])[0]) if get("RotationActive", [0])[0] else 0
+        # "When this flag is set to false, the RotationOrder, the Pre/Post rotation values and the rotation limits
+        # should be ignored" (Autodesk, FbxNode::SetRotationActive).
+        active = get("RotationActive", [0])[0]
+        order = int(get("RotationOrder", [0])[0]) if active else 0
+        before, after = (get(name, zero) if active else zero for name in ("PreRotation", "PostRotation"))
         minus = lambda v: [-x for x in v]
         pivot, scale_pivot = get("RotationPivot", zero), get("ScalingPivot", zero)
         return multiply(translation(t), translation(get("RotationOffset", zero)), translation(pivot),
-                        euler(get("PreRotation", zero)), euler(r, order),
-                        transposed(euler(get("PostRotation", zero))), translation(minus(pivot)),
+                        euler(before), euler(r, order), transposed(euler(after)), translation(minus(pivot)),
                         translation(get("ScalingOffset", zero)), translation(scale_pivot), scaling(s),
                         translation(minus(scale_pivot)))
 

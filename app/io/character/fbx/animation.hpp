@@ -1,0 +1,67 @@
+// The animation stacks of an FBX file (version 6: takes): layers of curves for the nodes' properties.
+#pragma once
+
+#include <array>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/io/character/fbx/curve.hpp"
+#include "app/io/character/fbx/node.hpp"
+
+namespace tendril::app::fbx {
+
+/// A vector's curves; an axis without one keeps its constant.
+struct VectorCurves {
+    std::array<std::shared_ptr<const Curve>, 3> curves{};
+    glm::dvec3 constant{0.0};
+    glm::dvec3 at(double time) const;
+};
+
+/// A property that a layer sets; the node's own three, in this order.
+enum class Animated : std::uint8_t { Translation, Rotation, Scale };
+
+struct Layer {
+    enum class Blend : std::uint8_t { Additive, Override };
+    Blend blend = Blend::Additive;
+    bool turns_by_axis = false;  ///< additive Euler angles, not rotations, add up
+    bool scales_by_sum = false;  ///< additive scales add up instead of multiplying
+    VectorCurves weight{};       ///< x: percent
+    std::map<std::size_t, std::array<std::optional<VectorCurves>, 3>> nodes{};
+    std::map<std::size_t, VectorCurves> morphs{};  ///< x: percent, by the blend shape channel's object
+};
+
+struct Stack {
+    std::string name{};
+    double begin = 0.0, end = 0.0;  ///< seconds
+    std::vector<Layer> layers{};    ///< the first sets, the others add or override
+
+    /// A node's values at a time.
+    Values at(const Node& node, std::size_t index, double time) const;
+    double morph_at(std::size_t object, double percent, double time) const;
+    /// Calls `use` with every curve that moves this property of the node.
+    template <class Use>
+    void each_curve(std::size_t node, Animated which, const Use& use) const;
+};
+
+/// In the file's order. Appends sentences to `notes`. Throws std::runtime_error.
+std::vector<Stack> read_stacks(const File& file, const Objects& objects, const std::vector<Node>& nodes,
+                               std::vector<std::string>& notes);
+
+template <class Use>
+void Stack::each_curve(std::size_t node, Animated which, const Use& use) const {
+    for (const Layer& layer : layers) {
+        const auto found = layer.nodes.find(node);
+        if (found == layer.nodes.end()) continue;
+        const auto& property = found->second[static_cast<std::size_t>(which)];
+        if (!property) continue;
+        for (const auto& curve : property->curves)
+            if (curve) use(*curve);
+        for (const auto& curve : layer.weight.curves)
+            if (curve) use(*curve);
+    }
+}
+
+}  // namespace tendril::app::fbx

@@ -1,0 +1,312 @@
+#include "app/io/character/fbx/curve.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <stdexcept>
+
+namespace tendril::app::fbx {
+namespace {
+
+using Shape = CurveKey::Shape;
+
+// Flags of a key, by the names of Autodesk's FbxAnimCurveDef.
+constexpr std::int64_t constant_flag = 0x2, linear_flag = 0x4;
+constexpr std::int64_t constant_next = 0x100;
+constexpr std::int64_t tangent_tcb = 0x200, tangent_user = 0x400;
+constexpr std::int64_t generic_break = 0x800, generic_clamp = 0x1000, time_independent = 0x2000;
+constexpr std::int64_t clamp_progressive = 0x4000;
+constexpr std::int64_t weighted_right = 0x1000000, weighted_next_left = 0x2000000;
+constexpr std::int64_t any_velocity = 0x30000000;
+constexpr double usual_weight = 1.0 / 3.0;
+
+/// What a key says about its tangents.
+struct Tangents {
+    std::int64_t flags = 0;
+    std::array<double, 3> data{};  ///< slopes, or tension, continuity and bias
+    double right_weight = usual_weight, next_left_weight = usual_weight;
+    bool is_user() const { return (flags & tangent_user) != 0; }
+    bool is_broken() const { return is_user() && (flags & generic_break) != 0; }
+    bool is_tcb() const { return !is_user() && (flags & tangent_tcb) != 0; }
+};
+
+/// The secants before and after a key; at an end, the only one twice.
+struct Secants {
+    double before = 0.0, after = 0.0;
+    double whole = 0.0;  ///< from neighbour to neighbour
+    double mean = 0.0;   ///< of both
+    bool at_end = false;
+};
+Secants secants_at(const std::vector<CurveKey>& keys, std::size_t i) {
+    const auto between = [&](std::size_t a, std::size_t b) {
+        return (keys[b].value - keys[a].value) / (keys[b].time() - keys[a].time());
+    };
+    if (keys.size() < 2) return {.at_end = true};
+    const bool first = i == 0, last = i + 1 == keys.size();
+    const double before = first ? between(0, 1) : between(i - 1, i);
+    const double after = last ? before : between(i, i + 1);
+    if (first || last) return {before, before, before, before, true};
+    return {before, after, between(i - 1, i + 1), 0.5 * (before + after), false};
+}
+
+/// A smooth slope; clamped ones let no tangent leave the range of the neighbours' values.
+double automatic(const Secants& at, const Tangents& key) {
+    const double slope = (key.flags & time_independent) != 0 ? at.whole : at.mean;
+    if ((key.flags & (generic_clamp | clamp_progressive)) == 0) return at.at_end ? 0.0 : slope;
+    if (at.at_end || at.before * at.after <= 0.0) return 0.0;
+    const double limit = std::min(std::abs(at.before), std::abs(at.after)) / usual_weight;
+    return std::copysign(std::min(std::abs(slope), limit), slope);
+}
+/// D. Kochanek, R. Bartels, "Interpolating splines with local tension, continuity, and bias control",
+/// SIGGRAPH 1984.
+double kochanek(const Secants& at, const Tangents& key, bool leaving) {
+    const double tension = key.data[0], bias = key.data[2];
+    const double continuity = leaving ? key.data[1] : -key.data[1];
+    return 0.5 * (1.0 - tension) *
+           ((1.0 + bias) * (1.0 + continuity) * at.before + (1.0 - bias) * (1.0 - continuity) * at.after);
+}
+
+/// Turns what the keys say into slopes between them.
+void set_slopes(std::vector<CurveKey>& keys, const std::vector<Tangents>& tangents) {
+    const auto slope = [&](std::size_t i, bool leaving) {
+        const Tangents& key = tangents[i];
+        // A user's slope is one for both sides, unless the tangents are broken: then the key before has it.
+        if (key.is_user()) return key.data[0];
+        const Secants at = secants_at(keys, i);
+        return key.is_tcb() ? kochanek(at, key, leaving) : automatic(at, key);
+    };
+    for (std::size_t i = 0; i + 1 < keys.size(); ++i) {
+        if (keys[i].shape != Shape::Cubic) continue;
+        const bool has_both = tangents[i].is_user() || tangents[i + 1].is_broken();
+        keys[i].leaving = slope(i, true);
+        keys[i].arriving = has_both ? tangents[i].data[1] : slope(i + 1, false);
+        keys[i].leaving_weight = tangents[i].right_weight;
+        keys[i].arriving_weight = tangents[i].next_left_weight;
+    }
+}
+
+/// Keys in the order of time. Of equal times the last one counts; one that goes back is left out.
+class KeyList {
+  public:
+    void add(const CurveKey& key, const Tangents& tangents) {
+        std::vector<CurveKey>& keys = curve_.keys;
+        const bool is_bad = !(std::abs(key.value) <= 1e9);
+        if (is_bad || (!keys.empty() && key.ticks < keys.back().ticks)) {
+            curve_.is_odd = true;
+            return;
+        }
+        if (!keys.empty() && key.ticks == keys.back().ticks) keys.pop_back(), tangents_.pop_back();
+        keys.push_back(key);
+        tangents_.push_back(tangents);
+    }
+    void set_odd() { curve_.is_odd = true; }
+    Curve finish() {
+        set_slopes(curve_.keys, tangents_);
+        return std::move(curve_);
+    }
+
+  private:
+    Curve curve_{};
+    std::vector<Tangents> tangents_{};
+};
+
+Shape shape_of(std::int64_t flags) {
+    if ((flags & constant_flag) != 0)
+        return (flags & constant_next) != 0 ? Shape::ConstantNext : Shape::Constant;
+    return (flags & linear_flag) != 0 ? Shape::Linear : Shape::Cubic;
+}
+
+/// Two weights in the bits of one float, in ten-thousandths less one; text files may show their integer.
+std::uint32_t packed_bits(double value) {
+    if (std::abs(value) >= 1.0)
+        return static_cast<std::uint32_t>(
+            static_cast<std::int64_t>(std::clamp(value, -2147483648.0, 4294967295.0)));
+    return std::bit_cast<std::uint32_t>(static_cast<float>(value));
+}
+double weight_in(std::uint32_t bits) {
+    return std::clamp(static_cast<double>(bits & 0xffff) / 10000.0, 0.0001, 1.0);
+}
+
+Tangents tangents_of(std::int64_t flags, const double* data) {
+    Tangents result{.flags = flags};
+    for (std::size_t i = 0; i < 3; ++i)
+        if (std::abs(data[i]) <= 1e9) result.data[i] = data[i];
+    if (result.is_tcb()) return result;
+    const std::uint32_t weights = packed_bits(data[2]);
+    if ((flags & weighted_right) != 0) result.right_weight = weight_in(weights);
+    if ((flags & weighted_next_left) != 0) result.next_left_weight = weight_in(weights >> 16);
+    return result;
+}
+
+double cubic(double a, double b, double c, double d, double u) {
+    const double v = 1.0 - u;
+    return v * v * v * a + 3.0 * v * v * u * b + 3.0 * v * u * u * c + u * u * u * d;
+}
+
+/// The parameter at which a Bezier curve with ends 0 and 1 and these inner points reaches `x`; it never turns
+/// back, so bisection cannot fail.
+double parameter_at(double x, double first, double second) {
+    double low = 0.0, high = 1.0, u = x;
+    for (int i = 0; i < 100 && high - low > 1e-15; ++i) {
+        const double over = cubic(0.0, first, second, 1.0, u) - x;
+        (over > 0.0 ? high : low) = u;
+        const double v = 1.0 - u;
+        const double slope = 3.0 * (v * v * first + 2.0 * v * u * (second - first) + u * u * (1.0 - second));
+        const double next = u - over / slope;
+        if (std::abs(over) < 1e-15) break;
+        u = slope > 1e-9 && next > low && next < high ? next : 0.5 * (low + high);
+    }
+    return u;
+}
+
+bool is_word(const Record& record, std::size_t at) {
+    const std::string_view text = record.text(at);
+    return !text.empty() && ((text[0] >= 'a' && text[0] <= 'z') || (text[0] >= 'A' && text[0] <= 'Z'));
+}
+
+/// Takes the keys of version 6 apart: time, value, a letter for the shape, and what belongs to that.
+class OldKeys {
+  public:
+    explicit OldKeys(const Record& record) : record_(record) {}
+
+    /// No keys if one of them is not understood: where the next begins is then unknown.
+    Curve read() {
+        while (at_ < record_.properties.size() && !is_lost_) read_key();
+        if (is_lost_) return {.is_odd = true};
+        return keys_.finish();
+    }
+
+  private:
+    double number() {
+        if (at_ >= record_.properties.size() || is_word(record_, at_)) is_lost_ = true;
+        return record_.number(at_++);
+    }
+    char letter() {
+        if (at_ >= record_.properties.size() || !is_word(record_, at_)) {
+            is_lost_ = true;
+            return 0;
+        }
+        return record_.text(at_++)[0];
+    }
+    /// The letter for which weights or velocities follow: none, right, next left, all.
+    void optional_pair(double& right, double& next_left) {
+        const char which = letter();
+        if (which == 'r' || which == 'a') right = std::clamp(number(), 0.0001, 1.0);
+        if (which == 'l' || which == 'a') next_left = std::clamp(number(), 0.0001, 1.0);
+        if (which != 'n' && which != 'r' && which != 'l' && which != 'a') is_lost_ = true;
+    }
+    void read_key() {
+        CurveKey key;
+        key.ticks = record_.integer(at_);
+        number();
+        key.value = number();
+        Tangents tangents;
+        const char shape = letter();
+        if (shape == 'C') {
+            key.shape = letter() == 'n' ? Shape::ConstantNext : Shape::Constant;
+        } else if (shape == 'U') {
+            key.shape = Shape::Cubic;
+            read_tangents(tangents);
+        } else if (shape != 'L') {
+            is_lost_ = true;
+        }
+        keys_.add(key, tangents);
+    }
+    void read_tangents(Tangents& tangents) {
+        const char mode = letter();
+        std::size_t count = 0;
+        for (; at_ < record_.properties.size() && !is_word(record_, at_); ++count) {
+            const double value = number();
+            if (count < tangents.data.size()) tangents.data[count] = value;
+        }
+        if (mode == 's' || mode == 'b') {
+            tangents.flags = mode == 'b' ? tangent_user | generic_break : tangent_user;
+            if (count != 2) is_lost_ = true;
+        } else if (mode == 't') {
+            tangents.flags = tangent_tcb;
+            if (count != 3) is_lost_ = true;
+        } else if (mode == 'p') {
+            tangents.flags = clamp_progressive | time_independent;
+        } else if (mode != 'a') {
+            is_lost_ = true;
+        }
+        optional_pair(tangents.right_weight, tangents.next_left_weight);
+        if (at_ < record_.properties.size() && is_word(record_, at_)) {
+            double right = 0.0, left = 0.0;
+            optional_pair(right, left);
+            if (right != 0.0 || left != 0.0) keys_.set_odd();
+        }
+    }
+
+    const Record& record_;
+    std::size_t at_ = 0;
+    bool is_lost_ = false;
+    KeyList keys_{};
+};
+
+}  // namespace
+
+double Curve::at(double time) const {
+    if (keys.empty()) return 0.0;
+    const auto after = std::upper_bound(keys.begin(), keys.end(), time,
+                                        [](double t, const CurveKey& key) { return t < key.time(); });
+    if (after == keys.begin()) return keys.front().value;
+    const CurveKey& from = *(after - 1);
+    if (after == keys.end()) return from.value;
+    const double begin = from.time(), span = after->time() - begin, x = (time - begin) / span;
+    switch (from.shape) {
+        case Shape::Constant:
+            return from.value;
+        case Shape::ConstantNext:
+            return x > 0.0 ? after->value : from.value;
+        case Shape::Linear:
+            return from.value + x * (after->value - from.value);
+        case Shape::Cubic:
+            break;
+    }
+    const double first = from.leaving_weight, second = 1.0 - from.arriving_weight;
+    const bool is_even = first == usual_weight && from.arriving_weight == usual_weight;
+    const double u = is_even ? x : parameter_at(x, first, second);
+    return cubic(from.value, from.value + from.leaving * span * first,
+                 after->value - from.arriving * span * from.arriving_weight, after->value, u);
+}
+
+Curve read_curve(const Record& record) {
+    const std::vector<std::int64_t> times = record.integers_of("KeyTime");
+    const std::vector<double> values = record.numbers_of("KeyValueFloat");
+    std::vector<std::int64_t> flags = record.integers_of("KeyAttrFlags");
+    const std::vector<std::int64_t> counts = record.integers_of("KeyAttrRefCount");
+    const Record* floats = record.child("KeyAttrDataFloat");
+    std::vector<double> data = floats ? floats->floats() : std::vector<double>();
+    if (times.size() != values.size())
+        throw std::runtime_error("a curve of " + std::to_string(times.size()) + " times and " +
+                                 std::to_string(values.size()) + " values");
+    if (flags.empty()) flags.push_back(linear_flag);
+    data.resize(4 * flags.size());
+    KeyList keys;
+    for (const char* outside : {"Pre-Extrapolation", "Post-Extrapolation"}) {
+        const Record* found = record.child(outside);
+        const Record* type = found ? found->child("Type") : nullptr;
+        if (type && !type->text(0).empty() && type->text(0) != "C") keys.set_odd();
+    }
+    // Each set of attributes is for a number of keys; the last one for all that are left.
+    std::size_t set = 0;
+    std::int64_t left = counts.empty() ? 0 : counts[0];
+    for (std::size_t i = 0; i < times.size(); ++i, --left) {
+        for (; left <= 0 && set + 1 < flags.size(); ++set)
+            left = set + 1 < counts.size() ? counts[set + 1] : 0;
+        const Shape shape = shape_of(flags[set]);
+        if ((flags[set] & any_velocity) != 0 && shape == Shape::Cubic) keys.set_odd();
+        keys.add({.ticks = times[i], .value = values[i], .shape = shape},
+                 tangents_of(flags[set], &data[4 * set]));
+    }
+    return keys.finish();
+}
+
+Curve read_old_curve(const Record& channel) {
+    const Record* keys = channel.child("Key");
+    return keys ? OldKeys(*keys).read() : Curve();
+}
+
+}  // namespace tendril::app::fbx

@@ -1,0 +1,228 @@
+#include "app/io/character/fbx/record.hpp"
+
+#include <zlib.h>
+
+#include <algorithm>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <stdexcept>
+
+namespace tendril::app::fbx {
+namespace {
+
+template <class T>
+T raw_at(std::string_view bytes, std::size_t at) {
+    T value;
+    std::memcpy(&value, bytes.data() + at, sizeof value);
+    return value;
+}
+
+/// A text file's number; bare words are 0 but for T and Y, which are written for true.
+double number_in(std::string_view text, double otherwise) {
+    if (text.starts_with('+')) text.remove_prefix(1);
+    double value = 0.0;
+    if (std::from_chars(text.data(), text.data() + text.size(), value).ec == std::errc()) return value;
+    return text == "T" || text == "Y" ? 1.0 : otherwise;
+}
+std::int64_t integer_in(std::string_view text, std::int64_t otherwise) {
+    if (text.starts_with('+')) text.remove_prefix(1);
+    std::int64_t value = 0;
+    const auto [end, bad] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (bad == std::errc() && end == text.data() + text.size()) return value;
+    const double real = number_in(text, static_cast<double>(otherwise));
+    return std::abs(real) < 9e18 ? static_cast<std::int64_t>(real) : otherwise;
+}
+
+/// Calls `with` with the number in its own type.
+template <class With>
+bool visit(const Property& property, With&& with) {
+    switch (property.kind) {
+        case 'B':
+        case 'C':
+            return with(static_cast<std::int64_t>(property.bytes[0] != 0)), true;
+        case 'Y':
+            return with(static_cast<std::int64_t>(raw_at<std::int16_t>(property.bytes, 0))), true;
+        case 'I':
+            return with(static_cast<std::int64_t>(raw_at<std::int32_t>(property.bytes, 0))), true;
+        case 'L':
+            return with(raw_at<std::int64_t>(property.bytes, 0)), true;
+        case 'F':
+            return with(static_cast<double>(raw_at<float>(property.bytes, 0))), true;
+        case 'D':
+            return with(raw_at<double>(property.bytes, 0)), true;
+        default:
+            return false;
+    }
+}
+
+std::string unpacked(std::string_view packed, std::size_t size) {
+    std::string bytes(size, '\0');
+    auto length = static_cast<uLongf>(size);
+    const int rc =
+        uncompress(reinterpret_cast<Bytef*>(bytes.data()), &length,
+                   reinterpret_cast<const Bytef*>(packed.data()), static_cast<uLong>(packed.size()));
+    if (rc != Z_OK || length != size) throw std::runtime_error("an array that cannot be unpacked");
+    return bytes;
+}
+
+bool is_array(char kind) {
+    return kind != 0 && std::strchr("bcfdil", kind);
+}
+std::size_t element_bytes(char kind) {
+    return kind == 'b' || kind == 'c' ? 1 : kind == 'i' || kind == 'f' ? 4 : 8;
+}
+
+/// The elements of a binary array, converted to T.
+template <class T>
+std::vector<T> elements(const Property& array) {
+    const std::size_t count = raw_at<std::uint32_t>(array.bytes, 0), size = element_bytes(array.kind);
+    std::string_view bytes = array.bytes.substr(12);
+    std::string own;
+    if (raw_at<std::uint32_t>(array.bytes, 4) == 1) bytes = own = unpacked(bytes, count * size);
+    std::vector<T> result;
+    result.reserve(count);
+    const auto add = [&](auto value) {
+        if constexpr (std::is_floating_point_v<decltype(value)> && std::is_integral_v<T>)
+            result.push_back(std::abs(value) < decltype(value)(9e18) ? static_cast<T>(value) : T(0));
+        else
+            result.push_back(static_cast<T>(value));
+    };
+    for (std::size_t i = 0; i < count; ++i) {
+        switch (array.kind) {
+            case 'f':
+                add(raw_at<float>(bytes, 4 * i));
+                break;
+            case 'd':
+                add(raw_at<double>(bytes, 8 * i));
+                break;
+            case 'i':
+                add(raw_at<std::int32_t>(bytes, 4 * i));
+                break;
+            case 'l':
+                add(raw_at<std::int64_t>(bytes, 8 * i));
+                break;
+            default:
+                add(static_cast<unsigned char>(bytes[i]));
+        }
+    }
+    return result;
+}
+
+/// The properties that hold the record's numbers: a text file puts arrays into a child named "a".
+const std::vector<Property>& holders(const Record& record) {
+    const Record* array = record.properties.size() == 1 ? record.child("a") : nullptr;
+    return array ? array->properties : record.properties;
+}
+
+}  // namespace
+
+const Record* Record::child(std::string_view wanted) const {
+    const auto found = std::ranges::find(children, wanted, &Record::name);
+    return found == children.end() ? nullptr : &*found;
+}
+
+double Record::number(std::size_t index, double otherwise) const {
+    if (index >= properties.size()) return otherwise;
+    double value = otherwise;
+    const Property& property = properties[index];
+    if (property.kind == 'T')
+        value = number_in(property.bytes, otherwise);
+    else
+        visit(property, [&](auto each) { value = static_cast<double>(each); });
+    return std::isfinite(value) ? value : otherwise;
+}
+
+std::int64_t Record::integer(std::size_t index, std::int64_t otherwise) const {
+    if (index >= properties.size()) return otherwise;
+    std::int64_t value = otherwise;
+    const Property& property = properties[index];
+    if (property.kind == 'T') return integer_in(property.bytes, otherwise);
+    visit(property, [&](auto each) {
+        if constexpr (std::is_integral_v<decltype(each)>)
+            value = each;
+        else if (std::abs(each) < 9e18)
+            value = static_cast<std::int64_t>(each);
+    });
+    return value;
+}
+
+std::string_view Record::text(std::size_t index) const {
+    if (index >= properties.size()) return {};
+    const Property& property = properties[index];
+    return property.kind != 0 && std::strchr("SRTC", property.kind) ? property.bytes : std::string_view();
+}
+
+std::vector<double> Record::numbers() const {
+    const std::vector<Property>& from = holders(*this);
+    if (from.size() == 1 && is_array(from[0].kind)) return elements<double>(from[0]);
+    std::vector<double> result;
+    result.reserve(from.size());
+    for (const Property& each : from) {
+        if (each.kind == 'T')
+            result.push_back(number_in(each.bytes, 0.0));
+        else
+            visit(each, [&](auto value) { result.push_back(static_cast<double>(value)); });
+    }
+    return result;
+}
+
+std::vector<std::int64_t> Record::integers() const {
+    const std::vector<Property>& from = holders(*this);
+    if (from.size() == 1 && is_array(from[0].kind)) return elements<std::int64_t>(from[0]);
+    std::vector<std::int64_t> result;
+    result.reserve(from.size());
+    for (const Property& each : from) {
+        if (each.kind == 'T')
+            result.push_back(integer_in(each.bytes, 0));
+        else
+            visit(each, [&](auto value) {
+                const auto real = static_cast<double>(value);
+                result.push_back(std::abs(real) < 9e18 ? static_cast<std::int64_t>(value) : 0);
+            });
+    }
+    return result;
+}
+
+std::vector<double> Record::floats() const {
+    const std::vector<Property>& from = holders(*this);
+    const bool is_text = !from.empty() && from[0].kind == 'T';
+    const bool is_decimal = std::ranges::any_of(from, [](const Property& each) {
+        return each.kind == 'T' && each.bytes.find_first_of(".eE") != std::string_view::npos;
+    });
+    if (!is_text || is_decimal) return numbers();
+    std::vector<double> result;
+    for (const std::int64_t bits : integers())
+        result.push_back(
+            static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(bits & 0xffffffff))));
+    return result;
+}
+
+std::vector<double> Record::numbers_of(std::string_view wanted) const {
+    const Record* found = child(wanted);
+    return found ? found->numbers() : std::vector<double>();
+}
+std::vector<std::int64_t> Record::integers_of(std::string_view wanted) const {
+    const Record* found = child(wanted);
+    return found ? found->integers() : std::vector<std::int64_t>();
+}
+
+File read_records(std::string_view bytes) {
+    if (bytes.empty()) throw std::runtime_error("is empty");
+    const bool is_binary = bytes.starts_with("Kaydara FBX Binary  ");
+    if constexpr (std::endian::native != std::endian::little)
+        if (is_binary) throw std::runtime_error("binary FBX files are read on little-endian machines only");
+    if (!is_binary) {
+        const std::string_view top = bytes.substr(0, 4096);
+        if (top.find("FBXHeaderExtension") == top.npos && top.find("; FBX") == top.npos)
+            throw std::runtime_error("is not an FBX file");
+    }
+    File file = is_binary ? read_binary(bytes) : read_text(bytes);
+    if (file.version < 6000 || file.version >= 8000)
+        throw std::runtime_error("is of FBX version " + std::to_string(file.version / 1000) + '.' +
+                                 std::to_string(file.version / 100 % 10) + "; 6.0 to 7.7 are read");
+    return file;
+}
+
+}  // namespace tendril::app::fbx

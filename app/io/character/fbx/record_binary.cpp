@@ -1,0 +1,164 @@
+#include <cstring>
+#include <stdexcept>
+
+#include "app/io/character/fbx/record.hpp"
+
+namespace tendril::app::fbx {
+namespace {
+
+constexpr std::uint64_t max_array_bytes = std::uint64_t{1} << 30;  // sum over all arrays
+constexpr std::uint64_t max_packed = 1032;                         // zlib's maximum expansion
+constexpr std::size_t binary_header = 27;
+
+using std::to_string;
+
+class BinaryRecords {
+  public:
+    explicit BinaryRecords(std::string_view bytes) : bytes_(bytes), at_(binary_header) {
+        if (bytes.size() < at_) fail("ends in its header");
+        file_.version = static_cast<int>(number<std::uint32_t>(23) & 0xffffff);
+        wide_ = file_.version >= 7500;
+    }
+
+    File read() {
+        while (at_ < bytes_.size()) {
+            const std::size_t begin = at_;
+            Head head = take_head();
+            if (head.end == 0) {  // the end of a record's contents, or of the file
+                if (open_.empty()) break;
+                if (at_ != open_.back().end) fail("a record that does not end where it says");
+                close();
+                continue;
+            }
+            const std::size_t limit = open_.empty() ? bytes_.size() : open_.back().end;
+            if (head.end <= begin || head.end > limit)
+                fail("a record that ends at byte " + to_string(head.end) + ", of " + to_string(limit));
+            properties(head);
+            if (open_.size() >= max_nested) fail("more than " + to_string(max_nested) + " nested records");
+            open_.push_back({static_cast<std::size_t>(head.end), std::move(head.record)});
+            if (at_ == open_.back().end) close();
+        }
+        if (!open_.empty()) fail("the file ends inside a record");
+        return std::move(file_);
+    }
+
+  private:
+    struct Head {
+        std::uint64_t end = 0, count = 0, length = 0;
+        Record record{};
+    };
+    struct Open {
+        std::size_t end;
+        Record record;
+    };
+
+    [[noreturn]] void fail(const std::string& what) const {
+        throw std::runtime_error("byte " + to_string(at_) + ": " + what);
+    }
+    void need(std::uint64_t bytes) const {
+        if (bytes > bytes_.size() - at_)
+            fail("claims " + to_string(bytes) + " bytes, the file has " + to_string(bytes_.size() - at_) +
+                 " more");
+    }
+    template <class T>
+    T number(std::size_t at) const {
+        T value;
+        std::memcpy(&value, bytes_.data() + at, sizeof value);
+        return value;
+    }
+    std::string_view take(std::uint64_t size) {
+        need(size);
+        at_ += static_cast<std::size_t>(size);
+        return bytes_.substr(at_ - static_cast<std::size_t>(size), static_cast<std::size_t>(size));
+    }
+    template <class T>
+    T take() {
+        take(sizeof(T));
+        return number<T>(at_ - sizeof(T));
+    }
+    std::uint64_t take_size() { return wide_ ? take<std::uint64_t>() : take<std::uint32_t>(); }
+
+    Head take_head() {
+        Head head;
+        head.end = take_size();
+        head.count = take_size();
+        head.length = take_size();
+        head.record.name = take(take<std::uint8_t>());
+        return head;
+    }
+    void close() {
+        Open done = std::move(open_.back());
+        open_.pop_back();
+        at_ = done.end;
+        (open_.empty() ? file_.root : open_.back().record).children.push_back(std::move(done.record));
+    }
+    void properties(Head& head) {
+        need(head.length);
+        const std::size_t end = at_ + static_cast<std::size_t>(head.length);
+        if (end > head.end) fail("properties longer than their record");
+        for (std::uint64_t i = 0; i < head.count; ++i) {
+            if (at_ >= end) fail("claims " + to_string(head.count) + " properties, has " + to_string(i));
+            head.record.properties.push_back(property());
+        }
+        if (at_ != end) fail("properties that do not end where they say");
+    }
+    Property property() {
+        const char kind = static_cast<char>(take<std::uint8_t>());
+        switch (kind) {
+            case 'B':
+            case 'C':
+                return {kind, take(1)};
+            case 'Y':
+                return {kind, take(2)};
+            case 'I':
+            case 'F':
+                return {kind, take(4)};
+            case 'D':
+            case 'L':
+                return {kind, take(8)};
+            case 'S':
+            case 'R':
+                return {kind, take(take<std::uint32_t>())};
+            case 'b':
+            case 'c':
+                return {kind, array(1)};
+            case 'i':
+            case 'f':
+                return {kind, array(4)};
+            case 'l':
+            case 'd':
+                return {kind, array(8)};
+            default:
+                fail("a property of unknown kind");
+        }
+    }
+    std::string_view array(std::uint64_t size) {
+        const std::size_t begin = at_;
+        const std::uint64_t count = take<std::uint32_t>();
+        const auto encoding = take<std::uint32_t>();
+        const std::uint64_t length = take<std::uint32_t>();
+        need(length);
+        if (encoding > 1 || (encoding == 0 && length != count * size) ||
+            (encoding == 1 && count * size > max_packed * length))
+            fail("an array that claims " + to_string(count) + " numbers in " + to_string(length) + " bytes");
+        all_arrays_ += count * size;
+        if (all_arrays_ > max_array_bytes) fail("arrays of more than 1 GB in total");
+        take(length);
+        return bytes_.substr(begin, at_ - begin);
+    }
+
+    std::string_view bytes_;
+    std::size_t at_;
+    bool wide_ = false;
+    std::uint64_t all_arrays_ = 0;
+    std::vector<Open> open_{};
+    File file_{};
+};
+
+}  // namespace
+
+File read_binary(std::string_view bytes) {
+    return BinaryRecords(bytes).read();
+}
+
+}  // namespace tendril::app::fbx

@@ -1,0 +1,138 @@
+#include <stdexcept>
+
+#include "app/io/character/fbx/record.hpp"
+
+namespace tendril::app::fbx {
+namespace {
+
+/// `Name: value, value { records }`. A list goes on in the next line after a comma, or if that line begins
+/// with one.
+class TextRecords {
+  public:
+    explicit TextRecords(std::string_view text) : text_(text) {}
+
+    File read() {
+        while (true) {
+            skip_lines();
+            if (at_ == text_.size()) break;
+            if (text_[at_] == '}') {
+                if (open_.empty()) fail("} without a matching {");
+                ++at_;
+                close();
+                continue;
+            }
+            Record record;
+            record.name = name();
+            properties(record);
+            skip_lines();
+            if (at_ < text_.size() && text_[at_] == '{') {
+                ++at_;
+                if (open_.size() >= max_nested)
+                    fail("more than " + std::to_string(max_nested) + " nested records");
+                open_.push_back(std::move(record));
+            } else {
+                add(std::move(record));
+            }
+        }
+        if (!open_.empty()) throw std::runtime_error("the file ends inside a record");
+        const Record* header = file_.root.child("FBXHeaderExtension");
+        const Record* version = header ? header->child("FBXVersion") : nullptr;
+        file_.version = version ? static_cast<int>(version->integer(0) % 1'000'000) : version_in_comment();
+        return std::move(file_);
+    }
+
+  private:
+    [[noreturn]] void fail(const std::string& what) const {
+        throw std::runtime_error("line " + std::to_string(line_) + ": " + what);
+    }
+    static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\0'; }
+    void skip_blanks() {
+        while (at_ < text_.size() && is_blank(text_[at_])) ++at_;
+    }
+    /// Skips line ends and comments, too.
+    void skip_lines() {
+        for (; at_ < text_.size(); ++at_) {
+            if (text_[at_] == ';') at_ = std::min(text_.find('\n', at_), text_.size());
+            if (at_ == text_.size()) return;
+            if (text_[at_] == '\n')
+                ++line_;
+            else if (!is_blank(text_[at_]))
+                return;
+        }
+    }
+    std::string_view word() {
+        const std::size_t begin = at_;
+        while (at_ < text_.size() && !is_blank(text_[at_]) &&
+               std::string_view("\n:,;{}\"").find(text_[at_]) == std::string_view::npos)
+            ++at_;
+        return text_.substr(begin, at_ - begin);
+    }
+    std::string_view name() {
+        const std::string_view name = word();
+        skip_blanks();
+        if (name.empty() || at_ == text_.size() || text_[at_] != ':')
+            fail("expected a record, \"Name: ...\"");
+        ++at_;
+        return name;
+    }
+    void properties(Record& record) {
+        skip_blanks();
+        if (at_ == text_.size() || text_[at_] == '\n' || text_[at_] == ';' || text_[at_] == '{' ||
+            text_[at_] == '}')
+            return;
+        while (true) {
+            record.properties.push_back(property());
+            const std::size_t after = at_, line = line_;
+            skip_lines();
+            if (at_ < text_.size() && text_[at_] == ',') {
+                ++at_;
+                skip_lines();
+                continue;
+            }
+            at_ = after, line_ = line;
+            skip_blanks();
+            if (at_ < text_.size() && std::string_view("\n;{}").find(text_[at_]) == std::string_view::npos)
+                fail("expected a comma or the end of the line");
+            return;
+        }
+    }
+    Property property() {
+        if (at_ == text_.size() || text_[at_] != '"') return {'T', word()};
+        const std::size_t begin = ++at_, end = text_.find('"', begin);
+        if (end == text_.npos) fail("a string without an end");
+        for (; at_ < end; ++at_)
+            if (text_[at_] == '\n') ++line_;
+        at_ = end + 1;
+        return {'S', text_.substr(begin, end - begin)};
+    }
+    void add(Record record) {
+        (open_.empty() ? file_.root : open_.back()).children.push_back(std::move(record));
+    }
+    void close() {
+        Record done = std::move(open_.back());
+        open_.pop_back();
+        add(std::move(done));
+    }
+    /// "; FBX 6.1.0 project file": 6100.
+    int version_in_comment() const {
+        const std::size_t at = text_.substr(0, 4096).find("; FBX ");
+        if (at == text_.npos || at + 8 >= text_.size()) return 0;
+        const char major = text_[at + 6], minor = text_[at + 8];
+        const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+        return is_digit(major) && is_digit(minor) ? 1000 * (major - '0') + 100 * (minor - '0') : 0;
+    }
+
+    std::string_view text_;
+    std::size_t at_ = 0;
+    std::size_t line_ = 1;
+    std::vector<Record> open_{};
+    File file_{};
+};
+
+}  // namespace
+
+File read_text(std::string_view text) {
+    return TextRecords(text).read();
+}
+
+}  // namespace tendril::app::fbx

@@ -1,0 +1,347 @@
+// FBX files that this test writes, evaluated by a second, naive evaluator; and damaged ones.
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <random>
+#include <utility>
+
+#include "app/io/character/fbx/fbx.hpp"
+#include "tests/app/io/fbx_file.hpp"
+#include "tests/app/support/temp_folder.hpp"
+
+namespace tendril::app {
+namespace {
+
+using test::FbxRecord;
+using test::FbxScene;
+
+/// All of a model's properties that place it, as numbers.
+struct NaiveNode {
+    int parent = -1;
+    std::string name{};
+    glm::dvec3 t{0.0}, r{0.0}, s{1.0}, pre{0.0}, post{0.0}, roff{0.0}, rpiv{0.0}, soff{0.0}, spiv{0.0};
+    int order = 0, inherit = 0;
+    bool rotates = true;
+};
+
+glm::dmat4 moved(const glm::dvec3& by) {
+    return glm::translate(glm::dmat4(1.0), by);
+}
+glm::dmat4 scaled(const glm::dvec3& by) {
+    return glm::scale(glm::dmat4(1.0), by);
+}
+glm::dmat4 turned(const glm::dvec3& degrees, const std::string& order) {
+    glm::dmat4 result(1.0);
+    for (const char letter : order) {
+        glm::dvec3 axis(0.0);
+        axis[letter - 'X'] = 1.0;
+        result = glm::rotate(glm::dmat4(1.0), glm::radians(degrees[letter - 'X']), axis) * result;
+    }
+    return result;
+}
+
+/// Where a node is without and with its own scale, by multiplying matrices.
+struct NaivePlace {
+    glm::dmat4 turned{1.0};  // all but `scale`
+    glm::dvec3 scale{1.0}, own{1.0};
+    glm::dmat4 whole() const { return turned * scaled(scale); }
+};
+std::vector<NaivePlace> naive_places(const std::vector<NaiveNode>& nodes) {
+    const char* const orders[] = {"XYZ", "XZY", "YZX", "YXZ", "ZXY", "ZYX"};
+    std::vector<NaivePlace> result;
+    for (const NaiveNode& node : nodes) {  // parents come first
+        const glm::dmat4 rotation = node.rotates
+                                        ? turned(node.pre, "XYZ") * turned(node.r, orders[node.order]) *
+                                              glm::inverse(turned(node.post, "XYZ"))
+                                        : turned(node.r, "XYZ");
+        const glm::dmat4 local = moved(node.t) * moved(node.roff) * moved(node.rpiv) * rotation *
+                                 moved(-node.rpiv) * moved(node.soff) * moved(node.spiv) * scaled(node.s) *
+                                 moved(-node.spiv);
+        const NaivePlace above =
+            node.parent < 0 ? NaivePlace() : result[static_cast<std::size_t>(node.parent)];
+        NaivePlace place{.own = node.s};
+        const glm::dvec4 at = above.whole() * local[3];
+        if (node.inherit == 1 || node.parent < 0) {
+            place.turned = above.whole() * rotation;
+            place.scale = node.s;
+        } else {
+            place.turned = above.turned * rotation;
+            place.scale = node.s * (node.inherit == 0 ? above.scale : above.scale / above.own);
+        }
+        place.turned[3] = at;
+        result.push_back(place);
+    }
+    return result;
+}
+
+glm::dvec3 random_vector(std::mt19937& random, double size) {
+    std::uniform_real_distribution<double> any(-size, size);
+    const double x = any(random), y = any(random), z = any(random);
+    return {x, y, z};
+}
+std::vector<NaiveNode> random_tree(std::mt19937& random, int count) {
+    const auto below = [&](int end) { return std::uniform_int_distribution<int>(0, end - 1)(random); };
+    std::vector<NaiveNode> nodes;
+    for (int i = 0; i < count; ++i) {
+        NaiveNode node{.parent = i == 0 ? -1 : below(i), .name = "n" + std::to_string(i)};
+        node.t = random_vector(random, 3.0);
+        node.r = random_vector(random, 180.0);
+        const double even = std::exp(random_vector(random, 0.4).x);
+        node.s = below(3) > 0 ? glm::dvec3(even) : glm::exp(random_vector(random, 0.4));
+        if (below(2) > 0) node.pre = random_vector(random, 180.0), node.post = random_vector(random, 180.0);
+        if (below(2) > 0) node.roff = random_vector(random, 1.0), node.rpiv = random_vector(random, 1.0);
+        if (below(2) > 0) node.soff = random_vector(random, 1.0), node.spiv = random_vector(random, 1.0);
+        node.order = below(6);
+        node.inherit = below(3);
+        node.rotates = below(8) > 0;
+        nodes.push_back(node);
+    }
+    return nodes;
+}
+FbxScene scene_of(const std::vector<NaiveNode>& nodes) {
+    FbxScene scene;
+    scene.settings = {FbxScene::property("UnitScaleFactor", {100.0})};
+    std::vector<std::int64_t>& ids = scene.ids;
+    for (const NaiveNode& node : nodes)
+        ids.push_back(scene.model(
+            node.name, node.parent < 0 ? 0 : ids[static_cast<std::size_t>(node.parent)],
+            {FbxScene::property("RotationActive", {std::int64_t{node.rotates ? 1 : 0}}),
+             FbxScene::property("RotationOrder", {std::int64_t{node.order}}),
+             FbxScene::property("InheritType", {std::int64_t{node.inherit}}),
+             FbxScene::vector("PreRotation", node.pre), FbxScene::vector("PostRotation", node.post),
+             FbxScene::vector("RotationOffset", node.roff), FbxScene::vector("RotationPivot", node.rpiv),
+             FbxScene::vector("ScalingOffset", node.soff), FbxScene::vector("ScalingPivot", node.spiv),
+             FbxScene::vector("Lcl Translation", node.t), FbxScene::vector("Lcl Rotation", node.r),
+             FbxScene::vector("Lcl Scaling", node.s)}));
+    return scene;
+}
+
+/// A written file, in one of the ways in which files are written.
+std::string bytes_of(const FbxScene& scene, int way) {
+    return way == 0 ? scene.text() : way == 1 ? scene.binary(7400, true) : scene.binary(7700);
+}
+
+TEST(FbxNodes, ten_thousand_random_nodes_are_where_a_naive_evaluator_puts_them) {
+    std::mt19937 random(11);
+    std::size_t count = 0;
+    double worst = 0.0;
+    for (int file = 0; file < 100; ++file) {
+        const std::vector<NaiveNode> nodes = random_tree(random, 100);
+        const std::vector<NaivePlace> known = naive_places(nodes);
+        const Character character = parse_fbx(bytes_of(scene_of(nodes), file % 3), "it");
+        std::vector<humanoid::Placement> placements(character.skeleton.size());
+        place(character.skeleton, rest_pose(character.skeleton), placements);
+        for (std::size_t i = 0; i < nodes.size(); ++i) {
+            auto whole = character.skeleton.find(nodes[i].name + " scale");
+            if (!whole) whole = character.skeleton.find(nodes[i].name);
+            ASSERT_TRUE(whole) << nodes[i].name;
+            const humanoid::Placement& mine = placements[*whole];
+            const glm::dmat4 expected = known[i].whole();
+            double size = 1.0, away = glm::length(mine.position - glm::dvec3(expected[3]));
+            for (int axis = 0; axis < 3; ++axis) {
+                size = std::max(size, glm::length(glm::dvec3(expected[axis])));
+                away = std::max(away, glm::length(mine.axes[axis] - glm::dvec3(expected[axis])));
+            }
+            worst = std::max(worst, away / std::max(size, glm::length(glm::dvec3(expected[3]))));
+            ++count;
+        }
+    }
+    EXPECT_EQ(count, 10'000u);
+    EXPECT_LT(worst, 1e-6);
+}
+
+TEST(FbxNodes, random_clips_move_as_a_naive_evaluator_moves_them) {
+    std::mt19937 random(5);
+    for (int file = 0; file < 30; ++file) {
+        const std::vector<NaiveNode> first = random_tree(random, 12);
+        std::vector<NaiveNode> last = first;
+        FbxScene scene = scene_of(first);
+        const std::int64_t layer = scene.layer(scene.stack("Take", 1.0));
+        for (std::size_t i = 0; i < last.size(); ++i) {
+            last[i].t += random_vector(random, 1.0);
+            last[i].r += random_vector(random, 60.0);
+            if (i % 2 == 0) last[i].s *= glm::exp(random_vector(random, 0.3));
+            const auto animate = [&](const char* name, const glm::dvec3& from, const glm::dvec3& to) {
+                std::vector<std::vector<FbxScene::Key>> curves;
+                for (int axis = 0; axis < 3; ++axis) curves.push_back({{0.0, from[axis]}, {1.0, to[axis]}});
+                scene.animate(layer, scene.ids.at(i), name, curves, from);
+            };
+            animate("Lcl Translation", first[i].t, last[i].t);
+            animate("Lcl Rotation", first[i].r, last[i].r);
+            animate("Lcl Scaling", first[i].s, last[i].s);
+        }
+        const Character character = parse_fbx(bytes_of(scene, file % 3), "it");
+        std::vector<rig::Transform> pose = rest_pose(character.skeleton);
+        std::vector<humanoid::Placement> placements(pose.size());
+        for (const double time : {0.0, 0.37, 0.8, 1.0}) {
+            std::vector<NaiveNode> now = first;
+            for (std::size_t i = 0; i < now.size(); ++i) {
+                now[i].t = glm::mix(first[i].t, last[i].t, time);
+                now[i].r = glm::mix(first[i].r, last[i].r, time);
+                now[i].s = glm::mix(first[i].s, last[i].s, time);
+            }
+            const std::vector<NaivePlace> known = naive_places(now);
+            sample(character.clips.at(0), character.skeleton, time, pose);
+            place(character.skeleton, pose, placements);
+            double size = 1.0;
+            for (const NaivePlace& each : known)
+                size = std::max(size, glm::length(glm::dvec3(each.turned[3])));
+            for (std::size_t i = 0; i < now.size(); ++i)
+                EXPECT_LT(glm::length(placements[*character.skeleton.find(now[i].name)].position -
+                                      glm::dvec3(known[i].turned[3])),
+                          1e-4 / 1.8 * size)
+                    << now[i].name << " at " << time << " of file " << file;
+        }
+    }
+}
+
+/// Two bones and a mesh that follows them, animated: one of each kind of object.
+FbxScene small_scene() {
+    FbxScene scene;
+    const std::int64_t hips =
+        scene.model("Hips", 0, {FbxScene::vector("Lcl Translation", {0.0, 100.0, 0.0})});
+    const std::int64_t knee =
+        scene.model("Knee", hips, {FbxScene::vector("Lcl Translation", {0.0, -50.0, 0.0})});
+    const std::int64_t body = scene.model("Body", 0, {}, "Mesh");
+    const std::int64_t mesh = scene.add(
+        "Geometry", "", "Mesh",
+        {FbxScene::list("Vertices", std::vector<double>{0, 100, 0, 10, 100, 0, 0, 50, 0, 10, 50, 0}),
+         FbxScene::list("PolygonVertexIndex", std::vector<std::int64_t>{0, 1, 3, -3})});
+    scene.connect(mesh, body);
+    const std::int64_t skin = scene.add("Deformer", "", "Skin");
+    scene.connect(skin, mesh);
+    const auto cluster = [&](std::int64_t bone, std::vector<std::int64_t> points, double y) {
+        const std::int64_t id =
+            scene.add("Deformer", "", "Cluster",
+                      {FbxScene::list("Indexes", points),
+                       FbxScene::list("Weights", std::vector<double>(points.size(), 1.0)),
+                       FbxScene::list("Transform",
+                                      std::vector<double>{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -y, 0, 1})});
+        scene.connect(id, skin);
+        scene.connect(bone, id);
+    };
+    cluster(hips, {0, 1}, 100.0);
+    cluster(knee, {2, 3}, 50.0);
+    const std::int64_t shapes = scene.add("Deformer", "", "BlendShape");
+    scene.connect(shapes, mesh);
+    const std::int64_t channel = scene.add("Deformer", "smile", "BlendShapeChannel");
+    scene.connect(channel, shapes);
+    const std::int64_t shape = scene.add("Geometry", "smile", "Shape",
+                                         {FbxScene::list("Indexes", std::vector<std::int64_t>{1}),
+                                          FbxScene::list("Vertices", std::vector<double>{0, 0, 20})});
+    scene.connect(shape, channel);
+    const std::int64_t layer = scene.layer(scene.stack("bend", 1.0));
+    scene.animate(layer, hips, "Lcl Rotation", {{}, {}, {{0.0, 0.0}, {1.0, 90.0}}}, glm::dvec3(0.0));
+    const std::int64_t weight = scene.add("AnimationCurveNode", "", "");
+    scene.connect(weight, layer);
+    scene.connect(weight, channel, "DeformPercent");
+    scene.connect(scene.curve({{0.0, 0.0}, {1.0, 50.0}}), weight, "d|DeformPercent");
+    return scene;
+}
+
+TEST(FbxNodes, a_skin_follows_its_bones_and_its_blend_shapes) {
+    for (const int way : {0, 1, 2}) {
+        const Character character = parse_fbx(bytes_of(small_scene(), way), "it");
+        ASSERT_EQ(character.skeleton.size(), 2u);
+        ASSERT_TRUE(character.skin.mesh);
+        ASSERT_EQ(character.skin.mesh->positions.size(), 4u);
+        ASSERT_EQ(character.skin.mesh->morphs.size(), 1u);
+        EXPECT_EQ(character.skin.mesh->morphs[0].name, "smile");
+        ASSERT_EQ(character.clips.size(), 1u);
+        std::vector<rig::Transform> pose = rest_pose(character.skeleton);
+        sample(character.clips[0], character.skeleton, 1.0, pose);
+        std::vector<humanoid::Placement> placements(pose.size());
+        place(character.skeleton, pose, placements);
+        const SkinDraw draw{character.skin.mesh, skin_matrices(character.skin, placements)};
+        // A quarter turn about Z at the hips: down becomes to the right.
+        EXPECT_LT(glm::length(glm::dvec3(skinned(draw, 3)) - glm::dvec3(0.5, 1.0, 0.0)), 1e-6);
+        EXPECT_NEAR(morph_weights(character.skin, 0, 0.5).at(0), 0.25f, 1e-6f);
+    }
+}
+
+/// A triangle on a bone, with a material.
+std::pair<FbxScene, std::int64_t> painted_scene() {
+    FbxScene scene;
+    const std::int64_t bone = scene.model("Bone", 0, {});
+    const std::int64_t body = scene.model("Body", bone, {}, "Mesh");
+    const FbxRecord uvs{"LayerElementUV",
+                        {std::int64_t{0}},
+                        {{"MappingInformationType", {std::string("ByPolygonVertex")}, {}},
+                         {"ReferenceInformationType", {std::string("IndexToDirect")}, {}},
+                         FbxScene::list("UV", std::vector<double>{0, 0, 1, 1}),
+                         FbxScene::list("UVIndex", std::vector<std::int64_t>{0, 1, 1})},
+                        true};
+    const std::int64_t mesh =
+        scene.add("Geometry", "", "Mesh",
+                  {FbxScene::list("Vertices", std::vector<double>{0, 0, 0, 1, 0, 0, 0, 1, 0}),
+                   FbxScene::list("PolygonVertexIndex", std::vector<std::int64_t>{0, 1, -3}), uvs});
+    scene.connect(mesh, body);
+    const std::int64_t material = scene.add(
+        "Material", "skin", "", {FbxScene::properties({FbxScene::vector("DiffuseColor", {0.5, 0.25, 1.0})})});
+    scene.connect(material, body);
+    return {scene, material};
+}
+
+TEST(FbxNodes, a_material_is_a_colour_or_the_picture_in_the_file) {
+    const auto [plain, unused] = painted_scene();
+    const Character coloured = parse_fbx(plain.binary(), "it");
+    EXPECT_EQ(coloured.skin.mesh->parts.at(0).colour, glm::vec4(0.5f, 0.25f, 1.0f, 1.0f));
+
+    auto [scene, material] = painted_scene();
+    const FbxRecord name{"RelativeFilename", {std::string("textures\\skin.png")}, {}};
+    const std::int64_t texture = scene.add("Texture", "skin", "", {name});
+    scene.connect(texture, material, "DiffuseColor");
+    const Character without = parse_fbx(scene.text(), "it");
+    EXPECT_EQ(without.skin.mesh->parts.at(0).picture, -1);
+    ASSERT_EQ(without.notes.size(), 1u);
+    EXPECT_NE(without.notes[0].find("texture skin.png is not in the file"), std::string::npos);
+
+    // One red pixel as a PNG, in base64 as text files have it.
+    const std::string png =
+        "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGP4z8AAAAMBAQDJ/pLvAAAAAElFTkSuQmCC";
+    const std::int64_t video = scene.add("Video", "skin", "Clip", {name, {"Content", {png}, {}}});
+    scene.connect(video, texture);
+    const Character painted = parse_fbx(scene.text(), "it");
+    EXPECT_EQ(painted.notes, std::vector<std::string>());
+    ASSERT_EQ(painted.skin.mesh->pictures.size(), 1u);
+    EXPECT_EQ(painted.skin.mesh->parts.at(0).picture, 0);
+    EXPECT_EQ(painted.skin.mesh->uvs.at(0), glm::vec2(0.0f, 1.0f)) << "v counts from the top";
+}
+
+// -------------------------------------------------------------------------------------------------- damage
+
+/// Reads the bytes if it can be; anything but a refusal by std::runtime_error fails.
+void expect_read_or_refused(const std::string& bytes) {
+    try {
+        const Character character = parse_fbx(bytes, "it");
+        EXPECT_LT(character.skeleton.size(), 100u);
+        for (const humanoid::Clip& clip : character.clips) EXPECT_TRUE(check(clip, character.skeleton));
+    } catch (const std::runtime_error& error) {
+        EXPECT_EQ(std::string(error.what()).find("it: "), 0u) << error.what();
+    }
+}
+
+TEST(FbxNodes, files_with_any_byte_changed_cut_or_deleted_are_read_or_refused) {
+    const FbxScene scene = small_scene();
+    for (const std::string& whole : {scene.text(), scene.binary(7400)}) {
+        EXPECT_LT(whole.size(), 8000u);
+        for (std::size_t i = 0; i < whole.size(); ++i) {
+            std::string bytes = whole;
+            for (const int flip : {0xff, 0x01, 0x80}) {
+                bytes[i] = static_cast<char>(whole[i] ^ flip);
+                expect_read_or_refused(bytes);
+            }
+            expect_read_or_refused(whole.substr(0, i));
+            bytes = whole;
+            expect_read_or_refused(bytes.erase(i, 1));
+            if (HasFailure()) FAIL() << "byte " << i;
+        }
+    }
+    rusage used{};
+    getrusage(RUSAGE_SELF, &used);
+    EXPECT_LT(used.ru_maxrss, 1024 * 1024) << "kB";
+}
+
+}  // namespace
+}  // namespace tendril::app
