@@ -219,6 +219,7 @@ std::string distance_text(float metres) {
 }
 
 Verdict reach_verdict(const ChainPart& part) {
+    if (part.chain.segments().size() < 2) return {"One joint", Verdict::Kind::Open};
     if (!part.result) return {"Drag the target", Verdict::Kind::Open};
     const ik::Report& report = part.result->report;
     const std::string off = distance_text(report.residual);
@@ -319,6 +320,7 @@ void report_rows(const ShownChain& shown, const std::vector<glm::vec3>& joints, 
     constexpr int lines = 4;  // the limit, the status in two, what ran
     show_verdict(chain_verdict(part), palette, lines, [&part, &palette] {
         if (part.mode != ChainMode::Reach) return note(chain_modes.help(part.mode));
+        if (part.chain.segments().size() < 2) return note("A chain needs two joints to reach.");
         if (!part.result) return note("The tip then reaches for it.");
         const ReachResult& result = *part.result;
         if (result.active_limit) coloured_note(active_limit_text(*result.active_limit) + ".", palette.limit);
@@ -391,14 +393,14 @@ glm::vec3 first_pole(const ChainPart& part) {
 }
 
 void pole_rows(const ChainPart& part, MoreRows& more, Emit& emit) {
-    if (part.chain.empty()) return;
     bool on = part.reach.pole.has_value();
-    if (ImGui::Checkbox("Pole target", &on)) {
+    ImGui::BeginDisabled(part.chain.empty());
+    if (ImGui::Checkbox("Pole target", &on))
         emit("chain.pole", on ? ArgumentList{{"to", first_pole(part)}} : ArgumentList{{"off", true}});
-    }
+    ImGui::EndDisabled();
     explain(
         "Turns the chain about the line from root to tip until the elbow points at a ball that you place.");
-    if (!part.reach.pole) return;
+    if (!part.reach.pole || part.chain.empty()) return;
     more.add("pole", {"chain.pole", {"to"}}, false, [&part, &emit] {
         glm::vec3 pole = *part.reach.pole;
         if (point_field("pole", pole, 0.01f)) emit.continuously("chain.pole", {{"to", pole}});

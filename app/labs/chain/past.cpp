@@ -205,7 +205,8 @@ FlipReason reason_of(const ChainPart& before, const ChainPart& after) {
     if (was_straight(was, is, reach)) return collinear_reason(was, is, reach);
     if (pole.close) return close_to_pole;
     return {"the solver switched to another pose that the target allows",
-            "Add a pole target, or limits: they leave it fewer poses."};
+            after.reach.pole ? "Narrow the joint limits, or drag the target more slowly."
+                             : "Add a pole target, or limits: they leave it fewer poses."};
 }
 
 std::optional<Incident> flip(const ChainPart& before, const ChainPart& after) {

@@ -196,7 +196,9 @@ void RopeLab::click(const Workspace& workspace, PickId pick, Emit& emit) const {
     }
     const auto place = picked_particle(world, pick);
     if (!place) {
-        if (part.selection) emit("rope.select");
+        // A tie keeps its first end after a click that misses; Escape forgets it.
+        const bool tying = part.tool == RopeTool::Tie && part.selection && part.selection->of_particles();
+        if (part.selection && !tying) emit("rope.select");
         return;
     }
     if (const auto from = tied_from(part, *place)) return tie_places(world, *from, *place, emit);
@@ -269,7 +271,11 @@ std::string RopeLab::hint(const Workspace& workspace, PickId pick) const {
     if (const auto* tie = picked_tie(*part.world, pick))
         return part.world->name(*tie) + ": click selects it.";
     const auto place = picked_particle(*part.world, pick);
-    if (!place) return {};
+    if (!place) {
+        if (part.tool != RopeTool::Tie || !part.selection || !part.selection->of_particles()) return {};
+        return part.selection->body + ", particle " + std::to_string(part.selection->particle()) +
+               ": click what to tie it to. Escape forgets it.";
+    }
     const std::string name = part.world->name(*place->body) + ", particle " + std::to_string(place->index);
     switch (part.tool) {
         case RopeTool::Move:
@@ -323,7 +329,8 @@ std::optional<Handle> RopeLab::gizmo(const Workspace& workspace) const {
     const RopePart& part = rope_part(workspace);
     if (!part.selection) return std::nullopt;
     if (const SelectedParticles selected = selected_particles(part); selected.body != nullptr) {
-        if (selected.movable.empty()) return std::nullopt;
+        // Ties are made by clicks, which arrows would be in the way of.
+        if (selected.movable.empty() || part.tool == RopeTool::Tie) return std::nullopt;
         const std::size_t active = part.selection->particle();
         const std::size_t particle = selected.body->first + active;
         const bool pinned = part.world->pinned(particle) && !is_held(part, particle);

@@ -26,8 +26,11 @@ class RopeTieTest : public RopeTest {
         run("rope.tie", arguments);
     }
     void click(const char* body, std::size_t index) {
+        click(particle_pick(world().find(body)->first + index));
+    }
+    void click(PickId pick) {
         Emit emit;
-        lab().click(workspace, particle_pick(world().find(body)->first + index), emit);
+        lab().click(workspace, pick, emit);
         for (const Emitted& each : emit.take()) run(each.name.c_str(), *each.arguments);
     }
     double gap() const {
@@ -72,6 +75,20 @@ TEST_F(RopeTieTest, TwoClicksTieAndSelectTheTie) {
     run("rope.remove_selected");
     EXPECT_EQ(world().state().ties.size(), 1u);
     EXPECT_EQ(state()["selected"], nullptr);
+}
+
+/// Arrows over what is to be clicked next would take the click.
+TEST_F(RopeTieTest, AClickThatMissesKeepsTheFirstEndAndNoGizmoIsInTheWay) {
+    two_ropes();
+    click("above", 4);
+    run("rope.pin", {{"rope", "above"}, {"particle", 4}});
+    ASSERT_TRUE(lab().gizmo(workspace));
+    run("rope.tool", {{"name", "tie"}});
+    EXPECT_FALSE(lab().gizmo(workspace));
+    click(no_pick);
+    EXPECT_TRUE(test::says(lab().hint(workspace, no_pick), "above particle 4 click what to tie Escape"));
+    click("below", 0);
+    EXPECT_EQ(world().state().ties.size(), 1u);
 }
 
 TEST_F(RopeTieTest, TearsAndIsForgotten) {
