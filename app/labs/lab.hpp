@@ -71,7 +71,7 @@ struct Bounds {
 /// The sphere around an axis-aligned box; its radius is at least `smallest` metres.
 Bounds bounds_of(glm::vec3 low, glm::vec3 high, float smallest = 0.5f);
 
-/// Turns the open lab's camera to what has come, unless it is in view and large enough to be seen.
+/// Frames `bounds` in the open lab's view, unless they are in view and large enough to be seen.
 void frame_unless_seen(Workspace& workspace, const Bounds& bounds);
 
 /// A colour of the picture and what it means.

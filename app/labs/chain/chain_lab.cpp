@@ -246,7 +246,7 @@ std::vector<LabSetting> ChainLab::settings() const {
 
 std::vector<CommandCall> ChainLab::opening() const {
     return {{"chain.preset", {{"name", reaching_arm}}},
-            // In the plane of the view through root and pole target, so that a drag leads over the latter.
+            // In the view plane through root and pole target, so that a drag passes over the pole target.
             {"chain.motion", {{"path", "sweep"}, {"radius", 0.4f}, {"period", 9.0f}}},
             {"view.segments", {{"style", "bones"}}},
             {"view.reach_sphere", {{"show", "on"}}},

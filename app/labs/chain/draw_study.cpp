@@ -214,7 +214,7 @@ class RaceDrawing {
             true;
     }
 
-    /// Chains that share a tip share a label, a name a line.
+    /// Chains with the same tip share one label, with a line for each name.
     void name_at_tip(std::size_t c) {
         const std::size_t tip = joints(c).size() - 1;
         std::string names;

@@ -386,7 +386,7 @@ void bone_rows(const HumanoidPanel& panel, bool open_at_first) {
               2);
     for (std::size_t i = 0; i < humanoid::bone_count; ++i) bone_row(panel, static_cast<Bone>(i));
     map_rows(panel);
-    // Below the rows, which stay where they are when it comes or goes.
+    // The note is below the rows, so that they keep still when it appears.
     const std::string& why = panel.runtime.solvers.why_no_body(panel.part);
     if (!why.empty()) coloured_note("Full-body IK is off: " + why + ".", panel.colours.limit);
 }

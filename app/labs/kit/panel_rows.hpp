@@ -46,8 +46,8 @@ struct Verdict {
     std::string why{};  ///< the consequence, or what to do next; a sentence
 };
 
-/// It and the `notes` below it have room for two of its lines and for `lines` of small text, so that nothing
-/// below moves when it says something else.
+/// Reserves room for two lines of verdict and `lines` lines of `notes`, so that the rows below keep still
+/// when the verdict changes.
 void show_verdict(const Verdict& said, const Palette& palette, int lines = 2,
                   const std::function<void()>& notes = {});
 

@@ -329,7 +329,7 @@ std::optional<Handle> RopeLab::gizmo(const Workspace& workspace) const {
     const RopePart& part = rope_part(workspace);
     if (!part.selection) return std::nullopt;
     if (const SelectedParticles selected = selected_particles(part); selected.body != nullptr) {
-        // Ties are made by clicks, which arrows would be in the way of.
+        // No arrows while tying: they would take the click on the second particle.
         if (selected.movable.empty() || part.tool == RopeTool::Tie) return std::nullopt;
         const std::size_t active = part.selection->particle();
         const std::size_t particle = selected.body->first + active;

@@ -41,7 +41,7 @@ LintReport lint_of(const HumanoidPart& part, const Clip& clip, const humanoid::G
                 {.rate = rate, .limits = limits ? &*limits : nullptr, .ground = ground});
 }
 
-/// Of the clip as shown. Nothing of it has a cure: cures change the clip.
+/// Lints the clip as shown. Its findings have no cure: a cure would change the clip as read.
 LintReport lint_of_result(const HumanoidPart& part, Solvers& solvers) {
     const double rate = humanoid::frame_rate(*part.clip());
     LintReport report = lint_of(part, clip_as_shown(part, solvers, *part.playback.clip, rate),
