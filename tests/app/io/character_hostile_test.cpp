@@ -115,7 +115,8 @@ TEST_F(HostileCharacter, a_gltf_that_is_well_is_read) {
 
 TEST_F(HostileCharacter, gltf_clips_with_wrong_numbers_are_refused) {
     refuses("back.gltf", two_joints("", "", clip_of({0.0f, 0.7f, 0.5f}, 2.0f)), "must be");
-    refuses("same.gltf", two_joints("", "", clip_of({0.0f, 0.5f, 0.5f}, 2.0f)), "must be later than the time");
+    refuses("same.gltf", two_joints("", "", clip_of({0.0f, 0.5f, 0.5f}, 2.0f)),
+            "must be later than the time");
     refuses("nan_time.gltf", two_joints("", "", clip_of({0.0f, NAN, 1.0f}, 2.0f)), "times[1]");
     refuses("nan.gltf", two_joints("", "", clip_of({0.0f, 0.5f, 1.0f}, NAN)), "values[0]");
     refuses("endless.gltf", two_joints("", "", clip_of({0.0f, 0.5f, 1.0f}, INFINITY)), "values[0]");
@@ -404,7 +405,7 @@ std::string fbx_models(const std::vector<std::pair<int, int>>& connections, int 
 
 TEST_F(HostileCharacter, a_figure_without_nodes_is_refused_whatever_reads_it) {
     EXPECT_THROW(static_cast<void>(skeleton_of({})), std::runtime_error);
-    // An animated mesh with pivots but no bones, from Assimp's tests.
+    // An animated mesh with pivots but no bones.
     const std::filesystem::path animated =
         tendril::test::characters_folder().parent_path() / "found/fbx_mesh_only.fbx";
     if (std::filesystem::exists(animated))

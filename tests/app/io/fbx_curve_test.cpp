@@ -6,6 +6,7 @@
 #include "app/io/character/fbx/curve.hpp"
 #include "app/io/character/fbx/fbx.hpp"
 #include "tests/app/io/fbx_file.hpp"
+#include "tests/says.hpp"
 
 namespace tendril::app {
 namespace {
@@ -164,6 +165,31 @@ TEST(FbxCurve, keys_that_go_back_in_time_are_left_out_and_said) {
     EXPECT_NEAR(x_at(character, 1.5), 2.5, 1e-9);
     ASSERT_EQ(character.notes.size(), 1u);
     EXPECT_NE(character.notes[0].find("keys out of order"), std::string::npos);
+}
+
+TEST(FbxCurve, what_is_not_evaluated_is_said_once) {
+    const auto switched = [](const char* name) { return FbxScene::property(name, {std::int64_t{1}}); };
+    const auto notes_with = [](const std::vector<FbxRecord>& node, const std::vector<FbxRecord>& of_layer) {
+        FbxScene scene;
+        const std::int64_t bone = scene.model("Bone", scene.model("Root", 0, node), node);
+        for (int i = 0; i < 2; ++i)
+            scene.animate(scene.layer(scene.stack("Take", 2.0), of_layer), bone, "Lcl Translation",
+                          {{{0.0, 0.0}, {2.0, 1.0}}, {}, {}}, glm::dvec3(0.0));
+        return read(scene).notes;
+    };
+    const FbxRecord maximum = FbxScene::vector("RotationMax", {0.0, 90.0, 0.0});
+    EXPECT_EQ(notes_with({switched("RotationActive"), maximum}, {}), std::vector<std::string>());
+    EXPECT_EQ(notes_with({switched("RotationMaxY"), maximum}, {}), std::vector<std::string>())
+        << "without RotationActive it has no effect";
+    for (const char* limit : {"RotationMinX", "RotationMaxY", "RotationMaxZ"}) {
+        const auto notes = notes_with({switched("RotationActive"), switched(limit), maximum}, {});
+        ASSERT_EQ(notes.size(), 1u) << limit;
+        EXPECT_TRUE(test::says(notes[0], "limits nodes not evaluated"));
+    }
+    EXPECT_EQ(notes_with({switched("TranslationActive"), switched("TranslationMinZ")}, {}).size(), 1u);
+    const auto notes = notes_with({}, {switched("Solo")});
+    ASSERT_EQ(notes.size(), 1u);
+    EXPECT_TRUE(test::says(notes[0], "Layers on solo are evaluated with the others"));
 }
 
 // ------------------------------------------------------------------------------------------- version 6.1

@@ -55,8 +55,8 @@ class StackReader {
         if (has_odd_)
             notes_.push_back(
                 "Some curves have keys out of order, have a velocity, or repeat beyond their keys; that is "
-                "not "
-                "read as written.");
+                "not read as written.");
+        if (has_solo_) notes_.push_back("Layers on solo are evaluated with the others.");
         return std::move(stacks_);
     }
 
@@ -87,6 +87,7 @@ class StackReader {
         for (const Connection& each : objects_.children(object)) {
             if (objects_[each.object].kind != "AnimationLayer") continue;
             if (objects_.integer(each.object, "Mute", 0) != 0) continue;
+            has_solo_ = has_solo_ || objects_.integer(each.object, "Solo", 0) != 0;
             stack.layers.push_back(read_layer(each.object));
         }
         return stack;
@@ -199,7 +200,7 @@ class StackReader {
     std::unordered_map<std::size_t, std::shared_ptr<const Curve>> curves_{};
     std::vector<Stack> stacks_{};
     std::size_t keys_ = 0;
-    bool has_odd_ = false;
+    bool has_odd_ = false, has_solo_ = false;
 };
 
 /// A rotation under construction: Euler angles as long as only such are added, then rotations after them.

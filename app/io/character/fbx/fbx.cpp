@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "app/io/character/fbx/clip.hpp"
-#include "app/io/character/fbx/skin.hpp"
+#include "app/io/character/fbx/surface.hpp"
 #include "app/io/character/unique_names.hpp"
 
 namespace tendril::app {

@@ -1,4 +1,4 @@
-#include "app/io/character/fbx/material.hpp"
+#include "app/io/character/fbx/surface.hpp"
 
 #include <algorithm>
 #include <cmath>

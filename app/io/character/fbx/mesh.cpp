@@ -1,4 +1,4 @@
-#include "app/io/character/fbx/mesh.hpp"
+#include "app/io/character/fbx/surface.hpp"
 
 #include <algorithm>
 #include <cstring>

@@ -26,6 +26,16 @@ bool is_mesh(const Objects& objects, std::size_t object) {
     });
 }
 
+/// Whether some axis of its translation, rotation or scale has a minimum or maximum that is switched on.
+bool has_limits(const Objects& objects, std::size_t object) {
+    for (const std::string property : {"Translation", "Rotation", "Scaling"}) {
+        if (objects.integer(object, property + "Active", 0) == 0) continue;
+        for (const char* end : {"MinX", "MinY", "MinZ", "MaxX", "MaxY", "MaxZ"})
+            if (objects.integer(object, property + end, 0) != 0) return true;
+    }
+    return false;
+}
+
 Node read_node(const Objects& objects, std::size_t object, std::vector<std::string>& notes) {
     const auto vector = [&](std::string_view name, double otherwise = 0.0) {
         return objects.vector(object, name, glm::dvec3(otherwise));
@@ -74,13 +84,16 @@ Values Node::rest() const {
 std::vector<Node> read_nodes(const Objects& objects, std::vector<std::string>& notes) {
     std::vector<Node> nodes;
     std::vector<std::int32_t> node_of(objects.size(), -1);
+    bool limited = false;
     for (std::size_t i = 0; i < objects.size(); ++i) {
         if (objects[i].kind != "Model") continue;
         if (nodes.size() >= max_models)
             throw std::runtime_error("has more than " + std::to_string(max_models) + " models");
         node_of[i] = static_cast<std::int32_t>(nodes.size());
         nodes.push_back(read_node(objects, i, notes));
+        limited = limited || has_limits(objects, i);
     }
+    if (limited) notes.push_back("The limits of the file's nodes are not evaluated.");
     for (Node& node : nodes) {
         for (const Connection& each : objects.parents(node.object)) {
             const std::int32_t parent = node_of[each.object];

@@ -12,6 +12,8 @@
 namespace tendril::app::fbx {
 namespace {
 
+constexpr std::size_t max_nested = 64;  ///< records in records; files have up to 10
+
 template <class T>
 T raw_at(std::string_view bytes, std::size_t at) {
     T value;
@@ -223,6 +225,26 @@ File read_records(std::string_view bytes) {
         throw std::runtime_error("is of FBX version " + std::to_string(file.version / 1000) + '.' +
                                  std::to_string(file.version / 100 % 10) + "; 6.0 to 7.7 are read");
     return file;
+}
+
+void RecordReader::fail(const std::string& what) const {
+    throw std::runtime_error(place() + ": " + what);
+}
+
+void RecordReader::open(Record record, std::size_t end) {
+    if (open_.size() >= max_nested) fail("more than " + std::to_string(max_nested) + " nested records");
+    open_.push_back({std::move(record), end});
+}
+
+void RecordReader::close() {
+    Record done = std::move(open_.back().record);
+    open_.pop_back();
+    (open_.empty() ? file_.root : open_.back().record).children.push_back(std::move(done));
+}
+
+File RecordReader::finish() {
+    if (inside()) fail("the file ends inside a record");
+    return std::move(file_);
 }
 
 }  // namespace tendril::app::fbx

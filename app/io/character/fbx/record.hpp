@@ -56,8 +56,35 @@ struct File {
 File read_records(std::string_view bytes);
 
 // For read_records().
+
+/// What the readers of both forms share: the records that the place they are at is inside of.
+class RecordReader {
+  public:
+    RecordReader() = default;
+    RecordReader(const RecordReader&) = delete;
+    RecordReader& operator=(const RecordReader&) = delete;
+
+  protected:
+    virtual ~RecordReader() = default;
+    virtual std::string place() const = 0;  ///< "line 12"
+    [[noreturn]] void fail(const std::string& what) const;
+    void open(Record record, std::size_t end = 0);
+    bool inside() const { return !open_.empty(); }
+    std::size_t end() const { return open_.back().end; }  ///< of the innermost record
+    void close();
+    File finish();
+
+    File file_{};
+
+  private:
+    struct Open {
+        Record record;
+        std::size_t end;
+    };
+    std::vector<Open> open_{};
+};
+
 File read_binary(std::string_view bytes);
 File read_text(std::string_view text);
-constexpr std::size_t max_nested = 64;  ///< records in records; files have up to 10
 
 }  // namespace tendril::app::fbx

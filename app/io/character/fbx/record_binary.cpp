@@ -12,7 +12,7 @@ constexpr std::size_t binary_header = 27;
 
 using std::to_string;
 
-class BinaryRecords {
+class BinaryRecords final : public RecordReader {
   public:
     explicit BinaryRecords(std::string_view bytes) : bytes_(bytes), at_(binary_header) {
         if (bytes.size() < at_) fail("ends in its header");
@@ -25,21 +25,19 @@ class BinaryRecords {
             const std::size_t begin = at_;
             Head head = take_head();
             if (head.end == 0) {  // the end of a record's contents, or of the file
-                if (open_.empty()) break;
-                if (at_ != open_.back().end) fail("a record that does not end where it says");
+                if (!inside()) break;
+                if (at_ != end()) fail("a record that does not end where it says");
                 close();
                 continue;
             }
-            const std::size_t limit = open_.empty() ? bytes_.size() : open_.back().end;
+            const std::size_t limit = inside() ? end() : bytes_.size();
             if (head.end <= begin || head.end > limit)
                 fail("a record that ends at byte " + to_string(head.end) + ", of " + to_string(limit));
             properties(head);
-            if (open_.size() >= max_nested) fail("more than " + to_string(max_nested) + " nested records");
-            open_.push_back({static_cast<std::size_t>(head.end), std::move(head.record)});
-            if (at_ == open_.back().end) close();
+            open(std::move(head.record), static_cast<std::size_t>(head.end));
+            if (at_ == end()) close();
         }
-        if (!open_.empty()) fail("the file ends inside a record");
-        return std::move(file_);
+        return finish();
     }
 
   private:
@@ -47,14 +45,8 @@ class BinaryRecords {
         std::uint64_t end = 0, count = 0, length = 0;
         Record record{};
     };
-    struct Open {
-        std::size_t end;
-        Record record;
-    };
 
-    [[noreturn]] void fail(const std::string& what) const {
-        throw std::runtime_error("byte " + to_string(at_) + ": " + what);
-    }
+    std::string place() const override { return "byte " + to_string(at_); }
     void need(std::uint64_t bytes) const {
         if (bytes > bytes_.size() - at_)
             fail("claims " + to_string(bytes) + " bytes, the file has " + to_string(bytes_.size() - at_) +
@@ -85,12 +77,6 @@ class BinaryRecords {
         head.length = take_size();
         head.record.name = take(take<std::uint8_t>());
         return head;
-    }
-    void close() {
-        Open done = std::move(open_.back());
-        open_.pop_back();
-        at_ = done.end;
-        (open_.empty() ? file_.root : open_.back().record).children.push_back(std::move(done.record));
     }
     void properties(Head& head) {
         need(head.length);
@@ -151,8 +137,6 @@ class BinaryRecords {
     std::size_t at_;
     bool wide_ = false;
     std::uint64_t all_arrays_ = 0;
-    std::vector<Open> open_{};
-    File file_{};
 };
 
 }  // namespace

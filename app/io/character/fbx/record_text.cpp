@@ -7,7 +7,7 @@ namespace {
 
 /// `Name: value, value { records }`. A list goes on in the next line after a comma, or if that line begins
 /// with one.
-class TextRecords {
+class TextRecords final : public RecordReader {
   public:
     explicit TextRecords(std::string_view text) : text_(text) {}
 
@@ -16,7 +16,7 @@ class TextRecords {
             skip_lines();
             if (at_ == text_.size()) break;
             if (text_[at_] == '}') {
-                if (open_.empty()) fail("} without a matching {");
+                if (!inside()) fail("} without a matching {");
                 ++at_;
                 close();
                 continue;
@@ -25,26 +25,20 @@ class TextRecords {
             record.name = name();
             properties(record);
             skip_lines();
-            if (at_ < text_.size() && text_[at_] == '{') {
+            open(std::move(record));
+            if (at_ < text_.size() && text_[at_] == '{')
                 ++at_;
-                if (open_.size() >= max_nested)
-                    fail("more than " + std::to_string(max_nested) + " nested records");
-                open_.push_back(std::move(record));
-            } else {
-                add(std::move(record));
-            }
+            else
+                close();
         }
-        if (!open_.empty()) throw std::runtime_error("the file ends inside a record");
         const Record* header = file_.root.child("FBXHeaderExtension");
         const Record* version = header ? header->child("FBXVersion") : nullptr;
         file_.version = version ? static_cast<int>(version->integer(0) % 1'000'000) : version_in_comment();
-        return std::move(file_);
+        return finish();
     }
 
   private:
-    [[noreturn]] void fail(const std::string& what) const {
-        throw std::runtime_error("line " + std::to_string(line_) + ": " + what);
-    }
+    std::string place() const override { return "line " + std::to_string(line_); }
     static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\0'; }
     void skip_blanks() {
         while (at_ < text_.size() && is_blank(text_[at_])) ++at_;
@@ -105,14 +99,6 @@ class TextRecords {
         at_ = end + 1;
         return {'S', text_.substr(begin, end - begin)};
     }
-    void add(Record record) {
-        (open_.empty() ? file_.root : open_.back()).children.push_back(std::move(record));
-    }
-    void close() {
-        Record done = std::move(open_.back());
-        open_.pop_back();
-        add(std::move(done));
-    }
     /// "; FBX 6.1.0 project file": 6100.
     int version_in_comment() const {
         const std::size_t at = text_.substr(0, 4096).find("; FBX ");
@@ -125,8 +111,6 @@ class TextRecords {
     std::string_view text_;
     std::size_t at_ = 0;
     std::size_t line_ = 1;
-    std::vector<Record> open_{};
-    File file_{};
 };
 
 }  // namespace

@@ -1,13 +1,10 @@
-#include "app/io/character/fbx/skin.hpp"
+#include "app/io/character/fbx/surface.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
 #include <stdexcept>
-
-#include "app/io/character/fbx/material.hpp"
-#include "app/io/character/fbx/mesh.hpp"
 
 namespace tendril::app::fbx {
 namespace {
