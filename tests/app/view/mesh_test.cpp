@@ -15,6 +15,7 @@
 #include "app/view/surfaces.hpp"
 #include "app/window/gl.hpp"
 #include "app/window/window.hpp"
+#include "tests/app/support/backends.hpp"
 
 namespace tendril::app::mesh_test {
 namespace {
@@ -362,7 +363,7 @@ TEST_P(Meshes, BrokenOnesAreHarmless) {
     draw(list, {.pitch = 0.3f, .orthographic = true}, true);
 }
 
-INSTANTIATE_TEST_SUITE_P(Backends, Meshes, testing::Values(Backend::OsMesa, Backend::Egl),
+INSTANTIATE_TEST_SUITE_P(Backends, Meshes, testing::ValuesIn(test::backends_here()),
                          [](const auto& test) { return test.param == Backend::Egl ? "Egl" : "OsMesa"; });
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "app/io/image.hpp"
 #include "app/window/gl.hpp"
 #include "app/window/window.hpp"
+#include "tests/app/support/backends.hpp"
 
 namespace tendril::app {
 namespace {
@@ -75,7 +76,7 @@ TEST_P(Offscreen, CanBeOpenedAgain) {
     for (int i = 0; i < 3; ++i) expect_clears(*open_window(GetParam(), {32, 32}), {32, 32});
 }
 
-INSTANTIATE_TEST_SUITE_P(Backends, Offscreen, testing::Values(Backend::OsMesa, Backend::Egl),
+INSTANTIATE_TEST_SUITE_P(Backends, Offscreen, testing::ValuesIn(test::backends_here()),
                          [](const auto& test) { return test.param == Backend::Egl ? "Egl" : "OsMesa"; });
 
 TEST(OpenWindow, AMissingDisplayIsOneClearLine) {

@@ -11,6 +11,7 @@
 #include "app/view/picking.hpp"
 #include "app/window/gl.hpp"
 #include "app/window/window.hpp"
+#include "tests/app/support/backends.hpp"
 
 namespace tendril::app::renderer_test {
 namespace {
@@ -240,12 +241,13 @@ TEST_P(Drawing, BrokenStrokesAndPosesAreHarmless) {
     EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
 }
 
-INSTANTIATE_TEST_SUITE_P(Backends, Drawing, testing::Values(Backend::OsMesa, Backend::Egl),
+INSTANTIATE_TEST_SUITE_P(Backends, Drawing, testing::ValuesIn(test::backends_here()),
                          [](const auto& test) { return test.param == Backend::Egl ? "Egl" : "OsMesa"; });
 
 TEST(Drawings, OsMesaAndEglDifferByOneInAFewPixels) {
     Image images[2];
     for (const Backend backend : {Backend::OsMesa, Backend::Egl}) {
+        if (const std::string why = test::why_missing(backend); !why.empty()) GTEST_SKIP() << why;
         const auto window = open_window(backend, size);
         Renderer renderer;
         renderer.draw(many(300), Camera({.yaw = 0.4f, .pitch = 0.5f}, viewport), palette(Theme::Dark),

@@ -8,6 +8,7 @@
 #include "app/view/renderer.hpp"
 #include "app/window/gl.hpp"
 #include "app/window/window.hpp"
+#include "tests/app/support/backends.hpp"
 
 namespace tendril::app::skin_test {
 namespace {
@@ -190,7 +191,7 @@ TEST_P(SkinDrawing, WhatCannotBeDrawnIsNot) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Backends, SkinDrawing, testing::Values(Backend::OsMesa, Backend::Egl),
+INSTANTIATE_TEST_SUITE_P(Backends, SkinDrawing, testing::ValuesIn(test::backends_here()),
                          [](const auto& test) { return test.param == Backend::Egl ? "Egl" : "OsMesa"; });
 
 }  // namespace
