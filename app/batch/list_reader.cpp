@@ -1,31 +1,9 @@
 #include "app/batch/list_reader.hpp"
 
-#include <algorithm>
-
 #include "app/document/json_complete.hpp"
 #include "app/document/json_scan.hpp"
 
 namespace tendril::app {
-namespace {
-
-std::size_t skip_space(std::string_view text, std::size_t at) {
-    return std::min(text.find_first_not_of(" \t\r\n", at), text.size());
-}
-
-/// The end of the value at `at`, by brackets and quotes alone; parsing it finds errors.
-std::size_t skip_value(std::string_view text, std::size_t at) {
-    int depth = 0;
-    while (at < text.size()) {
-        const char c = text[at];
-        if (depth == 0 && (c == ',' || c == ']' || c == '}')) break;
-        if (c == '[' || c == '{') ++depth;
-        if (c == ']' || c == '}') --depth;
-        at = c == '"' ? string_end(text, at) : at + 1;
-    }
-    return at;
-}
-
-}  // namespace
 
 ListReader::ListReader(std::string_view text, std::string name) : text_(text), name_(std::move(name)) {
     constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";

@@ -117,24 +117,6 @@ class Builder : public nlohmann::json_sax<Json> {
     Json result_;
 };
 
-// Finding a line: the text is valid, so brackets and quotes suffice to skip values.
-
-std::size_t skip_space(std::string_view text, std::size_t at) {
-    return std::min(text.find_first_not_of(" \t\r\n", at), text.size());
-}
-
-std::size_t skip_value(std::string_view text, std::size_t at) {
-    int depth = 0;
-    while (at < text.size()) {
-        const char c = text[at];
-        if (depth == 0 && (c == ',' || c == ']' || c == '}')) break;
-        if (c == '[' || c == '{') ++depth;
-        if (c == ']' || c == '}') --depth;
-        at = c == '"' ? string_end(text, at) : at + 1;
-    }
-    return at;
-}
-
 /// The offset of the child `name` (a key, or an index) of the container at `at`; npos if there is none.
 std::size_t find_child(std::string_view text, std::size_t at, std::string_view name) {
     if (at >= text.size() || (text[at] != '{' && text[at] != '[')) return text.npos;

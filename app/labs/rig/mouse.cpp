@@ -1,6 +1,4 @@
 // Mouse input in the Rig lab: handles, drags, clicks, selection and the gizmo.
-#include "app/labs/rig/mouse.hpp"
-
 #include <algorithm>
 #include <glm/common.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -43,6 +41,52 @@ const char* what_dragging_does(rig::ControlKind kind) {
             break;
     }
     return "drag its knob within the rectangle";
+}
+
+/// As drawn, nothing pending.
+const rig::Hierarchy& elements_of(const Workspace& workspace) {
+    return workspace.runtimes.of<RigRuntime>(rig_lab).resolved(workspace);
+}
+
+/// Whether the rig still has the element.
+bool is_there(const RigPart& part, PickId pick) {
+    return pick >= 0 && picked_element(pick) < part.state.controls.size();
+}
+
+/// The handle at what is drawn of the element: a knob, a joint.
+Handle element_handle(const Workspace& workspace, std::size_t i) {
+    const RigPart& part = rig_part(workspace);
+    const rig::Hierarchy& elements = elements_of(workspace);
+    const rig::Element& element = part.rig.definition().elements[i];
+    if (const auto shape = ControlShape::of(part, elements, i))
+        return {element.name, element_pick(i), frame_of(shape->pose()), shape->drag(), shape->part()};
+    const rig::Transform pose = *elements.known(part.rig.id(i), rig::Space::Global);
+    return {element.name, element_pick(i), frame_of(pose), Drag::Nothing};
+}
+
+/// What the gizmo changes: nothing for float, bool and vector2d controls, which are dragged or clicked
+/// directly.
+Drag gizmo_drag(const rig::Element& element) {
+    const Drag turn = Drag::Position | Drag::Rotation;
+    if (!element.control) return element.kind == rig::ElementKind::Null ? turn | Drag::Scale : turn;
+    switch (element.control->kind) {
+        case rig::ControlKind::Transform:
+            return turn | Drag::Scale;
+        case rig::ControlKind::Position:
+            return Drag::Position;
+        case rig::ControlKind::Rotation:
+            return Drag::Rotation;
+        default:
+            return Drag::Nothing;
+    }
+}
+
+/// For a bone or a null: its pose before any unit has moved it, which is what a drag sets.
+Handle input_handle(const Workspace& workspace, std::size_t i) {
+    const RigPart& part = rig_part(workspace);
+    const rig::Element& element = part.rig.definition().elements[i];
+    const rig::Transform pose = part.rig.start_pose(part.state, i);
+    return {element.name, element_pick(i), frame_of(pose), gizmo_drag(element)};
 }
 
 Bounds closely_around(const RigPart& part, const rig::Hierarchy& elements, std::size_t i) {
@@ -203,46 +247,6 @@ Bounds RigLab::bounds(const Workspace& workspace, bool selection_only) const {
             if (placed) take(glm::vec3(shape->placed(end)), 0.0f);
     }
     return bounds_of(low, high);
-}
-
-const rig::Hierarchy& elements_of(const Workspace& workspace) {
-    return workspace.runtimes.of<RigRuntime>(rig_lab).resolved(workspace);
-}
-
-bool is_there(const RigPart& part, PickId pick) {
-    return pick >= 0 && picked_element(pick) < part.state.controls.size();
-}
-
-Handle element_handle(const Workspace& workspace, std::size_t i) {
-    const RigPart& part = rig_part(workspace);
-    const rig::Hierarchy& elements = elements_of(workspace);
-    const rig::Element& element = part.rig.definition().elements[i];
-    if (const auto shape = ControlShape::of(part, elements, i))
-        return {element.name, element_pick(i), frame_of(shape->pose()), shape->drag(), shape->part()};
-    const rig::Transform pose = *elements.known(part.rig.id(i), rig::Space::Global);
-    return {element.name, element_pick(i), frame_of(pose), Drag::Nothing};
-}
-
-Drag gizmo_drag(const rig::Element& element) {
-    const Drag turn = Drag::Position | Drag::Rotation;
-    if (!element.control) return element.kind == rig::ElementKind::Null ? turn | Drag::Scale : turn;
-    switch (element.control->kind) {
-        case rig::ControlKind::Transform:
-            return turn | Drag::Scale;
-        case rig::ControlKind::Position:
-            return Drag::Position;
-        case rig::ControlKind::Rotation:
-            return Drag::Rotation;
-        default:
-            return Drag::Nothing;
-    }
-}
-
-Handle input_handle(const Workspace& workspace, std::size_t i) {
-    const RigPart& part = rig_part(workspace);
-    const rig::Element& element = part.rig.definition().elements[i];
-    const rig::Transform pose = part.rig.start_pose(part.state, i);
-    return {element.name, element_pick(i), frame_of(pose), gizmo_drag(element)};
 }
 
 // The gizmo of the selection, and dragging several elements with it.

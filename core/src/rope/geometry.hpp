@@ -5,19 +5,16 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 
+#include "math/vector.hpp"
+
 namespace tendril::rope::detail {
 
 using glm::dvec3;
 
-inline double dot(const dvec3& a, const dvec3& b) noexcept {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-inline double length(const dvec3& a) noexcept {
-    return std::sqrt(dot(a, a));
-}
-inline dvec3 cross(const dvec3& a, const dvec3& b) noexcept {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
+using math::cross;
+using math::dot;
+using math::length;
+
 /// +Y for the zero vector.
 inline dvec3 unit(const dvec3& a) noexcept {
     const double size = length(a);
