@@ -10,6 +10,7 @@
 #include "app/shell/theme.hpp"
 #include "app/view/camera.hpp"
 #include "app/widgets/fonts.hpp"
+#include "app/widgets/tooltip.hpp"
 
 namespace tendril::app {
 namespace {
@@ -87,6 +88,7 @@ Rect show_axis_gizmo(const ShellFrame& frame, Emit& emit) {
     const Palette& colours = frame.colours();
     ImDrawList* const list = ImGui::GetBackgroundDrawList();
     ImGui::PushFont(small_font());
+    const char* told = nullptr;
     for (const End& end : ends) {
         const Axis& axis = axes[end.axis];
         bool hovered = false;
@@ -99,7 +101,7 @@ Rect show_axis_gizmo(const ShellFrame& frame, Emit& emit) {
         if (hovered) {
             list->AddCircleFilled({centre.x, centre.y}, reach + 1.7f * radius, imgui_u32(colours.text, 0.05f),
                                   48);
-            ImGui::SetTooltip("%s view", axis.title);
+            told = axis.title;
         }
         const bool positive = axis.letter[0] != '\0';
         // Ends at the back are fainter.
@@ -122,9 +124,14 @@ Rect show_axis_gizmo(const ShellFrame& frame, Emit& emit) {
     const ImVec2 size = ImGui::CalcTextSize(name.c_str());
     list->AddText({centre.x - 0.5f * size.x, centre.y + reach + 1.6f * radius}, imgui_u32(colours.text_dim),
                   name.c_str());
-    ImGui::PopFont();
     const float around = reach + radius;
-    return {centre - around, {centre.x + around, centre.y + reach + 1.6f * radius + size.y}};
+    const Rect whole{centre - around, {centre.x + around, centre.y + reach + 1.6f * radius + size.y}};
+    if (told != nullptr) {
+        const Tooltip opened(whole);
+        ImGui::Text("%s view", told);
+    }
+    ImGui::PopFont();
+    return whole;
 }
 
 }  // namespace tendril::app

@@ -13,6 +13,7 @@
 #include "app/widgets/icons.hpp"
 #include "app/widgets/section_light.hpp"
 #include "app/widgets/text.hpp"
+#include "app/widgets/tooltip.hpp"
 
 namespace tendril::app {
 namespace {

@@ -15,6 +15,7 @@
 #include "app/widgets/icons.hpp"
 #include "app/widgets/number_entry.hpp"
 #include "app/widgets/text.hpp"
+#include "app/widgets/tooltip.hpp"
 
 namespace tendril::app {
 namespace {
@@ -328,9 +329,9 @@ void Shell::side_panel(const ShellFrame& frame, bool left, Emit& emit) {
 
 void Shell::frame(const ShellFrame& frame, Emit& emit) {
     const Layout& layout = frame.layout;
-    auto& editing = *static_cast<NumberEditing*>(ImGui::GetIO().UserData);
+    NumberEditing& editing = number_editing();
     editing.middle_min = {layout.left.max.x, layout.top.max.y};
-    editing.middle_max = {layout.right.min.x, layout.status.min.y};
+    editing.middle_max = {layout.right.min.x, layout.timeline.min.y};
     top_bar(frame, emit);
     side_panel(frame, true, emit);
     side_panel(frame, false, emit);

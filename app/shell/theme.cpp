@@ -21,7 +21,6 @@ void apply_sizes(ImGuiStyle& style) {
     style.ScrollbarRounding = 6;
     style.WindowBorderSize = 0;
     style.PopupBorderSize = 1;
-    style.FrameBorderSize = 0;
     style.WindowTitleAlign = {0.5f, 0.5f};
     style.DisabledAlpha = 0.42f;
 }
@@ -32,6 +31,7 @@ void apply_theme(Theme theme, float scale) {
     ImGuiStyle& style = ImGui::GetStyle();
     style = ImGuiStyle();
     apply_sizes(style);
+    style.FrameBorderSize = theme == Theme::Light ? 1.0f : 0.0f;  // white on near-white needs an outline
     style.ScaleAllSizes(scale);
 
     const Palette& p = palette(theme);

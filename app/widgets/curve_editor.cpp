@@ -6,7 +6,8 @@
 #include <cmath>
 #include <glm/vec2.hpp>
 
-#include "app/widgets/text.hpp"
+#include "app/widgets/icons.hpp"
+#include "app/widgets/tooltip.hpp"
 
 namespace tendril::app {
 namespace {
@@ -20,7 +21,7 @@ class Editor {
   public:
     Editor(signal::Curve& curve, glm::vec3 colour, ImVec2 at, ImVec2 size)
         : curve_(curve), list_(ImGui::GetWindowDrawList()), at_(at), size_(size) {
-        colour_ = ImGui::ColorConvertFloat4ToU32({colour.r, colour.g, colour.b, 1.0f});
+        colour_ = imgui_u32(colour);
         for (const signal::CurveKey& key : curve.keys) {
             left_ = std::min(left_, key.time), right_ = std::max(right_, key.time);
             low_ = std::min(low_, key.value), high_ = std::max(high_, key.value);

@@ -10,7 +10,7 @@
 #include "app/widgets/expression.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/number_entry.hpp"
-#include "app/widgets/text.hpp"
+#include "app/widgets/tooltip.hpp"
 
 namespace tendril::app {
 namespace {
@@ -53,7 +53,7 @@ bool in_row(const RowAbove& row) {
 }  // namespace
 
 void explain(const char* text) {
-    const NumberEditing& numbers = *static_cast<const NumberEditing*>(ImGui::GetIO().UserData);
+    const NumberEditing& numbers = number_editing();
     const RowAbove& row = numbers.row;
     const bool of_row = in_row(row);
     ImVec2 low = ImGui::GetItemRectMin();

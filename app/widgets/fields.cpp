@@ -17,6 +17,7 @@
 #include "app/widgets/number_entry.hpp"
 #include "app/widgets/section_light.hpp"
 #include "app/widgets/text.hpp"
+#include "app/widgets/tooltip.hpp"
 
 namespace tendril::app {
 namespace {
@@ -30,7 +31,7 @@ bool narrow() {
 }
 
 RowAbove& row_above() {
-    return static_cast<NumberEditing*>(ImGui::GetIO().UserData)->row;
+    return number_editing().row;
 }
 
 void note_row(ImVec2 from, ImVec2 field) {
@@ -178,7 +179,7 @@ bool integer_slider(const char* name, int& value, int low, int high) {
 
 bool text_field(const char* name, std::string& value, const char* hint) {
     const std::string id = begin_row(name);
-    TextEditing& typed = static_cast<NumberEditing*>(ImGui::GetIO().UserData)->typed;
+    TextEditing& typed = number_editing().typed;
     const ImGuiID own = ImGui::GetID(id.c_str());
     const int frame = ImGui::GetFrameCount();
     const bool edited = typed.id == own && typed.frame >= frame - 1;
@@ -390,9 +391,12 @@ bool row_button(const char* title, int of, bool enabled, const char* tooltip) {
     if (begun && ImGui::GetCursorPosX() + width > ImGui::GetWindowContentRegionMax().x + 1.0f)
         ImGui::NewLine();
     const std::string shown = elided(title, width - ImGui::GetStyle().FramePadding.x);
+    const ImVec2 padding = ImGui::GetStyle().FramePadding;
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(0.5f * padding.x, padding.y));
     ImGui::BeginDisabled(!enabled);
     const bool pressed = ImGui::Button((shown + "###" + title).c_str(), {width, 0.0f});
     ImGui::EndDisabled();
+    ImGui::PopStyleVar();
     if (tooltip != nullptr) tooltip_of_button(tooltip);
     ImGui::SameLine();  // the next button continues the row, unless it is full
     if (ImGui::GetCursorPosX() + width > ImGui::GetWindowContentRegionMax().x + 1.0f) ImGui::NewLine();

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <initializer_list>
 
-#include "app/widgets/text.hpp"
+#include "app/widgets/tooltip.hpp"
 
 namespace tendril::app {
 namespace {

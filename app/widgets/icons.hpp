@@ -1,9 +1,18 @@
-// Small icons drawn from lines, so that they are sharp at every size and need no font.
+// Small icons drawn from lines, so that they are sharp at every size and need no font; colours for them.
 #pragma once
 
 #include <imgui.h>
 
+#include <glm/vec3.hpp>
+
 namespace tendril::app {
+
+inline ImVec4 imgui_colour(glm::vec3 c, float alpha = 1.0f) {
+    return {c.r, c.g, c.b, alpha};
+}
+inline ImU32 imgui_u32(glm::vec3 c, float alpha = 1.0f) {
+    return ImGui::ColorConvertFloat4ToU32(imgui_colour(c, alpha));
+}
 
 enum class Icon {
     Menu,

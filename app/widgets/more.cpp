@@ -6,7 +6,7 @@
 
 #include "app/widgets/icons.hpp"
 #include "app/widgets/row_search.hpp"
-#include "app/widgets/text.hpp"
+#include "app/widgets/tooltip.hpp"
 
 namespace tendril::app {
 

@@ -10,20 +10,22 @@
 #include "app/document/units.hpp"
 #include "app/widgets/expression.hpp"
 #include "app/widgets/text.hpp"
+#include "app/widgets/tooltip.hpp"
 
 namespace tendril::app {
-namespace {
 
-NumberEditing& editing() {
+NumberEditing& number_editing() {
     return *static_cast<NumberEditing*>(ImGui::GetIO().UserData);
 }
+
+namespace {
 
 bool is_disabled() {
     return (ImGui::GetCurrentContext()->CurrentItemFlags & ImGuiItemFlags_Disabled) != 0;
 }
 
 void note_range(double low, double high, const char* format) {
-    RowAbove& row = editing().row;
+    RowAbove& row = number_editing().row;
     row.has_range = true;
     row.low = low;
     row.high = high;
@@ -32,11 +34,11 @@ void note_range(double low, double high, const char* format) {
 
 bool is_edited(ImGuiID id) {
     // A field that was not drawn in the last frame has vanished, with its text.
-    return editing().id == id && editing().frame >= ImGui::GetFrameCount() - 1;
+    return number_editing().id == id && number_editing().frame >= ImGui::GetFrameCount() - 1;
 }
 
 void begin_editing(ImGuiID id, double value) {
-    NumberEditing& now = editing();
+    NumberEditing& now = number_editing();
     now.id = id;
     now.frame = ImGui::GetFrameCount();
     now.begins = true;
@@ -50,17 +52,6 @@ ImVec4 reddened(const ImVec4& colour) {
     return {mixed(colour.x, 0.9f), mixed(colour.y, 0.15f), mixed(colour.z, 0.1f), 1.0f};
 }
 
-/// Shows the reason below the field, as an overlay, so that the layout does not move.
-void say_below(const std::string& why) {
-    ImGui::SetNextWindowPos(
-        {ImGui::GetItemRectMin().x, ImGui::GetItemRectMax().y + ImGui::GetStyle().ItemInnerSpacing.y});
-    ImGui::BeginTooltip();
-    ImGui::PushTextWrapPos(18.0f * ImGui::GetFontSize());
-    ImGui::TextUnformatted(why.c_str());
-    ImGui::PopTextWrapPos();
-    ImGui::EndTooltip();
-}
-
 TypedNumber read(const char* text, const std::string& unit, bool whole) {
     TypedNumber typed = read_number(text, unit);
     if (whole && typed.value && std::isfinite(*typed.value) && *typed.value != std::round(*typed.value))
@@ -69,7 +60,7 @@ TypedNumber read(const char* text, const std::string& unit, bool whole) {
 }
 
 std::optional<double> edited_text(const char* id, const std::string& unit, bool whole) {
-    NumberEditing& now = editing();
+    NumberEditing& now = number_editing();
     now.frame = ImGui::GetFrameCount();
     if (std::exchange(now.begins, false)) ImGui::SetKeyboardFocusHere();
     const auto is_empty = [&] { return now.text[0] == '\0'; };
@@ -93,7 +84,7 @@ std::optional<double> edited_text(const char* id, const std::string& unit, bool 
     const TypedNumber typed = read(now.text.data(), unit, whole);
     const bool wrong = !is_empty() && !typed.value;
     if (!entered && !left) {
-        if (wrong && ImGui::IsItemActive()) say_below(typed.error);
+        if (wrong && ImGui::IsItemActive()) tell_below(typed.error);
         return std::nullopt;
     }
     const bool same = now.text == now.before;
@@ -115,7 +106,7 @@ std::optional<double> number_entry(const char* id, double value, double speed, d
                                    const char* format, bool whole) {
     const ImGuiID own = ImGui::GetID(id);
     note_range(low, high, format);
-    if (editing().tabbed_in == ImGui::GetFrameCount() && !is_disabled()) begin_editing(own, value);
+    if (number_editing().tabbed_in == ImGui::GetFrameCount() && !is_disabled()) begin_editing(own, value);
     if (is_edited(own)) return edited_text(id, unit_of(format), whole);
 
     char text[64];

@@ -44,9 +44,11 @@ struct NumberEditing {
     std::string refused{};  ///< invalid text that the user left, with the reason; empty: none
     TextEditing typed;
     RowAbove row;
-    glm::vec2 middle_min{0.0f}, middle_max{0.0f};  ///< between panels and bars: where their tooltips go
+    glm::vec2 middle_min{0.0f}, middle_max{0.0f};  ///< between panels and bars: see tooltip.hpp
     RowSearch* search = nullptr;                   ///< that is on now; see row_search.hpp
 };
+
+NumberEditing& number_editing();
 
 /// Returns the new number in a frame in which the user changed it. `format` is a printf format with the unit
 /// after the number. `whole`: only whole numbers are valid.

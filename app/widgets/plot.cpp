@@ -8,13 +8,11 @@
 
 #include "app/document/units.hpp"
 #include "app/widgets/fonts.hpp"
+#include "app/widgets/icons.hpp"
+#include "app/widgets/tooltip.hpp"
 
 namespace tendril::app {
 namespace {
-
-ImU32 colour_of(glm::vec3 c, float alpha = 1.0f) {
-    return ImGui::ColorConvertFloat4ToU32({c.r, c.g, c.b, alpha});
-}
 
 /// The smallest of ..., 1, 2, 5, 10, ... that divides `range` into at most `most` steps.
 float tick_step(float range, int most) {
@@ -110,7 +108,7 @@ class Plot {
         if (mouse.x < from_.x || mouse.x > to_.x || mouse.y < from_.y || mouse.y > to_.y) return;
         const float at = axes_.from_x + (most_x_ - axes_.from_x) * (mouse.x - from_.x) / (to_.x - from_.x);
         list_->AddLine({mouse.x, from_.y}, {mouse.x, to_.y}, dim());
-        ImGui::BeginTooltip();
+        const Tooltip opened;
         // The axis title "time, s" becomes "time 1.5 s" here.
         const std::string title = axes_.x;
         const std::size_t comma = std::min(title.find(", "), title.size());
@@ -123,14 +121,13 @@ class Plot {
             const float on_screen = y(value);
             if (on_screen >= from_.y && on_screen <= to_.y)
                 list_->AddCircleFilled({mouse.x, on_screen}, 0.25f * ImGui::GetFontSize(),
-                                       colour_of(curve.colour));
+                                       imgui_u32(curve.colour));
             colour_mark(curve.colour);
             ImGui::AlignTextToFramePadding();
             const double number = static_cast<double>(value);
             const std::string text = std::abs(number) < 1e6 ? fixed_text(number, 3) : "over a million";
             ImGui::Text("%s  %s", text.c_str(), curve.name.c_str());
         }
-        ImGui::EndTooltip();
     }
 
     void tell_nearest(ImVec2 mouse) const {
@@ -144,12 +141,11 @@ class Plot {
             }
         }
         if (nearest == nullptr) return;
-        list_->AddCircle({x(point.x), y(point.y)}, 0.3f * ImGui::GetFontSize(), colour_of(nearest->colour));
+        list_->AddCircle({x(point.x), y(point.y)}, 0.3f * ImGui::GetFontSize(), imgui_u32(nearest->colour));
         // Omit a curve's name if it equals the axis title.
         const std::string title = nearest->name == axes_.y ? std::string() : nearest->name + "\n";
-        ImGui::SetTooltip("%s%s %s\n%s %s", title.c_str(), axes_.x,
-                          short_text(static_cast<double>(point.x), axes_.x_unit).c_str(), axes_.y,
-                          short_text(static_cast<double>(point.y), axes_.y_unit).c_str());
+        tooltip(title + axes_.x + ' ' + short_text(static_cast<double>(point.x), axes_.x_unit) + '\n' +
+                axes_.y + ' ' + short_text(static_cast<double>(point.y), axes_.y_unit));
     }
 
     float x(float value) const {
@@ -245,20 +241,22 @@ class Plot {
             const ImVec2 tip{at, edge + inwards * 0.2f * size};
             const ImVec2 left{at - size, edge + inwards * 1.6f * size},
                 right{at + size, edge + inwards * 1.6f * size};
-            list_->AddTriangleFilled(tip, left, right, colour_of(curve.colour));
+            list_->AddTriangleFilled(tip, left, right, imgui_u32(curve.colour));
             list_->AddTriangle(tip, left, right, ImGui::GetColorU32(ImGuiCol_WindowBg), 0.25f * size);
         }
     }
 
     void line(const Curve& curve) {
-        const ImU32 colour = colour_of(curve.colour, curve.strength);
+        const ImU32 colour = imgui_u32(curve.colour, curve.strength);
         std::vector<ImVec2> points;
         for (const glm::vec2 p : curve.points) points.push_back({x(p.x), y(p.y)});
         polyline(points, colour, 0.13f * curve.width * ImGui::GetFontSize());
-        // Too many marks would merge into one thick line.
-        if (points.size() > 60 || (!curve.marks && !points.empty())) points = {points.back()};
-        for (const ImVec2 p : points)
-            list_->AddCircleFilled(p, 0.17f * curve.width * ImGui::GetFontSize(), colour);
+        if (points.empty()) return;
+        // Marks closer than this would merge into one thick line.
+        const float size = 0.17f * curve.width * ImGui::GetFontSize();
+        const float apart = (points.back().x - points.front().x) / static_cast<float>(points.size());
+        if (!curve.marks || apart < 3.0f * size) points = {points.back()};
+        for (const ImVec2 p : points) list_->AddCircleFilled(p, size, colour);
     }
 
     /// Draws pieces that end where the line reverses: there Dear ImGui's joints would have no width, and a
@@ -382,7 +380,7 @@ void colour_mark(glm::vec3 colour) {
     const float side = 0.6f * ImGui::GetFontSize();
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float top = at.y + 0.5f * (ImGui::GetFrameHeight() - side);
-    ImGui::GetWindowDrawList()->AddRectFilled({at.x, top}, {at.x + side, top + side}, colour_of(colour),
+    ImGui::GetWindowDrawList()->AddRectFilled({at.x, top}, {at.x + side, top + side}, imgui_u32(colour),
                                               0.2f * side);
     ImGui::Dummy({side, ImGui::GetFrameHeight()});
     ImGui::SameLine();

@@ -7,16 +7,9 @@
 #include "app/widgets/number_entry.hpp"
 
 namespace tendril::app {
-namespace {
-
-NumberEditing& interface_state() {
-    return *static_cast<NumberEditing*>(ImGui::GetIO().UserData);
-}
-
-}  // namespace
 
 RowSearch* row_search() {
-    return interface_state().search;
+    return number_editing().search;
 }
 
 void note_row_of(std::string_view command, std::string_view argument) {
@@ -27,7 +20,7 @@ void note_row_of(std::string_view command, std::string_view argument) {
 }
 
 SearchWindow::SearchWindow(RowSearch& search) {
-    interface_state().search = &search;
+    number_editing().search = &search;
     ImGui::SetNextWindowPos({-20000.0f, -20000.0f});
     ImGui::SetNextWindowSize({300.0f, 4000.0f});
     ImGui::Begin("search", nullptr,
@@ -38,7 +31,7 @@ SearchWindow::SearchWindow(RowSearch& search) {
 
 SearchWindow::~SearchWindow() {
     ImGui::End();
-    interface_state().search = nullptr;
+    number_editing().search = nullptr;
 }
 
 }  // namespace tendril::app

@@ -3,12 +3,9 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <glm/common.hpp>
-#include <glm/vec2.hpp>
-#include <glm/vector_relational.hpp>
 #include <utility>
 
-#include "app/widgets/number_entry.hpp"
+#include "app/widgets/tooltip.hpp"
 
 namespace tendril::app {
 namespace {
@@ -59,38 +56,6 @@ void text_elided(const std::string& text, float width, bool dim) {
     const std::string shown = elided(text, width);
     write(shown, dim);
     if (shown != text && ImGui::IsItemHovered()) tooltip(text);
-}
-
-namespace {
-
-constexpr float tooltip_width = 22.0f;  ///< in font sizes
-
-/// Puts the tooltip of something in a panel or a bar beside it, over the middle of the window: under the
-/// mouse it would cover what the mouse is going to next.
-void place_tooltip_beside() {
-    const auto* const editing = static_cast<const NumberEditing*>(ImGui::GetIO().UserData);
-    if (editing == nullptr) return;
-    const float gap = 0.5f * ImGui::GetFontSize();
-    const glm::vec2 low = editing->middle_min + gap, high = editing->middle_max - gap;
-    const ImVec2 at = ImGui::GetWindowPos(), size = ImGui::GetWindowSize(), mouse = ImGui::GetMousePos();
-    const glm::vec2 centre(at.x + 0.5f * size.x, at.y + 0.5f * size.y);
-    const bool inside = glm::all(glm::greaterThan(centre, low)) && glm::all(glm::lessThan(centre, high));
-    const bool fits = high.x - low.x > (tooltip_width + 2.0f) * ImGui::GetFontSize() && high.y > low.y;
-    if (inside || !fits) return;
-    const glm::vec2 beside = glm::clamp(glm::vec2(mouse.x, mouse.y), low, high), middle = 0.5f * (low + high);
-    ImGui::SetNextWindowPos({beside.x, beside.y}, ImGuiCond_Always,
-                            {beside.x > middle.x ? 1.0f : 0.0f, beside.y > middle.y ? 1.0f : 0.0f});
-}
-
-}  // namespace
-
-void tooltip(const std::string& text) {
-    place_tooltip_beside();
-    ImGui::BeginTooltip();
-    ImGui::PushTextWrapPos(tooltip_width * ImGui::GetFontSize());
-    ImGui::TextUnformatted(text.c_str());
-    ImGui::PopTextWrapPos();
-    ImGui::EndTooltip();
 }
 
 void text_flush_right(const std::string& text, bool dim) {

@@ -11,9 +11,6 @@ std::string elided(const std::string& text, float width);
 std::string elided_at_word(const std::string& text, float width);
 /// Writes one line within `width`; a tooltip shows the full text if it was cut.
 void text_elided(const std::string& text, float width, bool dim = false);
-/// A tooltip, of a panel or a bar beside it and else beside the mouse, wrapped so that a long one fits a
-/// small window with large text.
-void tooltip(const std::string& text);
 /// Writes the text right-aligned in the remaining width, so that digits line up.
 void text_flush_right(const std::string& text, bool dim = false);
 

@@ -161,14 +161,6 @@ bool step_timeline(const char* id, int& step, const std::vector<int>& ends) {
     return step != before;
 }
 
-void tell_strip(const char* text) {
-    // Above the strip, which it would otherwise hide.
-    const ImVec2 mouse = ImGui::GetIO().MousePos;
-    ImGui::SetNextWindowPos({mouse.x, ImGui::GetItemRectMin().y - 0.5f * ImGui::GetTextLineHeight()},
-                            ImGuiCond_Always, {mouse.x / std::max(1.0f, ImGui::GetIO().DisplaySize.x), 1.0f});
-    ImGui::SetTooltip("%s", text);
-}
-
 TimeStripUse time_strip(const char* id, int& tick, const TimeStrip& content) {
     Strip strip(id);
     const float whole = static_cast<float>(std::max(1, content.ticks));

@@ -41,7 +41,4 @@ struct TimeStripUse {
 };
 TimeStripUse time_strip(const char* id, int& tick, const TimeStrip& strip);
 
-/// A tooltip above the last strip, which it would hide if it were at the mouse.
-void tell_strip(const char* text);
-
 }  // namespace tendril::app

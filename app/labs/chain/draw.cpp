@@ -18,6 +18,7 @@
 #include "app/labs/chain/past.hpp"
 #include "app/labs/kit/limit_shape.hpp"
 #include "app/labs/kit/past_view.hpp"
+#include "app/widgets/icons.hpp"
 
 namespace tendril::app {
 namespace {
@@ -532,9 +533,7 @@ void draw_mode(ChainMode mode, const Palette& colours) {
     const auto at = [&](glm::vec2 place) {
         return ImVec2(corner.x + place.x * high, corner.y + place.y * high);
     };
-    const auto ink = [](glm::vec3 colour) {
-        return ImGui::ColorConvertFloat4ToU32({colour.r, colour.g, colour.b, 1.0f});
-    };
+    const auto ink = [](glm::vec3 colour) { return imgui_u32(colour); };
     const ModePicture picture = picture_of(mode);
     ImDrawList* list = ImGui::GetWindowDrawList();
     const float unit = high / 15.0f;

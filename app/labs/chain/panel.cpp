@@ -18,6 +18,7 @@
 #include "app/widgets/fields.hpp"
 #include "app/widgets/icons.hpp"
 #include "app/widgets/timeline.hpp"
+#include "app/widgets/tooltip.hpp"
 
 namespace tendril::app {
 namespace {
@@ -185,8 +186,8 @@ void study_strip(const ShownChain& chain, const std::vector<int>& ends, Emit& em
             emit.continuously("microscope.seek", {{"step", shown}});
     }
     if (ImGui::IsItemHovered() && !ImGui::IsItemActive())
-        tell_strip(race ? "The iterations of the race. Drag to see every chain after one of them."
-                        : "The steps of the solve. Drag to see the chain after one of them.");
+        tooltip(race ? "The iterations of the race. Drag to see every chain after one of them."
+                     : "The steps of the solve. Drag to see the chain after one of them.");
 }
 
 void past_rows(const Workspace& workspace, const std::optional<StripLine>& strip, Emit& emit) {

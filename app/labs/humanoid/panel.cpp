@@ -15,8 +15,10 @@
 #include "app/labs/kit/panel_rows.hpp"
 #include "app/labs/kit/past_view.hpp"
 #include "app/widgets/fields.hpp"
+#include "app/widgets/icons.hpp"
 #include "app/widgets/row_search.hpp"
 #include "app/widgets/text.hpp"
+#include "app/widgets/tooltip.hpp"
 
 namespace tendril::app {
 
@@ -267,10 +269,6 @@ namespace {
 
 using humanoid::Bone;
 
-ImU32 colour_of(glm::vec3 c, float alpha = 1.0f) {
-    return ImGui::ColorConvertFloat4ToU32({c.r, c.g, c.b, alpha});
-}
-
 const std::string& node_name(const HumanoidPart& part, std::int32_t node) {
     return part.skeleton()[static_cast<std::size_t>(node)].name;
 }
@@ -282,11 +280,11 @@ const char* sureness(double confidence) {
 /// The length is the confidence; the colour makes doubtful matches stand out.
 void confidence_bar(const HumanoidPanel& panel, double confidence, ImVec2 at, float width, float height) {
     ImDrawList* const list = ImGui::GetWindowDrawList();
-    list->AddRectFilled(at, {at.x + width, at.y + height}, colour_of(panel.colours.field), 1.5f);
+    list->AddRectFilled(at, {at.x + width, at.y + height}, imgui_u32(panel.colours.field), 1.5f);
     const glm::vec3 colour = confidence >= 0.8   ? panel.colours.tail
                              : confidence >= 0.5 ? panel.colours.selection
                                                  : panel.colours.limit;
-    list->AddRectFilled(at, {at.x + width * static_cast<float>(confidence), at.y + height}, colour_of(colour),
+    list->AddRectFilled(at, {at.x + width * static_cast<float>(confidence), at.y + height}, imgui_u32(colour),
                         1.5f);
 }
 
@@ -299,11 +297,7 @@ void bone_tooltip(const HumanoidPart& part, Bone bone) {
     else
         text += humanoid::is_needed(bone) ? ": missing; full-body IK needs it" : ": none; not required";
     if (!match.reasons.empty()) text += "\n" + match.reasons;
-    ImGui::BeginTooltip();
-    ImGui::PushTextWrapPos(26.0f * ImGui::GetFontSize());
-    ImGui::TextUnformatted(text.c_str());
-    ImGui::PopTextWrapPos();
-    ImGui::EndTooltip();
+    tooltip(text);
 }
 
 void bone_row(const HumanoidPanel& panel, Bone bone) {
@@ -316,7 +310,7 @@ void bone_row(const HumanoidPanel& panel, Bone bone) {
     if (match.node >= 0 && panel.part.selection.has(static_cast<std::size_t>(match.node))) {
         const bool active = panel.part.selection.active() == static_cast<std::size_t>(match.node);
         ImGui::GetWindowDrawList()->AddRectFilled(corner, {corner.x + width, corner.y + line},
-                                                  colour_of(panel.colours.selection, active ? 0.45f : 0.22f),
+                                                  imgui_u32(panel.colours.selection, active ? 0.45f : 0.22f),
                                                   3.0f);
     }
     if (ImGui::Selectable("##row", waiting == bone, 0, {width, line})) {
@@ -344,7 +338,7 @@ void bone_row(const HumanoidPanel& panel, Bone bone) {
         const bool needed = humanoid::is_needed(bone);
         ImGui::SetCursorPos({at.x + names, at.y});
         ImGui::PushStyleColor(ImGuiCol_Text,
-                              colour_of(needed ? panel.colours.limit : panel.colours.text_dim));
+                              imgui_u32(needed ? panel.colours.limit : panel.colours.text_dim));
         ImGui::TextUnformatted(needed ? "missing" : "none");
         ImGui::PopStyleColor();
     }

@@ -8,6 +8,7 @@
 #include "app/document/units.hpp"
 #include "app/view/palette.hpp"
 #include "app/widgets/icons.hpp"
+#include "app/widgets/tooltip.hpp"
 
 namespace tendril::app {
 
@@ -64,7 +65,7 @@ void record_button(const Workspace& workspace, Emit& emit) {
               colour);
     ImGui::EndDisabled();
     if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
-        ImGui::SetTooltip("Pauses, and saves the last ten seconds as a video");
+        tooltip("Pauses, and saves the last ten seconds as a video");
     ImGui::SetCursorScreenPos(at);
 }
 
@@ -75,9 +76,8 @@ TimeMark incident_mark(const Incident& incident, int at, const Palette& palette)
 }
 
 void tell_incident(const Incident& incident) {
-    tell_strip((incident_title(incident) + ":\n" + incident.cause +
-                ".\nClick to compare the poses before and after.")
-                   .c_str());
+    tooltip(incident_title(incident) + ":\n" + incident.cause +
+            ".\nClick to compare the poses before and after.");
 }
 
 PastTicks past_ticks(const Workspace& workspace) {
@@ -102,8 +102,7 @@ StripLine past_strip(const Workspace& workspace, Emit& emit) {
 
 bool other_strip_button(bool shown, const std::string& other) {
     const bool asked = ImGui::Button(shown ? capitalised(other).c_str() : "Past");
-    if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("Shows the %s here", shown ? other.c_str() : "last ten seconds");
+    if (ImGui::IsItemHovered()) tooltip("Shows the " + (shown ? other : "last ten seconds") + " here");
     ImGui::SameLine();
     return asked;
 }
@@ -122,7 +121,7 @@ StripLine past_time_strip(const Workspace& workspace, Emit& emit) {
     if (use.on_mark >= 0)
         tell_incident(incidents[static_cast<std::size_t>(use.on_mark)]);
     else if (use.hovered >= 0 && !ImGui::IsItemActive())
-        tell_strip("The last ten seconds. Drag to go back to that moment.");
+        tooltip("The last ten seconds. Drag to go back to that moment.");
     if (use.mark_clicked) {
         emit("time.incident", {{"number", use.on_mark}});
     } else if (use.moved) {

@@ -10,7 +10,9 @@
 #include "app/labs/rig/rig_edit.hpp"
 #include "app/labs/rig/values.hpp"
 #include "app/widgets/fields.hpp"
+#include "app/widgets/icons.hpp"
 #include "app/widgets/text.hpp"
+#include "app/widgets/tooltip.hpp"
 
 namespace tendril::app {
 namespace {
@@ -45,7 +47,7 @@ std::vector<Row> rows_of(const RigPart& part, const rig::Hierarchy& tree, std::s
 /// Bones are diamonds, nulls crosses, controls rings.
 void draw_kind(rig::ElementKind kind, ImVec2 centre, float size, const Palette& colours) {
     const glm::vec3 c = kind == rig::ElementKind::Control ? colours.target : colours.text_dim;
-    const ImU32 colour = ImGui::ColorConvertFloat4ToU32({c.r, c.g, c.b, 1.0f});
+    const ImU32 colour = imgui_u32(c);
     ImDrawList* list = ImGui::GetWindowDrawList();
     const float r = 0.5f * size, thin = 0.3f * size;
     if (kind == rig::ElementKind::Bone)
@@ -243,7 +245,7 @@ void draw_pending(rig::Pending pending, glm::vec2 at, const Palette& colours) {
     const float em = ImGui::GetFontSize(), w = 0.22f * em, h = 0.30f * em, gap = 0.07f * em;
     const auto bar = [&](float x, bool waits) {
         const glm::vec3 c = waits ? colours.accent : colours.text_dim;
-        const ImU32 colour = ImGui::ColorConvertFloat4ToU32({c.r, c.g, c.b, waits ? 1.0f : 0.5f});
+        const ImU32 colour = imgui_u32(c, waits ? 1.0f : 0.5f);
         ImDrawList* list = ImGui::GetWindowDrawList();
         const ImVec2 low(x, at.y - h), high(x + w, at.y + h);
         if (waits)

@@ -21,6 +21,7 @@
 #include "app/labs/rig/values.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/text.hpp"
+#include "app/widgets/tooltip.hpp"
 
 namespace tendril::app {
 namespace {
@@ -271,7 +272,7 @@ void unit_line(const RigPanel& panel, const rig::Unit& unit, const rig::Contribu
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(0.0f, 0.0f));
     if (ImGui::Checkbox("##on", &on)) panel.edit("rig.unit.enable", {{"name", unit.name}, {"on", on}});
     ImGui::PopStyleVar();
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip(on ? "Click to mute this unit" : "Muted; click to run it");
+    if (ImGui::IsItemHovered()) tooltip(on ? "Click to mute this unit" : "Muted; click to run it");
     ImGui::SameLine(0.0f, 0.5f * ImGui::GetFontSize());
     const std::string added = !on ? "muted" : touched(step) ? added_text(step) : "nothing";
     const float room =
@@ -279,11 +280,9 @@ void unit_line(const RigPanel& panel, const rig::Unit& unit, const rig::Contribu
     text_elided(unit.name, std::max(room, 3.0f * ImGui::GetFontSize()), !on || !touched(step));
     ImGui::SameLine();
     text_flush_right(added, !on || !touched(step));
-    if (ImGui::IsItemHovered()) {
-        const std::string change = value_text(step.change);
-        ImGui::SetTooltip("Adds %s in its own space.\nResult: %s.", change.c_str(),
-                          value_text(step.after).c_str());
-    }
+    if (ImGui::IsItemHovered())
+        tooltip("Adds " + value_text(step.change) + " in its own space.\nResult: " + value_text(step.after) +
+                '.');
     ImGui::PopID();
 }
 
@@ -291,7 +290,7 @@ void place_line(const char* title, const rig::Transform& pose) {
     ImGui::TextDisabled("%s", title);
     ImGui::SameLine();
     text_flush_right(vector_text(pose.translation, 3));
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", value_text(pose).c_str());
+    if (ImGui::IsItemHovered()) tooltip(value_text(pose));
 }
 
 }  // namespace

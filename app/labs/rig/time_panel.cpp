@@ -17,6 +17,7 @@
 #include "app/labs/rig/take.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/icons.hpp"
+#include "app/widgets/tooltip.hpp"
 
 namespace tendril::app {
 namespace {
@@ -302,7 +303,7 @@ void take_strip(const Workspace& workspace, Emit& emit) {
     if (use.on_mark >= 0)
         tell_incident(workspace.rewind.incidents()[numbers[static_cast<std::size_t>(use.on_mark)]]);
     else if (use.hovered >= 0)
-        tell_strip(told(part, window.first + static_cast<std::uint64_t>(use.hovered)).c_str());
+        tooltip(told(part, window.first + static_cast<std::uint64_t>(use.hovered)));
 }
 
 }  // namespace

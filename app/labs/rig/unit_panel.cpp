@@ -15,6 +15,7 @@
 #include "app/widgets/curve_editor.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/text.hpp"
+#include "app/widgets/tooltip.hpp"
 
 namespace tendril::app {
 namespace {
@@ -31,7 +32,7 @@ void switch_box(const RigPanel& panel, const rig::Unit& unit) {
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(0.0f, 0.0f));
     if (ImGui::Checkbox("##on", &on)) panel.edit("rig.unit.enable", {{"name", unit.name}, {"on", on}});
     ImGui::PopStyleVar();
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip(on ? "Runs; click to skip it" : "Skipped; click to run it");
+    if (ImGui::IsItemHovered()) tooltip(on ? "Runs; click to skip it" : "Skipped; click to run it");
 }
 
 void title_row(const RigPanel& panel, const UnitRow& row, const std::vector<double>& times) {
@@ -46,8 +47,8 @@ void title_row(const RigPanel& panel, const UnitRow& row, const std::vector<doub
     if (ImGui::Selectable("##row", selected, 0, {width, line})) select_unit(panel, selected ? "" : unit.name);
     const std::string operation = operation_title(unit.operation.index());
     if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("%s: %s\n%s", unit.name.c_str(), operation.c_str(),
-                          operation_help(rig::operation_name(unit.operation.index())));
+        tooltip(unit.name + ": " + operation + '\n' +
+                operation_help(rig::operation_name(unit.operation.index())));
     std::string time;
     if (!row.inner && row.top < times.size()) time = fixed_text(times[row.top], 1) + " \xC2\xB5s";
     const float time_width = time.empty() ? 0.0f : ImGui::CalcTextSize(time.c_str()).x + 0.5f * em;
@@ -252,13 +253,10 @@ class Fields {
     void chooser(const std::string& title, const std::string* shown, std::size_t index = 0) const {
         SearchText& typed = panel_.runtime.panel.choice;
         const bool open = begin_search(title.c_str(), shown, typed);
-        if (!open && ImGui::IsItemHovered()) {
-            if (shown != nullptr)
-                ImGui::SetTooltip("%s: %s. Click to choose another\n%s", title.c_str(), shown->c_str(),
-                                  help().c_str());
-            else
-                ImGui::SetTooltip("%s: click to take it from an element or a unit", title.c_str());
-        }
+        if (!open && ImGui::IsItemHovered())
+            tooltip(title + ": " +
+                    (shown != nullptr ? *shown + ". Click to choose another\n" + help()
+                                      : "click to take it from an element or a unit"));
         if (!open) return;
         const std::vector<InputOffer> offers = input_offers(panel_.part, row_, *input_, index);
         if (offers.empty()) note("No part of this rig has a value of this type.");

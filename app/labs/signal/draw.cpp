@@ -14,7 +14,7 @@
 #include "app/widgets/fields.hpp"
 #include "app/widgets/fonts.hpp"
 #include "app/widgets/plot.hpp"
-#include "app/widgets/text.hpp"
+#include "app/widgets/tooltip.hpp"
 
 namespace tendril::app {
 namespace {

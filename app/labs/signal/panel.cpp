@@ -20,6 +20,7 @@
 #include "app/widgets/fonts.hpp"
 #include "app/widgets/plot.hpp"
 #include "app/widgets/text.hpp"
+#include "app/widgets/tooltip.hpp"
 
 namespace tendril::app {
 
@@ -125,7 +126,7 @@ void chain_rows(const SignalPart& part, const Palette& palette, Emit& emit) {
         colour_mark(stage_colour(palette, part, i));
         bool on = stage.enabled;
         if (ImGui::Checkbox("##on", &on)) emit("signal.filter.enable", {{"at", i}, {"on", on}});
-        if (ImGui::IsItemHovered()) ImGui::SetTooltip("Off, its input passes unchanged");
+        if (ImGui::IsItemHovered()) tooltip("Off, its input passes unchanged");
         ImGui::SameLine();
         const float width = std::max(20.0f, ImGui::GetContentRegionAvail().x);
         const bool selected = part.selected == i;
@@ -316,7 +317,7 @@ void fit_rows(const SignalPart& part, Emit& emit) {
         const ImVec2 at = ImGui::GetCursorPos();
         if (ImGui::Selectable("##use", false, 0, {width, ImGui::GetTextLineHeight()}))
             emit("signal.fit.use", {{"rank", i}});
-        if (ImGui::IsItemHovered()) ImGui::SetTooltip("Replaces the chain with it");
+        if (ImGui::IsItemHovered()) tooltip("Replaces the chain with it");
         ImGui::SetCursorPos(at);
         ImGui::TextUnformatted(kind_title(fit.filter).c_str());
         ImGui::SameLine();

@@ -469,31 +469,6 @@ TEST(CardsTest, a_number_in_a_panel_is_no_drag) {
     EXPECT_TRUE(scene.done()[0]) << "a drag ticks it";
 }
 
-/// What hides under a tooltip cannot be reached: it is beside the panel, over the middle of the window.
-TEST(TooltipPlace, is_beside_the_panel_that_it_explains) {
-    const auto window = open_offscreen({1280, 720});
-    App app(*window);
-    const Json layout = app.state().at("layout");
-    const float left = layout.at("view").at("min").at(0), right = layout.at("view").at("max").at(0);
-    const float top = layout.at("view").at("min").at(1);
-    int seen = 0;
-    for (const float x : {0.3f * left, 0.7f * left, right + 60.0f, right + 180.0f})
-        for (float y = 8.0f; y < 700.0f; y += 11.0f) {
-            const Event move = MouseMove{{x, y}};
-            app.tick(&move);
-            for (int i = 0; i < 2; ++i) app.tick(nullptr);
-            for (const ImGuiWindow* const each : ImGui::GetCurrentContext()->Windows) {
-                if (!each->Active || each->Hidden || (each->Flags & ImGuiWindowFlags_Tooltip) == 0) continue;
-                ++seen;
-                EXPECT_GE(each->Pos.x, left) << x << ", " << y;
-                EXPECT_LE(each->Pos.x + each->Size.x, right) << x << ", " << y;
-                EXPECT_GE(each->Pos.y, top) << x << ", " << y;
-                EXPECT_LE(each->Pos.y + each->Size.y, 720.0f) << x << ", " << y;
-            }
-        }
-    EXPECT_GT(seen, 10);
-}
-
 TEST(HelpSheet, shows_all_of_it_at_1280x720) {
     const auto window = open_offscreen({1280, 720});
     App app(*window);

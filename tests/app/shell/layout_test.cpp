@@ -103,6 +103,7 @@ class LayoutTest : public testing::TestWithParam<std::string> {
             note(elided_texts(frame, means_dots, elided));
             if (step == 0) look_at_places(frame);
             note(overlaps(frame));
+            note(tight_buttons(frame));
             for (const DrawnText* text : elided) require_tooltip(*text);
         }
         scroll_to(0);

@@ -182,6 +182,19 @@ std::vector<LayoutFault> overlaps(const FrameRecord& frame) {
     return found;
 }
 
+std::vector<LayoutFault> tight_buttons(const FrameRecord& frame) {
+    std::vector<LayoutFault> found;
+    for (const DrawnItem& item : frame.items) {
+        if (hidden(item.window) || item.kind != DrawnItem::Kind::Button) continue;
+        for (const DrawnText& text : frame.texts) {
+            if (text.window != item.window || !inside(text.box, item.box)) continue;
+            const float margin = std::min(text.box.min.x - item.box.min.x, item.box.max.x - text.box.max.x);
+            if (margin < 0.25f * text.box.size().y) found.push_back(fault("touches its button's edge", text));
+        }
+    }
+    return found;
+}
+
 std::vector<LayoutFault> out_of_reach(const FrameRecord& frame, glm::vec2 screen) {
     std::vector<LayoutFault> found;
     for (const DrawnItem& item : frame.items) {

@@ -37,6 +37,8 @@ std::vector<LayoutFault> elided_texts(const FrameRecord& frame,
                                       std::vector<const DrawnText*>& others);
 /// Texts on texts, items on items, and texts that begin inside an item and end outside it.
 std::vector<LayoutFault> overlaps(const FrameRecord& frame);
+/// Titles that touch the edge of their button.
+std::vector<LayoutFault> tight_buttons(const FrameRecord& frame);
 /// Items without a size, or outside their window where scrolling cannot reach; windows beyond the screen;
 /// bars that would have to scroll.
 std::vector<LayoutFault> out_of_reach(const FrameRecord& frame, glm::vec2 screen);

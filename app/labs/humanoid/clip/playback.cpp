@@ -19,6 +19,7 @@
 #include "app/labs/kit/past_strip.hpp"
 #include "app/widgets/icons.hpp"
 #include "app/widgets/timeline.hpp"
+#include "app/widgets/tooltip.hpp"
 
 namespace tendril::app {
 namespace {
@@ -214,7 +215,7 @@ void clip_strip(const HumanoidPanel& panel) {
         .ticks = ticks, .seconds = tick_seconds, .known = ticks, .bars = lint_marks(panel, ticks)};
     const TimeStripUse use = time_strip("clip", tick, strip);
     if (use.hovered >= 0 && !ImGui::IsItemActive())
-        tell_strip("The clip. Drag to see it at that time; the marks are what Motion lint has found.");
+        tooltip("The clip. Drag to see it at that time; the marks are what Motion lint has found.");
     if (use.moved) {
         const double time = std::min(tick * tick_seconds, duration);
         panel.emit.continuously("humanoid.clip",

@@ -1,0 +1,112 @@
+#include "app/widgets/tooltip.hpp"
+
+#include <imgui.h>
+#include <imgui_internal.h>  // the window that an item's child window belongs to
+
+#include <algorithm>
+#include <glm/common.hpp>
+#include <glm/vec2.hpp>
+#include <optional>
+
+#include "app/widgets/number_entry.hpp"
+
+namespace tendril::app {
+namespace {
+
+// In font sizes.
+constexpr float widest = 22.0f, narrowest = 10.0f, lowest = 4.0f, tall_item = 8.0f, tooltip_margin = 2.0f;
+
+glm::vec2 vec(ImVec2 v) {
+    return {v.x, v.y};
+}
+
+Rect last_item() {
+    return {vec(ImGui::GetItemRectMin()), vec(ImGui::GetItemRectMax())};
+}
+
+/// Where a tooltip may stand, and what stays free there.
+struct TooltipRoom {
+    Rect whole, free;
+    int axis = 0;  ///< 0: rather to the right or left of it; 1: rather below or above
+};
+
+/// For an item that is not in a panel, a bar or a sheet.
+TooltipRoom room_in_middle(const Rect& item) {
+    const NumberEditing& numbers = number_editing();
+    return {{numbers.middle_min, numbers.middle_max}, item, 1};
+}
+
+TooltipRoom room_of_last_item() {
+    const ImGuiWindow& root = *ImGui::GetCurrentWindowRead()->RootWindow;
+    const Rect window{vec(root.Pos), vec(root.Pos) + vec(root.Size)};
+    const bool floats = (root.Flags & ImGuiWindowFlags_NoBringToFrontOnFocus) == 0;
+    if (floats) return {{{0.0f, 0.0f}, vec(ImGui::GetIO().DisplaySize)}, window};
+    const TooltipRoom middle = room_in_middle(last_item());
+    return middle.whole.contains(window.centre()) ? middle : TooltipRoom{middle.whole, window};
+}
+
+/// Sets the next window's position, and returns its width in pixels.
+float place_tooltip(const TooltipRoom& room, const Rect& item) {
+    const float em = ImGui::GetFontSize(), gap = 0.5f * em;
+    const glm::vec2 low = room.whole.min + gap, high = room.whole.max - gap;
+    glm::vec2 at = glm::clamp(vec(ImGui::GetMousePos()), item.min, item.max), pivot{0.0f};
+    float width = widest * em;
+    if (room.axis == 1 && item.size().y > tall_item * em) {
+        // A plot, which fills the middle: the upper corner away from the mouse.
+        pivot.x = at.x < item.centre().x ? 1.0f : 0.0f;
+        at = {pivot.x > 0.5f ? item.max.x - gap : item.min.x + gap, item.min.y + gap};
+        ImGui::SetNextWindowPos({at.x, at.y}, ImGuiCond_Always, {pivot.x, pivot.y});
+        return width;
+    }
+    at = glm::clamp(at, low, glm::max(low, high));
+    pivot = glm::step(room.whole.centre(), at);
+    const glm::vec2 needed = em * glm::vec2(narrowest + tooltip_margin, lowest);
+    for (const int axis : {room.axis, 1 - room.axis}) {
+        const float before = room.free.min[axis] - gap - low[axis],
+                    after = high[axis] - room.free.max[axis] - gap;
+        const float most = std::min(std::max(before, after), high[axis] - low[axis]);
+        if (most < needed[axis]) continue;
+        at[axis] = after >= before ? std::max(room.free.max[axis] + gap, low[axis])
+                                   : std::min(room.free.min[axis] - gap, high[axis]);
+        pivot[axis] = after >= before ? 0.0f : 1.0f;
+        ImGui::SetNextWindowPos({at.x, at.y}, ImGuiCond_Always, {pivot.x, pivot.y});
+        return std::min(width, (axis == 0 ? most : high.x - low.x) - tooltip_margin * em);
+    }
+    return width;  // no room: at the mouse
+}
+
+void begin_tooltip(float width) {
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(width);
+}
+
+}  // namespace
+
+Tooltip::Tooltip() {
+    begin_tooltip(place_tooltip(room_of_last_item(), last_item()));
+}
+
+Tooltip::Tooltip(const Rect& drawn) {
+    begin_tooltip(place_tooltip(room_in_middle(drawn), drawn));
+}
+
+Tooltip::~Tooltip() {
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+}
+
+void tooltip(const std::string& text) {
+    const Tooltip opened;
+    ImGui::TextUnformatted(text.c_str());
+}
+
+void tell_below(const std::string& text) {
+    const float below = ImGui::GetItemRectMax().y + ImGui::GetStyle().ItemInnerSpacing.y;
+    ImGui::SetNextWindowPos({ImGui::GetItemRectMin().x, below});
+    begin_tooltip(18.0f * ImGui::GetFontSize());
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+}
+
+}  // namespace tendril::app
