@@ -13,6 +13,9 @@ std::string source_path(const std::string& name);
 /// Third-party characters; may be missing.
 std::filesystem::path characters_folder();
 
+/// Files that readers once failed on; may be missing.
+std::filesystem::path found_path(const std::string& name);
+
 /// Numeric cases of an independent implementation: $TENDRIL_REFERENCE_DIR, or else as configured; may be
 /// missing.
 std::filesystem::path reference_path(const std::string& name);

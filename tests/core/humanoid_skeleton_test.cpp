@@ -153,6 +153,20 @@ TEST(Clip, RotationsGoTheShortWayAndStayUnits) {
                 1.0, 1e-12);
 }
 
+TEST(Clip, HasAsManyFramesAsKeysThoughTheirTimesAreRounded) {
+    Clip clip{.name = "walk", .duration = 0.0, .channels = {{.node = 0}}};
+    for (int i = 0; i < 4511; ++i) {
+        clip.channels[0].translation.times.push_back(i * 0.0333333);
+        clip.channels[0].translation.values.emplace_back(0.0);
+    }
+    clip.duration = 4510 * 0.0333333;
+    EXPECT_EQ(frames_at(clip, 30.0).count, 4511u);
+    EXPECT_DOUBLE_EQ(frames_at(clip, 30.0).time(4510), clip.duration);
+    EXPECT_EQ(frames_at(clip, 60.0).count, 9020u) << "at another rate, those before its end";
+    EXPECT_DOUBLE_EQ(frames_at(clip, 60.0).step, 1.0 / 60.0);
+    EXPECT_EQ(frames_at(Clip{.name = "still", .duration = 0.0, .channels = {}}, 30.0).count, 1u);
+}
+
 TEST(Clip, RefusesWhatDoesNotFitAndSaysWhere) {
     const Skeleton skeleton = *Skeleton::make(line(2));
     const auto message = [&](const Channel& channel, double duration = 5.0) {

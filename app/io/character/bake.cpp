@@ -1,7 +1,6 @@
 #include "app/io/character/bake.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 
 namespace tendril::app {
@@ -49,11 +48,11 @@ Clip baked(const Skeleton& skeleton, const Clip& clip, double rate, const PoseSt
         throw std::runtime_error("clip " + clip.name + " would have more than 50000000 keys");
     std::vector<Recording> nodes(skeleton.size());
     std::vector<rig::Transform> before(skeleton.size()), pose;
-    const auto frames = static_cast<std::size_t>(std::floor(clip.duration * rate + 1e-6)) + 1;
-    const bool ends_between = clip.duration - static_cast<double>(frames - 1) / rate > 1e-5;
+    const humanoid::Frames frames = frames_at(clip, rate);
+    const bool ends_between = clip.duration - frames.time(frames.count - 1) > 1e-5;
     double last = 0.0;
-    for (std::size_t i = 0; i < frames + ends_between; ++i) {
-        const double time = std::min(static_cast<double>(i) / rate, clip.duration);
+    for (std::size_t i = 0; i < frames.count + ends_between; ++i) {
+        const double time = std::min(frames.time(i), clip.duration);
         sample(clip, skeleton, time, before);
         pose = before;
         step(pose, time, time - last);

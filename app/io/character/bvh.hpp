@@ -2,10 +2,12 @@
 // File Formats Explained", University of Sheffield, 2001).
 //
 // The reader accepts any number of roots; any channels in any order at any joint, with rotations multiplied
-// in that order; names with blanks; end sites, which become nodes ("LeftToeBase end"); any line ends. Where
-// the text above is ambiguous it follows the programs that write such files: a root's position is added to
-// its offset, another joint's position replaces the offset. A BVH has no unit: it is guessed from the
-// figure's height.
+// in that order; names with blanks; end sites, which become nodes ("LeftToeBase end"); any line ends; and, with
+// a note, what some programs write: whole rows beyond the declared frames, other blanks around the colons, a
+// ^Z or NUL at the end. A joint's position replaces its OFFSET.
+//
+// A file does not say whether that is so for the root too, which axis is up or how long its unit is:
+// judge_space() finds out (bvh_space.hpp). Memory stays below a constant times the size of the file.
 #pragma once
 
 #include <string>

@@ -3,10 +3,11 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
+#include "app/document/units.hpp"
 #include "app/io/character/bvh.hpp"
+#include "app/io/character/bvh_space.hpp"
 #include "app/io/character/unique_names.hpp"
 
 namespace tendril::app {
@@ -16,6 +17,7 @@ using humanoid::Node;
 
 constexpr std::size_t max_frames = 1'000'000;
 constexpr std::size_t max_values = 100'000'000;
+constexpr std::size_t max_name = 250;
 
 /// Reads the text word by word.
 class Words {
@@ -57,6 +59,7 @@ class Words {
     double number() {
         std::string_view word = next();
         const std::string_view whole = word;
+        if (word.find(',') != word.npos) fail("numbers need a decimal point, found " + shown(word));
         if (word.starts_with('+')) word.remove_prefix(1);
         double value = 0.0;
         const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
@@ -72,7 +75,48 @@ class Words {
     }
     static std::string shown(std::string_view word) {
         if (word.empty()) return "the end of the file";
-        return '"' + std::string(word.substr(0, 40)) + '"';
+        std::string text(word.substr(0, 40));
+        for (char& c : text)
+            if (static_cast<unsigned char>(c) < ' ') c = '?';
+        return '"' + text + '"';
+    }
+    /// Whether nothing but blanks follows on this line.
+    bool at_line_end() const {
+        const std::size_t end = std::min(text_.find_first_not_of(" \t\v\f", at_), text_.size());
+        return end == text_.size() || text_[end] == '\n' || text_[end] == '\r';
+    }
+    /// Reads "Frames:" or "Frame Time:", also with blanks before the colon or none after it. Returns whether
+    /// it is written as usual.
+    bool label(std::string_view wanted) {
+        skip_blanks();
+        const std::size_t colon = text_.find(':', at_);
+        std::string_view found = text_.substr(at_, colon == text_.npos ? 0 : colon - at_);
+        const bool tight = found.size() == wanted.size();
+        while (!found.empty() && is_blank(found.back()) && found.back() != '\n') found.remove_suffix(1);
+        if (!same(found, wanted)) fail("expected " + std::string(wanted) + ":, found " + shown(peek()));
+        at_ = colon + 1;
+        return tight && at_ < text_.size() && is_blank(text_[at_]);
+    }
+    /// Reads the numbers of a frame, which begins and ends with a line.
+    void row(std::vector<double>& numbers) {
+        const std::size_t width = numbers.size();
+        skip_blanks();
+        const std::size_t begin = at_, line = line_;
+        const auto refuse = [&] {
+            const std::string_view rest = text_.substr(begin);
+            Words again(rest.substr(0, rest.find_first_of("\r\n")));
+            std::size_t found = 0;
+            while (!again.next().empty()) ++found;
+            const bool is_last = peek().empty();
+            line_ = line;
+            fail("expected " + std::to_string(width) + " numbers in this row, found " +
+                 std::to_string(found) + (is_last ? " before the end of the file" : ""));
+        };
+        for (double& each : numbers) {
+            if (peek().empty()) refuse();
+            each = number();
+        }
+        if (!at_line_end()) refuse();
     }
 
   private:
@@ -90,6 +134,7 @@ class Words {
 
 struct BvhJoint {
     glm::dvec3 offset{0.0};
+    bool is_end = false;
     std::vector<int> channels;  // 0 to 2: position x to z; 3 to 5: rotation
 };
 
@@ -100,7 +145,9 @@ struct Hierarchy {
     UniqueNames names;
     std::size_t channels = 0;
 
-    std::size_t add(std::string name, std::int32_t parent) {
+    std::size_t add(std::string name, std::int32_t parent, const Words& words) {
+        if (name.size() > max_name)
+            words.fail("a name of more than " + std::to_string(max_name) + " characters");
         nodes.push_back({names.add(std::move(name), nodes.size()), parent, {}});
         joints.emplace_back();
         return nodes.size() - 1;
@@ -123,7 +170,8 @@ void read_offset(Words& words, Hierarchy& hierarchy, std::size_t node) {
 
 void read_channels(Words& words, BvhJoint& joint, std::size_t& all) {
     const double count = words.number();
-    if (count < 0 || count > 6 || count != std::floor(count)) words.fail("a joint has 0 to 6 channels");
+    if (count < 0 || count > 6 || count != std::floor(count))
+        words.fail("a joint has 0 to 6 channels, found " + fixed_text(count, 0));
     for (int i = 0; i < static_cast<int>(count); ++i) {
         joint.channels.push_back(channel_of(words.next(), words));
         ++all;
@@ -133,23 +181,28 @@ void read_channels(Words& words, BvhJoint& joint, std::size_t& all) {
 /// Reads a joint from its name on, and all its descendants. Iterative, so that deep nesting cannot overflow
 /// the call stack.
 void read_tree(Words& words, Hierarchy& hierarchy) {
-    std::vector<std::size_t> open{hierarchy.add(words.rest_of_line(), -1)};
+    std::vector<std::size_t> open{hierarchy.add(words.rest_of_line(), -1, words)};
     words.expect("{");
     while (!open.empty()) {
         const std::size_t node = open.back();
         const std::string_view word = words.next();
         const auto parent = static_cast<std::int32_t>(node);
+        const bool is_joint = Words::same(word, "JOINT"), is_end = Words::same(word, "End");
+        if ((is_joint || is_end) && hierarchy.joints[node].is_end)
+            words.fail("an End Site has no joints below it");
         if (Words::same(word, "OFFSET")) {
             read_offset(words, hierarchy, node);
         } else if (Words::same(word, "CHANNELS")) {
             read_channels(words, hierarchy.joints[node], hierarchy.channels);
-        } else if (Words::same(word, "JOINT")) {
-            open.push_back(hierarchy.add(words.rest_of_line(), parent));
+        } else if (is_joint) {
+            open.push_back(hierarchy.add(words.rest_of_line(), parent, words));
             words.expect("{");
-        } else if (Words::same(word, "End")) {
+        } else if (is_end) {
             words.expect("Site");
             words.rest_of_line();
-            open.push_back(hierarchy.add(hierarchy.nodes[node].name + " end", parent));
+            open.push_back(
+                hierarchy.add(hierarchy.nodes[node].name.substr(0, max_name - 4) + " end", parent, words));
+            hierarchy.joints.back().is_end = true;
             words.expect("{");
         } else if (word == "}") {
             open.pop_back();
@@ -168,8 +221,8 @@ glm::dquat turned_about(int axis, double degrees) {
     return turn;
 }
 
-/// One joint's values of one frame.
-rig::Transform local_of(const BvhJoint& joint, bool is_root, const double* values) {
+/// One joint's values of one frame. Positions replace the OFFSET; judge_space() decides for roots.
+rig::Transform local_of(const BvhJoint& joint, const double* values) {
     rig::Transform local;
     bool has_position = false;
     glm::dvec3 position(0.0);
@@ -184,12 +237,30 @@ rig::Transform local_of(const BvhJoint& joint, bool is_root, const double* value
         }
     }
     local.rotation = rig::normalised(local.rotation);
-    local.translation = !has_position ? joint.offset : is_root ? joint.offset + position : position;
+    local.translation = has_position ? position : joint.offset;
     return local;
 }
 
-humanoid::Clip read_motion(Words& words, const Hierarchy& hierarchy, LoadProgress* progress) {
-    words.expect("Frames:");
+bool moves(const BvhJoint& joint) {
+    return std::any_of(joint.channels.begin(), joint.channels.end(), [](int each) { return each < 3; });
+}
+
+/// Reads over whole rows beyond the declared ones: some programs count one too few.
+void leave_out_more(Words& words, std::size_t frames, std::vector<double>& row,
+                    std::vector<std::string>& notes) {
+    std::size_t more = 0;
+    for (; !row.empty() && !words.peek().empty(); ++more) words.row(row);
+    if (const std::string_view rest = words.next(); !rest.empty())
+        words.fail("expected the end of the file after " + std::to_string(frames) + " frames, found " +
+                   Words::shown(rest));
+    if (more > 0)
+        notes.push_back("The file has " + std::to_string(more) + (more == 1 ? " more row" : " more rows") +
+                        " than the " + std::to_string(frames) + " frames that it declares; left out.");
+}
+
+humanoid::Clip read_motion(Words& words, const Hierarchy& hierarchy, std::vector<std::string>& notes,
+                           LoadProgress* progress) {
+    const bool usual_frames = words.label("Frames");
     const double count = words.number();
     if (count < 0 || count > static_cast<double>(max_frames) || count != std::floor(count))
         words.fail("expected 0 to 1000000 frames");
@@ -199,10 +270,16 @@ humanoid::Clip read_motion(Words& words, const Hierarchy& hierarchy, LoadProgres
     if (2 * frames * hierarchy.channels > words.left() + 1)
         words.fail("claims " + std::to_string(frames) + " frames of " + std::to_string(hierarchy.channels) +
                    " numbers, the file has " + std::to_string(words.left()) + " more characters");
-    words.expect("Frame");
-    words.expect("Time:");
+    const bool usual_time = words.label("Frame Time");
     const double step = words.number();
-    if (!(step > 0.0) && frames > 1) words.fail("the frame time must be over 0");
+    if (!(step > 0.0) && frames > 1)
+        words.fail("the frame time must be over 0, found " + fixed_text(step, 4));
+    if (!usual_frames || !usual_time)
+        notes.push_back(std::string("The blanks around the colon after ") +
+                        (usual_time     ? "Frames"
+                         : usual_frames ? "Frame Time"
+                                        : "Frames and Frame Time") +
+                        " are not the usual ones.");
 
     humanoid::Clip clip;
     clip.name = "motion";
@@ -214,29 +291,26 @@ humanoid::Clip read_motion(Words& words, const Hierarchy& hierarchy, LoadProgres
         std::vector<double> times;
         for (std::size_t i = 0; i < frames; ++i)
             times.push_back(std::min(static_cast<double>(i) * step, clip.duration));
-        if (std::any_of(channels.begin(), channels.end(), [](int each) { return each < 3; }))
-            channel.translation.times = times;
+        if (moves(hierarchy.joints[node])) channel.translation.times = times;
         if (std::any_of(channels.begin(), channels.end(), [](int each) { return each >= 3; }))
             channel.rotation.times = std::move(times);
         clip.channels.push_back(std::move(channel));
     }
-    std::vector<double> row;
+    std::vector<double> row(hierarchy.channels);
     for (std::size_t frame = 0; frame < frames; ++frame) {
         if (frame % 64 == 0)
             report(progress, 0.1 + 0.8 * static_cast<double>(frame) / static_cast<double>(frames));
+        words.row(row);
+        const double* values = row.data();
         for (humanoid::Channel& channel : clip.channels) {
             const BvhJoint& joint = hierarchy.joints[channel.node];
-            row.clear();
-            for (std::size_t i = 0; i < joint.channels.size(); ++i) row.push_back(words.number());
-            const rig::Transform local =
-                local_of(joint, hierarchy.nodes[channel.node].parent < 0, row.data());
+            const rig::Transform local = local_of(joint, values);
+            values += joint.channels.size();
             if (!channel.translation.times.empty()) channel.translation.values.push_back(local.translation);
             if (!channel.rotation.times.empty()) channel.rotation.values.push_back(local.rotation);
         }
     }
-    if (const std::string_view more = words.next(); !more.empty())
-        words.fail("expected the end of the file after " + std::to_string(frames) + " frames, found " +
-                   Words::shown(more));
+    leave_out_more(words, frames, row, notes);
     return clip;
 }
 
@@ -244,17 +318,6 @@ bool has_keys(const humanoid::Clip& clip) {
     return std::any_of(clip.channels.begin(), clip.channels.end(), [](const humanoid::Channel& each) {
         return !each.translation.times.empty() || !each.rotation.times.empty();
     });
-}
-
-double height_of(const humanoid::Skeleton& skeleton) {
-    std::vector<humanoid::Placement> placements(skeleton.size());
-    humanoid::place(skeleton, humanoid::rest_pose(skeleton), placements);
-    double low = std::numeric_limits<double>::max(), high = -low;
-    for (const humanoid::Placement& each : placements) {
-        low = std::min(low, each.position.y);
-        high = std::max(high, each.position.y);
-    }
-    return high - low;
 }
 
 Character read(Words& words, LoadProgress* progress) {
@@ -267,20 +330,23 @@ Character read(Words& words, LoadProgress* progress) {
     words.expect("MOTION");
 
     Character character;
-    std::vector<humanoid::Clip> clips;
-    clips.push_back(read_motion(words, hierarchy, progress));
-    const LengthUnit unit = guess_unit(height_of(skeleton_of(hierarchy.nodes)));
-    character.scale = unit.metres;
-    character.notes.push_back(
-        std::string("BVH files do not state a unit; judging by the figure's height, this one is in ") +
-        unit.name + '.');
-    normalise(hierarchy.nodes, clips, unit.metres);
-    character.skeleton = skeleton_of(std::move(hierarchy.nodes));
-    for (const humanoid::Clip& clip : clips)
-        if (const Result bad = check(clip, character.skeleton); !bad)
-            throw std::runtime_error(std::string(bad.message()));
-    if (has_keys(clips.front())) character.clips = std::move(clips);
+    character.clips.push_back(read_motion(words, hierarchy, character.notes, progress));
+    for (std::size_t node = 0; node < hierarchy.nodes.size(); ++node) {
+        const BvhJoint& joint = hierarchy.joints[node];
+        if (hierarchy.nodes[node].parent < 0 && moves(joint) && joint.offset != glm::dvec3(0.0))
+            character.root_offsets.push_back({node, joint.offset});
+    }
+    judge_space(character, std::move(hierarchy.nodes));
+    if (!has_keys(character.clips.front())) character.clips.clear();
     return character;
+}
+
+/// Without the ^Z or NUL after which some programs end a text.
+std::string_view without_end_marks(std::string_view text) {
+    const std::size_t last = text.find_last_not_of(std::string_view("\0\x1a \t\r\n", 6));
+    const std::size_t end =
+        text.find_first_of(std::string_view("\0\x1a", 2), last == text.npos ? 0 : last + 1);
+    return text.substr(0, end);
 }
 
 }  // namespace
@@ -288,9 +354,16 @@ Character read(Words& words, LoadProgress* progress) {
 Character parse_bvh(std::string_view text, const std::string& name, LoadProgress* progress) {
     try {
         if (text.empty()) throw std::runtime_error("is empty");
+        if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff") ||
+            (text.size() > 1 && (text[0] == '\0') != (text[1] == '\0')))
+            throw std::runtime_error("line 1: is UTF-16 text; save it as ASCII or UTF-8");
         if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);  // a byte order mark
-        Words words(text);
-        return read(words, progress);
+        const std::string_view clean = without_end_marks(text);
+        Words words(clean);
+        Character character = read(words, progress);
+        if (clean.size() < text.size())
+            character.notes.push_back("The file ends in a control character, ^Z or NUL, which is left out.");
+        return character;
     } catch (const std::runtime_error& error) {
         const std::string what = error.what();
         throw std::runtime_error(name + (what.starts_with("line ") ? ", " : ": ") + what);

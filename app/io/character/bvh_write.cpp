@@ -31,7 +31,7 @@ class Writer {
         moves_.assign(skeleton.size(), false);
         for (const std::int32_t each : skeleton.order())
             if (skeleton[at(each)].parent < 0) moves_[at(each)] = true;
-        frames_ = static_cast<std::size_t>(std::floor(clip.duration * rate + 1e-9)) + 1;
+        frames_ = frames_at(clip, rate);
         find_what_moves();
         find_unit();
     }
@@ -39,10 +39,10 @@ class Writer {
         text_ = "HIERARCHY\n";
         for (const std::int32_t each : skeleton_.order())
             if (skeleton_[at(each)].parent < 0) write_joint(at(each));
-        text_ += "MOTION\nFrames: " + std::to_string(frames_) + "\nFrame Time: ";
+        text_ += "MOTION\nFrames: " + std::to_string(frames_.count) + "\nFrame Time: ";
         write_exactly(1.0 / rate_);
         text_ += '\n';
-        for (std::size_t frame = 0; frame < frames_; ++frame) write_frame(frame);
+        for (std::size_t frame = 0; frame < frames_.count; ++frame) write_frame(frame);
         return std::move(text_);
     }
 
@@ -79,7 +79,7 @@ class Writer {
     }
     void pose_at(std::size_t frame) {
         pose_.resize(skeleton_.size());
-        sample(clip_, skeleton_, std::min(static_cast<double>(frame) / rate_, clip_.duration), pose_);
+        sample(clip_, skeleton_, std::min(frames_.time(frame), clip_.duration), pose_);
         place(skeleton_, pose_, now_);
     }
     /// The vector from a node's parent to the node, in the parent's frame relative to rest.
@@ -95,7 +95,7 @@ class Writer {
         return parent < 0 ? rest_[node].position : rest_[node].position - rest_[at(parent)].position;
     }
     void find_what_moves() {
-        for (std::size_t frame = 0; frame < frames_; ++frame) {
+        for (std::size_t frame = 0; frame < frames_.count; ++frame) {
             pose_at(frame);
             for (std::size_t node = 0; node < skeleton_.size(); ++node)
                 if (!moves_[node] && distance(reach(node), offset(node)) > 1e-5) moves_[node] = true;
@@ -174,7 +174,8 @@ class Writer {
     std::vector<rig::Transform> pose_{};
     std::vector<bool> moves_{};
     std::vector<std::size_t> joints_{};
-    std::size_t frames_ = 0, depth_ = 0;
+    humanoid::Frames frames_{};
+    std::size_t depth_ = 0;
     std::string text_{};
 };
 

@@ -1,9 +1,14 @@
 #include "app/io/character/character.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
+#include <utility>
+
+#include "app/document/units.hpp"
 
 namespace tendril::app {
 
@@ -28,6 +33,65 @@ void normalise(std::vector<humanoid::Node>& nodes, std::vector<humanoid::Clip>& 
             for (glm::dquat& value : channel.rotation.values) value = turn * value;
         }
     }
+}
+
+glm::dvec3 direction(UpAxis up) {
+    const auto axis = static_cast<int>(up);
+    glm::dvec3 along(0.0);
+    along[axis % 3] = axis < 3 ? 1.0 : -1.0;
+    return along;
+}
+
+glm::dquat turn_of(UpAxis up) {
+    const double half = std::sqrt(0.5);
+    switch (up) {
+        case UpAxis::X:
+            return {half, 0.0, 0.0, half};
+        case UpAxis::Y:
+            break;
+        case UpAxis::Z:
+            return {half, -half, 0.0, 0.0};
+        case UpAxis::MinusX:
+            return {half, 0.0, 0.0, -half};
+        case UpAxis::MinusY:
+            return {0.0, 1.0, 0.0, 0.0};
+        case UpAxis::MinusZ:
+            return {half, half, 0.0, 0.0};
+    }
+    return {1.0, 0.0, 0.0, 0.0};
+}
+
+std::vector<std::string> Character::sentences() const {
+    std::vector<std::string> all;
+    for (const std::string& each : {guesses.up, guesses.positions, guesses.unit})
+        if (!each.empty()) all.push_back(each);
+    all.insert(all.end(), notes.begin(), notes.end());
+    return all;
+}
+
+void read_as(Character& character, double scale, const FileSpace& space) {
+    const FileSpace before = std::exchange(character.space, space);
+    if (space.positions != before.positions) {
+        const double times = space.positions == RootPositions::Add ? character.scale : -character.scale;
+        for (const RootOffset& root : character.root_offsets)
+            for (humanoid::Clip& clip : character.clips)
+                for (humanoid::Channel& channel : clip.channels)
+                    if (channel.node == root.node)
+                        for (glm::dvec3& value : channel.translation.values)
+                            value += turn_of(before.up) * (times * root.offset);
+        character.guesses.positions.clear();
+    }
+    const double times = scale / std::exchange(character.scale, scale);
+    if (times != 1.0) character.guesses.unit.clear();
+    if (space.up != before.up) character.guesses.up.clear();
+    std::vector<humanoid::Node> nodes = character.skeleton.nodes();
+    normalise(nodes, character.clips, times,
+              space.up == before.up ? turn_of(UpAxis::Y) : turn_of(space.up) * conjugate(turn_of(before.up)));
+    character.skeleton = skeleton_of(std::move(nodes));
+    for (const humanoid::Clip& clip : character.clips)
+        if (const Result bad = check(clip, character.skeleton); !bad)
+            throw std::runtime_error(std::string(bad.message()));
+    scale_skin(character.skin, times);
 }
 
 humanoid::BoneMap bone_map(const Character& character) {
@@ -75,6 +139,31 @@ LengthUnit guess_unit(double height) {
         if (off < nearest) nearest = off, best = unit;
     }
     return best;
+}
+
+std::optional<UnitDoubt> doubted_unit(const Character& character, const humanoid::BoneMap& map) {
+    constexpr double smallest = 0.5, largest = 3.0, usual = 1.75;
+    if (!map.is_usable()) return std::nullopt;
+    std::vector<humanoid::Placement> placements(character.skeleton.size());
+    humanoid::place(character.skeleton, humanoid::rest_pose(character.skeleton), placements);
+    double low = std::numeric_limits<double>::max(), high = -low;
+    for (const humanoid::Placement& each : placements) {
+        low = std::min(low, each.position.y);
+        high = std::max(high, each.position.y);
+    }
+    const double height = high - low, units = height / character.scale;
+    if (!(height > 0.0) || (height >= smallest && height <= largest)) return std::nullopt;
+    const LengthUnit unit = guess_unit(units);
+    const bool fits = units * unit.metres >= smallest && units * unit.metres <= largest;
+    if (fits) return UnitDoubt{height, unit, units * unit.metres};
+    return UnitDoubt{height, {"", usual / units}, usual};
+}
+
+std::string text(const UnitDoubt& doubt) {
+    const std::string then = fixed_text(doubt.then, 2) + " m";
+    return "This person is " + length_text(doubt.height) + " tall at rest; " +
+           (*doubt.unit.name != '\0' ? std::string("if the file is in ") + doubt.unit.name + ", " + then + '.'
+                                     : "no common unit makes it a usual height.");
 }
 
 }  // namespace tendril::app

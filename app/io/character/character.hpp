@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <tendril/humanoid/bone_map.hpp>
@@ -9,6 +10,7 @@
 #include <tendril/humanoid/skeleton.hpp>
 #include <vector>
 
+#include "app/document/names.hpp"
 #include "app/io/character/skin.hpp"
 
 namespace tendril::app {
@@ -19,14 +21,58 @@ struct NamedBones {
     std::array<std::int32_t, humanoid::bone_count> nodes{};  ///< nodes of the skeleton; -1: none
 };
 
+/// The axis of a file that points up. An FBX or a glTF says which; there Y means: as the file says.
+enum class UpAxis : std::uint8_t { X, Y, Z, MinusX, MinusY, MinusZ };
+
+inline constexpr EnumNames<UpAxis, 6> up_axes{
+    "axis", {{"x", "X"}, {"y", "Y"}, {"z", "Z"}, {"-x", "-X"}, {"-y", "-Y"}, {"-z", "-Z"}}};
+
+glm::dvec3 direction(UpAxis up);
+/// The rotation by a quarter or a half turn that makes this axis Y.
+glm::dquat turn_of(UpAxis up);
+
+/// What the positions of a root in a BVH's motion are: its place, or its way from its OFFSET.
+enum class RootPositions : std::uint8_t { Replace, Add };
+
+inline constexpr EnumNames<RootPositions, 2> root_positions{
+    "positions", {{"replace", "replace OFFSET"}, {"add", "add to OFFSET"}}};
+
+/// How the positions in a file are read.
+struct FileSpace {
+    UpAxis up = UpAxis::Y;
+    RootPositions positions = RootPositions::Replace;
+    bool operator==(const FileSpace&) const = default;
+};
+
+/// The OFFSET of a root with positions, in the units and axes of its BVH file.
+struct RootOffset {
+    std::size_t node = 0;
+    glm::dvec3 offset{0.0};
+};
+
 struct Character {
     humanoid::Skeleton skeleton{};
     std::vector<humanoid::Clip> clips{};
     Skin skin{};
     std::optional<NamedBones> bones{};  ///< none: they must be matched
     double scale = 1.0;                 ///< metres per unit of the file
-    std::vector<std::string> notes{};   ///< sentences for the panel: what was guessed or omitted
+    bool states_unit = true;            ///< the file; a BVH never does, some FBX files do not
+    FileSpace space{};
+    std::vector<RootOffset> root_offsets{};  ///< only those that are not 0
+    std::vector<std::string> notes{};        ///< sentences for the panel: what was omitted or changed
+    /// How the scale and the space were guessed, in a sentence each; empty: they were not, or are set by
+    /// hand.
+    struct Guesses {
+        std::string unit{}, up{}, positions{};
+    } guesses{};
+
+    /// The guesses and the notes.
+    std::vector<std::string> sentences() const;
 };
+
+/// Reads the character's file differently: converts its nodes, skin and clips. What is set by that is no
+/// guess any more. Throws std::runtime_error if a number becomes too large.
+void read_as(Character& character, double scale, const FileSpace& space);
 
 /// Converts the file's nodes and clips to Y up and metres: rotates the roots and scales every translation.
 void normalise(std::vector<humanoid::Node>& nodes, std::vector<humanoid::Clip>& clips, double scale,
@@ -45,5 +91,16 @@ struct LengthUnit {
     double metres;
 };
 LengthUnit guess_unit(double height);
+
+/// A person's height at rest that is hardly one, and the unit that mends it.
+struct UnitDoubt {
+    double height;    ///< metres
+    LengthUnit unit;  ///< of the common units, or a nameless one that makes the person 1.75 m tall
+    double then;      ///< the height with that unit
+};
+/// A character with a usable bone map is a person; a height under 0.5 m or over 3 m is in doubt.
+std::optional<UnitDoubt> doubted_unit(const Character& character, const humanoid::BoneMap& map);
+/// "This person is 172.00 m tall at rest; if the file is in centimetres, 1.72 m."
+std::string text(const UnitDoubt& doubt);
 
 }  // namespace tendril::app

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -54,20 +53,21 @@ std::vector<std::size_t> places_of(const Skeleton& skeleton, const Skeleton& rea
     return places;
 }
 
-/// Compares all joints at one time.
+/// Compares all joints at a time of the clip, and the same in the file.
 class Comparison {
   public:
     Comparison(const Export& what, const Character& read, bool is_bvh, bool has_origin)
         : what_(what),
           read_(read),
           places_(places_of(humanoid::detached(what.character.skeleton), read.skeleton, is_bvh)),
-          ratio_(has_origin ? what.character.scale : 1.0) {}
-    void at(double time, ExportReport& report) {
+          ratio_(has_origin ? what.character.scale : 1.0),
+          turn_(turn_of(has_origin ? what.character.space.up : UpAxis::Y)) {}
+    void at(double time, double read_time, ExportReport& report) {
         const Skeleton& skeleton = what_.character.skeleton;
         pose(what_.corrected, skeleton, time, wanted_);
-        pose(clip(), read_.skeleton, time, found_);
+        pose(clip(), read_.skeleton, read_time, found_);
         for (std::size_t i = 0; i < skeleton.size(); ++i) {
-            const double off = glm::distance(wanted_[i].position, found_[places_[i]].position * ratio_);
+            const double off = glm::distance(wanted_[i].position, turn_ * found_[places_[i]].position * ratio_);
             if (report.worst_joint.empty() || !(off <= report.worst)) {
                 report.worst = off;
                 report.worst_joint = skeleton[i].name;
@@ -91,7 +91,8 @@ class Comparison {
     const Export& what_;
     const Character& read_;
     std::vector<std::size_t> places_;
-    double ratio_;  ///< metres per unit of the character read back
+    double ratio_;      ///< metres per unit of the character read back
+    glm::dquat turn_;  ///< from the axes of the character read back
     std::vector<rig::Transform> local_{};
     std::vector<Placement> wanted_{}, found_{};
 };
@@ -107,13 +108,14 @@ bool is_known(const humanoid::Finding& finding, const humanoid::LintReport& orig
 
 ExportReport report_of(const Export& what, const Character& read, bool is_bvh, bool has_origin) {
     ExportReport report;
-    const double frames = std::floor(what.corrected.duration * what.rate + 1e-9) + 1.0;
-    report.frames = static_cast<std::size_t>(frames);
+    const humanoid::Frames frames = frames_at(what.corrected, what.rate);
+    report.frames = frames.count;
     Comparison comparison(what, read, is_bvh, has_origin);
     for (std::size_t i = 0; i < report.frames; ++i) {
-        comparison.at(static_cast<double>(i) / what.rate, report);
+        const double time = frames.time(i), between = time + 0.5 * frames.step;
+        comparison.at(time, is_bvh ? static_cast<double>(i) / what.rate : time, report);
         // A BVH does not define what is between frames.
-        if (!is_bvh) comparison.at((static_cast<double>(i) + 0.5) / what.rate, report);
+        if (!is_bvh) comparison.at(between, between, report);
     }
     const Skeleton& skeleton = what.character.skeleton;
     const humanoid::BoneMap map = bone_map(what.character);

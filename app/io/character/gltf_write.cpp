@@ -173,8 +173,14 @@ void keep_animated(const Json& animations, const Character& character, const std
     }
 }
 
-std::string with_origin(const Character& character, const humanoid::Clip& clip, double rate,
+std::string with_origin(const Character& shown, const humanoid::Clip& shown_clip, double rate,
                         const GltfOrigin& origin, bool binary) {
+    // Its up axis may have been corrected; the file keeps its own.
+    Character character = shown;
+    character.clips.push_back(shown_clip);
+    read_as(character, character.scale, {});
+    const humanoid::Clip clip = std::move(character.clips.back());
+    character.clips.pop_back();
     const tinygltf::Model model = gltf_model(origin.bytes, origin.folder);
     const std::vector<std::size_t> nodes = gltf_nodes(model);
     if (nodes.size() != character.skeleton.size())

@@ -16,6 +16,16 @@ namespace {
 
 constexpr std::uintmax_t max_file_bytes = std::uintmax_t{1} << 30;
 
+/// A file that states no unit is in the one that makes a person as tall as people are.
+void mend_unit(Character& character) {
+    if (character.states_unit) return;
+    const auto doubt = doubted_unit(character, bone_map(character));
+    if (!doubt || *doubt->unit.name == '\0') return;
+    read_as(character, doubt->unit.metres, character.space);
+    character.guesses.unit =
+        std::string("The file states no unit; judging by the person's height, it is in ") + doubt->unit.name + '.';
+}
+
 std::string read_bytes(const std::filesystem::path& path) {
     std::error_code unknown;
     const std::uintmax_t size = std::filesystem::file_size(path, unknown);
@@ -59,6 +69,7 @@ Character read_character(const std::filesystem::path& path, LoadProgress* progre
                           : ending == ".bvh" ? parse_bvh(bytes, name, progress)
                                              : parse_gltf(bytes, name, path.parent_path(), progress);
     attach_feet(character);
+    mend_unit(character);
     UniqueNames names;
     for (std::size_t i = 0; i < character.clips.size(); ++i)
         character.clips[i].name = names.add(std::move(character.clips[i].name), i);

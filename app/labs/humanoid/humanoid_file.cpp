@@ -28,6 +28,20 @@ SharedCharacter read_again(const JsonPlace& place, const std::string& file) {
     }
 }
 
+/// With the unit and the axes of the scene; older scenes have no axes.
+SharedCharacter read_as_saved(const JsonPlace& place, SharedCharacter character) {
+    double metres = character->character.scale;
+    FileSpace space = character->character.space;
+    if (const auto scale = place.optional("scale")) metres = scale->real(min_unit, max_unit);
+    if (const auto saved = place.optional("space")) load_fields(*saved, space);
+    if (metres == character->character.scale && space == character->character.space) return character;
+    try {
+        return read_as(*character, metres, space);
+    } catch (const std::exception& error) {
+        place["file"].fail(error.what());
+    }
+}
+
 /// The bones that the user has mapped to other nodes.
 Json corrections(const HumanoidPart& part) {
     Json bones = Json::object();
@@ -140,6 +154,7 @@ Json HumanoidPart::save() const {
     if (!loaded->file.empty()) {
         json["path"] = loaded->path;
         json["scale"] = loaded->character.scale;
+        json["space"] = save_fields(loaded->character.space);
     }
     json["bones"] = corrections(*this);
     if (!loaded->cures.empty()) json["cures"] = cures_json(loaded->cures);
@@ -159,9 +174,7 @@ std::shared_ptr<Part> HumanoidPart::load(const Json& json, const std::string& wh
     const JsonPlace place(json, where);
     const std::string file = place["file"].text();
     SharedCharacter character = file.empty() ? load_character(file) : read_again(place, file);
-    if (const auto scale = place.optional("scale"))
-        if (const double metres = scale->real(min_unit, max_unit); metres != character->character.scale)
-            character = rescaled(*character, metres);
+    character = read_as_saved(place, std::move(character));
     auto part = std::make_shared<HumanoidPart>(std::move(character));
     if (const auto bones = place.optional("bones")) read_corrections(*bones, *part);
     if (const auto cures = place.optional("cures")) read_cures(*cures, *part);

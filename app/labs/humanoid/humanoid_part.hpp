@@ -117,6 +117,10 @@ inline const HumanoidPart& humanoid_part(const Workspace& workspace) {
 }  // namespace tendril::app
 
 template <>
+std::span<const tendril::Field> tendril::fields<tendril::app::FileSpace>() noexcept;
+template <>
+std::span<const tendril::app::FieldText> tendril::app::field_texts<tendril::app::FileSpace>();
+template <>
 std::span<const tendril::Field> tendril::fields<tendril::app::HumanoidView>() noexcept;
 template <>
 std::span<const tendril::app::FieldText> tendril::app::field_texts<tendril::app::HumanoidView>();

@@ -52,6 +52,18 @@ void scale_row(const HumanoidPanel& panel) {
     explain("The length of one unit in the file. The character's height shows whether it is right.");
 }
 
+/// What is wrong with a person's height, and a click that mends it.
+void unit_rows(const HumanoidPanel& panel) {
+    const auto doubt = doubted_unit(panel.part.loaded->character, *panel.part.map);
+    if (panel.part.loaded->file.empty() || !doubt) return;
+    note(text(*doubt));
+    const std::string title = *doubt->unit.name != '\0' ? std::string("Use ") + doubt->unit.name
+                                                        : "Make it " + fixed_text(doubt->then, 2) + " m tall";
+    if (row_button(title.c_str(), 1, true, "Corrects the file's unit"))
+        panel.emit("humanoid.scale", {{"metres", doubt->unit.metres}});
+    end_row();
+}
+
 void kept_map_rows(const HumanoidPanel& panel) {
     KeptMaps& maps = panel.runtime.kept_maps;
     if (const std::string& why = maps.refused(panel.workspace); !why.empty()) note(why + '.');
@@ -89,13 +101,18 @@ void loaded_rows(const HumanoidPanel& panel, MoreRows& more) {
             panel.emit("humanoid.load");
         end_row();
     }
+    unit_rows(panel);
     kept_map_rows(panel);
     more.add("height", {"humanoid.scale", {"metres"}}, false, [&panel, &loaded] {
         scale_row(panel);
         reading("height", "%.2f m", loaded.height());
     });
+    const FileSpace& space = loaded.character.space;
+    if (!loaded.file.empty()) FieldRows(space, "humanoid.up", panel.emit).under(more).row("axis");
+    if (!loaded.character.root_offsets.empty())
+        FieldRows(space, "humanoid.root", panel.emit).under(more).row("positions");
     more.add("rest pose", {"humanoid.t_pose", {"on"}}, panel.part.t_pose, [&panel] { rest_row(panel); });
-    for (const std::string& text : loaded.character.notes) note(text);
+    for (const std::string& each : loaded.character.sentences()) note(each);
 }
 
 void playback_rows(const HumanoidPanel& panel, MoreRows& more) {

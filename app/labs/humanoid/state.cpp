@@ -69,17 +69,31 @@ Json kept_map_state(const Workspace& workspace) {
     return {{"changes", std::move(changes)}};
 }
 
+/// "replace" or "add"; null where there is no OFFSET to add to.
+Json root_positions_state(const Character& character) {
+    if (character.root_offsets.empty()) return nullptr;
+    return root_positions.name(character.space.positions);
+}
+
+Json notes_state(const HumanoidPart& part) {
+    Json notes = part.loaded->character.sentences();
+    if (const auto doubt = doubted_unit(part.loaded->character, *part.map)) notes.push_back(text(*doubt));
+    return notes;
+}
+
 Json character_state(const Workspace& workspace, const ShownPose& shown) {
     const HumanoidPart& part = humanoid_part(workspace);
     return Json{{"file", part.loaded->file},
                 {"scale", part.loaded->character.scale},
+                {"up", up_axes.name(part.loaded->character.space.up)},
+                {"root_positions", root_positions_state(part.loaded->character)},
                 {"nodes", nodes_state(part, shown)},
                 {"bones", bones_state(part, shown)},
                 {"unmatched", unmatched_state(part)},
                 {"rest", humanoid::name(part.map->rest)},
                 {"kept_map", kept_map_state(workspace)},
                 {"t_pose", part.t_pose},
-                {"notes", part.loaded->character.notes}};
+                {"notes", notes_state(part)}};
 }
 
 /// Metres between the end of a chain and its target; 0 if it has none.

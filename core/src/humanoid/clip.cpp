@@ -1,6 +1,7 @@
 #include "tendril/humanoid/clip.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "rig/checks.hpp"
@@ -159,6 +160,24 @@ void sample(const Clip& clip, const Skeleton& skeleton, double time,
         pose[node] =
             relative(placed_node(skeleton, pose, skeleton[node].parent),
                      placed_node(skeleton, pose, skeleton[node].keys->parent) * placement(pose[node]));
+}
+
+Frames frames_at(const Clip& clip, double rate) noexcept {
+    const std::vector<double>* own = nullptr;
+    const auto look_at = [&](const std::vector<double>& times) {
+        if (times.size() > 1 && (!own || times.size() > own->size())) own = &times;
+    };
+    for (const Channel& channel : clip.channels) {
+        look_at(channel.translation.times);
+        look_at(channel.rotation.times);
+        look_at(channel.scale.times);
+    }
+    constexpr double same_rate = 1e-3;
+    if (own && own->front() == 0.0 && clip.duration - own->back() < 1e-9) {
+        const double steps = static_cast<double>(own->size() - 1), step = clip.duration / steps;
+        if (std::abs(step * rate - 1.0) < same_rate) return {own->size(), step};
+    }
+    return {static_cast<std::size_t>(std::floor(clip.duration * rate + 1e-6)) + 1, 1.0 / rate};
 }
 
 rig::Transform key_of(const Skeleton& skeleton, std::span<const rig::Transform> pose,

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <glm/gtc/quaternion.hpp>
 #include <random>
 #include <tendril/humanoid/clip.hpp>
 
@@ -67,12 +68,26 @@ void add_pose(const Character& character, const Json& clip, double time, Json& p
     poses.back()["corners"] = corners;
 }
 
+/// Whether the rest pose is the zero pose, and not turned or taken from the motion.
+bool rests_as_in_file(const Character& character) {
+    return std::ranges::none_of(
+        character.notes, [](const std::string& each) { return each.find("rest pose is") != each.npos; });
+}
+
+/// The rows of the rotation that puts the file upright.
+Json upright(const Character& character) {
+    const glm::dmat3 axes = glm::mat3_cast(turn_of(character.space.up));
+    Json rows = Json::array();
+    for (int i = 0; i < 3; ++i) rows.push_back({axes[0][i], axes[1][i], axes[2][i]});
+    return rows;
+}
+
 fs::path dump(const fs::path& file, const test::TempFolder& folder) {
     const Character character = read_character(file);
     std::mt19937 random(7);
     Json names = Json::array(), clips = Json::array(), poses = Json::array();
     for (const humanoid::Node& node : character.skeleton.nodes()) names.push_back(node.name);
-    add_pose(character, nullptr, 0.0, poses);
+    if (rests_as_in_file(character)) add_pose(character, nullptr, 0.0, poses);
     const bool at_keys = file.extension() == ".bvh";
     for (std::size_t i = 0; i < character.clips.size(); ++i) {
         clips.push_back(character.clips[i].name);
@@ -82,6 +97,8 @@ fs::path dump(const fs::path& file, const test::TempFolder& folder) {
     const fs::path to = folder / (file.filename().string() + ".json");
     std::ofstream(to) << Json{{"file", file.string()},
                               {"scale", character.scale},
+                              {"upright", upright(character)},
+                              {"adds", character.space.positions == RootPositions::Add},
                               {"names", names},
                               {"clips", clips},
                               {"poses", poses}};

@@ -231,7 +231,8 @@ TEST_F(RowsUnderMore, UnfoldForTheirCommandInEveryLab) {
         {"humanoid", {}, "humanoid.flips degrees=40", "flip over"},
         {"humanoid", {}, "humanoid.ground kind=mesh path=" + mesh, "mesh file"},
         {"humanoid", {}, "humanoid.t_pose on=true", "Rest as a T-pose"},
-        {"humanoid", {{"humanoid.load", walk}}, "humanoid.scale metres=0.011", "file unit"}};
+        {"humanoid", {{"humanoid.load", walk}}, "humanoid.scale metres=0.011", "file unit"},
+        {"humanoid", {{"humanoid.load", walk}}, "humanoid.up axis=z", "up axis"}};
     for (const Row& row : rows) {
         run("scene.new");
         open(row.lab);

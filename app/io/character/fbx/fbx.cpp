@@ -102,6 +102,7 @@ class CharacterReader {
     void read_units(const Objects& objects) {
         const auto unit = objects.setting("UnitScaleFactor");
         const double centimetres = unit ? unit.record->number(unit.first, 1.0) : 1.0;
+        character_.states_unit = centimetres > 0.0 && unit;
         character_.scale = centimetres > 0.0 ? 0.01 * centimetres : 0.01;
         // Autodesk's FbxTime::EMode; 14 is a rate of the file's own.
         constexpr std::array<double, 19> rates{0.0,  120.0, 100.0, 60.0,  50.0,  48.0,   30.0,

@@ -190,20 +190,58 @@ void map(HumanoidPart& part, const Arguments& given) {
     check_bones(part);
 }
 
-void rescale(Workspace& workspace, const Arguments& given) {
-    const HumanoidPart& before = humanoid_part(workspace);
-    const double metres = given.real("metres");
-    if (metres == before.loaded->character.scale) return;
-    if (before.loaded->file.empty())
-        throw std::invalid_argument("the stick figure has no file and is in metres");
-    const double was = before.loaded->character.scale;
-    const SharedCharacter loaded = rescaled(*before.loaded, metres);
+/// The bones as matched, but for those that were corrected.
+humanoid::BoneMap with_corrections(const LoadedCharacter& loaded, const HumanoidPart& from) {
+    humanoid::BoneMap wanted = loaded.matched;
+    for (std::size_t i = 0; i < humanoid::bone_count; ++i)
+        if (from.map->bones[i].node != from.loaded->matched.bones[i].node)
+            wanted.bones[i].node = from.map->bones[i].node;
+    return wanted;
+}
+
+/// Reads the character's file with another unit or other axes.
+void read_again(Workspace& workspace, double metres, const FileSpace& space) {
+    const HumanoidPart& now = humanoid_part(workspace);
+    const SharedCharacter before = now.loaded;
+    const double was = before->character.scale;
+    if (metres == was && space == before->character.space) return;
+    if (before->file.empty())
+        throw std::invalid_argument("the stick figure has no file and is in metres, Y up");
+    const SharedCharacter loaded = read_as(*before, metres, space);
+    const humanoid::BoneMap wanted = with_corrections(*loaded, now);
     HumanoidPart& part = workspace.document.edit<HumanoidPart>(humanoid_lab);
     part.loaded = loaded;
+    part.map = std::make_shared<const humanoid::BoneMap>(loaded->matched);
+    take_map(part, wanted);
     part.ik_state.springs.clear();  // springs and fading are in the old metres
     part.ik_state.release = {};
     remake_attachments(workspace, metres / was);
     show_all(workspace, *loaded);
+}
+
+void rescale(Workspace& workspace, const Arguments& given) {
+    read_again(workspace, given.real("metres"), humanoid_part(workspace).loaded->character.space);
+}
+
+void set_space(Workspace& workspace, const Arguments& given) {
+    const Character& character = humanoid_part(workspace).loaded->character;
+    FileSpace space = character.space;
+    set_fields(given, space);
+    if (space.positions == RootPositions::Add && character.root_offsets.empty())
+        throw std::invalid_argument("the file has no root with both an OFFSET and positions");
+    read_again(workspace, character.scale, space);
+}
+
+/// A command for one of the fields of FileSpace.
+Command space_command(const char* name, const char* title, std::size_t field, const char* help) {
+    Argument argument = field_arguments<FileSpace>()[field];
+    argument.required = true;
+    return {.name = name,
+            .title = title,
+            .arguments = {std::move(argument)},
+            .help = help,
+            .effect = Effect::Edit,
+            .apply = set_space};
 }
 
 /// Whether the T-pose correction would turn anything: it needs a limb of two bones.
@@ -309,6 +347,10 @@ void add_character_commands(CommandTable& table) {
          .help = "Corrects the unit of the character's file",
          .effect = Effect::Edit,
          .apply = rescale});
+    table.add(space_command("humanoid.up", "Correct the character's up axis", 0,
+                            "Sets which axis of the character's file points up"));
+    table.add(space_command("humanoid.root", "Correct the character's root positions", 1,
+                            "Sets whether a BVH's root positions replace its OFFSET or are added to it"));
     table.add(part_command<HumanoidPart>(
         humanoid_lab, "humanoid.t_pose", "Show the T-pose",
         {{.name = "on", .type = ArgumentType::Boolean, .help = "false: shows the rest pose as it is"}},

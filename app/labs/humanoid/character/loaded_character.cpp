@@ -7,7 +7,6 @@
 
 #include "app/io/character/read.hpp"
 #include "app/io/character/stick_figure.hpp"
-#include "app/labs/kit/arguments.hpp"
 
 namespace tendril::app {
 namespace {
@@ -48,14 +47,9 @@ SharedCharacter load_character(const std::string& file, LoadProgress* progress) 
                   read_character(file, progress));
 }
 
-SharedCharacter rescaled(const LoadedCharacter& character, double metres) {
+SharedCharacter read_as(const LoadedCharacter& character, double metres, const FileSpace& space) {
     Character copy = character.character;
-    std::vector<humanoid::Node> nodes = copy.skeleton.nodes();
-    normalise(nodes, copy.clips, metres / copy.scale);
-    copy.skeleton = require_value(humanoid::Skeleton::make(std::move(nodes)));
-    for (const humanoid::Clip& clip : copy.clips) require_ok(humanoid::check(clip, copy.skeleton));
-    scale_skin(copy.skin, metres / copy.scale);
-    copy.scale = metres;
+    read_as(copy, metres, space);
     auto loaded = std::make_shared<LoadedCharacter>(*shared(character.file, character.path, std::move(copy)));
     loaded->cures = character.cures;
     return loaded;

@@ -42,8 +42,8 @@ using SharedCharacter = std::shared_ptr<const LoadedCharacter>;
 
 /// An empty file name gives the stick figure. Throws std::runtime_error that begins with the file name.
 SharedCharacter load_character(const std::string& file, LoadProgress* progress = nullptr);
-/// The same character with a unit of `metres`.
-SharedCharacter rescaled(const LoadedCharacter& character, double metres);
+/// The same character with a unit of `metres` and other axes. Throws std::runtime_error.
+SharedCharacter read_as(const LoadedCharacter& character, double metres, const FileSpace& space);
 
 // Loads a large character file in the background. The current figure stays until loading succeeds.
 

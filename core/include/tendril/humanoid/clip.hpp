@@ -68,6 +68,17 @@ Result check(const Clip& clip, const Skeleton& skeleton);
 void sample(const Clip& clip, const Skeleton& skeleton, double time, std::span<rig::Transform> pose) noexcept;
 /// One node only, in its key space. Keeps the parts of `local` for which the channel has no keys.
 void sample(const Channel& channel, double time, rig::Transform& local) noexcept;
+/// The frames of a clip, for a program that goes through it frame by frame.
+struct Frames {
+    std::size_t count = 1;  ///< from time 0 on
+    double step = 0.0;      ///< seconds
+    double time(std::size_t frame) const noexcept { return static_cast<double>(frame) * step; }
+};
+/// The clip at `rate` frames per second. If its own rate is within 0.1 % of that, the frames are its own, all
+/// of them: files round the time between frames, and 127 steps of 0.0333333 s are a little less than 127
+/// thirtieths.
+Frames frames_at(const Clip& clip, double rate) noexcept;
+
 /// The key that gives the node its place in the pose: the pose's own transform, unless the node has a key
 /// space of its own.
 rig::Transform key_of(const Skeleton& skeleton, std::span<const rig::Transform> pose,

@@ -37,8 +37,7 @@ Finding& Check::add(Fault fault, std::int32_t node, std::size_t frame, std::size
 LintReport blank_report(const Clip& clip, const LintSettings& settings) {
     LintReport report;
     report.rate = settings.rate > 0.0 ? std::min(settings.rate, 1000.0) : frame_rate(clip);
-    const double frames = std::floor(clip.duration * report.rate + 1e-3) + 1.0;
-    report.frames = static_cast<std::size_t>(std::min(frames, static_cast<double>(max_lint_frames)));
+    report.frames = std::min(frames_at(clip, report.rate).count, max_lint_frames);
     return report;
 }
 

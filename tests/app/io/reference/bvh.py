@@ -35,6 +35,9 @@ class File:
         self.rows = [values[i * width:(i + 1) * width] for i in range(self.frames)]
         self.clips = ["motion"]
         self.metres = None  # a BVH has no unit
+        # Whether a root's positions are added to its offset, and the rotation that puts the file upright: the dump
+        # says.
+        self.adds, self.upright = False, None
 
     def _local(self, joint, values):
         m, position = translation((0, 0, 0)), None
@@ -46,7 +49,7 @@ class File:
                 m = multiply(m, about(channel - 3, value))
         at = self.offsets[joint]
         if position:
-            at = [a + b for a, b in zip(at, position)] if self.parents[joint] < 0 else position
+            at = [a + b for a, b in zip(at, position)] if self.adds and self.parents[joint] < 0 else position
         return multiply(translation(at), m)
 
     def frame_time(self, time):
@@ -62,4 +65,7 @@ class File:
             at += count
             parent = self.parents[joint]
             placed.append(multiply(placed[parent], local) if parent >= 0 else local)
-        return [place(m) for m in placed]
+        at = [place(m) for m in placed]
+        if self.upright:
+            at = [[sum(a * b for a, b in zip(row, p)) for row in self.upright] for p in at]
+        return at

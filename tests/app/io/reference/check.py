@@ -34,6 +34,7 @@ def same_joints(names, known, ordered):
 
 def compare(dump):
     file = reader_of(dump["file"])
+    file.adds, file.upright = dump["adds"], dump["upright"]
     ordered = not isinstance(file, fbx.File)
     places = same_joints(dump["names"], file.names, ordered)
     mine = [i for i, name in enumerate(dump["names"]) if ordered or name in file.names]

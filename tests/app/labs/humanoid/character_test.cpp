@@ -1,6 +1,8 @@
 // Loading a character, its bone map and its rest pose, by the lab's commands and --state.
 #include <fstream>
 
+#include "app/io/character/export.hpp"
+#include "app/io/character/stick_figure.hpp"
 #include "humanoid_support.hpp"
 #include "tests/app/support/temp_folder.hpp"
 #include "tests/places.hpp"
@@ -139,6 +141,69 @@ TEST_F(HumanoidCharacter, HasTheSizeThatItsUnitGives) {
     EXPECT_EQ(lab().state(reopened()), state());
     run("humanoid.load");
     expect_refused("humanoid.scale", {{"metres", 0.5}}, {"stick figure"});
+}
+
+TEST_F(HumanoidCharacter, StandsAlongTheAxisThatAPersonPicks) {
+    run("humanoid.load", {{"path", write("figure.bvh", bvh_figure())}});
+    run("humanoid.map", {{"bone", "LeftHand"}, {"node", "LeftHand end"}});
+    EXPECT_EQ(state().at("character").at("up"), "y");
+    const glm::dvec3 hand = bone("RightHand");
+    run("humanoid.up", {{"axis", "z"}});
+    EXPECT_EQ(state().at("character").at("up"), "z");
+    EXPECT_LT(glm::distance(bone("RightHand"), glm::dvec3(hand.x, hand.z, -hand.y)), 1e-12);
+    EXPECT_EQ(bones().at("LeftHand").at("node"), "LeftHand end") << "corrections stay";
+    run("humanoid.clip", {{"index", 0}, {"time", 0.5}});
+    EXPECT_NEAR(bone("Hips").y, 0.5, 1e-12);
+    EXPECT_EQ(lab().state(reopened()), state());
+    run("humanoid.up", {{"axis", "-y"}});
+    run("undo");
+    run("undo");
+    run("undo");
+    EXPECT_EQ(state().at("character").at("up"), "y");
+    EXPECT_LT(glm::distance(bone("RightHand"), hand), 1e-12);
+    expect_refused("humanoid.up", {{"axis", "north"}}, {"axis must be one of"});
+    run("humanoid.load");
+    expect_refused("humanoid.up", {{"axis", "z"}}, {"stick figure"});
+}
+
+TEST_F(HumanoidCharacter, HasItsRootWhereTheFileMeansIt) {
+    run("humanoid.load", {{"path", write("figure.bvh", bvh_figure())}});
+    run("humanoid.clip", {{"index", 0}});
+    EXPECT_EQ(state().at("character").at("root_positions"), "add");
+    EXPECT_NEAR(bone("Hips").y, 0.95, 1e-12);
+    run("humanoid.root", {{"positions", "replace"}});
+    EXPECT_EQ(state().at("character").at("root_positions"), "replace");
+    EXPECT_NEAR(bone("Hips").y, 0.0, 1e-12);
+    EXPECT_EQ(lab().state(reopened()), state());
+    run("undo");
+    EXPECT_NEAR(bone("Hips").y, 0.95, 1e-12);
+    std::string no_offset = bvh_figure();
+    no_offset.replace(no_offset.find("0 95 0"), 6, "0 0 0");
+    run("humanoid.load", {{"path", write("none.bvh", no_offset)}});
+    EXPECT_TRUE(state().at("character").at("root_positions").is_null());
+    expect_refused("humanoid.root", {{"positions", "add"}}, {"no root with both an OFFSET and positions"});
+}
+
+TEST_F(HumanoidCharacter, WhoseHeightIsNoPersonsSaysSoAndWhichUnitMendsIt) {
+    Character giant = stick_figure();
+    const humanoid::Clip clip = giant.clips[0];
+    read_as(giant, 100.0, {});
+    const std::string path = write("giant.glb", "");
+    export_clip({giant, {}, clip, clip, 60.0}, path);
+    run("humanoid.load", {{"path", path}});
+    const auto last_note = [&] {
+        const Json notes = state().at("character").at("notes");
+        return notes.empty() ? std::string() : notes.back().get<std::string>();
+    };
+    EXPECT_TRUE(test::says(last_note(), "180.00 m tall centimetres 1.80 m"));
+    const auto doubt = doubted_unit(part().loaded->character, *part().map);
+    ASSERT_TRUE(doubt);
+    EXPECT_EQ(doubt->unit.metres, 0.01);
+    run("humanoid.scale", {{"metres", doubt->unit.metres}});
+    EXPECT_EQ(last_note(), "");
+    EXPECT_NEAR(node("HeadTop_End").y, 1.8, 1e-5);
+    run("humanoid.load");
+    EXPECT_EQ(last_note(), "");
 }
 
 TEST_F(HumanoidCharacter, ThatOthersMadeAreShownAsTheyStand) {

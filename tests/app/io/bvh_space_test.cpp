@@ -1,0 +1,316 @@
+// What a BVH file does not say, found from its zero pose and its motion: up axis, unit, what the root's
+// positions mean, and a rest pose that stands.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/io/character/bvh.hpp"
+#include "app/io/character/read.hpp"
+#include "app/io/character/stick_figure.hpp"
+#include "tests/app/io/fbx_file.hpp"
+#include "tests/app/support/temp_folder.hpp"
+#include "tests/places.hpp"
+#include "tests/says.hpp"
+
+namespace tendril::app::bvh_space {
+namespace {
+
+namespace fs = std::filesystem;
+using humanoid::Placement;
+
+/// A joint, its OFFSET with Y up, and for the folded figure the turn about Z with which it stands.
+struct Joint {
+    const char* name;
+    const char* parent;
+    glm::dvec3 offset;
+    double turn = 0.0;
+};
+
+/// Stands in its zero pose, 1.6 m tall, in centimetres.
+const std::vector<Joint> standing{{"Hips", "", {0, 0, 0}},
+                                  {"Spine", "Hips", {0, 12, 0}},
+                                  {"Chest", "Spine", {0, 20, 0}},
+                                  {"Neck", "Chest", {0, 22, 0}},
+                                  {"Head", "Neck", {0, 10, 0}},
+                                  {"LeftArm", "Chest", {16, 18, 0}},
+                                  {"LeftForeArm", "LeftArm", {28, 0, 0}},
+                                  {"LeftHand", "LeftForeArm", {25, 0, 0}},
+                                  {"RightArm", "Chest", {-16, 18, 0}},
+                                  {"RightForeArm", "RightArm", {-28, 0, 0}},
+                                  {"RightHand", "RightForeArm", {-25, 0, 0}},
+                                  {"LeftUpLeg", "Hips", {10, 0, 0}},
+                                  {"LeftLeg", "LeftUpLeg", {0, -42, 0}},
+                                  {"LeftFoot", "LeftLeg", {0, -42, 0}},
+                                  {"LeftToe", "LeftFoot", {0, -6, 14}},
+                                  {"RightUpLeg", "Hips", {-10, 0, 0}},
+                                  {"RightLeg", "RightUpLeg", {0, -42, 0}},
+                                  {"RightFoot", "RightLeg", {0, -42, 0}},
+                                  {"RightToe", "RightFoot", {0, -6, 14}}};
+
+/// In its zero pose all bones point along X, as some captures are written.
+const std::vector<Joint> folded{{"Hips", "", {-42, 91, -40}, 90},
+                                {"Spine", "Hips", {12, 0, 0}},
+                                {"Chest", "Spine", {20, 0, 0}},
+                                {"Neck", "Chest", {22, 0, 0}},
+                                {"Head", "Neck", {10, 0, 0}},
+                                {"LeftArm", "Chest", {18, 0, 16}, 180},
+                                {"LeftForeArm", "LeftArm", {28, 0, 0}},
+                                {"LeftHand", "LeftForeArm", {25, 0, 0}},
+                                {"RightArm", "Chest", {18, 0, -16}, 180},
+                                {"RightForeArm", "RightArm", {28, 0, 0}},
+                                {"RightHand", "RightForeArm", {25, 0, 0}},
+                                {"LeftUpLeg", "Hips", {0, 0, 10}, 180},
+                                {"LeftLeg", "LeftUpLeg", {42, 0, 0}},
+                                {"LeftFoot", "LeftLeg", {42, 0, 0}, 90},
+                                {"LeftToe", "LeftFoot", {14, -6, 0}},
+                                {"RightUpLeg", "Hips", {0, 0, -10}, 180},
+                                {"RightLeg", "RightUpLeg", {42, 0, 0}},
+                                {"RightFoot", "RightLeg", {42, 0, 0}, 90},
+                                {"RightToe", "RightFoot", {14, -6, 0}}};
+
+struct Written {
+    std::vector<Joint> joints = standing;
+    bool rest_z_up = false;             ///< offsets with Z up
+    std::array<double, 3> root_turn{};  ///< degrees about Z, X, Y, added in every frame
+    glm::dvec3 root{0, 90, 0};          ///< its position in the first frame
+    glm::dvec3 way{0, 0, 2};            ///< that it moves in a frame
+    double unit = 1.0;                  ///< times that
+};
+
+std::string written(const Written& from) {
+    std::ostringstream text;
+    std::ostringstream row;
+    const auto point = [&](glm::dvec3 at) {
+        if (from.rest_z_up) at = {at.x, -at.z, at.y};
+        text << "OFFSET " << from.unit * at.x << ' ' << from.unit * at.y << ' ' << from.unit * at.z << '\n';
+    };
+    const auto joint = [&](const auto& self, const Joint& of) -> void {
+        const bool is_root = *of.parent == '\0';
+        text << (is_root ? "ROOT " : "JOINT ") << of.name << "\n{\n";
+        point(of.offset);
+        text << "CHANNELS " << (is_root ? "6 Xposition Yposition Zposition" : "3")
+             << " Zrotation Xrotation Yrotation\n";
+        if (is_root)
+            row << from.root_turn[0] + of.turn << ' ' << from.root_turn[1] << ' ' << from.root_turn[2];
+        else
+            row << ' ' << of.turn << " 0 0";
+        bool has_children = false;
+        for (const Joint& each : from.joints)
+            if (std::string(each.parent) == of.name) has_children = true, self(self, each);
+        if (!has_children) {
+            text << "End Site\n{\n";
+            point(0.1 * of.offset);
+            text << "}\n";
+        }
+        text << "}\n";
+    };
+    text << "HIERARCHY\n";
+    joint(joint, from.joints.front());
+    text << "MOTION\nFrames: 20\nFrame Time: 0.05\n";
+    for (int i = 0; i < 20; ++i) {
+        const glm::dvec3 at = from.unit * (from.root + static_cast<double>(i) * from.way);
+        text << at.x << ' ' << at.y << ' ' << at.z << ' ' << row.str() << '\n';
+    }
+    return text.str();
+}
+
+std::vector<Placement> placed(const Character& character, bool in_motion) {
+    std::vector<rig::Transform> pose = rest_pose(character.skeleton);
+    if (in_motion) sample(character.clips.at(0), character.skeleton, 0.0, pose);
+    std::vector<Placement> placements(pose.size());
+    place(character.skeleton, pose, placements);
+    return placements;
+}
+
+glm::dvec3 at(const Character& character, const char* node, bool in_motion = true) {
+    return placed(character, in_motion)[character.skeleton.find(node).value()].position;
+}
+
+std::string all_text(const Character& character) {
+    std::string all;
+    for (const std::string& each : character.sentences()) all += each + '\n';
+    return all;
+}
+
+/// Upright at rest and in the first frame; in that, on the floor.
+void expect_standing(const Character& character) {
+    for (const bool in_motion : {false, true}) {
+        SCOPED_TRACE(in_motion ? "in motion" : "at rest");
+        const auto y = [&](const char* node) { return at(character, node, in_motion).y; };
+        EXPECT_GT(y("Head") - y("Hips"), 0.4);
+        EXPECT_GT(y("Hips") - y("LeftFoot"), 0.7);
+        EXPECT_GT(y("Hips") - y("RightFoot"), 0.7);
+    }
+    EXPECT_NEAR(at(character, "LeftToe").y, 0.0, 0.05);
+    EXPECT_TRUE(bone_map(character).is_usable());
+}
+
+TEST(BvhSpace, a_standing_zero_pose_with_y_up_is_taken_as_it_is) {
+    const Character character = parse_bvh(written({}), "it.bvh");
+    expect_standing(character);
+    EXPECT_EQ(character.scale, 0.01);
+    EXPECT_EQ(character.space, FileSpace());
+    EXPECT_EQ(character.sentences().size(), 1u) << all_text(character);
+    EXPECT_TRUE(test::says(all_text(character), "unit centimetres"));
+}
+
+TEST(BvhSpace, a_zero_pose_that_does_not_stand_gives_way_to_the_motion) {
+    const Character character = parse_bvh(written({.joints = folded, .root = {173, 90, -518}}), "it.bvh");
+    expect_standing(character);
+    EXPECT_EQ(character.scale, 0.01);
+    EXPECT_NEAR(at(character, "Hips").y, 0.90, 1e-9);
+    EXPECT_NEAR(at(character, "Hips").x, 1.73, 1e-9);
+    EXPECT_NEAR(at(character, "Hips", false).y, 0.90, 1e-9);
+    EXPECT_EQ(character.space.positions, RootPositions::Replace);
+    EXPECT_TRUE(test::says(all_text(character), "positions replace its OFFSET floor"));
+    EXPECT_TRUE(test::says(all_text(character), "rest pose frame of the motion"));
+}
+
+TEST(BvhSpace, root_positions_are_added_where_that_alone_puts_the_feet_on_the_floor) {
+    Written from{.joints = folded, .root = {173, -1, -518}};
+    Character character = parse_bvh(written(from), "it.bvh");
+    expect_standing(character);
+    EXPECT_EQ(character.space.positions, RootPositions::Add);
+    EXPECT_NEAR(at(character, "Hips").y, 0.90, 1e-9);
+    EXPECT_NEAR(at(character, "Hips").x, 1.31, 1e-9);
+    EXPECT_TRUE(test::says(all_text(character), "positions are added to its OFFSET floor"));
+
+    read_as(character, character.scale, {.up = UpAxis::Y, .positions = RootPositions::Replace});
+    EXPECT_NEAR(at(character, "Hips").y, -0.01, 1e-9);
+    EXPECT_EQ(all_text(character).find("OFFSET"), std::string::npos) << "it is no guess any more";
+    read_as(character, character.scale, {.up = UpAxis::Y, .positions = RootPositions::Add});
+    EXPECT_NEAR(at(character, "Hips").y, 0.90, 1e-9);
+}
+
+TEST(BvhSpace, the_up_axis_is_that_of_the_zero_pose_and_the_motion) {
+    const Character character =
+        parse_bvh(written({.rest_z_up = true, .root = {0, 40, 90}, .way = {0, -2, 0}}), "it.bvh");
+    EXPECT_EQ(character.space.up, UpAxis::Z);
+    expect_standing(character);
+    EXPECT_EQ(character.scale, 0.01);
+    EXPECT_TRUE(test::says(all_text(character), "up zero pose motion Z"));
+    EXPECT_GT(at(character, "LeftToe").z, at(character, "LeftFoot").z) << "it faces forwards still";
+}
+
+TEST(BvhSpace, where_the_two_differ_the_up_axis_is_that_of_the_motion) {
+    // Y up at rest; in motion turned about X, so that it stands along Z and walks along -Y.
+    const Character z_up =
+        parse_bvh(written({.root_turn = {0, 90, 0}, .root = {30, 60, 90}, .way = {0, -2, 0}}), "it.bvh");
+    EXPECT_EQ(z_up.space.up, UpAxis::Z);
+    expect_standing(z_up);
+    EXPECT_TRUE(test::says(all_text(z_up), "zero pose along Y motion along Z turned"));
+    // And the other way round.
+    const Character y_up = parse_bvh(written({.rest_z_up = true, .root_turn = {0, -90, 0}}), "it.bvh");
+    EXPECT_EQ(y_up.space.up, UpAxis::Y);
+    expect_standing(y_up);
+}
+
+TEST(BvhSpace, a_figure_that_lies_on_the_floor_is_not_stood_up) {
+    const Character lying =
+        parse_bvh(written({.root_turn = {0, -90, 0}, .root = {50, 12, 130}, .way = {0, 0, 0}}), "it.bvh");
+    EXPECT_EQ(lying.space.up, UpAxis::Y);
+    EXPECT_NEAR(at(lying, "Head").y, at(lying, "Hips").y, 1e-9);
+}
+
+TEST(BvhSpace, the_unit_is_that_of_the_standing_figure) {
+    const struct {
+        double unit;
+        const char* name;
+        double metres;
+    } units[] = {{0.01, "metres", 1.0},
+                 {0.1, "decimetres", 0.1},
+                 {1.0, "centimetres", 0.01},
+                 {10.0, "millimetres", 0.001}};
+    for (const auto& each : units) {
+        for (const std::vector<Joint>& joints : {standing, folded}) {
+            const Character character = parse_bvh(written({.joints = joints, .unit = each.unit}), "it.bvh");
+            EXPECT_DOUBLE_EQ(character.scale, each.metres);
+            EXPECT_TRUE(test::says(all_text(character), each.name));
+            expect_standing(character);
+        }
+    }
+}
+
+/// A figure of 1.8 units as an FBX.
+std::string fbx_figure(std::vector<test::FbxRecord> settings) {
+    test::FbxScene scene;
+    scene.settings = std::move(settings);
+    const Character figure = stick_figure();
+    std::vector<std::int64_t> ids(figure.skeleton.size());
+    for (const std::int32_t each : figure.skeleton.order()) {
+        const humanoid::Node& node = figure.skeleton[static_cast<std::size_t>(each)];
+        ids[static_cast<std::size_t>(each)] =
+            scene.model(node.name, node.parent < 0 ? 0 : ids[static_cast<std::size_t>(node.parent)],
+                        {test::FbxScene::vector("Lcl Translation", node.rest.translation)});
+    }
+    return scene.text();
+}
+
+TEST(UnitOfAFile, that_an_fbx_does_not_state_is_guessed_and_said) {
+    const test::TempFolder folder;
+    test::write(folder / "none.fbx", fbx_figure({}));
+    const Character guessed = read_character(folder / "none.fbx");
+    EXPECT_EQ(guessed.scale, 1.0);
+    EXPECT_NEAR(at(guessed, "HeadTop_End", false).y, 1.8, 1e-9);
+    EXPECT_TRUE(test::says(all_text(guessed), "no unit height metres"));
+    EXPECT_FALSE(doubted_unit(guessed, bone_map(guessed)));
+
+    test::write(folder / "stated.fbx", fbx_figure({test::FbxScene::property("UnitScaleFactor", {1.0})}));
+    const Character stated = read_character(folder / "stated.fbx");
+    EXPECT_EQ(stated.scale, 0.01) << "it is taken at its word";
+    EXPECT_EQ(all_text(stated), "");
+    const auto doubt = doubted_unit(stated, bone_map(stated));
+    ASSERT_TRUE(doubt);
+    EXPECT_EQ(doubt->unit.metres, 1.0);
+    EXPECT_TRUE(test::says(text(*doubt), "18.0 mm tall metres 1.80 m"));
+}
+
+TEST(UnitOfAFile, is_not_doubted_for_a_childs_height_or_a_thing) {
+    const auto doubt = [](double scale) {
+        Character figure = stick_figure();
+        read_as(figure, scale, {});
+        figure.scale = 1.0;
+        return doubted_unit(figure, bone_map(figure));
+    };
+    for (const double scale : {0.3, 0.5, 1.0, 1.6}) EXPECT_FALSE(doubt(scale)) << scale;
+    for (const double scale : {0.2, 2.0, 100.0}) EXPECT_TRUE(doubt(scale)) << scale;
+    EXPECT_STREQ(doubt(2.0)->unit.name, "") << "3.6 m, or in decimetres 0.36 m";
+    EXPECT_NEAR(doubt(2.0)->then, 1.75, 1e-12);
+}
+
+TEST(BvhSpace, files_of_others_stand) {
+    const auto read = [](const char* name) { return read_character(tendril::test::found_path(name)); };
+    if (!fs::exists(tendril::test::found_path("bvh_z_up.bvh"))) GTEST_SKIP() << "they are not there";
+    const Character offset = read("bvh_root_offset.bvh");
+    EXPECT_EQ(offset.scale, 0.01);
+    EXPECT_NEAR(at(offset, "Hips").y, 0.9195, 1e-4);
+    EXPECT_NEAR(at(offset, "LeftToe").y, -0.0003, 1e-4);
+    EXPECT_TRUE(bone_map(offset).is_usable());
+    const Character z_up = read("bvh_z_up.bvh");
+    EXPECT_EQ(z_up.space.up, UpAxis::Z);
+    EXPECT_TRUE(bone_map(z_up).is_usable());
+    for (const char* kind :
+         {"extra_frame", "space_colon", "nospace_frames", "nospace_time", "ctrlz", "nul"}) {
+        const Character loose = read((std::string("bvh_") + kind + ".bvh").c_str());
+        EXPECT_EQ(loose.clips.at(0).channels.at(0).rotation.times.size(), 3u) << kind;
+        EXPECT_EQ(loose.sentences().size(), 2u) << kind << ": " << all_text(loose);
+    }
+    for (const char* kind : {"comma", "nan", "nine", "time0", "utf16"}) {
+        try {
+            read((std::string("bvh_") + kind + ".bvh").c_str());
+            ADD_FAILURE() << kind << " was read";
+        } catch (const std::runtime_error& error) {
+            EXPECT_NE(std::string(error.what()).find("line "), std::string::npos) << error.what();
+        }
+    }
+}
+
+}  // namespace
+}  // namespace tendril::app::bvh_space

@@ -1,0 +1,138 @@
+// BVH files as programs write them: loose spellings, damage, and every small change to one file.
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+#include <string>
+#include <tendril/humanoid/lint.hpp>
+
+#include "app/io/character/bvh.hpp"
+#include "app/io/character/export.hpp"
+#include "app/io/character/read.hpp"
+#include "tests/app/support/temp_folder.hpp"
+#include "tests/places.hpp"
+#include "tests/says.hpp"
+
+namespace tendril::app::bvh_spelling {
+namespace {
+
+const std::string stalk =
+    "HIERARCHY\nROOT Hips\n{\nOFFSET 0 0 0\n"
+    "CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation\n"
+    "JOINT Neck\n{\nOFFSET 0 50 0\nCHANNELS 3 Zrotation Xrotation Yrotation\n"
+    "End Site\n{\nOFFSET 0 12 0\n}\n}\n}\n";
+const std::string rows = "0 90 0 0 0 0 10 0 0\n0 90 0 0 0 0 20 0 0\n0 90 0 0 0 0 30 0 0\n";
+const std::string motion = "MOTION\nFrames: 3\nFrame Time: 0.0333333\n" + rows;
+
+std::string all_notes(const Character& character) {
+    std::string all;
+    for (const std::string& each : character.notes) all += each + '\n';
+    return all;
+}
+
+std::string refusal(const std::string& text) {
+    try {
+        parse_bvh(text, "it.bvh");
+    } catch (const std::runtime_error& error) {
+        return error.what();
+    }
+    return {};
+}
+
+TEST(Bvh, spellings_of_real_exporters_are_read_as_declared_with_a_note) {
+    const struct {
+        const char* kind;
+        std::string text;
+        const char* note;
+    } loose[] = {
+        {"extra row", stalk + motion + "0 90 0 0 0 0 40 0 0\n", "1 more row than 3"},
+        {"spaced colon", stalk + "MOTION\nFrames : 3\nFrame Time : 0.0333333\n" + rows, "Frames Frame Time"},
+        {"no space", stalk + "MOTION\nFrames:3\nFrame Time: 0.0333333\n" + rows, "Frames"},
+        {"no space", stalk + "MOTION\nFrames: 3\nFrame Time:0.0333333\n" + rows, "Frame Time"},
+        {"^Z", stalk + motion + "\x1a", "control character"},
+        {"NUL", stalk + motion + std::string(3, '\0') + "\r\n", "control character"},
+    };
+    const Character strict = parse_bvh(stalk + motion, "it.bvh");
+    for (const auto& each : loose) {
+        SCOPED_TRACE(each.kind);
+        ASSERT_EQ(refusal(each.text), "");
+        const Character read = parse_bvh(each.text, "it.bvh");
+        EXPECT_EQ(read.clips, strict.clips);
+        EXPECT_TRUE(test::says(all_notes(read), each.note));
+        EXPECT_EQ(read.notes.size(), strict.notes.size() + 1);
+    }
+}
+
+TEST(Bvh, damage_is_refused_in_words_that_name_the_line) {
+    const std::string head = stalk + "MOTION\nFrames: 3\nFrame Time: 0.0333333\n";
+    EXPECT_TRUE(test::says(refusal(stalk + "MOTION\nFrames: 3\nFrame Time: 0,0333333\n" + rows),
+                           "line 18 decimal point 0,0333333"));
+    EXPECT_TRUE(test::says(refusal(head + "0 90 0 0 0 0 10 0 0\n0 90 nan 0 0 0 10 0 0\n"), "line 20 nan"));
+    const std::string fine = "0 90 0 0 0 0 10 0 0\n";
+    EXPECT_TRUE(test::says(refusal(head + fine + "0 90 0 0 0 0 10 0\n" + fine), "line 20 9 found 8"));
+    EXPECT_TRUE(test::says(refusal(head + fine + "0 90 0 0 0 0 10 0 0 0\n" + fine), "line 20 9 found 10"));
+    EXPECT_TRUE(test::says(refusal(head + fine + fine + "0 90 0\n"), "line 21 9 found 3"));
+    EXPECT_TRUE(
+        test::says(refusal(stalk + "MOTION\nFrames: 3\nFrame Time: 0\n" + rows), "line 18 frame time"));
+    std::string nine = stalk;
+    nine.replace(nine.find("CHANNELS 3"), 10, "CHANNELS 9");
+    EXPECT_TRUE(test::says(refusal(nine + motion), "line 9 channels"));
+    std::string wide = "\xff\xfe";
+    for (const char c : stalk + motion) wide += c, wide += '\0';
+    EXPECT_TRUE(test::says(refusal(wide), "line 1 UTF-16"));
+    EXPECT_TRUE(test::says(refusal(wide.substr(2)), "line 1 UTF-16"));
+}
+
+TEST(Bvh, every_byte_changed_cut_or_left_out_is_read_or_refused) {
+    const std::string whole = stalk + motion;
+    const auto try_it = [](const std::string& text) {
+        try {
+            const Character read = parse_bvh(text, "it.bvh");
+            for (const humanoid::Clip& clip : read.clips) EXPECT_TRUE(humanoid::check(clip, read.skeleton));
+        } catch (const std::runtime_error& error) {
+            EXPECT_TRUE(std::string(error.what()).starts_with("it.bvh")) << error.what();
+        }
+    };
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+        for (const int bits : {0x01, 0x20, 0x80}) {
+            std::string text = whole;
+            text[i] = static_cast<char>(text[i] ^ bits);
+            try_it(text);
+        }
+        try_it(whole.substr(0, i));
+        std::string text = whole;
+        try_it(text.erase(i, 1));
+    }
+}
+
+TEST(Bvh, a_long_name_is_not_copied_to_thousands_of_end_sites) {
+    std::string text = "HIERARCHY\nROOT " + std::string(100'000, 'a') + "\n{\nOFFSET 0 0 0\n";
+    for (int i = 0; i < 4000; ++i) text += "End Site\n{\n}\n";
+    EXPECT_TRUE(test::says(refusal(text + "}\nMOTION\nFrames: 0\nFrame Time: 1\n"), "line 2 name"));
+    std::string nested = "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nEnd Site\n{\nEnd Site\n{\n}\n}\n}\n";
+    EXPECT_TRUE(test::says(refusal(nested + "MOTION\nFrames: 0\nFrame Time: 1\n"), "line 7 End Site"));
+}
+
+TEST(Bvh, as_many_frames_are_written_as_were_read) {
+    const test::TempFolder folder;
+    for (const char* step :
+         {"0.0333333", "0.033333", "0.03333", "0.0083333", "0.008333", "0.041667", "0.0167"}) {
+        for (const std::size_t count : {3u, 128u, 1501u}) {
+            SCOPED_TRACE(step + (", " + std::to_string(count)));
+            std::string text =
+                stalk + "MOTION\nFrames: " + std::to_string(count) + "\nFrame Time: " + step + '\n';
+            for (std::size_t i = 0; i < count; ++i)
+                text += "0 90 0 0 0 0 " + std::to_string(i % 90) + " 0 0\n";
+            const Character character = parse_bvh(text, "it.bvh");
+            const humanoid::Clip& clip = character.clips.at(0);
+            const ExportReport report =
+                export_clip({character, {}, clip, clip, humanoid::frame_rate(clip)}, folder / "out.bvh");
+            EXPECT_EQ(report.frames, count);
+            EXPECT_LT(report.worst, 1e-4);
+            const Character again = read_character(folder / "out.bvh");
+            EXPECT_EQ(again.clips.at(0).channels.at(0).rotation.times.size(), count);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace tendril::app::bvh_spelling
