@@ -239,6 +239,7 @@ class BatchLine {
         if (solve_->parsed()) solve_cases(solve_options_.checked(), ending);
         if (signal_->parsed()) run_signal(signal_options_, ending);
         if (paper_->parsed()) print_paper(paper_csv_, ending);
+        if (code_->parsed() || bake_->parsed() || lint_->parsed()) end_at_once_on_signals();
         if (code_->parsed()) print_code(scene_);
         if (bake_->parsed()) run_bake(bake_options_);
         return lint_->parsed() && run_lint(lint_options_) > 0 ? 1 : 0;

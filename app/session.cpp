@@ -144,6 +144,10 @@ void end_session_on_signals() {
     std::signal(SIGHUP, end);  // the terminal or login session was closed
 }
 
+void end_at_once_on_signals() {
+    for (const int each : {SIGINT, SIGTERM, SIGHUP}) std::signal(each, SIG_DFL);
+}
+
 const std::atomic<bool>& session_ending() {
     return ending;
 }

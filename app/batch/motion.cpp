@@ -166,7 +166,7 @@ it first: flat, a slope of 20 degrees or stairs 15 cm high and 30 cm deep, which
 rise along +Z, or terrain, low hills. The file is then read back, and two errors are
 printed: the joint that is furthest from where it was, in mm, and how far a standing
 foot slides at most, before and after. A BVH's frame 0 is time 0. An existing file is
-replaced as a whole, or left as it was (exit code 2).
+replaced as a whole, or left as it was (exit code 2). A signal ends it at once.
 To open a scene file that is named bake, write ./bake.)";
 
 }  // namespace tendril::app

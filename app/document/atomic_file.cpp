@@ -1,6 +1,7 @@
 #include "app/document/atomic_file.hpp"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -144,8 +145,30 @@ class AtomicFile::Beside {
     bool moved_ = false;
 };
 
+namespace {
+
+/// Signals that would end the program wait until the temporary file is gone.
+class SignalsWait {
+  public:
+    SignalsWait() {
+        sigset_t set;
+        ::sigemptyset(&set);
+        for (const int each : {SIGINT, SIGTERM, SIGHUP}) ::sigaddset(&set, each);
+        ::pthread_sigmask(SIG_BLOCK, &set, &before_);
+    }
+    ~SignalsWait() { ::pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+    SignalsWait(const SignalsWait&) = delete;
+    SignalsWait& operator=(const SignalsWait&) = delete;
+
+  private:
+    sigset_t before_{};
+};
+
+}  // namespace
+
 void write_file_atomically(const fs::path& path, std::string_view bytes) {
     if (is_stream(check_place(path))) return write_stream(path, bytes);
+    const SignalsWait wait;
     AtomicFile file(path);
     file.append(bytes);
     file.commit();
@@ -177,7 +200,9 @@ void check_writable(const fs::path& path) {
     const bool stream = is_stream(check_place(path));
     check_permission(path);
     // Creates a file to find out: permissions do not reveal read-only and virtual file systems.
-    if (!stream) AtomicFile{path};
+    if (stream) return;
+    const SignalsWait wait;
+    AtomicFile{path};
 }
 
 std::string shown_path(const fs::path& path) {

@@ -3,7 +3,11 @@
 // Keeps the interpolation of keys.
 //
 // The skeleton consists of the skins' joints, VRM bones, animated nodes, and all ancestors of these; other
-// nodes, such as those of meshes, cameras and lights, are omitted.
+// nodes, such as those of meshes, cameras and lights, are omitted. In a file without a skin it is the whole
+// tree of the nodes that are animated or VRM bones.
+//
+// Mended, each with a note: keys before 0 s, at the same time as another, or of no rotation; a node of scale
+// 0. Left out with a note: compressed meshes, and pictures that are missing or neither PNG nor JPEG.
 #pragma once
 
 #include <filesystem>
@@ -17,7 +21,7 @@ namespace tendril::app {
 
 /// `name` is the file's name, for messages; external files are read from `folder`. Throws std::runtime_error
 /// that begins with the name if the file cannot be read, has no skeleton, has a clip with numbers that are
-/// not finite, or lacks buffers or images.
+/// not finite or that are compressed, lacks buffers, or refers to files outside `folder`.
 Character parse_gltf(std::string_view bytes, const std::string& name, const std::filesystem::path& folder,
                      LoadProgress* progress = nullptr);
 

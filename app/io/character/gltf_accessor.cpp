@@ -104,6 +104,21 @@ void put_sparse(const tinygltf::Model& model, const tinygltf::Accessor& accessor
 
 }  // namespace
 
+const char* compression(const tinygltf::Model& model, int accessor) {
+    const auto is_in = [](int index, const auto& list) {
+        return index >= 0 && static_cast<std::size_t>(index) < list.size();
+    };
+    if (!is_in(accessor, model.accessors)) return nullptr;
+    const int index = model.accessors[static_cast<std::size_t>(accessor)].bufferView;
+    if (!is_in(index, model.bufferViews)) return nullptr;
+    const tinygltf::BufferView& view = model.bufferViews[static_cast<std::size_t>(index)];
+    if (!is_in(view.buffer, model.buffers)) return nullptr;
+    if (!model.buffers[static_cast<std::size_t>(view.buffer)].data.empty()) return nullptr;
+    for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression"})
+        if (view.extensions.count(name)) return name;
+    return nullptr;
+}
+
 std::size_t accessor_count(const tinygltf::Model& model, int index, const std::string& what) {
     const tinygltf::Accessor& accessor = named(model.accessors, index, what, "accessor");
     if (accessor.count > max_rows) fail(what, "claims " + std::to_string(accessor.count) + " rows");
@@ -118,6 +133,8 @@ std::vector<double> accessor_rows(const tinygltf::Model& model, int index, int c
         fail(what, "expected " + std::to_string(components) + " numbers per row");
     const auto width = static_cast<std::size_t>(components);
     const std::size_t size = size_of(accessor.componentType);
+    if (const char* name = compression(model, index))
+        fail(what, "is compressed with " + std::string(name) + ", which cannot be read");
     std::vector<double> values;
     if (accessor.bufferView >= 0) {
         const Rows rows = rows_of(model, accessor.bufferView, accessor.byteOffset, count, size * width, what);

@@ -16,6 +16,10 @@ namespace tendril::app {
 std::vector<double> accessor_rows(const tinygltf::Model& model, int accessor, int components,
                                   const std::string& what);
 
+/// The extension that compresses an accessor's bytes, if there is no plain copy of them; else null. Rows of
+/// such an accessor cannot be read.
+const char* compression(const tinygltf::Model& model, int accessor);
+
 /// The number of rows. Throws as above.
 std::size_t accessor_count(const tinygltf::Model& model, int accessor, const std::string& what);
 

@@ -4,15 +4,15 @@
 #pragma once
 
 #include <cstdint>
-#include <string_view>
+#include <nlohmann/json.hpp>
 
 namespace tendril::app {
 
 /// Limit for a glTF file, and for each external file, in bytes.
 inline constexpr std::uint64_t max_gltf_bytes = std::uint64_t{1} << 30;
 
-/// Throws std::runtime_error with the path and the value: "accessors[20].byteOffset: ...". Text that is not
-/// JSON passes: tinygltf reports where it is wrong.
-void check_gltf(std::string_view json_text);
+/// `file` is an object. Throws std::runtime_error with the path and the value:
+/// "accessors[20].byteOffset: ...".
+void check_gltf(const nlohmann::json& file);
 
 }  // namespace tendril::app

@@ -7,6 +7,10 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "app/document/text.hpp"
+#include "app/io/character/base64.hpp"
+#include "app/io/character/gltf_bytes.hpp"
+
 namespace tendril::app {
 namespace {
 
@@ -20,31 +24,10 @@ void put_number(std::string& bytes, std::size_t value) {
     for (int i = 0; i < 4; ++i) bytes += static_cast<char>((value >> (8 * i)) & 0xff);
 }
 
-std::string base64(std::string_view bytes) {
-    constexpr const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    text.reserve(bytes.size() / 3 * 4 + 4);
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        std::uint32_t three = 0;
-        for (std::size_t k = 0; k < 3; ++k)
-            three = (three << 8) | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-        for (int k = 3; k >= 0; --k) text += digits[(three >> (6 * k)) & 63];
-    }
-    const std::size_t missing = (3 - bytes.size() % 3) % 3;
-    for (std::size_t k = 0; k < missing; ++k) text[text.size() - 1 - k] = '=';
-    return text;
-}
-
 /// The MIME type of a picture's bytes; empty if glTF does not support it.
-std::string kind_of_picture(const std::vector<unsigned char>& bytes) {
-    const auto begins = [&](std::string_view mark) {
-        return bytes.size() > mark.size() &&
-               std::equal(mark.begin(), mark.end(), bytes.begin(),
-                          [](char a, unsigned char b) { return static_cast<unsigned char>(a) == b; });
-    };
-    if (begins("\x89PNG")) return "image/png";
-    if (begins("\xff\xd8\xff")) return "image/jpeg";
-    return {};
+std::string type_of_picture(std::string_view bytes) {
+    const std::string_view kind = picture_kind(bytes);
+    return kind.empty() ? std::string() : "image/" + lower_case(kind);
 }
 
 }  // namespace
@@ -59,18 +42,27 @@ GltfFile::GltfFile(std::string_view json_text, const tinygltf::Model& model)
 }
 
 void GltfFile::take_buffers(const tinygltf::Model& model) {
-    std::vector<std::size_t> begins;
-    for (const tinygltf::Buffer& each : model.buffers) {
+    struct Place {
+        std::size_t buffer = 0, begin = 0;
+    };
+    std::vector<Place> places;
+    for (std::size_t i = 0; i < model.buffers.size(); ++i) {
+        const std::vector<unsigned char>& bytes = model.buffers[i].data;
+        if (bytes.empty()) {  // there is only a compressed copy of it
+            fallbacks_.push_back(json["buffers"][i]);
+            places.push_back({fallbacks_.size(), 0});
+            continue;
+        }
         pad(buffer_, '\0');
-        begins.push_back(buffer_.size());
-        buffer_.append(each.data.begin(), each.data.end());
+        places.push_back({0, buffer_.size()});
+        buffer_.append(bytes.begin(), bytes.end());
     }
     const auto move = [&](Json& view) {
         if (!view.is_object() || !view.contains("buffer")) return;
         const auto buffer = view["buffer"].get<std::size_t>();
-        if (buffer >= begins.size()) throw std::runtime_error("a buffer view has no buffer");
-        view["byteOffset"] = view.value("byteOffset", std::size_t{0}) + begins[buffer];
-        view["buffer"] = 0;
+        if (buffer >= places.size()) throw std::runtime_error("a buffer view has no buffer");
+        view["byteOffset"] = view.value("byteOffset", std::size_t{0}) + places[buffer].begin;
+        view["buffer"] = places[buffer].buffer;
     };
     if (!json.contains("bufferViews")) return;
     for (Json& view : json["bufferViews"]) {
@@ -85,8 +77,8 @@ void GltfFile::take_pictures(const tinygltf::Model& model) {
     if (!json.contains("images")) return;
     for (std::size_t i = 0; i < std::min(json["images"].size(), model.images.size()); ++i) {
         Json& image = json["images"][i];
-        const std::vector<unsigned char>& bytes = model.images[i].image;
-        const std::string kind = kind_of_picture(bytes);
+        const std::string_view bytes = picture_bytes(model, model.images[i]);
+        const std::string kind = type_of_picture(bytes);
         if (!image.contains("uri") || kind.empty()) continue;
         if (image["uri"].get_ref<const std::string&>().starts_with("data:")) continue;
         image.erase("uri");
@@ -216,7 +208,8 @@ std::string GltfFile::bytes(bool binary) const {
     file.erase("buffers");
     if (!buffer_.empty()) {
         file["buffers"] = Json::array({{{"byteLength", buffer_.size()}}});
-        if (!binary) file["buffers"][0]["uri"] = "data:application/octet-stream;base64," + base64(buffer_);
+        for (const Json& each : fallbacks_) file["buffers"].push_back(each);
+        if (!binary) file["buffers"][0]["uri"] = "data:application/octet-stream;base64," + to_base64(buffer_);
     }
     std::string text = file.dump(-1, ' ', false, Json::error_handler_t::replace);
     if (!binary) return text + '\n';

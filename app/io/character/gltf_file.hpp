@@ -49,6 +49,7 @@ class GltfFile {
     void normalise_weights_of(const nlohmann::ordered_json& primitive);
 
     std::string buffer_;
+    std::vector<nlohmann::ordered_json> fallbacks_;  // further buffers, without bytes
     std::map<std::pair<std::string, std::vector<float>>, std::size_t> rows_;
 };
 

@@ -1,25 +1,26 @@
 #include "app/io/character/gltf_parse.hpp"
 
-#include <algorithm>
-#include <fstream>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "app/document/text.hpp"
+#include "app/io/character/gltf_bytes.hpp"
 #include "app/io/character/gltf_check.hpp"
 
 namespace tendril::app {
 namespace {
 
 namespace fs = std::filesystem;
+using nlohmann::json;
 
 constexpr std::size_t deepest_json = 100;
 
 /// Limits the nesting of brackets outside strings.
-void check_depth(std::string_view json) {
+void check_depth(std::string_view text) {
     std::size_t depth = 0;
     bool quoted = false;
-    for (std::size_t i = 0; i < json.size(); ++i) {
-        const char c = json[i];
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
         if (quoted && c == '\\') ++i;
         if (c == '"') quoted = !quoted;
         if (quoted) continue;
@@ -36,61 +37,43 @@ std::uint32_t number_at(std::string_view bytes, std::size_t at) {
     return value;
 }
 
-/// The JSON of a GLB file's first chunk.
-std::string_view json_of(std::string_view bytes) {
+struct Chunks {
+    std::string_view json, binary;
+};
+
+/// The chunks of a GLB file. Others than JSON and BIN are ignored; an empty BIN chunk is valid.
+Chunks chunks_of(std::string_view bytes) {
     if (bytes.size() < 20) throw std::runtime_error("ends in its header");
     if (const std::uint32_t size = number_at(bytes, 8); size > bytes.size())
         throw std::runtime_error("is cut off: its header says " + std::to_string(size) + " bytes, it has " +
                                  std::to_string(bytes.size()));
-    const std::uint32_t size = number_at(bytes, 12);
-    if (size > bytes.size() - 20)
-        throw std::runtime_error("its JSON chunk claims " + std::to_string(size) + " bytes, the file has " +
-                                 std::to_string(bytes.size() - 20) + " more");
-    // tinygltf trusts the size in the second chunk's header.
-    if (const std::size_t next = 20 + std::size_t{size}; next + 8 <= bytes.size())
-        if (const std::uint32_t binary = number_at(bytes, next); binary > bytes.size() - next - 8)
-            throw std::runtime_error("its BIN chunk claims " + std::to_string(binary) +
-                                     " bytes, the file has " + std::to_string(bytes.size() - next - 8) +
-                                     " more");
-    return bytes.substr(20, size);
+    if (bytes.substr(16, 4) != "JSON") throw std::runtime_error("its first chunk is not JSON");
+    Chunks chunks;
+    for (std::size_t at = 12; at + 8 <= bytes.size();) {
+        const std::size_t size = number_at(bytes, at), rest = bytes.size() - at - 8;
+        const std::string_view type = bytes.substr(at + 4, 4);
+        const std::string_view name = type == "JSON"                         ? "JSON"
+                                      : type == std::string_view("BIN\0", 4) ? "BIN"
+                                                                             : "last";
+        if (size > rest)
+            throw std::runtime_error("its " + std::string(name) + " chunk claims " + std::to_string(size) +
+                                     " bytes, the file has " + std::to_string(rest) + " more");
+        if (at == 12) chunks.json = bytes.substr(at + 8, size);
+        if (name == "BIN" && chunks.binary.empty()) chunks.binary = bytes.substr(at + 8, size);
+        at += 8 + size;
+    }
+    return chunks;
 }
 
-/// Restricts tinygltf to the file's folder and its subfolders; it would also look in the working directory.
-struct Beside {
-    fs::path folder;      ///< canonical
-    std::string refused;  ///< the first path outside it
-};
-
-bool is_there(const std::string& path, void* user) {
-    auto& beside = *static_cast<Beside*>(user);
-    std::error_code unknown;
-    if (!fs::is_regular_file(path, unknown)) return false;
-    const fs::path real = fs::canonical(path, unknown);
-    const auto [end, at] =
-        std::mismatch(beside.folder.begin(), beside.folder.end(), real.begin(), real.end());
-    if (!unknown && !beside.folder.empty() && end == beside.folder.end()) return true;
-    if (beside.refused.empty()) beside.refused = path;
+/// Everything is in the JSON by then; it has only placeholders for files.
+bool no_file(const std::string&, void*) {
     return false;
 }
 std::string as_it_is(const std::string& path, void*) {
     return path;
 }
-bool read_whole(std::vector<unsigned char>* out, std::string* error, const std::string& path, void*) {
-    std::error_code unknown;
-    const std::uintmax_t size = fs::file_size(path, unknown);
-    if (unknown || size > max_gltf_bytes) {
-        if (error) *error += unknown ? "cannot be read" : "is larger than 1 GB";
-        return false;
-    }
-    out->resize(static_cast<std::size_t>(size));
-    std::ifstream file(path, std::ios::binary);
-    file.read(reinterpret_cast<char*>(out->data()), static_cast<std::streamsize>(size));
-    return static_cast<std::size_t>(file.gcount()) == out->size();
-}
-bool keep_bytes(tinygltf::Image* image, const int, std::string*, std::string*, int, int,
-                const unsigned char* bytes, int size, void*) {
-    if (size > 0) image->image.assign(bytes, bytes + size);
-    return true;
+bool read_nothing(std::vector<unsigned char>*, std::string*, const std::string&, void*) {
+    return false;
 }
 
 /// tinygltf's message without trailing line breaks.
@@ -99,20 +82,21 @@ std::string reason(std::string text) {
     return text.empty() ? "cannot be read" : message(text);
 }
 
-void check_images(const tinygltf::Model& model) {
-    for (std::size_t i = 0; i < model.images.size(); ++i) {
-        const tinygltf::Image& image = model.images[i];
-        if (image.bufferView < 0 && image.image.empty())
-            throw std::runtime_error("images[" + std::to_string(i) +
-                                     "]: " + (image.uri.empty() ? "it" : image.uri.substr(0, 200)) +
-                                     " is missing, or is empty");
-    }
+tinygltf::Model read_json(std::string_view text) {
+    tinygltf::TinyGLTF reader;
+    reader.SetFsCallbacks({no_file, as_it_is, read_nothing, nullptr, nullptr});
+    tinygltf::Model model;
+    std::string error, warning;
+    if (!reader.LoadASCIIFromString(&model, &error, &warning, text.data(), static_cast<unsigned>(text.size()),
+                                    ""))
+        throw std::runtime_error(reason(error));
+    return model;
 }
 
 }  // namespace
 
 std::string_view gltf_json(std::string_view bytes) {
-    return bytes.starts_with("glTF") ? json_of(bytes) : bytes;
+    return bytes.starts_with("glTF") ? chunks_of(bytes).json : bytes;
 }
 
 tinygltf::Model gltf_model(std::string_view bytes, const fs::path& folder) {
@@ -120,33 +104,15 @@ tinygltf::Model gltf_model(std::string_view bytes, const fs::path& folder) {
     if (bytes.size() > max_gltf_bytes) throw std::runtime_error("is larger than 1 GB");
     const bool is_binary = bytes.starts_with("glTF");
     if (!is_binary && bytes.find('{') == bytes.npos) throw std::runtime_error("is not a glTF file");
-    const std::string_view text = gltf_json(bytes);
-    check_depth(text);
-    check_gltf(text);
-
-    tinygltf::TinyGLTF reader;
-    reader.SetImageLoader(keep_bytes, nullptr);
-    std::error_code unknown;
-    Beside beside{fs::canonical(folder.empty() ? fs::path(".") : folder, unknown), {}};
-    reader.SetFsCallbacks({is_there, as_it_is, read_whole, nullptr, &beside});
-    tinygltf::Model model;
-    std::string error, warning;
-    const auto size = static_cast<unsigned>(bytes.size());
-    try {
-        const bool read =
-            is_binary
-                ? reader.LoadBinaryFromMemory(&model, &error, &warning,
-                                              reinterpret_cast<const unsigned char*>(bytes.data()), size,
-                                              folder.string())
-                : reader.LoadASCIIFromString(&model, &error, &warning, bytes.data(), size, folder.string());
-        if (!beside.refused.empty())
-            throw std::runtime_error(message(beside.refused) +
-                                     ": it is outside the file's folder, so it is not read");
-        if (!read) throw std::runtime_error(reason(error));
-    } catch (const std::out_of_range&) {
-        throw std::runtime_error("has a buffer of 0 bytes");
-    }
-    check_images(model);
+    const Chunks chunks = is_binary ? chunks_of(bytes) : Chunks{bytes, {}};
+    check_depth(chunks.json);
+    const json file = json::parse(chunks.json.begin(), chunks.json.end(), nullptr, false);
+    if (!file.is_object()) return read_json(chunks.json);  // tinygltf says where it is wrong
+    check_gltf(file);
+    json without = file;
+    take_out_bytes(without);
+    tinygltf::Model model = read_json(without.dump());
+    put_in_bytes(file, chunks.binary, folder, model);
     return model;
 }
 

@@ -1,5 +1,5 @@
 // Parses a glTF or GLB file with tinygltf, after checks that tinygltf omits: the JSON's nesting depth, since
-// it recurses, and which external files it may open.
+// it recurses, and what its numbers claim. Buffers and images are read by gltf_bytes.hpp.
 #pragma once
 
 #include <filesystem>
@@ -9,8 +9,9 @@
 
 namespace tendril::app {
 
-/// Reads external buffers and images from `folder`. Images hold the bytes of their files, not pixels. Throws
-/// std::runtime_error for files that tinygltf refuses and for missing external files, including images.
+/// Reads external buffers and images from `folder`. Images hold the bytes of their files, not pixels, and
+/// none if they are missing. Throws std::runtime_error for files that tinygltf refuses, for missing buffers,
+/// and for URIs outside `folder`.
 tinygltf::Model gltf_model(std::string_view bytes, const std::filesystem::path& folder);
 
 /// The JSON text of a file: the first chunk of a binary file, or all of a text file.

@@ -1,10 +1,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <stdexcept>
 
+#include "app/document/text.hpp"
 #include "app/io/character/gltf.hpp"
 #include "app/io/character/gltf_accessor.hpp"
+#include "app/io/character/gltf_keys.hpp"
 #include "app/io/character/gltf_parse.hpp"
 #include "app/io/character/gltf_skin.hpp"
 #include "app/io/character/gltf_vrm.hpp"
@@ -20,6 +23,18 @@ using humanoid::Node;
 
 /// Sum over all clips: clips can share keys, so even a small file can claim any number.
 constexpr std::size_t max_clip_keys = 20'000'000;
+
+/// Stands for a scale of 0, which has no inverse: 2 m below it are 2 µm.
+constexpr double tiny_scale = 1e-6;
+
+/// Nodes that were changed to be read.
+struct MendedNodes {
+    std::size_t count = 0;
+    std::string first{};
+    void add(const std::string& name) {
+        if (count++ == 0) first = name;
+    }
+};
 
 /// Translation, rotation and scale of a column-major matrix, as in glTF; shear is lost.
 rig::Transform decomposed(const std::vector<double>& m) {
@@ -77,6 +92,10 @@ class GltfReader {
         report(progress_, 0.8);
         Character character;
         character.skeleton = skeleton_of(std::move(nodes));
+        if (flat_.count > 0)
+            character.notes.push_back(
+                "A scale of 0 is taken as 0.000001: " + flat_.first +
+                (flat_.count > 1 ? " and " + std::to_string(flat_.count - 1) + " more" : "") + '.');
         for (const Clip& clip : clips)
             if (const Result bad = check(clip, character.skeleton); !bad)
                 throw std::runtime_error(bad.message());
@@ -91,7 +110,8 @@ class GltfReader {
         std::vector<humanoid::Placement> local;
         for (std::size_t i = 0; i < model_.nodes.size(); ++i)
             local.push_back(humanoid::placement(local_of(model_.nodes[i], i)));
-        character.skin = gltf_skin(model_, {parents_, place_}, local, character.notes);
+        character.skin = gltf_skin(model_, {parents_, place_}, local, dropped_, character.notes);
+        if (dropped_.any()) character.notes.push_back(dropped_.text());
         return character;
     }
 
@@ -139,7 +159,9 @@ class GltfReader {
             for (const int node : vrm_->nodes)
                 if (node >= 0) wanted[static_cast<std::size_t>(node)] = any = true;
         if (!any)
-            throw std::runtime_error("has no skeleton: no node is a joint of a skin, and none is animated");
+            throw std::runtime_error("has no skeleton: no node is a joint of a skin, and none is animated" +
+                                     compressed_text());
+        if (model_.skins.empty()) choose_whole_trees(wanted);
         place_.assign(model_.nodes.size(), -1);
         for (std::size_t i = 0; i < wanted.size(); ++i) {
             if (!wanted[i]) continue;
@@ -156,12 +178,38 @@ class GltfReader {
             throw std::runtime_error("its skeleton has " + std::to_string(chosen_.size()) +
                                      " nodes, more than " + std::to_string(humanoid::Skeleton::max_nodes));
     }
-    std::vector<Node> read_nodes() const {
+    /// Without a skin nothing says which nodes are joints: all of a tree are.
+    void choose_whole_trees(std::vector<bool>& wanted) const {
+        const auto root_of = [&](std::size_t node) {
+            for (std::size_t steps = 0; parents_[node] >= 0 && steps < wanted.size(); ++steps)
+                node = static_cast<std::size_t>(parents_[node]);
+            return node;
+        };
+        std::set<std::size_t> roots;
+        for (std::size_t i = 0; i < wanted.size(); ++i)
+            if (wanted[i]) roots.insert(root_of(i));
+        for (std::size_t i = 0; i < wanted.size(); ++i) wanted[i] = roots.contains(root_of(i));
+    }
+    std::string compressed_text() const {
+        for (const std::string& each : model_.extensionsRequired)
+            if (each == "KHR_draco_mesh_compression" || each.ends_with("_meshopt_compression"))
+                return "; its meshes are compressed with " + each + ", which cannot be read";
+        return {};
+    }
+    std::vector<Node> read_nodes() {
         std::vector<Node> nodes;
         UniqueNames names;
         for (const std::size_t i : chosen_) {
             const std::int32_t parent = parents_[i] < 0 ? -1 : place_[static_cast<std::size_t>(parents_[i])];
-            nodes.push_back({names.add(model_.nodes[i].name, i), parent, local_of(model_.nodes[i], i)});
+            Node node{names.add(model_.nodes[i].name, i), parent, local_of(model_.nodes[i], i)};
+            bool flat = false;
+            for (int k = 0; k < 3; ++k) {
+                if (node.rest.scale[k] != 0.0) continue;
+                node.rest.scale[k] = tiny_scale;
+                flat = true;
+            }
+            if (flat) flat_.add(node.name);
+            nodes.push_back(std::move(node));
         }
         return nodes;
     }
@@ -176,7 +224,8 @@ class GltfReader {
     static void put(glm::dquat& value, const double* row) { value = {row[3], row[0], row[1], row[2]}; }
 
     template <class T>
-    humanoid::Track<T> read_track(const tinygltf::AnimationSampler& sampler, const std::string& what) {
+    humanoid::Track<T> read_track(const tinygltf::AnimationSampler& sampler, const std::string& what,
+                                  const std::string& where) {
         humanoid::Track<T> track;
         keys_ += accessor_count(model_, sampler.input, what + ".input") +
                  accessor_count(model_, sampler.output, what + ".output");
@@ -192,11 +241,22 @@ class GltfReader {
             throw std::runtime_error(what + ": " + std::to_string(track.times.size()) + " times and " +
                                      std::to_string(rows.size() / width) + " values");
         track.values.resize(rows.size() / width);
-        for (std::size_t i = 0; i < track.values.size(); ++i) {
-            put(track.values[i], &rows[i * width]);
-            if constexpr (T::length() == 4)
-                if (!cubic || i % 3 == 1) track.values[i] = unit(track.values[i], what + ".output", i);
-        }
+        for (std::size_t i = 0; i < track.values.size(); ++i) put(track.values[i], &rows[i * width]);
+        const std::size_t middle = cubic ? 1 : 0;
+        const bool any = dropped_.any();
+        drop_bad_keys(
+            track.times, track.values, track.interpolation,
+            [&](std::size_t first) {
+                if constexpr (T::length() == 4)
+                    return glm::dot(track.values[first + middle], track.values[first + middle]) < 1e-12;
+                else
+                    return false;
+            },
+            dropped_);
+        if (!any) dropped_.first = where;
+        if constexpr (T::length() == 4)
+            for (std::size_t i = middle; i < track.values.size(); i += cubic ? 3 : 1)
+                track.values[i] = unit(track.values[i], what + ".output", i);
         return track;
     }
     /// Normalises: keys rounded to bytes are slightly off.
@@ -222,13 +282,16 @@ class GltfReader {
                 throw std::runtime_error(what + ": there is no sampler " + std::to_string(from.sampler));
             const auto& sampler = animation.samplers[static_cast<std::size_t>(from.sampler)];
             const std::size_t node = node_at(from.target_node, what + ".target");
+            const std::string where =
+                "clip " + printable(clip.name) + ", " +
+                printable(model_.nodes[node].name.empty() ? indexed("nodes", node) : model_.nodes[node].name);
             Channel& to = channels[static_cast<std::size_t>(place_[node])];
             if (from.target_path == "translation")
-                to.translation = read_track<glm::dvec3>(sampler, what);
+                to.translation = read_track<glm::dvec3>(sampler, what, where);
             else if (from.target_path == "rotation")
-                to.rotation = read_track<glm::dquat>(sampler, what);
+                to.rotation = read_track<glm::dquat>(sampler, what, where);
             else if (from.target_path == "scale")
-                to.scale = read_track<glm::dvec3>(sampler, what);
+                to.scale = read_track<glm::dvec3>(sampler, what, where);
             else
                 throw std::runtime_error(what + ": unknown path \"" + from.target_path + '"');
         }
@@ -253,6 +316,8 @@ class GltfReader {
     std::vector<std::size_t> chosen_{};  // the inverse
     std::optional<VrmBones> vrm_{};
     std::size_t keys_ = 0;
+    DroppedKeys dropped_{};
+    MendedNodes flat_{};
 };
 
 }  // namespace

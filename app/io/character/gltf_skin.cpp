@@ -2,10 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/vec2.hpp>
 #include <map>
+#include <set>
 #include <stdexcept>
+#include <string_view>
 
+#include "app/document/text.hpp"
 #include "app/io/character/gltf_accessor.hpp"
+#include "app/io/character/gltf_bytes.hpp"
 
 namespace tendril::app {
 namespace {
@@ -30,11 +35,45 @@ std::vector<glm::vec3> vectors(const Values& rows) {
     return result;
 }
 
+/// Surfaces whose picture cannot be read, as shown.
+constexpr float lost_gray = 0.55f;
+
+/// KHR_texture_transform (Khronos): which coordinates a texture takes, and where they go.
+struct TextureTransform {
+    int set = 0;  ///< TEXCOORD_0
+    glm::dvec2 offset{0.0}, scale{1.0};
+    double rotation = 0.0;  ///< radians
+
+    explicit TextureTransform(const tinygltf::TextureInfo& texture) : set(texture.texCoord) {
+        const auto found = texture.extensions.find("KHR_texture_transform");
+        if (found == texture.extensions.end() || !found->second.IsObject()) return;
+        const tinygltf::Value& given = found->second;
+        const auto number = [](const tinygltf::Value& value, double& to) {
+            if (value.IsNumber() && std::abs(value.GetNumberAsDouble()) <= 1e6)
+                to = value.GetNumberAsDouble();
+        };
+        for (int i = 0; i < 2; ++i) {
+            if (given.Has("offset") && given.Get("offset").IsArray())
+                number(given.Get("offset").Get(i), offset[i]);
+            if (given.Has("scale") && given.Get("scale").IsArray())
+                number(given.Get("scale").Get(i), scale[i]);
+        }
+        if (given.Has("rotation")) number(given.Get("rotation"), rotation);
+        if (given.Has("texCoord") && given.Get("texCoord").IsInt())
+            set = given.Get("texCoord").GetNumberAsInt();
+    }
+    /// Counterclockwise as seen in the picture, where v points down.
+    glm::dvec2 applied(double u, double v) const {
+        const double c = std::cos(rotation), s = std::sin(rotation), x = scale.x * u, y = scale.y * v;
+        return {offset.x + c * x + s * y, offset.y - s * x + c * y};
+    }
+};
+
 class GltfSkinReader {
   public:
     GltfSkinReader(const tinygltf::Model& model, const GltfNodes& nodes, const std::vector<Placement>& local,
-                   std::vector<std::string>& notes)
-        : model_(model), nodes_(nodes), local_(local), notes_(notes) {}
+                   DroppedKeys& dropped, std::vector<std::string>& notes)
+        : model_(model), nodes_(nodes), local_(local), dropped_(dropped), notes_(notes) {}
 
     Skin read() {
         for (std::size_t i = 0; i < model_.nodes.size(); ++i)
@@ -43,8 +82,9 @@ class GltfSkinReader {
         if (skin.mesh)
             for (std::size_t i = 0; i < model_.animations.size(); ++i)
                 skin.morph_clips.push_back(morph_clip(i));
-        if (packed_) notes_.push_back("Meshes compressed with Draco cannot be read and are not shown.");
-        if (picture_lost_) notes_.push_back("A texture cannot be read, so plain colours are drawn instead.");
+        for (const std::string& extension : packed_)
+            notes_.push_back("Meshes compressed with " + extension + " cannot be read and are left out.");
+        if (!lost_.empty()) notes_.push_back(lost_text());
         return skin;
     }
 
@@ -59,21 +99,41 @@ class GltfSkinReader {
         const std::string what = indexed("nodes", index);
         const tinygltf::Mesh* mesh = at(model_.meshes, node.mesh);
         if (!mesh) throw std::runtime_error(what + ": there is no mesh " + std::to_string(node.mesh));
+        std::vector<std::size_t> readable;
+        for (std::size_t i = 0; i < mesh->primitives.size(); ++i) {
+            if (const char* extension = compression_of(mesh->primitives[i]))
+                packed_.insert(extension);
+            else
+                readable.push_back(i);
+        }
+        if (readable.empty()) return;
         Binding binding;
         if (node.skin >= 0)
             binding = skin_binding(node.skin, what);
         else if (!rigid_binding(index, binding))
             return;
-        for (std::size_t i = 0; i < mesh->primitives.size(); ++i) {
-            if (mesh->primitives[i].extensions.count("KHR_draco_mesh_compression")) {
-                packed_ = true;  // its accessors hold no data
-                continue;
-            }
+        for (const std::size_t i : readable) {
             const std::string place =
                 indexed("meshes", static_cast<std::size_t>(node.mesh)) + '.' + indexed("primitives", i);
             const std::size_t morphs = add_primitive(mesh->primitives[i], binding, node.skin >= 0, place);
             add_morphs(*mesh, mesh->primitives[i], node, index, morphs, place);
         }
+    }
+    /// The extension that compresses the primitive, if it has no plain copy; else null.
+    const char* compression_of(const tinygltf::Primitive& primitive) const {
+        constexpr const char* draco = "KHR_draco_mesh_compression";
+        if (primitive.extensions.count(draco))
+            if (const int* position = attribute(primitive.attributes, "POSITION");
+                position && at(model_.accessors, *position) &&
+                at(model_.accessors, *position)->bufferView < 0)
+                return draco;
+        if (const char* name = compression(model_, primitive.indices)) return name;
+        for (const auto& [name, accessor] : primitive.attributes)
+            if (const char* extension = compression(model_, accessor)) return extension;
+        for (const auto& target : primitive.targets)
+            for (const auto& [name, accessor] : target)
+                if (const char* extension = compression(model_, accessor)) return extension;
+        return nullptr;
     }
     Binding skin_binding(int index, const std::string& what) {
         if (const auto known = skins_.find(index); known != skins_.end()) return known->second;
@@ -238,26 +298,57 @@ class GltfSkinReader {
         }
         if (material->alphaMode == "MASK") part.cutoff = static_cast<float>(material->alphaCutoff);
         if (material->alphaMode == "BLEND") part.cutoff = 0.3f;
+        if (!at(model_.textures, base.baseColorTexture.index)) return part;
         part.picture = picture(base.baseColorTexture.index);
-        if (part.picture < 0) return part;
-        const std::string name = "TEXCOORD_" + std::to_string(base.baseColorTexture.texCoord);
-        const Values values = rows(primitive.attributes, name, 2, count, what);
+        if (part.picture < 0) {
+            part.colour = glm::vec4(lost_gray, lost_gray, lost_gray, 1.0f);
+            return part;
+        }
+        const TextureTransform transform(base.baseColorTexture);
+        const Values values =
+            rows(primitive.attributes, "TEXCOORD_" + std::to_string(transform.set), 2, count, what);
         for (std::size_t i = 0; i + 1 < values.size(); i += 2)
-            corners.uvs.push_back(glm::vec2(values[i], values[i + 1]));
+            corners.uvs.push_back(glm::vec2(transform.applied(values[i], values[i + 1])));
         if (values.empty()) part.picture = -1;
         return part;
     }
     /// Index of a texture's picture; -1 if it cannot be read.
     std::int32_t picture(int index) {
-        const tinygltf::Texture* texture = at(model_.textures, index);
-        const tinygltf::Image* image = texture ? at(model_.images, texture->source) : nullptr;
-        if (!image) return -1;
-        const auto [known, is_new] = pictures_.emplace(texture->source, -1);
-        if (is_new) {
-            known->second = builder_.add_picture(image->image.data(), image->image.size());
-            picture_lost_ = picture_lost_ || known->second < 0;
-        }
+        const tinygltf::Texture& texture = model_.textures[static_cast<std::size_t>(index)];
+        const int source = source_of(texture);
+        const auto [known, is_new] = pictures_.emplace(source, -1);
+        if (!is_new) return known->second;
+        const tinygltf::Image* image = at(model_.images, source);
+        const std::string_view bytes = image ? picture_bytes(model_, *image) : std::string_view();
+        known->second =
+            builder_.add_picture(reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
+        if (known->second < 0) lost_.push_back(lost_picture(image, source, bytes));
         return known->second;
+    }
+    /// The texture's image: that of an extension if it has none of its own, as with KTX2 and WebP.
+    static int source_of(const tinygltf::Texture& texture) {
+        if (texture.source >= 0) return texture.source;
+        for (const auto& [name, value] : texture.extensions)
+            if (value.Has("source") && value.Get("source").IsInt())
+                return value.Get("source").GetNumberAsInt();
+        return -1;
+    }
+    /// "skin.ktx2 (KTX2)", "skin.png (missing)"
+    static std::string lost_picture(const tinygltf::Image* image, int index, std::string_view bytes) {
+        const std::string name = !image ? std::string() : !image->uri.empty() ? image->uri : image->name;
+        const std::string_view kind = picture_kind(bytes);
+        const std::string why = bytes.empty() ? "missing" : kind.empty() ? "unknown kind" : std::string(kind);
+        return printable(name.empty() ? indexed("images", static_cast<std::size_t>(std::max(index, 0)))
+                                      : name.substr(0, 60)) +
+               " (" + why + (kind == "PNG" || kind == "JPEG" ? ", broken" : "") + ')';
+    }
+    std::string lost_text() const {
+        std::string text = "Gray, because a picture cannot be read: ";
+        constexpr std::size_t named = 3;
+        for (std::size_t i = 0; i < std::min(lost_.size(), named); ++i)
+            text += (i > 0 ? ", " : "") + lost_[i];
+        if (lost_.size() > named) text += " and " + std::to_string(lost_.size() - named) + " more";
+        return text + '.';
     }
 
     void add_morphs(const tinygltf::Mesh& mesh, const tinygltf::Primitive& primitive,
@@ -315,6 +406,10 @@ class GltfSkinReader {
             throw std::runtime_error(what + ": " + std::to_string(track.times.size()) + " times and " +
                                      std::to_string(track.values.size()) + " weights of " +
                                      std::to_string(count) + " morphs");
+        const bool any = dropped_.any();
+        drop_bad_keys(
+            track.times, track.values, track.interpolation, [](std::size_t) { return false; }, dropped_);
+        if (!any) dropped_.first = "the weights of " + what;
         for (std::size_t i = 0; i < track.times.size(); ++i)
             if (!(track.times[i] >= 0.0 && track.times[i] <= 1e9) ||
                 (i > 0 && !(track.times[i] > track.times[i - 1])))
@@ -329,20 +424,22 @@ class GltfSkinReader {
     const tinygltf::Model& model_;
     const GltfNodes& nodes_;
     const std::vector<Placement>& local_;
+    DroppedKeys& dropped_;
     std::vector<std::string>& notes_;
     SkinBuilder builder_{};
     std::map<int, Binding> skins_{};
     std::map<int, std::int32_t> pictures_{};
     std::map<std::size_t, std::vector<std::pair<std::size_t, std::size_t>>> morphed_{};  // by node
     std::size_t morphs_ = 0, morph_corners_ = 0, keys_ = 0;
-    bool picture_lost_ = false, packed_ = false;
+    std::set<std::string> packed_{};   // extensions that compress meshes
+    std::vector<std::string> lost_{};  // pictures
 };
 
 }  // namespace
 
 Skin gltf_skin(const tinygltf::Model& model, const GltfNodes& nodes, const std::vector<Placement>& local,
-               std::vector<std::string>& notes) {
-    return GltfSkinReader(model, nodes, local, notes).read();
+               DroppedKeys& dropped, std::vector<std::string>& notes) {
+    return GltfSkinReader(model, nodes, local, dropped, notes).read();
 }
 
 }  // namespace tendril::app

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "app/io/character/gltf_keys.hpp"
 #include "app/io/character/skin.hpp"
 #include "app/io/character/tiny_gltf.hpp"
 
@@ -16,9 +17,11 @@ struct GltfNodes {
 };
 
 /// `local` has the local transform of each of the file's nodes. Omits meshes with no ancestor in the
-/// skeleton, and points and lines. Appends sentences about other omissions to `notes`. Throws
+/// skeleton, points and lines, and compressed meshes; a surface whose picture cannot be read is gray. Counts
+/// keys of morphs that were dropped. Appends sentences about other omissions to `notes`. Throws
 /// std::runtime_error.
 Skin gltf_skin(const tinygltf::Model& model, const GltfNodes& nodes,
-               const std::vector<humanoid::Placement>& local, std::vector<std::string>& notes);
+               const std::vector<humanoid::Placement>& local, DroppedKeys& dropped,
+               std::vector<std::string>& notes);
 
 }  // namespace tendril::app

@@ -64,6 +64,9 @@ class Collector {
     void take(const tinygltf::Primitive& primitive, const glm::dmat4& placed) {
         const auto position = primitive.attributes.find("POSITION");
         if (position == primitive.attributes.end()) return;
+        if (primitive.extensions.count("KHR_draco_mesh_compression") &&
+            model_.accessors.at(static_cast<std::size_t>(position->second)).bufferView < 0)
+            throw std::runtime_error("is compressed with KHR_draco_mesh_compression, which cannot be read");
         const std::size_t first = found_.vertices.size();
         const std::size_t count = accessor_count(model_, position->second, "POSITION");
         if (count > max_vertices - first)

@@ -1,4 +1,9 @@
 // `tendril lint` and `tendril bake`: the built program with valid and invalid files.
+#include <signal.h>
+
+#include <chrono>
+#include <thread>
+
 #include "app/document/json_complete.hpp"
 #include "app/io/character/export.hpp"
 #include "app/io/character/read.hpp"
@@ -87,7 +92,8 @@ TEST_F(MotionProgram, bake_writes_the_clip_and_says_how_near_it_came) {
         for (const char* name : {"out.glb", "out.gltf", "out.bvh"}) {
             const Outcome outcome = run({"bake", file, "--ground", ground, "--out", path(name)});
             EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-            EXPECT_NE(outcome.out.find("67 frames at 60 fps; worst joint "), std::string::npos) << outcome.out;
+            EXPECT_NE(outcome.out.find("67 frames at 60 fps; worst joint "), std::string::npos)
+                << outcome.out;
             EXPECT_NE(outcome.out.find("; skating "), std::string::npos) << outcome.out;
             const app::Character read = app::read_character(folder_ / name);
             EXPECT_NEAR(read.clips.at(0).duration, 1.1, 1e-6);
@@ -129,6 +135,31 @@ TEST_F(MotionProgram, what_cannot_be_read_or_written_ends_with_2) {
         EXPECT_EQ(outcome.err.find("tendril: "), 0u) << outcome.err;
     }
     EXPECT_EQ(folder_.names(), (Strings{"text.glb", "walk.glb"}));
+}
+
+TEST_F(MotionProgram, a_signal_ends_a_bake_at_once_and_leaves_nothing) {
+    const app::Character character = app::stick_figure();
+    humanoid::Clip clip = character.clips[0];
+    const double times = 900.0 / clip.duration;
+    clip.duration *= times;
+    for (humanoid::Channel& channel : clip.channels)
+        for (auto* list : {&channel.translation.times, &channel.rotation.times, &channel.scale.times})
+            for (double& time : *list) time *= times;
+    app::export_clip({character, {}, clip, clip, 1.0}, folder_ / "long.glb");
+    for (const int number : {SIGINT, SIGTERM}) {
+        for (const Strings& arguments :
+             {Strings{"bake", path("long.glb"), "--ground", "stairs", "--fps", "1000"},
+              Strings{"lint", path("long.glb")}}) {
+            Process process(program_command(arguments));
+            while (process.running() && process.cpu_seconds() < 0.1)
+                std::this_thread::sleep_for(std::chrono::milliseconds(5));
+            process.signal(number);
+            const Outcome outcome = process.wait(20.0);
+            EXPECT_TRUE(outcome.exit_code == 128 + number || arguments[0] == "lint")
+                << arguments[0] << ' ' << outcome.exit_code << outcome.err;
+        }
+    }
+    EXPECT_EQ(folder_.names(), Strings{"long.glb"});
 }
 
 TEST_F(MotionProgram, a_skeleton_without_legs_is_linted_but_gets_no_ground) {

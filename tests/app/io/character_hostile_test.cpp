@@ -115,8 +115,6 @@ TEST_F(HostileCharacter, a_gltf_that_is_well_is_read) {
 
 TEST_F(HostileCharacter, gltf_clips_with_wrong_numbers_are_refused) {
     refuses("back.gltf", two_joints("", "", clip_of({0.0f, 0.7f, 0.5f}, 2.0f)), "must be");
-    refuses("same.gltf", two_joints("", "", clip_of({0.0f, 0.5f, 0.5f}, 2.0f)),
-            "must be later than the time");
     refuses("nan_time.gltf", two_joints("", "", clip_of({0.0f, NAN, 1.0f}, 2.0f)), "times[1]");
     refuses("nan.gltf", two_joints("", "", clip_of({0.0f, 0.5f, 1.0f}, NAN)), "values[0]");
     refuses("endless.gltf", two_joints("", "", clip_of({0.0f, 0.5f, 1.0f}, INFINITY)), "values[0]");
@@ -165,14 +163,16 @@ TEST_F(HostileCharacter, gltf_buffers_that_are_not_there_are_refused) {
     refuses("none.gltf", buffer(R"({"byteLength":0,"uri":"data:application/octet-stream;base64,"})"),
             "buffers[0]");
     refuses("short.gltf", buffer(R"({"byteLength":64,"uri":"data:application/octet-stream;base64,AAAA"})"),
-            "decode");
+            "buffers[0].byteLength: claims 64 bytes, its data URI has 3");
     refuses("folder.gltf", buffer(R"({"byteLength":64,"uri":"."})"), "not found");
-    refuses("zero.gltf", buffer(R"({"byteLength":64,"uri":"/dev/zero"})"), "not found");
+    refuses("zero.gltf", buffer(R"({"byteLength":64,"uri":"/dev/zero"})"), "outside the file's folder");
     refuses("shell.gltf", buffer(R"text({"byteLength":64,"uri":"$(touch broken)"})text"), "not found");
+    refuses("second.gltf", buffer(R"({"byteLength":3,"uri":"data:;base64,AAAA"},{"byteLength":3})"),
+            "buffers[1].byteLength: claims 3 bytes, the BIN chunk has 0");
     EXPECT_FALSE(std::filesystem::exists("broken"));
 }
 
-TEST_F(HostileCharacter, gltf_images_that_are_not_there_are_refused) {
+TEST_F(HostileCharacter, gltf_images_that_claim_bytes_that_are_not_there_are_refused) {
     const auto image = [](const std::string& text) {
         return two_joints(
             "", "",
@@ -180,7 +180,7 @@ TEST_F(HostileCharacter, gltf_images_that_are_not_there_are_refused) {
             R"("bufferViews":[{"buffer":0,"byteLength":3}],"images":[)" +
                 text + "]");
     };
-    refuses("skin.gltf", image(R"({"uri":"skin.png"})"), "images[0]: skin.png is missing");
+    EXPECT_EQ(refusal("skin.gltf", image(R"({"uri":"skin.png"})")), "");
     for (const char* view : {"1", "4294967296", "-1", "0.5", "\"x\""})
         refuses("view.gltf", image(std::string(R"({"mimeType":"image/png","bufferView":)") + view + "}"),
                 "image");
@@ -258,9 +258,14 @@ TEST_F(HostileCharacter, nothing_outside_the_folder_of_a_gltf_is_read) {
     for (const std::string& uri :
          {std::string("../outside.bin"), std::string("%2e%2e/outside.bin"), std::string("..%2foutside.bin"),
           std::string("below/../../outside.bin"), std::string("link.bin"), std::string("up/outside.bin"),
-          (folder_ / "outside.bin").string()})
-        EXPECT_NE(read(uri), "") << uri;
-    EXPECT_NE(read("../outside.bin").find("outside the file's folder"), std::string::npos);
+          (folder_ / "outside.bin").string(), std::string("../no/such/file"), std::string("%2fetc/passwd"),
+          std::string("..%5coutside.bin"), std::string("below/%2e%2e/../outside.bin")}) {
+        const std::string words = read(uri);
+        EXPECT_NE(words.find("buffers[0].uri: \"" + uri.substr(0, 20)), words.npos) << uri << ": " << words;
+        EXPECT_NE(words.find("outside the file's folder"), words.npos) << uri << ": " << words;
+        const std::string images = R"(,"images":[{"uri":")" + uri + R"("}])";
+        EXPECT_NE(refusal("in/it.gltf", two_joints("", "", images)).find("images[0].uri"), words.npos) << uri;
+    }
 }
 
 TEST_F(HostileCharacter, gltf_nodes_that_make_no_tree_are_refused) {
@@ -272,10 +277,6 @@ TEST_F(HostileCharacter, gltf_nodes_that_make_no_tree_are_refused) {
     refuses("child.gltf", asset + R"("nodes":[{"children":[5]}],"skins":[{"joints":[0]}]})", "no node 5");
     refuses("joint.gltf", asset + R"("nodes":[{}],"skins":[{"joints":[0,7]}]})", "no node 7");
     refuses("none.gltf", asset + R"("nodes":[{}]})", "no skeleton");
-    refuses("flat.gltf", two_joints("", R"(,"scale":[1,0,1])"), "scale");
-    refuses("flat_matrix.gltf",
-            asset + R"("nodes":[{"matrix":[0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,1]}],"skins":[{"joints":[0]}]})",
-            "scale");
     refuses("far.gltf", two_joints("", R"(,"scale":[1,1e300,1])"), "node_1");
     refuses("number.gltf", two_joints("", R"(,"rotation":[0,0,1e999,1])"), "");
 }

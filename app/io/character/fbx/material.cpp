@@ -3,32 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/io/character/base64.hpp"
+
 namespace tendril::app::fbx {
 namespace {
-
-/// The bytes of base64 text; others than its characters are skipped.
-std::string from_base64(std::string_view text) {
-    std::string bytes;
-    std::uint32_t bits = 0;
-    int count = 0;
-    for (const char c : text) {
-        std::uint32_t value = 0;
-        if (c >= 'A' && c <= 'Z')
-            value = static_cast<std::uint32_t>(c - 'A');
-        else if (c >= 'a' && c <= 'z')
-            value = static_cast<std::uint32_t>(c - 'a') + 26;
-        else if (c >= '0' && c <= '9')
-            value = static_cast<std::uint32_t>(c - '0') + 52;
-        else if (c == '+' || c == '/')
-            value = c == '+' ? 62 : 63;
-        else
-            continue;
-        bits = (bits << 6 | value) & 0xffffff;
-        if (++count % 4 == 1) continue;
-        bytes += static_cast<char>(bits >> (2 * (3 - (count - 1) % 4)) & 0xff);
-    }
-    return bytes;
-}
 
 /// The file in a Video: bytes in binary files, base64 in text files.
 std::string content_of(const Record& video) {

@@ -1,0 +1,347 @@
+// glTF files as people have them: not all that the format forbids is a reason to refuse a character. What was
+// mended or left out is said.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "app/io/character/export.hpp"
+#include "app/io/character/gltf.hpp"
+#include "app/io/character/read.hpp"
+#include "tests/app/io/gltf_text.hpp"
+#include "tests/app/support/temp_folder.hpp"
+#include "tests/places.hpp"
+#include "tests/says.hpp"
+
+namespace tendril::app {
+namespace {
+
+using humanoid::Clip;
+using test_gltf::GltfText;
+
+std::string mend_notes(const Character& character) {
+    std::string all;
+    for (const std::string& each : character.notes) all += each + '\n';
+    return all;
+}
+
+std::string mend_refusal(const std::string& bytes) {
+    return test::message_of([&] { parse_gltf(bytes, "own.gltf", {}); });
+}
+
+std::vector<rig::Transform> mended_pose(const Character& character, double time) {
+    std::vector<rig::Transform> pose(character.skeleton.size());
+    humanoid::sample(character.clips.at(0), character.skeleton, time, pose);
+    return pose;
+}
+
+/// A node that a clip moves; `path` is what its values are.
+Character one_track(const std::vector<float>& times, const std::vector<float>& values, const char* path,
+                    const char* interpolation = "LINEAR") {
+    GltfText file;
+    const std::string input = file.scalars(times), output = std::string(path) == "rotation"
+                                                                ? file.quaternions(values)
+                                                                : file.vectors(values);
+    file.members = R"("nodes":[{"name":"bone"}],"animations":[{"name":"bend","samplers":[{"input":)" + input +
+                   R"(,"output":)" + output + R"(,"interpolation":")" + interpolation +
+                   R"("}],"channels":[{"sampler":0,"target":{"node":0,"path":")" + path + R"("}}]}])";
+    return parse_gltf(file.gltf(), "own.gltf", {});
+}
+
+/// From the shared files of other people, where they are.
+std::string people_file(const std::string& name) {
+    return (tendril::test::characters_folder().parent_path() / "found" / name).string();
+}
+
+// ------------------------------------------------------------------------------------------------- chunks
+
+TEST(MendedCharacter, an_empty_or_unknown_chunk_at_the_end_of_a_glb_is_valid) {
+    const std::string json =
+        R"({"asset":{"version":"2.0"},"nodes":[{"children":[1]},{}],"skins":[{"joints":[0,1]}]})";
+    EXPECT_EQ(parse_gltf(GltfText::glb_of(json, ""), "own.glb", {}).skeleton.size(), 2u);
+    const std::string unknown = GltfText::number(4) + "MINE1234";
+    EXPECT_EQ(parse_gltf(GltfText::glb_of(json, "", unknown), "own.glb", {}).skeleton.size(), 2u);
+    EXPECT_EQ(parse_gltf(GltfText::glb_of(json, "123", unknown), "own.glb", {}).skeleton.size(), 2u);
+}
+
+TEST(MendedCharacter, without_a_skin_the_whole_tree_of_what_moves_is_the_skeleton) {
+    GltfText file;
+    const std::string input = file.scalars({0, 1}), output = file.vectors({0, 0, 0, 0, 1, 0});
+    const std::string nodes =
+        R"("nodes":[{"name":"root","children":[1,3]},{"name":"arm","children":[2]},{"name":"tip"},{"name":"tail"},)"
+        R"({"name":"lamp"}],"animations":[{"samplers":[{"input":)" +
+        input + R"(,"output":)" + output +
+        R"(}],"channels":[{"sampler":0,"target":{"node":1,"path":"translation"}}]}])";
+    file.members = nodes;
+    const Character character = parse_gltf(file.gltf(), "own.gltf", {});
+    ASSERT_EQ(character.skeleton.size(), 4u) << "all but the lamp";
+    EXPECT_TRUE(character.skeleton.find("tip") && character.skeleton.find("tail"));
+    file.members = nodes + R"(,"skins":[{"joints":[1]}])";
+    EXPECT_EQ(parse_gltf(file.gltf(), "own.gltf", {}).skeleton.size(), 2u) << "a skin says which";
+}
+
+// --------------------------------------------------------------------------------------------------- keys
+
+TEST(MendedCharacter, keys_before_0_become_one_at_0_where_the_curve_is) {
+    const Character line =
+        one_track({-1, -0.5f, 0.5f, 1}, {9, 0, 0, 0, 0, 0, 4, 0, 0, 5, 0, 0}, "translation");
+    EXPECT_TRUE(test::says(mend_notes(line), "dropped 2 before 0 s bend, bone"));
+    EXPECT_EQ(line.clips[0].channels[0].translation.times, (std::vector<double>{0.0, 0.5, 1.0}));
+    EXPECT_NEAR(mended_pose(line, 0.0)[0].translation.x, 2.0, 1e-6);
+    EXPECT_NEAR(mended_pose(line, 0.25)[0].translation.x, 3.0, 1e-6);
+
+    const Character step = one_track({-1, 1}, {7, 0, 0, 8, 0, 0}, "translation", "STEP");
+    EXPECT_EQ(mended_pose(step, 0.5)[0].translation.x, 7.0);
+    const Character all = one_track({-2, -1}, {7, 0, 0, 8, 0, 0}, "translation");
+    EXPECT_EQ(mended_pose(all, 0.0)[0].translation.x, 8.0);
+    EXPECT_EQ(all.clips[0].duration, 0.0);
+    const Character at = one_track({-1, 0, 1}, {7, 0, 0, 8, 0, 0, 9, 0, 0}, "translation");
+    EXPECT_EQ(mended_pose(at, 0.0)[0].translation.x, 8.0);
+
+    const float half = std::sqrt(0.5f);
+    const Character turn = one_track({-1, 1}, {0, 0, 0, 1, 0, 0, half, half}, "rotation");
+    EXPECT_NEAR(2.0 * std::acos(mended_pose(turn, 0.0)[0].rotation.w), 0.7853981633974483, 1e-6);
+}
+
+TEST(MendedCharacter, a_cubic_that_begins_before_0_is_the_same_after_it) {
+    // In-tangent, value, out-tangent.
+    const std::vector<float> values{0, 0, 0, 1, 2, 3, 4, -2, 1, 3, 1, -5, 2, 0, 1, 0, 0, 0};
+    const Character cut = one_track({-0.5f, 1.5f}, values, "translation", "CUBICSPLINE");
+    const Character whole = one_track({0, 2}, values, "translation", "CUBICSPLINE");
+    for (const double time : {0.0, 0.3, 0.9, 1.5})
+        EXPECT_LT(glm::distance(mended_pose(cut, time)[0].translation,
+                                mended_pose(whole, time + 0.5)[0].translation),
+                  1e-6)
+            << time;
+}
+
+TEST(MendedCharacter, the_last_of_two_keys_at_one_time_stays) {
+    const Character twice = one_track({0, 1, 1, 2}, {0, 0, 0, 1, 0, 0, 5, 0, 0, 6, 0, 0}, "translation");
+    EXPECT_TRUE(test::says(mend_notes(twice), "dropped 1 same time"));
+    EXPECT_EQ(mended_pose(twice, 1.0)[0].translation.x, 5.0);
+    EXPECT_EQ(twice.clips[0].channels[0].translation.times.size(), 3u);
+    EXPECT_NE(test::message_of([] {
+                  one_track({0, 2, 1}, {0, 0, 0, 1, 0, 0, 2, 0, 0}, "translation");
+              }),
+              "")
+        << "no order can be guessed";
+}
+
+TEST(MendedCharacter, rotations_of_length_0_are_dropped) {
+    const Character some = one_track({0, 1, 2}, {0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0}, "rotation");
+    EXPECT_TRUE(test::says(mend_notes(some), "dropped 1 rotation length 0"));
+    EXPECT_NEAR(mended_pose(some, 1.0)[0].rotation.x, std::sqrt(0.5), 1e-6);
+    const Character none = one_track({0, 1}, {0, 0, 0, 0, 0, 0, 0, 0}, "rotation");
+    EXPECT_TRUE(none.clips[0].channels.empty());
+    // Of two at one time the one that is a rotation stays.
+    const Character first = one_track({0, 1, 1}, {0, 0, 0, 1, 1, 0, 0, 0, 0, 0, 0, 0}, "rotation");
+    EXPECT_EQ(mended_pose(first, 1.0)[0].rotation.x, 1.0);
+    EXPECT_NE(test::message_of([] { one_track({0}, {0, 0, 0, 9}, "rotation"); }), "") << "no rotation at all";
+}
+
+TEST(MendedCharacter, a_scale_of_0_is_taken_and_said) {
+    const auto read = [](const std::string& node) {
+        return parse_gltf(R"({"asset":{"version":"2.0"},"nodes":[{"name":"up","children":[1],)" + node +
+                              R"(},{"name":"tip","translation":[1,2,3]}],"skins":[{"joints":[0,1]}]})",
+                          "own.gltf", {});
+    };
+    for (const char* node :
+         {R"("translation":[0,5,0],"scale":[1,0,1])", R"("matrix":[1,0,0,0, 0,0,0,0, 0,0,1,0, 0,5,0,1])"}) {
+        const Character character = read(node);
+        EXPECT_TRUE(test::says(mend_notes(character), "scale of 0 up"));
+        std::vector<humanoid::Placement> placed(2);
+        humanoid::place(character.skeleton, humanoid::rest_pose(character.skeleton), placed);
+        EXPECT_LT(glm::distance(placed[1].position, glm::dvec3(1.0, 5.0, 3.0)), 1e-5);
+    }
+    EXPECT_NE(test::message_of([&] { read(R"("scale":[1,1e300,1])"); }), "");
+}
+
+// ----------------------------------------------------------------------------------------------- pictures
+
+/// A triangle on one bone, with a base colour texture; `texture` and `info` add members to it.
+GltfText textured(const std::string& image, const std::string& texture = R"("source":0)",
+                  const std::string& info = "") {
+    GltfText file;
+    const std::string positions = file.vectors({0, 0, 0, 1, 0, 0, 0, 1, 0}),
+                      joints = file.add<unsigned char>("VEC4", 4, std::vector<unsigned char>(12, 0)),
+                      weights = file.quaternions({1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}),
+                      uvs = file.add<float>("VEC2", 2, {0, 0, 1, 0, 0, 0.5f});
+    file.members =
+        R"("nodes":[{"name":"bone"},{"mesh":0,"skin":0}],"skins":[{"joints":[0]}],"meshes":[{"primitives":[{)"
+        R"("material":0,"attributes":{"POSITION":)" +
+        positions + R"(,"JOINTS_0":)" + joints + R"(,"WEIGHTS_0":)" + weights + R"(,"TEXCOORD_0":)" + uvs +
+        R"(}}]}],"materials":[{"pbrMetallicRoughness":{"baseColorFactor":[1,0,0,1],"baseColorTexture":{"index":0)" +
+        info + R"(}}}],"textures":[{)" + texture + R"(}],"images":[{)" + image + "}]";
+    return file;
+}
+
+/// One white pixel.
+const std::string white_png = from_base64(
+    "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAQAAAC1HAwCAAAAC0lEQVR42mP8/x8AAwMCAO+ip1sAAAAASUVORK5CYII=");
+
+TEST(MendedCharacter, a_picture_beside_the_file_is_read) {
+    const test::TempFolder folder;
+    test::write(folder / "a b+c.png", white_png);
+    std::filesystem::create_directory(folder / "below");
+    test::write(folder / "below/skin.png", white_png);
+    for (const char* uri : {"a%20b+c.png", "a b+c.png", "below/skin.png", "below\\\\skin.png"}) {
+        const Character character =
+            parse_gltf(textured(R"("uri":")" + std::string(uri) + '"').gltf(), "own.gltf", folder.path());
+        ASSERT_TRUE(character.skin.mesh);
+        EXPECT_EQ(character.skin.mesh->pictures.size(), 1u) << uri;
+        EXPECT_EQ(mend_notes(character), "") << uri;
+    }
+}
+
+TEST(MendedCharacter, a_picture_that_cannot_be_read_is_gray_and_named) {
+    const test::TempFolder folder;
+    test::write(folder / "skin.ktx2", "\xabKTX 20\xbb\r\n\x1a\n and so on");
+    test::write(folder / "skin.webp", "RIFF1234WEBPVP8 ");
+    test::write(folder / "cut.png", white_png.substr(0, 40));
+    const auto says = [&](const std::string& image, const std::string& texture, const std::string& words) {
+        const Character character = parse_gltf(textured(image, texture).gltf(), "own.gltf", folder.path());
+        EXPECT_TRUE(test::says(mend_notes(character), "Gray " + words));
+        ASSERT_EQ(character.skin.mesh->parts.size(), 1u);
+        const glm::vec4 colour = character.skin.mesh->parts[0].colour;
+        EXPECT_EQ(character.skin.mesh->parts[0].picture, -1);
+        EXPECT_TRUE(colour.r == colour.g && colour.g == colour.b) << "gray, not the factor's red";
+    };
+    says(R"("uri":"gone.png")", R"("source":0)", "gone.png missing");
+    says(R"("uri":"cut.png")", R"("source":0)", "cut.png PNG broken");
+    says(R"("uri":"skin.ktx2")", R"("extensions":{"KHR_texture_basisu":{"source":0}})", "skin.ktx2 KTX2");
+    says(R"("uri":"skin.webp")", R"("extensions":{"EXT_texture_webp":{"source":0}})", "skin.webp WebP");
+    says(R"("name":"hair","uri":"data:image/webp;base64,UklGRjEyMzRXRUJQVlA4IA==")", R"("source":0)",
+         "hair WebP");
+    says(R"("mimeType":"image/png","bufferView":0)", R"("source":0)", "images[0] unknown kind");
+}
+
+TEST(MendedCharacter, texture_transforms_are_applied) {
+    const auto uvs = [](const std::string& transform) {
+        const std::string info = R"(,"extensions":{"KHR_texture_transform":{)" + transform + "}}";
+        const std::string image = R"("uri":"data:image/png;base64,)" + to_base64(white_png) + '"';
+        return parse_gltf(textured(image, R"("source":0)", info).gltf(), "own.gltf", {}).skin.mesh->uvs;
+    };
+    const auto expect = [&](const std::string& transform, std::vector<glm::vec2> wanted) {
+        const std::vector<glm::vec2> found_uvs = uvs(transform);
+        ASSERT_EQ(found_uvs.size(), 3u);
+        for (std::size_t i = 0; i < 3; ++i) {
+            EXPECT_NEAR(found_uvs[i].x, wanted[i].x, 1e-6) << transform << i;
+            EXPECT_NEAR(found_uvs[i].y, wanted[i].y, 1e-6) << transform << i;
+        }
+    };
+    expect("", {{0, 0}, {1, 0}, {0, 0.5f}});
+    expect(R"("offset":[0.25,0.5],"scale":[2,4])", {{0.25f, 0.5f}, {2.25f, 0.5f}, {0.25f, 2.5f}});
+    // The extension's own example: the lower left quadrant of the picture, turned by 90 degrees.
+    expect(R"("offset":[0,1],"rotation":1.57079632679,"scale":[0.5,0.5])", {{0, 1}, {0, 0.5f}, {0.25f, 1}});
+    expect(R"("offset":"x","scale":["x",3],"rotation":[])", {{0, 0}, {1, 0}, {0, 1.5f}});
+}
+
+// -------------------------------------------------------------------------------------------- compression
+
+TEST(MendedCharacter, a_mesh_that_is_compressed_is_left_out_and_the_skeleton_plays) {
+    for (const bool draco : {true, false}) {
+        GltfText file;
+        const std::string times = file.scalars({0, 1}), values = file.vectors({0, 0, 0, 0, 1, 0}),
+                          positions = file.vectors({0, 0, 0, 1, 0, 0, 0, 1, 0}),
+                          indices = file.add<unsigned short>("SCALAR", 1, {0, 1, 2});
+        const std::string extension = draco ? "KHR_draco_mesh_compression" : "EXT_meshopt_compression";
+        std::string primitive = R"("indices":)" + indices + R"(,"attributes":{"POSITION":)" + positions + "}";
+        if (draco)
+            primitive +=
+                R"(,"extensions":{"KHR_draco_mesh_compression":{"bufferView":2,"attributes":{"POSITION":0}}})";
+        file.members = R"("extensionsUsed":[")" + extension + R"("],"extensionsRequired":[")" + extension +
+                       R"("],"nodes":[{"name":"bone","children":[1]},{"mesh":0}],"skins":[{"joints":[0]}],)"
+                       R"("animations":[{"samplers":[{"input":)" +
+                       times + R"(,"output":)" + values +
+                       R"(}],"channels":[{"sampler":0,"target":{"node":0,"path":"translation"}}]}],)"
+                       R"("meshes":[{"primitives":[{)" +
+                       primitive + "}]}]";
+        std::string text = file.gltf();
+        const auto replace = [&](const std::string& from, const std::string& to) {
+            const std::size_t at = text.find(from);
+            ASSERT_NE(at, text.npos) << from;
+            text.replace(at, from.size(), to);
+        };
+        if (draco) {
+            replace(R"({"bufferView":2,"componentType":5126)", R"({"componentType":5126)");
+            replace(R"({"bufferView":3,"componentType":5123)", R"({"componentType":5123)");
+        } else {
+            replace(
+                R"(}],"bufferViews")",
+                R"(},{"byteLength":44,"extensions":{"EXT_meshopt_compression":{"fallback":true}}}],"bufferViews")");
+            replace(
+                R"("buffer":0,"byteOffset":32,"byteLength":36)",
+                R"("buffer":1,"byteOffset":0,"byteLength":36,"extensions":{"EXT_meshopt_compression":)"
+                R"({"buffer":0,"byteOffset":32,"byteLength":20,"byteStride":12,"count":3,"mode":"ATTRIBUTES"}})");
+        }
+        const Character character = parse_gltf(text, "own.gltf", {});
+        EXPECT_TRUE(test::says(mend_notes(character), extension + " left out"));
+        EXPECT_FALSE(character.skin.mesh);
+        EXPECT_EQ(mended_pose(character, 1.0)[0].translation.y, 1.0);
+
+        // An exported file still has the mesh, compressed.
+        const test::TempFolder folder;
+        test::write(folder / "own.gltf", text);
+        const Character loaded = read_character(folder / "own.gltf");
+        export_clip({loaded, (folder / "own.gltf").string(), loaded.clips[0], loaded.clips[0], 30.0},
+                    folder / "out.glb");
+        const Character back = read_character(folder / "out.glb");
+        EXPECT_EQ(back.notes, loaded.notes);
+        EXPECT_EQ(mended_pose(back, 1.0)[0].translation.y, 1.0);
+    }
+}
+
+TEST(MendedCharacter, clips_that_are_compressed_are_refused_by_the_extensions_name) {
+    GltfText file;
+    const std::string times = file.scalars({0, 1}), values = file.vectors({0, 0, 0, 0, 1, 0});
+    file.members = R"("nodes":[{"name":"bone"}],"animations":[{"samplers":[{"input":)" + times +
+                   R"(,"output":)" + values +
+                   R"(}],"channels":[{"sampler":0,"target":{"node":0,"path":"translation"}}]}])";
+    std::string text = file.gltf();
+    const std::string view = R"("buffer":0,"byteOffset":8,"byteLength":24)", list = R"(}],"bufferViews")";
+    text.replace(
+        text.find(view), view.size(),
+        R"("buffer":1,"byteLength":24,"extensions":{"EXT_meshopt_compression":{"buffer":0,"byteLength":8}})");
+    text.replace(
+        text.find(list), list.size(),
+        R"(},{"byteLength":24,"extensions":{"EXT_meshopt_compression":{"fallback":true}}}],"bufferViews")");
+    EXPECT_TRUE(test::says(mend_refusal(text), "animations[0].channels[0].output EXT_meshopt_compression"));
+    EXPECT_TRUE(test::says(mend_refusal(R"({"asset":{"version":"2.0"},"nodes":[{}],)"
+                                        R"("extensionsRequired":["KHR_draco_mesh_compression"]})"),
+                           "no skeleton KHR_draco_mesh_compression"));
+}
+
+// -------------------------------------------------------------------------------------- other people's files
+
+TEST(MendedCharacter, files_of_other_people_are_read_or_refused_in_words_that_help) {
+    if (!std::filesystem::exists(people_file("README.md")))
+        GTEST_SKIP() << people_file("") << " is not there";
+    const auto reads = [](const char* name, std::size_t nodes, const std::string& says) {
+        const Character character = read_character(people_file(name));
+        EXPECT_EQ(character.skeleton.size(), nodes) << name;
+        EXPECT_EQ(character.notes.empty(), says.empty()) << name;
+        EXPECT_TRUE(says.empty() || test::says(mend_notes(character), says)) << name;
+        return character;
+    };
+    const auto refuses = [](const char* name, const std::string& says) {
+        EXPECT_TRUE(test::says(test::message_of([&] { read_character(people_file(name)); }), says)) << name;
+    };
+    reads("glb_empty_bin.vrm", 54, "");
+    reads("glb_no_skin.glb", 54, "");
+    reads("glb_draco.vrm", 19, "KHR_draco_mesh_compression left out");
+    refuses("glb_meshopt.glb", "EXT_meshopt_compression");
+    reads("gltf_neg_times.gltf", 4, "1 before 0 s");
+    reads("gltf_dup_times.gltf", 4, "1 same time");
+    reads("gltf_zero_quat.gltf", 4, "1 rotation length 0");
+    reads("gltf_zero_rest.gltf", 4, "scale of 0 j2");
+    reads("gltf_singular_matrix.gltf", 5, "scale of 0 flat");
+    reads("gltf_missing_picture.gltf", 6, "Gray skin.png missing");
+    reads("gltf_ktx.gltf", 6, "Gray skin.ktx2 KTX2");
+    const Character barbarian = reads("glb_texture_transform.glb", 42, "");
+    for (const glm::vec2& uv : barbarian.skin.mesh->uvs) EXPECT_LT(std::max(uv.x, uv.y), 2.0f);
+    refuses("hostile/oob8.gltf", "accessors[20].byteOffset");
+    refuses("hostile/x1.gltf", "accessors[20].count");
+    refuses("hostile/leak.gltf", "buffers[1].uri no/such/file outside");
+}
+
+}  // namespace
+}  // namespace tendril::app
