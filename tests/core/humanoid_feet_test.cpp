@@ -286,11 +286,19 @@ class FeetSlide : public ::testing::Test {
 
     const Skeleton skeleton = make_figure({});
     const Feet feet = *Feet::make(skeleton, match_bones(skeleton));
-    const Ground ground = *Ground::flat();
+    Ground ground = *Ground::flat();
     FeetState state;
     FeetReport report;
     double x = 0.0, lift = 0.0;
 };
+
+/// It looks ahead by its speed and by how it brakes, so the speed must not be that before the gap.
+TEST_F(FeetSlide, KnowsItsSpeedOverAGapInTheGround) {
+    slide(2.0, 0.2);
+    ground = Ground();
+    slide(0.5, 0.2);
+    EXPECT_NEAR(state.feet[0].velocity.x, 0.5, 1e-9);
+}
 
 TEST_F(FeetSlide, IsLockedWhenSlowAndLetGoWhenFast) {
     slide(2.0, 0.2);

@@ -7,6 +7,7 @@
 #include <tendril/humanoid/lint.hpp>
 #include <utility>
 
+#include "humanoid_figure.hpp"
 #include "random.hpp"
 
 namespace tendril::test {
@@ -358,6 +359,72 @@ TEST(Lint, an_attached_node_keeps_its_position_below_an_uneven_scale) {
         }
         EXPECT_EQ(same, even);
     }
+}
+
+/// Feet that stand still while the hips rise until the legs are straight, and stop there at once.
+Clip snapping_legs(const Skeleton& skeleton) {
+    Clip clip{.name = "rise", .duration = 1.5, .channels = {}};
+    for (const char* name :
+         {"Hips", "LeftUpperLeg", "LeftLowerLeg", "LeftFoot", "RightUpperLeg", "RightLowerLeg", "RightFoot"})
+        clip.channels.push_back({.node = *skeleton.find(name)});
+    const glm::dvec3 thigh(0, -0.42, 0.01), shin(0, -0.43, -0.01);
+    const double a = glm::length(thigh), b = glm::length(shin);
+    for (int i = 0; i <= 90; ++i) {
+        const double degrees = i < 44 ? 12.0 : i == 44 ? 11.0 : i == 45 ? 8.0 : 1.0, time = i / 60.0;
+        const double d = std::sqrt(a * a + b * b + 2.0 * a * b * std::cos(degrees * std::acos(-1.0) / 180.0));
+        const double far = (d * d + a * a - b * b) / (2.0 * d);
+        const glm::dvec3 knee(0, -far, std::sqrt(a * a - far * far)), ankle(0, -d, 0);
+        const glm::dquat upper(glm::normalize(thigh), glm::normalize(knee)),
+            lower(glm::normalize(shin), glm::normalize(ankle - knee));
+        clip.channels[0].translation.times.push_back(time);
+        clip.channels[0].translation.values.push_back({0, 0.09 + d + 0.06, 0});
+        for (const std::size_t leg : {1u, 4u}) {
+            const glm::dquat turns[]{upper, glm::inverse(upper) * lower, glm::inverse(lower)};
+            for (std::size_t k = 0; k < 3; ++k) {
+                clip.channels[leg + k].rotation.times.push_back(time);
+                clip.channels[leg + k].rotation.values.push_back(turns[k]);
+            }
+        }
+    }
+    return clip;
+}
+
+TEST(Lint, softens_a_leg_that_snaps_straight_and_leaves_its_foot_within_5_mm) {
+    const Skeleton skeleton = make_figure({});
+    const BoneMap map = match_bones(skeleton);
+    const Clip clip = snapping_legs(skeleton);
+    const auto knees = [&](const Clip& judged) {
+        std::vector<Finding> found = lint(skeleton, map, judged).findings;
+        std::erase_if(found, [](const Finding& each) { return each.fault != Fault::KneePop; });
+        return found;
+    };
+    const std::vector<Finding> found = knees(clip);
+    ASSERT_EQ(found.size(), 2u);
+    EXPECT_TRUE(found[0].snaps && found[0].has_cure) << found[0].text;
+    const Clip once = *cure(skeleton, map, clip, found[0]);
+    ASSERT_EQ(knees(once).size(), 1u);
+    const Clip both = *cure(skeleton, map, once, knees(once)[0]);
+    EXPECT_TRUE(knees(both).empty());
+    std::vector<rig::Transform> was(skeleton.size()), is(skeleton.size());
+    double most = 0.0, straightest = 1e9;
+    for (double time = 0.0; time < clip.duration; time += 1.0 / 240.0) {
+        sample(clip, skeleton, time, was);
+        sample(both, skeleton, time, is);
+        const auto before = positions_of(skeleton, was), after = positions_of(skeleton, is);
+        for (const char* foot : {"LeftFoot", "RightFoot"})
+            most = std::max(most, glm::distance(before[*skeleton.find(foot)], after[*skeleton.find(foot)]));
+        const glm::dvec3 hip = after[*skeleton.find("LeftUpperLeg")],
+                         knee = after[*skeleton.find("LeftLowerLeg")],
+                         ankle = after[*skeleton.find("LeftFoot")];
+        if (time > 0.75 && time < 0.85)
+            straightest = std::min(straightest, glm::distance(hip, knee) + glm::distance(knee, ankle) -
+                                                    glm::distance(hip, ankle));
+    }
+    EXPECT_LT(most, 0.005 + 1e-4);
+    EXPECT_GT(straightest, 0.003) << "no longer straight where it snapped";
+    Finding other = found[0];
+    other.node = map[Bone::Head].node;
+    EXPECT_FALSE(cure(skeleton, map, clip, other));
 }
 
 TEST(Lint, takes_clips_of_one_frame_and_of_none_and_very_long_ones) {

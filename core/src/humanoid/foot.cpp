@@ -145,16 +145,16 @@ glm::dvec3 velocity_of(const FootState& foot, const FootClip& clip, const FootCo
 }
 
 /// The height of the step that heel or toe of a foot in the air is approaching; -1e300 if there is none.
-/// `hit_now`: the ground below it now.
-double look_ahead(const FootState& foot, const FootClip& clip, const glm::dvec3& at,
+/// `hit_now`: the ground below it now. `before`: the toe's velocity in the last step.
+double look_ahead(const FootState& foot, const glm::dvec3& before, const glm::dvec3& at,
                   const std::optional<GroundHit>& hit_now, double from, const FootContext& context) noexcept {
     double highest = -1e300;
     if (foot.locked || !(context.dt > 0.0) || context.fresh || !hit_now) return highest;
-    const glm::dvec3 velocity = velocity_of(foot, clip, context);
+    const glm::dvec3& velocity = foot.velocity;
     const double speed = length(velocity);
     // A foot that brakes may stop before the edge.
     const double braking =
-        speed > 1e-9 ? std::max(0.0, (dot(foot.velocity, velocity) / speed - speed) / context.dt) : 0.0;
+        speed > 1e-9 ? std::max(0.0, (dot(before, velocity) / speed - speed) / context.dt) : 0.0;
     for (const double seconds : ahead) {
         const double t = braking * seconds > speed ? speed / braking : seconds;
         const double part = t - (speed > 1e-9 ? 0.5 * braking * t * t / speed : 0.0);
@@ -210,6 +210,8 @@ void update_lock(FootState& foot, const FootClip& clip, const FootContext& conte
 
 FootGoal find_goal(FootState& foot, const FootClip& clip, const FootContext& context) noexcept {
     const double from = clip.ankle.y + context.base + context.options.ray_start;
+    const glm::dvec3 before = foot.velocity;
+    foot.velocity = velocity_of(foot, clip, context);  // without ground too: no foot brakes from what it was
     const auto footing_of = [&](const Turned& turned) {
         const glm::dvec3 ankle = plus(clip.ankle, turned.slip);
         return Footing(plus(ankle, turned.heel), plus(ankle, turned.toe), from, context);
@@ -246,12 +248,11 @@ FootGoal find_goal(FootState& foot, const FootClip& clip, const FootContext& con
     goal.contact = support - clip.ankle.y;
     const double clearance = std::max(0.0, height_over_floor(clip, context)) * (1.0 - foot.planting);
     const glm::dvec3 ankle = plus(clip.ankle, turned.slip);
-    const double over_toe = look_ahead(foot, clip, plus(ankle, turned.toe), footing.toe, from, context),
-                 over_heel = look_ahead(foot, clip, plus(ankle, turned.heel), footing.heel, from, context);
+    const double over_toe = look_ahead(foot, before, plus(ankle, turned.toe), footing.toe, from, context),
+                 over_heel = look_ahead(foot, before, plus(ankle, turned.heel), footing.heel, from, context);
     support = std::max(support, over_toe - std::min(turned.heel.y, turned.toe.y));
     support = std::max(support, over_heel - turned.heel.y);
     goal.lift = clearance + support - clip.ankle.y;
-    foot.velocity = velocity_of(foot, clip, context);
     return goal;
 }
 

@@ -56,6 +56,7 @@ struct Finding {
     double amount = 0.0;     ///< see the table above
     const char* unit = "";   ///< "mm", "deg", "m" or "times"
     bool goes_on = false;    ///< a jump from which the motion does not come back
+    bool snaps = false;      ///< a knee that is straight, or no longer straight, from one frame to the next
     bool has_cure = false;   ///< cure() can repair it
     std::string text{};      ///< a sentence with all of that
 };
@@ -89,8 +90,8 @@ struct LintReport {
     std::vector<Finding> findings{};  ///< by frame
 };
 
-/// Frames per second, as the clip's file says, or from the spacing of its keys; rounded if within 0.1 % of a whole number. 60 if
-/// there are too few keys, or if they give a rate not between 20 and 1000.
+/// Frames per second, as the clip's file says, or from the spacing of its keys; rounded if within 0.1 % of a
+/// whole number. 60 if there are too few keys, or if they give a rate not between 20 and 1000.
 double frame_rate(const Clip& clip) noexcept;
 
 /// `clip` must have passed check().
@@ -102,10 +103,11 @@ LintReport lint(const Skeleton& skeleton, const BoneMap& map, const Clip& clip,
 ///   Skating: the foot stands still, midway along its slide. Floating, Sinking: it is moved vertically onto
 ///   the floor. Both blend into the clip within 0.15 s before and after, and the hips are lowered if the leg
 ///   is too short.
-///   Jump, KneePop: keys that depart for a few frames are interpolated from their neighbours; a jump that
-///   does not come back is spread over a quarter of a second.
-///   Scale of a clip: its translations are scaled to the skeleton's size. Axis of a clip: its roots are
-///   turned upright.
+///   KneePop of a leg that snaps straight: as it nears its full length it straightens ever more slowly, for
+///   which the foot is brought nearer to the hip by at most 5 mm ("soft IK": A. Nicholas, 2009).
+///   Jump, other KneePops: keys that depart for a few frames are interpolated from their neighbours; a jump
+///   that does not come back is spread over a quarter of a second. Scale of a clip: its translations are
+///   scaled to the skeleton's size. Axis of a clip: its roots are turned upright.
 /// Refuses a finding without a cure, or of another clip.
 Expected<Clip> cure(const Skeleton& skeleton, const BoneMap& map, const Clip& clip, const Finding& finding,
                     const LintSettings& settings = {});

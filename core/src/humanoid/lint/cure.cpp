@@ -167,7 +167,7 @@ Expected<Clip> cure(const Skeleton& skeleton, const BoneMap& map, const Clip& cl
         return tendril::detail::refused("cure", "finding", "one of this clip",
                                         std::string_view(finding.text));
     if (finding.fault == Fault::Skating || finding.fault == Fault::Floating ||
-        finding.fault == Fault::Sinking)
+        finding.fault == Fault::Sinking || finding.snaps)
         return lint_detail::cure_foot({skeleton, map, clip, settings, 0.0, report}, finding);
     Clip cured = clip;
     const double rate = report.rate;

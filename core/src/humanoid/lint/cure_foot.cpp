@@ -1,6 +1,10 @@
 // The cure of a foot that slides, floats or sinks: its leg is solved in closed form so that it stands, and
 // blends into the clip's motion before and after. If the leg is too short, the hips are lowered, and the
 // other foot stays where it is.
+//
+// And of a leg that snaps straight. Near its full length a knee turns by any angle for the smallest way of
+// the foot. Soft IK (A. Nicholas, "Soft IK", 2009) keeps it from there: over the last part of the leg's
+// length, the way of the foot that it follows decays exponentially.
 #include "humanoid/lint/cure_foot.hpp"
 
 #include <algorithm>
@@ -9,6 +13,7 @@
 #include "humanoid/lint/feet.hpp"
 #include "humanoid/lint/tracks.hpp"
 #include "math/checks.hpp"
+#include "math/elementary.hpp"
 
 namespace tendril::humanoid::lint_detail {
 namespace {
@@ -18,6 +23,8 @@ using namespace rig::detail;
 constexpr double ease = 0.15;          // seconds of blending into the clip before and after
 constexpr double straightest = 0.995;  // of a leg's full length, unless it is straighter in the clip
 constexpr double deepest = 0.1;        // of a leg's length: the hips are lowered by at most this
+constexpr double nearer = 0.005;       // metres that soft IK brings a foot nearer at a leg's full length
+constexpr double soft = 2.718281828459045 * nearer;  // metres of the leg's length that it softens
 
 /// 1 at 0, 0 from 1 on.
 double fading(double u) noexcept {
@@ -70,6 +77,15 @@ class Legs {
         const double longest = longest_of(at), level2 = way.x * way.x + way.z * way.z;
         if (dot(way, way) <= longest * longest || level2 >= longest * longest) return 0.0;
         return std::min(-way.y - std::sqrt(longest * longest - level2), deepest * longest);
+    }
+    /// What brings the foot as near to the hip as soft IK has it, metres.
+    glm::dvec3 soft_move(std::size_t frame) {
+        sample(check_.clip, check_.skeleton, check_.time_of(frame), pose_);
+        const detail::LimbPlacement at = detail::place(foot_, Placement{}, pose_);
+        const glm::dvec3 way = minus(at.end.position, at.upper.position);
+        const double far = length(way), hard = at.upper_length() + at.lower_length() - soft;
+        if (!(far > hard && hard > 0.0)) return glm::dvec3(0.0);
+        return times(way, (hard + soft * (1.0 - math::decay((far - hard) / soft))) / far - 1.0);
     }
     /// The clip's pose of that frame, with the foot moved and the hips lowered.
     const std::vector<rig::Transform>& posed(std::size_t frame, const glm::dvec3& move, double drop) {
@@ -125,6 +141,15 @@ class Legs {
     std::vector<rig::Transform> pose_;
 };
 
+/// The finding with the frames around it, in which the leg straightens or bends as well.
+Finding widened(const Finding& finding, const Check& check) {
+    const auto around = static_cast<std::size_t>(std::ceil(ease * check.report.rate));
+    Finding wide = finding;
+    wide.first -= std::min(finding.first, around);
+    wide.last = std::min(finding.last + around, check.report.frames - 1);
+    return wide;
+}
+
 Plan plan_of(Legs& legs, const std::vector<glm::dvec3>& moves, const Finding& finding, const Check& check) {
     const std::size_t frames = check.report.frames;
     const auto around = static_cast<std::size_t>(std::ceil(ease * check.report.rate));
@@ -169,24 +194,33 @@ std::optional<Limb> leg_of(const Skeleton& skeleton, const BoneMap& map, std::in
     return Limb::make(skeleton, upper, lower, foot, foot);
 }
 
-Expected<Clip> cure_foot(const Check& check, const Finding& finding) {
+Expected<Clip> cure_foot(const Check& check, const Finding& found) {
     using tendril::detail::refused;
     const auto other_clip = [&] {
-        return refused("cure", "finding", "one of this clip", std::string_view(finding.text));
+        return refused("cure", "finding", "one of this clip", std::string_view(found.text));
     };
     if (check.report.frames < 2) return other_clip();
     const double rate = check.report.rate;
-    const FeetMotion motion = feet_motion(check);
-    const auto foot = std::find_if(motion.feet.begin(), motion.feet.end(),
-                                   [&](const Foot& each) { return each.node == finding.node; });
-    const auto floor = floor_of(motion, rate);
-    if (!floor || foot == motion.feet.end()) return other_clip();
-    const bool left = finding.node == check.map[Bone::LeftFoot].node;
-    std::optional<Limb> leg = leg_of(check.skeleton, check.map, finding.node);
-    if (!leg) return other_clip();
+    const bool left = found.node == check.map[found.snaps ? Bone::LeftLowerLeg : Bone::LeftFoot].node;
+    const std::int32_t foot = check.map[left ? Bone::LeftFoot : Bone::RightFoot].node;
+    std::optional<Limb> leg = leg_of(check.skeleton, check.map, foot);
+    if (!leg ||
+        (found.snaps && found.node != check.map[left ? Bone::LeftLowerLeg : Bone::RightLowerLeg].node))
+        return other_clip();
     Legs legs(check, std::move(*leg),
               leg_of(check.skeleton, check.map, check.map[left ? Bone::RightFoot : Bone::LeftFoot].node));
-    const Plan plan = plan_of(legs, moves_of(*foot, finding, motion, *floor, rate), finding, check);
+    const Finding finding = found.snaps ? widened(found, check) : found;
+    std::vector<glm::dvec3> away;
+    if (found.snaps) {
+        for (std::size_t i = finding.first; i <= finding.last; ++i) away.push_back(legs.soft_move(i));
+    } else {
+        const FeetMotion motion = feet_motion(check);
+        const auto its = std::ranges::find(motion.feet, foot, &Foot::node);
+        const auto floor = floor_of(motion, rate);
+        if (!floor || its == motion.feet.end() || foot != found.node) return other_clip();
+        away = moves_of(*its, finding, motion, *floor, rate);
+    }
+    const Plan plan = plan_of(legs, away, finding, check);
 
     const bool is_lowered = *std::max_element(plan.drops.begin(), plan.drops.end()) > 0.0;
     const std::vector<std::size_t> nodes = legs.turned(is_lowered);

@@ -122,9 +122,10 @@ void check_snaps(Check& check, std::int32_t node, const std::vector<double>& ben
         const bool out = snap(bends[i + 2], bends[i + 1], bends[i], bends[i - 1]);
         if (!in && !out) continue;
         const double amount = std::abs(bends[in ? i - 1 : i + 1] - bends[i]);
-        check.add(Fault::KneePop, node, i, i, i, amount, "deg",
-                  "snaps " + std::string(in ? "straight" : "out of straight") + " by " + shown(amount) +
-                      " degrees: lower the hips there or bring the foot nearer");
+        Finding& finding = check.add(Fault::KneePop, node, i, i, i, amount, "deg",
+                                     "snaps " + std::string(in ? "straight" : "out of straight") + " by " +
+                                         shown(amount) + " degrees: the leg is too short for the foot there");
+        finding.has_cure = finding.snaps = true;
     }
 }
 

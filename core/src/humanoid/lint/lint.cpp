@@ -24,7 +24,7 @@ std::string Check::name_of(std::int32_t node) const {
 
 Finding& Check::add(Fault fault, std::int32_t node, std::size_t frame, std::size_t first, std::size_t last,
                     double amount, const char* unit, const std::string& text) {
-    Finding finding{fault, node, frame, first, last, time_of(frame), amount, unit, false, false, {}};
+    Finding finding{fault, node, frame, first, last, time_of(frame), amount, unit, false, false, false, {}};
     finding.text = name_of(node) + ' ' + text;
     finding.text += first == last ? " (frame " : " (frames ";
     finding.text += std::to_string(first);
