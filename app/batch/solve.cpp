@@ -45,7 +45,7 @@ class JsonRows final : public Rows {
   public:
     void add(Output& out, const Row& row) override {
         Json json{{"name", row.asked.name}};
-        json.update(report_json(row.method, row.report, !row.asked.limits.empty()));
+        json.update(report_json(row.method, row.report));
         json.erase("ran");  // scripts rely on the existing keys; the table has it
         json["microseconds"] = microseconds_json(row.microseconds);
         Json positions = Json::array();
@@ -66,7 +66,7 @@ class CsvRows final : public Rows {
     void begin(Output& out) override { out.write("name,solver,status,iterations,residual,microseconds\n"); }
     void add(Output& out, const Row& row) override {
         std::string line = csv_field(row.asked.name);
-        const Json report = report_json(row.method, row.report, !row.asked.limits.empty());
+        const Json report = report_json(row.method, row.report);
         for (const char* key : {"solver", "status", "iterations", "residual"}) {
             const Json& value = report[key];
             line += ',' + (value.is_string() ? value.get<std::string>()
@@ -93,7 +93,7 @@ class TableRows final : public Rows {
         }
         std::snprintf(rest, sizeof rest, "  %-18s  %-14s  %10d  %14s  %10.2f  %s\n", ik::name(row.method),
                       ik::name(row.report.status), row.report.iterations, residual, row.microseconds,
-                      ran_text(row.method, row.report, !row.asked.limits.empty()).c_str());
+                      ran_text(row.method, row.report).c_str());
         out.write(column(row.asked.name, name_width_) + rest);
     }
 

@@ -42,14 +42,14 @@ ik::Limit limit_from_json(const Json& json, const std::string& where) {
     return limit;
 }
 
-Json report_json(ik::Method method, const ik::Report& report, bool within_limits) {
+Json report_json(ik::Method method, const ik::Report& report) {
     return {{"solver", ik::name(method)},
             {"status", ik::name(report.status)},
             {"iterations", report.iterations},
             // Refused input has no residual.
             {"residual",
              report.status == ik::Status::InvalidInput ? Json(nullptr) : finite_number(report.residual)},
-            {"ran", ran_text(method, report, within_limits)}};
+            {"ran", ran_text(method, report)}};
 }
 
 Json active_limit_json(const ik::ActiveLimit& limit) {

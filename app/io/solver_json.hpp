@@ -29,7 +29,7 @@ ik::Limit limit_from_json(const Json& json, const std::string& where);
 
 /// {"solver", "status", "iterations", "residual", "ran"}; a residual that is not finite, or of refused input,
 /// is null. "ran" is ran_text().
-Json report_json(ik::Method method, const ik::Report& report, bool within_limits);
+Json report_json(ik::Method method, const ik::Report& report);
 
 /// {"joint", "kind", "bound", "limit_deg", "needed_deg", "enough"}
 Json active_limit_json(const ik::ActiveLimit& limit);

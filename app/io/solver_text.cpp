@@ -1,5 +1,7 @@
 #include "app/io/solver_text.hpp"
 
+#include "app/document/units.hpp"
+
 namespace tendril::app {
 
 const char* solver_title(ik::Method method) {
@@ -9,14 +11,16 @@ const char* solver_title(ik::Method method) {
     return titles[static_cast<std::size_t>(method)];
 }
 
-std::string ran_text(ik::Method method, const ik::Report& report, bool within_limits) {
-    std::string text = within_limits && method == ik::Method::Fabrik ? "FABRIK" : solver_title(method);
+std::string ran_text(ik::Method method, const ik::Report& report) {
+    std::string text = solver_title(method);
     const bool closed = report.closed_form && report.iterations == 0 && method != ik::Method::TwoBone;
     if (closed) return text + ", solved in closed form";
     if (report.least_squares_steps > 0) text += " + least squares";
-    if (report.restarts > 0) {
-        text += ", " + std::to_string(report.restarts) + (report.restarts == 1 ? " restart" : " restarts");
-    }
+    const auto count = [&text](int number, const char* what) {
+        if (number > 0) text += ", " + count_text(static_cast<std::size_t>(number), what);
+    };
+    count(report.perturbations, "perturbation");
+    count(report.restarts, "restart");
     return text;
 }
 

@@ -10,8 +10,9 @@ namespace tendril::app {
 /// "FABRIK, accelerated"
 const char* solver_title(ik::Method method);
 
-/// What ran in a solve: "FABRIK + least squares, 3 restarts". With limits FABRIK omits its accelerated step,
-/// and two bones continue from their closed form with least-squares steps.
-std::string ran_text(ik::Method method, const ik::Report& report, bool within_limits);
+/// What ran in a solve: "FABRIK, accelerated + least squares, 3 restarts"; "FABRIK, accelerated, 1
+/// perturbation": of a chain that had stalled or lay on one line. A method keeps its name within limits,
+/// where FABRIK omits its accelerated step and two bones continue with least-squares steps.
+std::string ran_text(ik::Method method, const ik::Report& report);
 
 }  // namespace tendril::app

@@ -120,9 +120,8 @@ constexpr PastHelp past_help{
 void preset_rows(Emit& emit) {
     std::vector<PresetButton> buttons;
     for (const Preset& preset : presets()) {
-        const bool reaches = std::string_view(preset.name) == reaching_arm;
-        const std::string what = reaches ? ": an arm in mode reach, with a hinge and a pole target" : "";
-        buttons.push_back({preset.name, preset.title, count_text(preset.count, "joint") + what, preset.of});
+        buttons.push_back(
+            {preset.name, preset.title, count_text(preset.count, "joint") + preset.what, preset.of});
     }
     if (app::preset_rows(chain_lab, buttons, "Removes every joint", emit))
         emit("camera.frame", {{"what", "all"}});  // presets differ in size
@@ -270,7 +269,7 @@ std::string stalled_text(const ChainPart& part) {
                ": no joint can bring it closer. Bend it" + (reach.pole ? "." : ", or add a pole target.");
     }
     const ik::Method method = part.result->method;
-    return "This is as close as " + ran_text(method, {}, limited) + " gets from here. Another solver" +
+    return std::string("This is as close as ") + solver_title(method) + " gets from here. Another solver" +
            (ik::honours(method, ik::Option::Restarts, limited) ? ", or more restarts," : "") +
            " may get closer.";
 }
@@ -326,7 +325,7 @@ void report_rows(const ShownChain& shown, const std::vector<glm::vec3>& joints, 
         const ReachResult& result = *part.result;
         if (result.active_limit) coloured_note(active_limit_text(*result.active_limit) + ".", palette.limit);
         note(status_text(part));
-        note(ran_text(result.method, result.report, !part.reach.limits.empty()) + ".");
+        note(ran_text(result.method, result.report) + ".");
     });
     if (part.mode != ChainMode::Reach || !part.result) return;
     reading("iterations", "%d", part.result->report.iterations);

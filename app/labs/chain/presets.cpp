@@ -123,15 +123,21 @@ Segments random_walk(std::size_t count, std::uint32_t seed) {
 }  // namespace
 
 const std::vector<Preset>& presets() {
-    static const std::vector<Preset> list{{"start", "Start", 8, 4},        {"arm", "Arm", 7, 4},
-                                          {"snake", "Snake", 40, 4},       {"coil", "Coil", 120, 4},
-                                          {"tentacle", "Tentacle", 24, 3}, {"random", "Random", 16, 3},
-                                          {reaching_arm, "Reach", 4, 3}};
+    static const std::vector<Preset> list{
+        {"start", "Start", 8, 4},
+        {"arm", "Arm", 7, 4},
+        {"snake", "Snake", 40, 4},
+        {"coil", "Coil", 120, 4},
+        {"tentacle", "Tentacle", 24, 3},
+        {"random", "Random", 16, 3},
+        {reaching_arm, "Reach", 4, 3, ": an arm in mode reach, with a hinge and a pole target"},
+        {straight_chain_preset, "Straight", 5, 3,
+         " in a line, the target on that line: FABRIK (2011) cannot bend it"}};
     return list;
 }
 
 Chain make_preset(const std::string& name, std::size_t count, std::uint32_t seed) {
-    if (name == "start") return require_value(Chain::from_segments(start(count)));
+    if (name == "start" || name == straight_chain_preset) return require_value(Chain::from_segments(start(count)));
     if (name == reaching_arm) return require_value(Chain::from_segments(bent_arm(count)));
     if (name == "arm") return require_value(Chain::from_segments(arm(count)));
     if (name == "tentacle") return require_value(Chain::from_segments(tentacle(count)));
@@ -154,6 +160,13 @@ void make_it_reach(ChainPart& part, ChainRuntime& runtime) {
         set_limit(part.reach, elbow, hinge, part.chain);
     }
     reach_for(part, {2.25f, 0.9f, 0.2f}, runtime);
+}
+
+void make_it_stall(ChainPart& part, ChainRuntime& runtime) {
+    part.mode = ChainMode::Reach;
+    part.reach = {};
+    part.reach.method = ik::Method::FabrikPlain;
+    reach_for(part, part.chain.position(part.chain.size() - 1) - glm::vec3(0.75f, 0.0f, 0.0f), runtime);
 }
 
 }  // namespace tendril::app

@@ -16,10 +16,13 @@ struct Preset {
     const char* title;
     std::size_t count;  ///< default number of segments
     int of;             ///< buttons in its row of the panel
+    const char* what = "";  ///< after the number of joints, in its tooltip
 };
 
-/// The preset that is more than a chain, and the scene that the program opens with.
+/// The scene that the program opens with: a chain that reaches.
 inline constexpr const char* reaching_arm = "reaching_arm";
+/// A straight chain that FABRIK (2011) cannot bend.
+inline constexpr const char* straight_chain_preset = "straight";
 
 const std::vector<Preset>& presets();
 
@@ -29,5 +32,11 @@ Chain make_preset(const std::string& name, std::size_t count, std::uint32_t seed
 /// Completes the preset reaching_arm: mode Reach, a hinge at the elbow, a pole target above it, and the hand
 /// on the target. `part` already has the preset's chain.
 void make_it_reach(ChainPart& part, ChainRuntime& runtime);
+
+/// Completes the preset straight: mode Reach, solver FABRIK (2011), and the target on the chain's own line,
+/// three quarters of a bone before the tip. Both passes then shift the joints along the line and back: the
+/// chain stays as it is, to the last bit. Nearer to the root it would fold onto the line, and could end on
+/// the target by chance. From 750 bones on, the gap is within the default tolerance.
+void make_it_stall(ChainPart& part, ChainRuntime& runtime);
 
 }  // namespace tendril::app

@@ -110,7 +110,6 @@ Racer run(ik::Method method, const Chain& chain, const ReachSettings& settings, 
 Race run_race(const Chain& chain, const ReachSettings& settings, glm::vec3 target, const Racers& racers,
               ChainRuntime& runtime) {
     Race race;
-    race.within_limits = !settings.limits.empty();
     race.tolerance = reach_tolerance(settings, chain.reach());
     for (const ik::Method method : ik::all_methods) {
         if (racers[static_cast<std::size_t>(method)])
@@ -202,7 +201,7 @@ std::string race_csv(const Race& race) {
                 std::snprintf(restored, sizeof restored, "%.9g", static_cast<double>(racer.report.residual));
             }
             csv += std::string(ik::name(racer.report.status)) + ",\"" +
-                   ran_text(racer.method, racer.report, race.within_limits) + "\"," + restored + "\n";
+                   ran_text(racer.method, racer.report) + "\"," + restored + "\n";
         }
     }
     return csv;

@@ -72,7 +72,6 @@ RacerAt racer_at(const Racer& racer, std::size_t iteration);
 struct Race {
     std::vector<Racer> racers;
     float tolerance = 0.0f;  ///< metres
-    bool within_limits = false;
 
     /// The largest count of all racers.
     std::size_t iterations() const;

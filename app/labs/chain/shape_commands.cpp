@@ -141,6 +141,7 @@ void take_preset(ChainPart& part, const Arguments& given, ChainRuntime& runtime)
     const std::uint32_t seed = given.has("seed") ? static_cast<std::uint32_t>(given.integer("seed")) : 1u;
     take_chain(part, make_preset(name, count, seed));
     if (name == reaching_arm) make_it_reach(part, runtime);
+    if (name == straight_chain_preset) make_it_stall(part, runtime);
 }
 
 }  // namespace
@@ -189,8 +190,8 @@ void add_shape_commands(CommandTable& table) {
                          names(presets(), [](const Preset& p) { return p.name; })),
          integer_argument("count", "segments", 1, static_cast<double>(max_segments)),
          {.name = "seed", .type = ArgumentType::Integer, .required = false, .help = "for random", .low = 0}},
-        "Makes a preset chain, the target on its tail; reaching_arm comes with mode reach, limits and a pole "
-        "target",
+        "Makes a preset chain, the target on its tail. Two come with mode reach: reaching_arm with limits "
+        "and a pole target, straight with a target on its own line, where FABRIK (2011) stalls",
         take_preset));
 }
 

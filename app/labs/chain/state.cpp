@@ -16,7 +16,7 @@ Json reach_state(const ChainPart& part) {
     json["active_limit"] = nullptr;
     json["explanation"] = nullptr;
     if (!part.result) return json;
-    json["report"] = report_json(part.result->method, part.result->report, !part.reach.limits.empty());
+    json["report"] = report_json(part.result->method, part.result->report);
     if (part.result->active_limit) {
         json["active_limit"] = active_limit_json(*part.result->active_limit);
         json["explanation"] = active_limit_text(*part.result->active_limit);
@@ -30,7 +30,7 @@ Json microscope_state(const ShownChain& shown) {
     const Study& study = part.study;
     const Trace& trace = *shown.trace;
     Json json{{"step", study.step}, {"steps", trace.frames()}, {"iteration", trace.iteration(study.step)}};
-    json["report"] = report_json(trace.method, trace.report, !part.reach.limits.empty());
+    json["report"] = report_json(trace.method, trace.report);
     json["moves"] = Json::array();
     for (const ik::Step& step : trace.frame(study.step)) {
         const bool alone = step.neighbour == ik::no_joint;
@@ -54,7 +54,7 @@ Json race_state(const ShownChain& shown) {
     const Race& race = *shown.race;
     Json json = Json::array();
     for (const Racer& racer : race.racers) {
-        Json each = report_json(racer.method, racer.report, race.within_limits);
+        Json each = report_json(racer.method, racer.report);
         each["ends_with"] = number(racer.residuals.back());
         each["restored"] = racer.restored;
         for (const glm::vec3& joint : racer.joints) each["positions"].push_back(point(joint));

@@ -59,7 +59,7 @@ void racer_row(const ShownChain& shown, ik::Method method, bool time, const Pale
     const RacerAt at = racer_at(*racer, shown.step());
     text_flush_right(time ? si_text(1e-6 * racer->microseconds, "s") : std::to_string(racer->iterations()));
     if (racer->report.status == ik::Status::InvalidInput) return small_right("does not support this chain");
-    const std::string ran = ran_text(method, racer->report, shown.race->within_limits);
+    const std::string ran = ran_text(method, racer->report);
     if (ran != solver_title(method)) small_right(ran);
     // As many lines in every iteration, so that no row moves while the race plays.
     small_right(at.finished ? end_text(*racer) : progress_text(at) + ", " + error_reading(at));
@@ -145,7 +145,7 @@ void microscope_rows(const ShownChain& shown, const Palette& palette, Emit& emit
     // Below the buttons: these texts are longer in some steps than in others.
     reading("step", "%zu of %zu", step, trace.frames());
     reading("iteration", "%d of %d", trace.iteration(step), trace.report.iterations);
-    note(ran_text(trace.method, trace.report, !part.reach.limits.empty()) + ".");
+    note(ran_text(trace.method, trace.report) + ".");
     note(describe_frame(trace, step));
     if (part.motion.path != Motion::Path::Still)
         note("The moving target waits while the microscope is open.");
