@@ -2,45 +2,8 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
-#include <limits>
 
 namespace tendril::app {
-namespace {
-
-constexpr std::size_t max_pins = 32;  ///< per body, that are compared with one another
-
-/// How far apart its links let two particles of a body be, along rows and columns.
-class Reach {
-  public:
-    Reach(const rope::State& state, const rope::Body& body)
-        : row_(body.row > 0 ? body.row : body.count), strands_(body.kind == rope::Body::Kind::Hair) {
-        along_.assign(body.count, no_link);
-        down_.assign(body.count, no_link);
-        for (const rope::Link& link : state.links) {
-            if (link.kind != rope::Link::Kind::Stretch || link.a - body.first >= body.count) continue;
-            const std::size_t from = std::min(link.a, link.b) - body.first,
-                              step = std::max(link.a, link.b) - body.first - from;
-            if (step == 1) along_[from] = link.rest;
-            if (step == row_) down_[from] = link.rest;
-        }
-    }
-    double between(std::size_t a, std::size_t b) const {
-        if (strands_ && a / row_ != b / row_) return no_link;
-        const std::size_t left = std::min(a % row_, b % row_), right = std::max(a % row_, b % row_);
-        double length = 0.0;
-        for (std::size_t i = left; i < right; ++i) length += along_[a - a % row_ + i];
-        for (std::size_t i = a; i / row_ < b / row_; i += row_) length += down_[i];
-        return length;
-    }
-
-  private:
-    static constexpr double no_link = std::numeric_limits<double>::infinity();
-    std::size_t row_;
-    bool strands_;
-    std::vector<double> along_, down_;  ///< rest lengths of the links from each particle
-};
-
-}  // namespace
 
 Particles measured_particles(const NamedWorld& world, const std::optional<RopeSelection>& selection) {
     if (!selection || selection->body.empty()) return Particles(world.size(), true);
@@ -94,28 +57,6 @@ RopeReport last_second(const std::vector<RopeSample>& samples) {
         sum.contact_loss += tick.contact_loss;
     }
     return sum;
-}
-
-std::optional<OverPulled> over_pulled(const NamedWorld& world) {
-    const rope::State& state = world.state();
-    std::optional<OverPulled> worst;
-    for (const rope::Body& body : state.bodies) {
-        const Reach reach(state, body);
-        const auto in_body = [&](const rope::Pin& pin) { return pin.particle - body.first < body.count; };
-        std::vector<std::size_t> pinned;
-        for (const rope::Pin& pin : state.pins)
-            if (in_body(pin) && pinned.size() < max_pins) pinned.push_back(pin.particle);
-        for (auto a = pinned.begin(); a != pinned.end(); ++a) {
-            for (auto b = a + 1; b != pinned.end(); ++b) {
-                const double apart = glm::distance(state.position[*a], state.position[*b]);
-                const double length = reach.between(*a - body.first, *b - body.first);
-                if (!(apart > 1.001 * length) || (worst && worst->apart - worst->length >= apart - length))
-                    continue;
-                worst = OverPulled{world.name(body), apart, length};
-            }
-        }
-    }
-    return worst;
 }
 
 }  // namespace tendril::app

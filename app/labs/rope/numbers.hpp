@@ -1,6 +1,7 @@
 // Measurements of ropes for the inspector, the curves and the plot of the last ten seconds.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,11 +25,20 @@ RopeSample sample_of(const RopePart& part, const RopeReport& report);
 /// Sums over the last second, except for `inside`, which is that of the last tick.
 RopeReport last_second(const std::vector<RopeSample>& samples);
 
-/// A body with pins farther apart than its length between them.
+/// Two pins farther apart than what is between them is long: rope, cloth along its threads, and ties.
 struct OverPulled {
-    std::string body;
+    std::string from, to;              ///< the bodies that are pinned, may be the same
     double apart = 0.0, length = 0.0;  ///< metres
+    std::vector<std::uint32_t> way;    ///< particles from one pin to the other: pins and ends of ties
 };
-std::optional<OverPulled> over_pulled(const NamedWorld& world);
+/// The worst for each pin, the worst of all first. What may stretch is never too short.
+std::vector<OverPulled> over_pulled(const NamedWorld& world);
+
+/// Of a tie, or at the selected particles: "5.50 N". Not a number of newtons while a tie still draws its ends
+/// together, nor where pins pull what cannot stretch: that force has no limit.
+std::string tension_text(const NamedWorld& world, const rope::Tie& tie);
+std::string tension_text(const NamedWorld& world, const RopeSelection& selection);
+/// The tension of a tie where it is a number of newtons.
+std::optional<float> measured_tension(const rope::Tie& tie, const std::vector<OverPulled>& pulled);
 
 }  // namespace tendril::app

@@ -184,8 +184,7 @@ void particle_rows(const RopePart& part, const rope::Body& body, std::size_t ind
                 static_cast<double>(at.z));
     }
     reading("speed", "%.3f m/s", static_cast<double>(glm::length(world.velocity(particle))));
-    reading("tension", "%.2f N",
-            static_cast<double>(strongest_tension(world, measured_particles(world, part.selection))));
+    reading("tension", "%s", tension_text(world, *part.selection).c_str());
     if (row_button(pinned ? "Unpin" : "Pin", 3, true,
                    pinned ? "Lets the particle move again" : "Holds the particle where it is now"))
         emit(pinned ? "rope.unpin" : "rope.pin", which);

@@ -1,5 +1,6 @@
 // The Rope lab in a scene file, and what --state writes. Saving releases a drag, which cannot go on later.
 #include <stdexcept>
+#include <vector>
 
 #include "app/document/json_complete.hpp"
 #include "app/document/json_place.hpp"
@@ -175,11 +176,12 @@ Json collider_state(const RopePart& part, const rope::Collider& collider) {
     return json;
 }
 
-Json tie_state(const NamedWorld& world, const rope::Tie& tie) {
+Json tie_state(const NamedWorld& world, const rope::Tie& tie, const std::vector<OverPulled>& pulled) {
     Json json{{"name", world.name(tie)},
               {"length", number(tie.length)},
               {"strength", number(tie.strength)},
-              {"tension", number(tie.tension)}};
+              {"tension", nullptr}};
+    if (const auto tension = measured_tension(tie, pulled)) json["tension"] = number(*tension);
     const auto end = [&](const char* body, const char* index, std::size_t particle) {
         const ParticlePlace place = *picked_particle(world, particle_pick(particle));
         json[body] = world.name(*place.body);
@@ -223,7 +225,8 @@ Json RopeLab::state(const Workspace& workspace) const {
     }
     for (const rope::Collider& collider : now.colliders) colliders.push_back(collider_state(part, collider));
     Json ties = Json::array();
-    for (const rope::Tie& tie : now.ties) ties.push_back(tie_state(world, tie));
+    const std::vector<OverPulled> pulled = over_pulled(world);
+    for (const rope::Tie& tie : now.ties) ties.push_back(tie_state(world, tie, pulled));
     Json held = nullptr;
     if (part.hold)
         held = {{"rope", part.hold->body},

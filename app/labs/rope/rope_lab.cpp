@@ -223,11 +223,15 @@ Verdict rope_verdict(const RopePart& part) {
         error < 1e-4 ? "under 0.01 %" : fixed_text(100.0 * error, error < 0.1 ? 2 : 0) + " %";
     const std::string off = "Lengths off by " + percent;
     // However slight: no solver can hold it, so the other advice would mislead.
-    if (const auto pulled = over_pulled(*part.world)) {
-        const int decimals = pulled->apart - pulled->length < 0.01 ? 3 : 2;
+    if (const std::vector<OverPulled> pulled = over_pulled(*part.world); !pulled.empty()) {
+        const OverPulled& worst = pulled.front();
+        const int decimals = worst.apart - worst.length < 0.01 ? 3 : 2;
+        const bool one = worst.from == worst.to;
         return {off, Verdict::Kind::Bad,
-                "The pins of " + pulled->body + " are " + fixed_text(pulled->apart, decimals) +
-                    " m apart; between them it is " + fixed_text(pulled->length, decimals) + " m long."};
+                "The pins of " + worst.from + (one ? "" : " and " + worst.to) + " are " +
+                    fixed_text(worst.apart, decimals) + " m apart; " +
+                    (one ? "between them it is " : "tied, the two reach ") +
+                    fixed_text(worst.length, decimals) + (one ? " m long." : " m.")};
     }
     if (error >= seen) {
         if (before < 0.5 * error)

@@ -6,6 +6,7 @@
 #include "app/labs/kit/arguments.hpp"
 #include "app/labs/kit/panel_rows.hpp"
 #include "app/labs/rope/body_commands.hpp"
+#include "app/labs/rope/numbers.hpp"
 #include "app/labs/rope/panel.hpp"
 #include "app/labs/rope/rope_fields.hpp"
 #include "app/widgets/fields.hpp"
@@ -71,7 +72,8 @@ void tie_rows(const RopePart& part, const rope::Tie& tie, Emit& emit) {
     reading("tie", "%s", name.c_str());
     end("from", tie.a);
     end("to", tie.b);
-    reading("tension", "%.2f N", static_cast<double>(tie.tension));
+    reading("tension", "%s", tension_text(world, tie).c_str());
+    explain("What it carries, once its ends are together. Without limit: pins are too far apart for it.");
     const rope::TieShape shape{.length = tie.length, .strength = tie.strength};
     FieldRows(shape, "rope.tie.set", emit, {{"name", name}}).rows("length", "strength");
     if (row_button("Remove", 3, true, "Removes the tie")) emit("rope.untie", {{"name", name}});

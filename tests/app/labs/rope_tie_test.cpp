@@ -2,6 +2,7 @@
 #include "app/labs/rope/code.hpp"
 #include "app/labs/rope/rope_time.hpp"
 #include "tests/app/labs/rope_support.hpp"
+#include "tests/app/support/panel_text.hpp"
 #include "tests/app/support/temp_folder.hpp"
 #include "tests/says.hpp"
 
@@ -56,6 +57,26 @@ TEST_F(RopeTieTest, DrawsItsParticlesTogetherAndHolds) {
     EXPECT_GT(tie["tension"], 4.0);
     run("undo");
     EXPECT_TRUE(world().state().ties.empty());
+}
+
+/// While it draws its ends together, what the solver reports is what moves them, not a load.
+TEST_F(RopeTieTest, HasATensionOnceItIsClosed) {
+    two_ropes();
+    tie_them();
+    run("rope.select", {{"tie", "tie"}});
+    wait(3);
+    EXPECT_EQ(state()["ties"][0]["tension"], nullptr);
+    EXPECT_TRUE(test::says(test::PanelReader().inspector(lab(), workspace), "tension closing to go"));
+    wait(120);
+    EXPECT_NEAR(state()["ties"][0]["tension"].get<double>(), 0.6 * 9.81, 1.0);
+    EXPECT_TRUE(test::says(test::PanelReader().inspector(lab(), workspace), "tension N"));
+    // Between pins that are too far apart for it, no number is true.
+    run("rope.pin", {{"rope", "below"}, {"particle", 4}, {"at", {0, 0.5, 0}}});
+    wait(120);
+    EXPECT_EQ(state()["ties"][0]["tension"], nullptr);
+    EXPECT_TRUE(test::says(test::PanelReader().inspector(lab(), workspace), "tension without limit"));
+    run("rope.select", {{"rope", "above"}, {"particle", 2}});
+    EXPECT_TRUE(test::says(test::PanelReader().inspector(lab(), workspace), "tension without limit"));
 }
 
 TEST_F(RopeTieTest, TwoClicksTieAndSelectTheTie) {

@@ -77,6 +77,54 @@ TEST_F(RopeVerdict, SaysWhenPinsAreFurtherApartThanABodyReaches) {
     EXPECT_TRUE(said().starts_with("Lengths off by ")) << said();
 }
 
+/// From a pin along one rope, over the tie, and along the other to its pin.
+TEST_F(RopeVerdict, SaysWhenPinsAreFurtherApartThanTiedBodiesReach) {
+    run("rope.clear");
+    run("rope.add",
+        {{"name", "left"}, {"from", {0, 1, 0}}, {"to", {0.6, 1, 0}}, {"segments", 8}, {"pin_start", true}});
+    run("rope.add",
+        {{"name", "right"}, {"from", {1.3, 1, 0}}, {"to", {2.1, 1, 0}}, {"segments", 8}, {"pin_end", true}});
+    run("rope.tie", {{"a", "left"}, {"a_particle", 8}, {"b", "right"}, {"b_particle", 0}, {"length", 0.3}});
+    wait(200);
+    EXPECT_TRUE(said().starts_with("Lengths off by ")) << said();
+    EXPECT_TRUE(test::says(state()["why"], "pins left and right 2.10 m apart tied reach 1.70 m"))
+        << state()["why"];
+    // With a tie as long as the gap, nothing is pulled.
+    run("rope.tie.set", {{"name", "tie"}, {"length", 0.72}});
+    wait(400);
+    EXPECT_EQ(said(), "Lengths hold") << state()["why"];
+    // The shortest of several ways counts: over a tie between the middles, which takes both ropes in half.
+    run("rope.tie", {{"a", "left"}, {"a_particle", 4}, {"b", "right"}, {"b_particle", 4}, {"length", 0.7}});
+    wait(200);
+    EXPECT_TRUE(test::says(state()["why"], "2.10 m apart tied reach 1.40 m")) << state()["why"];
+    // Along a row of a cloth, from a tie to its corner.
+    run("rope.clear");
+    run("rope.add",
+        {{"name", "line"}, {"from", {0, 2, 0}}, {"to", {0.5, 2, 0}}, {"segments", 4}, {"pin_start", true}});
+    run("rope.cloth.add", {{"name", "sheet"},
+                           {"corner", {0.8, 2, 0}},
+                           {"along", {1, 0, 0}},
+                           {"down", {0, -1, 0}},
+                           {"columns", 5},
+                           {"rows", 5}});
+    run("rope.pin", {{"rope", "sheet"}, {"particle", 4}});
+    run("rope.tie", {{"a", "line"}, {"a_particle", 4}, {"b", "sheet"}, {"b_particle", 0}});
+    wait(120);
+    EXPECT_TRUE(test::says(state()["why"], "pins line and sheet 1.80 m apart tied reach 1.50 m"))
+        << state()["why"];
+}
+
+/// What may stretch is not too short: the verdict says how far it is stretched.
+TEST_F(RopeVerdict, OfElasticRopesBetweenPinsBlamesNoPin) {
+    run("rope.clear");
+    run("rope.add",
+        {{"name", "line"}, {"from", {0, 1, 0}}, {"to", {1, 1, 0}}, {"pin_start", true}, {"pin_end", true}});
+    run("rope.set", {{"rope", "line"}, {"stretch", 0.01}});
+    run("rope.pin", {{"rope", "line"}, {"particle", 32}, {"at", {1.5, 1, 0}}});
+    wait(120);
+    EXPECT_TRUE(said().starts_with("Stretched by ")) << said() << state()["why"];
+}
+
 /// No more iterations and no shorter steps can help there, so it recommends none.
 TEST_F(RopeVerdict, NamesThePinsWhateverTheSolverAndHoweverSlightTheError) {
     for (const char* solver : {"direct", "xpbd", "relaxation"}) {

@@ -25,7 +25,9 @@ struct Tie {
     /// The distance that it keeps now, metres. A tie made between particles too far apart, or too close,
     /// draws them to its length at tie_speed.
     float now = 0.0f;
-    float tension = 0.0f;  ///< newtons, from the last solve; negative in compression, never if length is 0
+    /// Newtons, from the last solve; negative in compression, never if length is 0. A load only once `now` is
+    /// `length`: before, it is what draws the ends together at that speed.
+    float tension = 0.0f;
     bool operator==(const Tie&) const = default;
 };
 

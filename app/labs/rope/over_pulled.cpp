@@ -1,0 +1,229 @@
+// Whether pins are farther apart than what is between them is long, and the tensions that this leaves.
+//
+// Pins and the ends of ties are the nodes of a graph. Its edges are the stretch of rope, strand or cloth
+// between two nodes of a body, and the ties. The shortest way between two pins is the farthest that they can
+// be apart.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <queue>
+#include <utility>
+
+#include "app/document/units.hpp"
+#include "app/labs/rope/numbers.hpp"
+
+namespace tendril::app {
+namespace {
+
+constexpr std::size_t max_pins = 32;         ///< per body, that are compared with others
+constexpr std::size_t max_cloth_nodes = 64;  ///< per cloth: between any two of them is an edge
+constexpr double too_short = 1.001;          ///< apart, over the length between
+constexpr double no_way = std::numeric_limits<double>::infinity();
+
+/// How far apart links let the particles of a body be, along rows and columns.
+class Threads {
+  public:
+    explicit Threads(const rope::State& state)
+        : along_(state.position.size(), no_way), down_(state.position.size(), no_way) {
+        const rope::Settings& settings = state.settings;
+        const bool elastic = settings.compliance > 0.0f && settings.solver != rope::Solver::Relaxation;
+        std::size_t b = 0;
+        for (const rope::Link& link : state.links) {
+            if (link.kind != rope::Link::Kind::Stretch || link.compliance > 0.0f || elastic) continue;
+            while (link.a < state.bodies[b].first) --b;  // links of a body are nearly always contiguous
+            while (link.a - state.bodies[b].first >= state.bodies[b].count) ++b;
+            const std::size_t from = std::min(link.a, link.b), step = std::max(link.a, link.b) - from;
+            if (step == 1)
+                along_[from] = link.rest;
+            else if (step == state.bodies[b].row)
+                down_[from] = link.rest;
+        }
+    }
+    /// Of two particles of a body.
+    double between(const rope::Body& body, std::size_t a, std::size_t b) const {
+        const std::size_t row = body.row > 0 ? body.row : body.count;
+        const std::size_t from = a - body.first, to = b - body.first;
+        if (body.kind == rope::Body::Kind::Hair && from / row != to / row) return no_way;
+        const std::size_t left = std::min(from % row, to % row), right = std::max(from % row, to % row);
+        const std::size_t start = body.first + from / row * row;
+        double length = 0.0;
+        for (std::size_t i = left; i < right; ++i) length += along_[start + i];
+        for (std::size_t i = from; i / row < to / row; i += row) length += down_[body.first + i];
+        return length;
+    }
+
+  private:
+    std::vector<double> along_, down_;  ///< rest lengths of the links from each particle
+};
+
+class PinGraph {
+  public:
+    explicit PinGraph(const NamedWorld& world) : world_(world), state_(world.state()) {
+        if (state_.pins.size() < 2) return;
+        const Threads threads(state_);
+        std::vector<std::uint32_t> ends;
+        for (const rope::Tie& tie : state_.ties) ends.insert(ends.end(), {tie.a, tie.b});
+        std::sort(ends.begin(), ends.end());
+        ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+        auto pin = state_.pins.begin();
+        auto end = ends.begin();
+        for (const rope::Body& body : state_.bodies) {
+            const std::size_t first = node_.size();
+            for (std::size_t pins = 0; pin != state_.pins.end() && pin->particle - body.first < body.count;
+                 ++pin)
+                if (pins++ < max_pins) node_.push_back({static_cast<std::uint32_t>(pin->particle), true});
+            const std::size_t pinned = node_.size();
+            for (; end != ends.end() && *end - body.first < body.count; ++end) {
+                const bool is_pin = std::any_of(node_.begin() + static_cast<std::ptrdiff_t>(first),
+                                                node_.begin() + static_cast<std::ptrdiff_t>(pinned),
+                                                [&](const Node& each) { return each.particle == *end; });
+                if (!is_pin) node_.push_back({*end, false});
+            }
+            join(threads, body, first);
+        }
+        for (std::size_t i = 0; i < node_.size(); ++i) index_.emplace_back(node_[i].particle, i);
+        std::sort(index_.begin(), index_.end());
+        for (const rope::Tie& tie : state_.ties) join(find(tie.a), find(tie.b), tie.length);
+    }
+
+    std::vector<OverPulled> worst_of_each_pin() {
+        std::vector<OverPulled> found;
+        length_.assign(node_.size(), no_way);
+        before_.assign(node_.size(), 0);
+        for (std::size_t i = 0; i < node_.size(); ++i)
+            if (node_[i].pinned) search(i, found);
+        std::stable_sort(found.begin(), found.end(), [](const OverPulled& a, const OverPulled& b) {
+            return a.apart - a.length > b.apart - b.length;
+        });
+        return found;
+    }
+
+  private:
+    struct Node {
+        std::uint32_t particle;
+        bool pinned;
+        std::vector<std::pair<std::size_t, double>> edges{};
+    };
+    static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+
+    std::size_t find(std::uint32_t particle) const {
+        const auto at = std::lower_bound(index_.begin(), index_.end(), std::pair(particle, std::size_t{0}));
+        return at != index_.end() && at->first == particle ? at->second : none;
+    }
+    void join(std::size_t a, std::size_t b, double length) {
+        if (a == none || b == none || length == no_way) return;
+        node_[a].edges.emplace_back(b, length);
+        node_[b].edges.emplace_back(a, length);
+    }
+    /// The nodes of a body from `first` on: neighbours on a strand, all of a cloth.
+    void join(const Threads& threads, const rope::Body& body, std::size_t first) {
+        const auto from = node_.begin() + static_cast<std::ptrdiff_t>(first);
+        const bool cloth = body.kind == rope::Body::Kind::Cloth;
+        if (cloth && node_.size() - first > max_cloth_nodes) node_.resize(first + max_cloth_nodes);
+        std::sort(from, node_.end(), [](const Node& a, const Node& b) { return a.particle < b.particle; });
+        for (std::size_t a = first; a < node_.size(); ++a) {
+            const std::size_t end = cloth ? node_.size() : std::min(a + 2, node_.size());
+            for (std::size_t b = a + 1; b < end; ++b)
+                join(a, b, threads.between(body, node_[a].particle, node_[b].particle));
+        }
+    }
+
+    /// From one pin to those after it (E. W. Dijkstra, 1959).
+    void search(std::size_t start, std::vector<OverPulled>& found) {
+        using Reached = std::pair<double, std::size_t>;
+        std::priority_queue<Reached, std::vector<Reached>, std::greater<>> next;
+        std::vector<std::size_t> seen{start};
+        length_[start] = 0.0;
+        next.emplace(0.0, start);
+        std::size_t worst = none;
+        double excess = 0.0;
+        while (!next.empty()) {
+            const Reached at = next.top();
+            next.pop();
+            const std::size_t node = at.second;
+            if (at.first > length_[node]) continue;
+            if (node_[node].pinned && node > start && apart(start, node) > too_short * at.first &&
+                apart(start, node) - at.first > excess) {
+                worst = node;
+                excess = apart(start, node) - at.first;
+            }
+            for (const auto& edge : node_[node].edges) {
+                const double length = at.first + edge.second;
+                if (length >= length_[edge.first]) continue;
+                if (length_[edge.first] == no_way) seen.push_back(edge.first);
+                length_[edge.first] = length;
+                before_[edge.first] = node;
+                next.emplace(length, edge.first);
+            }
+        }
+        if (worst != none) {
+            OverPulled pulled{body_name(start), body_name(worst), apart(start, worst), length_[worst], {}};
+            for (std::size_t node = worst; node != start; node = before_[node])
+                pulled.way.push_back(node_[node].particle);
+            pulled.way.push_back(node_[start].particle);
+            found.push_back(std::move(pulled));
+        }
+        for (const std::size_t each : seen) length_[each] = no_way;
+    }
+    double apart(std::size_t a, std::size_t b) const {
+        return glm::distance(state_.position[node_[a].particle], state_.position[node_[b].particle]);
+    }
+    std::string body_name(std::size_t node) const {
+        const std::size_t particle = node_[node].particle;
+        for (const rope::Body& body : state_.bodies)
+            if (particle - body.first < body.count) return world_.name(body);
+        return {};
+    }
+
+    const NamedWorld& world_;
+    const rope::State& state_;
+    std::vector<Node> node_;                                    ///< by body, then by particle
+    std::vector<std::pair<std::uint32_t, std::size_t>> index_;  ///< particle, node; ascending
+    std::vector<double> length_;                                ///< of the search, by node
+    std::vector<std::size_t> before_;
+};
+
+/// Whether the way between pins that are too far apart leads through the tie, or through that body.
+bool is_pulled(const std::vector<OverPulled>& all, const rope::Tie& tie) {
+    return std::ranges::any_of(all, [&](const OverPulled& each) {
+        return std::ranges::count(each.way, tie.a) != 0 && std::ranges::count(each.way, tie.b) != 0;
+    });
+}
+bool is_pulled(const std::vector<OverPulled>& all, const rope::Body& body) {
+    return std::ranges::any_of(all, [&](const OverPulled& each) {
+        return std::ranges::count_if(each.way, [&](std::size_t i) { return i - body.first < body.count; }) >
+               1;
+    });
+}
+
+constexpr const char* unbounded = "without limit";
+
+}  // namespace
+
+std::vector<OverPulled> over_pulled(const NamedWorld& world) {
+    return PinGraph(world).worst_of_each_pin();
+}
+
+std::optional<float> measured_tension(const rope::Tie& tie, const std::vector<OverPulled>& pulled) {
+    if (tie.now != tie.length || is_pulled(pulled, tie)) return std::nullopt;
+    return tie.tension;
+}
+
+std::string tension_text(const NamedWorld& world, const rope::Tie& tie) {
+    if (is_pulled(over_pulled(world), tie)) return unbounded;
+    const double left = static_cast<double>(tie.now) - static_cast<double>(tie.length);
+    if (left != 0.0)
+        return std::string(left > 0.0 ? "closing, " : "opening, ") + length_text(std::abs(left)) + " to go";
+    return fixed_text(static_cast<double>(tie.tension), 2) + " N";
+}
+
+std::string tension_text(const NamedWorld& world, const RopeSelection& selection) {
+    const rope::Body* const body = world.find(selection.body);
+    if (body != nullptr && is_pulled(over_pulled(world), *body)) return unbounded;
+    const float tension = strongest_tension(world, measured_particles(world, selection));
+    return fixed_text(static_cast<double>(tension), 2) + " N";
+}
+
+}  // namespace tendril::app
