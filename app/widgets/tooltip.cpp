@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <glm/common.hpp>
 #include <glm/vec2.hpp>
-#include <optional>
 
 #include "app/widgets/number_entry.hpp"
 
