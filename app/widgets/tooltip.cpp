@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <glm/common.hpp>
 #include <glm/vec2.hpp>
-#include <optional>
 
 #include "app/widgets/number_entry.hpp"
 
@@ -59,7 +58,7 @@ float place_tooltip(const TooltipRoom& room, const Rect& item) {
         return width;
     }
     at = glm::clamp(at, low, glm::max(low, high));
-    pivot = glm::step(room.whole.centre(), at);
+    pivot = (at - low) / glm::max(high - low, 1.0f);  // a share of it before the mouse, so that it fits
     const glm::vec2 needed = em * glm::vec2(narrowest + tooltip_margin, lowest);
     for (const int axis : {room.axis, 1 - room.axis}) {
         const float before = room.free.min[axis] - gap - low[axis],

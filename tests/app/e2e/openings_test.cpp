@@ -175,7 +175,7 @@ TEST_P(Openings, go_on_where_a_command_is_refused) {
     wait(45);
     const Json then = part();
     const std::map<std::string, RunCommand> wrong{
-        {"chain", {"chain.select", Json{{"index", 99}}}},
+        {"chain", {"chain.insert", Json{{"index", 99}, {"length", 1}}}},
         {"rope", {"rope.remove", Json{{"name", "nothing"}}}},
         {"signal", {"signal.filter.remove", Json{{"at", 99}}}},
         {"rig", {"rig.control.set", Json{{"name", "nobody"}, {"value", 1}}}},

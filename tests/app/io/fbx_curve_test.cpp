@@ -13,6 +13,7 @@ namespace {
 
 using humanoid::Interpolation;
 using Key = test::FbxScene::Key;
+using test::FbxRecord;
 using test::FbxScene;
 
 constexpr std::int64_t constant = 0x2, constant_next = 0x102, linear = 0x4, user = 0x408;

@@ -84,10 +84,11 @@ class TooltipPlaces : public testing::TestWithParam<const char*> {
             return;
         }
         EXPECT_FALSE(tooltip.contains(mouse)) << "lies under the mouse: " << where;
-        const float plot = 8.0f * ImGui::GetFontSize();  // its tooltip is in its corner
+        const float plot = 6.0f * ImGui::GetFontSize();  // its tooltip is in its corner
         for (const DrawnItem& item : recorder_.frame().items)
-            if (item.id == context.HoveredId && item.box.size().y < plot)
+            if (item.id == context.HoveredId && item.box.size().y < plot) {
                 EXPECT_FALSE(meet(tooltip, item.box)) << "lies on its item: " << where;
+            }
     }
 
     FrameRecorder recorder_;

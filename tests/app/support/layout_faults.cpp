@@ -188,8 +188,11 @@ std::vector<LayoutFault> tight_buttons(const FrameRecord& frame) {
         if (hidden(item.window) || item.kind != DrawnItem::Kind::Button) continue;
         for (const DrawnText& text : frame.texts) {
             if (text.window != item.window || !inside(text.box, item.box)) continue;
-            const float margin = std::min(text.box.min.x - item.box.min.x, item.box.max.x - text.box.max.x);
-            if (margin < 0.25f * text.box.size().y) found.push_back(fault("touches its button's edge", text));
+            const float left = text.box.min.x - item.box.min.x, right = item.box.max.x - text.box.max.x;
+            const float line = text.box.size().y;
+            const bool choice = left > 1.5f * line;  // a circle is before its title, and nothing after it
+            if (std::min(left, right) < 0.25f * line && !choice)
+                found.push_back(fault("touches its button's edge", text));
         }
     }
     return found;
