@@ -85,17 +85,23 @@ class Words {
         const std::size_t end = std::min(text_.find_first_not_of(" \t\v\f", at_), text_.size());
         return end == text_.size() || text_[end] == '\n' || text_[end] == '\r';
     }
-    /// Reads "Frames:" or "Frame Time:", also with blanks before the colon or none after it. Returns whether
-    /// it is written as usual.
+    /// Reads "Frames:" or "Frame Time:", with any blanks between the words and around the colon. Returns
+    /// whether those around the colon are the usual ones.
     bool label(std::string_view wanted) {
         skip_blanks();
-        const std::size_t colon = text_.find(':', at_);
-        std::string_view found = text_.substr(at_, colon == text_.npos ? 0 : colon - at_);
-        const bool tight = found.size() == wanted.size();
-        while (!found.empty() && is_blank(found.back()) && found.back() != '\n') found.remove_suffix(1);
-        if (!same(found, wanted)) fail("expected " + std::string(wanted) + ":, found " + shown(peek()));
-        at_ = colon + 1;
-        return tight && at_ < text_.size() && is_blank(text_[at_]);
+        const std::size_t begin = at_;
+        bool is_tight = true;
+        for (std::string_view rest = wanted; !rest.empty();) {
+            const std::string_view word = rest.substr(0, rest.find(' '));
+            rest.remove_prefix(std::min(word.size() + 1, rest.size()));
+            skip_blanks();
+            if (!same(text_.substr(at_, word.size()), word)) at_ = begin, refuse_label(wanted);
+            at_ += word.size();
+        }
+        while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t')) ++at_, is_tight = false;
+        if (at_ == text_.size() || text_[at_] != ':') at_ = begin, refuse_label(wanted);
+        ++at_;
+        return is_tight && at_ < text_.size() && is_blank(text_[at_]);
     }
     /// Reads the numbers of a frame, which begins and ends with a line.
     void row(std::vector<double>& numbers) {
@@ -120,6 +126,9 @@ class Words {
     }
 
   private:
+    [[noreturn]] void refuse_label(std::string_view wanted) {
+        fail("expected " + std::string(wanted) + ":, found " + shown(peek()));
+    }
     static bool is_blank(char c) {
         return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\v' || c == '\f';
     }

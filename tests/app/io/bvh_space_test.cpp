@@ -269,7 +269,7 @@ TEST(UnitOfAFile, that_an_fbx_does_not_state_is_guessed_and_said) {
     const auto doubt = doubted_unit(stated, bone_map(stated));
     ASSERT_TRUE(doubt);
     EXPECT_EQ(doubt->unit.metres, 1.0);
-    EXPECT_TRUE(test::says(text(*doubt), "18.0 mm tall metres 1.80 m"));
+    EXPECT_TRUE(test::says(text(*doubt), "17.8 mm tall metres 1.78 m"));
 }
 
 TEST(UnitOfAFile, is_not_doubted_for_a_childs_height_or_a_thing) {

@@ -107,6 +107,22 @@ TEST_F(Exports, a_key_stands_at_every_frame_and_the_clips_own_stay) {
     }
 }
 
+TEST_F(Exports, a_corrected_up_axis_leaves_the_nodes_of_a_gltf_as_they_are) {
+    write(figure_, figure_.clips[0], "own.glb");
+    Character turned = read_character(folder_ / "own.glb");
+    const humanoid::Skeleton own = turned.skeleton;
+    read_as(turned, 0.5, {.up = UpAxis::MinusX, .positions = RootPositions::Replace});
+    const std::string from = (folder_ / "own.glb").string();
+    EXPECT_LT(write(turned, turned.clips[0], "again.glb", from).worst, tenth_of_a_millimetre);
+    const Character again = read_character(folder_ / "again.glb");
+    ASSERT_EQ(again.skeleton.size(), own.size());
+    for (std::size_t i = 0; i < own.size(); ++i)
+        EXPECT_LT(glm::distance(again.skeleton[i].rest.translation, own[i].rest.translation), 1e-6);
+    EXPECT_LT(glm::distance(again.clips[0].channels[0].translation.values[0],
+                            read_character(folder_ / "own.glb").clips[0].channels[0].translation.values[0]),
+              1e-6);
+}
+
 TEST_F(Exports, a_bvh_has_its_rate_its_names_and_a_unit_that_is_read_again) {
     write(figure_, figure_.clips[0], "walk.bvh", {}, 30.0);
     const std::string bvh = text("walk.bvh");

@@ -256,5 +256,36 @@ TEST_F(RowsUnderMore, UnfoldForAStepOfACard) {
     EXPECT_FALSE(shows("substeps")) << "it can be folded again";
 }
 
+/// A character whose file's unit makes it a giant.
+class UnitButton : public RowsUnderMore {
+  protected:
+    void click(const std::string& button) {
+        app_.settle();
+        for (const DrawnText& each : recorder_.frame().texts) {
+            if (each.text != button) continue;
+            const Event events[] = {MouseMove{0.5f * (each.box.min + each.box.max)},
+                                    MousePress{MouseButton::Left, true},
+                                    MousePress{MouseButton::Left, false}};
+            for (const Event& event : events) app_.tick(&event);
+            return app_.settle();
+        }
+        ADD_FAILURE() << "there is no " << button;
+    }
+    double scale() { return app_.state().at("character").at("scale").get<double>(); }
+};
+
+TEST_F(UnitButton, CorrectsAGiantsUnitByOneClick) {
+    open("humanoid");
+    run("humanoid.load", {{"path", source_path("tests/app/golden/faulty_walk.bvh")}});
+    EXPECT_FALSE(shows("Use metres"));
+    run("humanoid.scale", {{"metres", 100.0}});
+    EXPECT_EQ(scale(), 100.0);
+    click("Use metres");
+    EXPECT_EQ(scale(), 1.0);
+    EXPECT_FALSE(shows("Use metres"));
+    run("undo");
+    EXPECT_EQ(scale(), 100.0);
+}
+
 }  // namespace
 }  // namespace tendril::test
