@@ -280,15 +280,16 @@ Argument clip_argument(const char* name, const char* help) {
 }
 
 void add_character_commands(CommandTable& table) {
-    table.add({.name = "humanoid.load",
-               .title = "Load a character",
-               .arguments = {text_argument("path", false,
-                                           "a .gltf, .glb, .fbx or .bvh file; if omitted, the stick figure")},
-               .help = "Loads a character in its rest pose, with nothing playing; selected nodes that it "
-                       "also has stay selected",
-               .effect = Effect::Edit,
-               .apply = load,
-               .finish = finish_loading});
+    table.add(
+        {.name = "humanoid.load",
+         .title = "Load a character",
+         .arguments = {text_argument(
+             "path", false, "a .gltf, .glb, .vrm, .vrma, .fbx or .bvh file; if omitted, the stick figure")},
+         .help = "Loads a character in its rest pose, with nothing playing; selected nodes that it "
+                 "also has stay selected",
+         .effect = Effect::Edit,
+         .apply = load,
+         .finish = finish_loading});
     table.add({.name = "humanoid.load.cancel",
                .title = "Stop loading the character",
                .arguments = {},

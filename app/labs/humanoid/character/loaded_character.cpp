@@ -57,6 +57,7 @@ SharedCharacter rescaled(const LoadedCharacter& character, double metres) {
     scale_skin(copy.skin, metres / copy.scale);
     copy.scale = metres;
     auto loaded = std::make_shared<LoadedCharacter>(*shared(character.file, character.path, std::move(copy)));
+    loaded->motions = character.motions;
     loaded->cures = character.cures;
     return loaded;
 }
