@@ -19,11 +19,19 @@ struct NamedBones {
     std::array<std::int32_t, humanoid::bone_count> nodes{};  ///< nodes of the skeleton; -1: none
 };
 
+/// A spring of the file on a node and all its descendants, as humanoid::SpringOptions.
+struct NamedSpring {
+    std::size_t node = 0;
+    double strength = 0.0;  ///< Hz
+    double critical_damping = 0.0;
+};
+
 struct Character {
     humanoid::Skeleton skeleton{};
     std::vector<humanoid::Clip> clips{};
     Skin skin{};
     std::optional<NamedBones> bones{};  ///< none: they must be matched
+    std::vector<NamedSpring> springs{};
     double scale = 1.0;                 ///< metres per unit of the file
     std::vector<std::string> notes{};   ///< sentences for the panel: what was guessed or omitted
 };

@@ -163,6 +163,7 @@ void show_all(Workspace& workspace, const LoadedCharacter& character) {
 
 void show(Workspace& workspace, SharedCharacter character) {
     HumanoidPart part(std::move(character));
+    take_springs(part);
     const HumanoidPart& before = humanoid_part(workspace);
     part.view = before.view;
     part.selection = selection_in(part.skeleton(), before.selection, before.skeleton());
