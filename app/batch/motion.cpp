@@ -144,7 +144,7 @@ void run_bake(const BakeOptions& options) {
 }
 
 const char* const lint_help =
-    R"(FILE is a .gltf, .glb, .vrm, .fbx or .bvh file. All of its clips are checked for
+    R"(FILE is a .gltf, .glb, .vrm, .vrma, .fbx or .bvh file. All of its clips are checked for
 skating, floating and sinking feet, knees that pop, rotation keys that go the long
 way round, joints that jump or bend far beyond human range, scale and axis faults.
 Prints one line per finding, with its frame, time, joint and amount; with --json
@@ -158,7 +158,7 @@ Exit code 0: nothing was found; 1: something was; 2: the file cannot be read.
 To open a scene file that is named lint, write ./lint.)";
 
 const char* const bake_help =
-    R"(FILE is a .gltf, .glb, .vrm, .fbx or .bvh file. One of its clips, by
+    R"(FILE is a .gltf, .glb, .vrm, .vrma, .fbx or .bvh file. One of its clips, by
 default the first, is written to --out, or to FILE_baked beside the file: as glTF,
 GLB or BVH, depending on the name's ending. glTF from a glTF file keeps its nodes,
 skins, materials, meshes and pictures unchanged. With a ground, the feet are put on

@@ -99,7 +99,7 @@ humanoid::BoneMap bone_map(const Character& character) {
     humanoid::BoneMap map;
     for (std::size_t i = 0; i < map.bones.size(); ++i) {
         const std::int32_t node = character.bones->nodes[i];
-        if (node >= 0) map.bones[i] = {node, 1.0, "named by the file's " + character.bones->source};
+        if (node >= 0) map.bones[i] = {node, 1.0, "the file says so (" + character.bones->source + ')'};
     }
     humanoid::review(map, character.skeleton);
     return map;

@@ -50,11 +50,19 @@ struct RootOffset {
     glm::dvec3 offset{0.0};
 };
 
+/// A spring of the file on a node and all its descendants, as humanoid::SpringOptions.
+struct NamedSpring {
+    std::size_t node = 0;
+    double strength = 0.0;  ///< Hz
+    double critical_damping = 0.0;
+};
+
 struct Character {
     humanoid::Skeleton skeleton{};
     std::vector<humanoid::Clip> clips{};
     Skin skin{};
     std::optional<NamedBones> bones{};  ///< none: they must be matched
+    std::vector<NamedSpring> springs{};
     double scale = 1.0;                 ///< metres per unit of the file
     bool states_unit = true;            ///< the file; a BVH never does, some FBX files do not
     FileSpace space{};

@@ -24,7 +24,7 @@ using humanoid::Skeleton;
 
 GltfOrigin origin_of(const std::string& file) {
     const std::string ending = lower_case(fs::path(file).extension().string());
-    if (ending != ".gltf" && ending != ".glb" && ending != ".vrm") return {};
+    if (ending != ".gltf" && ending != ".glb" && ending != ".vrm" && ending != ".vrma") return {};
     return {character_bytes(file), fs::path(file).parent_path()};
 }
 

@@ -6,6 +6,8 @@
 // nodes, such as those of meshes, cameras and lights, are omitted. In a file without a skin it is the whole
 // tree of the nodes that are animated or VRM bones.
 //
+// Springs of a VRM file (gltf_vrm_springs.hpp) are the character's.
+//
 // Mended, each with a note: keys before 0 s, at the same time as another, or of no rotation; a node of scale
 // 0. Left out with a note: compressed meshes, and pictures that are missing or neither PNG nor JPEG.
 #pragma once

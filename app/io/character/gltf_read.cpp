@@ -11,6 +11,7 @@
 #include "app/io/character/gltf_parse.hpp"
 #include "app/io/character/gltf_skin.hpp"
 #include "app/io/character/gltf_vrm.hpp"
+#include "app/io/character/gltf_vrm_springs.hpp"
 #include "app/io/character/unique_names.hpp"
 
 namespace tendril::app {
@@ -107,6 +108,7 @@ class GltfReader {
                 character.bones->nodes[i] =
                     vrm_->nodes[i] < 0 ? -1 : place_[static_cast<std::size_t>(vrm_->nodes[i])];
         }
+        character.springs = named_springs(springs_, character, place_, character.notes);
         std::vector<humanoid::Placement> local;
         for (std::size_t i = 0; i < model_.nodes.size(); ++i)
             local.push_back(humanoid::placement(local_of(model_.nodes[i], i)));
@@ -161,6 +163,8 @@ class GltfReader {
         if (!any)
             throw std::runtime_error("has no skeleton: no node is a joint of a skin, and none is animated" +
                                      compressed_text());
+        springs_ = vrm_springs(model_);
+        for (const VrmSpring& each : springs_) choose_below(static_cast<std::size_t>(each.node), wanted);
         if (model_.skins.empty()) choose_whole_trees(wanted);
         place_.assign(model_.nodes.size(), -1);
         for (std::size_t i = 0; i < wanted.size(); ++i) {
@@ -177,6 +181,17 @@ class GltfReader {
         if (chosen_.size() > humanoid::Skeleton::max_nodes)
             throw std::runtime_error("its skeleton has " + std::to_string(chosen_.size()) +
                                      " nodes, more than " + std::to_string(humanoid::Skeleton::max_nodes));
+    }
+    /// A spring's nodes, of which the last ones are often no joints.
+    void choose_below(std::size_t root, std::vector<bool>& wanted) const {
+        std::vector<std::size_t> open{root};
+        for (std::size_t steps = 0; !open.empty() && steps < wanted.size(); ++steps) {
+            const std::size_t node = open.back();
+            open.pop_back();
+            wanted[node] = true;
+            for (const int child : model_.nodes[node].children)
+                open.push_back(static_cast<std::size_t>(child));
+        }
     }
     /// Without a skin nothing says which nodes are joints: all of a tree are.
     void choose_whole_trees(std::vector<bool>& wanted) const {
@@ -315,6 +330,7 @@ class GltfReader {
     std::vector<std::int32_t> place_{};  // index in the skeleton of each of the file's nodes; -1: omitted
     std::vector<std::size_t> chosen_{};  // the inverse
     std::optional<VrmBones> vrm_{};
+    std::vector<VrmSpring> springs_{};
     std::size_t keys_ = 0;
     DroppedKeys dropped_{};
     MendedNodes flat_{};

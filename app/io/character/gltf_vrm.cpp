@@ -44,7 +44,7 @@ class VrmReader {
 }  // namespace
 
 std::optional<VrmBones> vrm_bones(const tinygltf::Model& model) {
-    for (const char* name : {"VRMC_vrm", "VRM"}) {
+    for (const char* name : {"VRMC_vrm", "VRM", "VRMC_vrm_animation"}) {
         const auto found = model.extensions.find(name);
         if (found == model.extensions.end()) continue;
         const Value* human = member(found->second, "humanoid");

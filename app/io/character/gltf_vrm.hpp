@@ -1,5 +1,5 @@
-// The bones named in a VRM file: a glTF file with the extension VRMC_vrm (VRM 1.0) or VRM (0.x), both by the
-// VRM Consortium, in their "humanoid" member.
+// The bones named in a VRM file: a glTF file with the extension VRMC_vrm (VRM 1.0), VRM (0.x) or
+// VRMC_vrm_animation (a motion, .vrma), all by the VRM Consortium, in their "humanoid" member.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ struct VrmBones {
     std::array<int, humanoid::bone_count> nodes{};  ///< the file's node of each bone; -1: none
 };
 
-/// None if the file has neither extension. Omits bones that a BoneMap lacks (fingers, eyes, jaw). Throws
+/// None if the file has none of the extensions. Omits bones that a BoneMap lacks (fingers, eyes, jaw). Throws
 /// std::runtime_error if a bone's node does not exist or is already another bone's.
 std::optional<VrmBones> vrm_bones(const tinygltf::Model& model);
 

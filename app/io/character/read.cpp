@@ -1,6 +1,8 @@
 #include "app/io/character/read.hpp"
 
+#include <algorithm>
 #include <fstream>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 
@@ -55,13 +57,15 @@ std::string character_bytes(const std::filesystem::path& path) {
 
 bool ends_as_character(const std::filesystem::path& path) {
     const std::string ending = lower_case(path.extension().string());
-    return ending == ".gltf" || ending == ".glb" || ending == ".vrm" || ending == ".fbx" || ending == ".bvh";
+    constexpr const char* endings[]{".gltf", ".glb", ".vrm", ".vrma", ".fbx", ".bvh"};
+    return std::ranges::find(endings, ending) != std::end(endings);
 }
 
 Character read_character(const std::filesystem::path& path, LoadProgress* progress) {
     const std::string name = path.filename().string();
     if (!ends_as_character(path))
-        throw std::runtime_error(name + ": expected a file that ends in .gltf, .glb, .vrm, .fbx or .bvh");
+        throw std::runtime_error(name +
+                                 ": expected a file that ends in .gltf, .glb, .vrm, .vrma, .fbx or .bvh");
     const std::string bytes = character_bytes(path);
     if (progress && progress->cancelled()) throw std::runtime_error(name + ": cancelled");
     const std::string ending = lower_case(path.extension().string());

@@ -30,6 +30,7 @@ std::optional<humanoid::Fault> fault_named(const std::string& name);
 
 void add_character_commands(CommandTable& table);
 void add_clip_commands(CommandTable& table);
+void add_motion_commands(CommandTable& table);
 void add_ik_commands(CommandTable& table);
 void add_humanoid_look_commands(CommandTable& table);
 void add_attachment_commands(CommandTable& table);

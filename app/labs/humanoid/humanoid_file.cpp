@@ -5,6 +5,7 @@
 #include "app/document/json_complete.hpp"
 #include "app/document/json_place.hpp"
 #include "app/labs/humanoid/clip/clip_lint.hpp"
+#include "app/labs/humanoid/clip/motions.hpp"
 #include "app/labs/humanoid/humanoid_commands.hpp"
 #include "app/labs/humanoid/humanoid_part.hpp"
 
@@ -157,6 +158,7 @@ Json HumanoidPart::save() const {
         json["space"] = save_fields(loaded->character.space);
     }
     json["bones"] = corrections(*this);
+    if (!loaded->motions.empty()) json["motions"] = motions_json(*loaded);
     if (!loaded->cures.empty()) json["cures"] = cures_json(loaded->cures);
     json["clip"] = save_playback(*this);
     json["t_pose"] = t_pose;
@@ -177,6 +179,7 @@ std::shared_ptr<Part> HumanoidPart::load(const Json& json, const std::string& wh
     character = read_as_saved(place, std::move(character));
     auto part = std::make_shared<HumanoidPart>(std::move(character));
     if (const auto bones = place.optional("bones")) read_corrections(*bones, *part);
+    if (const auto motions = place.optional("motions")) read_motions(*motions, *part);
     if (const auto cures = place.optional("cures")) read_cures(*cures, *part);
     if (const auto clip = place.optional("clip")) part->playback = read_playback(*clip, *part->loaded);
     if (const auto on = place.optional("t_pose")) part->t_pose = on->flag();

@@ -22,6 +22,7 @@ void HumanoidLab::add_commands(CommandTable& table) const {
     CommandTable own;
     add_character_commands(own);
     add_clip_commands(own);
+    add_motion_commands(own);
     add_ik_commands(own);
     add_spring_commands(own);
     add_attachment_commands(own);
@@ -78,7 +79,7 @@ void HumanoidLab::work(Workspace& workspace) const {
 
 std::vector<FileKind> HumanoidLab::files() const {
     return {{"characters", {".gltf", ".glb", ".vrm", ".fbx"}, "humanoid.load"},
-            {"motions", {".bvh"}, "humanoid.load"},
+            {"motions", {".bvh", ".vrma"}, "humanoid.load"},
             {"bone maps", {".json"}, "humanoid.map.load", {}, begins_map}};
 }
 

@@ -40,8 +40,8 @@ class HumanoidRuntime final : public Runtime {
         bool bones_first = false;                       ///< the bone map comes before the other sections
         int attach_kind = 0;                            ///< kind of attachment that Add makes
         std::string attach_to = "Hips";                 ///< bone or node to attach it to
-        bool past = false;                    ///< the strip shows the last ten seconds instead of the clip
-        std::string export_to{}, map_file{};  ///< paths typed by the user
+        bool past = false;  ///< the strip shows the last ten seconds instead of the clip
+        std::string export_to{}, map_file{}, motion{};  ///< paths typed by the user
     } panel;
 
   private:

@@ -89,7 +89,7 @@ void loaded_rows(const HumanoidPanel& panel, MoreRows& more) {
         else
             panel.emit("humanoid.load", {{"path", file}});
     }
-    explain("A character with its clips: .gltf, .glb, .fbx or .bvh. Enter reads it.");
+    explain("A character with its clips: .gltf, .glb, .vrm, .vrma, .fbx or .bvh. Enter reads it.");
     if (const Loading& loading = panel.runtime.loading; loading.running()) {
         note("Loading " + std::filesystem::path(loading.file()).filename().string() + " ...");
         ImGui::ProgressBar(loading.part(), {-1.0f, 0.0f}, "");
@@ -118,7 +118,10 @@ void loaded_rows(const HumanoidPanel& panel, MoreRows& more) {
 void playback_rows(const HumanoidPanel& panel, MoreRows& more) {
     const std::vector<humanoid::Clip>& clips = panel.part.loaded->clips();
     const Playback& playback = panel.part.playback;
-    if (clips.empty()) return note("The character has no clips.");
+    if (clips.empty()) {
+        note("The character has no clips.");
+        return motion_rows(panel, more);
+    }
     const std::string shown = playback.clip ? clips[*playback.clip].name : "none (rest pose)";
     if (begin_search("clip", &shown, panel.runtime.panel.clip)) {
         if (search_row("none (rest pose)", !playback.clip, panel.runtime.panel.clip))
@@ -135,6 +138,7 @@ void playback_rows(const HumanoidPanel& panel, MoreRows& more) {
     FieldRows(playback, "humanoid.clip", panel.emit)
         .under(more)
         .rows("speed", "loop", "in_place", "carry_targets");
+    motion_rows(panel, more);
     if (playback.playing && !panel.workspace.clock.playing) note("Paused: press Space to play.");
 }
 

@@ -310,6 +310,43 @@ TEST(MendedCharacter, clips_that_are_compressed_are_refused_by_the_extensions_na
                            "no skeleton KHR_draco_mesh_compression"));
 }
 
+// --------------------------------------------------------------------------------------------- any damage
+
+TEST(MendedCharacter, any_byte_may_be_changed_cut_off_or_missing) {
+    GltfText file = textured(R"("uri":"data:image/png;base64,)" + to_base64(white_png) + '"', R"("source":0)",
+                             R"(,"extensions":{"KHR_texture_transform":{"scale":[2,1]}})");
+    const std::string input = file.scalars({0, 1}), output = file.quaternions({0, 0, 0, 1, 1, 0, 0, 0});
+    file.members +=
+        R"(,"animations":[{"samplers":[{"input":)" + input + R"(,"output":)" + output +
+        R"(}],"channels":[{"sampler":0,"target":{"node":0,"path":"rotation"}}]}],"extensions":{"VRM":{)"
+        R"("humanoid":{"humanBones":[{"bone":"hips","node":0}]},"secondaryAnimation":{"boneGroups":[)"
+        R"({"stiffiness":1,"bones":[0]}]}}})";
+    std::size_t reads = 0, refusals = 0;
+    const auto attempt = [&](const std::string& bytes) {
+        try {
+            const Character character = parse_gltf(bytes, "own", {});
+            for (const Clip& clip : character.clips) ASSERT_TRUE(check(clip, character.skeleton));
+            ++reads;
+        } catch (const std::runtime_error& error) {
+            ASSERT_EQ(std::string(error.what()).find("own"), 0u) << error.what();
+            ++refusals;
+        }
+    };
+    for (const std::string& whole : {file.glb(), file.gltf()}) {
+        for (std::size_t i = 0; i < whole.size(); ++i) {
+            for (const int flip : {0x01, 0x80, 0xff}) {
+                std::string changed = whole;
+                changed[i] = static_cast<char>(changed[i] ^ flip);
+                attempt(changed);
+            }
+            attempt(whole.substr(0, i));
+            attempt(whole.substr(0, i) + whole.substr(i + 1));
+        }
+    }
+    EXPECT_GT(reads, 1000u);
+    EXPECT_GT(refusals, 1000u);
+}
+
 // -------------------------------------------------------------------------------------- other people's files
 
 TEST(MendedCharacter, files_of_other_people_are_read_or_refused_in_words_that_help) {

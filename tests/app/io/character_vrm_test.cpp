@@ -1,8 +1,15 @@
-// The bones that a VRM file names are its bone map, whatever its nodes are called and wherever they are.
+// The bones that a VRM file names are its bone map, whatever its nodes are called and wherever they are; its
+// springs are the character's.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <complex>
+#include <glm/geometric.hpp>
+
 #include "app/io/character/gltf.hpp"
+#include "app/io/character/gltf_vrm_springs.hpp"
 #include "tests/app/support/temp_folder.hpp"
+#include "tests/says.hpp"
 
 namespace tendril::app {
 namespace {
@@ -65,6 +72,92 @@ TEST(VrmCharacter, names_that_lead_nowhere_are_refused_and_said) {
     says(R"({"hips":7})", "expected a node number");
     says("[7]", "no skeleton");
     says("7", "no skeleton");
+}
+
+// --------------------------------------------------------------------------------------------------- springs
+
+/// VRM's own step of one bone's tip, from `angle` beside its rest; returns y / length for some steps.
+std::vector<double> vrm_swing(const VrmSpring& spring, double length, double angle, int steps) {
+    const glm::dvec2 rest(0.0, -length);
+    glm::dvec2 tip = length * glm::dvec2(std::sin(angle), -std::cos(angle)), before = tip;
+    std::vector<double> swing;
+    for (int i = 0; i < steps; ++i) {
+        const glm::dvec2 moved = tip + (tip - before) * (1.0 - spring.drag) +
+                                 rest / length * spring.stiffness / 60.0 + glm::dvec2(spring.gravity) / 60.0;
+        before = tip;
+        tip = glm::normalize(moved) * length;
+        swing.push_back(tip.x / length);
+    }
+    return swing;
+}
+
+TEST(VrmCharacter, springs_swing_and_decay_as_in_vrm) {
+    for (const double stiffness : {0.2, 1.0, 4.0}) {
+        for (const double drag : {0.05, 0.45, 0.8}) {
+            for (const double length : {0.05, 0.2}) {
+                for (const double gravity : {0.0, 0.5}) {
+                    const VrmSpring spring{0, stiffness, drag, {0.0, -gravity, 0.0}};
+                    const SpringRate rate = spring_rate(spring, length, {0.0, -1.0, 0.0});
+                    const double start = 0.02;
+                    const std::vector<double> steps = vrm_swing(spring, length, start, 60);
+                    // The closed form of a damped spring through the first two values.
+                    const double w = 6.283185307179586 * rate.strength, z = rate.critical_damping;
+                    const std::complex<double> root = std::sqrt(std::complex<double>(z * z - 1.0, 0.0));
+                    const std::complex<double> a = std::exp(-w * (z - root) / 60.0),
+                                               b = std::exp(-w * (z + root) / 60.0);
+                    ASSERT_GT(std::abs(a - b), 1e-9);
+                    const std::complex<double> u = (steps[1] - b * steps[0]) / (a - b), v = steps[0] - u;
+                    for (int i = 0; i < 60; ++i)
+                        EXPECT_NEAR((u * std::pow(a, i) + v * std::pow(b, i)).real(),
+                                    steps[static_cast<std::size_t>(i)], 0.01 * start)
+                            << stiffness << ' ' << drag << ' ' << length << ' ' << gravity << " step " << i;
+                }
+            }
+        }
+    }
+    // Extremes stay within what a spring takes.
+    for (const VrmSpring& each :
+         {VrmSpring{0, 0.0, 0.0, {}}, VrmSpring{0, 1e3, 1.0, {}}, VrmSpring{0, 0.0, 1.0, {0.0, 1e3, 0.0}}}) {
+        const SpringRate rate = spring_rate(each, 0.0, {0.0, -1.0, 0.0});
+        EXPECT_TRUE(rate.strength >= 0.01 && rate.strength <= 100.0);
+        EXPECT_TRUE(rate.critical_damping >= 0.0 && rate.critical_damping <= 10.0);
+    }
+}
+
+/// A head with two strands of hair below it, and a VRM's springs.
+Character with_hair(const std::string& extensions) {
+    return parse_gltf(
+        R"({"asset":{"version":"2.0"},"nodes":[{"name":"hips","children":[1]},)"
+        R"({"name":"head","translation":[0,1,0],"children":[2,4]},)"
+        R"({"name":"hair_l","translation":[0.1,0,0],"children":[3]},{"name":"tip_l","translation":[0,-0.2,0]},)"
+        R"({"name":"hair_r","translation":[-0.1,0,0],"children":[5]},{"name":"tip_r","translation":[0,-0.2,0]}],)"
+        R"("skins":[{"joints":[0,1]}],"extensions":{)" +
+            extensions + "}}",
+        "hair.vrm", {});
+}
+const std::string hips_and_head_0 =
+    R"("humanoid":{"humanBones":[{"bone":"hips","node":0},{"bone":"head","node":1}]})";
+
+TEST(VrmCharacter, springs_of_both_versions_are_the_characters) {
+    const Character old = with_hair(
+        R"("VRM":{)" + hips_and_head_0 +
+        R"(,"secondaryAnimation":{"boneGroups":[{"stiffiness":2,"dragForce":0.3,"gravityPower":0,"bones":[2,4]},)"
+        R"({"bones":[1,3,99,"x"]},{"bones":7},7]}})");
+    const Character fresh = with_hair(
+        R"("VRMC_springBone":{"springs":[{"joints":[{"node":2,"stiffness":2,"dragForce":0.3},{"node":3}]},)"
+        R"({"joints":[{"node":4,"stiffness":2,"dragForce":0.3},{"node":5}]},{"joints":[]},{"joints":[{"node":-4}]}]})");
+    for (const Character* each : {&old, &fresh}) {
+        ASSERT_EQ(each->springs.size(), 2u);
+        EXPECT_EQ(each->skeleton[each->springs[0].node].name, "hair_l");
+        EXPECT_EQ(each->skeleton[each->springs[1].node].name, "hair_r");
+        EXPECT_TRUE(test::says(each->notes.at(0), "springs colliders gravity"));
+        const SpringRate rate = spring_rate({2, 2.0, 0.3, {}}, 0.2, {0.0, -1.0, 0.0});
+        EXPECT_NEAR(each->springs[0].critical_damping, rate.critical_damping, 1e-9);
+        EXPECT_LT(each->springs[0].strength, rate.strength);
+        EXPECT_GT(each->springs[0].strength, 0.2 * rate.strength);
+    }
+    EXPECT_TRUE(test::says(old.notes.at(1), "2 springs left out body")) << "on the head, and below the first";
+    EXPECT_TRUE(with_hair(R"("VRM":{)" + hips_and_head_0 + "}").springs.empty());
 }
 
 }  // namespace

@@ -163,6 +163,7 @@ void show_all(Workspace& workspace, const LoadedCharacter& character) {
 
 void show(Workspace& workspace, SharedCharacter character) {
     HumanoidPart part(std::move(character));
+    take_springs(part);
     const HumanoidPart& before = humanoid_part(workspace);
     part.view = before.view;
     part.selection = selection_in(part.skeleton(), before.selection, before.skeleton());
@@ -318,15 +319,16 @@ Argument clip_argument(const char* name, const char* help) {
 }
 
 void add_character_commands(CommandTable& table) {
-    table.add({.name = "humanoid.load",
-               .title = "Load a character",
-               .arguments = {text_argument("path", false,
-                                           "a .gltf, .glb, .fbx or .bvh file; if omitted, the stick figure")},
-               .help = "Loads a character in its rest pose, with nothing playing; selected nodes that it "
-                       "also has stay selected",
-               .effect = Effect::Edit,
-               .apply = load,
-               .finish = finish_loading});
+    table.add(
+        {.name = "humanoid.load",
+         .title = "Load a character",
+         .arguments = {text_argument(
+             "path", false, "a .gltf, .glb, .vrm, .vrma, .fbx or .bvh file; if omitted, the stick figure")},
+         .help = "Loads a character in its rest pose, with nothing playing; selected nodes that it "
+                 "also has stay selected",
+         .effect = Effect::Edit,
+         .apply = load,
+         .finish = finish_loading});
     table.add({.name = "humanoid.load.cancel",
                .title = "Stop loading the character",
                .arguments = {},

@@ -51,6 +51,7 @@ SharedCharacter read_as(const LoadedCharacter& character, double metres, const F
     Character copy = character.character;
     read_as(copy, metres, space);
     auto loaded = std::make_shared<LoadedCharacter>(*shared(character.file, character.path, std::move(copy)));
+    loaded->motions = character.motions;
     loaded->cures = character.cures;
     return loaded;
 }

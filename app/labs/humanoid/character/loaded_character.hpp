@@ -26,10 +26,19 @@ struct ClipCure {
     bool operator==(const ClipCure&) const = default;
 };
 
+/// A clip of another file that was carried over.
+struct LoadedMotion {
+    std::string file;  ///< as given
+    std::string path;  ///< absolute
+    std::string clip;  ///< its name there
+    bool operator==(const LoadedMotion&) const = default;
+};
+
 struct LoadedCharacter {
     std::string file;  ///< as given; empty: the stick figure
     std::string path;  ///< absolute path; empty for the stick figure
     Character character;
+    std::vector<LoadedMotion> motions{};    ///< its last clips before they were cured
     std::vector<ClipCure> cures{};          ///< applied to its clips, in this order
     humanoid::BoneMap matched;              ///< as named in the file, or as matched by the library
     std::vector<humanoid::Placement> rest;  ///< of all nodes

@@ -102,6 +102,16 @@ std::string why_no_spring(const HumanoidPart& part, std::size_t node) {
     return overlap(part, node);
 }
 
+void take_springs(HumanoidPart& part) {
+    for (const NamedSpring& each : part.loaded->character.springs) {
+        if (part.springs.size() == max_springs || !why_no_spring(part, each.node).empty()) continue;
+        part.springs.push_back({.node = part.skeleton()[each.node].name,
+                                .strength = each.strength,
+                                .critical_damping = each.critical_damping});
+    }
+    part.ik_state.springs.resize(part.springs.size());
+}
+
 std::vector<std::size_t> selected_for_springs(const HumanoidPart& part) {
     std::vector<std::size_t> nodes;
     const auto taken = [&](std::size_t node) {

@@ -36,6 +36,8 @@ std::optional<std::size_t> spring_on(const HumanoidPart& part, std::size_t node)
 /// Why there can be no spring on the node: another spring is in the way, the node belongs to the body or has
 /// no parent. Empty if there can be one, provided that the node has some length.
 std::string why_no_spring(const HumanoidPart& part, std::size_t node);
+/// Puts the springs of the character's file on it, but for those that are not possible.
+void take_springs(HumanoidPart& part);
 /// The selected nodes that can have a spring, without descendants of one another.
 std::vector<std::size_t> selected_for_springs(const HumanoidPart& part);
 /// The indices of the part's springs that turn selected nodes, ascending.

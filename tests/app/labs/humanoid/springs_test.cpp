@@ -256,5 +256,26 @@ TEST_F(HumanoidSprings, AreBakedIntoAClip) {
     EXPECT_GT(swung, 0.02);
 }
 
+TEST_F(HumanoidSprings, OfAVrmAreOnItOnceItIsLoaded) {
+    const test::TempFolder folder;
+    test::write(
+        folder / "hair.vrm",
+        R"({"asset":{"version":"2.0"},"nodes":[{"name":"hips","children":[1]},)"
+        R"({"name":"hair","translation":[0,1,0],"children":[2]},{"name":"tip","translation":[0,-0.2,0]}],)"
+        R"("skins":[{"joints":[0]}],"extensions":{"VRMC_springBone":{"springs":[)"
+        R"({"joints":[{"node":1,"stiffness":1,"dragForce":0.4},{"node":2}]}]}}})");
+    run("humanoid.load", {{"path", (folder / "hair.vrm").string()}});
+    ASSERT_EQ(part().springs.size(), 1u);
+    EXPECT_EQ(part().springs[0].node, "hair");
+    EXPECT_NEAR(part().springs[0].strength, part().loaded->character.springs[0].strength, 0.0);
+    EXPECT_EQ(aside("tip"), 0.0);
+    run("humanoid.spring", {{"node", "hair"}, {"strength", 5.0}});
+    EXPECT_EQ(humanoid_part(reopened()).springs[0].strength, 5.0) << "the scene's, and only once";
+    EXPECT_EQ(humanoid_part(reopened()).springs.size(), 1u);
+    run("undo");
+    run("undo");
+    EXPECT_TRUE(part().springs.empty());
+}
+
 }  // namespace
 }  // namespace tendril::app

@@ -1,0 +1,196 @@
+#include "app/io/character/gltf_vrm_springs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace tendril::app {
+namespace {
+
+using tinygltf::Value;
+
+constexpr std::size_t max_vrm_springs = 4096;
+
+const Value* part_of(const Value* object, const char* name) {
+    return object && object->IsObject() && object->Has(name) ? &object->Get(name) : nullptr;
+}
+const Value* part_of(const Value* list, std::size_t index) {
+    return list && list->IsArray() && index < list->ArrayLen() ? &list->Get(static_cast<int>(index))
+                                                               : nullptr;
+}
+double number_or(const Value* value, double otherwise, double low, double high) {
+    if (!value || !value->IsNumber() || !std::isfinite(value->GetNumberAsDouble())) return otherwise;
+    return std::clamp(value->GetNumberAsDouble(), low, high);
+}
+int node_or_none(const Value* value, const tinygltf::Model& model) {
+    const int node = value && value->IsInt() ? value->GetNumberAsInt() : -1;
+    return node < static_cast<int>(model.nodes.size()) ? node : -1;
+}
+const Value* extension(const tinygltf::Model& model, const char* name) {
+    const auto found = model.extensions.find(name);
+    return found == model.extensions.end() ? nullptr : &found->second;
+}
+
+constexpr double max_stiffness = 1e3, max_gravity = 1e3;
+
+/// VRM 0.x: groups of roots with the same settings. Its directions have Unity's z.
+void add_groups(const tinygltf::Model& model, std::vector<VrmSpring>& springs) {
+    const Value* groups = part_of(part_of(extension(model, "VRM"), "secondaryAnimation"), "boneGroups");
+    for (std::size_t i = 0; const Value* group = part_of(groups, i); ++i) {
+        VrmSpring spring;
+        spring.stiffness = number_or(part_of(group, "stiffiness"), 1.0, 0.0, max_stiffness);  // sic
+        spring.drag = number_or(part_of(group, "dragForce"), 0.4, 0.0, 1.0);
+        const double power = number_or(part_of(group, "gravityPower"), 0.0, -max_gravity, max_gravity);
+        const Value* direction = part_of(group, "gravityDir");
+        const auto along = [&](const char* axis, double otherwise) {
+            return number_or(part_of(direction, axis), otherwise, -1.0, 1.0);
+        };
+        spring.gravity = power * glm::dvec3(along("x", 0.0), along("y", -1.0), -along("z", 0.0));
+        const Value* roots = part_of(group, "bones");
+        for (std::size_t k = 0; const Value* root = part_of(roots, k); ++k) {
+            spring.node = node_or_none(root, model);
+            if (spring.node >= 0 && springs.size() < max_vrm_springs) springs.push_back(spring);
+        }
+    }
+}
+
+/// VRM 1.0: a list of joints each. The first one's settings are taken for all.
+void add_chains(const tinygltf::Model& model, std::vector<VrmSpring>& springs) {
+    const Value* chains = part_of(extension(model, "VRMC_springBone"), "springs");
+    for (std::size_t i = 0; const Value* chain = part_of(chains, i); ++i) {
+        const Value* first = part_of(part_of(chain, "joints"), std::size_t{0});
+        VrmSpring spring;
+        spring.node = node_or_none(part_of(first, "node"), model);
+        spring.stiffness = number_or(part_of(first, "stiffness"), 1.0, 0.0, max_stiffness);
+        spring.drag = number_or(part_of(first, "dragForce"), 0.5, 0.0, 1.0);
+        const double power = number_or(part_of(first, "gravityPower"), 0.0, -max_gravity, max_gravity);
+        const Value* direction = part_of(first, "gravityDir");
+        for (int k = 0; k < 3; ++k)
+            spring.gravity[k] = power * number_or(part_of(direction, static_cast<std::size_t>(k)),
+                                                  k == 1 ? -1.0 : 0.0, -1.0, 1.0);
+        if (spring.node >= 0 && springs.size() < max_vrm_springs) springs.push_back(spring);
+    }
+}
+
+/// Of a chain at rest, in metres.
+struct ChainShape {
+    double first = 0.0, whole = 0.0;  // lengths of its first bone, and from its root to its farthest tip
+    glm::dvec3 direction{0.0, -1.0, 0.0};
+};
+
+ChainShape shape_of(const humanoid::Skeleton& skeleton, const std::vector<humanoid::Placement>& rest,
+                    std::size_t root) {
+    ChainShape shape;
+    const auto at = [&](std::int32_t node) { return rest[static_cast<std::size_t>(node)].position; };
+    glm::dvec3 tip(0.0);
+    const auto children = skeleton.children(root);
+    for (const std::int32_t each : children) tip += at(each) / static_cast<double>(children.size());
+    const glm::dvec3 own = rest[root].position;
+    // A node without children is as long as the way from its parent to it, as in SpringChain.
+    const glm::dvec3 way = !children.empty()            ? tip - own
+                           : skeleton[root].parent >= 0 ? own - at(skeleton[root].parent)
+                                                        : glm::dvec3(0.0);
+    shape.first = glm::length(way);
+    if (shape.first > 0.0) shape.direction = way / shape.first;
+    shape.whole = shape.first;
+    struct Open {
+        std::int32_t node;
+        double length, last;  // from the root to it, and from its parent
+    };
+    std::vector<Open> open{{static_cast<std::int32_t>(root), 0.0, shape.first}};
+    while (!open.empty()) {
+        const Open each = open.back();
+        open.pop_back();
+        const auto below = skeleton.children(static_cast<std::size_t>(each.node));
+        if (below.empty()) shape.whole = std::max(shape.whole, each.length + each.last);
+        for (const std::int32_t child : below) {
+            const double way = glm::distance(at(each.node), at(child));
+            open.push_back({child, each.length + way, way});
+        }
+    }
+    return shape;
+}
+
+}  // namespace
+
+std::vector<VrmSpring> vrm_springs(const tinygltf::Model& model) {
+    std::vector<VrmSpring> springs;
+    add_groups(model, springs);
+    add_chains(model, springs);
+    return springs;
+}
+
+/// VRM moves a bone's tip by Verlet's method, 60 times a second: with the tip y beside its rest, drag d,
+/// length L, stiffness k and gravity g along the bone,
+///
+///     y' = (1 - q) (y + (1 - d) (y - y_before)),   q = s / (L + s),   s = (k + g) / 60
+///
+/// where q comes from adding s along the bone and then restoring its length. So y is a sum of powers of the
+/// roots z of z^2 - (1 - q) (2 - d) z + (1 - q) (1 - d) = 0, and a damped spring has the same decay and
+/// frequency if its two rates, w (zeta +- sqrt(zeta^2 - 1)), are -60 ln z: w^2 is their product, and zeta
+/// their mean over w.
+SpringRate spring_rate(const VrmSpring& spring, double length, const glm::dvec3& direction) {
+    constexpr double steps = 60.0, smallest = 1e-4, two_pi = 6.283185307179586;
+    const double pull = std::max(0.0, spring.stiffness + glm::dot(spring.gravity, direction)) / steps;
+    const double kept = std::max(1.0 - pull / (std::max(length, 1e-3) + pull), smallest);
+    const double half_sum = 0.5 * kept * (2.0 - spring.drag), product = kept * (1.0 - spring.drag);
+    const double inside = half_sum * half_sum - product;
+    double squared = 0.0, mean = 0.0;
+    if (inside < 0.0) {
+        const double decay = -0.5 * std::log(std::max(product, smallest));
+        const double turn = std::acos(std::clamp(half_sum / std::sqrt(product), -1.0, 1.0));
+        squared = decay * decay + turn * turn;
+        mean = decay;
+    } else {
+        const double slow = -std::log(std::clamp(half_sum + std::sqrt(inside), smallest, 1.0)),
+                     fast = -std::log(std::clamp(half_sum - std::sqrt(inside), smallest, 1.0));
+        squared = slow * fast;
+        mean = 0.5 * (slow + fast);
+    }
+    const double rate = std::sqrt(squared);
+    return {std::clamp(steps * rate / two_pi, 0.01, 100.0), rate > 0.0 ? std::min(mean / rate, 10.0) : 10.0};
+}
+
+std::vector<NamedSpring> named_springs(const std::vector<VrmSpring>& springs, const Character& character,
+                                       const std::vector<std::int32_t>& place,
+                                       std::vector<std::string>& notes) {
+    if (springs.empty()) return {};
+    const humanoid::Skeleton& skeleton = character.skeleton;
+    std::vector<humanoid::Placement> rest(skeleton.size());
+    humanoid::place(skeleton, humanoid::rest_pose(skeleton), rest);
+    std::vector<NamedSpring> result;
+    const auto is_free = [&](std::size_t node) {
+        if (skeleton[node].parent < 0) return false;
+        for (std::size_t i = 0; character.bones && i < character.bones->nodes.size(); ++i)
+            if (const std::int32_t bone = character.bones->nodes[i];
+                bone >= 0 && skeleton.is_below(static_cast<std::size_t>(bone), node))
+                return false;
+        return std::ranges::none_of(result, [&](const NamedSpring& each) {
+            return skeleton.is_below(node, each.node) || skeleton.is_below(each.node, node);
+        });
+    };
+    std::size_t left_out = 0;
+    for (const VrmSpring& each : springs) {
+        const std::int32_t found = place[static_cast<std::size_t>(each.node)];
+        const auto node = static_cast<std::size_t>(std::max(found, 0));
+        const ChainShape shape = found < 0 ? ChainShape() : shape_of(skeleton, rest, node);
+        if (found < 0 || !is_free(node) || !(shape.whole > 0.0)) {
+            ++left_out;
+            continue;
+        }
+        const SpringRate rate = spring_rate(each, shape.first, shape.direction);
+        // SpringChain's strength is that of the tip; its first bone, at a part s of the chain, is stiffer by
+        // 1 / sqrt(s^2 (6 - 4 s + s^2) / 3). That bone swings as VRM's does.
+        const double s = std::clamp(shape.first / shape.whole, 0.01, 1.0);
+        result.push_back(
+            {node, std::clamp(rate.strength * s * std::sqrt((6.0 - 4.0 * s + s * s) / 3.0), 0.01, 100.0),
+             rate.critical_damping});
+    }
+    notes.push_back("The file's springs swing without its colliders; gravity only changes their strength.");
+    if (left_out > 0)
+        notes.push_back(std::to_string(left_out) + (left_out == 1 ? " spring is" : " springs are") +
+                        " left out: on bones of the body, or on one another.");
+    return result;
+}
+
+}  // namespace tendril::app

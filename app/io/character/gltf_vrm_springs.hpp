@@ -1,0 +1,36 @@
+// Spring bones of a VRM file: "secondaryAnimation" of VRM 0.x, and VRMC_springBone of VRM 1.0, both by the
+// VRM Consortium.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "app/io/character/character.hpp"
+#include "app/io/character/tiny_gltf.hpp"
+
+namespace tendril::app {
+
+/// As the file has it.
+struct VrmSpring {
+    int node = -1;  ///< the file's; its descendants swing with it
+    double stiffness = 1.0, drag = 0.4;
+    glm::dvec3 gravity{0.0};  ///< direction times power
+};
+
+/// Springs on nodes that do not exist are left out; numbers are limited to sane ones.
+std::vector<VrmSpring> vrm_springs(const tinygltf::Model& model);
+
+/// Frequency in Hz and damping ratio of a bone of that length, in metres, that points along `direction`.
+struct SpringRate {
+    double strength = 0.0, critical_damping = 0.0;
+};
+SpringRate spring_rate(const VrmSpring& spring, double length, const glm::dvec3& direction);
+
+/// The springs on a skeleton. `place`: index in it of each of the file's nodes; -1: not in it. Springs on the
+/// body and on one another are left out. Appends sentences about what is left out to `notes`.
+std::vector<NamedSpring> named_springs(const std::vector<VrmSpring>& springs, const Character& character,
+                                       const std::vector<std::int32_t>& place,
+                                       std::vector<std::string>& notes);
+
+}  // namespace tendril::app

@@ -1,0 +1,27 @@
+// Clips of other files, played on this character (humanoid::retarget). The result is a clip like its own.
+#pragma once
+
+#include <string>
+
+#include "app/document/json.hpp"
+#include "app/labs/humanoid/character/loaded_character.hpp"
+
+namespace tendril::app {
+
+class JsonPlace;
+struct HumanoidPart;
+
+struct PlayedMotion {
+    SharedCharacter loaded;  ///< the part's, with one more clip, the last
+    std::string text;        ///< for the user: its name, and what could not be carried over
+};
+
+/// Reads the clip of that name from a file of any kind; empty: the first one. Throws std::runtime_error that
+/// begins with the file's name.
+PlayedMotion with_motion(const HumanoidPart& part, const std::string& file, const std::string& clip);
+
+Json motions_json(const LoadedCharacter& character);
+/// Reads the files again. Throws std::runtime_error that begins with the JSON path.
+void read_motions(const JsonPlace& place, HumanoidPart& part);
+
+}  // namespace tendril::app

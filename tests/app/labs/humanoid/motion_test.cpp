@@ -1,0 +1,138 @@
+// Motions of other characters, carried over to the lab's.
+#include "app/io/character/character.hpp"
+#include "app/labs/humanoid/humanoid_runtime.hpp"
+#include "humanoid_support.hpp"
+#include "tests/app/io/gltf_text.hpp"
+#include "tests/app/support/temp_folder.hpp"
+#include "tests/says.hpp"
+
+namespace tendril::app {
+namespace {
+
+using humanoid::Bone;
+
+/// A VRM's motion, half a man's size, facing -Z, whose left arm goes up while it walks 1 m ahead in a second.
+/// `extension`: who names the bones.
+std::string vrma(const char* extension = "VRMC_vrm_animation") {
+    struct Joint {
+        const char* bone;
+        int parent;
+        float x, y, z;
+    };
+    constexpr Joint joints[]{{"", -1, 0, 0, 0},
+                             {"hips", 0, 0, 0.5f, 0},
+                             {"spine", 1, 0, 0.05f, 0},
+                             {"head", 2, 0, 0.25f, 0},
+                             {"leftUpperArm", 2, -0.1f, 0.2f, 0},
+                             {"leftLowerArm", 4, -0.15f, 0, 0},
+                             {"leftHand", 5, -0.15f, 0, 0},
+                             {"rightUpperArm", 2, 0.1f, 0.2f, 0},
+                             {"rightLowerArm", 7, 0.15f, 0, 0},
+                             {"rightHand", 8, 0.15f, 0, 0},
+                             {"leftUpperLeg", 1, -0.05f, 0, 0},
+                             {"leftLowerLeg", 10, 0, -0.22f, 0},
+                             {"leftFoot", 11, 0, -0.22f, 0},
+                             {"rightUpperLeg", 1, 0.05f, 0, 0},
+                             {"rightLowerLeg", 13, 0, -0.22f, 0},
+                             {"rightFoot", 14, 0, -0.22f, 0},
+                             {"", 12, 0, -0.03f, -0.08f},
+                             {"", 15, 0, -0.03f, -0.08f}};
+    std::string nodes, bones;
+    for (int i = 0; i < static_cast<int>(std::size(joints)); ++i) {
+        std::string children;
+        for (int k = 0; k < static_cast<int>(std::size(joints)); ++k)
+            if (joints[k].parent == i) children += (children.empty() ? "" : ",") + std::to_string(k);
+        nodes += (i > 0 ? "," : "") + std::string(R"({"translation":[)") + std::to_string(joints[i].x) + "," +
+                 std::to_string(joints[i].y) + "," + std::to_string(joints[i].z) + "]" +
+                 (children.empty() ? "" : R"(,"children":[)" + children + "]") + "}";
+        if (joints[i].bone[0] != '\0')
+            bones += (bones.empty() ? "" : ",") + std::string("\"") + joints[i].bone + R"(":{"node":)" +
+                     std::to_string(i) + "}";
+    }
+    test_gltf::GltfText file;
+    const float half = std::sqrt(0.5f);
+    const std::string times = file.scalars({0, 1}), turns = file.quaternions({0, 0, 0, 1, 0, 0, -half, half}),
+                      ways = file.vectors({0, 0.5f, 0, 0, 0.5f, -1});
+    file.members = R"("nodes":[)" + nodes + R"(],"animations":[{"name":"wave","samplers":[{"input":)" +
+                   times + R"(,"output":)" + turns + R"(},{"input":)" + times + R"(,"output":)" + ways +
+                   R"(}],"channels":[{"sampler":0,"target":{"node":4,"path":"rotation"}},)"
+                   R"({"sampler":1,"target":{"node":1,"path":"translation"}}]}],"extensionsUsed":[")" +
+                   extension + R"("],"extensions":{")" + extension + R"(":{"humanoid":{"humanBones":{)" +
+                   bones + "}}}}";
+    return file.glb();
+}
+
+class HumanoidMotions : public HumanoidTest {
+  protected:
+    HumanoidMotions() {
+        test::write(folder_ / "wave.vrma", vrma());
+        test::write(folder_ / "body.vrm", vrma("VRMC_vrm"));
+    }
+    std::string path(const char* name) const { return (folder_ / name).string(); }
+    test::TempFolder folder_;
+};
+
+TEST_F(HumanoidMotions, AVrmaPlaysOnAnotherCharacter) {
+    const double clips = static_cast<double>(part().loaded->clips().size());
+    const glm::dvec3 hips = bone("Hips");
+    run("humanoid.motion.load", {{"path", path("wave.vrma")}});
+    EXPECT_EQ(part().loaded->clips().size(), clips + 1);
+    EXPECT_EQ(part().clip()->name, "wave");
+    EXPECT_TRUE(part().playback.playing);
+    ASSERT_FALSE(workspace.ui.toasts.empty());
+
+    run("humanoid.clip", {{"time", 1.0}, {"play", false}, {"loop", false}});
+    const glm::dvec3 arm = bone("LeftLowerArm") - bone("LeftUpperArm");
+    EXPECT_GT(arm.y / glm::length(arm), 0.999) << "up, though the figures face opposite ways";
+    const glm::dvec3 other = bone("RightLowerArm") - bone("RightUpperArm");
+    EXPECT_LT(std::abs(other.y) / glm::length(other), 1e-3);
+    const glm::dvec3 way = bone("Hips") - hips;
+    EXPECT_GT(way.z, 1.5) << "ahead, in proportion to the legs";
+    EXPECT_NEAR(way.x, 0.0, 1e-6);
+
+    // Undone in one step; saved with the scene; named again.
+    const Workspace other_window = reopened();
+    EXPECT_EQ(humanoid_part(other_window).loaded->clips().back(), part().loaded->clips().back());
+    EXPECT_EQ(save_scene(other_window), save_scene(workspace));
+    run("humanoid.motion.load", {{"path", path("wave.vrma")}, {"clip", "wave"}});
+    EXPECT_EQ(part().clip()->name, "wave_2");
+    for (int i = 0; i < 3; ++i) run("undo");
+    EXPECT_EQ(part().loaded->clips().size(), clips);
+}
+
+TEST_F(HumanoidMotions, ItIsAClipLikeOthers) {
+    run("humanoid.load", {{"path", path("body.vrm")}});
+    EXPECT_EQ(bones().at("Hips").at("confidence"), 1.0);
+    run("humanoid.motion.load", {{"path", path("wave.vrma")}});
+    EXPECT_EQ(part().clip()->name, "wave_2") << "it has one of that name";
+    run("humanoid.export", {{"path", path("out.glb")}});
+    run("humanoid.scale", {{"metres", 2.0}});
+    EXPECT_EQ(part().loaded->motions.size(), 1u);
+    const Workspace again = reopened();
+    EXPECT_EQ(humanoid_part(again).loaded->clips(), part().loaded->clips());
+    run("humanoid.load", {{"path", path("out.glb")}});
+    ASSERT_EQ(part().loaded->clips().size(), 1u);
+    EXPECT_EQ(part().loaded->clips()[0].name, "wave_2");
+    EXPECT_NEAR(part().loaded->clips()[0].duration, 1.0, 1e-6);
+}
+
+TEST_F(HumanoidMotions, WhatCannotBeCarriedOverIsRefusedOrSaid) {
+    test::write(folder_ / "still.gltf",
+                R"({"asset":{"version":"2.0"},"nodes":[{"children":[1]},{}],"skins":[{"joints":[0,1]}]})");
+    EXPECT_TRUE(
+        test::says(refused("humanoid.motion.load", {{"path", path("still.gltf")}}), "still.gltf no clips"));
+    EXPECT_TRUE(
+        test::says(refused("humanoid.motion.load", {{"path", path("gone.vrma")}}), "gone.vrma no such file"));
+    EXPECT_TRUE(test::says(refused("humanoid.motion.load", {{"path", path("wave.vrma")}, {"clip", "run"}}),
+                           "wave.vrma no clip run"));
+    run("humanoid.motion.load", {{"path", path("wave.vrma")}});
+    const std::string said = workspace.ui.toasts.back().text;
+    EXPECT_TRUE(test::says(said, "wave hips scaled")) << said;
+    EXPECT_TRUE(test::says(said, "at rest: Chest")) << said;
+    run("humanoid.map", {{"bone", "Hips"}});
+    EXPECT_TRUE(
+        test::says(refused("humanoid.motion.load", {{"path", path("wave.vrma")}}), "wave.vrma to.map Hips"));
+}
+
+}  // namespace
+}  // namespace tendril::app
