@@ -40,7 +40,7 @@ bool usual_number_field(const char* label, float& value, const Field& field, con
     const float step = field.scale == FieldScale::Logarithmic ? std::max(0.01f * std::abs(value), 1e-4f)
                                                               : 0.005f * (high - low);
     return number_field(label, value, step, std::min(low, value), std::max(high, value),
-                        format_of(field, text).c_str());
+                        format_of(field, text).c_str(), text.at_zero);
 }
 
 }  // namespace
@@ -126,7 +126,7 @@ void FieldRows::number_row(const Field& field, const FieldText& text, const RowO
     const bool usual = !options.within && field.usual.low < field.usual.high;
     if (usual ? usual_number_field(text.label, value, field, text)
               : number_field(text.label, value, text.step, shown(range.low), shown(range.high),
-                             format_of(field, text).c_str()))
+                             format_of(field, text).c_str(), text.at_zero))
         emit_.continuously(
             command_, arguments(field, is_angle(field) ? value : value / static_cast<float>(text.scale)));
 }
@@ -147,8 +147,15 @@ void FieldRows::pair_row(const Field& field, const FieldText& text) const {
 void FieldRows::point_row(const Field& field, const FieldText& text) const {
     const FieldValue now = field.get(of_.object);
     glm::vec3 value(now[0], now[1], now[2]);
-    if (point_field(text.label, value, text.step, static_cast<float>(field.slider().high),
-                    format_of(field, text).c_str()))
+    const auto most = static_cast<float>(field.slider().high);
+    std::string label = text.label, format = format_of(field, text);
+    if (const std::size_t unit = format.find(' '); text.in_line && unit != format.npos) {
+        label += ',' + format.substr(unit);  // too wide for each of the three
+        format.resize(unit);
+    }
+    if (text.in_line
+            ? vector_field(label.c_str(), value, text.step, glm::vec3(-most), glm::vec3(most), format.c_str())
+            : point_field(label.c_str(), value, text.step, most, format.c_str()))
         emit_.continuously(command_, arguments(field, glm::max(value, static_cast<float>(field.range.low))));
 }
 

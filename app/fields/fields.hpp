@@ -31,6 +31,8 @@ struct FieldText {
     int decimals = 2;
     double scale = 1.0;                  ///< shown value = value * scale
     const char* unit = nullptr;          ///< of the shown value, if not the field's: "ms"
+    const char* at_zero = nullptr;       ///< shown instead of 0: "never"
+    bool in_line = false;                ///< of a point: its three numbers side by side, below its label
     bool more = false;                   ///< rarely needed: its row is under "More", if the section has that
     bool listed = false;                 ///< choices in a drop-down list instead of buttons
     std::span<const EnumRow> choices{};  ///< titles of choices, in panel order

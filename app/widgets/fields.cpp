@@ -67,8 +67,9 @@ std::string begin_row(const char* name) {
     return std::string("##") + name;
 }
 
-bool drag_number(const char* id, float& value, float speed, float low, float high, const char* format) {
-    const auto entered = number_entry(id, value, speed, low, high, format);
+bool drag_number(const char* id, float& value, float speed, float low, float high, const char* format,
+                 const char* at_zero = nullptr) {
+    const auto entered = number_entry(id, value, speed, low, high, format, false, at_zero);
     if (!entered) return false;
     constexpr float most = std::numeric_limits<float>::max();  // JSON has no infinity
     const auto wanted = static_cast<float>(*entered);
@@ -147,9 +148,10 @@ void coloured_note(const std::string& text, glm::vec3 colour) {
     ImGui::PopStyleColor();
 }
 
-bool number_field(const char* name, float& value, float speed, float low, float high, const char* format) {
+bool number_field(const char* name, float& value, float speed, float low, float high, const char* format,
+                  const char* at_zero) {
     const std::string id = begin_row(name);
-    return drag_number(id.c_str(), value, speed, low, high, format);
+    return drag_number(id.c_str(), value, speed, low, high, format, at_zero);
 }
 
 bool integer_field(const char* name, int& value, int low, int high) {
@@ -400,6 +402,14 @@ bool row_button(const char* title, int of, bool enabled, const char* tooltip) {
     if (tooltip != nullptr) tooltip_of_button(tooltip);
     ImGui::SameLine();  // the next button continues the row, unless it is full
     if (ImGui::GetCursorPosX() + width > ImGui::GetWindowContentRegionMax().x + 1.0f) ImGui::NewLine();
+    return pressed;
+}
+
+bool row_option(const char* title, int of, bool chosen, const char* tooltip) {
+    ImGui::PushStyleColor(ImGuiCol_Button,
+                          ImGui::GetStyleColorVec4(chosen ? ImGuiCol_Header : ImGuiCol_Button));
+    const bool pressed = row_button(title, of, true, tooltip);
+    ImGui::PopStyleColor();
     return pressed;
 }
 

@@ -27,7 +27,9 @@ void coloured_note(const std::string& text, glm::vec3 colour);
 // Drags are clamped to the range. Typed values take effect when the user finishes (number_entry.hpp). They
 // are passed on even if out of range: the command refuses them with a message that gives the value and the
 // range.
-bool number_field(const char* name, float& value, float speed, float low, float high, const char* format);
+/// `at_zero`, if given, is shown instead of 0: "never".
+bool number_field(const char* name, float& value, float speed, float low, float high, const char* format,
+                  const char* at_zero = nullptr);
 bool integer_field(const char* name, int& value, int low, int high);
 bool integer_slider(const char* name, int& value, int low, int high);
 /// A line of text. Typing takes effect on Enter, Tab or a click elsewhere, and Escape cancels it; `hint` is
@@ -88,6 +90,8 @@ void explain(const char* text);
 
 /// A button in a row of `of` equal buttons, or fewer if they would be too small. A long tooltip is wrapped.
 bool row_button(const char* title, int of, bool enabled = true, const char* tooltip = nullptr);
+/// One of a row of buttons of which one is chosen, and lit.
+bool row_option(const char* title, int of, bool chosen, const char* tooltip = nullptr);
 
 /// Ends a row of buttons that is not full.
 void end_row();

@@ -103,7 +103,7 @@ std::optional<double> edited_text(const char* id, const std::string& unit, bool 
 }  // namespace
 
 std::optional<double> number_entry(const char* id, double value, double speed, double low, double high,
-                                   const char* format, bool whole) {
+                                   const char* format, bool whole, const char* at_zero) {
     const ImGuiID own = ImGui::GetID(id);
     note_range(low, high, format);
     if (number_editing().tabbed_in == ImGui::GetFrameCount() && !is_disabled()) begin_editing(own, value);
@@ -112,10 +112,11 @@ std::optional<double> number_entry(const char* id, double value, double speed, d
     char text[64];
     std::snprintf(text, sizeof text, format, value);
     double shown = without_signed_zero(text) == text ? value : 0.0;
+    const char* const seen = at_zero != nullptr && value == 0.0 ? at_zero : format;
     const ImGuiIO& io = ImGui::GetIO();
     // ImGui makes a drag ten times coarser with Shift; this makes it ten times finer.
     const auto pace = static_cast<float>(io.KeyShift ? 0.01 * speed : speed);
-    const bool changed = ImGui::DragScalar(id, ImGuiDataType_Double, &shown, pace, &low, &high, format,
+    const bool changed = ImGui::DragScalar(id, ImGuiDataType_Double, &shown, pace, &low, &high, seen,
                                            ImGuiSliderFlags_NoInput);
     const bool clicked = ImGui::IsItemDeactivated() && ImGui::IsMouseReleased(ImGuiMouseButton_Left) &&
                          io.MouseDragMaxDistanceSqr[0] < io.MouseDragThreshold * io.MouseDragThreshold;

@@ -51,8 +51,9 @@ struct NumberEditing {
 NumberEditing& number_editing();
 
 /// Returns the new number in a frame in which the user changed it. `format` is a printf format with the unit
-/// after the number. `whole`: only whole numbers are valid.
+/// after the number. `whole`: only whole numbers are valid. `at_zero`: shown instead of 0, such as "never".
 std::optional<double> number_entry(const char* id, double value, double speed, double low, double high,
-                                   const char* format, bool whole = false);
+                                   const char* format, bool whole = false,
+                                   const char* at_zero = nullptr);
 
 }  // namespace tendril::app

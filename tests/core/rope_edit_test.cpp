@@ -1,5 +1,6 @@
 // Cutting, pinning, attaching, naming and removing: indices follow, and nothing else changes.
 #include <array>
+#include <limits>
 
 #include "rope_support.hpp"
 #include "tendril/rope/quasi_static.hpp"
@@ -104,6 +105,28 @@ TEST(RopeEdit, RemovedOnesLeaveNoTrace) {
     left.bodies[0].id = without.state().bodies[0].id;
     left.body_slots = without.state().body_slots;
     EXPECT_TRUE(same_bits(left, without.state()));
+}
+
+/// It goes on there as it would have here: pins, velocities and tensions go with it.
+TEST(RopeEdit, AMovedBodyGoesOnAsItWas) {
+    World world = three_ropes();
+    run(world, 0.3);
+    World other = world;
+    const glm::dvec3 by(4.0, -0.5, 2.0);
+    allow(other.move(other.id("c"), by));
+    for (std::size_t i = 0; i < 10; ++i) EXPECT_EQ(other.state().position[i], world.state().position[i]);
+    run(world, 0.5), run(other, 0.5);
+    for (std::size_t i = 10; i < 15; ++i)
+        EXPECT_LT(distance(other.state().position[i], world.state().position[i] + by), 1e-6);
+    expect_sound(other);
+    EXPECT_FALSE(other.move(other.id("c"), {2e9, 0, 0}));
+    EXPECT_FALSE(other.move(other.id("c"), glm::dvec3(std::numeric_limits<double>::quiet_NaN())));
+    EXPECT_FALSE(other.move({}, by));
+    other.add_collider("ball", Sphere{{5, 5, 0}, 0.1f});
+    other.attach(other.particle("a", 2), "ball");
+    const State before = other.state();
+    EXPECT_FALSE(other.move(other.id("a"), by)) << "the ball moves it";
+    EXPECT_TRUE(same_bits(before, other.state()));
 }
 
 TEST(RopeEdit, APinIsTakenToItsGoalInItsTime) {

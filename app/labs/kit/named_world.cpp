@@ -121,6 +121,9 @@ std::string NamedWorld::cut(std::string_view rope, std::size_t segment) {
 std::size_t NamedWorld::particle(std::string_view body, std::size_t index) const {
     return require_value(world_.particle(id(body), index));
 }
+void NamedWorld::move(std::string_view body, const glm::dvec3& by) {
+    require_ok(world_.move(id(body), by));
+}
 void NamedWorld::set_length(std::string_view body, float metres) {
     require_ok(world_.set_length(id(body), metres));
 }

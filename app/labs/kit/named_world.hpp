@@ -57,6 +57,7 @@ class NamedWorld {
     /// `attach` is a collider's name, or empty.
     std::string add_hair(const std::string& name, rope::HairShape shape, const std::string& attach = {});
     void remove(std::string_view body);
+    void move(std::string_view body, const glm::dvec3& by);  ///< as in rope::World
     /// Returns the name of the part behind the cut: the rope's own name with a number.
     std::string cut(std::string_view rope, std::size_t segment);
     // As in rope::World.

@@ -353,12 +353,12 @@ class Fields {
         float shown = static_cast<float>(value);
         const bool weight = is_weight(*input_);
         const std::string unit = input_->unit;
-        const std::string format = is_speed_limit(*input_) ? "%.1f" + unit + (value > 0.0 ? "" : ", no limit")
+        const std::string format = is_speed_limit(*input_) ? "%.1f" + unit
                                    : unit.empty()          ? "%.3f"
                                                            : "%.3f " + unit;
         if (number_field(input_->title.c_str(), shown, weight ? 0.005f : 0.01f,
                          weight || *input_->unit != '\0' ? 0.0f : -max_literal, weight ? 1.0f : max_literal,
-                         format.c_str()))
+                         format.c_str(), is_speed_limit(*input_) ? "no limit" : nullptr))
             set(number(shown));
         explain(help().c_str());
     }

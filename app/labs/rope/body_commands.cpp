@@ -3,7 +3,10 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <glm/geometric.hpp>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/gtc/constants.hpp>
+#include <glm/vector_relational.hpp>
 #include <string>
 #include <utility>
 
@@ -70,6 +73,24 @@ void add_hair(RopeEdit& edit, const Arguments& given) {
         shape.roots = require_value(rope::roots_around(patch));
     }
     edit.world().add_hair(name_of(given), std::move(shape), attach);
+}
+
+/// `hold` keeps a body without pins from falling until rope.let_go, as a drag does.
+void move_body(RopeEdit& edit, const Arguments& given) {
+    const std::string name = given.text("rope");
+    body_of(edit.seen(), name);
+    if (given.point("by") != glm::vec3(0.0f)) edit.world().move(name, glm::dvec3(given.point("by")));
+    if (!given.has("hold") || !given.boolean("hold") || !edit.running()) return;
+    const rope::Body moved = body_of(edit.seen(), name);
+    const auto inside = [&](const rope::Pin& pin) { return pin.particle - moved.first < moved.count; };
+    if (std::ranges::any_of(edit.seen().state().pins, inside)) return;
+    let_go(edit.part);
+    Hold held{name, {}};
+    for (std::size_t i = 0; i < moved.count; ++i) {
+        held.particles.push_back(i);
+        edit.world().pin(moved.first + i, edit.seen().state().position[moved.first + i]);
+    }
+    edit.part.hold = std::move(held);
 }
 
 void remove_body(RopeEdit& edit, const Arguments& given) {
@@ -207,6 +228,11 @@ void add_body_commands(CommandTable& table) {
         "rope.set", "Change a rope, cloth or hair", std::move(made_of),
         "Changes the properties of a rope, cloth or hair; omitted ones are kept",
         [](RopeEdit& edit, const Arguments& given) { set_body(edit.world(), given.text("rope"), given); }));
+    table.add(rope_command(
+        "rope.move", "Move a rope, cloth or hair",
+        {body_argument("rope", true, "of a rope, cloth or hair"), point_argument("by", true, "metres"),
+         switch_argument("hold", "true: what has no pins does not fall until rope.let_go")},
+        "Moves a rope, cloth or hair as it is, with its pins and its motion", move_body));
     table.add(rope_command("rope.remove", "Remove a rope, cloth or hair",
                            {body_argument("name", true, "of a rope, cloth or hair")},
                            "Removes a rope, cloth or hair", remove_body));
@@ -235,28 +261,54 @@ void add_body_commands(CommandTable& table) {
 
 namespace {
 
-/// The centre of the view, or the nearest free position to its right and towards the viewer.
-glm::vec3 free_place(const Workspace& workspace) {
-    constexpr float apart = 0.35f;  // metres
-    const rope::State& state = rope_part(workspace).world->state();
-    const auto taken = [&](glm::vec3 at) {
-        const auto near = [&](glm::vec3 other) { return glm::distance(at, other) < apart; };
-        return std::any_of(state.colliders.begin(), state.colliders.end(),
-                           [&](const rope::Collider& each) { return near(rope::centre(each.shape)); }) ||
-               std::any_of(state.bodies.begin(), state.bodies.end(), [&](const rope::Body& body) {
-                   return near(glm::vec3(state.position[body.first + body.count / 2]));
-               });
-    };
-    const glm::vec3 middle = workspace.camera.target;
-    for (int ring = 0; ring < 40; ++ring) {
-        for (int side = 0; side <= ring; ++side) {
-            const float right = static_cast<float>(ring - side), nearer = static_cast<float>(side);
-            const glm::vec3 at = middle + 2.0f * apart * glm::vec3(right, 0.0f, nearer);
-            if (!taken(at)) return at;
+/// What bodies and colliders fill, planes aside; a collider that swings fills its way.
+std::vector<Space> filled_spaces(const RopePart& part) {
+    constexpr float apart = 0.1f;  // metres
+    const NamedWorld& world = *part.world;
+    std::vector<Space> all;
+    for (const rope::Body& body : world.state().bodies) {
+        Space space;
+        for (std::size_t i = body.first; i < body.first + body.count; ++i) {
+            space.low = glm::min(space.low, world.position(i));
+            space.high = glm::max(space.high, world.position(i));
         }
+        all.push_back({space.low - apart, space.high + apart});
+    }
+    for (const rope::Collider& collider : world.state().colliders) {
+        Space space;
+        include_shape(collider.shape, space.low, space.high);
+        if (space.low.x > space.high.x) continue;
+        glm::vec3 way(0.0f);
+        for (const Swing& swing : part.swings)
+            if (swing.collider == world.name(collider)) way = 2.0f * glm::abs(swing.swing);
+        all.push_back({space.low - apart - way, space.high + apart + way});
+    }
+    return all;
+}
+
+}  // namespace
+
+glm::vec3 free_place(const Workspace& workspace, const Space& needed) {
+    constexpr float step = 0.2f;  // metres
+    constexpr int most = 100;
+    const std::vector<Space> filled = filled_spaces(rope_part(workspace));
+    const auto is_free = [&](glm::vec3 at) {
+        return std::ranges::none_of(filled, [&](const Space& each) { return each.meets(needed.moved(at)); });
+    };
+    // Along the axis of the grid that is nearest to it, so that scenes stay in order.
+    const float yaw = glm::half_pi<float>() * std::round(workspace.camera.yaw / glm::half_pi<float>());
+    const glm::vec3 right(std::round(std::cos(yaw)), 0.0f, -std::round(std::sin(yaw)));
+    const glm::vec3 behind(right.z, 0.0f, -right.x);
+    const glm::vec3 middle = workspace.camera.target;
+    for (int i = 0; i < most; ++i) {
+        const float by = step * static_cast<float>(i);
+        for (const glm::vec3& way : {right, -right, behind})
+            if (is_free(middle + by * way)) return middle + by * way;
     }
     return middle;
 }
+
+namespace {
 
 class Adding {
   public:
@@ -265,7 +317,7 @@ class Adding {
 
     void bodies() {
         if (row_button("Rope", 3, true, "A rope that hangs between two pins")) {
-            const glm::vec3 at = free_place(workspace_);
+            const glm::vec3 at = free_place(workspace_, {{-0.6f, -0.1f, -0.1f}, {0.6f, 0.6f, 0.1f}});
             body("rope.add", "rope",
                  {{"from", at + glm::vec3(-0.6f, 0.6f, 0.0f)},
                   {"to", at + glm::vec3(0.6f, 0.6f, 0.0f)},
@@ -275,11 +327,11 @@ class Adding {
                   {"pin_end", true}});
         }
         if (row_button("Cloth", 3, true, "A cloth that hangs by two corners")) {
-            const glm::vec3 at = free_place(workspace_);
+            const glm::vec3 at = free_place(workspace_, {{-0.5f, -0.2f, -0.3f}, {0.5f, 0.8f, 0.3f}});
             body("rope.cloth.add", "cloth",
                  {{"corner", at + glm::vec3(-0.5f, 0.8f, 0.0f)},
                   {"along", glm::vec3(1, 0, 0)},
-                  {"down", glm::vec3(0.0f, -0.6f, 0.8f)},
+                  {"down", glm::vec3(0.0f, -0.96f, 0.28f)},
                   {"pins", "corners"}});
         }
         const bool on_collider = part_.selection && !part_.selection->collider.empty();
@@ -288,7 +340,9 @@ class Adding {
             if (on_collider)
                 arguments.push_back({"attach", part_.selection->collider});
             else
-                arguments.push_back({"centre", free_place(workspace_) + glm::vec3(0.0f, 0.5f, 0.0f)});
+                arguments.push_back(
+                    {"centre", free_place(workspace_, {{-0.2f, -0.2f, -0.2f}, {0.2f, 0.6f, 0.2f}}) +
+                                   glm::vec3(0.0f, 0.5f, 0.0f)});
             body("rope.hair.add", "hair", std::move(arguments));
         }
         end_row();
@@ -296,23 +350,25 @@ class Adding {
 
     void colliders() {
         using Shape = ArgumentList (*)(glm::vec3);
-        const auto row = [&](const char* title, const char* name, const char* kind, Shape shape) {
+        const auto row = [&](const char* title, const char* name, const char* kind, glm::vec3 half,
+                             Shape shape) {
             const bool plane = std::string(kind) == "plane";
             const char* const tip =
                 plane ? "A plane at the height of the grid" : "A collider near the middle of the view";
-            if (row_button(title, 4, true, tip)) collider(name, kind, shape(free_place(workspace_)));
+            if (!row_button(title, 4, true, tip)) return;
+            collider(name, kind, shape(free_place(workspace_, {-half, half})));
         };
-        row("Ball", "ball", "sphere", [](glm::vec3 at) {
+        row("Ball", "ball", "sphere", glm::vec3(0.25f), [](glm::vec3 at) {
             return ArgumentList{{"centre", at}, {"radius", 0.25f}};
         });
-        row("Bar", "bar", "capsule", [](glm::vec3 at) {
+        row("Bar", "bar", "capsule", glm::vec3(0.1f, 0.1f, 0.6f), [](glm::vec3 at) {
             const glm::vec3 half(0.0f, 0.0f, 0.5f);
             return ArgumentList{{"a", at - half}, {"b", at + half}, {"radius", 0.1f}};
         });
-        row("Box", "box", "box", [](glm::vec3 at) {
+        row("Box", "box", "box", glm::vec3(0.25f), [](glm::vec3 at) {
             return ArgumentList{{"centre", at}, {"half_extents", glm::vec3(0.25f)}};
         });
-        row("Floor", "floor", "plane", [](glm::vec3) {
+        row("Floor", "floor", "plane", glm::vec3(0.0f), [](glm::vec3) {
             return ArgumentList{{"point", glm::vec3(0.0f)}, {"normal", glm::vec3(0, 1, 0)}};
         });
         end_row();

@@ -48,7 +48,8 @@ class Drawing {
     float px(float pixels) const { return pixels * view_.scale; }
     bool lit(PickId pick) const { return view_.hovered == pick || view_.dragged == pick; }
     bool chosen(const rope::Body& body) const {
-        return part_.selection && part_.selection->of_particles() && part_.selection->body == world_.name(body);
+        return part_.selection && part_.selection->of_particles() &&
+               part_.selection->body == world_.name(body);
     }
     bool chosen(const rope::Body& body, std::size_t i) const {
         return chosen(body) && part_.selection->particles.has(i);
@@ -179,11 +180,14 @@ class Drawing {
         for (const rope::Pin& pin : world_.state().pins) pinned[pin.particle] = !pin.collider;
         const bool cuts = part_.tool == RopeTool::Cut;
         for (const rope::Body& body : world_.state().bodies) {
+            // The colour of the body says that all of it is selected.
+            const bool some =
+                chosen(body) && (body.count == 1 || part_.selection->particles.all().size() < body.count);
             for (std::size_t i = 0; i < body.count; ++i) {
                 const std::size_t particle = body.first + i;
                 const PickId pick = particle_pick(particle);
                 const bool alone = body.count == 1;  // the rest of a rope cut near its end
-                const bool selected = chosen(body, i), under_mouse = !cuts && lit(pick);
+                const bool selected = some && chosen(body, i), under_mouse = !cuts && lit(pick);
                 if (!(pinned[particle] || selected || under_mouse || part_.view.particles || alone)) continue;
                 const glm::vec3 colour = selected            ? view_.palette.selection
                                          : pinned[particle]  ? view_.palette.target

@@ -36,6 +36,9 @@ void scene_rows(Emit& emit) {
     std::vector<PresetButton> buttons;
     for (const RopeSceneEntry& scene : rope_scenes())
         buttons.push_back({scene.name, scene.title, scene.help});
+    const std::size_t last = buttons.size() % 3;  // longer titles fit a row that is not full
+    for (std::size_t i = buttons.size() - last; i < buttons.size(); ++i)
+        buttons[i].of = static_cast<int>(last);
     preset_rows(rope_lab, buttons, "Removes every rope and collider", emit);
 }
 
@@ -53,10 +56,13 @@ const char* tool_help(RopeTool tool) {
 }
 
 void tool_rows(const RopePart& part, Emit& emit) {
-    for (const RopeTool tool : rope_tools.values()) {
-        if (option_button(rope_tools.title(tool), part.tool == tool, tool_help(tool)))
+    const auto tools = rope_tools.values();
+    for (const RopeTool tool : tools) {
+        if (row_option(rope_tools.title(tool), static_cast<int>(tools.size()), part.tool == tool,
+                       tool_help(tool)))
             emit("rope.tool", {{"name", rope_tools.name(tool)}});
     }
+    end_row();
 }
 
 FieldRows settings_rows(const RopePart& part, Emit& emit) {
@@ -112,12 +118,12 @@ void RopeLab::panel(const Workspace& workspace, Emit& emit) const {
     section("Presets", true, [&](MoreRows&) { scene_rows(emit); });
     section("Click action", true, [&](MoreRows&) { tool_rows(part, emit); });
     section("Add", false, [&](MoreRows&) { adding_rows(workspace, emit); });
-    section("Solver", true, [&](MoreRows& more) { solver_rows(part, more, emit); });
-    section("World", false, [&](MoreRows& more) {
+    section("World", true, [&](MoreRows& more) {
         settings_rows(part, emit)
             .under(more)
-            .rows("damping", "friction", "gravity", "gravity_scale", "wind", "gusts", "external");
+            .rows("wind", "gusts", "damping", "friction", "gravity", "gravity_scale", "external");
     });
+    section("Solver", false, [&](MoreRows& more) { solver_rows(part, more, emit); });
     section("Time", false, [&](MoreRows& more) { time_rows(workspace, more, emit); });
     section("Show", false, [&](MoreRows& more) {
         FieldRows(part.view, "rope.view", emit).under(more).rows("strain", "particles", "sides");
@@ -194,6 +200,9 @@ void particle_rows(const RopePart& part, const rope::Body& body, std::size_t ind
     if (row_button("Remove", 3, true, "Removes the whole body"))
         emit("rope.remove", {{"name", world.name(body)}});
     end_row();
+    if (row_button("Select all", 3, body.count > 1, "Selects all of it: its arrows then move it"))
+        emit("rope.select", {{"rope", world.name(body)}});
+    end_row();
     body_rows(world, body, emit);
 }
 
@@ -206,6 +215,13 @@ void several_rows(const RopePart& part, const rope::Body& body, const std::vecto
     reading("body", "%s", world.name(body).c_str());
     reading("particles", "%zu of %zu", all.size(), body.count);
     reading("pinned", "%zu", pinned);
+    if (all.size() == body.count && !is_attached(world, body)) {
+        const glm::vec3 was = grip_of(world, body);
+        glm::vec3 at = was;
+        if (point_field("at", at, 0.01f))
+            emit.continuously("rope.move", {{"rope", world.name(body)}, {"by", at - was}});
+        explain("The middle of its pins, or of all of it without any. Moves it as it is, with its pins.");
+    }
     const auto which = [&] {
         return ArgumentList{{"rope", world.name(body)}, {"particles", SharedJson(Json(all))}};
     };

@@ -1,6 +1,9 @@
 // The sections that make up the panels of the Rope lab.
 #pragma once
 
+#include <glm/vec3.hpp>
+#include <glm/vector_relational.hpp>
+
 #include "app/labs/kit/panel_rows.hpp"
 #include "app/labs/rope/rope_part.hpp"
 #include "app/view/palette.hpp"
@@ -8,6 +11,19 @@
 
 namespace tendril::app {
 
+/// A box along the axes, metres.
+struct Space {
+    glm::vec3 low{1e30f}, high{-1e30f};
+
+    bool meets(const Space& other) const {
+        return glm::all(glm::lessThan(low, other.high)) && glm::all(glm::lessThan(other.low, high));
+    }
+    Space moved(glm::vec3 by) const { return {low + by, high + by}; }
+};
+
+/// The centre of the view, or the nearest place to its right, to its left or behind it where `needed`, the
+/// space around that place, is free. Nothing is put in front of what is there.
+glm::vec3 free_place(const Workspace& workspace, const Space& needed);
 /// Buttons that add ropes, cloths, hair and colliders.
 void adding_rows(const Workspace& workspace, Emit& emit);
 /// How well lengths are kept.

@@ -57,6 +57,20 @@ Handle collider_handle(const NamedWorld& world, const rope::Collider& collider, 
             turns ? Drag::Position | Drag::Rotation : Drag::Position};
 }
 
+/// Moved as a whole, turned by its particles.
+Handle body_handle(const NamedWorld& world, const rope::Body& body, PickId pick) {
+    return {world.name(body), pick, {grip_of(world, body)}, Drag::Position | Drag::Rotation};
+}
+
+/// The body of which every particle is selected; null if there is none.
+const rope::Body* whole_body(const RopePart& part) {
+    if (!part.selection || !part.selection->of_particles()) return nullptr;
+    const rope::Body* const body = part.world->find(part.selection->body);
+    const bool whole =
+        body != nullptr && body->count > 1 && part.selection->particles.all().size() == body->count;
+    return whole ? body : nullptr;
+}
+
 Handle particle_handle(const NamedWorld& world, const ParticlePlace& place) {
     const std::size_t particle = place.body->first + place.index;
     return {world.name(*place.body) + "." + std::to_string(place.index),
@@ -65,6 +79,25 @@ Handle particle_handle(const NamedWorld& world, const ParticlePlace& place) {
 }
 
 }  // namespace
+
+glm::vec3 grip_of(const NamedWorld& world, const rope::Body& body) {
+    glm::dvec3 pinned(0.0), all(0.0);
+    double pins = 0.0;
+    for (const rope::Pin& pin : world.state().pins) {
+        if (pin.particle - body.first >= body.count) continue;
+        pinned += world.state().position[pin.particle];
+        ++pins;
+    }
+    if (pins > 0.0) return glm::vec3(pinned / pins);
+    for (std::size_t i = 0; i < body.count; ++i) all += world.state().position[body.first + i];
+    return glm::vec3(all / static_cast<double>(body.count));
+}
+
+bool is_attached(const NamedWorld& world, const rope::Body& body) {
+    return std::ranges::any_of(world.state().pins, [&](const rope::Pin& pin) {
+        return pin.particle - body.first < body.count && pin.collider;
+    });
+}
 
 const rope::Collider* picked_collider(const NamedWorld& world, PickId pick) {
     const auto& colliders = world.state().colliders;
@@ -78,6 +111,13 @@ const rope::Tie* picked_tie(const NamedWorld& world, PickId pick) {
     if (pick < tie_pick(0)) return nullptr;
     const auto index = static_cast<std::size_t>(pick - tie_pick(0));
     return index < ties.size() ? &ties[index] : nullptr;
+}
+
+const rope::Body* picked_body(const NamedWorld& world, PickId pick) {
+    const auto& bodies = world.state().bodies;
+    if (pick < body_pick(0)) return nullptr;
+    const auto index = static_cast<std::size_t>(pick - body_pick(0));
+    return index < bodies.size() ? &bodies[index] : nullptr;
 }
 
 std::optional<ParticlePlace> picked_particle(const NamedWorld& world, PickId pick) {
@@ -115,6 +155,7 @@ std::vector<Handle> RopeLab::handles(const Workspace& workspace) const {
 std::optional<Handle> RopeLab::handle(const Workspace& workspace, PickId pick) const {
     const NamedWorld& world = *rope_part(workspace).world;
     if (const auto* collider = picked_collider(world, pick)) return collider_handle(world, *collider, pick);
+    if (const auto* body = picked_body(world, pick)) return body_handle(world, *body, pick);
     if (const auto place = picked_particle(world, pick)) return particle_handle(world, *place);
     return std::nullopt;
 }
@@ -138,6 +179,12 @@ void RopeLab::drag(const Workspace& workspace, PickId pick, const Handle::Frame&
         }
         if (to != now.position || frame.rotation == now.rotation)
             emit.continuously("rope.collider.move", {{"name", name}, {"to", to}});
+        return;
+    }
+    if (const auto* body = picked_body(*part.world, pick)) {
+        emit.continuously(
+            "rope.move",
+            {{"rope", part.world->name(*body)}, {"by", to - grip_of(*part.world, *body)}, {"hold", true}});
         return;
     }
     const auto place = picked_particle(*part.world, pick);
@@ -210,6 +257,14 @@ void RopeLab::click(const Workspace& workspace, PickId pick, Emit& emit) const {
         const std::size_t segment = std::min(place->index, std::max<std::size_t>(place->body->count, 2) - 2);
         emit("rope.cut", {{"rope", world.name(*place->body)}, {"segment", segment}});
     }
+}
+
+/// Selects the whole body: its gizmo then moves it.
+void RopeLab::double_click(const Workspace& workspace, PickId pick, Emit& emit) const {
+    const RopePart& part = rope_part(workspace);
+    const auto place = picked_particle(*part.world, pick);
+    if (!place || part.tool != RopeTool::Move) return click(workspace, pick, emit);
+    emit("rope.select", {{"rope", part.world->name(*place->body)}});
 }
 
 void RopeLab::click_more(const Workspace& workspace, PickId pick, Emit& emit) const {
@@ -294,7 +349,8 @@ std::string RopeLab::hint(const Workspace& workspace, PickId pick) const {
         return name + " (attached to " + part.world->name(*holder) + "): drag moves both.";
     const std::size_t particle = place->body->first + place->index;
     const bool pinned = part.world->pinned(particle) && !is_held(part, particle);
-    return name + (pinned ? " (pinned): drag moves its pin." : ": drag pulls it. Click selects it.");
+    return name + (pinned ? " (pinned): drag moves its pin."
+                          : ": drag pulls it. Click selects it, double-click the whole.");
 }
 
 // The gizmo of the selection, and dragging several particles with it.
@@ -324,13 +380,18 @@ SelectedParticles selected_particles(const RopePart& part) {
 
 }  // namespace
 
-/// For a selected collider, a pinned particle or several particles. A free particle alone is pulled directly.
+/// For a selected collider, a whole body, a pinned particle or several particles. A free particle alone is
+/// pulled directly.
 std::optional<Handle> RopeLab::gizmo(const Workspace& workspace) const {
     const RopePart& part = rope_part(workspace);
     if (!part.selection) return std::nullopt;
     if (const SelectedParticles selected = selected_particles(part); selected.body != nullptr) {
         // No arrows while tying: they would take the click on the second particle.
         if (selected.movable.empty() || part.tool == RopeTool::Tie) return std::nullopt;
+        if (whole_body(part) != nullptr && !is_attached(*part.world, *selected.body)) {
+            const auto index = static_cast<std::size_t>(selected.body - part.world->state().bodies.data());
+            return body_handle(*part.world, *selected.body, body_pick(index));
+        }
         const std::size_t active = part.selection->particle();
         const std::size_t particle = selected.body->first + active;
         const bool pinned = part.world->pinned(particle) && !is_held(part, particle);
@@ -348,9 +409,12 @@ std::optional<Handle> RopeLab::gizmo(const Workspace& workspace) const {
     return std::nullopt;
 }
 
-Together RopeLab::together(const Workspace& workspace, Drag) const {
+/// A whole body is moved by itself, by drag().
+Together RopeLab::together(const Workspace& workspace, Drag what) const {
     const RopePart& part = rope_part(workspace);
     Together together;
+    const rope::Body* const whole = whole_body(part);
+    if (what == Drag::Position && whole != nullptr && !is_attached(*part.world, *whole)) return together;
     if (!part.selection || !part.selection->particles.several()) return together;
     const SelectedParticles selected = selected_particles(part);
     for (const std::size_t each : selected.movable)

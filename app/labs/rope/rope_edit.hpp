@@ -20,6 +20,7 @@ class RopeEdit {
     RopePart& part;
     /// The world, read-only. world() copies it on first write.
     const NamedWorld& seen() const { return *part.world; }
+    bool running() const { return seconds_ > 0.0; }
     NamedWorld& world();
     /// Moves over one tick, so that whatever is in the way is pushed evenly. While the simulation is paused,
     /// moves at once by a quasi-static drag.

@@ -33,41 +33,58 @@ std::span<const tendril::Field> tendril::fields<tendril::app::RopeView>() noexce
 
 namespace tendril::app {
 
+namespace {
+
+// Rows that bodies and ties share.
+
+constexpr FieldText length_row(const char* help) {
+    return {.name = "length", .label = "length", .help = help, .step = 0.005f, .decimals = 3};
+}
+constexpr FieldText compliance_row(const char* name, int decimals, const char* help) {
+    return {.name = name,
+            .label = name,
+            .help = help,
+            .step = decimals > 1 ? 0.01f : 1.0f,
+            .decimals = decimals,
+            .scale = 1000.0,
+            .unit = "mm/N"};
+}
+/// `percent`: of a length, instead of in the field's unit.
+constexpr FieldText tears_row(const char* name, bool percent, const char* help) {
+    return {.name = name,
+            .label = "tears at",
+            .help = help,
+            .step = 0.5f,
+            .decimals = 1,
+            .scale = percent ? 100.0 : 1.0,
+            .unit = percent ? "%" : nullptr,
+            .at_zero = "never"};
+}
+
+}  // namespace
+
 template <>
 std::span<const FieldText> field_texts<BodySettings>() {
     static constexpr FieldText texts[] = {
-        {.name = "length",
-         .label = "length",
-         .help = "Of a rope, a row of a cloth or a strand of hair: all of its segments change in proportion.",
-         .step = 0.005f,
-         .decimals = 3},
+        length_row(
+            "Of a rope, a row of a cloth or a strand of hair: all of its segments change in proportion."),
         {.name = "mass", .label = "mass", .help = "Total mass of the body.", .step = 0.005f, .decimals = 3},
         {.name = "radius",
          .label = "radius",
          .help = "Half its thickness: how far its particles keep from colliders.",
          .step = 0.0005f,
          .decimals = 4},
-        {.name = "stretch",
-         .label = "stretch",
-         .help = "How much longer a segment gets per newton, in addition to the world's compliance. "
-                 "Relaxation uses only this.",
-         .step = 1e-5f,
-         .decimals = 5},
-        {.name = "shear",
-         .label = "shear",
-         .help = "How easily a cloth shears across its threads. Higher values drape more softly.",
-         .step = 0.001f,
-         .decimals = 4},
-        {.name = "bend",
-         .label = "bend",
-         .help = "How easily a cloth or a hair bends. Higher values are limper: a limp cloth crumples at its "
-                 "free "
-                 "edge, as it does not collide with itself yet.",
-         .step = 0.001f,
-         .decimals = 4},
-        {.name = "tear",
-         .label = "tears at",
-         .help = "The strain at which a cloth tears: 0.1 is a tenth longer; 0: never."}};
+        compliance_row("stretch", 2,
+                       "How much longer a segment gets per newton, in addition to the world's compliance. "
+                       "Relaxation uses only this."),
+        compliance_row("shear", 1,
+                       "How easily a cloth shears across its threads. Higher values drape more softly."),
+        compliance_row("bend", 1,
+                       "How easily a cloth or a hair bends. Higher values are limper: a limp cloth crumples "
+                       "at its free edge, as it does not collide with itself yet."),
+        tears_row(
+            "tear", true,
+            "The strain at which a cloth tears: at 10 %, in commands 0.1, it is a tenth longer. 0: never.")};
     return texts;
 }
 
@@ -119,16 +136,8 @@ std::span<const FieldText> field_texts<rope::ClothShape>() {
 template <>
 std::span<const FieldText> field_texts<rope::TieShape>() {
     static constexpr FieldText texts[] = {
-        {.name = "length",
-         .label = "length",
-         .help = "How far apart it keeps its two particles; 0: in one place.",
-         .step = 0.005f,
-         .decimals = 3},
-        {.name = "strength",
-         .label = "tears at",
-         .help = "The force at which it tears; 0: never.",
-         .step = 0.5f,
-         .decimals = 1}};
+        length_row("How far apart it keeps its two particles; 0: in one place."),
+        tears_row("strength", false, "The force at which it tears; 0: never.")};
     return texts;
 }
 
@@ -207,11 +216,13 @@ std::span<const FieldText> field_texts<rope::Settings>() {
          .choices = solvers},
         {.name = "damping",
          .label = "damping",
-         .help = "How fast motion dies away. Raise it if ropes swing for too long."},
+         .help = "How fast motion dies away. Raise it if ropes swing for too long.",
+         .more = true},
         {.name = "gravity",
          .label = "gravity",
          .help = "The acceleration due to gravity, along each axis; Y points up. On Earth it is 0, -9.81, 0.",
-         .step = 0.05f},
+         .step = 0.05f,
+         .more = true},
         {.name = "gravity_scale", .label = "gravity scale", .help = "Multiplies gravity.", .more = true},
         {.name = "external",
          .label = "push",
@@ -222,21 +233,25 @@ std::span<const FieldText> field_texts<rope::Settings>() {
          .label = "wind",
          .help = "The velocity of the air along each axis. It pushes cloth, and makes a flag flutter. At 0 "
                  "there is no air.",
-         .step = 0.05f},
+         .step = 0.05f,
+         .decimals = 1,
+         .in_line = true},
         {.name = "gusts",
          .label = "gusts",
-         .help = "How much the wind varies, relative to its speed. At 0 it is steady."},
+         .help = "How much the wind varies, relative to its speed. At 0 it is steady.",
+         .more = true},
         {.name = "compliance",
          .label = "compliance",
          .help = "How elastic ropes are: the fraction of its length that a rope stretches per newton. 0 does "
                  "not stretch; relaxation ignores it.",
-         .step = 1e-5f,
-         .decimals = 5,
+         .scale = 100.0,
+         .unit = "%/N",
          .more = true},
         {.name = "friction",
          .label = "friction",
          .help = "Coulomb's coefficient between ropes and colliders. At 0 ropes slide off; more holds "
-                 "them."},
+                 "them.",
+         .more = true},
         {.name = "longest_frame",
          .label = "longest frame",
          .help = "The most time that a frame simulates; the rest is dropped, so that a slow frame does not "

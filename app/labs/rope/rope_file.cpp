@@ -72,8 +72,7 @@ std::optional<RopeSelection> load_selection(const JsonPlace& place, const NamedW
     if (place.has("tie")) {
         const JsonPlace tie = place["tie"];
         selection.tie = tie.text();
-        if (world.find_tie(selection.tie) == nullptr)
-            tie.fail("there is no tie " + json_summary(tie.json()));
+        if (world.find_tie(selection.tie) == nullptr) tie.fail("there is no tie " + json_summary(tie.json()));
         return selection;
     }
     const JsonPlace rope = place["rope"];

@@ -40,22 +40,6 @@ class Stopwatch {
     Time::time_point start_;
 };
 
-/// Extends the bounds by a collider, except for planes, which are infinite.
-void include(const rope::Shape& shape, glm::vec3& low, glm::vec3& high) {
-    const auto take = [&](glm::vec3 centre, glm::vec3 extent) {
-        low = glm::min(low, centre - extent);
-        high = glm::max(high, centre + extent);
-    };
-    if (const auto* sphere = std::get_if<rope::Sphere>(&shape)) {
-        take(sphere->centre, glm::vec3(sphere->radius));
-    } else if (const auto* capsule = std::get_if<rope::Capsule>(&shape)) {
-        take(capsule->a, glm::vec3(capsule->radius));
-        take(capsule->b, glm::vec3(capsule->radius));
-    } else if (const auto* box = std::get_if<rope::Box>(&shape)) {
-        take(box->centre, glm::vec3(glm::length(box->half_extents)));
-    }
-}
-
 void take_sample(RopePart& part, const RopeReport& report) {
     if (part.samples.size() >= max_rope_samples) part.samples.erase(part.samples.begin());
     part.samples.push_back(sample_of(part, report));
@@ -81,6 +65,21 @@ std::optional<Bounds> selection_bounds(const RopePart& part) {
 }
 
 }  // namespace
+
+void include_shape(const rope::Shape& shape, glm::vec3& low, glm::vec3& high) {
+    const auto take = [&](glm::vec3 centre, glm::vec3 extent) {
+        low = glm::min(low, centre - extent);
+        high = glm::max(high, centre + extent);
+    };
+    if (const auto* sphere = std::get_if<rope::Sphere>(&shape)) {
+        take(sphere->centre, glm::vec3(sphere->radius));
+    } else if (const auto* capsule = std::get_if<rope::Capsule>(&shape)) {
+        take(capsule->a, glm::vec3(capsule->radius));
+        take(capsule->b, glm::vec3(capsule->radius));
+    } else if (const auto* box = std::get_if<rope::Box>(&shape)) {
+        take(box->centre, glm::vec3(glm::length(box->half_extents)));
+    }
+}
 
 std::shared_ptr<Part> RopeLab::blank() const {
     return std::make_shared<RopePart>(first_ropes());
@@ -144,6 +143,7 @@ std::vector<Shortcut> RopeLab::shortcuts() const {
 std::vector<MouseHelp> RopeLab::mouse_help() const {
     return {
         {"Left click", "selects, pins or unpins, cuts or ties, as the panel says"},
+        {"Double-click on a rope", "selects all of it; its arrows then move it with its pins"},
         {"Shift+click on a rope", "adds a particle to the selection, or takes it out"},
         {"Ctrl+drag on nothing", "draws a box that selects particles of one rope; with Shift it adds them"}};
 }
@@ -191,7 +191,8 @@ Bounds RopeLab::bounds(const Workspace& workspace, bool selection_only) const {
         low = glm::min(low, part.world->position(i));
         high = glm::max(high, part.world->position(i));
     }
-    for (const rope::Collider& collider : part.world->state().colliders) include(collider.shape, low, high);
+    for (const rope::Collider& collider : part.world->state().colliders)
+        include_shape(collider.shape, low, high);
     if (low.x > high.x) return {{0.0f, 1.0f, 0.0f}, 1.5f};
     return bounds_of(low, high, 0.2f);
 }

@@ -9,8 +9,8 @@
 
 namespace tendril::app {
 
-/// Pick ids: particles by their index in the world, colliders and ties by their index in its lists. Valid per
-/// frame.
+/// Pick ids: particles by their index in the world; colliders, ties and whole bodies by their index in its
+/// lists. Valid per frame.
 inline PickId particle_pick(std::size_t particle) {
     return static_cast<PickId>(particle);
 }
@@ -20,14 +20,27 @@ inline PickId collider_pick(std::size_t index) {
 inline PickId tie_pick(std::size_t index) {
     return static_cast<PickId>(max_lab_particles + max_lab_colliders + index);
 }
+inline PickId body_pick(std::size_t index) {
+    return static_cast<PickId>(max_lab_particles + max_lab_colliders + max_lab_ties + index);
+}
 /// What was picked; null if it is something else, or the world has changed since.
 const rope::Collider* picked_collider(const NamedWorld& world, PickId pick);
 const rope::Tie* picked_tie(const NamedWorld& world, PickId pick);
+const rope::Body* picked_body(const NamedWorld& world, PickId pick);
 struct ParticlePlace {
     const rope::Body* body = nullptr;
     std::size_t index = 0;  ///< in the body
 };
 std::optional<ParticlePlace> picked_particle(const NamedWorld& world, PickId pick);
+
+/// Where a whole body is moved by: the middle of its pins, which stay where they are put, or of its
+/// particles.
+glm::vec3 grip_of(const NamedWorld& world, const rope::Body& body);
+/// Whether it moves with a collider.
+bool is_attached(const NamedWorld& world, const rope::Body& body);
+
+/// Extends a box by a collider, except for planes, which are infinite.
+void include_shape(const rope::Shape& shape, glm::vec3& low, glm::vec3& high);
 
 /// Every n-th particle has a handle, at most a few hundred. Rope ends and pinned particles always have one.
 std::size_t handle_stride(const NamedWorld& world);
@@ -58,6 +71,7 @@ class RopeLab final : public Lab {
                        Emit& emit) const override;
     void drop(const Workspace& workspace, PickId pick, Emit& emit) const override;
     void click(const Workspace& workspace, PickId pick, Emit& emit) const override;
+    void double_click(const Workspace& workspace, PickId pick, Emit& emit) const override;
     void click_more(const Workspace& workspace, PickId pick, Emit& emit) const override;
     bool selects_by_box() const override { return true; }
     std::vector<Handle> selectable(const Workspace& workspace) const override;

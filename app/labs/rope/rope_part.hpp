@@ -129,7 +129,7 @@ inline constexpr int min_sides = 3, max_sides = 64;
 inline constexpr double min_jitter_frame = 0.001, max_jitter_frame = 0.25;  ///< seconds
 
 inline constexpr EnumNames<RopeTool, 4> rope_tools{
-    "tool", {{"move", "Select"}, {"pin", "Pin or unpin"}, {"cut", "Cut"}, {"tie", "Tie"}}};
+    "tool", {{"move", "Select"}, {"pin", "Pin"}, {"cut", "Cut"}, {"tie", "Tie"}}};
 
 }  // namespace tendril::app
 

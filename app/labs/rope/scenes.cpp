@@ -57,7 +57,9 @@ const std::vector<RopeSceneEntry>& rope_scenes() {
         {"flag", "Flag", "A flag flutters in a gusty wind", flag_scene,
          view({0.0f, 1.1f, 0.0f}, -32.0f, 14.0f, 4.6f)},
         {"line", "Cloth line", "A cloth tied to a rope, which bends under it, in a light wind", line_scene,
-         view({0.0f, 1.15f, 0.0f}, -26.0f, 12.0f, 4.4f)}};
+         view({0.0f, 1.15f, 0.0f}, -26.0f, 12.0f, 4.4f)},
+        {"hangers", "Hanger bridge", "A deck hangs by ropes from two main ropes, every end tied",
+         hanger_scene, view({0.0f, 0.95f, 0.0f}, -30.0f, 14.0f, 6.2f)}};
     return list;
 }
 
@@ -176,6 +178,68 @@ RopeScene bridge_scene() {
     rope::Settings settings = world.settings();
     settings.damping = 0.6f;
     settings.friction = 0.2f;
+    world.set_settings(settings);
+    return scene;
+}
+
+/// A suspension bridge. Main ropes, hangers and deck are ropes of their own, tied to each other. Each main
+/// rope begins as a parabola in the plane of its hangers, close to where they come to rest.
+RopeScene hanger_scene() {
+    RopeScene scene;
+    NamedWorld& world = scene.world;
+    constexpr float end = 2.0f, thick = 0.05f, half = end - thick - 0.03f;
+    constexpr float top = 1.9f, side = 0.45f, deck = 0.72f, camber = 0.08f, sag = 0.95f;
+    constexpr int deck_segments = 40, main_segments = 56, apart = 4, points = 64;
+    add_ground(world);
+    for (const float x : {-end, end}) {
+        const std::string where = x < 0 ? "left" : "right";
+        for (const float z : {-side, side})
+            world.add_collider(where + (z < 0 ? " far post" : " near post"),
+                               rope::Capsule{{x, 0, z}, {x, top + thick, z}, thick});
+        world.add_collider(where + " bank",
+                           rope::Box{{1.14f * x, 0.5f * deck, 0}, {0.22f, 0.5f * deck, side - 2.0f * thick}});
+    }
+    const auto line = [&](auto at) {
+        std::vector<glm::vec3> all;
+        for (int i = 0; i <= points; ++i)
+            all.push_back(at(half * (2.0f * static_cast<float>(i) / points - 1.0f)));
+        return all;
+    };
+    const auto arch = [&](float x) { return 1.0f - (x / half) * (x / half); };
+    const auto add = [&](const std::string& name, int segments, float radius, float density,
+                         const std::vector<glm::vec3>& along) {
+        world.add_rope(name, {.from = along.front(),
+                              .to = along.back(),
+                              .segments = segments,
+                              .radius = radius,
+                              .density = density,
+                              .pin_start = true,
+                              .pin_end = true});
+        lay(world, name, along);
+    };
+    add("deck", deck_segments, 0.035f, 3.0f,
+        line([&](float x) { return glm::vec3(x, deck + camber * arch(x), 0.0f); }));
+    for (const float z : {-side, side}) {
+        const std::string which = z < 0 ? "far" : "near", main = which + " main rope";
+        const glm::vec3 down = glm::normalize(glm::vec3(0.0f, deck - top, -z));
+        add(main, main_segments, 0.02f, 0.8f,
+            line([&](float x) { return glm::vec3(x, top, z) + sag * arch(x) * down; }));
+        std::size_t above = world.particle(main, 0);
+        for (std::size_t i = apart; i < deck_segments; i += apart) {
+            const std::size_t below = world.particle("deck", i);
+            while (world.position(above).x < world.position(below).x) ++above;
+            const std::string hanger = which + " hanger " + std::to_string(i / apart);
+            world.add_rope(hanger, {.from = world.position(above),
+                                    .to = world.position(below),
+                                    .segments = 4,
+                                    .radius = 0.01f,
+                                    .density = 0.2f});
+            world.tie({}, above, world.particle(hanger, 0));
+            world.tie({}, world.particle(hanger, 4), below);
+        }
+    }
+    rope::Settings settings = world.settings();
+    settings.damping = 1.0f;
     world.set_settings(settings);
     return scene;
 }

@@ -39,6 +39,7 @@ RopeScene bars_scene();
 RopeScene curtain_scene();
 RopeScene flag_scene();
 RopeScene line_scene();
+RopeScene hanger_scene();
 
 /// Adds the ground that every scene has.
 void add_ground(NamedWorld& world);

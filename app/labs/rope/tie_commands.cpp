@@ -56,7 +56,8 @@ void add_tie_commands(CommandTable& table) {
     changed.insert(changed.begin(), tie_argument("name", true, "which"));
     table.add(rope_command("rope.tie.set", "Change a tie", std::move(changed),
                            "Changes the length or strength of a tie", set_tie));
-    table.add(rope_command("rope.untie", "Remove a tie", {tie_argument("name", true, "which")}, "Removes a tie", untie));
+    table.add(rope_command("rope.untie", "Remove a tie", {tie_argument("name", true, "which")},
+                           "Removes a tie", untie));
 }
 
 void tie_rows(const RopePart& part, const rope::Tie& tie, Emit& emit) {

@@ -254,11 +254,13 @@ void select(RopeEdit& edit, const Arguments& given) {
         edit.part.selection = RopeSelection{{}, {}, {}, given.text("tie")};
     } else if (particle) {
         if (!given.has("rope")) throw Refused("rope is missing (a text)");
-        if (!given.has("particle") && !given.has("particles"))
-            throw Refused("particle is missing (a whole number)");
-        std::vector<std::size_t> chosen;
-        for (const NamedParticle& each : named_particles(edit.seen(), given)) chosen.push_back(each.index);
         const std::string rope = given.text("rope");
+        std::vector<std::size_t> chosen;
+        if (!given.has("particle") && !given.has("particles"))
+            for (std::size_t i = 0; i < body_of(edit.seen(), rope).count; ++i) chosen.push_back(i);
+        else
+            for (const NamedParticle& each : named_particles(edit.seen(), given))
+                chosen.push_back(each.index);
         const auto& before = edit.part.selection;
         RopeSelection selection{rope, {}, {}, {}};
         if (add && before && before->body == rope) selection = *before;
@@ -302,7 +304,7 @@ void set_view(RopeEdit& edit, const Arguments& given) {
 void add_look_commands(CommandTable& table) {
     table.add(rope_command(
         "rope.select", "Select a particle, collider or tie",
-        {rope_argument(false, "of the particle"), particle_argument(false, "which"),
+        {rope_argument(false, "of the particle"), particle_argument(false, "which; omitted: the whole rope"),
          collider_argument("collider", false, "instead of a particle"),
          tie_argument("tie", false, "instead of a particle"), particles_argument(),
          switch_argument("add", "true: adds particles of the same rope, or takes one out")},

@@ -69,9 +69,13 @@ constexpr FieldText one_euro[]{
          "By how much the cutoff rises with the input's speed. Raise it until fast motion no longer lags."),
     rare("derivative_cutoff", "derivative cutoff",
          "The cutoff of the low pass on the speed itself. Lower it where noise is taken for speed."),
-    rare("reset_jump", "reset jump",
-         "Restarts the filter at the input if the two are farther apart than this, as when a tracked hand is "
-         "lost and found. 0: never.")};
+    {.name = "reset_jump",
+     .label = "reset jump",
+     .help = "Restarts the filter at the input if the two are farther apart than this, as when a tracked "
+             "hand is lost and found. 0: never.",
+     .decimals = 3,
+     .at_zero = "never",
+     .more = true}};
 constexpr FieldText moving_average[]{
     text("window", "window",
          "The output is the mean of the input over this time. More is smoother and lags more.")};

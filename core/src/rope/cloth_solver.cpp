@@ -33,18 +33,17 @@ void detail::Cloth::resize(std::size_t columns, std::size_t rows) {
     arrays.mass = *next;
 }
 
-ClothSolver::ClothSolver(const State& state, const Plan& plan, const Plan::Island& island, Scratch& scratch,
-                         IslandScratch& local)
-    : ImplicitStep(state, plan, island, scratch, local),
-      grid_(plan.grids[island.grid - 1]),
-      cloth_(scratch.cloths[island.grid - 1]),
+ClothSolver::ClothSolver(const IslandStep& step)
+    : ImplicitStep(step),
+      grid_(plan_.grids[island_.grid - 1]),
+      cloth_(scratch_.cloths[island_.grid - 1]),
       level_(cloth_.system.finest()),
-      first_(state.bodies[grid_.body].first) {
-    const std::size_t count = state.bodies[grid_.body].count;
+      first_(state_.bodies[grid_.body].first) {
+    const std::size_t count = state_.bodies[grid_.body].count;
     double whole = 0.0, shortest = 1e30, longest = 0.0;
-    for (std::size_t i = first_; i < first_ + count; ++i) whole += state.mass[i];
-    for (const std::uint32_t i : Plan::part(plan.links, island.links)) {
-        const Link& link = state.links[i];
+    for (std::size_t i = first_; i < first_ + count; ++i) whole += state_.mass[i];
+    for (const std::uint32_t i : Plan::part(plan_.links, island_.links)) {
+        const Link& link = state_.links[i];
         if (link.kind == Link::Kind::Stretch && link.rest > 0.0f) {
             shortest = std::min(shortest, static_cast<double>(link.rest));
             longest = std::max(longest, static_cast<double>(link.rest));
@@ -53,8 +52,8 @@ ClothSolver::ClothSolver(const State& state, const Plan& plan, const Plan::Islan
     mass_ = whole / static_cast<double>(count);
     unit_ = mass_ / (h_ * h_);
     const double area = (grid_.columns - 1.0) * (grid_.rows - 1.0) * shortest * longest;
-    const double weight = whole * detail::length(detail::acceleration(state.settings)) +
-                          area * detail::wind_pressure(state.settings);
+    const double weight = whole * detail::length(detail::acceleration(state_.settings)) +
+                          area * detail::wind_pressure(state_.settings);
     stiffness_ = std::clamp(weight / (strain_by_weight * shortest * unit_), min_stiffness, max_stiffness);
 }
 

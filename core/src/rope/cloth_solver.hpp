@@ -9,8 +9,7 @@ namespace tendril::rope {
 
 class ClothSolver : ImplicitStep {
   public:
-    ClothSolver(const State& state, const Plan& plan, const Plan::Island& island, Scratch& scratch,
-                IslandScratch& local);
+    explicit ClothSolver(const IslandStep& step);
 
     /// Solves the island's particles, from `base`, with a maximum of `iterations` in each round; returns the
     /// largest number used.

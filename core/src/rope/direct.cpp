@@ -100,7 +100,7 @@ void Substep::slow_correction(const Plan::Chain& chain) {
 }
 
 int Substep::direct_grid() {
-    ClothSolver cloth(state_, plan_, island_, scratch_, local_);
+    ClothSolver cloth(*this);
     const int allowed = passes_allowed(), passes = cloth.solve(allowed);
     report_.work += static_cast<std::uint64_t>(passes) * island_.links.count;
     if (!cloth.converged() && allowed < state_.settings.iterations) report_.shortened = 1;
@@ -110,7 +110,7 @@ int Substep::direct_grid() {
 }
 
 int Substep::direct_tied() {
-    TiedSolver tied(state_, plan_, island_, scratch_, local_);
+    TiedSolver tied(*this);
     const int steps = tied.solve(passes_allowed());
     if (!tied.converged()) ++report_.unconverged;
     if (tied.shortened()) ++report_.fallbacks;

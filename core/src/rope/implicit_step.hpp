@@ -8,16 +8,9 @@
 
 namespace tendril::rope {
 
-class ImplicitStep {
+class ImplicitStep : protected IslandStep {
   protected:
-    ImplicitStep(const State& state, const Plan& plan, const Plan::Island& island, Scratch& scratch,
-                 IslandScratch& local)
-        : state_(state),
-          plan_(plan),
-          island_(island),
-          scratch_(scratch),
-          local_(local),
-          h_(state.settings.substep) {}
+    explicit ImplicitStep(const IslandStep& step) : IslandStep(step) {}
 
     // implicit_contact.cpp
     void find_contacts(bool first);
@@ -33,12 +26,6 @@ class ImplicitStep {
         return (1.0 - contact.t) * all[contact.a] + contact.t * all[contact.b];
     }
 
-    const State& state_;
-    const Plan& plan_;
-    const Plan::Island& island_;
-    Scratch& scratch_;
-    IslandScratch& local_;
-    double h_;
     double mass_ = 0.0;       ///< mean mass of a particle, kg
     double stiffness_ = 0.0;  ///< of contacts and of the stiffest links, times h^2 over that mass
 };

@@ -150,6 +150,35 @@ struct IslandScratch {
     Advance done;                     ///< in this substep; `passes`: maximum over the islands
 };
 
+/// What the solvers of an island share in one fixed substep. They write only what belongs to the island, so
+/// that others can be solved at the same time.
+class IslandStep {
+  protected:
+    IslandStep(State& state, const Plan& plan, const Plan::Island& island, Scratch& scratch,
+               IslandScratch& local)
+        : state_(state),
+          plan_(plan),
+          island_(island),
+          scratch_(scratch),
+          local_(local),
+          h_(state.settings.substep) {}
+
+    template <class Visit>
+    void each_particle(Visit visit) const {
+        for (const std::uint32_t body : Plan::part(plan_.bodies, island_.bodies)) {
+            const std::size_t first = state_.bodies[body].first, end = first + state_.bodies[body].count;
+            for (std::size_t i = first; i < end; ++i) visit(i);
+        }
+    }
+
+    State& state_;
+    const Plan& plan_;
+    const Plan::Island& island_;
+    Scratch& scratch_;
+    IslandScratch& local_;
+    double h_;
+};
+
 struct Workspace::Parts {
     Plan plan;
     Scratch scratch;

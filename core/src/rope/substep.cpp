@@ -40,13 +40,8 @@ float tension_of(double multiplier, double square) {
 
 Substep::Substep(State& state, const Plan& plan, const Plan::Island& island, Scratch& scratch,
                  IslandScratch& local)
-    : state_(state),
-      plan_(plan),
-      island_(island),
-      scratch_(scratch),
-      local_(local),
+    : IslandStep(state, plan, island, scratch, local),
       report_(local.done),
-      h_(state.settings.substep),
       acceleration_(detail::acceleration(state.settings)),
       blows_(state.settings.wind != glm::vec3(0.0f)) {}
 

@@ -20,10 +20,9 @@ inline double part_of(double h, double& seconds) {
 
 }  // namespace detail
 
-class Substep {
+class Substep : IslandStep {
   public:
-    /// Writes only what belongs to the island, so that others can be solved at the same time. Adds its report
-    /// to `local.done`.
+    /// Adds its report to `local.done`.
     Substep(State& state, const Plan& plan, const Plan::Island& island, Scratch& scratch,
             IslandScratch& local);
     /// `measures`: bodies get their length error at the end.
@@ -47,15 +46,6 @@ class Substep {
     };
     void blow();
     void blow_on(const std::array<std::size_t, 3>& corners, const Air& air);
-
-    /// Of the island.
-    template <class Visit>
-    void each_particle(Visit visit) const {
-        for (const std::uint32_t body : Plan::part(plan_.bodies, island_.bodies)) {
-            const std::size_t first = state_.bodies[body].first, end = first + state_.bodies[body].count;
-            for (std::size_t i = first; i < end; ++i) visit(i);
-        }
-    }
 
     // contact.cpp: finds what is near, and keeps what is not solved with its contacts out of colliders
     void find_near();
@@ -102,14 +92,8 @@ class Substep {
     Slowed balance(const Ledger& ledger);
     void slow_down();
 
-    State& state_;
-    const Plan& plan_;
-    const Plan::Island& island_;
-    Scratch& scratch_;
-    IslandScratch& local_;
     Advance& report_;
     bool measures_ = false;
-    double h_;
     double before_ = 1.0;   ///< length of the previous substep relative to this one
     double damping_ = 1.0;  ///< of velocity, in the substep
     Slowed slowed_;

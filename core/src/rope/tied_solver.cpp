@@ -38,23 +38,12 @@ Symmetric3 scaled(const Symmetric3& m, double by) {
 
 }  // namespace
 
-TiedSolver::TiedSolver(const State& state, const Plan& plan, const Plan::Island& island, Scratch& scratch,
-                       IslandScratch& local)
-    : ImplicitStep(state, plan, island, scratch, local),
-      tied_(plan.tied[island.tied - 1]),
-      system_(scratch.tied[island.tied - 1]) {
+TiedSolver::TiedSolver(const IslandStep& step)
+    : ImplicitStep(step), tied_(plan_.tied[island_.tied - 1]), system_(scratch_.tied[island_.tied - 1]) {
     double whole = 0.0;
-    each_particle([&](std::size_t i) { whole += state.mass[i]; });
-    mass_ = whole / island.particles;
+    each_particle([&](std::size_t i) { whole += state_.mass[i]; });
+    mass_ = whole / island_.particles;
     stiffness_ = contact_stiffness;
-}
-
-template <class Visit>
-void TiedSolver::each_particle(Visit visit) const {
-    for (const std::uint32_t body : Plan::part(plan_.bodies, island_.bodies)) {
-        const std::size_t first = state_.bodies[body].first, end = first + state_.bodies[body].count;
-        for (std::size_t i = first; i < end; ++i) visit(i);
-    }
 }
 
 /// Calls `visit` with the spring of each link and tie, and the multiplier that it leaves.

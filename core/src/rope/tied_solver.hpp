@@ -13,8 +13,7 @@ namespace tendril::rope {
 
 class TiedSolver : ImplicitStep {
   public:
-    TiedSolver(const State& state, const Plan& plan, const Plan::Island& island, Scratch& scratch,
-               IslandScratch& local);
+    explicit TiedSolver(const IslandStep& step);
 
     /// Solves the island's particles, from `base`; returns the steps of Newton's method.
     int solve(int iterations);
@@ -30,8 +29,6 @@ class TiedSolver : ImplicitStep {
     };
     template <class Visit>
     void each_spring(Visit visit);
-    template <class Visit>
-    void each_particle(Visit visit) const;
 
     void assemble(bool first);
     void add_contacts();

@@ -2,6 +2,7 @@
 #include "tendril/rope/world.hpp"
 
 #include <algorithm>
+#include <glm/common.hpp>
 #include <type_traits>
 
 #include "math/checks.hpp"
@@ -211,6 +212,30 @@ Expected<BodyId> World::cut(BodyId rope, std::size_t segment) {
     state_.bodies.insert(state_.bodies.begin() + (whole - state_.bodies.data()) + 1, rest);
     std::erase_if(state_.links, [&](const Link& link) { return link.a == at && link.b == at + 1; });
     return rest.id;
+}
+
+Result World::move(BodyId body, const glm::dvec3& by) noexcept {
+    const Body* const moved = find(body);
+    if (moved == nullptr) return missing("move", "body", "body", body.index);
+    const auto inside = [&](std::size_t particle) { return particle - moved->first < moved->count; };
+    for (std::size_t i = moved->first; i < moved->first + moved->count; ++i) {
+        const glm::dvec3 to = glm::abs(state_.position[i] + by);
+        if (!(to.x <= max_magnitude && to.y <= max_magnitude && to.z <= max_magnitude))
+            return refused("move", "by", "such that every coordinate stays within 1e9 m", detail::length(by));
+    }
+    for (const Pin& pin : state_.pins)
+        if (inside(pin.particle) && pin.collider)
+            return refused("move", "body", "not attached to a collider, with which it moves", pin.particle);
+    for (std::size_t i = moved->first; i < moved->first + moved->count; ++i) state_.position[i] += by;
+    for (Pin& pin : state_.pins)
+        if (inside(pin.particle))
+            pin.goal = glm::clamp(pin.goal + by, glm::dvec3(-max_magnitude), glm::dvec3(max_magnitude));
+    for (Tie& tie : state_.ties) {
+        if (inside(tie.a) == inside(tie.b)) continue;
+        const double apart = detail::length(position(tie.b) - position(tie.a));
+        tie.now = static_cast<float>(std::min(apart, static_cast<double>(max_magnitude)));
+    }
+    return {};
 }
 
 Expected<TieId> World::tie(std::size_t a, std::size_t b, const TieShape& shape) {

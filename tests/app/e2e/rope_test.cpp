@@ -167,7 +167,7 @@ TEST(RopeInTheWindow, ButtonsAddWhatTheySay) {
                             .command("rope.clear")
                             .command("view.fold", {{"section", "rope: Add"}, {"folded", false}})
                             .wait(2);
-    for (const glm::vec2 button : {glm::vec2(126, 443), glm::vec2(205, 443), glm::vec2(48, 443)})
+    for (const glm::vec2 button : {glm::vec2(126, 380), glm::vec2(205, 380), glm::vec2(48, 380)})
         script.move(button).wait(2).down().up().wait(2);
     const Json added = state_after(script);
     EXPECT_EQ(added["cloths"].size(), 1u);

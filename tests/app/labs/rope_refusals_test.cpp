@@ -118,8 +118,6 @@ TEST_F(RopeRefusals, WhatDoesNotGoTogether) {
     run("rope.pin", {{"rope", "rope"}, {"particle", 0}});
     EXPECT_TRUE(test::says(refused("rope.hold", {{"rope", "rope"}, {"particle", 0}, {"at", origin}}),
                            "rope.hold 0 rope pinned rope.pin"));
-    EXPECT_TRUE(
-        test::says(refused("rope.select", {{"rope", "rope"}}), "rope.select particle missing whole number"));
     EXPECT_TRUE(test::says(refused("rope.select", {{"particle", 0}}), "rope.select rope missing text"));
     EXPECT_TRUE(test::says(refused("rope.select", {{"rope", "rope"}, {"particle", 0}, {"collider", "x"}}),
                            "rope.select particle collider both"));

@@ -9,6 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include <imgui.h>
+#include <imgui_internal.h>  // windows
+
 #include "app/app.hpp"
 #include "app/document/json_complete.hpp"
 #include "app/fields/fields.hpp"
@@ -85,6 +88,24 @@ TEST_P(PanelRows, AreFewWhenTheLabOpens) {
     const std::vector<std::string> shown = rows();
     EXPECT_GT(shown.size(), 5u);
     EXPECT_LE(shown.size(), max_rows) << joined(shown);
+}
+
+/// A person who looks for the wind finds it without unfolding anything.
+TEST(RopePanel, ShowsTheWindAndFitsASmallWindowWhenItOpens) {
+    const auto window = open_offscreen({1280, 720});
+    App app(*window);
+    FrameRecorder recorder;
+    app.run({"lab.open", Json{{"name", "rope"}}});
+    app.settle();
+    bool wind = false, exports = false;
+    for (const DrawnText& text : recorder.frame().texts) {
+        if (text.window == nullptr || !window_name(text.window).starts_with("left/content")) continue;
+        EXPECT_EQ(text.window->ScrollMax.y, 0.0f);
+        wind = wind || text.text.starts_with("wind");
+        exports = exports || text.text == "Export";
+    }
+    EXPECT_TRUE(wind);
+    EXPECT_TRUE(exports);
 }
 
 TEST_P(PanelRows, AreFewInTheSceneOfItsCard) {

@@ -74,6 +74,10 @@ class World {
     Expected<BodyId> add_cloth(const ClothShape& shape);
     Expected<BodyId> add_hair(const HairShape& shape);
     Result remove(BodyId body) noexcept;
+    /// Moves a body by that much as it is, with its pins; velocities and tensions stay. Ties to other bodies
+    /// draw it back to them, and a collider that it is moved into pushes it out. Refuses a body that is
+    /// attached to a collider, which moves it.
+    Result move(BodyId body, const glm::dvec3& by) noexcept;
 
     /// Null if there is none. The pointer is valid until a body is added or removed.
     const Body* find(BodyId body) const noexcept;
