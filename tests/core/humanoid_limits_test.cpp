@@ -68,6 +68,40 @@ TEST_F(HumanoidLimits, an_a_pose_is_brought_into_a_t_pose) {
     EXPECT_EQ(its.excess(Bone::LeftUpperArm, placements), 0.0f);
 }
 
+/// A bind pose in mid-run: one leg is kicked back, and its sole looks at the sky.
+TEST_F(HumanoidLimits, a_foot_that_does_not_stand_at_rest_is_measured_from_standing) {
+    for (const double kicked : {100.0, 130.0, 160.0}) {
+        std::vector<Node> nodes = skeleton.nodes();
+        nodes[node(Bone::RightLowerLeg)].rest.rotation = glm::angleAxis(kicked * degree, glm::dvec3(1, 0, 0));
+        const Skeleton running = *Skeleton::make(nodes);
+        const BodyJoints its = *BodyJoints::make(running, map, default_limits(running, map));
+        // Standing, both feet are in the middle of their range. The leg of the other is not quite straight.
+        place(running, rest_pose(skeleton), placements);
+        const ik::JointAngles right = its.measure(Bone::RightFoot, placements);
+        EXPECT_NEAR(right.up, its.measure(Bone::LeftFoot, placements).up, 2.0 * degree) << kicked;
+        EXPECT_NEAR(right.up, 0.0, 2.0 * degree) << kicked;
+        EXPECT_NEAR(right.left, 0.0, 1.0 * degree) << kicked;
+        EXPECT_NEAR(right.twist, 0.0, 1.0 * degree) << kicked;
+        EXPECT_LT(its.excess(Bone::RightFoot, placements), 1e-6) << kicked;
+    }
+}
+
+/// Elbows and knees that a rest pose overstretches a little bend as all others do.
+TEST_F(HumanoidLimits, an_overstretched_rest_does_not_turn_a_hinge_round) {
+    std::vector<Node> nodes = skeleton.nodes();
+    const double by = 8.0 * degree;
+    nodes[node(Bone::LeftLowerArm)].rest.rotation = glm::angleAxis(by, glm::dvec3(0, 1, 0));
+    nodes[node(Bone::RightLowerArm)].rest.rotation = glm::angleAxis(-by, glm::dvec3(0, 1, 0));
+    nodes[node(Bone::LeftLowerLeg)].rest.rotation = glm::angleAxis(-by, glm::dvec3(1, 0, 0));
+    const Skeleton stretched = *Skeleton::make(nodes);
+    const BodyLimits its = default_limits(stretched, map);
+    for (const Bone bone : {Bone::LeftLowerArm, Bone::RightLowerArm, Bone::LeftLowerLeg}) {
+        const glm::vec3 axis = its[static_cast<std::size_t>(bone)].axis,
+                        usual = limits[static_cast<std::size_t>(bone)].axis;
+        EXPECT_GT(glm::dot(glm::normalize(axis), glm::normalize(usual)), 0.9f) << name(bone);
+    }
+}
+
 TEST_F(HumanoidLimits, both_sides_turn_alike) {
     std::mt19937 engine(1);
     std::uniform_real_distribution<double> any(-1.0, 1.0);

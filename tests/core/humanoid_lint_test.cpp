@@ -261,6 +261,43 @@ TEST(Lint, keys_that_are_held_on_purpose_do_not_jump) {
     EXPECT_TRUE(lint_of(clip).findings.empty());
 }
 
+/// Curves that are held and interpolated in turn become one track, with two keys at each step. No frame lies
+/// between them.
+TEST(Lint, two_keys_of_one_moment_are_a_step_on_purpose) {
+    for (const bool turns : {true, false})
+        for (const double rate : {24.0, 60.0}) {
+            Clip clip = winding(rate, 60);
+            Channel& channel = clip.channels[0];
+            const auto step_at = [&](auto& track, const auto& change) {
+                const double time = track.times[20];
+                const auto before = track.values[20];
+                for (std::size_t i = 20; i < track.values.size(); ++i)
+                    track.values[i] = change(track.values[i]);
+                track.times.insert(track.times.begin() + 20, time - 1e-7);
+                track.values.insert(track.values.begin() + 20, before);
+            };
+            if (turns)
+                step_at(channel.rotation, [](const glm::dquat& q) {
+                    return q * glm::dquat(std::cos(0.5), std::sin(0.5), 0.0, 0.0);
+                });
+            else
+                step_at(channel.translation, [](const glm::dvec3& v) { return v + glm::dvec3(0, 0.4, 0); });
+            EXPECT_TRUE(lint_of(clip).findings.empty()) << texts(lint_of(clip));
+            // Without the second key it takes a whole frame, and nobody meant it.
+            const auto erase = [](auto& track) {
+                track.times.erase(track.times.begin() + 20);
+                track.values.erase(track.values.begin() + 20);
+            };
+            if (turns)
+                erase(channel.rotation);
+            else
+                erase(channel.translation);
+            ASSERT_EQ(lint_of(clip).findings.size(), 1u) << texts(lint_of(clip));
+            EXPECT_EQ(lint_of(clip).findings[0].fault, Fault::Jump);
+            EXPECT_EQ(lint_of(clip).findings[0].frame, 20u);
+        }
+}
+
 TEST(Lint, finds_a_clip_of_another_size) {
     Clip clip = winding(30.0, 30);
     const Skeleton skeleton = snake();

@@ -51,6 +51,19 @@ std::array<glm::dvec3, count> disc_of() noexcept {
     return disc;
 }
 
+/// In the toes' space: between heel and toe, below where the toes begin; without toes, at three quarters.
+glm::dvec3 ball_of(const Sole& sole, std::span<const Placement> rest) noexcept {
+    using namespace rig::detail;
+    const Placement &foot = rest[sole.foot], &toes = rest[sole.toes];
+    const glm::dvec3 heel = foot.apply(sole.heel), way = minus(toes.apply(sole.toe), heel);
+    const double along = way.x * way.x + way.z * way.z;
+    double part = 0.75;
+    if (sole.foot != sole.toes && along > 1e-12)
+        part = std::clamp(((toes.position.x - heel.x) * way.x + (toes.position.z - heel.z) * way.z) / along,
+                          0.0, 1.0);
+    return detail::seen_from(toes, minus(plus(heel, times(way, part)), toes.position));
+}
+
 }  // namespace
 
 Result check(const FeetOptions& options) noexcept {
@@ -161,6 +174,7 @@ Expected<Feet> Feet::make(const Skeleton& skeleton, const BoneMap& map, const So
                 rig::detail::minus(rest[sole.foot].position, rest[leg->node(leg->upper)].position), 1e-9)
                 .value_or(glm::dvec3(0.0, -1.0, 0.0));
         plan->legs[i] = std::move(*leg);
+        plan->balls[i] = ball_of(sole, rest);
     }
     return Feet(std::move(plan));
 }

@@ -12,6 +12,10 @@ namespace {
 
 /// A foot's goal that moves faster than this part of max_speed is a jump of the ground.
 constexpr double jump_part = 0.6;
+/// The part of max_speed at which it catches up with a goal that itself rises along a slope.
+constexpr double catching_up = 0.3;
+/// The part of max_speed at which the hips are lowered for a foot that comes down.
+constexpr double landing = 0.15;
 /// A foot that is moved away from an edge stands once this much or less remains, metres.
 constexpr double shifting = 0.001;
 
@@ -41,8 +45,8 @@ double FeetStep::missing(std::size_t i, double lift) const noexcept {
     return state_.base - lift - way.y - std::sqrt(std::max(0.0, longest * longest - level));
 }
 
-/// The lift follows its goal; a jump of the goal eases in.
-void FeetStep::ease_lift(FootState& foot, double goal) const noexcept {
+/// The lift follows its goal; a jump of the goal eases in. Rising along a slope is no jump, however steep.
+void FeetStep::ease_lift(FootState& foot, double goal, double rise) const noexcept {
     const double most = options_.max_speed * dt_, change = goal - foot.goal, before = foot.lift;
     foot.goal = goal;
     if (fresh_) {
@@ -54,9 +58,12 @@ void FeetStep::ease_lift(FootState& foot, double goal) const noexcept {
         foot.goal = goal - change;
         return;
     }
-    if (std::abs(change) > jump_part * most) foot.ease.value -= change;
-    const double sprung = step_spring(foot.ease, options_.lift_half_life, 0.0, dt_);
-    foot.lift = toward(before, goal + sprung, most);
+    if (std::abs(change - rise) > jump_part * most) foot.ease.value -= change - rise;
+    // Up it goes at once: what it must be over may be near.
+    const double half_life = options_.lift_half_life * (foot.ease.value < 0.0 ? 0.7 : 1.0);
+    const double sprung = step_spring(foot.ease, half_life, 0.0, dt_);
+    const double limit = std::max(most, std::abs(rise) + catching_up * most);
+    foot.lift = toward(before, goal + sprung, limit);
     if (foot.lift != goal + sprung) set(foot.ease, sprung, foot.lift - goal, 0.0);
     if (std::abs(foot.ease.value) < 1e-9) {
         foot.ease.value = 0.0;
@@ -65,13 +72,15 @@ void FeetStep::ease_lift(FootState& foot, double goal) const noexcept {
 }
 
 void FeetStep::lower_pelvis() noexcept {
+    const double most = options_.max_speed * dt_;
     double needed = 0.0, at_once = 0.0;
     for (std::size_t i = 0; i < 2; ++i) {
         const FootState& foot = state_.feet[i];
         if (foot.alone != FootAlone::No) continue;
         const double by = std::min(missing(i, foot.lift), options_.pelvis_drop);
         needed = std::max(needed, by);
-        if (is_standing(i)) at_once = std::max(at_once, by);
+        if (foot.locked)
+            at_once = std::max(at_once, is_standing(i) ? by : std::min(by, state_.drop + landing * most));
     }
     const double before = state_.drop;
     if (fresh_) {
@@ -79,7 +88,7 @@ void FeetStep::lower_pelvis() noexcept {
         state_.pelvis = {.value = needed, .previous_target = needed, .started = true};
     } else if (dt_ > 0.0) {
         const double sprung = step_spring(state_.pelvis, options_.pelvis_half_life, needed, dt_);
-        state_.drop = toward(before, std::max(sprung, at_once), options_.max_speed * dt_);
+        state_.drop = toward(before, std::max(sprung, at_once), most);
         state_.drop = std::min(state_.drop, options_.pelvis_drop);
         if (state_.drop != sprung) set(state_.pelvis, before, state_.drop, dt_);
         if (needed == 0.0 && state_.drop < 1e-9) state_.drop = 0.0;
@@ -126,8 +135,10 @@ void FeetStep::spare_knee(std::size_t i, double along) noexcept {
     FootState& foot = state_.feet[i];
     if (fresh_ || is_standing(i) || !(dt_ > 0.0)) return;
     const double from = lifts_[i], way = foot.lift - from;
+    // The knee of a foot that rises along a slope rises with it.
+    const double fastest = 1.0 + std::max(0.0, goals_[i].rise) / (options_.max_speed * dt_);
     const double part =
-        part_of_way([&](double some) { return knee_speed(i, along, from + way * some) <= 1.0; });
+        part_of_way([&](double some) { return knee_speed(i, along, from + way * some) <= fastest; });
     if (part == 1.0) return;
     foot.lift = from + way * part;
     if (part == 0.0) {
@@ -135,7 +146,7 @@ void FeetStep::spare_knee(std::size_t i, double along) noexcept {
         const double most = options_.max_speed * dt_;
         double least = knee_speed(i, along, from);
         for (const double by : {0.25, -0.25, 0.5, -0.5, 0.75, -0.75, 1.0, -1.0}) {
-            if (least <= 1.0) break;
+            if (least <= fastest) break;
             const double speed = knee_speed(i, along, from + most * by);
             if (speed >= least) continue;
             least = speed;
@@ -148,7 +159,7 @@ void FeetStep::spare_knee(std::size_t i, double along) noexcept {
 void FeetStep::move() noexcept {
     const double along = state_.base - state_.drop;
     for (std::size_t i = 0; i < 2; ++i) {
-        if (state_.feet[i].alone != FootAlone::No) ease_lift(state_.feet[i], along);
+        if (state_.feet[i].alone != FootAlone::No) ease_lift(state_.feet[i], along, 0.0);
         spare_knee(i, along);
     }
     if (along != 0.0) {

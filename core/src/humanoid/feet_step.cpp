@@ -61,7 +61,7 @@ bool FeetStep::place() noexcept {
         legs_[i] = detail::place(plan_.legs[i], root, pose_);
         if (!legs_[i].is_finite()) return false;
         clips_[i] = {legs_[i].end.position, legs_[i].end.apply(plan_.soles.feet[i].heel),
-                     legs_[i].tail.apply(plan_.soles.feet[i].toe)};
+                     legs_[i].tail.apply(plan_.balls[i]), legs_[i].tail.apply(plan_.soles.feet[i].toe)};
     }
     floor_ = root.apply({0.0, options_.floor.value_or(plan_.soles.floor), 0.0}).y;
     steepest_ = math::sine_cosine(options_.max_slope / (2.0 * math::pi)).cosine;
@@ -164,7 +164,7 @@ void FeetStep::find_feet() noexcept {
             foot.locked = foot.speed_known = false;
             continue;
         }
-        ease_lift(foot, goals_[i].lift);
+        ease_lift(foot, goals_[i].lift, goals_[i].rise);
     }
 }
 

@@ -54,7 +54,7 @@ class FeetStep {
     double first_base() const noexcept;
     double ground_around() const noexcept;
     double missing(std::size_t leg, double lift) const noexcept;
-    void ease_lift(FootState& foot, double goal) const noexcept;
+    void ease_lift(FootState& foot, double goal, double rise) const noexcept;
     bool is_on_ground(const FootReport& foot) const noexcept;
     glm::dvec3 target(std::size_t leg, double lift) const noexcept;
     double knee_speed(std::size_t leg, double along, double lift) const noexcept;

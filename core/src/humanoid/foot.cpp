@@ -19,10 +19,16 @@ constexpr double lock_again = 0.25;
 constexpr double turn_speed = 3.0;
 /// m/s. Higher speeds come from a tiny dt, not from motion.
 constexpr double fastest = 1e3;
-/// How far a foot in the air looks ahead, seconds; and how far the ground there must be above the plane below
-/// the foot to count as a step, metres.
-constexpr double ahead[]{0.04, 0.08, 0.12};
+/// How far a foot in the air looks ahead, seconds; and how far the ground must be above the plane below the
+/// foot, or from one look to the next, to count as a step, metres.
+constexpr double ahead[]{0.04, 0.08, 0.12, 0.16, 0.2};
 constexpr double step_over_plane = 0.02;
+/// Parts of max_speed: how fast a foot is lifted over what it sees ahead, and how fast it is kept back in
+/// front of what it is not over in time.
+constexpr double lifting = 0.45, waiting = 0.75;
+/// It waits for a riser that it comes to within so many looks, seconds apart.
+constexpr double looks = 3.0, looks_apart = 1.0 / 60.0;
+constexpr double patience = 0.65;  // how far it is kept back, as part of break_distance
 
 double height_over_floor(const FootClip& clip, const FootContext& context) noexcept {
     return std::min(clip.heel.y, clip.toe.y) - context.floor;
@@ -83,10 +89,11 @@ glm::dquat eased_turn(const glm::dquat& from, const glm::dquat& to, double left,
 /// Heel and toe relative to the ankle once the foot is turned, and how far the ankle slips, since the toe is
 /// the anchor.
 struct Turned {
-    glm::dvec3 heel, toe, slip;
+    glm::dvec3 heel, ball, toe, slip;
 
     Turned(const FootState& foot, const FootClip& clip) noexcept
         : heel(rotated(foot.turn, minus(clip.heel, clip.ankle))),
+          ball(rotated(foot.turn, minus(clip.ball, clip.ankle))),
           toe(rotated(foot.turn, minus(clip.toe, clip.ankle))) {
         const glm::dvec3 back = minus(minus(clip.toe, clip.ankle), toe);  // exactly 0 without a turn
         slip = {foot.offset_x + back.x, 0.0, foot.offset_z + back.z};
@@ -144,28 +151,109 @@ glm::dvec3 velocity_of(const FootState& foot, const FootClip& clip, const FootCo
     return {v.x * part, 0.0, v.z * part};
 }
 
-/// The height of the step that heel or toe of a foot in the air is approaching; -1e300 if there is none.
-/// `hit_now`: the ground below it now. `before`: the toe's velocity in the last step.
-double look_ahead(const FootState& foot, const glm::dvec3& before, const glm::dvec3& at,
-                  const std::optional<GroundHit>& hit_now, double from, const FootContext& context) noexcept {
-    double highest = -1e300;
-    if (foot.locked || !(context.dt > 0.0) || context.fresh || !hit_now) return highest;
-    const glm::dvec3& velocity = foot.velocity;
-    const double speed = length(velocity);
-    // A foot that brakes may stop before the edge.
-    const double braking =
-        speed > 1e-9 ? std::max(0.0, (dot(before, velocity) / speed - speed) / context.dt) : 0.0;
-    for (const double seconds : ahead) {
-        const double t = braking * seconds > speed ? speed / braking : seconds;
-        const double part = t - (speed > 1e-9 ? 0.5 * braking * t * t / speed : 0.0);
-        const double x = velocity.x * part, z = velocity.z * part;
-        const auto hit = context.ground.below({at.x + x, from, at.z + z});
-        if (judge(hit, context) != FootAlone::No) continue;
-        if (hit->height > height_of_plane(*hit_now, x, z) + step_over_plane)
-            highest = std::max(highest, hit->height);
-    }
-    return highest;
+/// The support of a heel that has left an upper step, until it is clear of its edge: a leg that is stretched
+/// puts the foot down a little short of its goal.
+double heel_clear_of_edge(const FootClip& clip, const Turned& turned, const Footing& footing, double from,
+                          const FootContext& context) noexcept {
+    if (!footing.heel || context.fresh || !(context.dt > 0.0)) return -1e300;
+    const glm::dvec3 sole = minus(turned.toe, turned.heel);
+    const glm::dvec3 behind =
+        times(direction_of(glm::dvec3(sole.x, 0.0, sole.z), 1e-9).value_or(glm::dvec3(0.0)),
+              -0.95 * context.options.edge);
+    const glm::dvec3 heel = plus(plus(clip.ankle, turned.slip), turned.heel);
+    const auto there = context.ground.below({heel.x + behind.x, from, heel.z + behind.z});
+    const bool is_step = judge(there, context) == FootAlone::No &&
+                         there->height > height_of_plane(*footing.heel, behind.x, behind.z) + step_over_plane;
+    return is_step ? there->height - turned.heel.y : -1e300;
 }
+
+/// The toe of a foot in the air on its way through this step, over ground that it has not reached yet.
+class ToeWay {
+  public:
+    /// `last_velocity`: the toe's in the last step.
+    ToeWay(const FootState& foot, const FootClip& clip, const glm::dvec3& last_velocity,
+           const glm::dvec3& toe, double from, const FootContext& context) noexcept
+        : foot_(foot), context_(context), last_velocity_(last_velocity), from_(from), toe_(toe) {
+        if (foot.locked || context.fresh || !(context.dt > 0.0)) return;
+        eased_ = 1.0 / context.eased - 1.0;
+        back_ = {foot.toe.x - clip.toe.x + foot.offset_x * eased_, 0.0,
+                 foot.toe.z - clip.toe.z + foot.offset_z * eased_};
+        before_ = plus(toe, back_);
+        if (const auto hit = context.ground.below({before_.x, from, before_.z});
+            judge(hit, context) == FootAlone::No)
+            hit_ = *hit, is_known_ = true;
+    }
+    /// How far to keep the foot back, so that it gets to a riser no sooner than it is above it.
+    glm::dvec3 wait() const noexcept {
+        const double way = length(back_);
+        if (!is_known_ || !(way > 1e-9)) return glm::dvec3(0.0);
+        // In steps like this one, from before it.
+        const double most = context_.options.max_speed * context_.dt;
+        const double own = toe_.y + foot_.lift - hit_.height - step_over_plane;
+        const auto height_after = [&](double steps) { return height_at(times(back_, -steps)); };
+        double there = 0.0, inside = 0.0;
+        const double look = std::max(1.0, looks_apart / context_.dt);
+        while (inside < looks * look && !(inside > 0.0 && there > own + most * inside))
+            there = height_after(inside += look);
+        if (!(there > own + most * inside)) return glm::dvec3(0.0);
+        double free = inside - look;
+        while (inside - free > 0.02) {
+            const double middle = 0.5 * (free + inside);
+            (height_after(middle) > own + most * middle ? inside : free) = middle;
+        }
+        const double needed = (there - own) / most;  // steps
+        // Where it is far behind already it goes on, still as far behind: it would be later at each step.
+        const double behind = std::sqrt(foot_.offset_x * foot_.offset_x + foot_.offset_z * foot_.offset_z);
+        const double left = std::max(0.0, patience * context_.options.break_distance - behind);
+        const double most_back = eased_ * behind + std::min(waiting * most, left);
+        return times(back_, std::clamp(1.0 - free / needed, 0.0, std::min(1.0, most_back / way)));
+    }
+    /// The height that the toe needs for what lies ahead: over every step that it comes to, it must be by the
+    /// time it gets there, at a steady speed. It grows and falls steadily as the foot goes along.
+    double height(const glm::dvec3& waited) const noexcept {
+        if (!is_known_) return -1e300;
+        const glm::dvec3 velocity = foot_.velocity, gone = minus(waited, back_);
+        const double speed = length(velocity), rate = lifting * context_.options.max_speed;
+        // A foot that brakes may stop before the edge.
+        const double braking =
+            speed > 1e-9 ? std::max(0.0, (dot(last_velocity_, velocity) / speed - speed) / context_.dt) : 0.0;
+        const auto height_in = [&](double seconds) {
+            const double t = braking * seconds > speed ? speed / braking : seconds;
+            const double part = t - (speed > 1e-9 ? 0.5 * braking * t * t / speed : 0.0);
+            return height_at(plus(gone, times(velocity, part)));
+        };
+        double needed = 0.0, lower = 0.0, since = 0.0;
+        for (const double seconds : ahead) {
+            const double there = height_in(seconds);
+            double first = seconds, last = since;
+            for (const double step = there - lower; step > step_over_plane && first - last > 0.003;) {
+                const double middle = 0.5 * (first + last);
+                (height_in(middle) > lower + 0.5 * step ? first : last) = middle;
+            }
+            needed = std::max(needed, there - rate * first);
+            lower = there, since = seconds;
+        }
+        return needed > 0.0 ? height_of_plane(hit_, gone.x, gone.z) + needed : -1e300;
+    }
+
+  private:
+    /// Of the ground over the plane below where the toe was before; 0 where it could not stand.
+    double height_at(const glm::dvec3& by) const noexcept {
+        const auto there = context_.ground.below({before_.x + by.x, from_, before_.z + by.z});
+        return judge(there, context_) == FootAlone::No ? there->height - height_of_plane(hit_, by.x, by.z)
+                                                       : 0.0;
+    }
+
+    const FootState& foot_;
+    const FootContext& context_;
+    glm::dvec3 last_velocity_;
+    double from_;
+    glm::dvec3 toe_;                      // in this step, as far as the clip and its offset go
+    glm::dvec3 before_{0.0}, back_{0.0};  // before the step, and the way back there
+    double eased_ = 0.0;                  // how much longer the offset was
+    GroundHit hit_{};                     // below `before_`
+    bool is_known_ = false;
+};
 
 }  // namespace
 
@@ -224,6 +312,12 @@ FootGoal find_goal(FootState& foot, const FootClip& clip, const FootContext& con
             context.fresh ? goal : eased_turn(foot.turn, goal, context.eased, turn_speed * context.dt);
     };
     turn_by(footing_of(Turned(foot, clip)));
+    const Turned unhindered(foot, clip);
+    const ToeWay way(foot, clip, before, plus(plus(clip.ankle, unhindered.slip), unhindered.toe), from,
+                     context);
+    const glm::dvec3 waited = way.wait();
+    const double over_step = way.height(waited);
+    foot.offset_x += waited.x, foot.offset_z += waited.z;
     Turned turned(foot, clip);
     Footing footing = footing_of(turned);
     foot.alone = footing.alone;
@@ -248,11 +342,27 @@ FootGoal find_goal(FootState& foot, const FootClip& clip, const FootContext& con
     goal.contact = support - clip.ankle.y;
     const double clearance = std::max(0.0, height_over_floor(clip, context)) * (1.0 - foot.planting);
     const glm::dvec3 ankle = plus(clip.ankle, turned.slip);
-    const double over_toe = look_ahead(foot, before, plus(ankle, turned.toe), footing.toe, from, context),
-                 over_heel = look_ahead(foot, before, plus(ankle, turned.heel), footing.heel, from, context);
-    support = std::max(support, over_toe - std::min(turned.heel.y, turned.toe.y));
-    support = std::max(support, over_heel - turned.heel.y);
+    if (!foot.standing) support = std::max(support, heel_clear_of_edge(clip, turned, footing, from, context));
+    if (!foot.locked) {
+        const double lowest = std::min({turned.heel.y, turned.ball.y, turned.toe.y});
+        double highest = over_step;
+        // A heel that follows its toe up a step must be over it too.
+        if (footing.heel && footing.toe) {
+            const glm::dvec3 sole = minus(turned.toe, turned.heel);
+            if (footing.toe->height > height_of_plane(*footing.heel, sole.x, sole.z) + step_over_plane)
+                highest = std::max(highest, footing.toe->height);
+        }
+        support = std::max(support, highest - lowest);
+        const glm::dvec3 ball = plus(ankle, turned.ball);
+        const auto below = context.ground.below({ball.x, from, ball.z});
+        if (judge(below, context) == FootAlone::No)
+            support = std::max(support, below->height - turned.ball.y);
+    }
     goal.lift = clearance + support - clip.ankle.y;
+    if (context.dt > 0.0 && !context.fresh) {
+        const glm::dvec3 normal = footing.normal(), v = foot.velocity;
+        goal.rise = -(normal.x * v.x + normal.z * v.z) / normal.y * context.dt;
+    }
     return goal;
 }
 

@@ -20,13 +20,14 @@ struct FootContext {
 
 /// A foot in the clip, in the ground's space.
 struct FootClip {
-    glm::dvec3 ankle, heel, toe;
+    glm::dvec3 ankle, heel, ball, toe;
 };
 
 /// Offsets of the ankle from the clip.
 struct FootGoal {
     double lift = 0.0;     // upwards, before the speed limit
     double contact = 0.0;  // the lift that puts the sole on the ground
+    double rise = 0.0;     // of the plane below the foot, along its way in this step
     glm::dvec3 slip{0.0};  // horizontal
 };
 

@@ -109,10 +109,11 @@ class DefaultLimits {
         return limit;
     }
     ik::Limit hinge(Bone bone, const glm::dvec3& usual, double most) const {
-        return ik::Limit::hinge(axis(bend_at_rest(bone).value_or(usual)), 0.0f, radians(most));
+        return ik::Limit::hinge(axis(bend_at_rest(bone, usual).value_or(usual)), 0.0f, radians(most));
     }
-    /// The axis of a lower limb's bend at rest, moved to the T-pose; nullopt if it is nearly straight.
-    std::optional<glm::dvec3> bend_at_rest(Bone bone) const {
+    /// The axis of a lower limb's bend at rest, moved to the T-pose; nullopt if it is nearly straight, or
+    /// slightly overstretched: bent against `usual`.
+    std::optional<glm::dvec3> bend_at_rest(Bone bone, const glm::dvec3& usual) const {
         const Bone upper = static_cast<Bone>(static_cast<int>(bone) - 1);
         const auto end = detail::limb_child(bone);
         for (const Bone each : {upper, bone, *end})
@@ -126,7 +127,9 @@ class DefaultLimits {
         if (angle < 5.0 * pi / 180.0 || angle > 2.0) return std::nullopt;
         const glm::dquat to_t =
             math::compose(t_[node(upper)].rotation(), conjugate(rest_[node(upper)].rotation()));
-        return rotated(to_t, times(across, 1.0 / sine));
+        const glm::dvec3 found = rotated(to_t, times(across, 1.0 / sine));
+        if (angle < 15.0 * pi / 180.0 && dot(found, usual) < 0.0) return std::nullopt;
+        return found;
     }
     static glm::vec3 axis(const glm::dvec3& of) { return math::narrow(of); }
 

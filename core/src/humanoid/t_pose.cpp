@@ -1,6 +1,11 @@
 #include "tendril/humanoid/t_pose.hpp"
 
+#include <array>
+#include <cmath>
+#include <optional>
+
 #include "humanoid/anatomy.hpp"
+#include "humanoid/facing.hpp"
 #include "humanoid/input.hpp"
 #include "rig/math.hpp"
 
@@ -8,12 +13,61 @@ namespace tendril::humanoid {
 
 using namespace rig::detail;
 
+namespace {
+
+/// From the ankle to the ball or tip of the foot at rest; nullopt if nothing follows the ankle.
+std::optional<glm::dvec3> foot_at_rest(const Skeleton& skeleton, const BoneMap& map,
+                                       std::span<const Placement> rest, bool left) {
+    const std::int32_t foot = map[left ? Bone::LeftFoot : Bone::RightFoot].node,
+                       toes = map[left ? Bone::LeftToes : Bone::RightToes].node;
+    if (foot < 0) return std::nullopt;
+    const auto node = static_cast<std::size_t>(foot);
+    const std::size_t end =
+        toes >= 0 ? static_cast<std::size_t>(toes) : detail::farthest_below(skeleton, rest, node);
+    return direction_of(minus(rest[end].position, rest[node].position), 1e-9);
+}
+
+/// How a foot stands, from what its rest pose shows of it.
+class Standing {
+  public:
+    Standing(const Skeleton& skeleton, const BoneMap& map, const std::vector<Placement>& rest,
+             const Facing& at)
+        : at_(at), feet_{foot_at_rest(skeleton, map, rest, true), foot_at_rest(skeleton, map, rest, false)} {}
+
+    /// From rest to standing. `with_leg`: how far the leg turns. A foot that rests as if it stood keeps its
+    /// rest; any other one (a bind pose in mid-run) goes along with its leg and points where the other foot
+    /// does, or 30 degrees below level.
+    glm::dquat turn(bool left, const glm::dquat& with_leg) const {
+        const auto &own = feet_[left ? 0 : 1], &other = feet_[left ? 1 : 0];
+        if (!own || stands(*own)) return {1.0, 0.0, 0.0, 0.0};
+        glm::dvec3 goal = minus(times(at_.forward, 0.866025403784439), times(at_.up, 0.5));
+        if (other && stands(*other)) {
+            const double out = dot(*other, at_.left);
+            goal = minus(*other, times(at_.left, 2.0 * out));
+        }
+        return math::compose(minimal_rotation(rotated(with_leg, *own), goal), with_leg);
+    }
+
+  private:
+    /// Forward, turned out or in by at most 60 degrees, from 20 degrees above level to 70 below.
+    bool stands(const glm::dvec3& foot) const {
+        const double ahead = dot(foot, at_.forward), aside = dot(foot, at_.left), high = dot(foot, at_.up);
+        return high < 0.342 && high > -0.94 && ahead > 0.5 * std::sqrt(ahead * ahead + aside * aside);
+    }
+
+    const Facing& at_;
+    std::array<std::optional<glm::dvec3>, 2> feet_;  // left, right
+};
+
+}  // namespace
+
 std::vector<rig::Transform> t_pose(const Skeleton& skeleton, const BoneMap& given) {
     const BoneMap& map = detail::map_or_none(given, skeleton);
     std::vector<rig::Transform> pose = rest_pose(skeleton);
     std::vector<Placement> placements(skeleton.size());
     place(skeleton, pose, placements);
     const Facing at = facing(skeleton, map);
+    const Standing standing(skeleton, map, placements, at);
     std::vector<glm::dquat> turns(skeleton.size(),
                                   glm::dquat(1.0, 0.0, 0.0, 0.0));  // from rest to the T-pose
     for (const std::int32_t each : skeleton.order()) {
@@ -32,7 +86,7 @@ std::vector<rig::Transform> t_pose(const Skeleton& skeleton, const BoneMap& give
                     turns[node] =
                         math::compose(minimal_rotation(*direction, detail::t_direction(*bone, at)), before);
             } else if (*bone == Bone::LeftFoot || *bone == Bone::RightFoot) {
-                turns[node] = {1.0, 0.0, 0.0, 0.0};
+                turns[node] = standing.turn(*bone == Bone::LeftFoot, before);
             }
         }
         const glm::dquat rest = placements[node].rotation();

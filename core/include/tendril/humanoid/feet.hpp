@@ -16,8 +16,9 @@
 //     horizontal position. Locked or not, rays from above the ankle, down through heel and toe, find the
 //     ground. The foot turns by the mean of the two normals and keeps the clip's height over its floor,
 //     measured from whichever of the two is supported (on level ground, the higher hit). When a lock is
-//     released, its offset eases out. Heel and toe of a foot in the air also look ahead, so that each clears
-//     the edge of a step before it gets there.
+//     released, its offset eases out. A foot in the air is lifted with its heel, ball and toe over the ground
+//     below it and over every step that it comes to; it is kept back in front of a riser until it is above
+//     it.
 //  3. The pelvis is lowered until the legs reach, by a critically damped spring, or faster than the spring
 //     if a foot on the ground needs it.
 //  4. Legs are solved in closed form. A knee stays on the side where the clip has it; a straight one bends
@@ -26,10 +27,13 @@
 // If the ground is too steep, too far, missing or out of the leg's reach, the leg keeps the clip's pose and
 // the report says why. Without any ground the pose stays bit-identical.
 //
-// Hips, and knees and feet in the air, move relative to the clip no faster than `max_speed`, and a jump of
-// the ground eases in. A foot that goes down stairs may therefore be late: it is kept above the upper step
-// until its heel is clear, and if the clip has put it down by then, the remaining way takes as long as
-// `max_speed` allows, 5 frames for 0.16 m. It counts as planted once it arrives.
+// Hips, and knees and feet in the air, move relative to the clip no faster than `max_speed`, except along a
+// slope, which a foot follows at any speed; a jump of the ground eases in. A walk of 1 m/s passes no more
+// than 10 mm through slopes of up to 40 degrees and stairs of 0.15 m on 0.3 m, and 16 mm through stairs of
+// 0.18 m on 0.28 m. Faster or steeper ones may need more than `max_speed`: such a foot goes on through the
+// edges. A foot that goes down stairs may be late: it is kept above the upper step until its heel is clear,
+// and if the clip has put it down by then, the remaining way takes as long as `max_speed` allows, 5 frames
+// for 0.16 m. It counts as planted once it arrives.
 //
 // Sources: R. S. Johansen, "Automated Semi-Procedural Animation for Character Locomotion", 2009 (feet on
 // uneven ground); L. Kovar, J. Schreiner, M. Gleicher, "Footskate Cleanup for Motion Capture Editing", SCA

@@ -15,11 +15,13 @@
 //     KneePop    a knee jumps, or snaps straight or out of straight               lower leg     deg
 //     SignFlip   a key's quaternion has the opposite sign of its neighbours':
 //                without the short way it turns by the amount between two keys    its node      deg
-//     Limit      a joint is beyond its range                                      its node      deg
-//     Jump       a joint departs for a few frames, or jumps for good              its node      deg or mm
+//     Limit      a joint is beyond its range; an elbow, if it bends to a side
+//                to which no shoulder can twist it                                its node      deg
+//     Jump       a joint departs for a few frames, or jumps for good; a key
+//                that steps on purpose is no jump                                 its node      deg or mm
 //     Scale      implausible sizes: the clip's bones are a multiple of the
 //                skeleton's, no human is that tall, scale keys are 0 or mirror    its node      times or m
-//     Axis       the figure lies on its side                                      hips          deg
+//     Axis       the figure lies on its side, in the clip and not only at rest    hips          deg
 //
 // Feet and knees need a map with a leg; without one only the rest is judged. Stances are found from the
 // foot's own speed and height, after L. Kovar, J. Schreiner, M. Gleicher, "Footskate Cleanup for Motion

@@ -65,6 +65,15 @@ std::optional<Poses> poses_of(const Skeleton& skeleton, const BoneMap& map, cons
 
 constexpr double aligned = 0.9;  // cosine of 26 degrees
 
+/// Whether the clip carries its figure upright, on average within 45 degrees: then it is only the rest pose
+/// that lies, as files have it that store their motion relative to an arbitrary pose.
+bool stands_in(const Poses& poses) {
+    glm::dvec3 sum(0.0);
+    for (const Stance& each : poses.stances) sum = plus(sum, plus(each.torso, each.legs));
+    const auto mean = direction_of(sum, 1e-9);
+    return mean && mean->y > 0.7;
+}
+
 }  // namespace
 
 std::optional<glm::dquat> upright_turn(const Skeleton& skeleton, const BoneMap& map, const Clip& clip) {
@@ -93,6 +102,8 @@ void check_axis(Check& check) {
         place(check.skeleton, rest_pose(check.skeleton), placed);
         const auto rest = stance_of(check.map, placed);
         if (!rest || dot(rest->torso, rest->legs) < aligned) return;
+        if (const auto poses = poses_of(check.skeleton, check.map, check.clip); poses && stands_in(*poses))
+            return;
         const double angle = arctangent(length(cross(rest->torso, {0.0, 1.0, 0.0})), rest->torso.y) * degrees;
         check.add(Fault::Axis, hips, 0, 0, last, angle, "deg",
                   "lies down at rest, " + shown(angle) +

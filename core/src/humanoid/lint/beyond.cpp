@@ -2,9 +2,12 @@
 #include <algorithm>
 
 #include "humanoid/lint/lint.hpp"
+#include "math/vector.hpp"
 
 namespace tendril::humanoid::lint_detail {
 namespace {
+
+using namespace rig::detail;
 
 /// Degrees by which decent clips exceed the default limits: captured heads that are mapped to the end of the
 /// neck, forearms turned instead of the upper arm. Knees exceed them the least.
@@ -20,6 +23,40 @@ double tolerance(Bone bone) noexcept {
         default:
             return 45.0;
     }
+}
+
+struct Arm {
+    Bone shoulder, upper, lower;
+};
+constexpr Arm arms[]{{Bone::LeftShoulder, Bone::LeftUpperArm, Bone::LeftLowerArm},
+                     {Bone::RightShoulder, Bone::RightUpperArm, Bone::RightLowerArm}};
+
+/// Radians by which an elbow is beyond what an arm can do. Rigs divide an arm's twist between collar bone,
+/// upper arm and forearm as they like, so only the sum of them counts: the elbow may bend to any side to
+/// which the upper arm can twist it, seen from the chest.
+double elbow_excess(const BodyJoints& joints, const Arm& arm, const std::vector<Placement>& placed) {
+    const ik::Limit &shoulder = joints.limit(arm.upper), &elbow = joints.limit(arm.lower);
+    const glm::dvec3 along = joints.direction(arm.upper);
+    const glm::dquat upper = math::compose(joints.turn(arm.shoulder, placed), joints.turn(arm.upper, placed)),
+                     lower = math::compose(upper, joints.turn(arm.lower, placed));
+    const glm::dquat without_twist = minimal_rotation(along, rotated(upper, along));
+    const glm::dvec3 seen = rotated(conjugate(without_twist), rotated(lower, along));
+    const glm::dvec3 forward = direction_of(cross(math::wide(elbow.axis), along), 1e-9).value_or(along),
+                     axis = cross(along, forward);
+    const double bend = arctangent(length(cross(along, seen)), dot(along, seen)),
+                 twist = arctangent(dot(seen, axis), dot(seen, forward));
+    const double twisted = std::max({0.0, static_cast<double>(shoulder.twist_min) - twist,
+                                     twist - static_cast<double>(shoulder.twist_max)});
+    // Twisted by a right angle too far it bends backwards.
+    const double backwards = bend * std::min(1.0, twisted / (0.5 * pi));
+    return std::max(backwards, bend - static_cast<double>(elbow.max));
+}
+
+/// Beyond the default limits.
+double excess_of(const BodyJoints& joints, Bone bone, const std::vector<Placement>& placed) {
+    for (const Arm& arm : arms)
+        if (bone == arm.lower && joints.parent(bone) == arm.upper) return elbow_excess(joints, arm, placed);
+    return static_cast<double>(joints.excess(bone, placed));
 }
 
 /// Since when a joint is beyond its limit, and the worst frame.
@@ -56,7 +93,8 @@ void check_limits(Check& check) {
         place(check.skeleton, pose, placed);
         for (std::size_t i = 0; i < bone_count; ++i) {
             const auto bone = static_cast<Bone>(i);
-            const double excess = static_cast<double>(joints->excess(bone, placed)) * degrees;
+            const double excess = degrees * (given ? static_cast<double>(joints->excess(bone, placed))
+                                                   : excess_of(*joints, bone, placed));
             Stay& stay = stays[i];
             const bool is_beyond = excess > (given ? check.settings.beyond : tolerance(bone));
             if (stay.is_beyond && !is_beyond) tell(check, bone, stay, frame - 1);

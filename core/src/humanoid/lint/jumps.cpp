@@ -54,10 +54,27 @@ double step(const Moves& moves, std::ptrdiff_t i, double minimum) {
     return far > times_the_change * change ? far : 0.0;
 }
 
-/// Step tracks are not judged: they hold their keys on purpose.
+/// A track that steps does so on purpose: all of it, or where two keys stand at one moment, as files have
+/// them whose curves are held and interpolated in turn.
 template <class T>
 bool is_judged(const Track<T>& track) {
     return track.times.size() > 2 && track.interpolation != Interpolation::Step;
+}
+
+/// Takes the steps out of a track's moves: the motion goes on there as in the frame before.
+template <class T>
+void skip_steps(const Check& check, const Track<T>& track, std::vector<glm::dvec3>& moves) {
+    const double rate = check.report.rate, one_moment = 1e-3 / rate;
+    for (std::size_t k = 1; k < track.times.size(); ++k) {
+        if (track.times[k] - track.times[k - 1] > one_moment) continue;
+        // The first frame at or after the second key; a time is rounded in files.
+        const auto frame = static_cast<std::size_t>(std::ceil(track.times[k] * rate - 2e-3));
+        for (const std::size_t i : {frame, frame + 1}) {
+            const bool between = i > 0 && i < moves.size() && check.time_of(i) > track.times[k - 1] &&
+                                 check.time_of(i - 1) < track.times[k];
+            if (between) moves[i] = i > 1 ? moves[i - 1] : glm::dvec3(0.0);
+        }
+    }
 }
 
 template <class T, class Member>
@@ -71,6 +88,7 @@ void check_track(Check& check, const Channel& channel, const Track<T>& track, Me
         if (i > 0) moves[i] = step_between(last.*member, next.*member);
         last = next;
     }
+    skip_steps(check, track, moves);
     const auto node = static_cast<std::int32_t>(channel.node);
     const bool is_knee =
         turns && (node == check.map[Bone::LeftLowerLeg].node || node == check.map[Bone::RightLowerLeg].node);
@@ -98,6 +116,14 @@ struct Leg {
 };
 constexpr Leg legs[]{{Bone::LeftUpperLeg, Bone::LeftLowerLeg, Bone::LeftFoot},
                      {Bone::RightUpperLeg, Bone::RightLowerLeg, Bone::RightFoot}};
+
+/// Null if the clip does not turn the node.
+const Track<glm::dquat>* rotation_of(const Clip& clip, std::int32_t node) noexcept {
+    for (const Channel& channel : clip.channels)
+        if (static_cast<std::int32_t>(channel.node) == node && !channel.rotation.times.empty())
+            return &channel.rotation;
+    return nullptr;
+}
 
 /// Degrees by which the knee is bent; 0: straight.
 double bend_of(const Check& check, const Leg& leg, const std::vector<Placement>& placed) {
@@ -180,6 +206,8 @@ void check_knees(Check& check) {
     const auto has = [&](Bone bone) { return check.map[bone].node >= 0; };
     for (const Leg& leg : legs) {
         if (!has(leg.upper) || !has(leg.lower) || !has(leg.foot)) continue;
+        const Track<glm::dquat>* const keys = rotation_of(check.clip, check.map[leg.lower].node);
+        if (keys && keys->interpolation == Interpolation::Step) continue;
         std::vector<double> bends;
         for (std::size_t i = 0; i < check.report.frames; ++i) {
             sample(check.clip, check.skeleton, check.time_of(i), pose);
@@ -188,6 +216,7 @@ void check_knees(Check& check) {
         }
         std::vector<glm::dvec3> moves(bends.size(), glm::dvec3(0.0));
         for (std::size_t i = 1; i < moves.size(); ++i) moves[i].x = bends[i] - bends[i - 1];
+        if (keys) skip_steps(check, *keys, moves);
         const std::int32_t node = check.map[leg.lower].node;
         const std::vector<Outlier> pops = outliers(moves, check.settings.knee * slower(check));
         for (const Outlier& each : pops) {
