@@ -53,6 +53,22 @@ TEST_F(HumanoidMouse, MapsTheNodeThatIsClickedWhileABoneWaits) {
     EXPECT_EQ(bones().at("LeftHand").at("node"), "LeftHand_End") << "one click, one node";
 }
 
+TEST_F(HumanoidMouse, MapsOneUnmappedBoneAfterAnotherWithAClickEach) {
+    for (const char* bone : {"LeftHand", "RightHand", "LeftToes"})
+        app_.run({"humanoid.map", Json{{"bone", bone}}});
+    auto& waiting = humanoid_runtime(app_.workspace()).panel.bone;
+    waiting = humanoid::Bone::LeftHand;
+    click(at("node.LeftHand"));
+    EXPECT_EQ(waiting, humanoid::Bone::RightHand) << "the next one in the list";
+    click(at("node.RightHand"));
+    EXPECT_EQ(waiting, humanoid::Bone::LeftToes);
+    click(at("node.LeftToes"));
+    EXPECT_FALSE(waiting) << "nothing is unmapped any more";
+    EXPECT_EQ(bones().at("RightHand").at("node"), "RightHand");
+    EXPECT_EQ(bones().at("LeftToes").at("node"), "LeftToes");
+    EXPECT_EQ(app_.state().at("selected"), "LeftToes");
+}
+
 TEST_F(HumanoidMouse, DragsAnEffectorToATarget) {
     const glm::vec2 from = at("left_hand");
     send(MouseMove{from});
