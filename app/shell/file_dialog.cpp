@@ -10,6 +10,7 @@
 #include "app/labs/files.hpp"
 #include "app/shell/shell.hpp"
 #include "app/widgets/fields.hpp"
+#include "app/widgets/lists.hpp"
 #include "app/widgets/text.hpp"
 
 namespace tendril::app {
@@ -100,6 +101,17 @@ void FileDialog::show_filter() {
     explain("Which kinds of files are listed");
 }
 
+std::string FileDialog::why_no_files() const {
+    if (std::ranges::any_of(entries_, [](const Entry& each) { return !each.folder; })) return {};
+    if (filming()) return "No videos here yet.";
+    if (saving()) return "No scenes here yet.";
+    std::string kinds;
+    for (std::size_t i = 0; i < kinds_.size(); ++i)
+        if (filter_ == 0 || filter_ == static_cast<int>(i) + 1)
+            kinds += (kinds.empty() ? "" : ", ") + kind_text(kinds_[i]);
+    return "No files that can be opened here: " + kinds + '.';
+}
+
 bool FileDialog::list() {
     fs::path entered;
     bool chosen = false;
@@ -117,6 +129,7 @@ bool FileDialog::list() {
             chosen = ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
         }
     }
+    if (const std::string why = why_no_files(); !why.empty()) note(why);
     if (!entered.empty()) go_to(entered);
     return chosen;
 }
@@ -146,9 +159,10 @@ void FileDialog::frame(const Workspace& workspace, const Labs& labs, glm::vec2 s
     if (filming()) video_.frame();
     if (!saving()) show_filter();
     ImGui::SetNextItemWidth(-1.0f);
+    const bool cut = !appearing && shows_cut_text("##name", name_.data());
     if (appearing) ImGui::SetKeyboardFocusHere();
-    if (ImGui::InputTextWithHint("##name", "file name", name_.data(), name_.size(),
-                                 ImGuiInputTextFlags_EnterReturnsTrue)) {
+    if (!cut && ImGui::InputTextWithHint("##name", "file name", name_.data(), name_.size(),
+                                         ImGuiInputTextFlags_EnterReturnsTrue)) {
         done = true;
         ImGui::SetKeyboardFocusHere(-1);  // keep the focus, to edit a refused name
     }

@@ -31,6 +31,8 @@ class FileDialog {
     void show_filter();
     /// The folders and files; true once a file is double-clicked.
     bool list();
+    /// What can be opened, where the folder has nothing of it.
+    std::string why_no_files() const;
     void take(const Workspace& workspace, Emit& emit);
     void send(const std::filesystem::path& path, Emit& emit);
 

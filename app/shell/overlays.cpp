@@ -16,6 +16,7 @@
 #include "app/shell/theme.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/fonts.hpp"
+#include "app/widgets/lists.hpp"
 
 namespace tendril::app {
 namespace {

@@ -13,6 +13,7 @@
 #include "app/shell/theme.hpp"
 #include "app/widgets/fonts.hpp"
 #include "app/widgets/icons.hpp"
+#include "app/widgets/lists.hpp"
 #include "app/widgets/number_entry.hpp"
 #include "app/widgets/text.hpp"
 #include "app/widgets/tooltip.hpp"
@@ -89,9 +90,9 @@ void place_below_bar(const ShellFrame& frame, float x) {
 }
 
 void menu(const ShellFrame& frame, Emit& emit) {
-    if (icon_button("menu", Icon::Menu, "Menu")) ImGui::OpenPopup("menu popup");
+    const bool pressed = icon_button("menu", Icon::Menu, "Menu");
     place_below_bar(frame, ImGui::GetItemRectMin().x);
-    if (!ImGui::BeginPopup("menu popup")) return;
+    if (!begin_menu("menu popup", pressed)) return;
     close_popup_on_escape();
     // Tighter than a panel's rows, so that all of it fits a window 720 pixels high.
     const ImVec2 spacing = ImGui::GetStyle().ItemSpacing;
@@ -127,12 +128,12 @@ void tab_list(const ShellFrame& frame, Emit& emit) {
     ImGui::SameLine();
     const std::string title = frame.lab.title() + " ...";
     ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_Header));
-    if (ImGui::Button((title + "###labs").c_str())) ImGui::OpenPopup("labs");
+    const bool pressed = ImGui::Button((title + "###labs").c_str());
     ImGui::PopStyleColor();
     if (ImGui::IsItemHovered()) tooltip("The other labs");
     const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
     place_below_bar(frame, low.x);
-    if (ImGui::BeginPopup("labs")) {
+    if (begin_menu("labs", pressed)) {
         close_popup_on_escape();
         for (const auto& lab : frame.labs.all())
             if (ImGui::MenuItem(lab->title().c_str(), nullptr, lab->name() == frame.workspace.lab))

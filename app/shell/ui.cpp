@@ -10,6 +10,7 @@
 #include "app/shell/imgui_compat.hpp"
 #include "app/shell/theme.hpp"
 #include "app/view/assets.hpp"
+#include "app/widgets/lists.hpp"
 
 namespace tendril::app {
 namespace {
@@ -90,6 +91,8 @@ void Ui::begin(const Surface& surface, Theme theme, const Input& input, const Ev
         if (const auto* wheel = std::get_if<MouseWheel>(event)) imgui_feed_wheel(wheel->by, wheel->sideways);
         if (const auto* text = std::get_if<TextInput>(event)) io.AddInputCharactersUTF8(text->utf8.c_str());
     }
+    if (const auto* press = event != nullptr ? std::get_if<MousePress>(event) : nullptr; press && press->down)
+        close_lists_on_press();
     ImGui_ImplOpenGL3_NewFrame();
     ImGui::NewFrame();
 }

@@ -6,6 +6,7 @@
 
 #include "app/io/mp4.hpp"
 #include "app/widgets/fields.hpp"
+#include "app/widgets/lists.hpp"
 
 namespace tendril::app {
 namespace {

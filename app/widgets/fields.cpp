@@ -1,6 +1,7 @@
 #include "app/widgets/fields.hpp"
 
 #include <imgui.h>
+#include <imgui_internal.h>  // which item is active
 
 #include <algorithm>
 #include <array>
@@ -42,8 +43,29 @@ void note_row(ImVec2 from, ImVec2 field) {
     row.has_range = false;
 }
 
-/// Writes the row's name and leaves the cursor at its field, beside the name or, if there is no room, below
-/// it. Returns the field's id.
+bool drag_number(const char* id, float& value, float speed, float low, float high, const char* format,
+                 const char* at_zero = nullptr) {
+    const auto entered = number_entry(id, value, speed, low, high, format, false, at_zero);
+    if (!entered) return false;
+    constexpr float most = std::numeric_limits<float>::max();  // JSON has no infinity
+    const auto wanted = static_cast<float>(*entered);
+    value = std::isfinite(wanted) ? wanted : std::copysign(most, wanted);
+    return true;
+}
+
+}  // namespace
+
+namespace {
+
+void line_below() {
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    ImGui::GetWindowDrawList()->AddLine(at, {at.x + ImGui::GetContentRegionAvail().x, at.y},
+                                        ImGui::GetColorU32(ImGuiCol_Separator));
+    ImGui::Dummy({0.0f, 0.1f * ImGui::GetTextLineHeight()});
+}
+
+}  // namespace
+
 std::string begin_row(const char* name) {
     const float from = ImGui::GetWindowContentRegionMin().x;
     const float field = name_share * ImGui::GetWindowContentRegionMax().x;
@@ -67,33 +89,9 @@ std::string begin_row(const char* name) {
     return std::string("##") + name;
 }
 
-bool drag_number(const char* id, float& value, float speed, float low, float high, const char* format,
-                 const char* at_zero = nullptr) {
-    const auto entered = number_entry(id, value, speed, low, high, format, false, at_zero);
-    if (!entered) return false;
-    constexpr float most = std::numeric_limits<float>::max();  // JSON has no infinity
-    const auto wanted = static_cast<float>(*entered);
-    value = std::isfinite(wanted) ? wanted : std::copysign(most, wanted);
-    return true;
-}
-
-}  // namespace
-
-namespace {
-
-/// A wrapped tooltip for the last item, even if it is disabled.
 void tooltip_of_button(const std::string& text) {
     if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) tooltip(text);
 }
-
-void line_below() {
-    const ImVec2 at = ImGui::GetCursorScreenPos();
-    ImGui::GetWindowDrawList()->AddLine(at, {at.x + ImGui::GetContentRegionAvail().x, at.y},
-                                        ImGui::GetColorU32(ImGuiCol_Separator));
-    ImGui::Dummy({0.0f, 0.1f * ImGui::GetTextLineHeight()});
-}
-
-}  // namespace
 
 void section(const char* title) {
     ImGui::Dummy({0.0f, 0.35f * ImGui::GetTextLineHeight()});
@@ -179,6 +177,31 @@ bool integer_slider(const char* name, int& value, int low, int high) {
     return changed;
 }
 
+bool shows_cut_text(const char* id, const std::string& text) {
+    TextEditing& typed = number_editing().typed;
+    const ImGuiID own = ImGui::GetID(id);
+    constexpr int frames_to_focus = 4;
+    const int left = typed.wanted_until - ImGui::GetFrameCount();
+    if (typed.wanted == own && left >= 0) {
+        if (left + 1 == frames_to_focus) ImGui::SetKeyboardFocusHere();
+        return false;
+    }
+    const float width = ImGui::CalcItemWidth();
+    const std::string cut = elided_in_middle(text, width - 2.0f * ImGui::GetStyle().FramePadding.x);
+    if (ImGui::GetActiveID() == own || cut == text) return false;
+    ImGui::PushStyleVar(ImGuiStyleVar_ButtonTextAlign, {0.0f, 0.5f});
+    for (const auto colour : {ImGuiCol_Button, ImGuiCol_ButtonHovered, ImGuiCol_ButtonActive})
+        ImGui::PushStyleColor(colour, ImGui::GetStyleColorVec4(ImGuiCol_FrameBg));
+    if (ImGui::Button((cut + "###" + id + " cut").c_str(), {width, 0.0f})) {
+        typed.wanted = own;
+        typed.wanted_until = ImGui::GetFrameCount() + frames_to_focus;
+    }
+    ImGui::PopStyleColor(3);
+    ImGui::PopStyleVar();
+    tooltip_of_button(text);
+    return true;
+}
+
 bool text_field(const char* name, std::string& value, const char* hint) {
     const std::string id = begin_row(name);
     TextEditing& typed = number_editing().typed;
@@ -189,6 +212,7 @@ bool text_field(const char* name, std::string& value, const char* hint) {
     value.copy(text.data(), text.size() - 1);
     const auto given = text;
     if (edited) text = typed.text;
+    if (!edited && shows_cut_text(id.c_str(), value)) return false;
     const bool entered =
         ImGui::InputTextWithHint(id.c_str(), hint, text.data(), text.size(),
                                  ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
@@ -248,104 +272,6 @@ void kept_note(const char* id, const std::string& text, int lines) {
     const float top = ImGui::GetCursorPosY();
     if (!text.empty()) note(text);
     keep_room(id, top, note_height(lines));
-}
-
-bool choice_field(const char* name, int& chosen, const char* const* titles, int count,
-                  const char* const* why_not) {
-    const std::string id = begin_row(name);
-    const float room = ImGui::CalcItemWidth() - ImGui::GetFrameHeight() - ImGui::GetStyle().FramePadding.x;
-    const std::string shown = elided(titles[chosen], room);
-    const bool open = ImGui::BeginCombo(id.c_str(), shown.c_str());
-    if (!open && shown != titles[chosen]) tooltip_of_button(titles[chosen]);
-    if (!open) return false;
-    close_popup_on_escape();
-    bool changed = false;
-    for (int i = 0; i < count; ++i) {
-        if (why_not != nullptr && why_not[i] != nullptr) {
-            const std::string title = std::string(titles[i]) + ": " + why_not[i];
-            ImGui::Selectable(title.c_str(), i == chosen, ImGuiSelectableFlags_Disabled);
-            continue;
-        }
-        if (ImGui::Selectable(titles[i], i == chosen)) {
-            changed = i != chosen;
-            chosen = i;
-        }
-        if (i == chosen) ImGui::SetItemDefaultFocus();
-    }
-    ImGui::EndCombo();
-    return changed;
-}
-
-bool contains_text(std::string_view text, std::string_view part) {
-    const auto same = [](char a, char b) {
-        return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
-    };
-    return std::search(text.begin(), text.end(), part.begin(), part.end(), same) != text.end();
-}
-
-bool search_line(const char* id, const char* hint, SearchText& typed) {
-    const int last = std::exchange(typed.hits, 0) - 1;
-    const bool was_empty = typed.empty();
-    ImGui::SetNextItemWidth(-1.0f);
-    typed.entered = ImGui::InputTextWithHint(id, hint, typed.text.data(), typed.text.size(),
-                                             ImGuiInputTextFlags_EnterReturnsTrue);
-    const int before = typed.at;
-    const bool edited = ImGui::IsItemEdited();
-    if (edited) typed.at = typed.empty() ? -1 : 0;
-    if (ImGui::IsItemActive()) {
-        if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_DownArrow))) ++typed.at;
-        if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_UpArrow))) typed.at = std::max(0, typed.at - 1);
-        if (!edited) typed.at = std::min(typed.at, last);
-    }
-    typed.moved = typed.at != before;
-    const bool cleared = ImGui::IsItemDeactivated() && escape_pressed() && !was_empty;
-    if (cleared) {
-        typed.text[0] = '\0';
-        typed.at = -1;
-    }
-    if (cleared || (typed.entered && typed.at < 0)) ImGui::SetKeyboardFocusHere(-1);
-    return cleared;
-}
-
-/// The search line stays above its rows, which scroll.
-bool begin_search(const char* name, const std::string* shown, SearchText& typed) {
-    std::string id = std::string("##") + name, preview;
-    if (shown != nullptr) {
-        id = begin_row(name);
-        preview = elided(*shown,
-                         ImGui::CalcItemWidth() - ImGui::GetFrameHeight() - ImGui::GetStyle().FramePadding.x);
-    }
-    const bool cut = shown != nullptr && preview != *shown;
-    const float em = ImGui::GetFontSize();
-    ImGui::SetNextWindowSizeConstraints({20.0f * em, 0.0f}, {40.0f * em, 30.0f * em});
-    const bool open = ImGui::BeginCombo(id.c_str(), preview.c_str(),
-                                        shown != nullptr ? ImGuiComboFlags_None : ImGuiComboFlags_NoPreview);
-    if (!open && cut) tooltip_of_button(*shown);
-    if (!open) return false;
-    if (ImGui::IsWindowAppearing()) {
-        typed = {};
-        ImGui::SetKeyboardFocusHere();
-    }
-    if (!search_line("##typed", "Type part of a name", typed)) close_popup_on_escape();
-    ImGui::BeginChild("rows", {0.0f, 10.0f * ImGui::GetTextLineHeightWithSpacing()});
-    return true;
-}
-
-bool search_row(const std::string& title, bool chosen, SearchText& typed) {
-    if (!contains_text(title, typed.text.data())) return false;
-    const bool opens_here = chosen && ImGui::IsWindowAppearing();
-    if (opens_here) typed.at = typed.hits;
-    const bool highlighted = typed.hits++ == typed.at;
-    const bool clicked = ImGui::Selectable(title.c_str(), highlighted || (chosen && typed.at < 0));
-    if (opens_here || (highlighted && typed.moved)) ImGui::SetScrollHereY();
-    const bool taken = clicked || (highlighted && typed.entered);
-    if (taken) ImGui::CloseCurrentPopup();
-    return taken;
-}
-
-void end_search() {
-    ImGui::EndChild();
-    ImGui::EndCombo();
 }
 
 bool option_button(const char* title, bool chosen, const char* tooltip) {

@@ -4,11 +4,8 @@
 // the row.
 #pragma once
 
-#include <array>
 #include <glm/vec3.hpp>
 #include <string>
-#include <string_view>
-#include <vector>
 
 namespace tendril::app {
 
@@ -35,6 +32,10 @@ bool integer_slider(const char* name, int& value, int low, int high);
 /// A line of text. Typing takes effect on Enter, Tab or a click elsewhere, and Escape cancels it; `hint` is
 /// shown while it is empty. `value` follows what is typed in any case, for a button beside it.
 bool text_field(const char* name, std::string& value, const char* hint);
+/// Call before an ImGui::InputText() of that id and text. Text that is too wide for the next item and is not
+/// being typed into is shown here instead, cut in the middle, until it is clicked; a tooltip shows all of it.
+/// True: it is shown, so that there is nothing to type into in this frame.
+bool shows_cut_text(const char* id, const std::string& text);
 bool point_field(const char* name, glm::vec3& value, float speed, float most = 1e9f,
                  const char* format = "%.3f m");
 /// The name on its own line, with three fields side by side below it.
@@ -48,32 +49,6 @@ void keep_room(const char* id, float top, float min_height = 0.0f);
 float note_height(int lines);
 /// A note that comes and goes by itself, in room for so many lines; empty: nothing to say.
 void kept_note(const char* id, const std::string& text, int lines);
-/// `why_not`, if given, has one entry per choice: null if it can be chosen, else the reason shown beside the
-/// greyed title.
-bool choice_field(const char* name, int& chosen, const char* const* titles, int count,
-                  const char* const* why_not = nullptr);
-/// The text that filters a list, and which of its hits is highlighted; keep it from frame to frame. Typing
-/// highlights the first hit, Up and Down move the highlight, Enter chooses it, Escape clears the text.
-struct SearchText {
-    std::array<char, 64> text{};
-    int at = -1;           ///< the highlighted hit; negative: none
-    int hits = 0;          ///< of the last frame, or so far of this one
-    bool moved = false;    ///< the highlight moved in this frame
-    bool entered = false;  ///< Enter was pressed in this frame
-
-    bool empty() const { return text[0] == '\0'; }
-};
-/// The line to type into; count the rows below it in `hits`. Returns true if Escape cleared it.
-bool search_line(const char* id, const char* hint, SearchText& typed);
-/// A choice among many with a search line. If begin_search() returns true, add rows and call end_search(); a
-/// row returns true when it is chosen. With `shown` the field is a row with a name, otherwise a small button
-/// beside the next item.
-bool begin_search(const char* name, const std::string* shown, SearchText& typed);
-bool search_row(const std::string& title, bool chosen, SearchText& typed);
-void end_search();
-/// Whether `text` contains `part`, ignoring case.
-bool contains_text(std::string_view text, std::string_view part);
-
 /// A radio button: one of several exclusive options.
 bool option_button(const char* title, bool chosen, const char* tooltip = nullptr);
 
@@ -83,6 +58,12 @@ void reading(const char* name, const char* format, ...)
     __attribute__((format(printf, 2, 3)))
 #endif
     ;
+
+/// Writes a row's name and leaves the cursor at its field, beside the name or, if there is no room, below it.
+/// Returns the field's id.
+std::string begin_row(const char* name);
+/// A wrapped tooltip for the last item, even if it is disabled.
+void tooltip_of_button(const std::string& text);
 
 /// A tooltip for the row above. A number's unit and range are appended automatically. After point_field() or
 /// vector_field() it covers all three fields.

@@ -11,6 +11,8 @@
 #include <optional>
 #include <string>
 
+#include "app/widgets/lists.hpp"
+
 namespace tendril::app {
 
 struct RowSearch;
@@ -31,6 +33,8 @@ struct TextEditing {
     unsigned id = 0;  ///< of the field; 0: none
     int frame = 0;    ///< in which it was last drawn
     std::array<char, 1024> text{}, before{};
+    unsigned wanted = 0;   ///< the field that is about to take the keyboard
+    int wanted_until = 0;  ///< the last frame in which it may
 };
 
 /// The interface's state of number fields: which one's text is being edited. ImGui's UserData points to it.
@@ -44,6 +48,7 @@ struct NumberEditing {
     std::string refused{};  ///< invalid text that the user left, with the reason; empty: none
     TextEditing typed;
     RowAbove row;
+    OpenList list;
     glm::vec2 middle_min{0.0f}, middle_max{0.0f};  ///< between panels and bars: see tooltip.hpp
     RowSearch* search = nullptr;                   ///< that is on now; see row_search.hpp
 };
@@ -53,7 +58,6 @@ NumberEditing& number_editing();
 /// Returns the new number in a frame in which the user changed it. `format` is a printf format with the unit
 /// after the number. `whole`: only whole numbers are valid. `at_zero`: shown instead of 0, such as "never".
 std::optional<double> number_entry(const char* id, double value, double speed, double low, double high,
-                                   const char* format, bool whole = false,
-                                   const char* at_zero = nullptr);
+                                   const char* format, bool whole = false, const char* at_zero = nullptr);
 
 }  // namespace tendril::app

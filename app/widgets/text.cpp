@@ -41,6 +41,21 @@ std::string elided(const std::string& text, float width) {
     return cut + "...";
 }
 
+std::string elided_in_middle(const std::string& text, float width) {
+    if (width_of(text) <= width) return text;
+    const auto cut_to = [&](std::size_t kept) {
+        const std::size_t begin = kept / 4, before = character_begin(text, begin),
+                          after = character_begin(text, text.size() - (kept - begin));
+        return text.substr(0, before) + "..." + text.substr(after);
+    };
+    std::size_t fits = 0, too_many = text.size();
+    while (fits + 1 < too_many) {
+        const std::size_t middle = (fits + too_many) / 2;
+        (width_of(cut_to(middle)) <= width ? fits : too_many) = middle;
+    }
+    return cut_to(fits);
+}
+
 std::string elided_at_word(const std::string& text, float width) {
     if (width_of(text) <= width) return text;
     std::string best;

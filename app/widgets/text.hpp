@@ -7,6 +7,8 @@ namespace tendril::app {
 
 /// The text if it fits into `width` pixels, else as much of it as fits and "...".
 std::string elided(const std::string& text, float width);
+/// Cuts out of the middle instead, and keeps more of the end: there is the name of a file.
+std::string elided_in_middle(const std::string& text, float width);
 /// Cuts after a whole word instead; empty if not even the first word fits.
 std::string elided_at_word(const std::string& text, float width);
 /// Writes one line within `width`; a tooltip shows the full text if it was cut.

@@ -119,6 +119,39 @@ TEST(Soles, OfAClipKnowItsFloor) {
     EXPECT_NEAR(clip_floor(skeleton, soles, {}), 0.0, 1e-9) << "a clip without keys is the rest pose";
 }
 
+/// The figure with feet that point straight down at rest, as captured figures have them.
+Skeleton pointing_figure() {
+    std::vector<Node> nodes = make_figure({}).nodes();
+    for (Node& node : nodes)
+        if (node.name == "LeftFoot" || node.name == "RightFoot")
+            node.rest.rotation = glm::angleAxis(1.2, glm::dvec3(1, 0, 0)) * node.rest.rotation;
+    return *Skeleton::make(nodes);
+}
+
+TEST(Soles, AreLearnedFromAClipWhoseFeetDoNotStandAsTheyRest) {
+    const Skeleton plain = make_figure({}), pointing = pointing_figure();
+    const Clip walk = FigureWalk(plain).clip();
+    const BoneMap map = match_bones(pointing);
+    const Soles rest = *find_soles(pointing, map), learned = clip_soles(pointing, map, rest, walk);
+    EXPECT_NE(learned, rest);
+    const Soles right = *find_soles(plain, match_bones(plain));
+    // In stance they are where those of the plain figure are.
+    std::vector<rig::Transform> pose(plain.size());
+    std::vector<Placement> placements(plain.size());
+    for (const double phase : {0.15, 0.25, 0.35}) {
+        sample(walk, plain, phase * walk.duration, pose);
+        place(plain, pose, placements);
+        const SolePoints is = sole_points(learned, placements)[0], wanted = sole_points(right, placements)[0];
+        const double worst_of_rest = std::abs(sole_points(rest, placements)[0].toe.y - wanted.toe.y);
+        expect_near(is.heel, wanted.heel, 0.03);
+        expect_near(is.toe, wanted.toe, 0.03);
+        EXPECT_GT(worst_of_rest, 0.05);
+    }
+    EXPECT_NEAR(clip_floor(pointing, learned, walk), 0.0, 0.02);
+    EXPECT_EQ(clip_soles(plain, match_bones(plain), right, walk), right) << "its feet stand as they rest";
+    EXPECT_EQ(clip_soles(pointing, map, rest, Clip()), rest) << "nothing to learn from";
+}
+
 TEST(Soles, RefuseAMapThatCannotBeUsed) {
     const Skeleton skeleton = make_figure({});
     BoneMap map = match_bones(skeleton);

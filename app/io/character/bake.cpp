@@ -79,7 +79,9 @@ Clip baked(const Skeleton& skeleton, const Clip& clip, double rate, const PoseSt
 
 Clip with_feet_on(const humanoid::Ground& ground, const Skeleton& skeleton, const humanoid::BoneMap& map,
                   const Clip& clip, double rate) {
-    const auto feet = humanoid::Feet::make(skeleton, map);
+    const auto soles = humanoid::find_soles(skeleton, map);
+    if (!soles) throw std::runtime_error(soles.message());
+    const auto feet = humanoid::Feet::make(skeleton, map, humanoid::clip_soles(skeleton, map, *soles, clip));
     if (!feet) throw std::runtime_error(feet.message());
     humanoid::FeetState state;
     humanoid::FeetOptions options;

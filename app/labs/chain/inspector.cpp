@@ -12,6 +12,7 @@
 #include "app/labs/kit/past_view.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/fonts.hpp"
+#include "app/widgets/lists.hpp"
 #include "app/widgets/text.hpp"
 #include "app/widgets/tooltip.hpp"
 

@@ -17,6 +17,7 @@
 #include "app/labs/kit/past_strip.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/icons.hpp"
+#include "app/widgets/lists.hpp"
 #include "app/widgets/timeline.hpp"
 #include "app/widgets/tooltip.hpp"
 

@@ -220,7 +220,18 @@ class HumanoidProgram {
     void feet() {
         if (!feet_on()) return;
         const humanoid::FeetOptions options = feet_options(part_, solvers_);
-        make_solver("Feet", "feet", "*skeleton, map");
+        const humanoid::Soles& soles = solvers_.feet(part_)->soles();
+        const bool learned = !(soles == *humanoid::find_soles(part_.skeleton(), *part_.map));
+        if (learned) {
+            say("// The soles as the clip has them.");
+            say("humanoid::Soles soles = *humanoid::find_soles(*skeleton, map);");
+            for (std::size_t i = 0; i < 2; ++i) {
+                const std::string foot = "soles.feet[" + std::to_string(i) + "].";
+                say(foot + "heel = " + braced(soles.feet[i].heel) + ';');
+                say(foot + "toe = " + braced(soles.feet[i].toe) + ';');
+            }
+        }
+        make_solver("Feet", "feet", learned ? "*skeleton, map, soles" : "*skeleton, map");
         std::vector<std::string> members;
         if (options.root_velocity != glm::dvec3(0.0))
             members.push_back(".root_velocity = " + braced(options.root_velocity));

@@ -376,6 +376,7 @@ std::vector<LegendRow> HumanoidLab::legend(const Workspace& workspace) const {
     if (humanoid_runtime(workspace).solvers.body(part) != nullptr) rows.push_back({"target", colours.target});
     if (shown.body && std::ranges::find(shown.body->at_limit, true) != shown.body->at_limit.end())
         rows.push_back({"at its limit", colours.limit});
+    if (shows_lint_marks(workspace)) rows.push_back({"lint finding", colours.limit});
     for (LegendRow& row : limits_legend(workspace)) rows.push_back(std::move(row));
     const std::vector<bool> body = body_nodes(part);
     if (std::ranges::find(body, false) != body.end()) rows.push_back({"helper", colours.neutral});

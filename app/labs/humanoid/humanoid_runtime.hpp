@@ -12,7 +12,6 @@
 #include "app/labs/humanoid/clip/clip_lint.hpp"
 #include "app/labs/humanoid/ik/shown_pose.hpp"
 #include "app/labs/humanoid/past/flips.hpp"
-#include "app/widgets/fields.hpp"
 
 namespace tendril::app {
 
@@ -35,12 +34,12 @@ class HumanoidRuntime final : public Runtime {
 
     /// State of the interface only; nothing else depends on it.
     struct Panel {
-        std::optional<humanoid::Bone> bone;             ///< the row that waits for a node
-        SearchText node{}, clip{}, holder{}, spring{};  ///< search texts
-        bool bones_first = false;                       ///< the bone map comes before the other sections
-        int attach_kind = 0;                            ///< kind of attachment that Add makes
-        std::string attach_to = "Hips";                 ///< bone or node to attach it to
-        bool past = false;  ///< the strip shows the last ten seconds instead of the clip
+        std::optional<humanoid::Bone> bone;  ///< the row that waits for a node
+        bool bones_first = false;            ///< the bone map comes before the other sections
+        SharedCharacter bones_of{};          ///< the character that this was decided for
+        int attach_kind = 0;                 ///< kind of attachment that Add makes
+        std::string attach_to = "Hips";      ///< bone or node to attach it to
+        bool past = false;                   ///< the strip shows the last ten seconds instead of the clip
         std::string export_to{}, map_file{}, motion{};  ///< paths typed by the user
     } panel;
 

@@ -6,6 +6,7 @@
 #include "app/labs/humanoid/draw.hpp"
 #include "app/labs/humanoid/humanoid_lab.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
+#include "app/labs/humanoid/panel.hpp"
 #include "app/labs/kit/arguments.hpp"
 
 namespace tendril::app {
@@ -141,12 +142,8 @@ void HumanoidLab::click(const Workspace& workspace, PickId pick, Emit& emit) con
         if (!part.selection.empty()) emit("humanoid.select");
         return;
     }
+    if (waiting) return map_waiting_bone(part, waiting, static_cast<std::int32_t>(*node), emit);
     const std::string& name = part.skeleton()[*node].name;
-    if (waiting) {
-        if (part.node_of(*waiting) != *node)
-            emit("humanoid.map", {{"bone", humanoid::name(*waiting)}, {"node", name}});
-        waiting.reset();
-    }
     if (part.selection.active() != node || part.selection.several())
         emit("humanoid.select", {{"node", name}});
 }

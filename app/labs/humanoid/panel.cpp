@@ -16,6 +16,7 @@
 #include "app/labs/kit/past_view.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/icons.hpp"
+#include "app/widgets/lists.hpp"
 #include "app/widgets/row_search.hpp"
 #include "app/widgets/text.hpp"
 #include "app/widgets/tooltip.hpp"
@@ -123,21 +124,18 @@ void playback_rows(const HumanoidPanel& panel, MoreRows& more) {
         return motion_rows(panel, more);
     }
     const std::string shown = playback.clip ? clips[*playback.clip].name : "none (rest pose)";
-    if (begin_search("clip", &shown, panel.runtime.panel.clip)) {
-        if (search_row("none (rest pose)", !playback.clip, panel.runtime.panel.clip))
-            panel.emit("humanoid.clip", {{"name", ""}});
+    if (begin_list("clip", &shown)) {
+        if (list_row("none (rest pose)", !playback.clip)) panel.emit("humanoid.clip", {{"name", ""}});
         for (std::size_t i = 0; i < clips.size(); ++i) {
             ImGui::PushID(static_cast<int>(i));
-            if (search_row(clips[i].name, playback.clip == i, panel.runtime.panel.clip))
+            if (list_row(clips[i].name, playback.clip == i))
                 panel.emit("humanoid.clip", {{"index", i}, {"play", true}});
             ImGui::PopID();
         }
-        end_search();
+        end_list();
     }
     explain("The motion to play. Type part of a name to find one.");
-    FieldRows(playback, "humanoid.clip", panel.emit)
-        .under(more)
-        .rows("speed", "loop", "in_place", "carry_targets");
+    FieldRows(playback, "humanoid.clip", panel.emit).under(more).rows("speed", "loop", "in_place");
     motion_rows(panel, more);
     if (playback.playing && !panel.workspace.clock.playing) note("Paused: press Space to play.");
 }
@@ -173,11 +171,16 @@ void look_rows(const HumanoidPanel& panel) {
 void HumanoidLab::panel(const Workspace& workspace, Emit& emit) const {
     const HumanoidPanel panel = humanoid_panel(workspace, emit);
     bool& incomplete = panel.runtime.panel.bones_first;
-    // While the mouse is in the panel its sections stay where they are.
+    SharedCharacter& decided = panel.runtime.panel.bones_of;
+    // While the mouse is in the panel its sections stay where they are, unless all of them are of another
+    // character.
     if (row_search() == nullptr &&
-        !ImGui::IsWindowHovered(ImGuiHoveredFlags_ChildWindows | ImGuiHoveredFlags_AllowWhenBlockedByPopup |
-                                ImGuiHoveredFlags_AllowWhenBlockedByActiveItem))
+        (decided != panel.part.loaded ||
+         !ImGui::IsWindowHovered(ImGuiHoveredFlags_ChildWindows | ImGuiHoveredFlags_AllowWhenBlockedByPopup |
+                                 ImGuiHoveredFlags_AllowWhenBlockedByActiveItem))) {
         incomplete = panel.runtime.solvers.body(panel.part) == nullptr;
+        decided = panel.part.loaded;
+    }
     if (incomplete) bone_rows(panel, true);  // nothing else works without
     character_rows(panel);
     clip_rows(panel);
@@ -371,20 +374,13 @@ void node_chooser(const HumanoidPanel& panel) {
     ImGui::BeginDisabled(!waiting);
     const std::int32_t now = waiting ? (*panel.part.map)[*waiting].node : -1;
     const std::string shown = !waiting ? "click a bone" : now < 0 ? "none" : node_name(panel.part, now);
-    auto& typed = panel.runtime.panel.node;
-    if (begin_search("node", &shown, typed)) {
-        const auto pick = [&](const std::string& node) {
-            panel.emit("humanoid.map", {{"bone", humanoid::name(*waiting)}, {"node", node}});
-            waiting.reset();
-        };
-        if (search_row("none", now < 0, typed)) {
-            pick("");
-        } else {
-            for (std::size_t i = 0; i < panel.part.skeleton().size() && waiting; ++i)
-                if (search_row(panel.part.skeleton()[i].name, now == static_cast<std::int32_t>(i), typed))
-                    pick(panel.part.skeleton()[i].name);
-        }
-        end_search();
+    if (begin_list("node", &shown)) {
+        std::optional<std::int32_t> picked;
+        if (list_row("none", now < 0)) picked = -1;
+        for (std::int32_t i = 0; i < static_cast<std::int32_t>(panel.part.skeleton().size()); ++i)
+            if (list_row(node_name(panel.part, i), now == i)) picked = i;
+        if (picked) map_waiting_bone(panel.part, waiting, *picked, panel.emit);
+        end_list();
     }
     ImGui::EndDisabled();
     explain("The node that the chosen bone is mapped to. Type part of its name to find it.");
@@ -395,15 +391,42 @@ void node_chooser(const HumanoidPanel& panel) {
 void bone_rows(const HumanoidPanel& panel, bool open_at_first) {
     if (!folding_section(panel.workspace, "Bones", panel.emit, open_at_first)) return;
     node_chooser(panel);
+    const auto& waiting = panel.runtime.panel.bone;
     kept_note("how to map",
-              panel.runtime.panel.bone ? "Click a node of the figure, or pick it from the list."
-                                       : "To map a bone, click its row, then a node of the figure.",
+              waiting ? std::string(humanoid::name(*waiting)) +
+                            ": click its node in the figure, or pick it from the list."
+                      : "To map a bone, click its row, then a node of the figure.",
               2);
     for (std::size_t i = 0; i < humanoid::bone_count; ++i) bone_row(panel, static_cast<Bone>(i));
     map_rows(panel);
     // The note is below the rows, so that they keep still when it appears.
     const std::string& why = panel.runtime.solvers.why_no_body(panel.part);
     if (!why.empty()) coloured_note("Full-body IK is off: " + why + ".", panel.colours.limit);
+}
+
+void map_waiting_bone(const HumanoidPart& part, std::optional<humanoid::Bone>& waiting, std::int32_t node,
+                      Emit& emit) {
+    const Bone bone = *waiting;
+    const std::int32_t before = (*part.map)[bone].node;
+    const std::string name = node < 0 ? std::string() : node_name(part, node);
+    if (node != before) emit("humanoid.map", {{"bone", humanoid::name(bone)}, {"node", name}});
+    if (node >= 0 && (part.selection.active() != static_cast<std::size_t>(node) || part.selection.several()))
+        emit("humanoid.select", {{"node", name}});
+    waiting.reset();
+    if (before >= 0 || node < 0) return;  // a correction: only that bone was meant
+    for (std::size_t i = 1; i < humanoid::bone_count && !waiting; ++i) {
+        const auto next = static_cast<Bone>((static_cast<std::size_t>(bone) + i) % humanoid::bone_count);
+        const std::int32_t its = (*part.map)[next].node;
+        if (its < 0 || its == node) waiting = next;
+    }
+}
+
+static std::string unmapped_text(const HumanoidPart& part) {
+    std::string names;
+    for (std::size_t i = 0; i < humanoid::bone_count; ++i)
+        if (part.map->bones[i].node < 0)
+            names += (names.empty() ? "" : ", ") + std::string(humanoid::name(static_cast<Bone>(i)));
+    return names;
 }
 
 Verdict humanoid_verdict(const Workspace& workspace) {
@@ -413,16 +436,20 @@ Verdict humanoid_verdict(const Workspace& workspace) {
         return {"Incomplete body", Verdict::Kind::Bad, runtime.solvers.why_no_body(part) + '.'};
     const auto mapped =
         std::ranges::count_if(part.map->bones, [](const auto& each) { return each.node >= 0; });
+    const bool all = mapped == static_cast<std::ptrdiff_t>(humanoid::bone_count);
     const std::string bones =
-        std::to_string(mapped) + " of " + std::to_string(humanoid::bone_count) + " bones mapped.";
+        std::to_string(mapped) + " of " + std::to_string(humanoid::bone_count) + " bones mapped";
     const ShownPose& shown = runtime.shown(workspace);
     double worst = -1.0;
     for (const humanoid::Effector effector : all_effectors)
         if (part.ik.target(effector)) worst = std::max(worst, shown.residual(effector).value_or(-1.0));
-    if (worst < 0.0) return {"Complete body", Verdict::Kind::Good, bones};
-    if (worst < 1e-3) return {"Reached", Verdict::Kind::Good, bones};
+    if (worst < 0.0 && all) return {"Complete body", Verdict::Kind::Good, bones + '.'};
+    if (worst < 0.0)
+        return {"Usable body", Verdict::Kind::Good,
+                bones + "; optional ones missing: " + unmapped_text(part) + '.'};
+    if (worst < 1e-3) return {"Reached", Verdict::Kind::Good, bones + '.'};
     const std::string off = worst < 0.1 ? fixed_text(1000.0 * worst, 1) + " mm" : fixed_text(worst, 2) + " m";
-    return {off + " short", Verdict::Kind::Bad, bones};
+    return {off + " short", Verdict::Kind::Bad, bones + '.'};
 }
 
 }  // namespace tendril::app

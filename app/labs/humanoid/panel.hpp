@@ -1,6 +1,9 @@
 // The sections that make up the panels of the Humanoid lab.
 #pragma once
 
+#include <cstdint>
+#include <optional>
+
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "app/labs/kit/panel_rows.hpp"
 #include "app/view/palette.hpp"
@@ -20,6 +23,11 @@ HumanoidPanel humanoid_panel(const Workspace& workspace, Emit& emit);
 
 /// Whether the character is usable and reaches its targets.
 Verdict humanoid_verdict(const Workspace& workspace);
+
+/// Maps the bone that waits to the node, or to none if negative, and selects that node. If the bone had none,
+/// the next unmapped bone waits, so that each further click maps one.
+void map_waiting_bone(const HumanoidPart& part, std::optional<humanoid::Bone>& waiting, std::int32_t node,
+                      Emit& emit);
 
 // Left panel.
 /// The file and what was done to it.

@@ -296,7 +296,6 @@ Json clip_state(const HumanoidPart& part) {
                 {"speed", playback.speed},
                 {"loop", playback.loop},
                 {"in_place", playback.in_place},
-                {"carry_targets", playback.carry_targets},
                 {"rounds", playback.rounds}};
 }
 

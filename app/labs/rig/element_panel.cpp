@@ -11,6 +11,7 @@
 #include "app/labs/rig/values.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/icons.hpp"
+#include "app/widgets/lists.hpp"
 #include "app/widgets/text.hpp"
 #include "app/widgets/tooltip.hpp"
 
@@ -161,12 +162,11 @@ void marks_legend(const Palette& colours) {
 }
 
 void add_element_menu(const RigPanel& panel) {
-    if (row_button("Add", 2, true, "A bone, a null or a control, below the selected element"))
-        ImGui::OpenPopup("add element");
-    if (ImGui::BeginPopup("add element")) {
-        close_popup_on_escape();
+    const bool pressed =
+        row_button("Add", 2, true, "A bone, a null or a control, below the selected element");
+    if (begin_list_of_button("add element", pressed)) {
         const auto add = [&](const char* title, const char* kind, const char* control) {
-            if (!ImGui::MenuItem(title)) return;
+            if (!list_row(title, false)) return;
             const std::string parent = panel.part.selected_element();
             const std::string name = free_element_name(panel.part, *control != '\0' ? "control" : kind);
             ArgumentList arguments{{"name", name}, {"kind", kind}};
@@ -185,7 +185,7 @@ void add_element_menu(const RigPanel& panel) {
         }
         const std::string parent = panel.part.selected_element();
         note(parent.empty() ? "In the scene" : "Below " + parent);
-        ImGui::EndPopup();
+        end_list();
     }
 }
 

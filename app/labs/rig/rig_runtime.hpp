@@ -12,7 +12,7 @@
 #include "app/document/runtime.hpp"
 #include "app/labs/rig/clip.hpp"
 #include "app/labs/rig/rig_part.hpp"
-#include "app/widgets/fields.hpp"
+#include "app/widgets/lists.hpp"
 
 namespace tendril::app {
 
@@ -71,7 +71,6 @@ class RigRuntime final : public Runtime {
     /// State of the interface only; nothing else depends on it.
     struct Panel {
         SearchText filter{};          ///< text that names in the tree must contain
-        SearchText choice{};          ///< search text in the list of choices for an input
         std::string shown{}, unit{};  ///< what the lists last scrolled to
         bool all_units = false;       ///< whether to list units that did not affect the element
         /// The Euler angles as last entered for `rotation`, which has many equivalent ones.

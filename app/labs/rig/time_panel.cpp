@@ -17,6 +17,7 @@
 #include "app/labs/rig/take.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/icons.hpp"
+#include "app/widgets/lists.hpp"
 #include "app/widgets/tooltip.hpp"
 
 namespace tendril::app {

@@ -14,6 +14,7 @@
 #include "app/labs/rig/values.hpp"
 #include "app/widgets/curve_editor.hpp"
 #include "app/widgets/fields.hpp"
+#include "app/widgets/lists.hpp"
 #include "app/widgets/text.hpp"
 #include "app/widgets/tooltip.hpp"
 
@@ -122,20 +123,16 @@ void live_lines(const RigPanel& panel, const UnitRow& row) {
 }
 
 void add_unit_menu(const RigPanel& panel) {
-    if (row_button("Add a unit", 1, true, "Choose a kind; the new unit runs last"))
-        ImGui::OpenPopup("add unit");
-    if (!ImGui::BeginPopup("add unit")) return;
-    close_popup_on_escape();
+    const bool pressed = row_button("Add a unit", 1, true, "Choose a kind; the new unit runs last");
+    if (!begin_list_of_button("add unit", pressed)) return;
     for (std::size_t i = 0; i < std::variant_size_v<rig::Operation::Variant>; ++i) {
         const UnitOffer offer = offered_unit(panel.part, i);
-        std::string title = capitalised(operation_title(i));
-        if (!offer.unit) title += std::string(": ") + offer.needs;
-        if (!ImGui::MenuItem(title.c_str(), nullptr, false, offer.unit.has_value())) continue;
+        if (!list_row(capitalised(operation_title(i)), false, offer.unit ? nullptr : offer.needs)) continue;
         ArgumentList arguments;
         for (const auto& [key, value] : (*offer.unit)->items()) arguments.push_back({key, SharedJson(value)});
         panel.edit("rig.unit.add", arguments);
     }
-    ImGui::EndPopup();
+    end_list();
 }
 
 /// Index of the unit in its list, and the length of that list.
@@ -251,8 +248,7 @@ class Fields {
 
     /// A list of alternatives, opened by a field that shows the current one, or by a button.
     void chooser(const std::string& title, const std::string* shown, std::size_t index = 0) const {
-        SearchText& typed = panel_.runtime.panel.choice;
-        const bool open = begin_search(title.c_str(), shown, typed);
+        const bool open = begin_list(title.c_str(), shown);
         if (!open && ImGui::IsItemHovered())
             tooltip(title + ": " +
                     (shown != nullptr ? *shown + ". Click to choose another\n" + help()
@@ -261,8 +257,8 @@ class Fields {
         const std::vector<InputOffer> offers = input_offers(panel_.part, row_, *input_, index);
         if (offers.empty()) note("No part of this rig has a value of this type.");
         for (const InputOffer& offer : offers)
-            if (search_row(offer.title, offer.now, typed) && !offer.now) set(*offer.value);
-        end_search();
+            if (list_row(offer.title, offer.now) && !offer.now) set(*offer.value);
+        end_list();
     }
 
     void field(std::monostate) const {}

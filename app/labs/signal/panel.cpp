@@ -18,6 +18,7 @@
 #include "app/widgets/curve_editor.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/fonts.hpp"
+#include "app/widgets/lists.hpp"
 #include "app/widgets/plot.hpp"
 #include "app/widgets/text.hpp"
 #include "app/widgets/tooltip.hpp"
@@ -82,13 +83,11 @@ void export_section(Emit& emit) {
 
 /// One button with a list: fourteen buttons would be too many.
 void add_button(Emit& emit) {
-    if (row_button("Add a filter", 1, true, "Choose a kind; the new filter comes last"))
-        ImGui::OpenPopup("add filter");
-    if (!ImGui::BeginPopup("add filter")) return;
-    close_popup_on_escape();
+    const bool pressed = row_button("Add a filter", 1, true, "Choose a kind; the new filter comes last");
+    if (!begin_list_of_button("add filter", pressed)) return;
     for (const signal::Kind& kind : signal::kinds())
-        if (ImGui::MenuItem(kind_title(kind).c_str())) emit("signal.filter.add", {{"kind", kind.name}});
-    ImGui::EndPopup();
+        if (list_row(kind_title(kind), false)) emit("signal.filter.add", {{"kind", kind.name}});
+    end_list();
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "humanoid/facing.hpp"
 #include "humanoid/input.hpp"
 #include "humanoid/limb.hpp"
+#include "humanoid/lint/feet.hpp"
 #include "math/checks.hpp"
 
 namespace tendril::humanoid {
@@ -97,6 +98,25 @@ class Finder {
     std::vector<Placement> at_;
 };
 
+/// Heel and toe of a foot that stands on its points, which are that high above the ground.
+Sole stood_sole(const Sole& sole, const lint_detail::Foot& foot, std::span<const Placement> rest) {
+    const auto above = [&](std::size_t node) {
+        const auto point = std::ranges::find(foot.points, node, &lint_detail::SolePoint::node);
+        return point != foot.points.end() ? point->above : 0.0;
+    };
+    const Placement &ankle = rest[sole.foot], &toes = rest[sole.toes];
+    const glm::dvec3 up = rotated(ankle.rotation(), foot.flat);
+    const auto along_ground = [&](const glm::dvec3& v) { return minus(v, times(up, dot(up, v))); };
+    const glm::dvec3 toe = sole.toes == sole.foot ? along_ground(minus(ankle.apply(sole.toe), ankle.position))
+                                                  : along_ground(minus(toes.position, ankle.position));
+    const glm::dvec3 below_ankle = times(up, -above(sole.foot));
+    Sole stood = sole;
+    stood.heel = in_space_of(ankle, plus(ankle.position, plus(below_ankle, times(toe, -heel_part))));
+    stood.toe = sole.toes == sole.foot ? in_space_of(ankle, plus(ankle.position, plus(below_ankle, toe)))
+                                       : in_space_of(toes, plus(toes.position, times(up, -above(sole.toes))));
+    return stood;
+}
+
 double lowest_of(const SolePoints& foot) noexcept {
     return std::min(foot.heel.y, foot.toe.y);
 }
@@ -123,6 +143,25 @@ std::array<SolePoints, 2> sole_points(const Soles& soles, std::span<const Placem
         points[i] = {placements[sole.foot].apply(sole.heel), placements[sole.toes].apply(sole.toe)};
     }
     return points;
+}
+
+Soles clip_soles(const Skeleton& skeleton, const BoneMap& map, const Soles& soles, const Clip& clip) {
+    const LintSettings settings;
+    LintReport report = lint_detail::blank_report(clip, settings);
+    if (report.frames < 3) return soles;
+    report.frames = std::min<std::size_t>(report.frames, 10'000);
+    const lint_detail::FeetMotion motion =
+        lint_detail::feet_motion({skeleton, map, clip, settings, 0.0, report});
+    if (motion.knows_soles || motion.feet.size() != 2) return soles;
+    std::vector<Placement> rest(skeleton.size());
+    place(skeleton, rest_pose(skeleton), rest);
+    Soles learned = soles;
+    for (std::size_t i = 0; i < 2; ++i) {
+        const lint_detail::Foot& foot = motion.feet[i];
+        if (std::ranges::find(foot.still, true) == foot.still.end()) return soles;
+        learned.feet[i] = stood_sole(soles.feet[i], foot, rest);
+    }
+    return learned;
 }
 
 double clip_floor(const Skeleton& skeleton, const Soles& soles, const Clip& clip) {

@@ -221,6 +221,14 @@ class HumanoidVerdict : public LabTest {
     std::string said() const { return state()["verdict"]; }
 };
 
+TEST_F(HumanoidVerdict, NamesTheOptionalBonesThatAreMissing) {
+    run("humanoid.map", {{"bone", "Chest"}});
+    run("humanoid.map", {{"bone", "LeftToes"}});
+    EXPECT_EQ(said(), "Usable body");
+    const std::string text = test::PanelReader().inspector(lab(), workspace);
+    EXPECT_TRUE(test::says(text, "20 of 22 bones mapped optional missing Chest LeftToes")) << text;
+}
+
 TEST_F(HumanoidVerdict, SaysWhetherItReaches) {
     EXPECT_EQ(said(), "Complete body");
     run("humanoid.target", {{"effector", "left_hand"}, {"to", {0.5, 1.2, 0.2}}});

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "app/widgets/fields.hpp"
+#include "app/widgets/lists.hpp"
 #include "tests/app/support/tooltips.hpp"
 
 namespace tendril::app {

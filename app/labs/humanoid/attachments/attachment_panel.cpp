@@ -8,6 +8,7 @@
 #include "app/labs/kit/panel_rows.hpp"
 #include "app/labs/kit/world_drawing.hpp"
 #include "app/widgets/fields.hpp"
+#include "app/widgets/lists.hpp"
 
 namespace tendril::app {
 namespace {
@@ -32,17 +33,16 @@ void attachment_row(const HumanoidPanel& panel, const Attachment& each) {
 /// Bones of the body first, then all other nodes.
 void holder_field(const HumanoidPanel& panel) {
     auto& chosen = panel.runtime.panel.attach_to;
-    auto& typed = panel.runtime.panel.holder;
-    if (!begin_search("bone", &chosen, typed)) return;
+    if (!begin_list("bone", &chosen)) return;
     for (std::size_t i = 0; i < humanoid::bone_count; ++i) {
         const std::string name = humanoid::name(static_cast<humanoid::Bone>(i));
-        if (panel.part.map->bones[i].node >= 0 && search_row(name, chosen == name, typed)) chosen = name;
+        if (panel.part.map->bones[i].node >= 0 && list_row(name, chosen == name)) chosen = name;
     }
     for (std::size_t i = 0; i < panel.part.skeleton().size(); ++i) {
         const std::string& name = panel.part.skeleton()[i].name;
-        if (!panel.part.bone_of(i) && search_row(name, chosen == name, typed)) chosen = name;
+        if (!panel.part.bone_of(i) && list_row(name, chosen == name)) chosen = name;
     }
-    end_search();
+    end_list();
 }
 
 }  // namespace

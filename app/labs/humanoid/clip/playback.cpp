@@ -120,12 +120,12 @@ std::vector<rig::Transform> animated_pose(const Playback& playback, const Loaded
     return pose;
 }
 
-void carry_targets(HumanoidPart& part, const Playback& before) {
+bool carry_targets(HumanoidPart& part, const Playback& before) {
     const Playback& now = part.playback;
     const auto hips = part.node_of(humanoid::Bone::Hips);
-    if (!now.carry_targets || now.in_place || !hips || !now.clip || now.clip != before.clip ||
-        now.rounds == before.rounds || !part.ik.has_targets())
-        return;
+    if (now.in_place || !hips || !now.clip || now.clip != before.clip || now.rounds == before.rounds ||
+        !part.ik.has_targets())
+        return false;
     const humanoid::Skeleton& skeleton = part.skeleton();
     const humanoid::Clip& clip = *part.clip();
     const rig::Transform along =
@@ -140,6 +140,7 @@ void carry_targets(HumanoidPart& part, const Playback& before) {
         target->position = at;
         if (target->rotation) target->rotation = rig::normalised(along.rotation * *target->rotation);
     }
+    return true;
 }
 
 glm::dvec3 missing_velocity(const Playback& playback, const LoadedCharacter& character,
@@ -156,6 +157,14 @@ glm::dvec3 missing_velocity(const Playback& playback, const LoadedCharacter& cha
 }
 
 // The strip below the scene: the clip with buttons to play and step it, or the last ten seconds.
+
+bool shows_lint_marks(const Workspace& workspace) {
+    HumanoidRuntime& runtime = humanoid_runtime(workspace);
+    const HumanoidPart& part = humanoid_part(workspace);
+    if (part.clip() == nullptr || runtime.panel.past) return false;
+    const humanoid::LintReport* const report = runtime.lint.report(part, runtime.solvers);
+    return report != nullptr && !report->findings.empty();
+}
 
 namespace {
 
@@ -187,8 +196,8 @@ void buttons(const HumanoidPanel& panel) {
 
 /// Marks of the lint: low bars over the duration of a finding, a full one at its worst frame.
 std::vector<TimeBar> lint_marks(const HumanoidPanel& panel, int ticks) {
+    if (!shows_lint_marks(panel.workspace)) return {};
     const humanoid::LintReport* const report = panel.runtime.lint.report(panel.part, panel.runtime.solvers);
-    if (!report || report->findings.empty()) return {};
     std::vector<TimeBar> bars(static_cast<std::size_t>(ticks) + 1);
     const auto tick_of = [&](std::size_t frame) {
         const double tick = static_cast<double>(frame) / report->rate / tick_seconds;
@@ -254,8 +263,7 @@ template <>
 std::span<const tendril::Field> tendril::fields<tendril::app::Playback>() noexcept {
     using app::Playback;
     static constexpr Field rows[] = {field<&Playback::speed>("speed", {0.0, app::fastest_clip}),
-                                     field<&Playback::loop>("loop"), field<&Playback::in_place>("in_place"),
-                                     field<&Playback::carry_targets>("carry_targets")};
+                                     field<&Playback::loop>("loop"), field<&Playback::in_place>("in_place")};
     return rows;
 }
 
@@ -274,17 +282,13 @@ std::span<const FieldText> field_texts<Playback>() {
          .more = true},
         {.name = "loop",
          .label = "Loop",
-         .help = "Plays the clip over and over; a walk carries on from where it is. Off: it stops at the "
-                 "end.",
+         .help =
+             "Plays the clip over and over; a walk carries on from where it is, and targets go along from "
+             "round to round. Off: it stops at the end.",
          .more = true},
         {.name = "in_place",
          .label = "In place",
          .help = "The hips stay above the point where the clip begins.",
-         .more = true},
-        {.name = "carry_targets",
-         .label = "Carry targets",
-         .help = "Targets move along each time the clip starts over, so that every round reaches them. Off: "
-                 "they stay where they are, and a clip that travels leaves them behind.",
          .more = true}};
     return texts;
 }

@@ -17,6 +17,7 @@ namespace tendril::app {
 inline constexpr double fastest_clip = 10.0;
 inline constexpr std::int64_t max_rounds = 1'000'000;
 
+struct Workspace;
 struct HumanoidPart;
 
 struct Playback {
@@ -27,7 +28,6 @@ struct Playback {
     double speed = 1.0;       ///< 0 to fastest_clip
     bool loop = true;
     bool in_place = false;
-    bool carry_targets = false;  ///< from round to round; off: they stay where they are in the world
     bool operator==(const Playback&) const = default;
 };
 
@@ -45,8 +45,11 @@ std::vector<rig::Transform> animated_pose(const Playback& playback, const Loaded
                                           std::optional<std::size_t> hips);
 
 /// Takes the targets from the round that `before` was in along to the current one, so that the clip reaches
-/// them in each round alike.
-void carry_targets(HumanoidPart& part, const Playback& before);
+/// them in each round alike. True if there were any to take.
+bool carry_targets(HumanoidPart& part, const Playback& before);
+
+/// Whether the strip of the clip has marks of Motion lint.
+bool shows_lint_marks(const Workspace& workspace);
 
 /// The hips' ground velocity that playing in place removes at that moment, m/s at the recorded speed.
 glm::dvec3 missing_velocity(const Playback& playback, const LoadedCharacter& character,

@@ -316,16 +316,22 @@ glm::vec3 standing_at(const Workspace& workspace) {
     return {at.x, shown.feet ? static_cast<float>(shown.feet->base) : 0.0f, at.z};
 }
 
-void solve_now(Workspace& workspace) {
-    IkState state = humanoid_part(workspace).ik_state;
-    // A single solve covers only part of a long distance: do the rest at once.
+/// A single solve covers only part of a long distance: does the rest at once.
+static ShownPose settled_pose(const HumanoidPart& part, Solvers& solvers, IkState& state) {
     constexpr int max_solves = 40;
+    ShownPose shown;
     for (int i = 0; i < max_solves; ++i) {
-        const ShownPose shown =
-            solve_pose(humanoid_part(workspace), humanoid_runtime(workspace).solvers, 0.0, state);
-        if (!shown.refused.empty()) throw std::invalid_argument(shown.refused);
+        shown = solve_pose(part, solvers, 0.0, state);
         if (!shown.body || (shown.body->settled && shown.body->iterations <= 1)) break;
     }
+    return shown;
+}
+
+void solve_now(Workspace& workspace) {
+    IkState state = humanoid_part(workspace).ik_state;
+    const ShownPose shown =
+        settled_pose(humanoid_part(workspace), humanoid_runtime(workspace).solvers, state);
+    if (!shown.refused.empty()) throw std::invalid_argument(shown.refused);
     if (!(state == humanoid_part(workspace).ik_state))
         workspace.document.edit<HumanoidPart>(humanoid_lab).ik_state = std::move(state);
 }
@@ -338,6 +344,12 @@ Release release_between(const std::vector<rig::Transform>& before, const std::ve
         if (before[node].rotation != now[node].rotation)
             release.turns[node] = rig::normalised(glm::conjugate(now[node].rotation) * before[node].rotation);
     return release;
+}
+
+void ease_from(HumanoidPart& part, Solvers& solvers, const std::vector<rig::Transform>& held) {
+    part.ik_state.release = {};
+    const ShownPose there = settled_pose(part, solvers, part.ik_state);
+    part.ik_state.release = release_between(held, there.before_springs, part.node_of(humanoid::Bone::Hips));
 }
 
 double fading(const Release& release) {

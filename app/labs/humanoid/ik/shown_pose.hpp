@@ -99,6 +99,8 @@ inline constexpr double settle_speed = 1.2;
 /// The difference that fades out: rotations and hips translation from `now` to `before`.
 Release release_between(const std::vector<rig::Transform>& before, const std::vector<rig::Transform>& now,
                         std::optional<std::size_t> hips);
+/// The same for targets that moved at once: solves, and lets the difference to the pose `held` fade out.
+void ease_from(HumanoidPart& part, Solvers& solvers, const std::vector<rig::Transform>& held);
 /// 1 right after the release, 0 once it has faded out.
 double fading(const Release& release);
 void apply(const Release& release, std::vector<rig::Transform>& pose, std::optional<std::size_t> hips);

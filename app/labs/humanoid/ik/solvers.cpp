@@ -28,6 +28,7 @@ void Solvers::make(const HumanoidPart& part) {
     capsules_.clear();
     volume_.reset();
     feet_.reset();
+    clip_feet_.clear();
     masses_.reset();
     hands_.reset();
     look_at_.reset();
@@ -66,7 +67,14 @@ const std::string& Solvers::why_no_body(const HumanoidPart& part) {
 
 const humanoid::Feet* Solvers::feet(const HumanoidPart& part) {
     make(part);
-    return feet_ ? &*feet_ : nullptr;
+    if (!feet_ || !part.playback.clip) return feet_ ? &*feet_ : nullptr;
+    const auto [found, added] = clip_feet_.try_emplace(*part.playback.clip);
+    if (added) {
+        const humanoid::Soles& rest = feet_->soles();
+        const humanoid::Soles soles = humanoid::clip_soles(part.skeleton(), *part.map, rest, *part.clip());
+        if (!(soles == rest)) found->second = humanoid::Feet::make(part.skeleton(), *part.map, soles).value();
+    }
+    return found->second ? &*found->second : &*feet_;
 }
 
 const humanoid::Hands* Solvers::hands(const HumanoidPart& part) {
@@ -112,7 +120,7 @@ std::optional<double> Solvers::floor(const HumanoidPart& part) {
     make(part);
     if (!feet_ || !part.playback.clip) return std::nullopt;
     const auto [found, added] = floors_.try_emplace(*part.playback.clip, 0.0);
-    if (added) found->second = humanoid::clip_floor(part.skeleton(), feet_->soles(), *part.clip());
+    if (added) found->second = humanoid::clip_floor(part.skeleton(), feet(part)->soles(), *part.clip());
     return found->second;
 }
 
@@ -137,7 +145,7 @@ const Solvers::Gait* Solvers::gait(const HumanoidPart& part) {
     for (int i = 0; i <= static_cast<int>(steps); ++i) {
         humanoid::sample(clip, skeleton, i * dt, pose);
         humanoid::place(skeleton, pose, placed);
-        const auto soles = humanoid::sole_points(feet_->soles(), placed);
+        const auto soles = humanoid::sole_points(feet(part)->soles(), placed);
         if (i == 0) start = placed[hips].position;
         for (std::size_t side = 0; side < 2; ++side) {
             const bool low = std::min(soles[side].heel.y, soles[side].toe.y) < *ground + low_under;

@@ -28,7 +28,7 @@ class Solvers {
     humanoid::Body* body(const HumanoidPart& part);
     /// "LeftHand and RightHand are missing"; empty if there is a body.
     const std::string& why_no_body(const HumanoidPart& part);
-    /// Null if the map has no legs that can be solved.
+    /// With the soles of the chosen clip. Null if the map has no legs that can be solved.
     const humanoid::Feet* feet(const HumanoidPart& part);
     /// Null if there is no body, or no feet.
     const humanoid::Masses* masses(const HumanoidPart& part);
@@ -73,7 +73,8 @@ class Solvers {
     std::optional<humanoid::Body> body_;
     std::vector<humanoid::BodyCapsule> capsules_;
     std::optional<std::vector<humanoid::BodyCapsule>> volume_;
-    std::optional<humanoid::Feet> feet_;
+    std::optional<humanoid::Feet> feet_;                              // of the rest pose
+    std::map<std::size_t, std::optional<humanoid::Feet>> clip_feet_;  // by clip; none: as at rest
     std::optional<humanoid::Masses> masses_;
     std::optional<humanoid::Hands> hands_;
     std::optional<humanoid::LookAt> look_at_;

@@ -18,6 +18,7 @@
 #include "app/labs/kit/limit_shape.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/fonts.hpp"
+#include "app/widgets/lists.hpp"
 #include "app/widgets/text.hpp"
 
 namespace tendril::app {

@@ -13,6 +13,7 @@
 #include "app/labs/kit/arguments.hpp"
 #include "app/labs/kit/panel_rows.hpp"
 #include "app/widgets/fields.hpp"
+#include "app/widgets/lists.hpp"
 
 namespace tendril::app {
 namespace {
@@ -36,8 +37,7 @@ void spring_row(const HumanoidPanel& panel, std::size_t which) {
 /// A chooser of the nodes that can have a spring.
 void add_row(const HumanoidPanel& panel) {
     const std::string none = "choose a node";
-    SearchText& typed = panel.runtime.panel.spring;
-    if (!begin_search("add", &none, typed)) {
+    if (!begin_list("add", &none)) {
         explain("The first node of an ear, an antenna or a tail. Everything below it swings too.");
         return;
     }
@@ -46,10 +46,10 @@ void add_row(const HumanoidPanel& panel) {
         if (!why_no_spring(panel.part, i).empty()) continue;
         any = true;
         const std::string& name = panel.part.skeleton()[i].name;
-        if (search_row(name, false, typed)) panel.emit("humanoid.spring", {{"node", name}});
+        if (list_row(name, false)) panel.emit("humanoid.spring", {{"node", name}});
     }
     if (!any) note("Every node is a bone of the body or already swings.");
-    end_search();
+    end_list();
 }
 
 /// Names the nodes in a command: "node" for one, "nodes" for several.

@@ -146,7 +146,7 @@ struct FeetReport {
 class Feet {
   public:
     /// Refuses what find_soles() refuses, and legs that are not a chain from the hips to the toes. Pass
-    /// `soles` if they are known better, from a mesh.
+    /// `soles` if they are known better: from the clip (clip_soles()), or from a mesh.
     static Expected<Feet> make(const Skeleton& skeleton, const BoneMap& map);
     static Expected<Feet> make(const Skeleton& skeleton, const BoneMap& map, const Soles& soles);
     ~Feet();

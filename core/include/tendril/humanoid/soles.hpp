@@ -7,8 +7,12 @@
 // near that height, otherwise a little below the lowest joint of the feet (a BVH rests with its hips at the
 // origin).
 //
+// Many captured figures do not stand as they rest: their feet point straight ahead or down at rest, with the
+// toes as high as the ankle. Their clips know better where the soles are.
+//
 //     Expected<Soles> soles = find_soles(skeleton, map);
-//     const double floor = clip_floor(skeleton, *soles, walk);
+//     const Soles walking = clip_soles(skeleton, map, *soles, walk);
+//     const double floor = clip_floor(skeleton, walking, walk);
 #pragma once
 
 #include <array>
@@ -36,6 +40,12 @@ struct Soles {
 /// Needs only hips and two legs. Refuses a map without them, one that is not upright or fails check(), and
 /// legs without length or without a distance between them.
 Expected<Soles> find_soles(const Skeleton& skeleton, const BoneMap& map);
+
+/// The soles of a clip whose feet do not stand as they rest, learned from the frames in which they stand
+/// still, as the lint does (lint.hpp); `soles` unchanged if they do, or never stand still. `soles` must be
+/// find_soles()'s, and the clip must have passed check(). At most its first 10 000
+/// frames are sampled.
+Soles clip_soles(const Skeleton& skeleton, const BoneMap& map, const Soles& soles, const Clip& clip);
 
 /// The clip's own floor: the median height of its soles while they are nearly still (toe under 0.3 m/s) and
 /// within 0.1 m of the lowest sole; if they never are, the lowest. The clip must have passed check(). It is

@@ -1,9 +1,12 @@
 // Clips: the pose at a moment, and how they continue.
+#include <algorithm>
 #include <fstream>
 
+#include "app/labs/card.hpp"
 #include "app/labs/humanoid/ik/shown_pose.hpp"
 #include "humanoid_support.hpp"
 #include "tests/app/support/temp_folder.hpp"
+#include "tests/places.hpp"
 
 namespace tendril::app {
 namespace {
@@ -13,8 +16,7 @@ using HumanoidClips = HumanoidTest;
 constexpr double walk_seconds = 1.1, walk_metres = 1.1;
 
 TEST_F(HumanoidClips, TargetsGoAlongFromRoundToRound) {
-    run("humanoid.clip", {{"name", "walk"}, {"time", 0.3}, {"carry_targets", true}});
-    EXPECT_TRUE(humanoid_part(reopened()).playback.carry_targets);
+    run("humanoid.clip", {{"name", "walk"}, {"time", 0.3}});
     const glm::dvec3 hand = bone("LeftHand");
     const glm::dvec3 to = hand + glm::dvec3(0.05, 0.1, 0.1);
     run("humanoid.target", {{"effector", "left_hand"}, {"to", {to.x, to.y, to.z}}});
@@ -29,9 +31,41 @@ TEST_F(HumanoidClips, TargetsGoAlongFromRoundToRound) {
     EXPECT_LT(short_by(), 0.01);
     run("humanoid.clip", {{"play", false}, {"time", 0.3}});  // and back to the first
     EXPECT_LT(glm::distance(at(), to), 1e-6);
-    run("humanoid.clip", {{"carry_targets", false}, {"time", 0.3 + 3.0 * duration}});
-    EXPECT_LT(glm::distance(at(), to), 1e-6);
-    EXPECT_GT(short_by(), 0.5);
+}
+
+/// A target that goes along by a metre at once takes the body along gently.
+TEST_F(HumanoidClips, ARoundThatEndsMakesNoLimbLeap) {
+    run("humanoid.clip", {{"name", "walk"}, {"time", 0.3}});
+    const glm::dvec3 hand = bone("LeftHand");
+    run("humanoid.target", {{"effector", "left_hand"}, {"to", {hand.x + 0.05, hand.y + 0.1, hand.z + 0.1}}});
+    run("humanoid.clip", {{"play", true}, {"loop", true}});
+    double most = 0.0;
+    for (int i = 0; i < 160; ++i) {
+        const glm::dvec3 was = bone("LeftHand");
+        tick();
+        most = std::max(most, glm::distance(was, bone("LeftHand")));
+    }
+    EXPECT_GE(part().playback.rounds, 2);
+    EXPECT_LT(most, 0.25) << "of a way of a metre and more";
+}
+
+TEST_F(HumanoidClips, WithMarksOfTheLintSayInTheLegendWhatTheyAre) {
+    const auto explained = [&] {
+        const std::vector<LegendRow> rows = lab().legend(workspace);
+        return std::ranges::find(rows, "lint finding", &LegendRow::name) != rows.end();
+    };
+    run("humanoid.load", {{"path", test::source_path("tests/app/golden/faulty_walk.bvh")}});
+    EXPECT_FALSE(explained()) << "no clip, no marks";
+    run("humanoid.clip", {{"index", 0}});
+    EXPECT_TRUE(explained());
+}
+
+TEST_F(HumanoidClips, OfTheFigureAreNoneThatACardCountsOnForEveryCharacter) {
+    const Cards cards(labs);
+    for (const Card& card : cards.of("humanoid"))
+        for (const CardStep& step : card.steps)
+            for (const humanoid::Clip& clip : part().loaded->clips())
+                EXPECT_EQ(step.text.find(clip.name), std::string::npos) << step.text;
 }
 
 TEST_F(HumanoidClips, ShowAMomentWithoutATick) {

@@ -1,12 +1,15 @@
 // Grounds, and feet on them, by the lab's commands and --state.
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 
+#include "app/labs/humanoid/ik/shown_pose.hpp"
 #include "app/view/palette.hpp"
 #include "humanoid_support.hpp"
 #include "tests/app/support/panel_text.hpp"
 #include "tests/app/support/temp_folder.hpp"
+#include "tests/places.hpp"
 #include "tests/says.hpp"
 
 namespace tendril::app {
@@ -226,6 +229,35 @@ TEST_F(HumanoidFeet, SayWhyTheyNeverRest) {
     }
 }
 
+/// Planted feet stand on the ground with a joint of theirs, whatever the rest pose is.
+TEST_F(HumanoidFeet, StandWithoutAGapWhereTheClipKnowsTheSoles) {
+    const std::filesystem::path path = test::characters_folder() / "cmu_12_01_walk.bvh";
+    if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
+    run("humanoid.load", {{"path", path.string()}});
+    run("humanoid.ground", {{"kind", "flat"}});
+    run("humanoid.foot_ik", {{"on", true}});
+    run("humanoid.clip", {{"index", 0}, {"play", true}});
+    int planted = 0;
+    double worst = 0.0;
+    for (int i = 0; i < 300; ++i) {
+        tick();
+        const ShownPose& shown = shown_pose(workspace);
+        for (std::size_t side = 0; side < 2; ++side) {
+            if (!shown.feet || !shown.feet->feet[side].planted) continue;
+            ++planted;
+            const auto foot = static_cast<std::size_t>(
+                (*part().map)[side == 0 ? humanoid::Bone::LeftFoot : humanoid::Bone::RightFoot].node);
+            double lowest = 1e9;
+            for (std::size_t node = 0; node < part().skeleton().size(); ++node)
+                if (node == foot || part().skeleton().is_below(node, foot))
+                    lowest = std::min(lowest, shown.placed[node].position.y);
+            worst = std::max(worst, lowest);
+        }
+    }
+    EXPECT_GT(planted, 50);
+    EXPECT_LT(worst, 0.04);
+}
+
 /// The marks of planted feet lie on the ground: none bridges two treads or hangs in the air.
 TEST_F(HumanoidFeet, AreMarkedWhereTheyTouchTheGround) {
     const auto height = [](double z) { return 0.16 * std::floor(std::max(0.0, z) / 0.36); };
@@ -308,8 +340,7 @@ TEST_F(HumanoidFeet, ASavedWalkGoesOnAsItWould) {
     for (int round = 0; round < 12; ++round) {
         tick(11);
         Workspace other = reopened();
-        EXPECT_EQ(lab().state(other), state())
-            << "after " << 11 * (round + 1) << " ticks";
+        EXPECT_EQ(lab().state(other), state()) << "after " << 11 * (round + 1) << " ticks";
     }
 }
 

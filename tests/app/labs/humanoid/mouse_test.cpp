@@ -7,6 +7,7 @@
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "humanoid_support.hpp"
 #include "tests/app/e2e/monkey.hpp"
+#include "tests/app/support/frame_record.hpp"
 #include "tests/app/support/panel_text.hpp"
 #include "tests/app/support/temp_folder.hpp"
 #include "tests/says.hpp"
@@ -51,6 +52,22 @@ TEST_F(HumanoidMouse, MapsTheNodeThatIsClickedWhileABoneWaits) {
     EXPECT_FALSE(humanoid_runtime(app_.workspace()).panel.bone);
     click(at("node.Head"));
     EXPECT_EQ(bones().at("LeftHand").at("node"), "LeftHand_End") << "one click, one node";
+}
+
+TEST_F(HumanoidMouse, MapsOneUnmappedBoneAfterAnotherWithAClickEach) {
+    for (const char* bone : {"LeftHand", "RightHand", "LeftToes"})
+        app_.run({"humanoid.map", Json{{"bone", bone}}});
+    auto& waiting = humanoid_runtime(app_.workspace()).panel.bone;
+    waiting = humanoid::Bone::LeftHand;
+    click(at("node.LeftHand"));
+    EXPECT_EQ(waiting, humanoid::Bone::RightHand) << "the next one in the list";
+    click(at("node.RightHand"));
+    EXPECT_EQ(waiting, humanoid::Bone::LeftToes);
+    click(at("node.LeftToes"));
+    EXPECT_FALSE(waiting) << "nothing is unmapped any more";
+    EXPECT_EQ(bones().at("RightHand").at("node"), "RightHand");
+    EXPECT_EQ(bones().at("LeftToes").at("node"), "LeftToes");
+    EXPECT_EQ(app_.state().at("selected"), "LeftToes");
 }
 
 TEST_F(HumanoidMouse, DragsAnEffectorToATarget) {
@@ -119,6 +136,26 @@ TEST_F(HumanoidMouse, DragsSeveralEffectorsByOneGizmo) {
     app_.run({"undo"});
     app_.run({"undo"});
     EXPECT_TRUE(app_.state().at("body").at("targets").empty());
+}
+
+/// Sections keep still while the mouse is among them, but not those of another character.
+TEST_F(HumanoidMouse, InThePanelDoesNotKeepTheBonesOfANewCharacterBelow) {
+    const TempFolder folder;
+    const std::string path = (folder / "figure.bvh").string();
+    std::ofstream(path) << bvh_figure("RightArm");
+    FrameRecorder recorder;
+    const auto height = [&](const char* section) {
+        app_.tick(nullptr);
+        for (const DrawnText& each : recorder.frame().texts)
+            if (each.text == section && each.box.min.x < 100.0f) return each.box.min.y;
+        ADD_FAILURE() << "there is no section " << section;
+        return 0.0f;
+    };
+    send(MouseMove{{130.0f, 300.0f}});
+    EXPECT_GT(height("Bones"), height("Clip"));
+    send(Drop{{path}});
+    app_.tick(nullptr);
+    EXPECT_LT(height("Bones"), 100.0f) << "it comes first";
 }
 
 TEST_F(HumanoidMouse, ReadsAFileThatIsDropped) {

@@ -1,0 +1,173 @@
+#include "app/widgets/lists.hpp"
+
+#include <imgui.h>
+#include <imgui_internal.h>  // the window under the mouse, and closing popups from outside
+
+#include <algorithm>
+#include <cctype>
+#include <utility>
+
+#include "app/widgets/fields.hpp"
+#include "app/widgets/number_entry.hpp"
+#include "app/widgets/text.hpp"
+
+namespace tendril::app {
+namespace {
+
+OpenList& open_list() {
+    return number_editing().list;
+}
+
+void note_opener() {
+    const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+    open_list().opener_min = {low.x, low.y};
+    open_list().opener_max = {high.x, high.y};
+}
+
+float list_width(const ListRoom& room) {
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const float rows = room.width + style.ScrollbarSize + 2.0f * style.WindowPadding.x;
+    return room.width > 0.0f ? rows : 20.0f * ImGui::GetFontSize();
+}
+
+void constrain_list(const ListRoom& room) {
+    const float em = ImGui::GetFontSize();
+    ImGui::SetNextWindowSizeConstraints({std::min(list_width(room), 40.0f * em), 0.0f},
+                                        {40.0f * em, 30.0f * em});
+}
+
+/// The line to type into stays above the rows, which scroll.
+void begin_rows(const ListRoom& room, bool in_field) {
+    OpenList& list = open_list();
+    if (ImGui::IsWindowAppearing()) {
+        list.typed = {};
+        list.in_field = in_field;
+        ImGui::SetKeyboardFocusHere();
+    }
+    if (!search_line("##typed", "Type part of a name", list.typed)) close_popup_on_escape();
+    ImGui::BeginChild("rows", {0.0f, static_cast<float>(room.rows) * ImGui::GetTextLineHeightWithSpacing()});
+}
+
+}  // namespace
+
+bool contains_text(std::string_view text, std::string_view part) {
+    const auto same = [](char a, char b) {
+        return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
+    };
+    return std::search(text.begin(), text.end(), part.begin(), part.end(), same) != text.end();
+}
+
+bool search_line(const char* id, const char* hint, SearchText& typed) {
+    const int last = std::exchange(typed.hits, 0) - 1;
+    const bool was_empty = typed.empty();
+    ImGui::SetNextItemWidth(-1.0f);
+    typed.entered = ImGui::InputTextWithHint(id, hint, typed.text.data(), typed.text.size(),
+                                             ImGuiInputTextFlags_EnterReturnsTrue);
+    const int before = typed.at;
+    const bool edited = ImGui::IsItemEdited();
+    if (edited) typed.at = typed.empty() ? -1 : 0;
+    if (ImGui::IsItemActive()) {
+        if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_DownArrow))) ++typed.at;
+        if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_UpArrow))) typed.at = std::max(0, typed.at - 1);
+        if (!edited) typed.at = std::min(typed.at, last);
+    }
+    typed.moved = typed.at != before;
+    const bool cleared = ImGui::IsItemDeactivated() && escape_pressed() && !was_empty;
+    if (cleared) {
+        typed.text[0] = '\0';
+        typed.at = -1;
+    }
+    if (cleared || (typed.entered && typed.at < 0)) ImGui::SetKeyboardFocusHere(-1);
+    return cleared;
+}
+
+bool begin_list(const char* name, const std::string* shown, ListRoom room) {
+    std::string id = std::string("##") + name, preview;
+    if (shown != nullptr) {
+        id = begin_row(name);
+        preview = elided(*shown,
+                         ImGui::CalcItemWidth() - ImGui::GetFrameHeight() - ImGui::GetStyle().FramePadding.x);
+    }
+    const bool cut = shown != nullptr && preview != *shown;
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float width = shown != nullptr ? ImGui::CalcItemWidth() : ImGui::GetFrameHeight();
+    constrain_list(room);
+    const bool open = ImGui::BeginCombo(id.c_str(), preview.c_str(),
+                                        shown != nullptr ? ImGuiComboFlags_None : ImGuiComboFlags_NoPreview);
+    if (!open && cut) tooltip_of_button(*shown);
+    if (!open) return false;
+    begin_rows(room, true);
+    open_list().opener_min = {at.x, at.y};
+    open_list().opener_max = {at.x + width, at.y + ImGui::GetFrameHeight()};
+    return true;
+}
+
+bool begin_list_of_button(const char* id, bool pressed, ListRoom room) {
+    constrain_list(room);
+    if (!begin_menu(id, pressed)) return false;
+    begin_rows(room, false);
+    return true;
+}
+
+bool begin_menu(const char* id, bool pressed) {
+    if (pressed) {
+        note_opener();
+        ImGui::OpenPopup(id);
+    }
+    return ImGui::BeginPopup(id);
+}
+
+bool list_row(const std::string& title, bool chosen, const char* why_not) {
+    SearchText& typed = open_list().typed;
+    if (!contains_text(title, typed.text.data())) return false;
+    if (why_not != nullptr) {
+        ImGui::Selectable((title + ": " + why_not).c_str(), chosen, ImGuiSelectableFlags_Disabled);
+        return false;
+    }
+    const bool opens_here = chosen && ImGui::IsWindowAppearing();
+    if (opens_here) typed.at = typed.hits;
+    const bool highlighted = typed.hits++ == typed.at;
+    const bool clicked = ImGui::Selectable(title.c_str(), highlighted || (chosen && typed.at < 0));
+    if (opens_here || (highlighted && typed.moved)) ImGui::SetScrollHereY();
+    const bool taken = clicked || (highlighted && typed.entered);
+    if (taken) ImGui::CloseCurrentPopup();
+    return taken;
+}
+
+void end_list() {
+    ImGui::EndChild();
+    if (open_list().in_field)
+        ImGui::EndCombo();
+    else
+        ImGui::EndPopup();
+}
+
+bool choice_field(const char* name, int& chosen, const char* const* titles, int count,
+                  const char* const* why_not) {
+    const auto reason = [&](int i) { return why_not != nullptr ? why_not[i] : nullptr; };
+    float width = 0.0f;
+    for (int i = 0; i < count; ++i) {
+        const char* const why = reason(i);
+        const std::string title =
+            std::string(titles[i]) + (why != nullptr ? ": " : "") + (why != nullptr ? why : "");
+        width = std::max(width, ImGui::CalcTextSize(title.c_str()).x);
+    }
+    const std::string shown = titles[chosen];
+    if (!begin_list(name, &shown, {.width = width, .rows = std::min(count, 10)})) return false;
+    const int before = chosen;
+    for (int i = 0; i < count; ++i)
+        if (list_row(titles[i], i == before, reason(i))) chosen = i;
+    end_list();
+    return chosen != before;
+}
+
+void close_lists_on_press() {
+    if (!ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopup)) return;
+    const OpenList& list = open_list();
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    const bool on_opener = mouse.x >= list.opener_min.x && mouse.x < list.opener_max.x &&
+                           mouse.y >= list.opener_min.y && mouse.y < list.opener_max.y;
+    if (!on_opener) ImGui::ClosePopupsOverWindow(ImGui::GetCurrentContext()->HoveredWindow, true);
+}
+
+}  // namespace tendril::app

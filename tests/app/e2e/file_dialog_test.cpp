@@ -1,0 +1,106 @@
+// The dialog that asks for a file: what it says of folders and of long names.
+#include <algorithm>
+#include <filesystem>
+
+#include "app/app.hpp"
+#include "app/document/command.hpp"
+#include "app/document/json_complete.hpp"
+#include "app/shell/ui.hpp"
+#include "tests/app/support/frame_record.hpp"
+#include "tests/app/support/play.hpp"
+#include "tests/app/support/temp_folder.hpp"
+#include "tests/says.hpp"
+
+namespace tendril::test {
+namespace {
+
+using namespace app;
+
+class FileDialogTest : public testing::Test {
+  public:
+    /// Opens the dialog in the folder of the scene.
+    void open() {
+        app_.run({"scene.open_dialog", Json::object()});
+        for (int i = 0; i < 4; ++i) app_.tick(nullptr);
+    }
+    void key(const char* name) {
+        const Event event = KeyTap{*chord_from_name(name)};
+        app_.tick(&event);
+    }
+    void type(const char* text) {
+        const Event event = TextInput{text};
+        app_.tick(&event);
+    }
+    void click(glm::vec2 at) {
+        for (const Event& event : {Event(MouseMove{at}), Event(MousePress{MouseButton::Left, true}),
+                                   Event(MousePress{MouseButton::Left, false})})
+            app_.tick(&event);
+        for (int i = 0; i < 3; ++i) app_.tick(nullptr);
+    }
+    std::string text() {
+        app_.tick(nullptr);
+        std::string all;
+        for (const DrawnText& each : recorder_.frame().texts) all += each.text + '\n';
+        return all;
+    }
+    glm::vec2 at(const std::string& text) {
+        app_.tick(nullptr);
+        for (const DrawnText& each : recorder_.frame().texts)
+            if (each.text == text) return each.box.centre();
+        ADD_FAILURE() << "nothing says " << text;
+        return {};
+    }
+
+    TempFolder folder_;
+    std::unique_ptr<Window> window_ = open_offscreen({1024, 640});
+    App app_{*window_};
+    FrameRecorder recorder_;
+};
+
+TEST_F(FileDialogTest, SaysWhatCanBeOpenedWhereThereIsNothingOfIt) {
+    app_.run({"scene.save", Json{{"path", (folder_ / "arm.json").string()}}});
+    open();
+    EXPECT_EQ(text().find("No files that can be opened here"), std::string::npos);
+    std::filesystem::remove(folder_ / "arm.json");
+    std::filesystem::create_directory(folder_ / "poses");
+    write(folder_ / "notes.txt", "Remember the milk");
+    key("escape");
+    open();
+    EXPECT_TRUE(
+        says(text(), "poses/ No files that can be opened here scenes json characters gltf motions bvh"));
+}
+
+TEST_F(FileDialogTest, BeginsAnewEachTime) {
+    app_.run({"scene.save", Json{{"path", (folder_ / "arm.json").string()}}});
+    open();
+    type("helper");
+    EXPECT_NE(text().find("helper"), std::string::npos);
+    key("escape");
+    EXPECT_EQ(text().find("helper"), std::string::npos);
+    open();
+    EXPECT_EQ(text().find("helper"), std::string::npos);
+    EXPECT_NE(text().find("file name"), std::string::npos) << "the hint of an empty field";
+}
+
+TEST_F(FileDialogTest, ShowsTheEndOfALongNameUntilItIsTypedInto) {
+    const std::string name = "a_character_with_a_name_" + std::string(80, 'x') + "_that_goes_on_take_12.json";
+    app_.run({"scene.save", Json{{"path", (folder_ / name).string()}}});
+    open();
+    click(at(name));  // its row
+    const std::string shown = text();
+    const auto cut = shown.find("take_12.json");
+    ASSERT_NE(cut, std::string::npos);
+    EXPECT_NE(shown.find("a_character"), std::string::npos);
+    std::string in_field;
+    for (const DrawnText& each : recorder_.frame().texts)
+        if (each.text.starts_with("a_character") && each.text.find("...") < each.text.find("_take_12.json"))
+            in_field = each.text;
+    ASSERT_FALSE(in_field.empty());
+    click(at(in_field));
+    type("_b.json");
+    const std::string typed = text();
+    EXPECT_NE(typed.find("_b.json"), std::string::npos) << typed;
+}
+
+}  // namespace
+}  // namespace tendril::test

@@ -1,0 +1,122 @@
+// Lists that open: typing in them, and the click that closes them.
+#include <algorithm>
+
+#include "app/app.hpp"
+#include "app/document/command.hpp"
+#include "app/document/json_complete.hpp"
+#include "app/labs/humanoid/humanoid_part.hpp"
+#include "app/labs/signal/signal_part.hpp"
+#include "tests/app/support/frame_record.hpp"
+#include "tests/app/support/play.hpp"
+
+namespace tendril::test {
+namespace {
+
+using namespace app;
+
+class ListsTest : public testing::Test {
+  public:
+    ListsTest() { open("humanoid"); }
+
+    void take(const Event& event) { app_.tick(&event); }
+    void open(const char* lab) {
+        app_.run({"lab.open", Json{{"name", lab}}});
+        app_.run({"time.pause", Json::object()});
+        for (int i = 0; i < 3; ++i) app_.tick(nullptr);
+    }
+    void click(glm::vec2 at) {
+        take(MouseMove{at});
+        take(MousePress{MouseButton::Left, true});
+        take(MousePress{MouseButton::Left, false});
+        app_.tick(nullptr);
+    }
+    void click(const DrawnItem& item) { click(item.box.centre()); }
+    void type(const char* text) {
+        take(TextInput{text});
+        take(KeyTap{*chord_from_name("enter")});
+        app_.tick(nullptr);
+    }
+    /// The item on which, or right of which, the text stands.
+    DrawnItem item(DrawnItem::Kind kind, const std::string& text) {
+        app_.tick(nullptr);
+        const FrameRecord& frame = recorder_.frame();
+        for (const DrawnText& each : frame.texts) {
+            if (each.text != text) continue;
+            for (const DrawnItem& other : frame.items) {
+                const float y = each.box.centre().y;
+                if (other.kind == kind && other.box.min.y <= y && y < other.box.max.y &&
+                    other.box.max.x > each.box.min.x && each.window == other.window)
+                    return other;
+            }
+        }
+        ADD_FAILURE() << "nothing says " << text;
+        return {};
+    }
+    DrawnItem ground() { return item(DrawnItem::Kind::Combo, "ground"); }
+    bool is_open() const { return ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopup); }
+    const HumanoidPart& part() { return humanoid_part(app_.workspace()); }
+
+    std::unique_ptr<Window> window_ = open_offscreen({1280, 1600});
+    App app_{*window_};
+    FrameRecorder recorder_;
+};
+
+TEST_F(ListsTest, TypingFindsAChoiceAndEnterTakesIt) {
+    ASSERT_NE(part().ik.ground.kind, humanoid::GroundKind::Stairs);
+    click(ground());
+    ASSERT_TRUE(is_open());
+    type("tair");
+    EXPECT_FALSE(is_open());
+    EXPECT_EQ(part().ik.ground.kind, humanoid::GroundKind::Stairs);
+    click(ground());
+    type("ope");
+    EXPECT_EQ(part().ik.ground.kind, humanoid::GroundKind::Slope) << "what was typed before is gone";
+    // A choice that is greyed is none.
+    click(ground());
+    type("mesh");
+    EXPECT_EQ(part().ik.ground.kind, humanoid::GroundKind::Slope);
+}
+
+TEST_F(ListsTest, AClickOutsideClosesTheListAndActsOnWhatIsThere) {
+    click(ground());
+    ASSERT_TRUE(is_open());
+    click(handle(app_.state(), "node.Head"));
+    EXPECT_FALSE(is_open());
+    EXPECT_EQ(app_.state().at("selected"), "Head");
+    // From one list into another.
+    click(ground());
+    click(item(DrawnItem::Kind::Combo, "clip"));
+    EXPECT_TRUE(is_open());
+    type("rest pose");
+    EXPECT_FALSE(part().playback.clip.has_value());
+    // And on a button.
+    click(ground());
+    ASSERT_TRUE(is_open());
+    click(item(DrawnItem::Kind::Button, "Rig"));
+    EXPECT_FALSE(is_open());
+    EXPECT_EQ(app_.workspace().lab, "rig");
+}
+
+TEST_F(ListsTest, AClickOnTheFieldOfAnOpenListClosesIt) {
+    const DrawnItem field = ground();
+    click(field);
+    ASSERT_TRUE(is_open());
+    click(field);
+    EXPECT_FALSE(is_open());
+    click(field);
+    EXPECT_TRUE(is_open());
+}
+
+TEST_F(ListsTest, AListBelowAButtonTakesTypingToo) {
+    open("signal");
+    const auto filters = [&] { return app_.state().at("filters").size(); };
+    const std::size_t before = filters();
+    click(item(DrawnItem::Kind::Button, "Add a filter"));
+    ASSERT_TRUE(is_open());
+    type("euro");
+    EXPECT_FALSE(is_open());
+    EXPECT_EQ(filters(), before + 1);
+}
+
+}  // namespace
+}  // namespace tendril::test
