@@ -97,7 +97,8 @@ void go_to_past(const Workspace& workspace, int place, Emit& emit) {
 std::string discards_text(const Workspace& workspace) {
     const std::uint64_t ticks = workspace.later_ticks();
     if (ticks == 0) return {};
-    return "An edit here discards the " + fixed_text(static_cast<double>(ticks) * tick_seconds, 1) +
+    const double seconds = static_cast<double>(ticks) * tick_seconds;
+    return "An edit here discards the " + fixed_text(seconds, seconds < 0.1 ? 2 : 1) +
            " s after it. Undo brings them back.";
 }
 

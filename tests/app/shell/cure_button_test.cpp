@@ -98,7 +98,7 @@ TEST_F(CureButton, OfAFlipIsInViewOnceItsMarkIsClicked) {
     click("Move the pole");
     EXPECT_NE(app_.state().at("solve").at("pole").at(2).get<double>(), -0.5);
     run("undo");
-    EXPECT_GT(app_.workspace().later_ticks(), 50u) << "what came after is back";
+    EXPECT_GT(app_.workspace().later_ticks(), 20u) << "what came after is back";
 }
 
 }  // namespace
