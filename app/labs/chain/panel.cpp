@@ -303,10 +303,10 @@ void report_rows(const ShownChain& shown, const std::vector<glm::vec3>& joints, 
         note("This is one step of the solve. The last step shows the report.");
         return;
     }
-    const VerdictRoom reserved = part.mode == ChainMode::Reach
-                                     ? VerdictRoom{.verdict = 1, .notes = 3, .paragraphs = 2}
-                                     // the status in two lines, what ran
-                                     : VerdictRoom{.verdict = 1, .notes = 2};
+    const VerdictLines reserved = part.mode == ChainMode::Reach
+                                      ? VerdictLines{.verdict = 1, .notes = 3, .paragraphs = 2}
+                                      // the status in two lines, what ran
+                                      : VerdictLines{.verdict = 1, .notes = 2};
     show_verdict(chain_verdict(part), palette, emit, reserved, [&part, &emit] {
         if (part.mode != ChainMode::Reach) return note(chain_modes.help(part.mode));
         if (part.chain.segments().size() < 2) return note("A chain needs two joints to reach.");

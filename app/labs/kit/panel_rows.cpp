@@ -90,7 +90,7 @@ void cure_line(const std::string& text, const std::optional<Cure>& cure, Emit& e
     explain(cure->help.c_str());
 }
 
-void show_verdict(const Verdict& said, const Palette& palette, Emit& emit, VerdictRoom room,
+void show_verdict(const Verdict& said, const Palette& palette, Emit& emit, VerdictLines room,
                   const std::function<void()>& notes) {
     const float top = ImGui::GetCursorPosY();
     verdict(said.text, said.kind == Verdict::Kind::Bad ? palette.limit : palette.text);

@@ -53,14 +53,14 @@ struct Verdict {
 void cure_line(const std::string& text, const std::optional<Cure>& cure, Emit& emit);
 
 /// Lines that a verdict and what stands below it take at most, in a panel of the usual width.
-struct VerdictRoom {
+struct VerdictLines {
     int verdict = 2;
     int notes = 2;
     int paragraphs = 1;  ///< of the notes
 };
 /// Reserves that room, so that the rows below keep still when the verdict changes. `notes` come after the
 /// verdict's own `why` and cure.
-void show_verdict(const Verdict& said, const Palette& palette, Emit& emit, VerdictRoom room = {},
+void show_verdict(const Verdict& said, const Palette& palette, Emit& emit, VerdictLines room = {},
                   const std::function<void()>& notes = {});
 
 }  // namespace tendril::app
