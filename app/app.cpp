@@ -13,6 +13,7 @@
 #include "app/document/json_complete.hpp"
 #include "app/document/scene_file.hpp"
 #include "app/document/text.hpp"
+#include "app/labs/kit/past_strip.hpp"
 #include "app/shell/card_watch.hpp"
 #include "app/shell/gizmo_view.hpp"
 #include "app/shell/theme.hpp"
@@ -141,11 +142,11 @@ void App::compose(const Event* event, Pass pass) {
     pointer_.forget_missing(workspace_, lab());
     std::string hint =
         lab().hint(workspace_, pointer_.dragged() != no_pick ? pointer_.dragged() : pointer_.hovered());
-    if (const std::string bound = pointer_.constraint(input_);
-        pointer_.dragged() != no_pick && !bound.empty()) {
-        hint = "Moving " + bound + ".";
-    }
+    const Camera seen = pane_at_hand().camera(workspace_.camera);
+    if (const std::string bound = constraint_hint(lab(), workspace_, seen, pointer_, input_); !bound.empty())
+        hint = bound;
     if (const std::string by_part = gizmo_hint(lab(), workspace_, pointer_); !by_part.empty()) hint = by_part;
+    if (hint.empty()) hint = discards_text(workspace_);
     if (hint.empty())
         hint = view_hint(mouse_preset(workspace_.settings), scroll_action(workspace_.settings)) +
                " ? shows every key.";

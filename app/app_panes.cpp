@@ -53,7 +53,7 @@ void App::draw_panes() {
                         pointer_.dragged(), layout_.scale, i};
         lab().draw(view, pane.drawn);
         show_gizmo(pane.drawn, lab(), view, pointer_);
-        show_constraint(pane.drawn, view, pointer_, input_);
+        show_constraint(pane.drawn, lab(), view, pointer_, input_);
         show_labels(pane.drawn, camera, colours, layout_.scale, shell_.overlays());
     }
     if (const auto box = pointer_.box()) show_selection_box(*box, colours, layout_.scale);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/document/document.hpp"
+#include "app/document/json.hpp"
 #include "app/document/settings.hpp"
 
 namespace tendril::app {
@@ -22,6 +23,7 @@ struct RepeatedDrag {
     };
     std::vector<Point> path{};               ///< of the step's drags since another command changed the scene
     std::optional<std::uint64_t> caused{};   ///< the moment of the last incident that a drag caused
+    SharedJson incident{};                   ///< the one to be cured, as in the state
     glm::vec3 place{0.0f}, direction{0.0f};  ///< of that drag, then
     bool cured = false;
 };

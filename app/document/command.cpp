@@ -86,7 +86,7 @@ void CommandTable::run(Workspace& workspace, std::string_view name, const Json& 
     if (workspace.document == before && workspace.path == from.path) return;
     if (command->effect == Effect::Replace) return;
     if (command->effect == Effect::Edit) {
-        workspace.rewind.forget_from(workspace.moment);  // this edit invalidates what follows
+        workspace.discard_later(before.parts().at(workspace.lab));
         if (const auto& part = before.parts().at(workspace.lab);
             beginnings == workspace.beginnings && part != workspace.document.parts().at(workspace.lab))
             workspace.rewind.begin_change(workspace.edition, part);

@@ -4,11 +4,22 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <vector>
+
+#include "app/document/argument_list.hpp"
 
 namespace tendril::app {
 
 inline constexpr auto no_joint = static_cast<std::size_t>(-1);
+
+/// What helps, as commands that a button runs: "Add a pole target".
+struct Cure {
+    std::string title;               ///< of the button
+    std::string help;                ///< its tooltip
+    std::vector<CommandCall> calls;  ///< one step to undo
+};
 
 struct Incident {
     enum class Kind {
@@ -24,6 +35,7 @@ struct Incident {
     float degrees = 0.0f;          ///< a flip: how far a bone at the joint turned; a limit: its angle; else 0
     std::string cause;             ///< for display: "the chain was straight (collinear)"
     std::string cure{};            ///< for display, a sentence; empty if there is none
+    std::optional<Cure> button{};  ///< applies it, where commands can
 };
 
 /// As written by --state.

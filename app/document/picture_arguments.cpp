@@ -35,9 +35,10 @@ void set_look(const Arguments& given, PictureLook& look) {
     if (given.has("labels")) look.labels = given.boolean("labels");
 }
 
-std::filesystem::path new_picture(const Workspace& workspace) {
+std::filesystem::path new_picture(const Workspace& workspace, const std::string& what) {
     if (!workspace.names_pictures) throw Refused("path is missing");
-    const std::string stem = workspace.path.empty() ? "tendril" : workspace.path.stem().string();
+    std::string stem = workspace.path.empty() ? "tendril" : workspace.path.stem().string();
+    if (!what.empty()) stem += "-" + what;
     for (int i = 1;; ++i) {
         const std::filesystem::path path =
             workspace.path.parent_path() / (stem + "-" + std::to_string(i) + ".png");

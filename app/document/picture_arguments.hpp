@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "app/document/argument.hpp"
@@ -13,8 +14,9 @@ namespace tendril::app {
 std::vector<Argument> picture_arguments(std::vector<Argument> first = {});
 void set_look(const Arguments& given, PictureLook& look);
 
-/// An unused name beside the scene's file, or in the working directory: "arm-1.png". Throws Refused outside a
-/// window, where a script has to give the path.
-std::filesystem::path new_picture(const Workspace& workspace);
+/// An unused name beside the scene's file, or in the working directory: "arm-1.png"; of something else than
+/// the view, with `what`: "arm-race-1.png". Throws Refused outside a window, where a script has to give the
+/// path.
+std::filesystem::path new_picture(const Workspace& workspace, const std::string& what = {});
 
 }  // namespace tendril::app

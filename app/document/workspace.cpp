@@ -28,6 +28,7 @@ void Workspace::open_lab(const std::string& name) {
     if (past.left != document.parts().at(name)) past = Past();
     rewind = std::move(past.rewind);
     moment = past.moment;
+    discarded.reset();
     clock.looks_back = past.looks_back;
     clock.playing = !clock.held && !clock.looks_back;
     const auto seen = cameras.find(name);
@@ -54,6 +55,7 @@ void Workspace::close_file_dialog() {
 void Workspace::forget_pasts() {
     moment = 0;
     rewind.clear();
+    discarded.reset();
     pasts.clear();
     ui.incident.reset();
 }
@@ -62,6 +64,21 @@ void Workspace::pass_change() {
     if (!rewind.changed()) return;
     rewind.remember_change(moment, clock.tick);
     ++moment;
+}
+
+void Workspace::discard_later(const std::shared_ptr<const Part>& part) {
+    if (later_ticks() > 0) discarded = {rewind, part, moment_id()};
+    rewind.forget_from(moment);
+}
+
+bool Workspace::restore_later(const std::shared_ptr<const Part>& part) {
+    if (!discarded || discarded->part != part) return false;
+    rewind = std::move(discarded->rewind);
+    moment = discarded->moment.tick;
+    edition = discarded->moment.edition;
+    discarded.reset();
+    if (const Rewind::Moment* const now = rewind.find(moment_id())) clock.tick = now->clock;
+    return true;
 }
 
 void Workspace::set_openings(std::set<std::string> labs) {

@@ -107,8 +107,15 @@ struct Workspace {
         bool looks_back = false;  ///< the lab is paused at an earlier moment
     };
     std::map<std::string, Past> pasts;  ///< of the closed labs
-    std::uint64_t edition = 0;          ///< of the last undoable change
-    std::uint64_t editions = 0;         ///< counts all editions; numbers are never reused
+    /// What the last edit at an earlier moment has discarded, until undo leads back there.
+    struct Discarded {
+        Rewind rewind;
+        std::shared_ptr<const Part> part;  ///< the open lab's, before the edit
+        MomentId moment;
+    };
+    std::optional<Discarded> discarded;
+    std::uint64_t edition = 0;   ///< of the last undoable change
+    std::uint64_t editions = 0;  ///< counts all editions; numbers are never reused
     History history;
     bool gesture_begins = true;  ///< the running command is the first of its drag, or not part of one
     Settings settings;
@@ -133,6 +140,14 @@ struct Workspace {
     void pass_change();
     /// Makes these labs the openings. What was one and what is one is as saved.
     void set_openings(std::set<std::string> labs);
+    /// Forgets this moment and the later ones, which an edit of `part` invalidates; undo brings them back.
+    void discard_later(const std::shared_ptr<const Part>& part);
+    /// Brings back what the edit of this very part has discarded. Returns whether it did.
+    bool restore_later(const std::shared_ptr<const Part>& part);
+    /// The ticks that an edit here would discard; 0 at the latest moment.
+    std::uint64_t later_ticks() const {
+        return rewind.empty() || rewind.newest() < moment ? 0 : rewind.newest() - moment;
+    }
     /// Goes to the nearest remembered moment and pauses. Going back over a change can itself be undone.
     void go_to_moment(std::uint64_t ticks_back);
     MomentId moment_id() const { return {moment, edition}; }

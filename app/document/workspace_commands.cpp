@@ -47,8 +47,8 @@ void step_through(Workspace& workspace, bool back) {
         workspace.moment = then->tick;
         workspace.clock.tick = then->clock;
         workspace.edition = then->edition;
-    } else {
-        rewind.forget_from(workspace.moment);
+    } else if (!workspace.restore_later(parts.at(workspace.lab))) {
+        workspace.discard_later(before.at(workspace.lab));
         workspace.begin_edition();
     }
 }

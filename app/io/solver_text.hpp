@@ -11,7 +11,7 @@ namespace tendril::app {
 const char* solver_title(ik::Method method);
 
 /// What ran in a solve: "FABRIK, accelerated + least squares, 3 restarts"; "FABRIK, accelerated, 1
-/// perturbation": of a chain that had stalled or lay on one line. A method keeps its name within limits,
+/// perturbation": of a chain that had stalled or was on one line. A method keeps its name within limits,
 /// where FABRIK omits its accelerated step and two bones continue with least-squares steps.
 std::string ran_text(ik::Method method, const ik::Report& report);
 

@@ -15,7 +15,9 @@
 //
 // {"avoided": "flip", "after": "chain.pole", "within": 0.8} holds once a cure works: a drag by `by` caused a
 // flip, the command `after` was run, and then a drag passed within 0.8 m of the place where it flipped, from
-// one side to the other, without a flip. The commands in `by` have a point for the argument that is null.
+// one side to the other, without a flip. The same joint must not flip again, nor another for the same reason,
+// before the cure has to be repeated; any other flip only means that the drag has to pass once more. The
+// commands in `by` have a point for the argument that is null.
 #pragma once
 
 #include <map>

@@ -49,16 +49,30 @@ void note_drag(RepeatedDrag& drag, glm::vec3 to, std::uint64_t moment) {
     drag.path.push_back({moment, to});
 }
 
-/// Notes where the drag was at the last incident of that kind, if it caused that one.
+/// Whether it is what the cure was for: at the same joint, or for the same reason.
+bool comes_back(const RepeatedDrag& drag, const Json& incident) {
+    const auto same = [&](const char* member) {
+        return drag.incident->value(member, Json()) == incident.value(member, Json());
+    };
+    return same("joint") || same("cause");
+}
+
+/// Notes where the drag was at the last incident of that kind, if it caused that one. After the cure, another
+/// joint may jump for a reason of its own, as by a jump of the mouse: the drag then begins anew there.
 void note_incident(RepeatedDrag& drag, const std::string& kind, const Json& events) {
     for (const Json& each : events) {
         const auto moment = each.at("tick").get<std::uint64_t>();
         if (each.at("kind") != kind || (drag.caused && moment <= *drag.caused)) continue;
         for (std::size_t i = 1; i < drag.path.size(); ++i) {
-            const RepeatedDrag::Point &last = drag.path[i - 1], &here = drag.path[i];
+            const RepeatedDrag::Point last = drag.path[i - 1], here = drag.path[i];
             if (here.moment != moment || here.at == last.at) continue;
             drag.caused = moment;
+            if (drag.cured && !comes_back(drag, each)) {
+                drag.path.erase(drag.path.begin(), drag.path.begin() + static_cast<std::ptrdiff_t>(i));
+                break;
+            }
             drag.cured = false;
+            drag.incident = each;
             drag.place = here.at;
             drag.direction = glm::normalize(here.at - last.at);
         }

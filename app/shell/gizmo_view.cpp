@@ -1,5 +1,9 @@
 #include "app/shell/gizmo_view.hpp"
 
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "app/document/units.hpp"
 #include "app/shell/pointer.hpp"
 #include "app/view/picking.hpp"
 
@@ -77,10 +81,36 @@ std::vector<NamedGrip> gizmo_grips(const DrawList& drawn, const Lab& lab, const 
     return grips;
 }
 
-void show_constraint(DrawList& list, const View& view, const Pointer& pointer, const Input& input) {
-    if (pointer.dragged() == no_pick || pointer.drags_gizmo()) return;
+namespace {
+
+/// The handle that a held key constrains, as it is now: not a gizmo's part, not one that turns.
+std::optional<Handle> constrained_handle(const Lab& lab, const Workspace& workspace, const Pointer& pointer,
+                                         const Input& input) {
+    if (pointer.dragged() == no_pick || pointer.drags_gizmo() || pointer.constraint(input).empty())
+        return std::nullopt;
+    const GizmoDrag* const part = pointer.dragged_part();
+    if (part != nullptr && changed_by(part->part()) != Drag::Position) return std::nullopt;
+    return lab.handle(workspace, pointer.dragged());
+}
+
+/// "0.42 m along Z, 0.40 m nearer". Depth is not seen in the picture, so a move mostly along it is said
+/// twice.
+std::string moved_text(const std::string& bound, glm::vec3 from, glm::vec3 to, const Camera& camera) {
+    const float moved = glm::distance(from, to), nearer = camera.depth(from) - camera.depth(to);
+    const auto metres = [](float value) { return fixed_text(static_cast<double>(value), 2) + " m"; };
+    std::string text = metres(moved) + " " + bound;
+    if (std::abs(nearer) > 0.5f * moved)
+        text += ", " + metres(std::abs(nearer)) + (nearer > 0.0f ? " nearer" : " farther");
+    return text;
+}
+
+}  // namespace
+
+void show_constraint(DrawList& list, const Lab& lab, const View& view, const Pointer& pointer,
+                     const Input& input) {
+    const auto now = constrained_handle(lab, view.workspace, pointer, input);
+    if (!now) return;
     const std::string bound = pointer.constraint(input);
-    if (bound.empty()) return;
     const glm::vec3 at = pointer.caught_position();
     // Far enough to extend beyond the view.
     const float far = 20.0f * view.camera.depth(at);
@@ -92,6 +122,24 @@ void show_constraint(DrawList& list, const View& view, const Pointer& pointer, c
     if (ground || bound == "along X") line({1, 0, 0}, view.palette.axis_x);
     if (bound == "along Y") line({0, 1, 0}, view.palette.axis_y);
     if (ground || bound == "along Z") line({0, 0, 1}, view.palette.axis_z);
+    const glm::vec3 to = now->frame.position;
+    list.ring(at, 7.0f * view.scale, 1.5f * view.scale, glm::vec4(view.palette.text_dim, 1.0f)).layer =
+        Layer::Overlay;
+    list.line(at, to, 3.0f * view.scale, glm::vec4(view.palette.text, 1.0f)).layer = Layer::Overlay;
+    list.labels.push_back({.at = to,
+                           .clearance = 26.0f * view.scale,
+                           .text = moved_text(bound, at, to, view.camera),
+                           .colour = view.palette.text,
+                           .rank = 100});
+}
+
+std::string constraint_hint(const Lab& lab, const Workspace& workspace, const Camera& camera,
+                            const Pointer& pointer, const Input& input) {
+    const auto now = constrained_handle(lab, workspace, pointer, input);
+    if (!now) return {};
+    return "Moving " +
+           moved_text(pointer.constraint(input), pointer.caught_position(), now->frame.position, camera) +
+           ".";
 }
 
 }  // namespace tendril::app

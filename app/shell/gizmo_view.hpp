@@ -23,7 +23,12 @@ struct NamedGrip {
 std::vector<NamedGrip> gizmo_grips(const DrawList& drawn, const Lab& lab, const Workspace& workspace,
                                    const Camera& camera, float scale);
 
-/// Draws the axis or ground plane that a held key constrains the drag to, through its start.
-void show_constraint(DrawList& list, const View& view, const Pointer& pointer, const Input& input);
+/// Draws the axis or ground plane that a held key constrains the drag to, through its start, and how far the
+/// handle has moved from there.
+void show_constraint(DrawList& list, const Lab& lab, const View& view, const Pointer& pointer,
+                     const Input& input);
+/// The same for the status line: "Moving 0.42 m along Z, 0.40 m nearer."; empty without such a drag.
+std::string constraint_hint(const Lab& lab, const Workspace& workspace, const Camera& camera,
+                            const Pointer& pointer, const Input& input);
 
 }  // namespace tendril::app

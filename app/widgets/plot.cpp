@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "app/document/units.hpp"
 #include "app/widgets/fonts.hpp"
@@ -38,6 +39,7 @@ class Plot {
                 min_y = std::min(min_y, p.y);
             }
         }
+        has_zero_ = min_y <= 0.0f;
         if (logarithmic()) {
             low_ = std::floor(std::log10(axes.min_y));
             high_ = std::max(low_ + 1.0f, std::ceil(std::log10(std::max(max_y, axes.min_y)) - 1e-4f));
@@ -154,7 +156,7 @@ class Plot {
     }
     bool logarithmic() const { return axes_.min_y > 0.0f; }
     float y(float value) const {
-        const float at = along_y(logarithmic() ? std::log10(std::max(value, axes_.min_y)) : value);
+        const float at = along_y(logarithmic() ? std::max(std::log10(std::max(value, 0.0f)), low_) : value);
         return std::clamp(at, from_.y - far_away, to_.y + far_away);
     }
     /// The y pixel of a value, or of its base-10 logarithm on a logarithmic axis.
@@ -172,10 +174,11 @@ class Plot {
             const float power = first + static_cast<float>(i) * step_y;
             // Enough digits to distinguish the marks.
             const int digits = std::clamp(static_cast<int>(std::ceil(-std::log10(step_y) - 1e-4f)), 0, 6);
-            marks.push_back(
-                {along_y(power), logarithmic()
-                                     ? short_text(std::pow(10.0, static_cast<double>(power)), axes_.y_unit)
-                                     : fixed_text(static_cast<double>(power), digits)});
+            std::string text = logarithmic()
+                                   ? short_text(std::pow(10.0, static_cast<double>(power)), axes_.y_unit)
+                                   : fixed_text(static_cast<double>(power), digits);
+            if (logarithmic() && i == 0 && has_zero_) text = "0";  // the logarithmic axis has none of its own
+            marks.push_back({along_y(power), std::move(text)});
         }
         return marks;
     }
@@ -321,6 +324,7 @@ class Plot {
     ImDrawList* list_;
     ImVec2 from_{}, to_{};
     float most_x_ = 0.0f, low_ = 0.0f, high_ = 1.0f;
+    bool has_zero_ = false;  ///< of the values, where the axis is logarithmic
 };
 
 }  // namespace

@@ -23,8 +23,8 @@ struct PlotAxes {
     const char* x_unit = "";
     const char* y = "";
     const char* y_unit = "";
-    /// The y axis is logarithmic and begins here; lower values are drawn at its edge. 0: the axis is linear,
-    /// from the lowest value to the highest.
+    /// The y axis is logarithmic and begins at the power of ten below this; lower values are drawn at its
+    /// edge, which reads "0" if a value is 0. 0: the axis is linear, from the lowest value to the highest.
     float min_y = 1e-6f;
     float from_x = 0.0f;                ///< start of the x axis
     float min_x = 1.0f;                 ///< the x axis ends here or beyond

@@ -98,14 +98,15 @@ void follow_selection(const ChainPart& part, float row_height) {
         ImGui::SetScrollY(top - 0.5f * visible);
 }
 
-void joint_table(const ShownChain& shown, const Joints& joints, Emit& emit) {
+/// Fills the panel but for `below`, the height of what follows.
+void joint_table(const ShownChain& shown, const Joints& joints, float below, Emit& emit) {
     ImGui::PushFont(small_font());
     const bool narrow = ImGui::GetContentRegionAvail().x < 16.0f * ImGui::GetFontSize();
     const ImGuiTableFlags flags = ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY |
                                   ImGuiTableFlags_NoPadOuterX |
                                   (narrow ? ImGuiTableFlags_ScrollX : ImGuiTableFlags_None);
     const float min_height = 8.0f * ImGui::GetTextLineHeightWithSpacing();
-    const float height = std::max(min_height, ImGui::GetContentRegionAvail().y);
+    const float height = std::max(min_height, ImGui::GetContentRegionAvail().y - below);
     ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, ImVec2(3.0f, 2.0f));
     if (ImGui::BeginTable("joints", 6, flags, {0.0f, height})) {
         header_row(narrow);
@@ -132,12 +133,15 @@ void ChainLab::inspector(const Workspace& workspace, Emit& emit) const {
     if (shown.trace) microscope_rows(shown, colours, emit);
     if (shown.race) race_rows(shown, colours, emit);
     const Joints joints = shown_joints(shown);
-    report_rows(shown, joints, colours);
-    incident_rows(workspace, colours, emit);
+    report_rows(shown, joints, colours, emit);
     selection_rows(shown, joints, emit);
     if (reaches) limit_rows(shown.part, emit);
     chain_rows(shown, joints);
-    if (folding_section(workspace, "Joints, in metres", emit, false)) joint_table(shown, joints, emit);
+    float& below = *ImGui::GetStateStorage()->GetFloatRef(ImGui::GetID("below the table"));
+    if (folding_section(workspace, "Joints, in metres", emit, false)) joint_table(shown, joints, below, emit);
+    const float from = ImGui::GetCursorPosY();
+    incident_rows(workspace, colours, emit);  // last, so that fields stay put when one is added
+    below = ImGui::GetCursorPosY() - from;
 }
 
 // The selected joints. The active one is shown; edits apply to all.

@@ -8,8 +8,10 @@
 #include <optional>
 #include <string_view>
 
+#include "app/document/text.hpp"
 #include "app/document/units.hpp"
 #include "app/fields/field_rows.hpp"
+#include "app/labs/chain/cures.hpp"
 #include "app/labs/chain/draw.hpp"
 #include "app/labs/chain/past.hpp"
 #include "app/labs/chain/presets.hpp"
@@ -231,12 +233,8 @@ Verdict reach_verdict(const ChainPart& part) {
             return {"Out of reach: " + off + " short", Verdict::Kind::Bad};
         case ik::Status::TooClose:
             return {"Too close: " + off + " off", Verdict::Kind::Bad};
-        case ik::Status::Limited: {
-            const auto& limit = part.result->active_limit;
-            if (!limit) return {"Limited: " + off + " short", Verdict::Kind::Bad};
-            return {"Limited by joint " + std::to_string(limit->joint) + ": " + off + " short",
-                    Verdict::Kind::Bad};
-        }
+        case ik::Status::Limited:
+            return {"Limited: " + off + " short", Verdict::Kind::Bad};
         case ik::Status::Stalled:
             return {"Stalled: " + off + " short", Verdict::Kind::Bad};
         case ik::Status::IterationLimit:
@@ -247,18 +245,6 @@ Verdict reach_verdict(const ChainPart& part) {
     return {"Refused", Verdict::Kind::Bad};
 }
 
-/// Whether all joints lie on the line from the root to the target.
-bool in_line_with_target(const ChainPart& part) {
-    const glm::vec3 root = part.chain.position(0), way = part.target - root;
-    const float within = 1e-4f * part.chain.reach();
-    if (!(glm::length(way) > within)) return false;
-    const glm::vec3 along = glm::normalize(way);
-    const std::vector<glm::vec3> joints = positions(part.chain);
-    return std::all_of(joints.begin(), joints.end(), [&](const glm::vec3& joint) {
-        return glm::length(glm::cross(joint - root, along)) <= within;
-    });
-}
-
 /// Explains a stalled solve: why more iterations would not help.
 std::string stalled_text(const ChainPart& part) {
     const ReachSettings& reach = part.reach;
@@ -267,12 +253,10 @@ std::string stalled_text(const ChainPart& part) {
         const float span = glm::distance(part.chain.position(0), part.chain.position(part.chain.size() - 1));
         return std::string(span > 0.999f * part.chain.reach() ? "Straight, and the target is on its line"
                                                               : "Folded onto the line to the target") +
-               ": no joint can bring it closer. Bend it" + (reach.pole ? "." : ", or add a pole target.");
+               ": bend it" + (reach.pole ? "." : ", or add a pole target.");
     }
-    const ik::Method method = part.result->method;
-    return std::string("This is as close as ") + solver_title(method) + " gets from here. Another solver" +
-           (ik::honours(method, ik::Option::Restarts, limited) ? ", or more restarts," : "") +
-           " may get closer.";
+    const bool restarts = ik::honours(part.result->method, ik::Option::Restarts, limited);
+    return std::string("No closer from here. Try another solver") + (restarts ? ", or more restarts." : ".");
 }
 
 }  // namespace
@@ -282,15 +266,17 @@ std::string status_text(const ChainPart& part) {
         case ik::Status::Converged:
             return "The tip is on the target.";
         case ik::Status::Stretched:
-            return "The target is out of reach: the chain lies straight towards it.";
+            return "The chain lies straight towards it.";
         case ik::Status::TooClose:
-            return "The target is closer than the longest bone lets the tip fold.";
+            return "The longest bone keeps the tip away.";
         case ik::Status::Limited:
-            return "The joint limits keep the tip away.";
+            return part.result->active_limit
+                       ? capitalised(active_limit_text(*part.result->active_limit)) + "."
+                       : "The joint limits keep the tip away.";
         case ik::Status::Stalled:
             return stalled_text(part);
         case ik::Status::IterationLimit:
-            return "Ran out of iterations before reaching the target.";
+            return "It ran out of iterations.";
         case ik::Status::InvalidInput:
             break;
     }
@@ -307,10 +293,11 @@ Verdict chain_verdict(const ChainPart& part) {
     const float off = glm::distance(part.chain.position(joint), part.target);
     if (off <= std::max(part.tolerance, 1e-6f * part.chain.reach()))
         return {end + " on the target", Verdict::Kind::Good};
-    return {end + " " + distance_text(off) + " from the target", Verdict::Kind::Open};
+    return {end + ": " + distance_text(off) + " to go", Verdict::Kind::Open};
 }
 
-void report_rows(const ShownChain& shown, const std::vector<glm::vec3>& joints, const Palette& palette) {
+void report_rows(const ShownChain& shown, const std::vector<glm::vec3>& joints, const Palette& palette,
+                 Emit& emit) {
     const ChainPart& part = shown.part;
     if (!shows_end(shown)) {
         verdict("In progress", palette.text);
@@ -318,15 +305,16 @@ void report_rows(const ShownChain& shown, const std::vector<glm::vec3>& joints, 
         note("This is one step of the solve. The last step shows the report.");
         return;
     }
-    constexpr int lines = 4;  // the limit, the status in two, what ran
-    show_verdict(chain_verdict(part), palette, lines, [&part, &palette] {
+    const VerdictLines reserved = part.mode == ChainMode::Reach
+                                      ? VerdictLines{.verdict = 1, .notes = 3, .paragraphs = 2}
+                                      // the status in two lines, what ran
+                                      : VerdictLines{.verdict = 1, .notes = 2};
+    show_verdict(chain_verdict(part), palette, emit, reserved, [&part, &emit] {
         if (part.mode != ChainMode::Reach) return note(chain_modes.help(part.mode));
         if (part.chain.segments().size() < 2) return note("A chain needs two joints to reach.");
         if (!part.result) return note("The tip then reaches for it.");
-        const ReachResult& result = *part.result;
-        if (result.active_limit) coloured_note(active_limit_text(*result.active_limit) + ".", palette.limit);
         note(status_text(part));
-        note(ran_text(result.method, result.report) + ".");
+        cure_line(ran_text(part.result->method, part.result->report), reach_cure(part), emit);
     });
     if (part.mode != ChainMode::Reach || !part.result) return;
     reading("iterations", "%d", part.result->report.iterations);
@@ -373,24 +361,6 @@ void option_rows(const ReachSettings& reach, float length, MoreRows& more, Emit&
             emit("chain.solver", {{"default_restarts", true}});
         end_row();
     });
-}
-
-/// A new pole target is beside the middle of the line from head to tail, on the side to which the chain
-/// bends, so that adding it turns nothing. A straight chain gets it above.
-glm::vec3 first_pole(const ChainPart& part) {
-    const std::vector<glm::vec3> joints = positions(part.chain);
-    const glm::vec3 head = joints.front(), line = joints.back() - head;
-    const float length = glm::length(line);
-    glm::vec3 furthest{0.0f};
-    for (const glm::vec3 joint : joints) {
-        const glm::vec3 from_head = joint - head;
-        const glm::vec3 off =
-            length > 0.0f ? from_head - line * (glm::dot(from_head, line) / (length * length)) : from_head;
-        if (glm::length(off) > glm::length(furthest)) furthest = off;
-    }
-    const float bend = glm::length(furthest);
-    const glm::vec3 side = bend > 0.02f * part.chain.reach() ? furthest / bend : glm::vec3(0.0f, 1.0f, 0.0f);
-    return head + 0.5f * line + 0.6f * part.chain.reach() * side;
 }
 
 void pole_rows(const ChainPart& part, MoreRows& more, Emit& emit) {

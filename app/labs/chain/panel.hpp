@@ -17,7 +17,8 @@ void study_rows(const ChainPart& part, Emit& emit);
 /// Panel: copying.
 void export_rows(Emit& emit);
 /// Inspector: the outcome of the last move of the target, and the report of the last solve.
-void report_rows(const ShownChain& shown, const std::vector<glm::vec3>& joints, const Palette& palette);
+void report_rows(const ShownChain& shown, const std::vector<glm::vec3>& joints, const Palette& palette,
+                 Emit& emit);
 /// Inspector: the selection.
 void selection_rows(const ShownChain& shown, const std::vector<glm::vec3>& joints, Emit& emit);
 /// The bone length of the selected joints.
@@ -29,7 +30,7 @@ void microscope_rows(const ShownChain& shown, const Palette& palette, Emit& emit
 /// Inspector: the solvers of the race and their results.
 void race_rows(const ShownChain& shown, const Palette& palette, Emit& emit);
 
-/// The outcome of a move: "Reached", "Out of reach: 0.23 m short", "Limited by joint 1: 0.10 m short".
+/// The outcome of a move: "Reached", "Out of reach: 0.23 m short", "Limited: 0.10 m short".
 Verdict chain_verdict(const ChainPart& part);
 /// The meaning of the last solve's status, with what may help, in sentences.
 std::string status_text(const ChainPart& part);

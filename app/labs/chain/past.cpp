@@ -10,6 +10,7 @@
 
 #include "app/document/units.hpp"
 #include "app/labs/chain/chain_lab.hpp"
+#include "app/labs/chain/cures.hpp"
 #include "app/labs/chain/draw.hpp"
 #include "app/labs/chain/panel.hpp"
 #include "app/labs/kit/flips.hpp"
@@ -199,14 +200,19 @@ FlipReason reason_of(const ChainPart& before, const ChainPart& after) {
     const PolePassage pole = pole_passage(was, is);
     if (pole.passed) return passed_pole;
     if (after.result->report.restarts > 0)
-        return {"the solver restarted from another pose", "Without restarts it keeps to the pose it is in."};
+        return {"the solver restarted from another pose", "Without restarts it keeps to the pose it is in.",
+                FlipCure::NoRestarts};
     if (limit_switched(before, after))
         return {"a limit switched sides", "Narrow that limit: both its ends are equally good here."};
-    if (was_straight(was, is, reach)) return collinear_reason(was, is, reach);
+    if (was_straight(was, is, reach)) {
+        const FlipReason& straight = collinear_reason(was, is, reach);
+        if (!after.reach.pole) return straight;
+        return {straight.cause, "Keep the target within reach, where the chain stays bent."};
+    }
     if (pole.close) return close_to_pole;
-    return {"the solver switched to another pose that the target allows",
-            after.reach.pole ? "Narrow the joint limits, or drag the target more slowly."
-                             : "Add a pole target, or limits: they leave it fewer poses."};
+    constexpr const char* switched = "the solver switched to another pose that the target allows";
+    if (after.reach.pole) return {switched, "Narrow the joint limits, or drag the target more slowly."};
+    return {switched, "Add a pole target, or limits: they leave it fewer poses.", FlipCure::AddPole};
 }
 
 std::optional<Incident> flip(const ChainPart& before, const ChainPart& after) {
@@ -222,7 +228,8 @@ std::optional<Incident> flip(const ChainPart& before, const ChainPart& after) {
                     .joint = turn.joint,
                     .degrees = glm::degrees(turn.angle),
                     .cause = reason.cause,
-                    .cure = reason.cure};
+                    .cure = reason.cure,
+                    .button = flip_cure(reason.button, before, after)};
 }
 
 /// "Out of reach: the target is out of reach, ...": the verdict and the meaning of its status.

@@ -29,7 +29,7 @@ Command race_save() {
 }
 
 constexpr double frames_per_second = 30.0;
-constexpr int end_frames = 30;  ///< the end stays for a second
+constexpr int end_frames = 30;  ///< the end stays for a second, so that a film takes 4 to 12 s
 constexpr double max_frames = 18'000.0;
 
 /// Shows a frame of the film in a copy of the workspace.
@@ -60,7 +60,7 @@ void record_race(Workspace& workspace, const Arguments& given) {
                                  2) +
                       " for a race of " + std::to_string(last) +
                       " iterations: a film lasts up to 10 minutes");
-    VideoRequest wanted = film_request(workspace, given);
+    VideoRequest wanted = film_request(workspace, given, "race");
     wanted.command = "race.record";
     wanted.shown_frames = static_cast<int>(frames);
     wanted.show = RaceFrames{last, pace};
@@ -74,10 +74,10 @@ void add_race_file_commands(CommandTable& table) {
     table.add(
         {.name = "race.record",
          .title = "Record the race",
-         .arguments =
-             film_arguments({number_argument("pace", "iterations per second; default: as race.play",
-                                             shortest_decimal(slowest_pace), shortest_decimal(fastest_pace))},
-                            true),
+         .arguments = film_arguments(
+             {number_argument("pace", "iterations per second; default: so many that the film lasts 4 to 12 s",
+                              shortest_decimal(slowest_pace), shortest_decimal(fastest_pace))},
+             true),
          .help = "Writes a video of the race from its start to its end, with names, iterations and errors",
          .effect = Effect::Look,
          .apply = record_race});

@@ -72,8 +72,10 @@ void Study::play(double seconds, std::size_t last) {
 }
 
 float race_pace(std::size_t iterations) {
-    constexpr float slow = 4.0f, longest_seconds = 8.0f;
-    return std::clamp(static_cast<float>(iterations) / longest_seconds, slow, fastest_pace);
+    constexpr float usual = 4.0f, shortest_seconds = 3.0f, longest_seconds = 11.0f;
+    const auto all = static_cast<float>(iterations);
+    return std::clamp(all / std::clamp(all / usual, shortest_seconds, longest_seconds), slowest_pace,
+                      fastest_pace);
 }
 
 void Study::rewind(Chain& chain, ReachSettings& settings) const {

@@ -53,8 +53,12 @@ Trace record_trace(Chain chain, ReachSettings settings, glm::vec3 target, ChainR
 std::string describe_frame(const Trace& trace, std::size_t frame);
 
 inline constexpr float slowest_pace = 0.1f, default_pace = 8.0f, fastest_pace = 600.0f;  ///< steps per second
-/// Iterations per second: 4, but at most 8 s for the whole race.
+/// Iterations per second: 4, or so many that the whole race takes 3 to 11 s.
 float race_pace(std::size_t iterations);
+/// Of race.record at that pace; the end stays for a second.
+inline double race_film_seconds(std::size_t iterations) {
+    return static_cast<double>(iterations) / static_cast<double>(race_pace(iterations)) + 1.0;
+}
 inline constexpr std::size_t max_studied_segments = 512;  ///< more would clutter the scene and take too long
 
 struct Study {

@@ -205,7 +205,7 @@ void add_study_commands(CommandTable& table) {
     table.add(chain_command(
         "race.play", "Play or pause the race",
         {switch_argument("on", "false: pauses; default: true"),
-         number_argument("pace", "iterations per second; default: 4, or more so that it takes 8 s",
+         number_argument("pace", "iterations per second; default: 4, or so many that it takes 3 to 11 s",
                          shortest_decimal(slowest_pace), shortest_decimal(fastest_pace))},
         "Plays the race iteration by iteration, from its start if it is at its end", play_race,
         Effect::Look));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <string_view>
 
 #include "app/document/units.hpp"
 #include "app/labs/chain/draw.hpp"
@@ -40,7 +41,7 @@ constexpr const char* against_time = "against time";
 
 void small_right(const std::string& text) {
     ImGui::PushFont(small_font());
-    text_flush_right(text, true);
+    text_flush_right(elided(text, ImGui::GetContentRegionAvail().x), true);
     ImGui::PopFont();
 }
 
@@ -60,7 +61,9 @@ void racer_row(const ShownChain& shown, ik::Method method, bool time, const Pale
     text_flush_right(time ? si_text(1e-6 * racer->microseconds, "s") : std::to_string(racer->iterations()));
     if (racer->report.status == ik::Status::InvalidInput) return small_right("does not support this chain");
     const std::string ran = ran_text(method, racer->report);
-    if (ran != solver_title(method)) small_right(ran);
+    // Without the solver's name, which stands above: "least squares, 3 restarts".
+    const std::size_t more = ran.find_first_not_of(" +,", std::string_view(solver_title(method)).size());
+    if (more != ran.npos) small_right(ran.substr(more));
     // As many lines in every iteration, so that no row moves while the race plays.
     small_right(at.finished ? end_text(*racer) : progress_text(at) + ", " + error_reading(at));
     if (racer->restored) small_right(at.finished ? restored_text(*racer) : " ");
@@ -195,11 +198,16 @@ void race_rows(const ShownChain& shown, const Palette& palette, Emit& emit) {
     end_row();
     if (row_button("Copy numbers as CSV", 1, true, "Every solver's residual at each iteration"))
         emit("race.copy");
-    if (row_button(
-            "Record the race", 1, true,
-            "Writes the race from its start to its end as an animated PNG beside the scene, with names, "
-            "iterations and errors. The command race.record also writes MP4, at any size and pace."))
-        emit("race.record");
+    const std::string film =
+        "Writes the race from its start to its end as an animated PNG of " +
+        fixed_text(race_film_seconds(shown.last()), 0) +
+        " s beside the scene, with names, iterations and errors. The command race.record also writes MP4, at "
+        "any size and pace.";
+    if (row_button("Record the race", 2, true, film.c_str())) emit("race.record");
+    if (row_button("Save a picture", 2, true,
+                   "Writes the race as it is shown as a PNG beside the scene, as Ctrl+P does"))
+        emit("view.picture");
+    end_row();
 }
 
 }  // namespace tendril::app

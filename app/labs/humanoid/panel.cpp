@@ -276,7 +276,7 @@ void character_inspector(const HumanoidPanel& panel) {
 
 void HumanoidLab::inspector(const Workspace& workspace, Emit& emit) const {
     const HumanoidPanel panel = humanoid_panel(workspace, emit);
-    show_verdict(humanoid_verdict(workspace), panel.colours);
+    show_verdict(humanoid_verdict(workspace), panel.colours, emit);
     const bool selected = !panel.part.selection.empty();
     if (selected) node_inspector(panel);  // what was clicked comes first
     limit_inspector(panel);

@@ -22,11 +22,12 @@ std::vector<Argument> film_arguments(std::vector<Argument> more, bool may_name) 
     return all;
 }
 
-VideoRequest film_request(const Workspace& workspace, const Arguments& given) {
+VideoRequest film_request(const Workspace& workspace, const Arguments& given, const std::string& what) {
     const auto& filming = workspace.ui.filming;
     if (filming) throw Refused(filming->name + " is still being written; view.end_video cancels it");
     VideoRequest wanted;
-    wanted.path = given.has("path") ? std::filesystem::path(given.text("path")) : new_picture(workspace);
+    wanted.path =
+        given.has("path") ? std::filesystem::path(given.text("path")) : new_picture(workspace, what);
     if (const std::string why = why_no_video(wanted.path); !why.empty()) throw Refused(why);
     set_look(given, wanted);
     const bool mp4 = wanted.path.extension() == ".mp4";

@@ -1,6 +1,7 @@
 // What commands that write a video share: a file, its size and look.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "app/document/argument.hpp"
@@ -11,7 +12,8 @@ namespace tendril::app {
 
 /// path, then those of a picture, then `more`. With `may_name` the path may be omitted in a window.
 std::vector<Argument> film_arguments(std::vector<Argument> more, bool may_name = false);
-/// The request without its frames. Throws Refused: another video is being written, or the file cannot be.
-VideoRequest film_request(const Workspace& workspace, const Arguments& given);
+/// The request without its frames. A new file is called "<scene>-<what>-1.png". Throws Refused: another video
+/// is being written, or the file cannot be.
+VideoRequest film_request(const Workspace& workspace, const Arguments& given, const std::string& what = {});
 
 }  // namespace tendril::app

@@ -60,23 +60,31 @@ struct ReachPose {
     glm::vec3 root() const { return joints.front(); }
 };
 
+/// What a button can do against such flips, in a lab that has the command.
+enum class FlipCure { ByHand, AddPole, MovePole, NoRestarts };
+
 /// A cause, and what prevents such flips: a clause and a sentence for display.
 struct FlipReason {
     const char* cause;
     const char* cure;
+    FlipCure button = FlipCure::ByHand;
 };
 inline constexpr FlipReason through_root{
     "the target went through the root",
     "Lead the target around the root: there, every direction is equally near."};
 inline constexpr FlipReason passed_pole{
     "the target's line passed the pole",
-    "Move the pole out of the plane in which the target moves: towards you, if you drag in the view."};
-inline constexpr FlipReason close_to_pole{"the target's line came close to the pole", passed_pole.cure};
+    "Move the pole out of the plane in which the target moves: towards you, if you drag in the view.",
+    FlipCure::MovePole};
+inline constexpr FlipReason close_to_pole{"the target's line came close to the pole", passed_pole.cure,
+                                          passed_pole.button};
 inline constexpr FlipReason straight_chain{
     "the chain was straight (collinear)",
-    "Add a pole target on the side to which it should bend, or keep the target within reach."};
+    "Add a pole target on the side to which it should bend, or keep the target within reach.",
+    FlipCure::AddPole};
 inline constexpr FlipReason folded_chain{"the chain was folded onto one line (collinear)",
-                                         "Add a pole target on the side to which it should bend."};
+                                         "Add a pole target on the side to which it should bend.",
+                                         FlipCure::AddPole};
 
 /// Whether the target passed within a fiftieth of the reach of the root. `reach`: metres, here and below.
 bool went_through_root(const ReachPose& before, const ReachPose& after, float reach);

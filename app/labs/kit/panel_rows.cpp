@@ -7,6 +7,7 @@
 #include "app/document/drawn_sections.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/row_search.hpp"
+#include "app/widgets/text.hpp"
 
 namespace tendril::app {
 
@@ -75,13 +76,29 @@ bool preset_rows(const std::string& lab, const std::vector<PresetButton>& preset
     return opened;
 }
 
-void show_verdict(const Verdict& said, const Palette& palette, int lines,
+void cure_line(const std::string& text, const std::optional<Cure>& cure, Emit& emit) {
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const float room = ImGui::GetContentRegionAvail().x, left = ImGui::GetCursorPosX();
+    const float width =
+        cure ? ImGui::CalcTextSize(cure->title.c_str()).x + 2.0f * style.FramePadding.x : 0.0f;
+    if (!text.empty()) text_elided(text, room - width - (cure ? style.ItemSpacing.x : 0.0f), true);
+    if (!cure) return;
+    if (!text.empty()) ImGui::SameLine(0.0f, 0.0f);
+    ImGui::SetCursorPosX(left + std::max(0.0f, room - width));
+    if (ImGui::SmallButton(cure->title.c_str()))
+        for (const CommandCall& call : cure->calls) emit.continuously(call.name, call.arguments);
+    explain(cure->help.c_str());
+}
+
+void show_verdict(const Verdict& said, const Palette& palette, Emit& emit, VerdictLines room,
                   const std::function<void()>& notes) {
     const float top = ImGui::GetCursorPosY();
     verdict(said.text, said.kind == Verdict::Kind::Bad ? palette.limit : palette.text);
     if (!said.why.empty()) note(said.why);
+    if (said.cure) cure_line("", said.cure, emit);
     if (notes) notes();
-    keep_room("verdict", top, verdict_height(2) + note_height(lines));
+    const float between = static_cast<float>(room.paragraphs - 1) * ImGui::GetStyle().ItemSpacing.y;
+    keep_room("verdict", top, verdict_height(room.verdict) + note_height(room.notes) + between);
 }
 
 }  // namespace tendril::app

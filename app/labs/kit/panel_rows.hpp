@@ -2,9 +2,11 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "app/document/incident.hpp"
 #include "app/document/workspace.hpp"
 #include "app/view/palette.hpp"
 #include "app/widgets/emit.hpp"
@@ -43,12 +45,22 @@ bool preset_rows(const std::string& lab, const std::vector<PresetButton>& preset
 struct Verdict {
     std::string text;  ///< "Reached", "Out of reach: 0.23 m short", "Lengths off by 1.5 %"
     enum class Kind { Good, Bad, Open } kind = Kind::Open;
-    std::string why{};  ///< the consequence, or what to do next; a sentence
+    std::string why{};           ///< the consequence, or what to do next; a sentence
+    std::optional<Cure> cure{};  ///< does that
 };
 
-/// Reserves room for two lines of verdict and `lines` lines of `notes`, so that the rows below keep still
-/// when the verdict changes.
-void show_verdict(const Verdict& said, const Palette& palette, int lines = 2,
+/// Runs a cure: a small button at the right end of a line. `text`, before it, is cut where room ends.
+void cure_line(const std::string& text, const std::optional<Cure>& cure, Emit& emit);
+
+/// Lines that a verdict and what stands below it take at most, in a panel of the usual width.
+struct VerdictLines {
+    int verdict = 2;
+    int notes = 2;
+    int paragraphs = 1;  ///< of the notes
+};
+/// Reserves that room, so that the rows below keep still when the verdict changes. `notes` come after the
+/// verdict's own `why` and cure.
+void show_verdict(const Verdict& said, const Palette& palette, Emit& emit, VerdictLines room = {},
                   const std::function<void()>& notes = {});
 
 }  // namespace tendril::app

@@ -94,6 +94,14 @@ void go_to_past(const Workspace& workspace, int place, Emit& emit) {
     emit.continuously("time.seek", {{"ticks_back", std::max(0, past.place(past.last) - place)}});
 }
 
+std::string discards_text(const Workspace& workspace) {
+    const std::uint64_t ticks = workspace.later_ticks();
+    if (ticks == 0) return {};
+    const double seconds = static_cast<double>(ticks) * tick_seconds;
+    return "An edit here discards the " + fixed_text(seconds, seconds < 0.1 ? 2 : 1) +
+           " s after it. Undo brings them back.";
+}
+
 StripLine past_strip(const Workspace& workspace, Emit& emit) {
     record_button(workspace, emit);
     replay_button(workspace, emit);
@@ -106,6 +114,16 @@ bool other_strip_button(bool shown, const std::string& other) {
     ImGui::SameLine();
     return asked;
 }
+
+namespace {
+
+std::string strip_help(const Workspace& workspace) {
+    const std::string help = "The last ten seconds. Drag to go back to that moment.",
+                      lost = discards_text(workspace);
+    return lost.empty() ? help : help + "\n" + lost;
+}
+
+}  // namespace
 
 StripLine past_time_strip(const Workspace& workspace, Emit& emit) {
     const PastTicks past = past_ticks(workspace);
@@ -121,7 +139,7 @@ StripLine past_time_strip(const Workspace& workspace, Emit& emit) {
     if (use.on_mark >= 0)
         tell_incident(incidents[static_cast<std::size_t>(use.on_mark)]);
     else if (use.hovered >= 0 && !ImGui::IsItemActive())
-        tooltip("The last ten seconds. Drag to go back to that moment.");
+        tooltip(strip_help(workspace));
     if (use.mark_clicked) {
         emit("time.incident", {{"number", use.on_mark}});
     } else if (use.moved) {

@@ -23,6 +23,8 @@ struct PastTicks {
 PastTicks past_ticks(const Workspace& workspace);
 /// The strip always has this length, however little is recorded.
 inline constexpr int past_strip_ticks = static_cast<int>(Rewind::max_ticks) + 1;
+/// At an earlier moment: "An edit here discards the 2.3 s after it. Undo brings them back."; else empty.
+std::string discards_text(const Workspace& workspace);
 /// Goes to the moment at an index. Call it after the item that the user drags.
 void go_to_past(const Workspace& workspace, int place, Emit& emit);
 

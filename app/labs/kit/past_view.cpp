@@ -11,6 +11,7 @@
 #include "app/document/json_complete.hpp"
 #include "app/document/text.hpp"
 #include "app/document/units.hpp"
+#include "app/labs/kit/panel_rows.hpp"
 #include "app/labs/kit/part_cache.hpp"
 #include "app/labs/kit/past_strip.hpp"
 #include "app/widgets/fields.hpp"
@@ -273,14 +274,11 @@ namespace {
 
 constexpr std::size_t max_rows = 5;
 
-/// "1.4 s ago"
+/// "1.4 s ago", counted from the latest moment, whichever is shown.
 std::string age_text(const Workspace& workspace, const Incident& incident) {
-    const std::uint64_t after = incident.tick + 1, now = workspace.moment;
-    if (after == now) return "just now";
-    const double seconds = static_cast<double>(after > now ? after - now : now - after) * tick_seconds;
-    char text[32];
-    std::snprintf(text, sizeof text, after > now ? "in %.2f s" : "%.2f s ago", seconds);
-    return text;
+    const std::uint64_t after = incident.tick + 1, now = past_ticks(workspace).last;
+    if (after >= now) return "just now";
+    return fixed_text(static_cast<double>(now - after) * tick_seconds, 2) + " s ago";
 }
 
 void incident_row(const Workspace& workspace, std::size_t number, const Palette& palette, Emit& emit) {
@@ -312,13 +310,20 @@ void incident_rows(const Workspace& workspace, const Palette& palette, Emit& emi
     for (std::size_t i = incidents.size(); i-- > 0 && rows < max_rows; ++rows)
         incident_row(workspace, i, palette, emit);
     // Below the rows, which must not move under the mouse that clicks one.
-    if (const auto& shown = workspace.ui.incident) {
-        note(incident_title(*shown) + ":");
-        ImGui::PushTextWrapPos(0.0f);
-        ImGui::TextUnformatted((shown->cause + ".").c_str());
-        if (!shown->cure.empty()) ImGui::TextUnformatted(shown->cure.c_str());
-        ImGui::PopTextWrapPos();
-    }
+    const auto& shown = workspace.ui.incident;
+    bool& seen = *ImGui::GetStateStorage()->GetBoolRef(ImGui::GetID("incident seen"));
+    const bool appears = shown.has_value() && !seen;
+    seen = shown.has_value();
+    if (!shown) return;
+    note(incident_title(*shown) + ":");
+    ImGui::PushTextWrapPos(0.0f);
+    ImGui::TextUnformatted((shown->cause + ".").c_str());
+    if (!shown->cure.empty()) ImGui::TextUnformatted(shown->cure.c_str());
+    ImGui::PopTextWrapPos();
+    if (shown->button) cure_line("", shown->button, emit);
+    if (const std::string lost = discards_text(workspace); !lost.empty()) note(lost);
+    // The mark that was clicked is on the strip, which does not scroll.
+    if (appears && !ImGui::IsWindowHovered()) ImGui::SetScrollHereY(1.0f);
 }
 
 }  // namespace tendril::app

@@ -271,7 +271,7 @@ void pose_rows(const RigPanel& panel) {
 
 void RigLab::inspector(const Workspace& workspace, Emit& emit) const {
     const RigPanel panel = rig_panel(workspace, emit);
-    show_verdict(rig_verdict(panel.part), panel.colours);
+    show_verdict(rig_verdict(panel.part), panel.colours, emit);
     unit_inspector(panel);
     element_inspector(panel);
     why_rows(panel);

@@ -138,7 +138,7 @@ void RopeLab::panel(const Workspace& workspace, Emit& emit) const {
 }
 
 void RopeLab::inspector(const Workspace& workspace, Emit& emit) const {
-    show_verdict(rope_verdict(rope_part(workspace)), palette(workspace.settings.theme));
+    show_verdict(rope_verdict(rope_part(workspace)), palette(workspace.settings.theme), emit);
     selection_rows(workspace, emit);
     number_rows(workspace, palette(workspace.settings.theme), emit);
 }

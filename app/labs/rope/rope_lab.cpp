@@ -207,6 +207,16 @@ bool stretches(const NamedWorld& world) {
     });
 }
 
+/// Halves the substep; none at the shortest.
+std::optional<Cure> shorter_substeps(const RopePart& part) {
+    const double now = part.world->settings().substep, half = std::max(0.5 * now, rope::min_substep);
+    if (!(half < now)) return std::nullopt;
+    return Cure{"Halve the substep",
+                "Runs rope.settings: " + fixed_text(1.0 / half, 0) +
+                    " substeps a second, for twice the time to compute",
+                {{"rope.settings", {{"substep", half}}}}};
+}
+
 }  // namespace
 
 Verdict rope_verdict(const RopePart& part) {
@@ -240,7 +250,8 @@ Verdict rope_verdict(const RopePart& part) {
         if (stretches(*part.world))
             return {"Stretched by " + percent, Verdict::Kind::Open,
                     "It may stretch: its own stretch, or the compliance under Solver, is above 0."};
-        return {off, Verdict::Kind::Bad, "The solver did not hold them: use more iterations or substeps."};
+        return {off, Verdict::Kind::Bad, "The solver did not hold them: use more iterations or substeps.",
+                shorter_substeps(part)};
     }
     if (last.report.suspended > 0)
         return {"Neither held nor falling", Verdict::Kind::Bad,
@@ -249,8 +260,9 @@ Verdict rope_verdict(const RopePart& part) {
                 "holds it."};
     if (report.unconverged > 0)
         return {"Some steps cut short", Verdict::Kind::Open,
-                "Lengths hold, but " + count_text(report.unconverged, "step") +
-                    " of the last second did not converge. Shorter substeps help."};
+                count_text(report.unconverged, "step") +
+                    " of the last second did not converge: shorter substeps help.",
+                shorter_substeps(part)};
     const bool cloth = std::ranges::any_of(part.world->state().bodies, [](const rope::Body& body) {
         return body.kind == rope::Body::Kind::Cloth;
     });

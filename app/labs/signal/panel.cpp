@@ -330,7 +330,7 @@ void SignalLab::inspector(const Workspace& workspace, Emit& emit) const {
     const SignalPart& part = signal_part(workspace);
     const Palette& colours = palette(workspace.settings.theme);
     const ChainAnalysis& analysis = signal_runtime(workspace).chain(part);
-    show_verdict(signal_verdict(part, analysis.whole), colours);
+    show_verdict(signal_verdict(part, analysis.whole), colours, emit);
     section("Now");
     reading("input", "%.3f", input_of(part));
     const double output = output_of(part);

@@ -178,7 +178,7 @@ TEST_F(Seek, ADragOverAnEditIsOneStep) {
     EXPECT_EQ(seek(40), "60") << "and all of it is still remembered";
 }
 
-TEST_F(Seek, AnEditForgetsWhatCameAfterAndUndoNothing) {
+TEST_F(Seek, AnEditForgetsWhatCameAfter) {
     play(100);
     seek(60);
     table.run(workspace, "arm.title", {{"title", "edited"}});
@@ -188,7 +188,6 @@ TEST_F(Seek, AnEditForgetsWhatCameAfterAndUndoNothing) {
     EXPECT_EQ(workspace.history.size(), 1u) << "the edit; back over it and on again is nothing";
     table.run(workspace, "undo", Json::object());
     EXPECT_EQ(title(), "40");
-    EXPECT_FALSE(workspace.rewind.empty()) << "one can still go back to what was before";
     play(3);
     for (const char* command : {"scene.new", "lab.open"}) {
         play(3);
@@ -196,6 +195,37 @@ TEST_F(Seek, AnEditForgetsWhatCameAfterAndUndoNothing) {
         table.run(workspace, command, command[0] == 'l' ? Json{{"name", "rope"}} : Json::object());
         EXPECT_TRUE(workspace.rewind.empty()) << command;
     }
+}
+
+TEST_F(Seek, UndoOfAnEditBringsBackWhatCameAfter) {
+    play(100);
+    seek(60);
+    EXPECT_EQ(workspace.later_ticks(), 60u);
+    table.run(workspace, "arm.title", {{"title", "edited"}}, 5);
+    table.run(workspace, "arm.title", {{"title", "edited more"}}, 5);  // the same drag
+    play(3);
+    EXPECT_EQ(workspace.later_ticks(), 0u);
+    table.run(workspace, "undo", Json::object());
+    EXPECT_EQ(title(), "40");
+    EXPECT_EQ(workspace.later_ticks(), 60u);
+    EXPECT_EQ(seek(20), "80");
+    EXPECT_EQ(seek(60), "40");
+    table.run(workspace, "redo", Json::object());
+    EXPECT_EQ(title(), "43") << "with what followed it";
+    EXPECT_EQ(workspace.later_ticks(), 0u);
+    table.run(workspace, "undo", Json::object());
+    EXPECT_EQ(seek(0), "100") << "also after redo";
+}
+
+TEST_F(Seek, AnEditOfTheLatestMomentDiscardsNothing) {
+    play(100);
+    table.run(workspace, "arm.title", {{"title", "edited"}});
+    EXPECT_FALSE(workspace.discarded);
+    seek(60);
+    table.run(workspace, "arm.title", {{"title", "again"}});
+    EXPECT_TRUE(workspace.discarded);
+    table.run(workspace, "lab.open", {{"name", "rope"}});
+    EXPECT_FALSE(workspace.discarded) << "of the open lab only";
 }
 
 TEST_F(Seek, EachLabKeepsItsOwnLastSeconds) {
@@ -226,7 +256,10 @@ TEST_F(Seek, UndoFindsNoMomentOfAnotherCourseOfEvents) {
     EXPECT_EQ(seek(60), "40");
     table.run(workspace, "arm.title", {{"title", "again"}});
     play(100);
-    for (int i = 0; i < 2; ++i) table.run(workspace, "undo", Json::object());
+    seek(20);
+    table.run(workspace, "arm.title",
+              {{"title", "once more"}});  // what this discards is what undo brings back
+    for (int i = 0; i < 3; ++i) table.run(workspace, "undo", Json::object());
     EXPECT_EQ(title(), "100");
     EXPECT_EQ(workspace.moment, workspace.rewind.newest() + 1)
         << "it is now, and not tick 100 of this course";

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/app.hpp"
+#include "app/labs/chain/study.hpp"
 #include "tests/app/support/apng.hpp"
 #include "tests/app/support/frame_record.hpp"
 #include "tests/app/support/play.hpp"
@@ -183,6 +184,20 @@ TEST(RaceFilm, IsTheSameEveryTimeAndTakesItsLook) {
     EXPECT_EQ(read_apng(read(folder / "a.png")).size, glm::ivec2(200, 150));
 }
 
+TEST(RaceFilm, LastsFourToTwelveSecondsHoweverManyIterations) {
+    using app::race_film_seconds;
+    for (const std::size_t few : {1u, 2u, 4u, 11u}) EXPECT_NEAR(race_film_seconds(few), 4.0, 1e-4) << few;
+    EXPECT_NEAR(race_film_seconds(20), 6.0, 1e-4) << "four iterations a second";
+    for (const std::size_t many : {44u, 100u, 5000u}) EXPECT_NEAR(race_film_seconds(many), 12.0, 1e-4);
+    const TempFolder folder;
+    ScriptText script = opened_race();
+    script.command("race.record", {{"path", (folder / "a.png").string()}, {"width", 64}, {"height", 48}});
+    const int last = state_after(script)["race_shown"]["iterations"].get<int>();
+    play(script);
+    EXPECT_NEAR(static_cast<double>(read_apng(read(folder / "a.png")).frames.size()) / 30.0,
+                race_film_seconds(static_cast<std::size_t>(last)), 0.1);
+}
+
 TEST(RaceFilm, IsRefusedInWords) {
     const TempFolder folder;
     const auto recorded = [&](ScriptText script, const Json& arguments) {
@@ -226,7 +241,8 @@ TEST(RaceStrip, ScrubsPlaysAndStepsByMouseAndKeys) {
     const int half = shown(opened_race().click({0.5f * (left + right) + 80.0f, middle + 8.0f}));
     EXPECT_GT(half, 0);
     EXPECT_LT(half, last);
-    EXPECT_EQ(shown(opened_race().command("race.play").wait(16)), 1) << "four a second";
+    const double pace = static_cast<double>(app::race_pace(static_cast<std::size_t>(last)));
+    EXPECT_EQ(shown(opened_race().command("race.play").wait(static_cast<int>(60.0 / pace) + 2)), 1);
 }
 
 /// A window that nothing moves in draws nothing: the end of the race must be drawn before.

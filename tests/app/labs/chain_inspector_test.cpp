@@ -77,7 +77,7 @@ TEST_F(ChainInspector, says_first_what_became_of_the_target) {
     run("chain.mode", {{"mode", "with_index"}, {"index", 3}});
     says("Joint 3 on the target");
     run("chain.mode", {{"mode", "with_index"}, {"index", 5}});
-    says("Joint 5 2.00 m from the target");
+    says("Joint 5: 2.00 m to go");
     run("chain.mode", {{"mode", "fixed"}, {"iterations", 100}});
     run("chain.target", {{"to", {3, 2, 0}}});
     says("Head on the target");
@@ -92,8 +92,8 @@ TEST_F(ChainInspector, says_first_what_became_of_the_target) {
     run("chain.target", {{"to", {1.5, 1, 0}}});
     run("chain.limit", {{"index", 1}, {"kind", "hinge"}, {"min_deg", 0}, {"max_deg", 90}});
     run("chain.target", {{"to", {0.5, 0, 0}}});
-    EXPECT_EQ(state().at("verdict").get<std::string>().rfind("Limited by joint 1: 0.", 0), 0u)
-        << state().at("verdict");
+    EXPECT_EQ(state().at("verdict").get<std::string>().rfind("Limited: 0.", 0), 0u) << state().at("verdict");
+    EXPECT_TRUE(test::says(text(), "Joint 1 (hinge) stops at 90 degrees the target needs")) << text();
 }
 
 TEST_F(ChainInspector, says_why_a_solve_stalled) {
@@ -118,12 +118,12 @@ TEST_F(ChainInspector, says_why_a_solve_stalled) {
         .method = ik::Method::Ccd, .report = {.status = ik::Status::Stalled}, .active_limit = {}};
     ChainPart bent = part();
     bent.result = result;
-    EXPECT_TRUE(test::says(status_text(bent), "close CCD Another solver"));
+    EXPECT_TRUE(test::says(status_text(bent), "closer another solver"));
     EXPECT_EQ(status_text(bent).find("restarts"), std::string::npos);
     bent.reach.method = ik::Method::Fabrik;
     bent.result->method = ik::Method::Fabrik;
     bent.reach.limits.resize(4);
-    EXPECT_TRUE(test::says(status_text(bent), "close FABRIK restarts"));
+    EXPECT_TRUE(test::says(status_text(bent), "closer another solver restarts"));
 }
 
 TEST_F(ChainInspector, shows_the_table_of_the_step) {
@@ -159,6 +159,22 @@ TEST_F(ChainInspector, counts_joints_and_bones) {
     expect_says("8 joints, 7 bones");
     run("chain.preset", {{"name", "start"}, {"count", 2}});
     expect_says("2 joints, 1 bone\n");
+}
+
+TEST_F(ChainInspector, counts_what_happened_from_the_latest_moment) {
+    for (int i = 0; i < 100; ++i) {
+        workspace.remember_moment();
+        ++workspace.moment;
+    }
+    workspace.rewind.note({.kind = Incident::Kind::Flip, .tick = 39, .joint = 1, .cause = "it was planted"});
+    expect_says("Joint 1 flipped, 1.00 s ago");
+    expect_silent_about("discards");
+    run("time.incident", {{"number", 0}});
+    ASSERT_EQ(workspace.moment, 40u);
+    expect_says("Joint 1 flipped, 1.00 s ago");
+    EXPECT_TRUE(test::says(text(), "An edit here discards the 1.0 s after it Undo"));
+    run("time.seek", {{"ticks_back", 0}});
+    expect_silent_about("discards");
 }
 
 TEST_F(ChainInspector, a_moving_target_waits_while_the_microscope_is_open) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <string>
 #include <tendril/ik/solver.hpp>
@@ -10,6 +11,7 @@
 #include "app/labs/chain/chain_runtime.hpp"
 #include "app/labs/chain/draw.hpp"
 #include "tests/app/labs/chain_support.hpp"
+#include "tests/app/support/panel_text.hpp"
 #include "tests/says.hpp"
 
 namespace tendril::app {
@@ -156,8 +158,8 @@ TEST_F(ChainRace, PlaysToItsEndAtALegiblePace) {
     ASSERT_LT(last, 32u);
     run("race.play");
     EXPECT_EQ(iteration(), 0u) << "from the start, as it was at the end";
-    tick(31);
-    EXPECT_EQ(iteration(), 2u) << "four a second";
+    tick(static_cast<int>(std::ceil(120.0 / static_cast<double>(race_pace(last)))) + 1);
+    EXPECT_EQ(iteration(), 2u) << "at its pace";
     run("race.play", {{"on", false}});
     tick(60);
     EXPECT_EQ(iteration(), 2u);
@@ -165,8 +167,22 @@ TEST_F(ChainRace, PlaysToItsEndAtALegiblePace) {
     tick(static_cast<int>(last));
     EXPECT_EQ(iteration(), last);
     EXPECT_FALSE(lab().working(workspace)) << "and stops";
-    EXPECT_FLOAT_EQ(race_pace(800), 100.0f) << "8 s for the whole";
+    EXPECT_FLOAT_EQ(race_pace(3), 1.0f) << "3 s for the whole";
+    EXPECT_FLOAT_EQ(race_pace(20), 4.0f);
+    EXPECT_FLOAT_EQ(race_pace(1100), 100.0f) << "11 s for the whole";
     EXPECT_TRUE(says(refused("race.play", {{"on", false}, {"pace", 3}}), "pace on false"));
+}
+
+TEST_F(ChainRace, ItsFilmIsNotNamedLikeItsPicture) {
+    race_of(6);
+    workspace.names_pictures = true;
+    run("race.record");
+    ASSERT_TRUE(workspace.ui.video);
+    EXPECT_EQ(workspace.ui.video->path.filename(), "tendril-race-1.png");
+    run("view.picture");
+    EXPECT_EQ(workspace.ui.picture->path.filename(), "tendril-1.png");
+    const std::string text = test::PanelReader().inspector(lab(), workspace);
+    EXPECT_TRUE(says(text, "Record the race Save a picture")) << text;
 }
 
 TEST_F(ChainRace, ComesBackFromAFileWhereItWas) {

@@ -211,6 +211,48 @@ TEST_F(CardWatch, a_drag_repeated_after_a_cure_must_lead_past_the_place_and_caus
     EXPECT_TRUE(done());
 }
 
+TEST_F(CardWatch, another_flip_after_the_cure_only_asks_for_another_pass) {
+    use_conditions(Json::array({{{"avoided", "flip"}, {"after", "cure"}, {"within", 0.5}}}));
+    struct Flip {
+        double at;
+        int joint;
+        const char* cause;
+    };
+    Json state{{"events", Json::array()}};
+    const auto drag = [&](double from, double to, const std::vector<Flip>& flips) {
+        const double step = from < to ? 0.25 : -0.25;
+        for (double x = from; step * (to - x) >= 0.0; x += step) {
+            ++moment_;
+            run("move", {{"what", "ball"}, {"to", {x, 0, 0}}});
+            for (const Flip& flip : flips)
+                if (x == flip.at)
+                    state["events"].push_back(
+                        {{"kind", "flip"}, {"tick", moment_}, {"joint", flip.joint}, {"cause", flip.cause}});
+            part_ = std::make_shared<test::TestPart>();
+            for (int i = 0; i < 3; ++i) watch(state);
+        }
+    };
+    const auto begin = [&] {
+        progress_ = {};
+        drag(-1, 1, {{0, 1, "passed the pole"}});
+        run("cure", Json::object());
+    };
+    begin();
+    drag(1, -1, {{0.75, 3, "another pose"}});
+    EXPECT_TRUE(done()) << "before it came to the place";
+    begin();
+    drag(1, -1, {{0, 3, "another pose"}});
+    EXPECT_FALSE(done()) << "where it passed";
+    drag(-1, 1, {});
+    EXPECT_TRUE(done()) << "without another cure";
+    for (const Flip again : {Flip{0.75, 1, "another pose"}, Flip{0.75, 3, "passed the pole"}}) {
+        begin();
+        drag(1, -1, {again});
+        drag(-1, 1, {});
+        EXPECT_FALSE(done()) << again.joint << ": it came back, which needs another cure";
+    }
+}
+
 TEST_F(CardWatch, the_state_is_asked_for_only_when_the_part_is_another) {
     move_ball();
     watch({{"y", 1}});

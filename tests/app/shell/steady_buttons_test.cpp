@@ -146,8 +146,7 @@ TEST_P(BelowTheVerdict, NothingMovesWhateverItSays) {
           {call("humanoid.map", {{"bone", "LeftHand"}, {"node", ""}}),
            call("humanoid.map", {{"bone", "RightFoot"}, {"node", ""}}),
            call("humanoid.map", {{"bone", "Head"}, {"node", ""}})}}}};
-    // In the Chain lab what happened is listed between the read-outs and the selection, and grows.
-    const std::map<std::string, std::string> below{{"chain", "iterations"},
+    const std::map<std::string, std::string> below{{"chain", "Selection"},
                                                    {"rope", "Selection"},
                                                    {"signal", "Now"},
                                                    {"rig", "Element"},
@@ -166,6 +165,44 @@ TEST_P(BelowTheVerdict, NothingMovesWhateverItSays) {
     }
     EXPECT_GE(said.size(), 2u);
 }
+
+/// The room for long verdicts is not a gap below the usual, short ones.
+class ChainVerdict : public BelowTheVerdict {};
+
+TEST_P(ChainVerdict, LeavesAtMostOneLineEmpty) {
+    set_up({});
+    float first = 0.0f;
+    const auto check_verdict = [&](const std::vector<CommandCall>& commands) {
+        for (const CommandCall& command : commands) run(command.name, to_json(command.arguments));
+        for (int i = 0; i < 4; ++i) app_.tick(nullptr);
+        const bool solved = height("right", "iterations") > 0.0f;
+        const float below = height("right", solved ? "iterations" : "Selection");
+        ASSERT_GT(below, 0.0f);
+        constexpr float line = 15.0f;  // of the panel's text
+        float end = 0.0f;
+        for (const DrawnText& each : recorder_.frame().texts) {
+            if (each.window == nullptr || !window_name(each.window).starts_with("right/content")) continue;
+            if (each.box.min.y >= below - 1.0f) continue;
+            end = std::max(end, each.box.max.y);
+        }
+        // A reading has a line of its own around its text, a heading a little more.
+        EXPECT_LT(below - end, (solved ? 2.5f : 3.0f) * line) << "below \"" << verdict() << "\"";
+        if (!solved) return;
+        if (first == 0.0f) first = below;
+        EXPECT_NEAR(below, first, 1.0f) << "below \"" << verdict() << "\"";
+    };
+    check_verdict({});
+    check_verdict({call("chain.preset", {{"name", "reaching_arm"}})});
+    check_verdict({call("chain.target", {{"to", glm::vec3(0.0f, 9.0f, 0.0f)}})});
+    check_verdict({call("chain.target", {{"to", glm::vec3(0.1f, 0.6f, 0.0f)}})});
+    check_verdict({call("chain.preset", {{"name", "straight"}})});
+    check_verdict({call("chain.solver", {{"name", "fabrik"}}),
+                   call("chain.target", {{"to", glm::vec3(3.25f, 0.0f, 0.0f)}})});
+    check_verdict({call("chain.solver", {{"name", "svd_dls"}, {"iterations", 1}}),
+                   call("chain.target", {{"to", glm::vec3(-1.0f, 2.0f, 0.0f)}})});
+}
+
+INSTANTIATE_TEST_SUITE_P(Chain, ChainVerdict, testing::Values("chain"));
 
 INSTANTIATE_TEST_SUITE_P(Labs, BelowTheVerdict, testing::Values("chain", "rope", "signal", "rig", "humanoid"),
                          [](const auto& lab) { return std::string(lab.param); });
