@@ -134,7 +134,8 @@ TEST(HumanoidRetarget, limbs_point_where_those_of_the_source_do_and_hips_move_in
                    rest_to = to.placed(rest_pose(to.skeleton));
         for (const double time : {0.0, 1.0 / 60.0, 0.31, 0.5, 1.0}) {
             const auto was = from.at(clip, time), now = to.at(made->clip, time);
-            for (const auto& [upper, lower] : limbs) {
+            for (const std::pair<Bone, Bone>& limb : limbs) {
+                const Bone upper = limb.first, lower = limb.second;
                 const auto direction = [&](const RetargetFigure& body, const std::vector<Placement>& all) {
                     return glm::normalize(body.of(all, lower).position - body.of(all, upper).position);
                 };
