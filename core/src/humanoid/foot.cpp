@@ -19,9 +19,9 @@ constexpr double lock_again = 0.25;
 constexpr double turn_speed = 3.0;
 /// m/s. Higher speeds come from a tiny dt, not from motion.
 constexpr double fastest = 1e3;
-/// How far a foot in the air looks ahead, seconds; and how far the ground must be above the plane below the
-/// foot, or from one look to the next, to count as a step, metres.
-constexpr double ahead[]{0.04, 0.08, 0.12, 0.16, 0.2};
+/// How far a foot in the air looks ahead, seconds and metres; and how far the ground must be above the plane
+/// below the foot, or from one look to the next, to count as a step, metres.
+constexpr double ahead[]{0.04, 0.08, 0.12, 0.16, 0.2}, farthest = 0.8;
 constexpr double step_over_plane = 0.02;
 /// Parts of max_speed: how fast a foot is lifted over what it sees ahead, and how fast it is kept back in
 /// front of what it is not over in time.
@@ -223,6 +223,7 @@ class ToeWay {
         };
         double needed = 0.0, lower = 0.0, since = 0.0;
         for (const double seconds : ahead) {
+            if (seconds * speed > farthest) break;
             const double there = height_in(seconds);
             double first = seconds, last = since;
             for (const double step = there - lower; step > step_over_plane && first - last > 0.003;) {
