@@ -19,9 +19,11 @@ constexpr double lock_again = 0.25;
 constexpr double turn_speed = 3.0;
 /// m/s. Higher speeds come from a tiny dt, not from motion.
 constexpr double fastest = 1e3;
-/// How far a foot in the air looks ahead, seconds; and how far the ground must be above the plane below the
-/// foot, or from one look to the next, to count as a step, metres.
-constexpr double ahead[]{0.04, 0.08, 0.12, 0.16, 0.2};
+/// How far a foot in the air looks ahead, seconds and metres; and how far the ground must be above the plane
+/// below the foot, or from one look to the next, to count as a step, metres.
+constexpr double ahead[]{0.04, 0.08, 0.12, 0.16, 0.2}, farthest = 0.8;
+/// m/s. A faster foot keeps only heel and toe over the ground below them.
+constexpr double fastest_swing = 4.0;
 constexpr double step_over_plane = 0.02;
 /// Parts of max_speed: how fast a foot is lifted over what it sees ahead, and how fast it is kept back in
 /// front of what it is not over in time.
@@ -224,6 +226,7 @@ class ToeWay {
         };
         double needed = 0.0, lower = 0.0, since = 0.0;
         for (const double seconds : ahead) {
+            if (seconds * speed > farthest) break;
             const double there = height_in(seconds);
             double first = seconds, last = since;
             for (const double step = there - lower; step > step_over_plane && first - last > 0.003;) {
@@ -342,8 +345,11 @@ FootGoal find_goal(FootState& foot, const FootClip& clip, const FootContext& con
     goal.contact = support - clip.ankle.y;
     const double clearance = std::max(0.0, height_over_floor(clip, context)) * (1.0 - foot.planting);
     const glm::dvec3 ankle = plus(clip.ankle, turned.slip);
-    if (!foot.standing) support = std::max(support, heel_clear_of_edge(clip, turned, footing, from, context));
-    if (!foot.locked) {
+    // A foot that outruns its lift would only be late over what it races across.
+    const bool keeps_up = length(velocity_of(foot, clip, context)) < fastest_swing;
+    if (!foot.standing && keeps_up)
+        support = std::max(support, heel_clear_of_edge(clip, turned, footing, from, context));
+    if (!foot.locked && keeps_up) {
         const double lowest = std::min({turned.heel.y, turned.ball.y, turned.toe.y});
         double highest = over_step;
         // A heel that follows its toe up a step must be over it too.
