@@ -67,7 +67,8 @@ class Comparison {
         pose(what_.corrected, skeleton, time, wanted_);
         pose(clip(), read_.skeleton, read_time, found_);
         for (std::size_t i = 0; i < skeleton.size(); ++i) {
-            const double off = glm::distance(wanted_[i].position, turn_ * found_[places_[i]].position * ratio_);
+            const double off =
+                glm::distance(wanted_[i].position, turn_ * found_[places_[i]].position * ratio_);
             if (report.worst_joint.empty() || !(off <= report.worst)) {
                 report.worst = off;
                 report.worst_joint = skeleton[i].name;
@@ -91,7 +92,7 @@ class Comparison {
     const Export& what_;
     const Character& read_;
     std::vector<std::size_t> places_;
-    double ratio_;      ///< metres per unit of the character read back
+    double ratio_;     ///< metres per unit of the character read back
     glm::dquat turn_;  ///< from the axes of the character read back
     std::vector<rig::Transform> local_{};
     std::vector<Placement> wanted_{}, found_{};

@@ -25,7 +25,8 @@ void mend_unit(Character& character) {
     if (!doubt || *doubt->unit.name == '\0') return;
     read_as(character, doubt->unit.metres, character.space);
     character.guesses.unit =
-        std::string("The file states no unit; judging by the person's height, it is in ") + doubt->unit.name + '.';
+        std::string("The file states no unit; judging by the person's height, it is in ") + doubt->unit.name +
+        '.';
 }
 
 std::string read_bytes(const std::filesystem::path& path) {

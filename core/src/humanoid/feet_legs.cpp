@@ -60,7 +60,7 @@ void FeetStep::ease_lift(FootState& foot, double goal, double rise) const noexce
     }
     if (std::abs(change - rise) > jump_part * most) foot.ease.value -= change - rise;
     // Up it goes at once: what it must be over may be near.
-    const double half_life = options_.lift_half_life * (foot.ease.value < 0.0 ? 0.7 : 1.0);
+    const double half_life = options_.lift_half_life * (foot.ease.value < 0.0 ? 0.85 : 1.0);
     const double sprung = step_spring(foot.ease, half_life, 0.0, dt_);
     const double limit = std::max(most, std::abs(rise) + catching_up * most);
     foot.lift = toward(before, goal + sprung, limit);
