@@ -44,7 +44,7 @@ void begin_rows(const ListRoom& room, bool in_field) {
         list.in_field = in_field;
         ImGui::SetKeyboardFocusHere();
     }
-    if (!search_line("##typed", "Type part of a name", list.typed)) close_popup_on_escape();
+    if (!search_line("##typed", "Search", list.typed)) close_popup_on_escape();
     ImGui::BeginChild("rows", {0.0f, static_cast<float>(room.rows) * ImGui::GetTextLineHeightWithSpacing()});
 }
 

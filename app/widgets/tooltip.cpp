@@ -94,7 +94,19 @@ Tooltip::~Tooltip() {
     ImGui::EndTooltip();
 }
 
+namespace {
+
+/// What a click does is seen better without the tooltip, until the mouse has left the item.
+bool was_clicked() {
+    const double hovered_since =
+        ImGui::GetTime() - static_cast<double>(ImGui::GetCurrentContext()->HoveredIdTimer);
+    return ImGui::GetCurrentContext()->HoveredId != 0 && ImGui::GetIO().MouseClickedTime[0] > hovered_since;
+}
+
+}  // namespace
+
 void tooltip(const std::string& text) {
+    if (was_clicked()) return;
     const Tooltip opened;
     ImGui::TextUnformatted(text.c_str());
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 #include <random>
+#include <tendril/humanoid/attach.hpp>
 #include <tendril/humanoid/retarget.hpp>
 #include <tendril/humanoid/t_pose.hpp>
 
@@ -90,6 +91,18 @@ RetargetFigure random_body(RetargetDice& random, bool has_extras) {
     return body;
 }
 
+/// The same body, whose left foot was a child of the root in its file (attach.hpp).
+RetargetFigure with_loose_foot(RetargetFigure body) {
+    const std::size_t foot = static_cast<std::size_t>(body.map[Bone::LeftFoot].node);
+    std::vector<Node> nodes = body.skeleton.nodes();
+    const auto rest = body.placed(rest_pose(body.skeleton));
+    const auto leg = static_cast<std::size_t>(nodes[foot].parent);
+    nodes[foot].parent = 0;
+    nodes[foot].rest = relative(rest[0], rest[foot]);
+    body.skeleton = *attached(*Skeleton::make(std::move(nodes)), foot, leg);
+    return body;
+}
+
 Clip random_clip(RetargetDice& random, const RetargetFigure& body) {
     Clip clip{.name = "any", .duration = 1.0, .channels = {}};
     for (std::size_t node = 0; node < body.skeleton.size(); ++node) {
@@ -122,7 +135,8 @@ TEST(HumanoidRetarget, limbs_point_where_those_of_the_source_do_and_hips_move_in
         {Bone::RightUpperLeg, Bone::RightLowerLeg}, {Bone::RightLowerLeg, Bone::RightFoot}};
     RetargetDice random(7);
     for (int i = 0; i < 60; ++i) {
-        const RetargetFigure from = random_body(random, i % 2 == 0), to = random_body(random, i % 3 == 0);
+        const RetargetFigure from = random_body(random, i % 2 == 0), plain = random_body(random, i % 3 == 0),
+                             to = i % 4 == 1 ? with_loose_foot(plain) : plain;
         const Clip clip = random_clip(random, from);
         ASSERT_TRUE(check(clip, from.skeleton));
         const auto made = retarget({from.skeleton, from.map}, clip, {to.skeleton, to.map});

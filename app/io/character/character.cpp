@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <glm/common.hpp>
 #include <limits>
 #include <stdexcept>
 #include <utility>
@@ -141,17 +142,25 @@ LengthUnit guess_unit(double height) {
     return best;
 }
 
-std::optional<UnitDoubt> doubted_unit(const Character& character, const humanoid::BoneMap& map) {
+RestBounds bounds_at_rest(const Character& character, std::span<const humanoid::Placement> rest) {
+    RestBounds bounds{glm::dvec3(std::numeric_limits<double>::max()),
+                      glm::dvec3(-std::numeric_limits<double>::max())};
+    const auto extend = [&](const glm::dvec3& to) {
+        bounds.low = glm::min(bounds.low, to);
+        bounds.high = glm::max(bounds.high, to);
+    };
+    for (const humanoid::Placement& each : rest) extend(each.position);
+    if (const Skin& skin = character.skin; skin.mesh) {
+        const SkinDraw draw{skin.mesh, skin_matrices(skin, rest)};
+        for (std::size_t i = 0; i < skin.mesh->positions.size(); ++i) extend(glm::dvec3(skinned(draw, i)));
+    }
+    return bounds;
+}
+
+std::optional<UnitDoubt> doubted_unit(double height, double scale, const humanoid::BoneMap& map) {
     constexpr double smallest = 0.5, largest = 3.0, usual = 1.75;
     if (!map.is_usable()) return std::nullopt;
-    std::vector<humanoid::Placement> placements(character.skeleton.size());
-    humanoid::place(character.skeleton, humanoid::rest_pose(character.skeleton), placements);
-    double low = std::numeric_limits<double>::max(), high = -low;
-    for (const humanoid::Placement& each : placements) {
-        low = std::min(low, each.position.y);
-        high = std::max(high, each.position.y);
-    }
-    const double height = high - low, units = height / character.scale;
+    const double units = height / scale;
     if (!(height > 0.0) || (height >= smallest && height <= largest)) return std::nullopt;
     const LengthUnit unit = guess_unit(units);
     const bool fits = units * unit.metres >= smallest && units * unit.metres <= largest;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <tendril/humanoid/bone_map.hpp>
 #include <tendril/humanoid/clip.hpp>
@@ -63,8 +64,8 @@ struct Character {
     Skin skin{};
     std::optional<NamedBones> bones{};  ///< none: they must be matched
     std::vector<NamedSpring> springs{};
-    double scale = 1.0;                 ///< metres per unit of the file
-    bool states_unit = true;            ///< the file; a BVH never does, some FBX files do not
+    double scale = 1.0;       ///< metres per unit of the file
+    bool states_unit = true;  ///< the file; a BVH never does, some FBX files do not
     FileSpace space{};
     std::vector<RootOffset> root_offsets{};  ///< only those that are not 0
     std::vector<std::string> notes{};        ///< sentences for the panel: what was omitted or changed
@@ -92,6 +93,14 @@ humanoid::BoneMap bone_map(const Character& character);
 /// Throws std::runtime_error with the skeleton's message and the name of the node concerned.
 humanoid::Skeleton skeleton_of(std::vector<humanoid::Node> nodes);
 
+/// The box around nodes and skin, metres.
+struct RestBounds {
+    glm::dvec3 low{0.0}, high{0.0};
+    double height() const { return high.y - low.y; }
+};
+/// `rest`: the placements of all nodes at rest.
+RestBounds bounds_at_rest(const Character& character, std::span<const humanoid::Placement> rest);
+
 /// A unit of length for files that do not specify one: of the common units, the one that makes a figure of
 /// that height closest to 1.75 m.
 struct LengthUnit {
@@ -106,8 +115,9 @@ struct UnitDoubt {
     LengthUnit unit;  ///< of the common units, or a nameless one that makes the person 1.75 m tall
     double then;      ///< the height with that unit
 };
-/// A character with a usable bone map is a person; a height under 0.5 m or over 3 m is in doubt.
-std::optional<UnitDoubt> doubted_unit(const Character& character, const humanoid::BoneMap& map);
+/// A character with a usable bone map is a person; a height under 0.5 m or over 3 m is in doubt. `scale`:
+/// metres per unit of the file.
+std::optional<UnitDoubt> doubted_unit(double height, double scale, const humanoid::BoneMap& map);
 /// "This person is 172.00 m tall at rest; if the file is in centimetres, 1.72 m."
 std::string text(const UnitDoubt& doubt);
 

@@ -104,8 +104,8 @@ ChainShape shape_of(const humanoid::Skeleton& skeleton, const std::vector<humano
         const auto below = skeleton.children(static_cast<std::size_t>(each.node));
         if (below.empty()) shape.whole = std::max(shape.whole, each.length + each.last);
         for (const std::int32_t child : below) {
-            const double way = glm::distance(at(each.node), at(child));
-            open.push_back({child, each.length + way, way});
+            const double apart = glm::distance(at(each.node), at(child));
+            open.push_back({child, each.length + apart, apart});
         }
     }
     return shape;

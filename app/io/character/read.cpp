@@ -21,7 +21,10 @@ constexpr std::uintmax_t max_file_bytes = std::uintmax_t{1} << 30;
 /// A file that states no unit is in the one that makes a person as tall as people are.
 void mend_unit(Character& character) {
     if (character.states_unit) return;
-    const auto doubt = doubted_unit(character, bone_map(character));
+    std::vector<humanoid::Placement> rest(character.skeleton.size());
+    humanoid::place(character.skeleton, humanoid::rest_pose(character.skeleton), rest);
+    const double height = bounds_at_rest(character, rest).height();
+    const auto doubt = doubted_unit(height, character.scale, bone_map(character));
     if (!doubt || *doubt->unit.name == '\0') return;
     read_as(character, doubt->unit.metres, character.space);
     character.guesses.unit =

@@ -54,7 +54,7 @@ glm::vec3 first_pole(const ChainPart& part) {
     }
     const float bend = glm::length(furthest);
     const glm::vec3 side = bend > 0.02f * part.chain.reach() ? furthest / bend : glm::vec3(0.0f, 1.0f, 0.0f);
-    return head + 0.5f * line + 0.6f * part.chain.reach() * side;
+    return head + 0.5f * line + 0.4f * part.chain.reach() * side;
 }
 
 bool in_line_with_target(const ChainPart& part) {

@@ -223,7 +223,11 @@ std::string distance_text(float metres) {
 
 Verdict reach_verdict(const ChainPart& part) {
     if (part.chain.segments().size() < 2) return {"One joint", Verdict::Kind::Open};
-    if (!part.result) return {"Drag the target", Verdict::Kind::Open};
+    if (!part.result) {
+        const float apart = glm::distance(part.chain.position(part.chain.size() - 1), part.target);
+        if (apart > part.tolerance) return {"Drag the target", Verdict::Kind::Open};
+        return {"Tip on the target", Verdict::Kind::Good};
+    }
     const ik::Report& report = part.result->report;
     const std::string off = distance_text(report.residual);
     switch (report.status) {
@@ -312,7 +316,7 @@ void report_rows(const ShownChain& shown, const std::vector<glm::vec3>& joints, 
     show_verdict(chain_verdict(part), palette, emit, reserved, [&part, &emit] {
         if (part.mode != ChainMode::Reach) return note(chain_modes.help(part.mode));
         if (part.chain.segments().size() < 2) return note("A chain needs two joints to reach.");
-        if (!part.result) return note("The tip then reaches for it.");
+        if (!part.result) return note("The tip reaches for the target when it is dragged.");
         note(status_text(part));
         cure_line(ran_text(part.result->method, part.result->report), reach_cure(part), emit);
     });

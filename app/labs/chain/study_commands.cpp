@@ -31,6 +31,7 @@ Argument start_argument() {
 
 /// Studies need mode Reach; the chain then shows the result of a solve from the study's start.
 void open(ChainPart& part, const Arguments& given, ChainRuntime& runtime, Study::Kind kind) {
+    if (!part.result) part.study.last_start.clear();  // it was bent by hand since the last solve
     part.study.begin(kind, start_of(given), part.chain, part.reach);
     enter_mode(part, ChainMode::Reach);
     reach_for(part, part.target, runtime);

@@ -34,7 +34,8 @@ class Drawing {
           clad_(part_.loaded->character.skin.mesh && part_.view.skin != SkinLook::None),
           tapered_(bones_setting().chosen(view.workspace.settings) == 0),
           helpers_(helpers_setting().chosen(view.workspace.settings) == 0),
-          thickest_(static_cast<float>(0.014 * glm::distance(part_.loaded->low, part_.loaded->high))) {}
+          thickest_(static_cast<float>(0.014 *
+                                       glm::distance(part_.loaded->bounds.low, part_.loaded->bounds.high))) {}
 
     void run() {
         const std::size_t middle = part_.node_of(humanoid::Bone::Hips).value_or(0);

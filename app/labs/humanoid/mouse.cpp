@@ -220,7 +220,8 @@ std::vector<MouseHelp> HumanoidLab::mouse_help() const {
 Bounds HumanoidLab::bounds(const Workspace& workspace, bool selection_only) const {
     const HumanoidPart& part = humanoid_part(workspace);
     const ShownPose& shown = shown_pose(workspace);
-    const float size = static_cast<float>(std::max(0.01, glm::distance(part.loaded->low, part.loaded->high)));
+    const float size =
+        static_cast<float>(std::max(0.01, glm::distance(part.loaded->bounds.low, part.loaded->bounds.high)));
     const std::vector<std::size_t>& selected = part.selection.all();
     const bool all = !selection_only || selected.empty();
     glm::vec3 low = shown.point(all ? 0 : selected.front()), high = low;

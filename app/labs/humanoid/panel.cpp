@@ -55,7 +55,7 @@ void scale_row(const HumanoidPanel& panel) {
 
 /// What is wrong with a person's height, and a click that mends it.
 void unit_rows(const HumanoidPanel& panel) {
-    const auto doubt = doubted_unit(panel.part.loaded->character, *panel.part.map);
+    const auto doubt = panel.part.loaded->doubted_unit(*panel.part.map);
     if (panel.part.loaded->file.empty() || !doubt) return;
     note(text(*doubt));
     const std::string title = *doubt->unit.name != '\0' ? std::string("Use ") + doubt->unit.name
@@ -179,6 +179,8 @@ void HumanoidLab::panel(const Workspace& workspace, Emit& emit) const {
          !ImGui::IsWindowHovered(ImGuiHoveredFlags_ChildWindows | ImGuiHoveredFlags_AllowWhenBlockedByPopup |
                                  ImGuiHoveredFlags_AllowWhenBlockedByActiveItem))) {
         incomplete = panel.runtime.solvers.body(panel.part) == nullptr;
+        // An export of the last character is not to be overwritten by one of this.
+        if (decided && decided->path != panel.part.loaded->path) panel.runtime.panel.export_to.clear();
         decided = panel.part.loaded;
     }
     if (incomplete) bone_rows(panel, true);  // nothing else works without

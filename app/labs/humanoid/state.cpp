@@ -77,7 +77,7 @@ Json root_positions_state(const Character& character) {
 
 Json notes_state(const HumanoidPart& part) {
     Json notes = part.loaded->character.sentences();
-    if (const auto doubt = doubted_unit(part.loaded->character, *part.map)) notes.push_back(text(*doubt));
+    if (const auto doubt = part.loaded->doubted_unit(*part.map)) notes.push_back(text(*doubt));
     return notes;
 }
 

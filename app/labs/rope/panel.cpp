@@ -334,7 +334,7 @@ void number_rows(const Workspace& workspace, const Palette& palette, Emit& emit)
     const rope::State& state = part.world->state();
     section("Numbers");
     reading("particles", "%zu", state.position.size());
-    const RopeSample last = part.samples.empty() ? RopeSample{} : part.samples.back();
+    const RopeSample last = part.samples.empty() ? sample_of(part, {}) : part.samples.back();
     const auto percent = [](float share) {
         const double value = 100.0 * static_cast<double>(share);
         return value < 0.01 ? std::string("< 0.01 %") : fixed_text(value, 2) + " %";

@@ -317,6 +317,10 @@ void RopeLab::select(const Workspace& workspace, const std::vector<PickId>& pick
     }
 }
 
+void RopeLab::deselect(const Workspace& workspace, Emit& emit) const {
+    if (rope_part(workspace).selection) emit("rope.select");
+}
+
 std::string RopeLab::hint(const Workspace& workspace, PickId pick) const {
     const RopePart& part = rope_part(workspace);
     if (const auto* collider = picked_collider(*part.world, pick)) {

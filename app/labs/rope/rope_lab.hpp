@@ -71,6 +71,7 @@ class RopeLab final : public Lab {
                        Emit& emit) const override;
     void drop(const Workspace& workspace, PickId pick, Emit& emit) const override;
     void click(const Workspace& workspace, PickId pick, Emit& emit) const override;
+    void deselect(const Workspace& workspace, Emit& emit) const override;
     void double_click(const Workspace& workspace, PickId pick, Emit& emit) const override;
     void click_more(const Workspace& workspace, PickId pick, Emit& emit) const override;
     bool selects_by_box() const override { return true; }

@@ -320,7 +320,11 @@ void add_look_commands(CommandTable& table) {
     table.add(rope_command(
         "rope.tool", "Choose the click action", {choice_argument("name", true, "which", rope_tools.names())},
         "Sets what a click in the scene does",
-        [](RopeEdit& edit, const Arguments& given) { edit.part.tool = rope_tools.value(given.text("name")); },
+        [](RopeEdit& edit, const Arguments& given) {
+            edit.part.tool = rope_tools.value(given.text("name"));
+            // What was selected for something else is no end of a tie.
+            if (edit.part.tool == RopeTool::Tie) edit.part.selection.reset();
+        },
         Effect::Look));
     table.add(rope_command("rope.view", "Set how ropes are shown", field_arguments<RopeView>(),
                            "Sets how ropes are shown; omitted settings are kept", set_view, Effect::Look));

@@ -91,11 +91,10 @@ class Retargeter {
         for (const double time : times) {
             pose_at(time, rest, pose);
             for (std::size_t node = 0; node < shared_.size(); ++node)
-                if (shared_[node])
-                    add_key(channels[node], time, key_of(to_.skeleton, pose, node), node == hips_of(to_));
+                if (moves(node)) add_key(channels[node], time, key_of(to_.skeleton, pose, node), node);
         }
         for (std::size_t node = 0; node < shared_.size(); ++node) {
-            if (!shared_[node]) continue;
+            if (!moves(node)) continue;
             channels[node].node = node;
             result_.clip.channels.push_back(std::move(channels[node]));
         }
@@ -130,15 +129,21 @@ class Retargeter {
             placed_[node] = above * placement(pose[node]);
         }
     }
-    static void add_key(Channel& channel, double time, const rig::Transform& key, bool is_hips) {
+    /// A node whose keys are local to another node than its parent (attach.hpp) needs keys to stay where it
+    /// is below its parent.
+    bool moves(std::size_t node) const { return shared_[node] || to_.skeleton[node].keys; }
+    void add_key(Channel& channel, double time, const rig::Transform& key, std::size_t node) const {
         glm::dquat rotation = key.rotation;
         if (!channel.rotation.values.empty() && dot(channel.rotation.values.back(), rotation) < 0.0)
             rotation = glm::dquat(-rotation.w, -rotation.x, -rotation.y, -rotation.z);
         channel.rotation.times.push_back(time);
         channel.rotation.values.push_back(rotation);
-        if (!is_hips) return;
+        if (node != hips_of(to_) && !to_.skeleton[node].keys) return;
         channel.translation.times.push_back(time);
         channel.translation.values.push_back(key.translation);
+        if (!to_.skeleton[node].keys) return;
+        channel.scale.times.push_back(time);
+        channel.scale.values.push_back(key.scale);
     }
 
     const MappedSkeleton from_, to_;

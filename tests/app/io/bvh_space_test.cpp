@@ -253,6 +253,12 @@ std::string fbx_figure(std::vector<test::FbxRecord> settings) {
     return scene.text();
 }
 
+std::optional<UnitDoubt> doubt_of(const Character& character) {
+    std::vector<humanoid::Placement> rest(character.skeleton.size());
+    place(character.skeleton, humanoid::rest_pose(character.skeleton), rest);
+    return doubted_unit(bounds_at_rest(character, rest).height(), character.scale, bone_map(character));
+}
+
 TEST(UnitOfAFile, that_an_fbx_does_not_state_is_guessed_and_said) {
     const test::TempFolder folder;
     test::write(folder / "none.fbx", fbx_figure({}));
@@ -260,13 +266,13 @@ TEST(UnitOfAFile, that_an_fbx_does_not_state_is_guessed_and_said) {
     EXPECT_EQ(guessed.scale, 1.0);
     EXPECT_NEAR(at(guessed, "HeadTop_End", false).y, 1.8, 1e-9);
     EXPECT_TRUE(test::says(all_text(guessed), "no unit height metres"));
-    EXPECT_FALSE(doubted_unit(guessed, bone_map(guessed)));
+    EXPECT_FALSE(doubt_of(guessed));
 
     test::write(folder / "stated.fbx", fbx_figure({test::FbxScene::property("UnitScaleFactor", {1.0})}));
     const Character stated = read_character(folder / "stated.fbx");
     EXPECT_EQ(stated.scale, 0.01) << "it is taken at its word";
     EXPECT_EQ(all_text(stated), "");
-    const auto doubt = doubted_unit(stated, bone_map(stated));
+    const auto doubt = doubt_of(stated);
     ASSERT_TRUE(doubt);
     EXPECT_EQ(doubt->unit.metres, 1.0);
     EXPECT_TRUE(test::says(text(*doubt), "17.8 mm tall metres 1.78 m"));
@@ -277,7 +283,7 @@ TEST(UnitOfAFile, is_not_doubted_for_a_childs_height_or_a_thing) {
         Character figure = stick_figure();
         read_as(figure, scale, {});
         figure.scale = 1.0;
-        return doubted_unit(figure, bone_map(figure));
+        return doubt_of(figure);
     };
     for (const double scale : {0.3, 0.5, 1.0, 1.6}) EXPECT_FALSE(doubt(scale)) << scale;
     for (const double scale : {0.2, 2.0, 100.0}) EXPECT_TRUE(doubt(scale)) << scale;

@@ -84,6 +84,8 @@ TEST_F(ChainInspector, says_first_what_became_of_the_target) {
     run("chain.clear");
     says("No joints");
     reach_with(2);
+    says("Tip on the target");
+    run("chain.pull", {{"index", 2}, {"to", {1, 1, 0}}});
     says("Drag the target");
     run("chain.target", {{"to", {0.5, 1.25, 0}}});
     says("Reached");

@@ -173,6 +173,20 @@ TEST_F(ChainRace, PlaysToItsEndAtALegiblePace) {
     EXPECT_TRUE(says(refused("race.play", {{"on", false}, {"pace", 3}}), "pace on false"));
 }
 
+/// A pose bent by hand, to see what that changes, is where the race starts.
+TEST_F(ChainRace, StartsFromAPoseThatWasBentByHand) {
+    run("chain.preset", {{"name", "straight"}});
+    run("chain.pull", {{"index", 2}, {"to", {2, 0.7, 0}}});
+    std::vector<glm::vec3> bent;
+    for (std::size_t i = 0; i < part().chain.size(); ++i) bent.push_back(part().chain.position(i));
+    EXPECT_GT(bent[2].y, 0.3f);
+    for (const char* study : {"race.open", "microscope.open"}) {
+        run(study);
+        EXPECT_EQ(part().study.start, bent) << study;
+        run("undo");
+    }
+}
+
 TEST_F(ChainRace, ItsFilmIsNotNamedLikeItsPicture) {
     race_of(6);
     workspace.names_pictures = true;

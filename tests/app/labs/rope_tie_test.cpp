@@ -105,7 +105,12 @@ TEST_F(RopeTieTest, AClickThatMissesKeepsTheFirstEndAndNoGizmoIsInTheWay) {
     run("rope.pin", {{"rope", "above"}, {"particle", 4}});
     ASSERT_TRUE(lab().gizmo(workspace));
     run("rope.tool", {{"name", "tie"}});
+    EXPECT_EQ(state()["selected"], nullptr) << "what was selected before is no end of a tie";
+    click("above", 4);
     EXPECT_FALSE(lab().gizmo(workspace));
+    run("view.close");
+    EXPECT_EQ(state()["selected"], nullptr) << "Escape forgets the first end";
+    click("above", 4);
     click(no_pick);
     EXPECT_TRUE(test::says(lab().hint(workspace, no_pick), "above particle 4 click what to tie Escape"));
     click("below", 0);

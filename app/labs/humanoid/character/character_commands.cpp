@@ -156,8 +156,8 @@ void show_all(Workspace& workspace, const LoadedCharacter& character) {
     CameraPose& camera = workspace.lab == humanoid_lab ? workspace.camera : workspace.cameras[humanoid_lab];
     camera = workspace.first_view_of(humanoid_lab);
     if (character.file.empty()) return;
-    const glm::vec3 centre(0.5 * (character.low + character.high));
-    const auto radius = static_cast<float>(0.5 * glm::distance(character.low, character.high));
+    const glm::vec3 centre(0.5 * (character.bounds.low + character.bounds.high));
+    const auto radius = static_cast<float>(0.5 * glm::distance(character.bounds.low, character.bounds.high));
     camera = framed(camera, {{0.0f, 0.0f}, workspace.ui.view_size}, centre, std::max(radius, 0.01f));
 }
 

@@ -1,8 +1,6 @@
 #include "app/labs/humanoid/character/loaded_character.hpp"
 
 #include <filesystem>
-#include <glm/common.hpp>
-#include <limits>
 #include <utility>
 
 #include "app/io/character/read.hpp"
@@ -10,11 +8,6 @@
 
 namespace tendril::app {
 namespace {
-
-void extend(LoadedCharacter& loaded, const glm::dvec3& to) {
-    loaded.low = glm::min(loaded.low, to);
-    loaded.high = glm::max(loaded.high, to);
-}
 
 SharedCharacter shared(std::string file, std::string path, Character character) {
     auto loaded = std::make_shared<LoadedCharacter>();
@@ -25,14 +18,7 @@ SharedCharacter shared(std::string file, std::string path, Character character) 
     loaded->matched = bone_map(loaded->character);
     loaded->rest.resize(skeleton.size());
     humanoid::place(skeleton, humanoid::rest_pose(skeleton), loaded->rest);
-    loaded->low = glm::dvec3(std::numeric_limits<double>::max());
-    loaded->high = -loaded->low;
-    for (const humanoid::Placement& each : loaded->rest) extend(*loaded, each.position);
-    if (const Skin& skin = loaded->character.skin; skin.mesh) {
-        const SkinDraw draw{skin.mesh, skin_matrices(skin, loaded->rest)};
-        for (std::size_t i = 0; i < skin.mesh->positions.size(); ++i)
-            extend(*loaded, glm::dvec3(skinned(draw, i)));
-    }
+    loaded->bounds = bounds_at_rest(loaded->character, loaded->rest);
     return loaded;
 }
 

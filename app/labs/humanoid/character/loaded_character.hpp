@@ -42,10 +42,13 @@ struct LoadedCharacter {
     std::vector<ClipCure> cures{};          ///< applied to its clips, in this order
     humanoid::BoneMap matched;              ///< as named in the file, or as matched by the library
     std::vector<humanoid::Placement> rest;  ///< of all nodes
-    glm::dvec3 low{0.0}, high{0.0};         ///< bounding box of nodes and skin, metres
+    RestBounds bounds{};                    ///< at rest
     const humanoid::Skeleton& skeleton() const { return character.skeleton; }
     const std::vector<humanoid::Clip>& clips() const { return character.clips; }
-    double height() const { return high.y - low.y; }
+    double height() const { return bounds.height(); }
+    std::optional<UnitDoubt> doubted_unit(const humanoid::BoneMap& map) const {
+        return app::doubted_unit(height(), character.scale, map);
+    }
 };
 using SharedCharacter = std::shared_ptr<const LoadedCharacter>;
 

@@ -180,6 +180,9 @@ void look_from_aside(Workspace& workspace) {
 void set_foot_ik(const IkNow& now, HumanoidPart& part, const Arguments& given) {
     FootIkSetting& setting = part.ik.foot_ik;
     set_fields(given, setting);
+    // One of the two takes the other along.
+    if (!given.has("leave_speed")) setting.leave_speed = std::max(setting.leave_speed, setting.enter_speed);
+    if (!given.has("enter_speed")) setting.enter_speed = std::min(setting.leave_speed, setting.enter_speed);
     if (setting.leave_speed < setting.enter_speed)
         throw std::invalid_argument("leave_speed must be at least enter_speed, " +
                                     fixed_text(setting.enter_speed, 2) + " m/s, got " +

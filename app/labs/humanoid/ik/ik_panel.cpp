@@ -199,8 +199,7 @@ void standing_rows(const HumanoidPanel& panel, MoreRows& more) {
     if (!feet.on) return;  // the greyed switch says why
     if (!why.empty()) return note("Foot IK is not possible: " + why + ".");
     rows.row("max_angle_deg");
-    rows.row("enter_speed", {.within = FieldRange{0.0, feet.leave_speed}});
-    rows.row("leave_speed", {.within = FieldRange{feet.enter_speed, fastest_foot}});
+    rows.rows("enter_speed", "leave_speed");
     for (std::size_t side = 0; side < 2; ++side) foot_row(panel, side);
     const ShownPose& shown = panel.runtime.shown(panel.workspace);
     std::string why_up;

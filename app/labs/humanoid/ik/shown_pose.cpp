@@ -282,8 +282,7 @@ std::string why_in_air(const HumanoidPart& part, const ShownPose& shown, Solvers
     const std::string speed = fixed_text(slide, 1) + " m/s";
     if (gait->travel < 0.35 * gait->slide[side])
         return "Feet are not planted: the clip walks in place, and they slide at " + speed +
-               " while low. Raise \"let go above\" and \"plant below\" over that, or use a clip that "
-               "travels.";
+               " while low. Use a clip that travels.";
     return "Feet are not planted: near the ground they move at " + speed + ", over \"plant below\".";
 }
 

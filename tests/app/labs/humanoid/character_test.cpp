@@ -195,8 +195,8 @@ TEST_F(HumanoidCharacter, WhoseHeightIsNoPersonsSaysSoAndWhichUnitMendsIt) {
         const Json notes = state().at("character").at("notes");
         return notes.empty() ? std::string() : notes.back().get<std::string>();
     };
-    EXPECT_TRUE(test::says(last_note(), "178.00 m tall centimetres 1.78 m"));
-    const auto doubt = doubted_unit(part().loaded->character, *part().map);
+    EXPECT_TRUE(test::says(last_note(), "180.00 m tall centimetres 1.80 m"));
+    const auto doubt = part().loaded->doubted_unit(*part().map);
     ASSERT_TRUE(doubt);
     EXPECT_EQ(doubt->unit.metres, 0.01);
     run("humanoid.scale", {{"metres", doubt->unit.metres}});
