@@ -124,6 +124,7 @@ ExportReport report_of(const Export& what, const Character& read, bool is_bvh, b
                                after = lint(skeleton, map, what.corrected,
                                             {.rate = what.rate, .ground = what.ground});
     report.rate = what.rate;
+    report.on_ground = what.ground != nullptr && what.ground->kind() != humanoid::GroundKind::Flat;
     report.findings = after.findings.size();
     for (const humanoid::Finding& each : after.findings)
         if (!is_known(each, before)) report.new_findings.push_back(each.text);
@@ -136,12 +137,14 @@ ExportReport report_of(const Export& what, const Character& read, bool is_bvh, b
 
 namespace {
 
-/// "7 findings in the written clip, 2 of them new: ..."
+/// "7 findings in the written clip, 2 of them new: ...". A clip whose feet were put on a ground is judged on
+/// it; a reader of the file does not know the ground.
 std::string findings_text(const ExportReport& report) {
     constexpr std::size_t named = 2;
     if (report.findings == 0) return "no findings in the written clip";
-    std::string text = std::to_string(report.findings) + (report.findings == 1 ? " finding" : " findings") +
-                       " in the written clip, ";
+    std::string text =
+        std::to_string(report.findings) + (report.findings == 1 ? " finding" : " findings") +
+        (report.on_ground ? " in the written clip on this ground, " : " in the written clip, ");
     const std::size_t fresh = report.new_findings.size();
     if (fresh == 0) return text + "none of them new";
     text += std::to_string(fresh) + " of them new: ";

@@ -21,6 +21,7 @@ struct ExportReport {
     double skating_after = 0.0;
     double rate = 60.0;                       ///< frames per second
     std::size_t findings = 0;                 ///< of the lint, in the written clip
+    bool on_ground = false;                   ///< it was judged on a slope, stairs, hills or a mesh
     std::vector<std::string> new_findings{};  ///< those of them that the original does not have
 
     /// "67 frames at 60 fps; worst joint LeftHand, 0.0001 mm; skating 12.1 mm before, 3.0 mm after; 7

@@ -137,11 +137,14 @@ void ChainLab::inspector(const Workspace& workspace, Emit& emit) const {
     selection_rows(shown, joints, emit);
     if (reaches) limit_rows(shown.part, emit);
     chain_rows(shown, joints);
-    float& below = *ImGui::GetStateStorage()->GetFloatRef(ImGui::GetID("below the table"));
-    if (folding_section(workspace, "Joints, in metres", emit, false)) joint_table(shown, joints, below, emit);
+    // No reference into the storage: the rows below add to it, which moves its elements.
+    ImGuiStorage& kept = *ImGui::GetStateStorage();
+    const ImGuiID below = ImGui::GetID("below the table");
+    if (folding_section(workspace, "Joints, in metres", emit, false))
+        joint_table(shown, joints, kept.GetFloat(below), emit);
     const float from = ImGui::GetCursorPosY();
     incident_rows(workspace, colours, emit);  // last, so that fields stay put when one is added
-    below = ImGui::GetCursorPosY() - from;
+    kept.SetFloat(below, ImGui::GetCursorPosY() - from);
 }
 
 // The selected joints. The active one is shown; edits apply to all.

@@ -137,7 +137,8 @@ const std::vector<Preset>& presets() {
 }
 
 Chain make_preset(const std::string& name, std::size_t count, std::uint32_t seed) {
-    if (name == "start" || name == straight_chain_preset) return require_value(Chain::from_segments(start(count)));
+    if (name == "start" || name == straight_chain_preset)
+        return require_value(Chain::from_segments(start(count)));
     if (name == reaching_arm) return require_value(Chain::from_segments(bent_arm(count)));
     if (name == "arm") return require_value(Chain::from_segments(arm(count)));
     if (name == "tentacle") return require_value(Chain::from_segments(tentacle(count)));

@@ -14,8 +14,8 @@ struct ChainPart;
 struct Preset {
     const char* name;
     const char* title;
-    std::size_t count;  ///< default number of segments
-    int of;             ///< buttons in its row of the panel
+    std::size_t count;      ///< default number of segments
+    int of;                 ///< buttons in its row of the panel
     const char* what = "";  ///< after the number of joints, in its tooltip
 };
 

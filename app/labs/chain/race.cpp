@@ -154,7 +154,7 @@ std::string outcome_text(const Racer& racer, const RacerAt& at) {
         case ik::Status::Limited:
             return "stopped" + after + ", at its limits";
         case ik::Status::Stalled:
-            return "stalled" + after + ", nothing changes";
+            return "stalled" + after;
         case ik::Status::IterationLimit:
             return "stopped" + after + ", none left";
         case ik::Status::InvalidInput:
@@ -200,8 +200,8 @@ std::string race_csv(const Race& race) {
             if (racer.restored) {
                 std::snprintf(restored, sizeof restored, "%.9g", static_cast<double>(racer.report.residual));
             }
-            csv += std::string(ik::name(racer.report.status)) + ",\"" +
-                   ran_text(racer.method, racer.report) + "\"," + restored + "\n";
+            csv += std::string(ik::name(racer.report.status)) + ",\"" + ran_text(racer.method, racer.report) +
+                   "\"," + restored + "\n";
         }
     }
     return csv;

@@ -82,7 +82,7 @@ Race run_race(const Chain& chain, const ReachSettings& settings, glm::vec3 targe
 
 /// "iteration 3", or "finished after 4"; "error 48.5 mm".
 std::string progress_text(const RacerAt& at);
-/// The same; of one that ended short of the target, with the reason: "stalled after 12, nothing changes".
+/// The same; of one that ended short of the target, with the reason: "stopped after 12, out of reach".
 std::string outcome_text(const Racer& racer, const RacerAt& at);
 std::string error_reading(const RacerAt& at);
 /// "48.5 mm from the target"; with its status once it has finished: "Stalled, 310 mm from the target".

@@ -200,6 +200,12 @@ bool is_pulled(const std::vector<OverPulled>& all, const rope::Body& body) {
 
 constexpr const char* unbounded = "without limit";
 
+/// "12.34 N", or "25.2 MN" where hundredths say nothing.
+std::string force_text(float newtons) {
+    const auto value = static_cast<double>(newtons);
+    return value < 1e4 ? fixed_text(value, 2) + " N" : si_text(value, "N");
+}
+
 }  // namespace
 
 std::vector<OverPulled> over_pulled(const NamedWorld& world) {
@@ -216,14 +222,14 @@ std::string tension_text(const NamedWorld& world, const rope::Tie& tie) {
     const double left = static_cast<double>(tie.now) - static_cast<double>(tie.length);
     if (left != 0.0)
         return std::string(left > 0.0 ? "closing, " : "opening, ") + length_text(std::abs(left)) + " to go";
-    return fixed_text(static_cast<double>(tie.tension), 2) + " N";
+    return force_text(tie.tension);
 }
 
 std::string tension_text(const NamedWorld& world, const RopeSelection& selection) {
     const rope::Body* const body = world.find(selection.body);
     if (body != nullptr && is_pulled(over_pulled(world), *body)) return unbounded;
     const float tension = strongest_tension(world, measured_particles(world, selection));
-    return fixed_text(static_cast<double>(tension), 2) + " N";
+    return force_text(tension);
 }
 
 }  // namespace tendril::app

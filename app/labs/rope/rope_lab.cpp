@@ -217,6 +217,14 @@ std::optional<Cure> shorter_substeps(const RopePart& part) {
                 {{"rope.settings", {{"substep", half}}}}};
 }
 
+/// Whether the pins are the two ends of a tie.
+bool is_a_tie(const OverPulled& pulled, const rope::State& state) {
+    return pulled.way.size() == 2 && std::ranges::any_of(state.ties, [&](const rope::Tie& tie) {
+               return std::ranges::count(pulled.way, tie.a) == 1 &&
+                      std::ranges::count(pulled.way, tie.b) == 1;
+           });
+}
+
 }  // namespace
 
 Verdict rope_verdict(const RopePart& part) {
@@ -238,6 +246,10 @@ Verdict rope_verdict(const RopePart& part) {
         const OverPulled& worst = pulled.front();
         const int decimals = worst.apart - worst.length < 0.01 ? 3 : 2;
         const bool one = worst.from == worst.to;
+        if (is_a_tie(worst, part.world->state()))
+            return {"A tie cannot close", Verdict::Kind::Bad,
+                    "It joins pins " + fixed_text(worst.apart, decimals) + " m apart and is " +
+                        fixed_text(worst.length, decimals) + " m long. Unpin one of them."};
         return {off, Verdict::Kind::Bad,
                 "The pins of " + worst.from + (one ? "" : " and " + worst.to) + " are " +
                     fixed_text(worst.apart, decimals) + " m apart; " +

@@ -80,8 +80,7 @@ TEST(SolverJson, refusals_name_the_place_and_the_value) {
                            "limits.2 hinge min over max 20.0 10.0"));
     EXPECT_TRUE(test::says(refusal({{"kind", "ball_and_socket"}, {"twist_min_deg", 2}, {"twist_max_deg", 1}}),
                            "limits.2 twist_min over twist_max 2.0 1.0"));
-    EXPECT_TRUE(
-        test::says(refusal({{"kind", "hinge"}, {"axis", {0, 0, 0}}}), "limits.2 axis length"));
+    EXPECT_TRUE(test::says(refusal({{"kind", "hinge"}, {"axis", {0, 0, 0}}}), "limits.2 axis length"));
     EXPECT_TRUE(test::says(refusal({{"kind", "saddle"}, {"up_deg", -1}}), "limits.2.up_deg 0 180 -1"));
     EXPECT_TRUE(test::says(refusal({{"kind", "hinge"}, {"max_deg", 181}}), "limits.2.max_deg -180 180 181"));
     EXPECT_EQ(refusal(Json::object()), "limits.2: \"kind\" is missing");
@@ -101,12 +100,12 @@ TEST(SolverJson, reports_and_holds_are_finite_whatever_they_hold) {
     EXPECT_EQ(report_json(ik::Method::SvdDls, {ik::Status::Limited, 12, 0.25f}).dump(),
               R"({"solver":"svd_dls","status":"Limited","iterations":12,"residual":0.25,)"
               R"("ran":"SVD damped least squares"})");
-    EXPECT_TRUE(
-        report_json(ik::Method::Dls, {ik::Status::InvalidInput, 0, NAN})["residual"].is_null());
+    EXPECT_TRUE(report_json(ik::Method::Dls, {ik::Status::InvalidInput, 0, NAN})["residual"].is_null());
     ik::Report ran{ik::Status::Converged, 9, 0.0f};
     ran.least_squares_steps = 4;
     ran.restarts = 3;
-    EXPECT_TRUE(test::says(ran_text(ik::Method::Fabrik, ran), "FABRIK, accelerated + least squares, 3 restarts"));
+    EXPECT_TRUE(
+        test::says(ran_text(ik::Method::Fabrik, ran), "FABRIK, accelerated + least squares, 3 restarts"));
     ran.restarts = 1;
     EXPECT_TRUE(test::says(ran_text(ik::Method::TwoBone, ran), "Two-bone least squares 1"));
     EXPECT_EQ(ran_text(ik::Method::Fabrik, {}), "FABRIK, accelerated");

@@ -97,6 +97,10 @@ TEST_F(RopeVerdict, SaysWhenPinsAreFurtherApartThanTiedBodiesReach) {
     run("rope.tie", {{"a", "left"}, {"a_particle", 4}, {"b", "right"}, {"b_particle", 4}, {"length", 0.7}});
     wait(200);
     EXPECT_TRUE(test::says(state()["why"], "2.10 m apart tied reach 1.40 m")) << state()["why"];
+    // A tie between two pins.
+    run("rope.tie", {{"a", "left"}, {"a_particle", 0}, {"b", "right"}, {"b_particle", 8}, {"length", 0.1}});
+    EXPECT_EQ(said(), "A tie cannot close");
+    EXPECT_TRUE(test::says(state()["why"], "pins 2.10 m apart 0.10 m long Unpin")) << state()["why"];
     // Along a row of a cloth, from a tie to its corner.
     run("rope.clear");
     run("rope.add",

@@ -57,7 +57,8 @@ PlayedMotion with_motion(const HumanoidPart& part, const std::string& file, cons
         auto loaded = std::make_shared<LoadedCharacter>(*part.loaded);
         made->clip.name = free_name(*loaded, wanted.name);
         PlayedMotion played;
-        played.text = "Clip " + made->clip.name + ", the hips' motion scaled by " + fixed_text(made->scale, 2);
+        played.text =
+            "Clip " + made->clip.name + ", the hips' motion scaled by " + fixed_text(made->scale, 2);
         if (!made->left_out.empty()) played.text += ". Not on this character: " + bones_text(made->left_out);
         if (!made->at_rest.empty())
             played.text += ". Not in the file, so at rest: " + bones_text(made->at_rest);

@@ -25,7 +25,8 @@ using BodyLimits = std::array<ik::Limit, bone_count>;
 /// All free.
 BodyLimits no_limits() noexcept;
 /// Of an adult. Elbows and knees are hinges; if bent by more than 5 degrees at rest, about the axis of that
-/// bend, unless it is an overstretch of under 15 degrees. A shoulder shorter than a tenth of its arm is no collar bone and turns as far as the arm.
+/// bend, unless it is an overstretch of under 15 degrees. A shoulder shorter than a tenth of its arm is no
+/// collar bone and turns as far as the arm.
 BodyLimits default_limits(const Skeleton& skeleton, const BoneMap& map);
 /// The range over which the clips turn each joint, sampled 60 times a second, plus a degree. Kinds and axes
 /// are those of `like`; a bone that no clip turns, or that is not mapped, keeps its limit from `like`. Clips

@@ -18,9 +18,9 @@ struct Facing {
 Facing facing(const Skeleton& skeleton, const BoneMap& map);
 
 /// Local to the parents, as rest_pose(). Minimal rotations point upper and lower arms to their sides, and
-/// upper and lower legs down. A foot that rests as if it stood keeps its rest rotation; one that does not, as in
-/// a bind pose in mid-run, goes along with its leg and then points where the other foot does. A limb that is
-/// not mapped keeps its rest pose.
+/// upper and lower legs down. A foot that rests as if it stood keeps its rest rotation; one that does not, as
+/// in a bind pose in mid-run, goes along with its leg and then points where the other foot does. A limb that
+/// is not mapped keeps its rest pose.
 std::vector<rig::Transform> t_pose(const Skeleton& skeleton, const BoneMap& map);
 
 }  // namespace tendril::humanoid
