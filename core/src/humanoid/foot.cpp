@@ -153,8 +153,8 @@ glm::dvec3 velocity_of(const FootState& foot, const FootClip& clip, const FootCo
     return {v.x * part, 0.0, v.z * part};
 }
 
-/// The support of a heel that has left an upper step, until it is clear of its edge: a leg that is stretched
-/// puts the foot down a little short of its goal.
+/// Keeps a heel that steps down supported until it clears the edge of the upper step: a stretched leg lands
+/// the foot slightly short of its goal.
 double heel_clear_of_edge(const FootClip& clip, const Turned& turned, const Footing& footing, double from,
                           const FootContext& context) noexcept {
     if (!footing.heel || context.fresh || !(context.dt > 0.0)) return -1e300;
@@ -169,10 +169,10 @@ double heel_clear_of_edge(const FootClip& clip, const Turned& turned, const Foot
     return is_step ? there->height - turned.heel.y : -1e300;
 }
 
-/// The toe of a foot in the air on its way through this step, over ground that it has not reached yet.
+/// The path of a swinging toe over the ground ahead of it.
 class ToeWay {
   public:
-    /// `last_velocity`: the toe's in the last step.
+    /// `last_velocity`: the toe's velocity in the previous step.
     ToeWay(const FootState& foot, const FootClip& clip, const glm::dvec3& last_velocity,
            const glm::dvec3& toe, double from, const FootContext& context) noexcept
         : foot_(foot), context_(context), last_velocity_(last_velocity), from_(from), toe_(toe) {
@@ -185,11 +185,11 @@ class ToeWay {
             judge(hit, context) == FootAlone::No)
             hit_ = *hit, is_known_ = true;
     }
-    /// How far to keep the foot back, so that it gets to a riser no sooner than it is above it.
+    /// How far to hold the foot back so that it reaches a riser only once it is above it.
     glm::dvec3 wait() const noexcept {
         const double way = length(back_);
         if (!is_known_ || !(way > 1e-9)) return glm::dvec3(0.0);
-        // In steps like this one, from before it.
+        // Distances along the way are counted in steps of this size.
         const double most = context_.options.max_speed * context_.dt;
         const double own = toe_.y + foot_.lift - hit_.height - step_over_plane;
         const auto height_after = [&](double steps) { return height_at(times(back_, -steps)); };
@@ -204,14 +204,14 @@ class ToeWay {
             (height_after(middle) > own + most * middle ? inside : free) = middle;
         }
         const double needed = (there - own) / most;  // steps
-        // Where it is far behind already it goes on, still as far behind: it would be later at each step.
+        // A foot that is already far behind keeps that distance: it would fall further behind at each stair.
         const double behind = std::sqrt(foot_.offset_x * foot_.offset_x + foot_.offset_z * foot_.offset_z);
         const double left = std::max(0.0, patience * context_.options.break_distance - behind);
         const double most_back = eased_ * behind + std::min(waiting * most, left);
         return times(back_, std::clamp(1.0 - free / needed, 0.0, std::min(1.0, most_back / way)));
     }
-    /// The height that the toe needs for what lies ahead: over every step that it comes to, it must be by the
-    /// time it gets there, at a steady speed. It grows and falls steadily as the foot goes along.
+    /// The height that the toe needs now to clear every step ahead in time, rising at a steady speed. It
+    /// changes continuously as the foot moves.
     double height(const glm::dvec3& waited) const noexcept {
         if (!is_known_) return -1e300;
         const glm::dvec3 velocity = foot_.velocity, gone = minus(waited, back_);
@@ -240,7 +240,7 @@ class ToeWay {
     }
 
   private:
-    /// Of the ground over the plane below where the toe was before; 0 where it could not stand.
+    /// The ground's height above the plane under the toe's previous place; 0 where no foot can stand.
     double height_at(const glm::dvec3& by) const noexcept {
         const auto there = context_.ground.below({before_.x + by.x, from_, before_.z + by.z});
         return judge(there, context_) == FootAlone::No ? there->height - height_of_plane(hit_, by.x, by.z)
