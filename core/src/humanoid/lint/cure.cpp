@@ -1,4 +1,7 @@
 #include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <optional>
 
 #include "humanoid/input.hpp"
 #include "humanoid/lint/cure_foot.hpp"
@@ -153,24 +156,15 @@ void turn_by(const Skeleton& skeleton, Clip& clip, const glm::dquat& turn) {
     }
 }
 
-}  // namespace
+bool is_of_foot(const Finding& finding) {
+    return finding.fault == Fault::Skating || finding.fault == Fault::Floating ||
+           finding.fault == Fault::Sinking || finding.snaps;
+}
 
-Expected<Clip> cure(const Skeleton& skeleton, const BoneMap& map, const Clip& clip, const Finding& finding,
-                    const LintSettings& settings) {
-    if (!finding.has_cure)
-        return tendril::detail::refused("cure", "finding", "one that has a cure", name(finding.fault));
-    if (const Result bad = detail::check_map("cure", map, skeleton); !bad) return bad;
-    if (finding.node >= static_cast<std::int32_t>(skeleton.size()))
-        return tendril::detail::refused("cure", "finding.node", "the index of a node", finding.node);
-    LintReport report = lint_detail::blank_report(clip, settings);
-    if (finding.first > finding.last || finding.last >= report.frames)
-        return tendril::detail::refused("cure", "finding", "one of this clip",
-                                        std::string_view(finding.text));
-    if (finding.fault == Fault::Skating || finding.fault == Fault::Floating ||
-        finding.fault == Fault::Sinking || finding.snaps)
-        return lint_detail::cure_foot({skeleton, map, clip, settings, 0.0, report}, finding);
+/// Changes the keys around the finding.
+Clip mended(const Skeleton& skeleton, const BoneMap& map, const Clip& clip, const Finding& finding,
+            double rate) {
     Clip cured = clip;
-    const double rate = report.rate;
     const auto each_of = [&](std::initializer_list<std::int32_t> nodes, auto mend) {
         for (Channel& channel : cured.channels)
             for (const std::int32_t node : nodes)
@@ -202,6 +196,110 @@ Expected<Clip> cure(const Skeleton& skeleton, const BoneMap& map, const Clip& cl
             break;
     }
     return cured;
+}
+
+Expected<Clip> cured_once(const Skeleton& skeleton, const BoneMap& map, const Clip& clip,
+                          const Finding& finding, const LintSettings& settings,
+                          const lint_detail::FootCure& how) {
+    LintReport report = lint_detail::blank_report(clip, settings);
+    if (!is_of_foot(finding)) return mended(skeleton, map, clip, finding, report.rate);
+    return lint_detail::cure_foot({skeleton, map, clip, settings, 0.0, report}, finding, how);
+}
+
+/// The maximum turn of a node from one frame to the next, degrees.
+double fastest_turn(const Clip& clip, std::int32_t node, const LintReport& report) {
+    const auto channel = std::ranges::find_if(
+        clip.channels, [&](const Channel& each) { return static_cast<std::int32_t>(each.node) == node; });
+    if (channel == clip.channels.end()) return 0.0;
+    double most = 0.0;
+    rig::Transform last, next;
+    for (std::size_t i = 0; i < report.frames; ++i) {
+        sample(*channel, std::min(static_cast<double>(i) / report.rate, clip.duration), next);
+        if (i > 0) most = std::max(most, length(lint_detail::step_between(last.rotation, next.rotation)));
+        last = next;
+    }
+    return most;
+}
+
+/// Whether a joint of a leg turns faster than it did, and than lint tolerates.
+bool turns_faster(const BoneMap& map, const Clip& before, const Clip& after, const LintSettings& settings,
+                  const LintReport& report) {
+    for (const Bone bone : {Bone::LeftUpperLeg, Bone::LeftLowerLeg, Bone::LeftFoot, Bone::RightUpperLeg,
+                            Bone::RightLowerLeg, Bone::RightFoot}) {
+        const bool is_knee = bone == Bone::LeftLowerLeg || bone == Bone::RightLowerLeg;
+        const double now = fastest_turn(after, map[bone].node, report);
+        if (now > (is_knee ? settings.knee : settings.turn) * lint_detail::slower(report.rate) &&
+            now > fastest_turn(before, map[bone].node, report))
+            return true;
+    }
+    return false;
+}
+
+/// What is tried in turn, until nothing new is wrong with the clip and no joint turns faster.
+constexpr lint_detail::FootCure foot_cures[]{{.ease = 0.15, .nearer = 0.005},
+                                             {.ease = 0.3, .nearer = 0.005},
+                                             {.ease = 0.15, .nearer = 0.0025},
+                                             {.ease = 0.3, .nearer = 0.0025},
+                                             {.ease = 0.6, .nearer = 0.0025}};
+/// How many faults that a cure makes are cured with it: a foot that is brought down to the floor may slide
+/// there.
+constexpr std::size_t most_more = 4;
+
+bool is_same(const Finding& a, const Finding& b, double rate) {
+    constexpr double moved = 0.05;  // seconds by which a finding may move
+    const auto near = static_cast<std::size_t>(std::ceil(moved * rate));
+    return a.fault == b.fault && a.node == b.node && a.first <= b.last + near && b.first <= a.last + near;
+}
+
+}  // namespace
+
+std::vector<Finding> new_findings(const LintReport& before, const LintReport& after) {
+    std::vector<Finding> found;
+    for (const Finding& each : after.findings) {
+        const bool is_old = std::ranges::any_of(
+            before.findings, [&](const Finding& one) { return is_same(one, each, after.rate); });
+        if (!is_old) found.push_back(each);
+    }
+    return found;
+}
+
+Expected<Clip> cure(const Skeleton& skeleton, const BoneMap& map, const Clip& clip, const Finding& finding,
+                    const LintSettings& settings) {
+    if (!finding.has_cure)
+        return tendril::detail::refused("cure", "finding", "one that has a cure", name(finding.fault));
+    if (const Result bad = detail::check_map("cure", map, skeleton); !bad) return bad;
+    if (finding.node >= static_cast<std::int32_t>(skeleton.size()))
+        return tendril::detail::refused("cure", "finding.node", "the index of a node", finding.node);
+    const LintReport report = lint_detail::blank_report(clip, settings);
+    if (finding.first > finding.last || finding.last >= report.frames)
+        return tendril::detail::refused("cure", "finding", "one of this clip",
+                                        std::string_view(finding.text));
+    const LintReport before = lint(skeleton, map, clip, settings);
+    std::optional<Clip> fallback;  // one that turns a joint faster
+    for (const lint_detail::FootCure& how : foot_cures) {
+        Expected<Clip> cured = cured_once(skeleton, map, clip, finding, settings, how);
+        if (!cured) return cured;
+        for (std::size_t more = 0; more < most_more; ++more) {
+            const LintReport after = lint(skeleton, map, *cured, settings);
+            const auto is_left = [&](const Finding& each) {
+                return each.has_cure && is_same(each, finding, after.rate);
+            };
+            std::vector<Finding> wrong = new_findings(before, after);
+            if (wrong.empty() && after.findings.size() < before.findings.size()) {
+                if (!turns_faster(map, clip, *cured, settings, after)) return cured;
+                if (!fallback) fallback = std::move(*cured);
+                break;
+            }
+            if (wrong.empty()) std::ranges::copy_if(after.findings, std::back_inserter(wrong), is_left);
+            if (wrong.empty() || !wrong.front().has_cure) break;
+            cured = cured_once(skeleton, map, *cured, wrong.front(), settings, how);
+            if (!cured) break;
+        }
+        if (!is_of_foot(finding)) break;
+    }
+    if (fallback) return std::move(*fallback);
+    return tendril::detail::refused("cure", "finding", "one whose cure makes no new fault",
+                                    std::string_view(finding.text));
 }
 
 }  // namespace tendril::humanoid

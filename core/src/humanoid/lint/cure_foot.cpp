@@ -1,10 +1,12 @@
 // The cure of a foot that slides, floats or sinks: its leg is solved in closed form so that it stands, and
-// blends into the clip's motion before and after. If the leg is too short, the hips are lowered, and the
-// other foot stays where it is.
+// blends into the clip's motion before and after. Faults of one foot that follow each other closely are cured
+// together. If the leg is too short, the hips are lowered, and the other foot stays where it is.
 //
 // And of a leg that snaps straight. Near its full length a knee turns by any angle for the smallest way of
 // the foot. Soft IK (A. Nicholas, "Soft IK", 2009) keeps it from there: over the last part of the leg's
-// length, the way of the foot that it follows decays exponentially.
+// length, the way of the foot that it follows decays exponentially. That is so for every leg that is solved
+// here, from the first frame in which it is that long to the last: a leg that is soft in one frame and
+// straight in the next would snap there.
 #include "humanoid/lint/cure_foot.hpp"
 
 #include <algorithm>
@@ -20,18 +22,15 @@ namespace {
 
 using namespace rig::detail;
 
-constexpr double ease = 0.15;          // seconds of blending into the clip before and after
-constexpr double straightest = 0.995;  // of a leg's full length, unless it is straighter in the clip
-constexpr double deepest = 0.1;        // of a leg's length: the hips are lowered by at most this
-constexpr double nearer = 0.005;       // metres that soft IK brings a foot nearer at a leg's full length
-constexpr double soft = 2.718281828459045 * nearer;  // metres of the leg's length that it softens
+constexpr double stands = 0.02, swings = 0.08;  // metres above the floor
+constexpr double deepest = 0.1;                 // of a leg's length: the hips are lowered by at most this
 
 /// 1 at 0, 0 from 1 on.
 double fading(double u) noexcept {
     return u >= 1.0 ? 0.0 : (1.0 - u) * (1.0 - u) * (1.0 + 2.0 * u);
 }
 
-/// The correction of each frame.
+/// The correction of each frame from the first to the last that change.
 struct Plan {
     std::size_t first = 0;            ///< frame
     std::vector<glm::dvec3> moves{};  ///< of the foot, metres
@@ -60,47 +59,104 @@ std::vector<glm::dvec3> moves_of(const Foot& foot, const Finding& finding, const
     return moves;
 }
 
-class Legs {
+/// A leg of the clip, and the direction in which its knee bends.
+class CuredLeg {
   public:
-    Legs(const Check& check, Limb of_foot, std::optional<Limb> other)
+    /// `nearer`: metres that soft IK brings the foot nearer at the leg's full length.
+    CuredLeg(const Check& check, Limb limb, double nearer)
+        : limb_(std::move(limb)), soft_(2.718281828459045 * nearer) {
+        std::vector<rig::Transform> pose(check.skeleton.size());
+        glm::dvec3 sum(0.0);
+        for (std::size_t i = 0; i < check.report.frames; ++i) {
+            sample(check.clip, check.skeleton, check.time_of(i), pose);
+            const detail::LimbPlacement at = placed(pose);
+            lengths_.push_back(length(minus(at.end.position, at.upper.position)));
+            full_ = at.upper_length() + at.lower_length();
+            sum = plus(sum, rotated(conjugate(at.upper.rotation()), knee(at)));
+        }
+        forward_ = direction_of(sum, 1e-9).value_or(glm::dvec3(0.0, 0.0, 1.0));
+    }
+
+    const Limb& limb() const noexcept { return limb_; }
+    detail::LimbPlacement placed(std::vector<rig::Transform>& pose) const {
+        return detail::place(limb_, Placement{}, pose);
+    }
+    /// Whether the leg is so long in the clip that soft IK shortens it.
+    bool is_soft(std::size_t frame) const { return lengths_[frame] > hard(); }
+    /// What soft IK makes of a distance from hip to foot, metres.
+    double softened(double far) const {
+        if (!(far > hard() && hard() > 0.0)) return far;
+        return hard() + soft_ * (1.0 - math::decay((far - hard()) / soft_));
+    }
+
+    /// Brings the leg's end to a position, or as near as `longest` lets it; the end keeps its rotation. The
+    /// knee keeps its side. The further it must bend, the more its side is the one to which it bends in the
+    /// whole clip, because of a straight leg nothing else is known.
+    void bring(const glm::dvec3& to, double longest, std::vector<rig::Transform>& pose) const {
+        detail::LimbPlacement at = placed(pose);
+        const glm::dvec3 way = minus(to, at.upper.position);
+        const double far = length(way), near = std::min(far, longest);
+        if (!(far > 0.0)) return;
+        const double bent = bend(near) - bend(length(minus(at.end.position, at.upper.position)));
+        const detail::Pole pole{rotated(at.upper.rotation(), forward_), std::max(bent, 0.0), false};
+        const glm::dvec3 end = plus(at.upper.position, times(way, near / far));
+        detail::apply(detail::bend_to(at, end, pole, 1.0), {1.0, 0.0, 0.0, 0.0}, limb_, at, pose);
+    }
+
+  private:
+    double hard() const noexcept { return full_ - soft_; }
+    /// How far the knee of a leg of that length is from the line, about, in leg lengths.
+    double bend(double far) const {
+        return full_ > 0.0 ? 0.5 * std::sqrt(std::max(1.0 - far * far / (full_ * full_), 0.0)) : 0.0;
+    }
+    static glm::dvec3 knee(const detail::LimbPlacement& at) {
+        const auto line = direction_of(minus(at.end.position, at.upper.position), 1e-9);
+        const glm::dvec3 way = minus(at.lower.position, at.upper.position);
+        return line ? across(way, *line) : way;
+    }
+
+    Limb limb_;
+    double soft_;                  ///< metres of the leg's length that are softened
+    std::vector<double> lengths_;  ///< in the clip, by frame
+    double full_ = 0.0;
+    glm::dvec3 forward_{0.0, 0.0, 1.0};  ///< in the thigh's own space
+};
+
+class CuredLegs {
+  public:
+    CuredLegs(const Check& check, Limb of_foot, std::optional<Limb> other, double nearer)
         : check_(check),
-          foot_(std::move(of_foot)),
-          other_(std::move(other)),
+          foot_(check, std::move(of_foot), nearer),
           hips_(static_cast<std::size_t>(check.map[Bone::Hips].node)),
-          pose_(check.skeleton.size()) {}
+          pose_(check.skeleton.size()) {
+        if (other) other_.emplace(check, std::move(*other), nearer);
+    }
+    const CuredLeg& foot() const noexcept { return foot_; }
 
     /// How far the hips must be lowered for the foot to reach its corrected position, metres.
     double missing(std::size_t frame, const glm::dvec3& move) {
         sample(check_.clip, check_.skeleton, check_.time_of(frame), pose_);
-        const detail::LimbPlacement at = detail::place(foot_, Placement{}, pose_);
+        const detail::LimbPlacement at = foot_.placed(pose_);
         const glm::dvec3 way = minus(plus(at.end.position, move), at.upper.position);
-        const double longest = longest_of(at), level2 = way.x * way.x + way.z * way.z;
+        const double longest = foot_.softened(length(way)), level2 = way.x * way.x + way.z * way.z;
         if (dot(way, way) <= longest * longest || level2 >= longest * longest) return 0.0;
         return std::min(-way.y - std::sqrt(longest * longest - level2), deepest * longest);
-    }
-    /// What brings the foot as near to the hip as soft IK has it, metres.
-    glm::dvec3 soft_move(std::size_t frame) {
-        sample(check_.clip, check_.skeleton, check_.time_of(frame), pose_);
-        const detail::LimbPlacement at = detail::place(foot_, Placement{}, pose_);
-        const glm::dvec3 way = minus(at.end.position, at.upper.position);
-        const double far = length(way), hard = at.upper_length() + at.lower_length() - soft;
-        if (!(far > hard && hard > 0.0)) return glm::dvec3(0.0);
-        return times(way, (hard + soft * (1.0 - math::decay((far - hard) / soft))) / far - 1.0);
     }
     /// The clip's pose of that frame, with the foot moved and the hips lowered.
     const std::vector<rig::Transform>& posed(std::size_t frame, const glm::dvec3& move, double drop) {
         sample(check_.clip, check_.skeleton, check_.time_of(frame), pose_);
-        const glm::dvec3 foot = plus(ankle(foot_), move);
-        const glm::dvec3 other = other_ ? ankle(*other_) : glm::dvec3(0.0);
+        const Goal foot = goal(foot_, move);
+        const std::optional<Goal> other =
+            other_ && drop > 0.0 ? std::optional(goal(*other_, glm::dvec3(0.0))) : std::nullopt;
         if (drop > 0.0) {
             Placement above;
-            for (std::size_t i = 0; foot_.node(i) != hips_; ++i)
-                above = above * placement(pose_[foot_.node(i)]);
+            for (std::size_t i = 0; foot_.limb().node(i) != hips_; ++i)
+                above = above * placement(pose_[foot_.limb().node(i)]);
             glm::dvec3& place = pose_[hips_].translation;
             place = plus(place, detail::seen_from(above, {0.0, -drop, 0.0}));
         }
-        bring(foot_, foot);
-        if (other_ && drop > 0.0) bring(*other_, other);
+        foot_.bring(foot.at, foot.longest, pose_);
+        if (other) other_->bring(other->at, other->longest, pose_);
         return pose_;
     }
 
@@ -111,58 +167,84 @@ class Legs {
             for (const std::size_t place : {limb.upper, limb.lower, limb.end})
                 nodes.push_back(limb.node(place));
         };
-        add(foot_);
-        if (other_ && is_lowered) add(*other_);
+        add(foot_.limb());
+        if (other_ && is_lowered) add(other_->limb());
         return nodes;
     }
     std::size_t hips() const { return hips_; }
 
   private:
-    glm::dvec3 ankle(const Limb& limb) { return detail::place(limb, Placement{}, pose_).end.position; }
-    static double longest_of(const detail::LimbPlacement& at) {
-        return std::max(straightest * (at.upper_length() + at.lower_length()),
-                        length(minus(at.end.position, at.upper.position)));
-    }
-    /// Moves the leg's end to a position; it keeps its rotation, and the knee its side.
-    void bring(const Limb& limb, const glm::dvec3& to) {
-        detail::LimbPlacement at = detail::place(limb, Placement{}, pose_);
-        const glm::dvec3 knee =
-            minus(at.lower.position, times(plus(at.upper.position, at.end.position), 0.5));
-        const detail::Pole pole{direction_of(knee, 1e-9).value_or(glm::dvec3(0.0, 0.0, 1.0)), 0.0, false};
-        const double full = at.upper_length() + at.lower_length();
-        const double part = full > 0.0 ? std::min(longest_of(at) / full, 1.0) : 1.0;
-        detail::apply(detail::bend_to(at, to, pole, part), {1.0, 0.0, 0.0, 0.0}, limb, at, pose_);
+    struct Goal {
+        glm::dvec3 at;
+        double longest;  ///< of the leg, metres: by soft IK, from where the hip is in the clip
+    };
+    Goal goal(const CuredLeg& leg, const glm::dvec3& move) {
+        const detail::LimbPlacement at = leg.placed(pose_);
+        const glm::dvec3 to = plus(at.end.position, move);
+        return {to, leg.softened(length(minus(to, at.upper.position)))};
     }
 
     const Check& check_;
-    Limb foot_;
-    std::optional<Limb> other_;
+    CuredLeg foot_;
+    std::optional<CuredLeg> other_;
     std::size_t hips_;
     std::vector<rig::Transform> pose_;
 };
 
-/// The finding with the frames around it, in which the leg straightens or bends as well.
-Finding widened(const Finding& finding, const Check& check) {
-    const auto around = static_cast<std::size_t>(std::ceil(ease * check.report.rate));
-    Finding wide = finding;
-    wide.first -= std::min(finding.first, around);
-    wide.last = std::min(finding.last + around, check.report.frames - 1);
-    return wide;
-}
+/// The corrections of some stretches of frames, blended into each other and into the clip.
+class Blend {
+  public:
+    Blend(std::size_t frames, std::size_t around) : moves_(frames), around_(around) {}
 
-Plan plan_of(Legs& legs, const std::vector<glm::dvec3>& moves, const Finding& finding, const Check& check) {
-    const std::size_t frames = check.report.frames;
-    const auto around = static_cast<std::size_t>(std::ceil(ease * check.report.rate));
-    Plan plan{.first = finding.first - std::min(finding.first, around)};
-    const std::size_t until = std::min(finding.last + around, frames - 1);
+    std::size_t frames() const noexcept { return moves_.size(); }
+    void add(std::size_t first, const std::vector<glm::dvec3>& moves) {
+        for (std::size_t i = 0; i < moves.size(); ++i) moves_[first + i] = moves[i];
+    }
+    /// The first and the last frame that change.
+    std::pair<std::size_t, std::size_t> range() const {
+        std::size_t first = 0, last = moves_.size() - 1;
+        while (first < last && !moves_[first]) ++first;
+        while (last > first && !moves_[last]) --last;
+        return {first - std::min(first, around_), std::min(last + around_, moves_.size() - 1)};
+    }
+    glm::dvec3 at(std::size_t frame) const {
+        if (moves_[frame]) return *moves_[frame];
+        const std::size_t far = 2 * around_;
+        std::size_t back = 1, on = 1;
+        while (back < far && back <= frame && !moves_[frame - back]) ++back;
+        while (on < far && frame + on < moves_.size() && !moves_[frame + on]) ++on;
+        const bool follows = back <= frame && moves_[frame - back],
+                   leads = frame + on < moves_.size() && moves_[frame + on];
+        const auto part = [](std::size_t off, std::size_t of) {
+            return fading(static_cast<double>(off) / static_cast<double>(of));
+        };
+        if (follows && leads && back + on < far)
+            return plus(times(*moves_[frame - back], part(back, back + on)),
+                        times(*moves_[frame + on], part(on, back + on)));
+        glm::dvec3 sum(0.0);
+        if (follows) sum = plus(sum, times(*moves_[frame - back], part(back, around_)));
+        if (leads) sum = plus(sum, times(*moves_[frame + on], part(on, around_)));
+        return sum;
+    }
+
+  private:
+    std::vector<std::optional<glm::dvec3>> moves_;
+    std::size_t around_;
+};
+
+/// `height`: of the foot above the floor in a frame of the clip.
+template <class Height>
+Plan plan_of(CuredLegs& legs, const Blend& blend, std::size_t around, Height height) {
+    auto [first, last] = blend.range();
+    while (first > 0 && legs.foot().is_soft(first)) --first;
+    while (last + 1 < blend.frames() && legs.foot().is_soft(last)) ++last;
+    Plan plan{.first = first};
     std::vector<double> needed;
-    for (std::size_t i = plan.first; i <= until; ++i) {
-        const std::size_t off = i < finding.first  ? finding.first - i
-                                : i > finding.last ? i - finding.last
-                                                   : 0;
-        const double part = fading(static_cast<double>(off) / static_cast<double>(around));
-        plan.moves.push_back(times(moves[std::clamp(i, finding.first, finding.last) - finding.first], part));
-        needed.push_back(legs.missing(i, plan.moves.back()));
+    for (std::size_t i = first; i <= last; ++i) {
+        plan.moves.push_back(blend.at(i));
+        // Only a standing foot must reach its position; a swinging one is brought nearer to the hip instead.
+        const double above = (height(i) + plan.moves.back().y - stands) / (swings - stands);
+        needed.push_back(fading(std::max(above, 0.0)) * legs.missing(i, plan.moves.back()));
     }
     plan.drops.assign(needed.size(), 0.0);
     for (std::size_t i = 0; i < needed.size(); ++i) {
@@ -173,6 +255,26 @@ Plan plan_of(Legs& legs, const std::vector<glm::dvec3>& moves, const Finding& fi
         }
     }
     return plan;
+}
+
+/// The finding with the same faults of that foot before and after it, each within `near` frames of the next.
+std::vector<Finding> together(const Check& check, const Finding& found, std::size_t near) {
+    LintReport report = check.report;
+    Check feet{check.skeleton, check.map, check.clip, check.settings, check.height, report};
+    check_feet(feet);
+    std::vector<Finding> all{found};
+    for (bool grows = true; grows;) {
+        grows = false;
+        for (const Finding& each : report.findings) {
+            if (each.fault != found.fault || each.node != found.node) continue;
+            if (std::ranges::find(all, each.first, &Finding::first) != all.end()) continue;
+            const bool is_near = std::ranges::any_of(all, [&](const Finding& one) {
+                return each.first < one.last + near && one.first < each.last + near;
+            });
+            if (is_near) all.push_back(each), grows = true;
+        }
+    }
+    return all;
 }
 
 Channel& channel_of(Clip& clip, std::size_t node) {
@@ -194,7 +296,7 @@ std::optional<Limb> leg_of(const Skeleton& skeleton, const BoneMap& map, std::in
     return Limb::make(skeleton, upper, lower, foot, foot);
 }
 
-Expected<Clip> cure_foot(const Check& check, const Finding& found) {
+Expected<Clip> cure_foot(const Check& check, const Finding& found, const FootCure& how) {
     using tendril::detail::refused;
     const auto other_clip = [&] {
         return refused("cure", "finding", "one of this clip", std::string_view(found.text));
@@ -207,20 +309,26 @@ Expected<Clip> cure_foot(const Check& check, const Finding& found) {
     if (!leg ||
         (found.snaps && found.node != check.map[left ? Bone::LeftLowerLeg : Bone::RightLowerLeg].node))
         return other_clip();
-    Legs legs(check, std::move(*leg),
-              leg_of(check.skeleton, check.map, check.map[left ? Bone::RightFoot : Bone::LeftFoot].node));
-    const Finding finding = found.snaps ? widened(found, check) : found;
-    std::vector<glm::dvec3> away;
+    CuredLegs legs(check, std::move(*leg),
+                   leg_of(check.skeleton, check.map, check.map[left ? Bone::RightFoot : Bone::LeftFoot].node),
+                   how.nearer);
+    const auto around = static_cast<std::size_t>(std::ceil(how.ease * rate));
+    const FeetMotion motion = feet_motion(check);
+    const auto its = std::ranges::find(motion.feet, foot, &Foot::node);
+    const auto floor = floor_of(motion, rate);
+    const bool is_known = floor && its != motion.feet.end();
+    // A leg that is only softened needs no blending.
+    Blend blend(check.report.frames, found.snaps ? 1 : around);
     if (found.snaps) {
-        for (std::size_t i = finding.first; i <= finding.last; ++i) away.push_back(legs.soft_move(i));
+        blend.add(found.first, std::vector<glm::dvec3>(found.last - found.first + 1, glm::dvec3(0.0)));
     } else {
-        const FeetMotion motion = feet_motion(check);
-        const auto its = std::ranges::find(motion.feet, foot, &Foot::node);
-        const auto floor = floor_of(motion, rate);
-        if (!floor || its == motion.feet.end() || foot != found.node) return other_clip();
-        away = moves_of(*its, finding, motion, *floor, rate);
+        if (!is_known || foot != found.node) return other_clip();
+        for (const Finding& each : together(check, found, 2 * around))
+            blend.add(each.first, moves_of(*its, each, motion, *floor, rate));
     }
-    const Plan plan = plan_of(legs, away, finding, check);
+    const Plan plan = plan_of(legs, blend, around, [&](std::size_t frame) {
+        return is_known ? its->height[frame] - *floor : swings;
+    });
 
     const bool is_lowered = *std::max_element(plan.drops.begin(), plan.drops.end()) > 0.0;
     const std::vector<std::size_t> nodes = legs.turned(is_lowered);

@@ -106,11 +106,6 @@ void check_track(Check& check, const Channel& channel, const Track<T>& track, Me
     }
 }
 
-/// A factor for thresholds that are given for 60 frames per second: at fewer, more happens in each frame.
-double slower(const Check& check) {
-    return (2.0 + 60.0 / check.report.rate) / 3.0;
-}
-
 struct Leg {
     Bone upper, lower, foot;
 };
@@ -137,7 +132,7 @@ double bend_of(const Check& check, const Leg& leg, const std::vector<Placement>&
 /// A leg that snaps straight within a frame and stays so, or the reverse: its knee accelerates towards
 /// straight and stops at once.
 void check_snaps(Check& check, std::int32_t node, const std::vector<double>& bends) {
-    const double minimum = check.settings.knee * slower(check);
+    const double minimum = check.settings.knee * slower(check.report.rate);
     const auto snap = [&](double from, double before, double straight, double after) {
         const double last = from - before, now = before - straight, next = std::abs(straight - after);
         return straight < 4.0 && now > minimum && now > 1.5 * std::abs(last) && last > -0.25 * now &&
@@ -192,7 +187,7 @@ std::vector<Outlier> outliers(const std::vector<glm::dvec3>& list, double minimu
 }
 
 void check_jumps(Check& check) {
-    const double turn = check.settings.turn * slower(check);
+    const double turn = check.settings.turn * slower(check.report.rate);
     const double shift = std::max(check.settings.shift * check.height, 1e-6);
     for (const Channel& channel : check.clip.channels) {
         check_track(check, channel, channel.rotation, &rig::Transform::rotation, turn, true);
@@ -218,7 +213,7 @@ void check_knees(Check& check) {
         for (std::size_t i = 1; i < moves.size(); ++i) moves[i].x = bends[i] - bends[i - 1];
         if (keys) skip_steps(check, *keys, moves);
         const std::int32_t node = check.map[leg.lower].node;
-        const std::vector<Outlier> pops = outliers(moves, check.settings.knee * slower(check));
+        const std::vector<Outlier> pops = outliers(moves, check.settings.knee * slower(check.report.rate));
         for (const Outlier& each : pops) {
             const bool comes_back = each.until < check.report.frames;
             Finding& finding = check.add(Fault::KneePop, node, each.frame, each.frame,

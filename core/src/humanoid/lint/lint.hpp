@@ -52,6 +52,11 @@ struct Outlier {
 /// the motion from frame i - 1 to frame i; moves[0] is not read.
 std::vector<Outlier> outliers(const std::vector<glm::dvec3>& moves, double minimum);
 
+/// A factor for thresholds that are given for 60 frames per second: at fewer, more happens in each frame.
+inline double slower(double rate) noexcept {
+    return (2.0 + 60.0 / rate) / 3.0;
+}
+
 /// The motion from one value to the next; for rotations a rotation vector in degrees.
 glm::dvec3 step_between(const glm::dvec3& from, const glm::dvec3& to) noexcept;
 glm::dvec3 step_between(const glm::dquat& from, const glm::dquat& to) noexcept;
