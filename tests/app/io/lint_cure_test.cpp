@@ -90,7 +90,7 @@ TEST_F(LintCure, feet_that_float_come_down_and_feet_that_sink_come_up) {
             const Clip clip = frames.clip();
             ASSERT_FALSE(run(clip).findings.empty()) << by;
             const Clip whole = mended(clip, 8);
-            EXPECT_LT(apart(clip, whole, "LeftFoot", 0.0, 0.6), 1e-9);
+            EXPECT_LT(apart(clip, whole, "LeftFoot", 0.0, 0.4), 1e-9);
             EXPECT_LT(apart(clip, whole, "Head", 0.0, 3.3), std::abs(by) + 0.03);
         }
     }
