@@ -8,8 +8,8 @@
 #include "app/io/character/gltf.hpp"
 #include "app/io/character/read.hpp"
 #include "tests/app/io/gltf_text.hpp"
+#include "tests/app/io/posed.hpp"
 #include "tests/app/support/temp_folder.hpp"
-#include "tests/places.hpp"
 #include "tests/says.hpp"
 
 namespace tendril::app {
@@ -19,9 +19,7 @@ using humanoid::Clip;
 using test_gltf::GltfText;
 
 std::string mend_notes(const Character& character) {
-    std::string all;
-    for (const std::string& each : character.notes) all += each + '\n';
-    return all;
+    return test_posed::lines(character.notes);
 }
 
 std::string mend_refusal(const std::string& bytes) {
@@ -45,11 +43,6 @@ Character one_track(const std::vector<float>& times, const std::vector<float>& v
                    R"(,"output":)" + output + R"(,"interpolation":")" + interpolation +
                    R"("}],"channels":[{"sampler":0,"target":{"node":0,"path":")" + path + R"("}}]}])";
     return parse_gltf(file.gltf(), "own.gltf", {});
-}
-
-/// From the shared files of other people, where they are.
-std::string people_file(const std::string& name) {
-    return (tendril::test::characters_folder().parent_path() / "found" / name).string();
 }
 
 // ------------------------------------------------------------------------------------------------- chunks
@@ -345,39 +338,6 @@ TEST(MendedCharacter, any_byte_may_be_changed_cut_off_or_missing) {
     }
     EXPECT_GT(reads, 1000u);
     EXPECT_GT(refusals, 1000u);
-}
-
-// -------------------------------------------------------------------------------------- other people's files
-
-TEST(MendedCharacter, files_of_other_people_are_read_or_refused_in_words_that_help) {
-    if (!std::filesystem::exists(people_file("README.md")))
-        GTEST_SKIP() << people_file("") << " is not there";
-    const auto reads = [](const char* name, std::size_t nodes, const std::string& says) {
-        const Character character = read_character(people_file(name));
-        EXPECT_EQ(character.skeleton.size(), nodes) << name;
-        EXPECT_EQ(character.notes.empty(), says.empty()) << name;
-        EXPECT_TRUE(says.empty() || test::says(mend_notes(character), says)) << name;
-        return character;
-    };
-    const auto refuses = [](const char* name, const std::string& says) {
-        EXPECT_TRUE(test::says(test::message_of([&] { read_character(people_file(name)); }), says)) << name;
-    };
-    reads("glb_empty_bin.vrm", 54, "");
-    reads("glb_no_skin.glb", 54, "");
-    reads("glb_draco.vrm", 19, "KHR_draco_mesh_compression left out");
-    refuses("glb_meshopt.glb", "EXT_meshopt_compression");
-    reads("gltf_neg_times.gltf", 4, "1 before 0 s");
-    reads("gltf_dup_times.gltf", 4, "1 same time");
-    reads("gltf_zero_quat.gltf", 4, "1 rotation length 0");
-    reads("gltf_zero_rest.gltf", 4, "scale of 0 j2");
-    reads("gltf_singular_matrix.gltf", 5, "scale of 0 flat");
-    reads("gltf_missing_picture.gltf", 6, "Gray skin.png missing");
-    reads("gltf_ktx.gltf", 6, "Gray skin.ktx2 KTX2");
-    const Character barbarian = reads("glb_texture_transform.glb", 42, "");
-    for (const glm::vec2& uv : barbarian.skin.mesh->uvs) EXPECT_LT(std::max(uv.x, uv.y), 2.0f);
-    refuses("hostile/oob8.gltf", "accessors[20].byteOffset");
-    refuses("hostile/x1.gltf", "accessors[20].count");
-    refuses("hostile/leak.gltf", "buffers[1].uri no/such/file outside");
 }
 
 }  // namespace
