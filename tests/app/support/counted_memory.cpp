@@ -17,27 +17,55 @@ void count(std::int64_t bytes) noexcept {
     live += bytes;
     most = std::max(most, live);
 }
+std::int64_t bytes_of(void* memory) noexcept {
+    return memory ? static_cast<std::int64_t>(malloc_usable_size(memory)) : 0;
+}
+void* added(void* memory) noexcept {
+    count(bytes_of(memory));
+    return memory;
+}
 
 }  // namespace
 
-// These replace allocation in the whole test program.
+// The linker puts these in the place of the functions of the C library (CMakeLists.txt), for the program's
+// own objects and those of stb.
+extern "C" {
+void* __real_malloc(std::size_t size) noexcept;
+void* __real_calloc(std::size_t count, std::size_t size) noexcept;
+void* __real_realloc(void* memory, std::size_t size) noexcept;
+void __real_free(void* memory) noexcept;
+
+void* __wrap_malloc(std::size_t size) noexcept {
+    return added(__real_malloc(size));
+}
+void* __wrap_calloc(std::size_t count, std::size_t size) noexcept {
+    return added(__real_calloc(count, size));
+}
+void* __wrap_realloc(void* memory, std::size_t size) noexcept {
+    const std::int64_t before = bytes_of(memory);
+    void* const moved = __real_realloc(memory, size);
+    if (moved) count(bytes_of(moved) - before);
+    return moved;
+}
+void __wrap_free(void* memory) noexcept {
+    count(-bytes_of(memory));
+    __real_free(memory);
+}
+}
+
 void* operator new(std::size_t size) {
     void* const memory = std::malloc(size == 0 ? 1 : size);
     if (!memory) throw std::bad_alloc();
-    count(static_cast<std::int64_t>(malloc_usable_size(memory)));
     return memory;
 }
 void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-    void* const memory = std::malloc(size == 0 ? 1 : size);
-    if (memory) count(static_cast<std::int64_t>(malloc_usable_size(memory)));
-    return memory;
+    return std::malloc(size == 0 ? 1 : size);
 }
 void operator delete(void* memory) noexcept {
-    if (memory) count(-static_cast<std::int64_t>(malloc_usable_size(memory)));
     std::free(memory);
 }
 void operator delete(void* memory, std::size_t) noexcept {
-    operator delete(memory);
+    std::free(memory);
 }
 
 namespace tendril::test {

@@ -1,4 +1,4 @@
-// How much memory a piece of code takes, by the operators new of the whole test program.
+// How much memory a piece of code takes: what the test program's own objects allocate.
 #pragma once
 
 #include <cstddef>
