@@ -320,8 +320,7 @@ class GltfSkinReader {
         if (!is_new) return known->second;
         const tinygltf::Image* image = at(model_.images, source);
         const std::string_view bytes = image ? picture_bytes(model_, *image) : std::string_view();
-        known->second =
-            builder_.add_picture(reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
+        known->second = builder_.add_picture(bytes);
         if (known->second < 0) lost_.push_back(lost_picture(image, source, bytes));
         return known->second;
     }
@@ -333,14 +332,18 @@ class GltfSkinReader {
                 return value.Get("source").GetNumberAsInt();
         return -1;
     }
-    /// "skin.ktx2 (KTX2)", "skin.png (missing)"
-    static std::string lost_picture(const tinygltf::Image* image, int index, std::string_view bytes) {
+    /// "skin.ktx2 (KTX2)", "skin.png (missing)", "skin.png (PNG, one picture too many)"
+    std::string lost_picture(const tinygltf::Image* image, int index, std::string_view bytes) const {
         const std::string name = !image ? std::string() : !image->uri.empty() ? image->uri : image->name;
         const std::string_view kind = picture_kind(bytes);
         const std::string why = bytes.empty() ? "missing" : kind.empty() ? "unknown kind" : std::string(kind);
         return printable(name.empty() ? indexed("images", static_cast<std::size_t>(std::max(index, 0)))
                                       : name.substr(0, 60)) +
-               " (" + why + (kind == "PNG" || kind == "JPEG" ? ", broken" : "") + ')';
+               " (" + why +
+               (kind != "PNG" && kind != "JPEG" ? ""
+                : builder_.pictures_are_full()  ? ", one picture too many"
+                                                : ", broken") +
+               ')';
     }
     std::string lost_text() const {
         std::string text = "Gray, because a picture cannot be read: ";

@@ -5,8 +5,14 @@
 //     draw.morph_weights = morph_weights(character.skin, clip, seconds);
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
 #include <memory>
 #include <span>
+#include <string>
+#include <string_view>
 #include <tendril/humanoid/capsules.hpp>
 #include <tendril/humanoid/clip.hpp>
 #include <vector>
@@ -51,6 +57,10 @@ void scale_skin(Skin& skin, double times);
 class SkinBuilder {
   public:
     static constexpr std::size_t max_corners = 4'000'000, max_indices = 30'000'000, max_joints = 16'000;
+    static constexpr std::size_t usual_pixels = std::size_t{1} << 27;  ///< 512 MB
+
+    /// All pictures together keep no more than this.
+    explicit SkinBuilder(std::size_t max_picture_pixels = usual_pixels) : max_pixels_(max_picture_pixels) {}
 
     /// Returns the index of the new joint.
     std::size_t add_joint(std::size_t node, const humanoid::Placement& from_bind);
@@ -71,9 +81,12 @@ class SkinBuilder {
     /// Adds a morph of the last part. Returns its index.
     std::size_t add_morph(const std::string& what, std::string name, double weight,
                           std::vector<glm::vec3> positions, std::vector<glm::vec3> normals);
-    /// Adds a picture from the bytes of a PNG or JPEG file and returns its index; -1 if it is neither or
-    /// invalid. Pictures with a side over 2048 are halved until they fit.
-    std::int32_t add_picture(const unsigned char* bytes, std::size_t size);
+    /// Adds a picture from the bytes of a PNG or JPEG file and returns its index, which is that of an earlier
+    /// one of the same bytes; -1 if it is neither, is broken or is one too many. It is halved until no side
+    /// is over 2048 and it takes at most an eighth of what is left for pictures.
+    std::int32_t add_picture(std::string_view bytes);
+    /// Whether a picture was one too many: no more are decoded, however small they would become.
+    bool pictures_are_full() const { return full_; }
 
     std::size_t corners() const { return mesh_.positions.size(); }
     /// The mesh is null if nothing was added.
@@ -83,6 +96,9 @@ class SkinBuilder {
     SkinnedMesh mesh_{};
     Skin skin_{};
     std::size_t last_first_ = 0, last_count_ = 0;
+    std::map<std::string, std::int32_t, std::less<>> known_{};  // pictures by their bytes
+    std::size_t max_pixels_, kept_ = 0, decoded_ = 0;           // pixels
+    bool full_ = false;
 };
 
 /// Converts linear light to sRGB.

@@ -7,7 +7,10 @@
 #include <stb_image.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <utility>
 
 #include "app/io/character/skin.hpp"
 
@@ -15,7 +18,13 @@ namespace tendril::app {
 namespace {
 
 constexpr int longest_side = 2048;
-constexpr int max_pixels = 1 << 26;  // 256 MB
+constexpr std::size_t max_pixels = std::size_t{1} << 26;  // of one picture, before it is halved: 256 MB
+/// A byte of a PNG is at most 1032 bytes of rows (zlib, RFC 1951) of eight pixels each; of a JPEG it is less.
+constexpr std::size_t max_pixels_of_byte = 8 * 1032;
+
+std::size_t pixels(const glm::ivec2& size) {
+    return static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y);
+}
 
 /// Each pixel is the mean of four.
 Picture halved(const Picture& whole) {
@@ -39,21 +48,33 @@ Picture halved(const Picture& whole) {
 
 }  // namespace
 
-std::int32_t SkinBuilder::add_picture(const unsigned char* bytes, std::size_t size) {
-    int x = 0, y = 0, channels = 0;
-    const int length = static_cast<int>(std::min<std::size_t>(size, 1u << 30));
-    if (!stbi_info_from_memory(bytes, length, &x, &y, &channels) || x <= 0 || y <= 0 || x > max_pixels / y)
-        return -1;
-    const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
-        stbi_load_from_memory(bytes, length, &x, &y, &channels, 4), &stbi_image_free);
-    if (!pixels) return -1;
+std::int32_t SkinBuilder::add_picture(std::string_view bytes) {
+    if (const auto known = known_.find(bytes); known != known_.end()) return known->second;
+    int channels = 0;
     Picture picture;
-    picture.size = {x, y};
-    picture.rgba.assign(pixels.get(),
-                        pixels.get() + 4 * static_cast<std::size_t>(x) * static_cast<std::size_t>(y));
-    while (std::max(picture.size.x, picture.size.y) > longest_side) picture = halved(picture);
+    const auto* const data = reinterpret_cast<const stbi_uc*>(bytes.data());
+    const int length = static_cast<int>(std::min<std::size_t>(bytes.size(), 1u << 30));
+    if (!stbi_info_from_memory(data, length, &picture.size.x, &picture.size.y, &channels) ||
+        picture.size.x <= 0 || picture.size.y <= 0 ||
+        pixels(picture.size) > std::min(max_pixels, max_pixels_of_byte * bytes.size()))
+        return -1;
+    // The bytes count too, since they are kept to be recognised.
+    decoded_ += pixels(picture.size) + bytes.size();
+    full_ = full_ || decoded_ > 4 * max_pixels_ || kept_ >= max_pixels_;
+    if (full_) return -1;
+    const std::unique_ptr<stbi_uc, void (*)(void*)> decoded(
+        stbi_load_from_memory(data, length, &picture.size.x, &picture.size.y, &channels, 4),
+        &stbi_image_free);
+    if (!decoded) return -1;
+    picture.rgba.assign(decoded.get(), decoded.get() + 4 * pixels(picture.size));
+    const std::size_t most = std::max<std::size_t>((max_pixels_ - kept_) / 8, 1);
+    while (std::max(picture.size.x, picture.size.y) > longest_side || pixels(picture.size) > most)
+        picture = halved(picture);
+    kept_ += pixels(picture.size);
     mesh_.pictures.push_back(std::move(picture));
-    return static_cast<std::int32_t>(mesh_.pictures.size()) - 1;
+    const auto index = static_cast<std::int32_t>(mesh_.pictures.size()) - 1;
+    known_.emplace(bytes, index);
+    return index;
 }
 
 }  // namespace tendril::app

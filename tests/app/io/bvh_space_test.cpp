@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cstdint>
-#include <filesystem>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -15,15 +14,12 @@
 #include "app/io/character/read.hpp"
 #include "app/io/character/stick_figure.hpp"
 #include "tests/app/io/fbx_file.hpp"
+#include "tests/app/io/posed.hpp"
 #include "tests/app/support/temp_folder.hpp"
-#include "tests/places.hpp"
 #include "tests/says.hpp"
 
 namespace tendril::app::bvh_space {
 namespace {
-
-namespace fs = std::filesystem;
-using humanoid::Placement;
 
 /// A joint, its OFFSET with Y up, and for the folded figure the turn about Z with which it stands.
 struct Joint {
@@ -121,22 +117,12 @@ std::string written(const Written& from) {
     return text.str();
 }
 
-std::vector<Placement> placed(const Character& character, bool in_motion) {
-    std::vector<rig::Transform> pose = rest_pose(character.skeleton);
-    if (in_motion) sample(character.clips.at(0), character.skeleton, 0.0, pose);
-    std::vector<Placement> placements(pose.size());
-    place(character.skeleton, pose, placements);
-    return placements;
-}
-
 glm::dvec3 at(const Character& character, const char* node, bool in_motion = true) {
-    return placed(character, in_motion)[character.skeleton.find(node).value()].position;
+    return test_posed::at(character, node, in_motion ? 0 : -1);
 }
 
 std::string all_text(const Character& character) {
-    std::string all;
-    for (const std::string& each : character.sentences()) all += each + '\n';
-    return all;
+    return test_posed::lines(character.sentences());
 }
 
 /// Upright at rest and in the first frame; in that, on the floor.
@@ -254,9 +240,8 @@ std::string fbx_figure(std::vector<test::FbxRecord> settings) {
 }
 
 std::optional<UnitDoubt> doubt_of(const Character& character) {
-    std::vector<humanoid::Placement> rest(character.skeleton.size());
-    place(character.skeleton, humanoid::rest_pose(character.skeleton), rest);
-    return doubted_unit(bounds_at_rest(character, rest).height(), character.scale, bone_map(character));
+    return doubted_unit(bounds_at_rest(character, test_posed::placed(character, -1)).height(),
+                        character.scale, bone_map(character));
 }
 
 TEST(UnitOfAFile, that_an_fbx_does_not_state_is_guessed_and_said) {
@@ -289,33 +274,6 @@ TEST(UnitOfAFile, is_not_doubted_for_a_childs_height_or_a_thing) {
     for (const double scale : {0.2, 2.0, 100.0}) EXPECT_TRUE(doubt(scale)) << scale;
     EXPECT_STREQ(doubt(2.0)->unit.name, "") << "3.6 m, or in decimetres 0.36 m";
     EXPECT_NEAR(doubt(2.0)->then, 1.75, 1e-12);
-}
-
-TEST(BvhSpace, files_of_others_stand) {
-    const auto read = [](const char* name) { return read_character(tendril::test::found_path(name)); };
-    if (!fs::exists(tendril::test::found_path("bvh_z_up.bvh"))) GTEST_SKIP() << "they are not there";
-    const Character offset = read("bvh_root_offset.bvh");
-    EXPECT_EQ(offset.scale, 0.01);
-    EXPECT_NEAR(at(offset, "Hips").y, 0.9195, 1e-4);
-    EXPECT_NEAR(at(offset, "LeftToe").y, -0.0003, 1e-4);
-    EXPECT_TRUE(bone_map(offset).is_usable());
-    const Character z_up = read("bvh_z_up.bvh");
-    EXPECT_EQ(z_up.space.up, UpAxis::Z);
-    EXPECT_TRUE(bone_map(z_up).is_usable());
-    for (const char* kind :
-         {"extra_frame", "space_colon", "nospace_frames", "nospace_time", "ctrlz", "nul"}) {
-        const Character loose = read((std::string("bvh_") + kind + ".bvh").c_str());
-        EXPECT_EQ(loose.clips.at(0).channels.at(0).rotation.times.size(), 3u) << kind;
-        EXPECT_EQ(loose.sentences().size(), 2u) << kind << ": " << all_text(loose);
-    }
-    for (const char* kind : {"comma", "nan", "nine", "time0", "utf16"}) {
-        try {
-            read((std::string("bvh_") + kind + ".bvh").c_str());
-            ADD_FAILURE() << kind << " was read";
-        } catch (const std::runtime_error& error) {
-            EXPECT_NE(std::string(error.what()).find("line "), std::string::npos) << error.what();
-        }
-    }
 }
 
 }  // namespace

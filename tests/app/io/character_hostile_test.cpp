@@ -8,8 +8,8 @@
 #include <filesystem>
 
 #include "app/io/character/read.hpp"
+#include "tests/app/io/fbx_file.hpp"
 #include "tests/app/support/temp_folder.hpp"
-#include "tests/places.hpp"
 
 namespace tendril::app {
 namespace {
@@ -406,11 +406,18 @@ std::string fbx_models(const std::vector<std::pair<int, int>>& connections, int 
 
 TEST_F(HostileCharacter, a_figure_without_nodes_is_refused_whatever_reads_it) {
     EXPECT_THROW(static_cast<void>(skeleton_of({})), std::runtime_error);
-    // An animated mesh with pivots but no bones.
-    const std::filesystem::path animated =
-        tendril::test::characters_folder().parent_path() / "found/fbx_mesh_only.fbx";
-    if (std::filesystem::exists(animated))
-        refuses("mesh.fbx", tendril::test::read(animated), "has no skeleton");
+    test::FbxScene scene;  // a mesh that is animated about its pivot, without a bone
+    const std::int64_t box =
+        scene.model("Box", 0, {test::FbxScene::vector("RotationPivot", {1.0, 2.0, 3.0})}, "Mesh");
+    scene.connect(
+        scene.add("Geometry", "", "Mesh",
+                  {test::FbxScene::list("Vertices", std::vector<double>{0, 0, 0, 1, 0, 0, 0, 1, 0}),
+                   test::FbxScene::list("PolygonVertexIndex", std::vector<std::int64_t>{0, 1, -3})}),
+        box);
+    scene.animate(scene.layer(scene.stack("Spin", 1.0)), box, "Lcl Rotation",
+                  {{{0.0, 0.0}, {1.0, 90.0}}, {}, {}}, glm::dvec3(0.0));
+    for (const std::string& bytes : {scene.text(), scene.binary()})
+        refuses("mesh.fbx", bytes, "has no skeleton");
 }
 
 TEST_F(HostileCharacter, fbx_models_in_a_circle_or_without_end_are_refused) {

@@ -2,12 +2,18 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <random>
 #include <utility>
 
+#include "app/io/character/fbx/animation.hpp"
 #include "app/io/character/fbx/fbx.hpp"
+#include "app/io/character/fbx/node.hpp"
 #include "tests/app/io/fbx_file.hpp"
+#include "tests/app/io/posed.hpp"
 #include "tests/app/support/temp_folder.hpp"
 
 namespace tendril::app {
@@ -75,6 +81,16 @@ std::vector<NaivePlace> naive_places(const std::vector<NaiveNode>& nodes) {
     return result;
 }
 
+/// How far a placement is from a matrix, in parts of its size.
+double apart(const humanoid::Placement& mine, const glm::dmat4& known) {
+    double size = 1.0, away = glm::distance(mine.position, glm::dvec3(known[3]));
+    for (int axis = 0; axis < 3; ++axis) {
+        size = std::max(size, glm::length(glm::dvec3(known[axis])));
+        away = std::max(away, glm::distance(mine.axes[axis], glm::dvec3(known[axis])));
+    }
+    return away / std::max(size, glm::length(glm::dvec3(known[3])));
+}
+
 glm::dvec3 random_vector(std::mt19937& random, double size) {
     std::uniform_real_distribution<double> any(-size, size);
     const double x = any(random), y = any(random), z = any(random);
@@ -130,22 +146,118 @@ TEST(FbxNodes, ten_thousand_random_nodes_are_where_a_naive_evaluator_puts_them) 
         const std::vector<NaiveNode> nodes = random_tree(random, 100);
         const std::vector<NaivePlace> known = naive_places(nodes);
         const Character character = parse_fbx(bytes_of(scene_of(nodes), file % 3), "it");
-        std::vector<humanoid::Placement> placements(character.skeleton.size());
-        place(character.skeleton, rest_pose(character.skeleton), placements);
+        const std::vector<humanoid::Placement> placements = test_posed::placed(character, -1);
         for (std::size_t i = 0; i < nodes.size(); ++i) {
             auto whole = character.skeleton.find(nodes[i].name + " scale");
             if (!whole) whole = character.skeleton.find(nodes[i].name);
             ASSERT_TRUE(whole) << nodes[i].name;
-            const humanoid::Placement& mine = placements[*whole];
-            const glm::dmat4 expected = known[i].whole();
-            double size = 1.0, away = glm::length(mine.position - glm::dvec3(expected[3]));
-            for (int axis = 0; axis < 3; ++axis) {
-                size = std::max(size, glm::length(glm::dvec3(expected[axis])));
-                away = std::max(away, glm::length(mine.axes[axis] - glm::dvec3(expected[axis])));
-            }
-            worst = std::max(worst, away / std::max(size, glm::length(glm::dvec3(expected[3]))));
+            worst = std::max(worst, apart(placements[*whole], known[i].whole()));
             ++count;
         }
+    }
+    EXPECT_EQ(count, 10'000u);
+    EXPECT_LT(worst, 1e-6);
+}
+
+// ------------------------------------------------------------------------------------------------- motion
+
+using NaiveKeys = std::vector<FbxScene::Key>;
+constexpr std::int64_t stepped = 0x2, stepped_at_once = 0x102, straight = 0x4, bent = 0x408;
+
+double naive_value(const NaiveKeys& keys, double time) {
+    if (time <= keys.front().time) return keys.front().value;
+    for (std::size_t i = 0; i + 1 < keys.size(); ++i) {
+        const FbxScene::Key &a = keys[i], &b = keys[i + 1];
+        if (time >= b.time) continue;
+        const double span = b.time - a.time, u = (time - a.time) / span;
+        if (a.flags == stepped) return a.value;
+        if (a.flags == stepped_at_once) return b.value;
+        if (a.flags == straight) return glm::mix(a.value, b.value, u);
+        return (1.0 + 2.0 * u) * (1.0 - u) * (1.0 - u) * a.value +
+               u * (1.0 - u) * (1.0 - u) * span * a.first + u * u * (3.0 - 2.0 * u) * b.value +
+               u * u * (u - 1.0) * span * a.second;
+    }
+    return keys.back().value;
+}
+
+/// Keys within 0 to 1 s around a value, each of a shape of its own.
+NaiveKeys random_keys(std::mt19937& random, double around, double size) {
+    constexpr std::int64_t shapes[] = {stepped, stepped_at_once, straight, bent};
+    const auto below = [&](int end) { return std::uniform_int_distribution<int>(0, end - 1)(random); };
+    NaiveKeys keys;
+    for (int i = 0; i < 3; ++i) {
+        const glm::dvec3 any = random_vector(random, size);
+        // Slopes are floats in a file.
+        keys.push_back({0.5 * i + (i == 1 ? 0.2 * any.y / size : 0.0), around + any.x, shapes[below(4)],
+                        static_cast<float>(any.y), static_cast<float>(any.z)});
+    }
+    return keys;
+}
+
+/// A tree whose nodes move: the curves of each for translation, rotation and scale.
+struct NaiveMotion {
+    std::vector<NaiveNode> rest{};
+    std::vector<std::array<std::array<NaiveKeys, 3>, 3>> curves{};
+
+    NaiveMotion(std::mt19937& random, int count) : rest(random_tree(random, count)), curves(rest.size()) {
+        for (std::size_t i = 0; i < rest.size(); ++i)
+            for (int axis = 0; axis < 3; ++axis) {
+                const auto k = static_cast<std::size_t>(axis);
+                curves[i][0][k] = random_keys(random, rest[i].t[axis], 1.0);
+                curves[i][1][k] = random_keys(random, rest[i].r[axis], 60.0);
+                if (i % 2 == 0) curves[i][2][k] = random_keys(random, rest[i].s[axis], 0.2 * rest[i].s[axis]);
+            }
+    }
+    FbxScene scene() const {
+        FbxScene result = scene_of(rest);
+        const std::int64_t layer = result.layer(result.stack("Take", 1.0));
+        const char* const names[] = {"Lcl Translation", "Lcl Rotation", "Lcl Scaling"};
+        for (std::size_t i = 0; i < rest.size(); ++i)
+            for (std::size_t k = 0; k < 3; ++k)
+                if (!curves[i][k][0].empty())
+                    result.animate(layer, result.ids.at(i), names[k],
+                                   {curves[i][k].begin(), curves[i][k].end()}, glm::dvec3(0.0));
+        return result;
+    }
+    std::vector<NaivePlace> places_at(double time) const {
+        std::vector<NaiveNode> now = rest;
+        for (std::size_t i = 0; i < now.size(); ++i) {
+            glm::dvec3* const values[] = {&now[i].t, &now[i].r, &now[i].s};
+            for (std::size_t k = 0; k < 3; ++k)
+                for (int axis = 0; axis < 3 && !curves[i][k][0].empty(); ++axis)
+                    (*values[k])[axis] = naive_value(curves[i][k][static_cast<std::size_t>(axis)], time);
+        }
+        return naive_places(now);
+    }
+};
+
+TEST(FbxNodes, ten_thousand_random_nodes_move_as_a_naive_evaluator_moves_them) {
+    std::mt19937 random(23);
+    std::size_t count = 0;
+    double worst = 0.0;
+    for (int file = 0; file < 100; ++file) {
+        const NaiveMotion motion(random, 100);
+        const std::string bytes = bytes_of(motion.scene(), file % 3);
+        const fbx::File records = fbx::read_records(bytes);
+        const fbx::Objects objects(records);
+        std::vector<std::string> notes;
+        const std::vector<fbx::Node> nodes = read_nodes(objects, notes);
+        const std::vector<fbx::Stack> stacks = read_stacks(records, objects, nodes, notes);
+        ASSERT_EQ(nodes.size(), motion.rest.size());
+        ASSERT_EQ(stacks.size(), 1u);
+        EXPECT_EQ(notes, std::vector<std::string>());
+        for (const double time : {0.0, 0.137, 0.421, 0.889, 1.0}) {
+            std::vector<rig::Transform> locals;
+            for (std::size_t i = 0; i < nodes.size(); ++i)
+                locals.push_back(local_of(nodes[i], stacks[0].at(nodes[i], i, time)));
+            const std::vector<fbx::Place> mine = places(nodes, locals);
+            const std::vector<NaivePlace> known = motion.places_at(time);
+            for (std::size_t i = 0; i < nodes.size(); ++i) {
+                ASSERT_EQ(nodes[i].name, motion.rest[i].name);
+                worst = std::max(worst, apart(mine[i].placement(), known[i].whole()));
+            }
+        }
+        count += nodes.size();
     }
     EXPECT_EQ(count, 10'000u);
     EXPECT_LT(worst, 1e-6);
@@ -154,47 +266,24 @@ TEST(FbxNodes, ten_thousand_random_nodes_are_where_a_naive_evaluator_puts_them) 
 TEST(FbxNodes, random_clips_move_as_a_naive_evaluator_moves_them) {
     std::mt19937 random(5);
     for (int file = 0; file < 30; ++file) {
-        const std::vector<NaiveNode> first = random_tree(random, 12);
-        std::vector<NaiveNode> last = first;
-        FbxScene scene = scene_of(first);
-        const std::int64_t layer = scene.layer(scene.stack("Take", 1.0));
-        for (std::size_t i = 0; i < last.size(); ++i) {
-            last[i].t += random_vector(random, 1.0);
-            last[i].r += random_vector(random, 60.0);
-            if (i % 2 == 0) last[i].s *= glm::exp(random_vector(random, 0.3));
-            const auto animate = [&](const char* name, const glm::dvec3& from, const glm::dvec3& to) {
-                std::vector<std::vector<FbxScene::Key>> curves;
-                for (int axis = 0; axis < 3; ++axis) curves.push_back({{0.0, from[axis]}, {1.0, to[axis]}});
-                scene.animate(layer, scene.ids.at(i), name, curves, from);
-            };
-            animate("Lcl Translation", first[i].t, last[i].t);
-            animate("Lcl Rotation", first[i].r, last[i].r);
-            animate("Lcl Scaling", first[i].s, last[i].s);
-        }
-        const Character character = parse_fbx(bytes_of(scene, file % 3), "it");
-        std::vector<rig::Transform> pose = rest_pose(character.skeleton);
-        std::vector<humanoid::Placement> placements(pose.size());
-        for (const double time : {0.0, 0.37, 0.8, 1.0}) {
-            std::vector<NaiveNode> now = first;
-            for (std::size_t i = 0; i < now.size(); ++i) {
-                now[i].t = glm::mix(first[i].t, last[i].t, time);
-                now[i].r = glm::mix(first[i].r, last[i].r, time);
-                now[i].s = glm::mix(first[i].s, last[i].s, time);
-            }
-            const std::vector<NaivePlace> known = naive_places(now);
-            sample(character.clips.at(0), character.skeleton, time, pose);
-            place(character.skeleton, pose, placements);
+        const NaiveMotion motion(random, 12);
+        const Character character = parse_fbx(bytes_of(motion.scene(), file % 3), "it");
+        for (const double time : {0.0, 0.137, 0.37, 0.8, 1.0}) {
+            const std::vector<NaivePlace> known = motion.places_at(time);
+            const std::vector<humanoid::Placement> placements = test_posed::placed(character, 0, time);
             double size = 1.0;
             for (const NaivePlace& each : known)
                 size = std::max(size, glm::length(glm::dvec3(each.turned[3])));
-            for (std::size_t i = 0; i < now.size(); ++i)
-                EXPECT_LT(glm::length(placements[*character.skeleton.find(now[i].name)].position -
-                                      glm::dvec3(known[i].turned[3])),
+            for (std::size_t i = 0; i < known.size(); ++i)
+                EXPECT_LT(glm::distance(placements[*character.skeleton.find(motion.rest[i].name)].position,
+                                        glm::dvec3(known[i].turned[3])),
                           1e-4 / 1.8 * size)
-                    << now[i].name << " at " << time << " of file " << file;
+                    << motion.rest[i].name << " at " << time << " of file " << file;
         }
     }
 }
+
+// --------------------------------------------------------------------------------------- skins and pictures
 
 /// Two bones and a mesh that follows them, animated: one of each kind of object.
 FbxScene small_scene() {

@@ -82,10 +82,9 @@ std::int32_t Materials::picture(std::size_t texture) {
             bytes = content_of(*objects_[each.object].record);
     for (std::size_t i = 0; i < objects_.size() && bytes.empty(); ++i)
         if (objects_[i].kind == "Video" && name_in(i) == name) bytes = content_of(*objects_[i].record);
-    if (!bytes.empty())
-        known->second =
-            builder_.add_picture(reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
-    if (known->second < 0) missing_.emplace(name.substr(0, 100));
+    if (!bytes.empty()) known->second = builder_.add_picture(bytes);
+    if (known->second < 0 && (bytes.empty() || !builder_.pictures_are_full()))
+        missing_.emplace(name.substr(0, 100));
     return known->second;
 }
 

@@ -61,6 +61,8 @@ class SkinReader {
         for (const std::string& name : materials_.missing())
             notes_.push_back("The texture " + name +
                              " is not in the file as PNG or JPEG, so a plain colour is drawn.");
+        if (builder_.pictures_are_full())
+            notes_.push_back("The file has too many pictures; the last ones are drawn as a plain colour.");
         result_.skin = builder_.finish();
         return std::move(result_);
     }

@@ -1,0 +1,33 @@
+// Where the nodes of a character are, at rest and in a clip.
+#pragma once
+
+#include <string>
+#include <tendril/humanoid/clip.hpp>
+#include <vector>
+
+#include "app/io/character/character.hpp"
+
+namespace tendril::app::test_posed {
+
+/// In the clip of that index; `clip` < 0: at rest.
+inline std::vector<humanoid::Placement> placed(const Character& character, int clip, double time = 0.0) {
+    std::vector<rig::Transform> pose = rest_pose(character.skeleton);
+    if (clip >= 0) sample(character.clips.at(static_cast<std::size_t>(clip)), character.skeleton, time, pose);
+    std::vector<humanoid::Placement> placements(pose.size());
+    place(character.skeleton, pose, placements);
+    return placements;
+}
+
+/// Metres. Throws std::bad_optional_access if there is no such node.
+inline glm::dvec3 at(const Character& character, const char* node, int clip, double time = 0.0) {
+    return placed(character, clip, time)[character.skeleton.find(node).value()].position;
+}
+
+/// The notes, or with the guesses all that the panel shows, a line each.
+inline std::string lines(const std::vector<std::string>& sentences) {
+    std::string all;
+    for (const std::string& each : sentences) all += each + '\n';
+    return all;
+}
+
+}  // namespace tendril::app::test_posed
