@@ -57,6 +57,12 @@ inline double weight(const World& world) {
     return 9.81 * mass;
 }
 
+inline glm::dvec3 momentum(const World& world) {
+    glm::dvec3 sum(0.0);
+    for (std::size_t i = 0; i < world.size(); ++i) sum += world.state().mass[i] * world.core().velocity(i);
+    return sum;
+}
+
 /// Speed of the fastest particle, m/s.
 inline double top_speed(const World& world) {
     double top = 0.0;

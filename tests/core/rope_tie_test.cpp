@@ -24,12 +24,6 @@ double gap(const World& world, rope::TieId id) {
     return std::abs(glm::distance(world.core().position(tie.a), world.core().position(tie.b)) -
                     static_cast<double>(tie.length));
 }
-glm::dvec3 momentum(const World& world) {
-    glm::dvec3 sum(0.0);
-    for (std::size_t i = 0; i < world.size(); ++i) sum += world.state().mass[i] * world.core().velocity(i);
-    return sum;
-}
-
 TEST(RopeTie, TwoRopesHangTogether) {
     for (const Solver solver : all_solvers) {
         World world = world_with({.solver = solver, .damping = 2.0f});

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "math/checks.hpp"
+#include "rope/body_links.hpp"
 #include "rope/geometry.hpp"
 #include "rope/hang.hpp"
 #include "rope/slots.hpp"
@@ -20,43 +21,6 @@ Result check_fit(const char* operation, const State& state, std::size_t more) {
     if (more <= max_particles && state.position.size() + more <= max_particles) return {};
     return refused(operation, "particles", "at most 1000000 in all", state.position.size() + more);
 }
-
-/// The links of a cloth.
-class Grid {
-  public:
-    Grid(Draft& draft, std::uint32_t columns, std::uint32_t rows)
-        : draft_(draft), columns_(columns), rows_(rows) {}
-
-    void stretch() {
-        for (std::uint32_t r = 0; r < rows_; ++r)
-            for (std::uint32_t c = 0; c + 1 < columns_; ++c) link(c, r, c + 1, r, Link::Kind::Stretch, 0.0f);
-        for (std::uint32_t c = 0; c < columns_; ++c)
-            for (std::uint32_t r = 0; r + 1 < rows_; ++r) link(c, r, c, r + 1, Link::Kind::Stretch, 0.0f);
-    }
-    void shear(float compliance) {
-        for (std::uint32_t r = 0; r + 1 < rows_; ++r)
-            for (std::uint32_t c = 0; c + 1 < columns_; ++c) {
-                link(c, r, c + 1, r + 1, Link::Kind::Shear, compliance);
-                link(c + 1, r, c, r + 1, Link::Kind::Shear, compliance);
-            }
-    }
-    void bend(float compliance) {
-        for (std::uint32_t r = 0; r < rows_; ++r)
-            for (std::uint32_t c = 0; c + 2 < columns_; ++c)
-                link(c, r, c + 2, r, Link::Kind::Bend, compliance);
-        for (std::uint32_t c = 0; c < columns_; ++c)
-            for (std::uint32_t r = 0; r + 2 < rows_; ++r) link(c, r, c, r + 2, Link::Kind::Bend, compliance);
-    }
-
-  private:
-    void link(std::uint32_t c, std::uint32_t r, std::uint32_t to_c, std::uint32_t to_r, Link::Kind kind,
-              float compliance) {
-        draft_.link(r * columns_ + c, to_r * columns_ + to_c, kind, compliance);
-    }
-
-    Draft& draft_;
-    std::uint32_t columns_, rows_;
-};
 
 }  // namespace
 
@@ -169,10 +133,10 @@ Result draft_cloth(const State& state, const ClothShape& shape, Draft& draft) {
                                    (static_cast<double>(r) / (rows - 1)) * dvec3(shape.down));
     const double area = length(cross(dvec3(shape.along), dvec3(shape.down)));
     draft.mass = std::max(static_cast<double>(shape.density) * area / static_cast<double>(count), 1e-9);
-    Grid grid(draft, columns, rows);
-    grid.stretch();
-    grid.shear(shape.shear);
-    grid.bend(shape.bend);
+    each_link(Body::Kind::Cloth, columns, rows, [&](std::uint32_t a, std::uint32_t b, Link::Kind kind) {
+        const bool soft = kind != Link::Kind::Stretch;
+        draft.link(a, b, kind, !soft ? 0.0f : kind == Link::Kind::Shear ? shape.shear : shape.bend);
+    });
     draft.body.kind = Body::Kind::Cloth;
     draft.body.row = columns;
     draft.body.radius = shape.radius;
@@ -218,16 +182,13 @@ Result draft_hair(const State& state, const HairShape& shape, Draft& draft) {
             draft.points.push_back(dvec3(root.position) + (each * i) * unit(dvec3(root.direction)));
     draft.mass = std::max(shape.density * each, 1e-9);
     const auto strands = static_cast<std::uint32_t>(shape.roots.size());
-    for (std::uint32_t s = 0; s < strands; ++s)
-        for (std::uint32_t i = 0; i < segments; ++i) {
-            const std::uint32_t a = s * (segments + 1) + i;
-            draft.link(a, a + 1, each, Link::Kind::Stretch, 0.0f);
-        }
-    for (std::uint32_t s = 0; s < strands; ++s)
-        for (std::uint32_t i = 0; i + 2 <= segments; ++i) {
-            const std::uint32_t a = s * (segments + 1) + i;
-            draft.link(a, a + 2, Link::Kind::Bend, shape.bend);
-        }
+    each_link(Body::Kind::Hair, segments + 1, strands,
+              [&](std::uint32_t a, std::uint32_t b, Link::Kind kind) {
+                  if (kind == Link::Kind::Stretch)
+                      draft.link(a, b, each, kind, 0.0f);
+                  else
+                      draft.link(a, b, kind, shape.bend);
+              });
     draft.body.kind = Body::Kind::Hair;
     draft.body.row = row;
     draft.body.radius = shape.radius;

@@ -41,6 +41,9 @@ void drift_gusts(State& state) noexcept;
 /// The compliance of a link as its solver uses it, m/N.
 double compliance(const Settings& settings, const Link& link) noexcept;
 
+/// The relative length error of a stretch link, or its length if its rest is 0; 0 for other links.
+double length_error(const State& state, const Link& link) noexcept;
+
 /// The distance that a tie keeps in a substep of h seconds, metres.
 double distance_kept(const Tie& tie, double h) noexcept;
 

@@ -1,8 +1,11 @@
 // Changes of a body's material while it hangs.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <vector>
 
 #include "math/checks.hpp"
+#include "rope/rest_grid.hpp"
 #include "rope/slots.hpp"
 #include "tendril/rope/world.hpp"
 
@@ -42,34 +45,114 @@ Result World::set_mass(BodyId body, double kilograms) noexcept {
     if (changed == nullptr) return missing("set_mass", "body", "body", body.index);
     if (!(kilograms > 0.0 && kilograms <= 1e18))
         return refused("set_mass", "kilograms", "over 0 and at most 1e18", kilograms);
-    const double factor = kilograms / mass(*changed);
-    for (std::size_t i = changed->first; i < changed->first + changed->count; ++i)
-        state_.mass[i] = std::clamp(factor * state_.mass[i], 1e-30, 1e30);
+    scale_mass(*changed, kilograms / mass(*changed));
     return {};
 }
 
-Result World::set_compliance(BodyId body, Link::Kind kind, float compliance) noexcept {
+double World::density(const Body& body) const noexcept {
+    const detail::RestGrid grid = detail::rest_grid(state_, body);
+    double extent = grid.length() * grid.width() * std::sqrt(1.0 - grid.cosine * grid.cosine);
+    if (body.kind != Body::Kind::Cloth) {
+        const std::vector<double> each = detail::shares(grid.along);
+        const double whole = std::accumulate(each.begin(), each.end(), 0.0);
+        extent = grid.length() > 0.0 ? whole * static_cast<double>(body.count / body.row) : 0.0;
+    }
+    return extent > 0.0 ? mass(body) / extent : 0.0;
+}
+
+Result World::set_density(BodyId body, double density) noexcept {
+    const Body* const changed = find(body);
+    if (changed == nullptr) return missing("set_density", "body", "body", body.index);
+    if (!(density >= static_cast<double>(min_density) && density <= static_cast<double>(max_magnitude)))
+        return refused("set_density", "density", "1e-9 to 1e9", density);
+    const double now = this->density(*changed);
+    if (!(now > 0.0)) return refused("set_density", "body", "longer than 0", now);
+    scale_mass(*changed, density / now);
+    return {};
+}
+
+void World::scale_mass(const Body& body, double factor) noexcept {
+    for (std::size_t i = body.first; i < body.first + body.count; ++i)
+        state_.mass[i] = std::clamp(factor * state_.mass[i], 1e-30, 1e30);
+}
+
+double World::compliance(const Body& body, Link::Kind kind) const noexcept {
+    const auto link = std::find_if(state_.links.begin(), state_.links.end(), [&](const Link& each) {
+        return each.kind == kind && detail::owns(body, each);
+    });
+    if (link == state_.links.end()) return 0.0;
+    if (kind != Link::Kind::Stretch || link->compliance == 0.0f) return link->compliance;
+    const double per = detail::link_per_material(body, detail::rest_grid(state_, body), *link);
+    return per > 0.0 ? link->compliance / per : 0.0;
+}
+
+Result World::set_compliance(BodyId body, Link::Kind kind, double compliance) noexcept {
     const Body* const changed = find(body);
     if (changed == nullptr) return missing("set_compliance", "body", "body", body.index);
-    if (const Result bad = check_length("set_compliance", "compliance", compliance); !bad) return bad;
-    for (Link& link : state_.links)
-        if (link.kind == kind && detail::owns(*changed, link)) link.compliance = compliance;
+    if (!(compliance >= 0.0 && compliance <= static_cast<double>(max_magnitude)))
+        return refused("set_compliance", "compliance", "0 to 1e9", compliance);
+    const detail::RestGrid grid = detail::rest_grid(state_, *changed);
+    for (Link& link : state_.links) {
+        if (link.kind != kind || !detail::owns(*changed, link)) continue;
+        const double per =
+            kind == Link::Kind::Stretch ? detail::link_per_material(*changed, grid, link) : 1.0;
+        link.compliance = static_cast<float>(std::min(per * compliance, static_cast<double>(max_magnitude)));
+    }
     return {};
+}
+
+double World::width(const Body& body) const noexcept {
+    return body.kind == Body::Kind::Cloth ? detail::rest_grid(state_, body).width() : 0.0;
 }
 
 Result World::set_length(BodyId body, float metres) noexcept {
+    return scale(body, "set_length", metres, true);
+}
+
+Result World::set_width(BodyId cloth, float metres) noexcept {
+    const Body* const changed = find(cloth);
+    if (changed != nullptr && changed->kind != Body::Kind::Cloth)
+        return {ErrorCode::InvalidArgument, "only cloth has a width"};
+    return scale(cloth, "set_width", metres, false);
+}
+
+/// Scales a body along its rows, or across them.
+Result World::scale(BodyId body, const char* operation, float metres, bool rows) noexcept {
     Body* const changed = found(body);
-    if (changed == nullptr) return missing("set_length", "body", "body", body.index);
-    if (const Result bad = check_length("set_length", "metres", metres); !bad) return bad;
-    const double now = length(*changed);
-    if (!(now > 0.0)) return refused("set_length", "body", "longer than 0", now);
+    if (changed == nullptr) return missing(operation, "body", "body", body.index);
+    if (const Result bad = check_length(operation, "metres", metres); !bad) return bad;
+    const detail::RestGrid was = detail::rest_grid(state_, *changed);
+    const double now = rows ? was.length() : was.width();
+    if (!(now > 0.0)) return refused(operation, "body", "longer than 0", now);
     const double factor = metres / now;
+    detail::RestGrid grid = was;
+    for (double& each : rows ? grid.along : grid.down) each *= factor;
+    // Diagonals follow both sides; what leads along one side keeps its own proportion.
+    const auto new_rest = [&](const Link& link) -> double {
+        const detail::LinkWay way = detail::way_of(*changed, link);
+        const bool diagonal = way.columns != 0 && way.rows != 0 && changed->kind == Body::Kind::Cloth;
+        if (!diagonal)
+            return (rows == (way.rows == 0) || changed->kind != Body::Kind::Cloth ? factor : 1.0) * link.rest;
+        const auto to = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(way.column) + way.columns);
+        return detail::length(grid.at(to, way.row + static_cast<std::size_t>(way.rows)) -
+                              grid.at(way.column, way.row));
+    };
     for (const Link& link : state_.links) {
-        if (detail::owns(*changed, link) && !(factor * link.rest <= static_cast<double>(max_magnitude)))
-            return refused("set_length", "metres", "such that no link is longer than 1e9 m", metres);
+        if (detail::owns(*changed, link) && !(new_rest(link) <= static_cast<double>(max_magnitude)))
+            return refused(operation, "metres", "such that no link is longer than 1e9 m", metres);
     }
-    for (Link& link : state_.links)
-        if (detail::owns(*changed, link)) link.rest = static_cast<float>(factor * link.rest);
+    for (Link& link : state_.links) {
+        if (!detail::owns(*changed, link)) continue;
+        const double material =
+            link.compliance > 0.0f && link.kind == Link::Kind::Stretch
+                ? link.compliance / std::max(detail::link_per_material(*changed, was, link), 1e-30)
+                : -1.0;
+        link.rest = static_cast<float>(new_rest(link));
+        if (material < 0.0) continue;
+        const double soft = material * detail::link_per_material(*changed, grid, link);
+        link.compliance = static_cast<float>(std::min(soft, static_cast<double>(max_magnitude)));
+    }
+    scale_mass(*changed, factor);
     take_stretch(*changed);
     return {};
 }

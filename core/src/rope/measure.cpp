@@ -4,19 +4,12 @@
 
 #include "rope/build.hpp"
 #include "rope/geometry.hpp"
+#include "rope/rest_grid.hpp"
 #include "rope/slots.hpp"
 #include "tendril/rope/world.hpp"
 
 namespace tendril::rope {
 namespace {
-
-/// The relative length error of a stretch link; 0 for other links.
-double error_of(const State& state, const Link& link) {
-    if (link.kind != Link::Kind::Stretch) return 0.0;
-    const double length = detail::length(state.position[link.b] - state.position[link.a]);
-    const double rest = link.rest;
-    return rest > 0.0 ? std::abs(length / rest - 1.0) : length;
-}
 
 double particle_energy(const State& state, std::size_t first, std::size_t count) {
     const glm::dvec3 acceleration = detail::acceleration(state.settings);
@@ -39,6 +32,13 @@ double link_energy(const State& state, const Link& link) {
 
 }  // namespace
 
+double detail::length_error(const State& state, const Link& link) noexcept {
+    if (link.kind != Link::Kind::Stretch) return 0.0;
+    const double length = detail::length(state.position[link.b] - state.position[link.a]);
+    const double rest = link.rest;
+    return rest > 0.0 ? std::abs(length / rest - 1.0) : length;
+}
+
 glm::dvec3 World::velocity(std::size_t particle) const noexcept {
     if (state_.displaced_in <= 0.0) return glm::dvec3(0.0);
     return (1.0 / state_.displaced_in) * state_.displacement[particle];
@@ -47,13 +47,13 @@ glm::dvec3 World::velocity(std::size_t particle) const noexcept {
 double World::length_error(const Body& body) const noexcept {
     double worst = 0.0;
     for (const Link& link : state_.links)
-        if (detail::owns(body, link)) worst = std::max(worst, error_of(state_, link));
+        if (detail::owns(body, link)) worst = std::max(worst, detail::length_error(state_, link));
     return worst;
 }
 
 double World::length_error() const noexcept {
     double worst = 0.0;
-    for (const Link& link : state_.links) worst = std::max(worst, error_of(state_, link));
+    for (const Link& link : state_.links) worst = std::max(worst, detail::length_error(state_, link));
     return worst;
 }
 
@@ -71,6 +71,7 @@ double World::energy() const noexcept {
 }
 
 double World::length(const Body& body) const noexcept {
+    if (body.kind == Body::Kind::Cloth) return detail::rest_grid(state_, body).length();
     double sum = 0.0;
     for (const Link& link : state_.links) {
         const bool row = link.a - body.first + 1 < body.row && link.b == link.a + 1;

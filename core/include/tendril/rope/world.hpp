@@ -96,18 +96,28 @@ class World {
     /// returned.
     Expected<BodyId> cut(BodyId rope, std::size_t segment);
 
-    // A body's material can change while it hangs; it continues from its current state.
+    // A body's material can change while it hangs; it continues from its current state. For how finely it is
+    // divided see tendril/rope/edit.hpp.
     Result set_radius(BodyId body, float metres) noexcept;
     /// The sum of its particles' masses, which change in proportion. Kilograms, over 0 to 1e18.
     Result set_mass(BodyId body, double kilograms) noexcept;
     double mass(const Body& body) const noexcept;
+    /// Of its material, min_density to 1e9: kg/m of a rope or strand, kg/m^2 of a cloth.
+    Result set_density(BodyId body, double density) noexcept;
+    double density(const Body& body) const noexcept;  ///< 0 for a body of length 0
     /// Strain at which its links tear; 0: never.
     Result set_tear(BodyId body, float tear) noexcept;
-    /// Of its links of that kind, m/N; for stretch links in addition to the settings'.
-    Result set_compliance(BodyId body, Link::Kind kind, float compliance) noexcept;
-    /// Of a rope, a row of a cloth, a strand of hair: all of its links change in proportion. Metres; refused
-    /// for a body of length 0.
+    /// Of its links of that kind, 0 to 1e9. Of stretch links that of its material, in addition to the
+    /// settings': strain per newton, 1/N, of a rope, a strand, or a strip of cloth a metre wide. Of the
+    /// others m/N of each link.
+    Result set_compliance(BodyId body, Link::Kind kind, double compliance) noexcept;
+    double compliance(const Body& body, Link::Kind kind) const noexcept;  ///< of the first such link
+    /// Of a rope, a row of a cloth, a strand of hair: all of its links change in proportion, and its mass
+    /// with them. Metres; refused for a body of length 0.
     Result set_length(BodyId body, float metres) noexcept;
+    /// The same across the rows of a cloth.
+    Result set_width(BodyId cloth, float metres) noexcept;
+    double width(const Body& body) const noexcept;  ///< of a cloth, metres; 0 for others
 
     /// Ties two particles, of one body or of two. Torn or with one of their bodies removed, ties are gone; a
     /// cut leaves each on its particle. Refuses a particle tied to itself.
@@ -149,6 +159,8 @@ class World {
     Body* found(BodyId body) noexcept;
     Collider* found(ColliderId collider) noexcept;
     void take_stretch(Body& body) noexcept;
+    void scale_mass(const Body& body, double factor) noexcept;
+    Result scale(BodyId body, const char* operation, float metres, bool rows) noexcept;
 
     State state_;
 };

@@ -1,0 +1,467 @@
+#include "tendril/rope/edit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <utility>
+
+#include "math/checks.hpp"
+#include "rope/body_links.hpp"
+#include "rope/build.hpp"
+#include "rope/rest_grid.hpp"
+#include "rope/slots.hpp"
+
+namespace tendril::rope {
+namespace {
+
+using glm::dvec3;
+using tendril::detail::refused;
+
+/// A body taken out of its world: its particles are numbered from 0.
+struct Taken {
+    std::size_t row = 1;
+    std::vector<dvec3> position{}, displacement{};
+    std::vector<double> mass{};
+    std::vector<Link> links{};
+    std::vector<Pin> pins{};  ///< sorted by particle
+};
+
+template <class T>
+void replace_range(std::vector<T>& list, std::size_t first, std::size_t count, const std::vector<T>& by) {
+    const auto from = list.begin() + static_cast<std::ptrdiff_t>(first);
+    const auto at = list.erase(from, from + static_cast<std::ptrdiff_t>(count));
+    list.insert(at, by.begin(), by.end());
+}
+
+/// Puts a body in the place of the one that it was, of which each particle `becomes` another.
+void put_back(State& state, BodyId id, const Taken& taken, const std::vector<std::size_t>& becomes) {
+    Body& body = *detail::find_in(state.bodies, id);
+    const std::size_t first = body.first, was = body.count, end = first + was, now = taken.position.size();
+    replace_range(state.position, first, was, taken.position);
+    replace_range(state.displacement, first, was, taken.displacement);
+    replace_range(state.mass, first, was, taken.mass);
+    const auto number = [&](std::size_t particle) {
+        return static_cast<std::uint32_t>(particle < end ? particle : particle - was + now);
+    };
+
+    std::vector<Link> links;
+    bool placed = false;
+    const auto place = [&] {
+        for (Link link : taken.links) {
+            link.a += static_cast<std::uint32_t>(first), link.b += static_cast<std::uint32_t>(first);
+            links.push_back(link);
+        }
+        placed = true;
+    };
+    for (Link link : state.links) {
+        const bool own = detail::owns(body, link);
+        if (!placed && (own || link.a >= end)) place();
+        if (own) continue;
+        link.a = number(link.a), link.b = number(link.b);
+        links.push_back(link);
+    }
+    if (!placed) place();
+    state.links = std::move(links);
+
+    std::erase_if(state.pins, [&](const Pin& pin) { return pin.particle - first < was; });
+    for (Pin& pin : state.pins) pin.particle = number(pin.particle);
+    for (Pin pin : taken.pins) {
+        pin.particle += first;
+        state.pins.push_back(pin);
+    }
+    std::sort(state.pins.begin(), state.pins.end(),
+              [](const Pin& a, const Pin& b) { return a.particle < b.particle; });
+    for (Tie& tie : state.ties)
+        for (std::uint32_t* each : {&tie.a, &tie.b})
+            *each = *each - first < was ? static_cast<std::uint32_t>(first + becomes[*each - first])
+                                        : number(*each);
+    for (Body& each : state.bodies)
+        if (each.first >= end) each.first = each.first - was + now;
+    body.count = now;
+    body.row = taken.row;
+
+    double worst = 0.0;
+    for (const Link& link : state.links)
+        if (detail::owns(body, link)) worst = std::max(worst, detail::length_error(state, link));
+    body.stretch = static_cast<float>(std::min(worst, static_cast<double>(max_magnitude)));
+}
+
+Expected<Edited> edited(State state, std::vector<std::size_t> becomes) {
+    Expected<World> world = World::from_state(std::move(state));
+    if (!world) return world.error();
+    return Edited{.world = *std::move(world), .becomes = std::move(becomes)};
+}
+
+/// A point between two numbers of a row: `part` of the way from `before` to the next.
+struct Between {
+    std::size_t before = 0;
+    double part = 0.0;
+    std::size_t after() const noexcept { return part > 0.0 ? before + 1 : before; }
+    std::size_t nearest() const noexcept { return part < 0.5 ? before : before + 1; }
+};
+
+/// How many of `segments` each span gets, in proportion to its length and at least one.
+std::vector<std::size_t> share_out(const std::vector<double>& lengths, std::size_t segments) {
+    double whole = 0.0;
+    for (const double length : lengths) whole += length;
+    std::vector<std::size_t> counts;
+    std::vector<std::pair<double, std::size_t>> missing;  // how much more each should have
+    std::size_t given = 0;
+    for (std::size_t i = 0; i < lengths.size(); ++i) {
+        const double wanted = static_cast<double>(segments) * lengths[i] / whole;
+        counts.push_back(static_cast<std::size_t>(std::max(1.0, std::floor(wanted + 1e-9))));
+        given += counts.back();
+        missing.emplace_back(wanted - static_cast<double>(counts.back()), i);
+    }
+    const auto more = [](const auto& a, const auto& b) {
+        return a.first != b.first ? a.first > b.first : a.second < b.second;
+    };
+    std::sort(missing.begin(), missing.end(), more);
+    for (std::size_t i = 0; given < segments; i = (i + 1) % missing.size())
+        ++counts[missing[i].second], ++given;
+    while (given > segments) {
+        const auto most = std::max_element(counts.begin(), counts.end());
+        --*most, --given;
+    }
+    return counts;
+}
+
+/// Where the particles of a row come from. `rest`: the coordinates of its particles; `kept`: particles that
+/// stay, sorted, both ends among them.
+std::vector<Between> divide(const std::vector<double>& rest, const std::vector<std::size_t>& kept,
+                            std::size_t segments) {
+    std::vector<double> lengths;
+    const bool extended = rest.back() > 0.0;
+    const auto at = [&](std::size_t i) { return extended ? rest[i] : static_cast<double>(i); };
+    for (std::size_t i = 0; i + 1 < kept.size(); ++i) lengths.push_back(at(kept[i + 1]) - at(kept[i]));
+    const std::vector<std::size_t> counts = share_out(lengths, segments);
+    std::vector<Between> list;
+    for (std::size_t span = 0; span < counts.size(); ++span) {
+        std::size_t before = kept[span];
+        for (std::size_t k = 0; k < counts[span]; ++k) {
+            const double wanted =
+                at(kept[span]) + lengths[span] * static_cast<double>(k) / static_cast<double>(counts[span]);
+            while (before + 1 < kept[span + 1] && at(before + 1) <= wanted) ++before;
+            const double step = at(before + 1) - at(before);
+            double part = k == 0 || !(step > 0.0) ? 0.0 : (wanted - at(before)) / step;
+            if (part < 1e-6) part = 0.0;
+            list.push_back(part > 1.0 - 1e-6 ? Between{before + 1, 0.0} : Between{before, part});
+        }
+    }
+    list.push_back({kept.back(), 0.0});
+    return list;
+}
+
+std::vector<std::size_t> nearest_of(const std::vector<Between>& list, std::size_t count) {
+    std::vector<std::size_t> becomes;
+    const auto where = [&](std::size_t i) { return static_cast<double>(list[i].before) + list[i].part; };
+    for (std::size_t i = 0, at = 0; i < count; ++i) {
+        const auto number = static_cast<double>(i);
+        while (at + 1 < list.size() && std::abs(where(at + 1) - number) <= std::abs(where(at) - number)) ++at;
+        becomes.push_back(at);
+    }
+    return becomes;
+}
+
+class Resampling {
+  public:
+    Resampling(const State& state, const Body& body, const Resolution& to)
+        : state_(state),
+          body_(body),
+          was_(resolution(body)),
+          to_(to),
+          grid_(detail::rest_grid(state, body)),
+          pin_(body.count, nullptr) {
+        for (const Pin& pin : state.pins)
+            if (pin.particle - body.first < body.count) pin_[pin.particle - body.first] = &pin;
+        find_threads();
+    }
+
+    Result divide_rows() {
+        const auto axis = [&](bool across, std::vector<Between>& list) -> Result {
+            const std::size_t was = across ? was_.rows : was_.columns, to = across ? to_.rows : to_.columns;
+            if (was == to) {
+                for (std::size_t i = 0; i < was; ++i) list.push_back({i, 0.0});
+                return {};
+            }
+            const std::vector<std::size_t> kept = kept_in(across);
+            if (to < kept.size()) {
+                char rule[80];
+                std::snprintf(rule, sizeof rule, "%zu or more: its ends, ties and single pins keep particles",
+                              kept.size());
+                return refused("resample", across ? "rows" : "columns", rule, to);
+            }
+            list = divide(across ? grid_.down : grid_.along, kept, to - 1);
+            return {};
+        };
+        if (const Result bad = axis(false, column_); !bad) return bad;
+        return axis(true, row_);
+    }
+
+    Taken taken() const {
+        Taken made{.row = to_.columns};
+        add_particles(made);
+        add_links(made);
+        keep_momentum(made);
+        return made;
+    }
+
+    std::vector<std::size_t> becomes() const {
+        const std::vector<std::size_t> columns = nearest_of(column_, was_.columns),
+                                       rows = nearest_of(row_, was_.rows);
+        std::vector<std::size_t> list;
+        for (std::size_t i = 0; i < body_.count; ++i)
+            list.push_back(rows[i / was_.columns] * to_.columns + columns[i % was_.columns]);
+        return list;
+    }
+
+  private:
+    /// Which stretch links there are. Only cloth lacks some.
+    void find_threads() {
+        along_.assign(body_.count, nullptr), down_.assign(body_.count, nullptr);
+        for (const Link& link : state_.links) {
+            if (!detail::owns(body_, link)) continue;
+            has_[static_cast<std::size_t>(link.kind)] = &link;
+            if (link.kind != Link::Kind::Stretch) continue;
+            const detail::LinkWay way = detail::way_of(body_, link);
+            const std::size_t begin = way.row * was_.columns + way.column;
+            if (way.columns == 1 && way.rows == 0) along_[begin] = &link;
+            if (way.columns == 0 && way.rows == 1) down_[begin] = &link;
+        }
+    }
+
+    bool same_pin(std::size_t a, std::size_t b) const {
+        return pin_[a] != nullptr && pin_[b] != nullptr && pin_[a]->collider == pin_[b]->collider;
+    }
+
+    /// The columns, or rows, that must stay: the ends, those with ties, and those with a pin that does not
+    /// continue on both sides.
+    std::vector<std::size_t> kept_in(bool across) const {
+        const std::size_t count = across ? was_.rows : was_.columns, step = across ? was_.columns : 1;
+        std::vector<bool> kept(count, false);
+        kept.front() = kept.back() = true;
+        const auto number = [&](std::size_t i) { return across ? i / was_.columns : i % was_.columns; };
+        for (std::size_t i = 0; i < body_.count; ++i) {
+            const std::size_t at = number(i);
+            if (pin_[i] == nullptr || at == 0 || at + 1 == count) continue;
+            if (!same_pin(i, i - step) || !same_pin(i, i + step)) kept[at] = true;
+        }
+        for (const Tie& tie : state_.ties)
+            for (const std::uint32_t each : {tie.a, tie.b})
+                if (each - body_.first < body_.count) kept[number(each - body_.first)] = true;
+        std::vector<std::size_t> list;
+        for (std::size_t i = 0; i < count; ++i)
+            if (kept[i]) list.push_back(i);
+        return list;
+    }
+
+    std::size_t old(std::size_t column, std::size_t row) const { return row * was_.columns + column; }
+
+    /// Whether the cloth is whole between two of the new particles, which may be one.
+    bool whole(std::size_t c0, std::size_t r0, std::size_t c1, std::size_t r1) const {
+        const auto low_c = std::min(column_[c0].before, column_[c1].before),
+                   high_c = std::max(column_[c0].after(), column_[c1].after()),
+                   low_r = std::min(row_[r0].before, row_[r1].before),
+                   high_r = std::max(row_[r0].after(), row_[r1].after());
+        for (std::size_t r = low_r; r <= high_r; ++r)
+            for (std::size_t c = low_c; c <= high_c; ++c) {
+                if (c < high_c && along_[old(c, r)] == nullptr) return false;
+                if (r < high_r && down_[old(c, r)] == nullptr) return false;
+            }
+        return true;
+    }
+
+    dvec3 blend(const std::vector<dvec3>& list, std::size_t c, std::size_t r) const {
+        const Between &column = column_[c], &row = row_[r];
+        const auto at = [&](std::size_t i, std::size_t k) { return list[body_.first + old(i, k)]; };
+        if (!whole(c, r, c, r)) return at(column.nearest(), row.nearest());
+        const auto in_row = [&](std::size_t k) {
+            const dvec3 before = at(column.before, k);
+            return column.part > 0.0 ? before + column.part * (at(column.before + 1, k) - before) : before;
+        };
+        const dvec3 before = in_row(row.before);
+        return row.part > 0.0 ? before + row.part * (in_row(row.before + 1) - before) : before;
+    }
+
+    /// The pin of a new particle; none unless all old ones around it are pinned alike.
+    bool pin_at(std::size_t c, std::size_t r, Pin& pin) const {
+        const Between &column = column_[c], &row = row_[r];
+        const std::size_t corners[] = {old(column.before, row.before), old(column.after(), row.before),
+                                       old(column.before, row.after()), old(column.after(), row.after())};
+        const double parts[] = {(1.0 - column.part) * (1.0 - row.part), column.part * (1.0 - row.part),
+                                (1.0 - column.part) * row.part, column.part * row.part};
+        if (pin_[corners[0]] == nullptr) return false;
+        pin = *pin_[corners[0]];
+        pin.particle = r * to_.columns + c;
+        if (corners[0] == corners[3]) return true;
+        pin.goal = dvec3(0.0);
+        for (std::size_t i = 0; i < 4; ++i) {
+            if (!same_pin(corners[0], corners[i])) return false;
+            pin.goal += parts[i] * pin_[corners[i]]->goal;
+            pin.seconds = std::max(pin.seconds, pin_[corners[i]]->seconds);
+        }
+        return true;
+    }
+
+    /// Rest coordinates of the new columns, or rows.
+    static std::vector<double> coordinates(const std::vector<double>& was, const std::vector<Between>& list) {
+        std::vector<double> all;
+        for (const Between& each : list)
+            all.push_back(was[each.before] + each.part * (was[each.after()] - was[each.before]));
+        return all;
+    }
+
+    void add_particles(Taken& made) const {
+        const bool cloth = body_.kind == Body::Kind::Cloth;
+        const std::vector<double> columns = detail::shares(coordinates(grid_.along, column_)),
+                                  rows = detail::shares(coordinates(grid_.down, row_));
+        const auto sum = [](const std::vector<double>& list) {
+            double all = 0.0;
+            for (const double each : list) all += each;
+            return all;
+        };
+        const std::vector<double> was = detail::shares(grid_.along);
+        for (std::size_t r = 0; r < to_.rows; ++r) {
+            double mass = 0.0;  // of all rows of a cloth, or of this strand
+            for (std::size_t i = 0; i < body_.count; ++i)
+                if (cloth || i / was_.columns == r) mass += state_.mass[body_.first + i];
+            const double unit = cloth ? mass / (sum(columns) * sum(rows)) : mass / sum(was);
+            for (std::size_t c = 0; c < to_.columns; ++c) {
+                made.position.push_back(blend(state_.position, c, r));
+                made.displacement.push_back(blend(state_.displacement, c, r));
+                made.mass.push_back(std::clamp(unit * columns[c] * (cloth ? rows[r] : 1.0), 1e-30, 1e30));
+                if (Pin pin; pin_at(c, r, pin)) made.pins.push_back(pin);
+            }
+        }
+    }
+
+    void add_links(Taken& made) const {
+        detail::RestGrid grid{.along = coordinates(grid_.along, column_),
+                              .down = coordinates(grid_.down, row_),
+                              .cosine = grid_.cosine};
+        Body body = body_;
+        body.first = 0, body.count = made.position.size(), body.row = to_.columns;
+        const auto columns = static_cast<std::uint32_t>(to_.columns),
+                   rows = static_cast<std::uint32_t>(to_.rows);
+        const Link* const stretch = has_[static_cast<std::size_t>(Link::Kind::Stretch)];
+        const double per = stretch != nullptr ? detail::link_per_material(body_, grid_, *stretch) : 0.0;
+        const double material = per > 0.0 ? stretch->compliance / per : 0.0;
+        // A thread of a cloth has its share of the force.
+        const auto share = [](std::size_t was, std::size_t now) {
+            return static_cast<double>(was) / static_cast<double>(now);
+        };
+        const auto add = [&](std::uint32_t a, std::uint32_t b, Link::Kind kind) {
+            const std::size_t ca = a % columns, ra = a / columns, cb = b % columns, rb = b / columns;
+            const Link* const like = has_[static_cast<std::size_t>(kind)];
+            if (like == nullptr || !whole(ca, ra, cb, rb)) return;
+            Link link{.a = a, .b = b, .rest = 0.0f, .kind = kind, .compliance = like->compliance};
+            link.rest = static_cast<float>(detail::length(grid.at(cb, rb) - grid.at(ca, ra)));
+            if (kind == Link::Kind::Stretch) {
+                const double soft = material * detail::link_per_material(body, grid, link);
+                link.compliance = static_cast<float>(std::min(soft, static_cast<double>(max_magnitude)));
+                const bool in_row = ra == rb;
+                const Link& under = *(in_row ? along_[old(column_[ca].before, row_[ra].nearest())]
+                                             : down_[old(column_[ca].nearest(), row_[ra].before)]);
+                link.tension = static_cast<float>(
+                    under.tension * (in_row ? share(was_.rows, to_.rows) : share(was_.columns, to_.columns)));
+            }
+            made.links.push_back(link);
+        };
+        detail::each_link(body_.kind, columns, rows, add);
+    }
+
+    /// Adds the same velocity to all free particles, so that their momentum is what it was.
+    void keep_momentum(Taken& made) const {
+        dvec3 missing(0.0);
+        for (std::size_t i = 0; i < body_.count; ++i)
+            if (pin_[i] == nullptr)
+                missing += state_.mass[body_.first + i] * state_.displacement[body_.first + i];
+        std::vector<bool> pinned(made.position.size(), false);
+        for (const Pin& pin : made.pins) pinned[pin.particle] = true;
+        double mass = 0.0;
+        for (std::size_t i = 0; i < pinned.size(); ++i) {
+            if (pinned[i]) continue;
+            missing -= made.mass[i] * made.displacement[i];
+            mass += made.mass[i];
+        }
+        if (!(mass > 0.0)) return;
+        for (std::size_t i = 0; i < pinned.size(); ++i)
+            if (!pinned[i]) made.displacement[i] += (1.0 / mass) * missing;
+    }
+
+    const State& state_;
+    const Body& body_;
+    Resolution was_, to_;
+    detail::RestGrid grid_;
+    std::vector<const Pin*> pin_;            ///< of each particle; null: none
+    std::vector<const Link*> along_, down_;  ///< the stretch links that begin at each particle
+    const Link* has_[3] = {};                ///< a link of each kind
+    std::vector<Between> column_, row_;
+};
+
+}  // namespace
+
+Resolution resolution(const Body& body) noexcept {
+    return {.columns = body.row, .rows = body.count / body.row};
+}
+
+Expected<Edited> resample(const World& world, BodyId id, const Resolution& to) {
+    const char* const op = "resample";
+    const Body* const body = world.find(id);
+    if (body == nullptr) return detail::missing(op, "body", "body", id.index);
+    const bool cloth = body->kind == Body::Kind::Cloth;
+    const Resolution was = resolution(*body);
+    const std::size_t others = world.size() - body->count;
+    if (was.columns < 2) return refused(op, "body", "longer than 0", "a single particle");
+    if (to.columns < 2) return refused(op, "columns", "2 or more", to.columns);
+    if (cloth ? to.rows < 2 : to.rows != was.rows)
+        return refused(op, "rows", cloth ? "2 or more" : "as many as there are", to.rows);
+    if (to.rows > max_particles || to.columns > (max_particles - others) / to.rows)
+        return refused(op, "particles", "at most 1000000 in all", to.columns);
+    if (to == was) {
+        std::vector<std::size_t> same(body->count);
+        for (std::size_t i = 0; i < same.size(); ++i) same[i] = i;
+        return Edited{.world = world, .becomes = std::move(same)};
+    }
+    Resampling resampling(world.state(), *body, to);
+    if (const Result bad = resampling.divide_rows(); !bad) return bad;
+    State state = world.state();
+    std::vector<std::size_t> becomes = resampling.becomes();
+    put_back(state, id, resampling.taken(), becomes);
+    return edited(std::move(state), std::move(becomes));
+}
+
+Expected<Edited> reverse(const World& world, BodyId rope) {
+    const Body* const body = world.find(rope);
+    if (body == nullptr) return detail::missing("reverse", "rope", "body", rope.index);
+    if (body->kind != Body::Kind::Rope)
+        return Result(ErrorCode::InvalidArgument, "only ropes have ends to swap, not cloth or hair");
+    State state = world.state();
+    const std::size_t first = body->first, last = body->count - 1;
+    std::vector<std::size_t> becomes(body->count);
+    Taken taken{.row = body->count};
+    for (std::size_t i = 0; i <= last; ++i) {
+        const std::size_t from = first + last - i;
+        becomes[i] = last - i;
+        taken.position.push_back(state.position[from]);
+        taken.displacement.push_back(state.displacement[from]);
+        taken.mass.push_back(state.mass[from]);
+    }
+    for (auto link = state.links.rbegin(); link != state.links.rend(); ++link) {
+        if (!detail::owns(*body, *link)) continue;
+        Link turned = *link;
+        turned.a = static_cast<std::uint32_t>(becomes[link->b - first]);
+        turned.b = static_cast<std::uint32_t>(becomes[link->a - first]);
+        taken.links.push_back(turned);
+    }
+    for (Pin pin : state.pins) {
+        if (pin.particle - first > last) continue;
+        pin.particle = becomes[pin.particle - first];
+        taken.pins.push_back(pin);
+    }
+    put_back(state, rope, taken, becomes);
+    return edited(std::move(state), std::move(becomes));
+}
+
+}  // namespace tendril::rope

@@ -1,0 +1,41 @@
+// What a body is like unstrained: where its particles would lie in a plane. Not installed.
+#pragma once
+
+#include <vector>
+
+#include "rope/geometry.hpp"
+#include "tendril/rope/state.hpp"
+
+namespace tendril::rope::detail {
+
+/// A row of a body is `along` long; ropes and hair have no extent across it.
+struct RestGrid {
+    std::vector<double> along, down;  ///< metres from the first column, and from the first row
+    double cosine = 0.0;              ///< of the angle between rows and columns
+
+    double length() const noexcept { return along.back(); }
+    double width() const noexcept { return down.back(); }
+    dvec3 at(std::size_t column, std::size_t row) const noexcept {
+        return {along[column] + cosine * down[row], std::sqrt(1.0 - cosine * cosine) * down[row], 0.0};
+    }
+};
+
+/// Which way a link leads, in columns and rows.
+struct LinkWay {
+    std::size_t column = 0, row = 0;  ///< where it begins
+    std::ptrdiff_t columns = 0, rows = 0;
+};
+LinkWay way_of(const Body& body, const Link& link) noexcept;
+
+/// Torn links of a cloth count as those that are left.
+RestGrid rest_grid(const State& state, const Body& body);
+
+/// The compliance of a stretch link of a material that strains by 1 per newton: a rope's or strand's, or
+/// that of a strip of cloth a metre wide. Metres.
+double link_per_material(const Body& body, const RestGrid& grid, const Link& link) noexcept;
+
+/// How much of a body's mass each of these points has, in metres: half of what is on either side, and at the
+/// ends all of it.
+std::vector<double> shares(const std::vector<double>& at);
+
+}  // namespace tendril::rope::detail
