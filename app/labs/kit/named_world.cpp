@@ -194,6 +194,18 @@ void NamedWorld::drag_collider(rope::Workspace& workspace, std::string_view name
     require_ok(rope::drag_collider(world_, workspace, collider_id(name), shape));
 }
 
+glm::vec3 NamedWorld::position(std::size_t particle) const {
+    glm::dvec3 at(0.0);
+    world_.pose({&at, 1}, particle);
+    return glm::vec3(at);
+}
+
+std::vector<glm::vec3> NamedWorld::positions() const {
+    std::vector<glm::dvec3> pose(size());
+    world_.pose(pose);
+    return {pose.begin(), pose.end()};
+}
+
 rope::Advance NamedWorld::advance(double seconds, rope::Workspace& workspace, std::uint64_t max_substeps) {
     return world_.advance(seconds, workspace, {.max_substeps = max_substeps});
 }

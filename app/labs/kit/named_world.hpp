@@ -89,8 +89,10 @@ class NamedWorld {
     rope::Advance advance(double seconds, rope::Workspace& workspace, std::uint64_t max_substeps);
 
     std::size_t size() const { return world_.size(); }
-    // In single precision, for drawing.
-    glm::vec3 position(std::size_t particle) const { return glm::vec3(world_.position(particle)); }
+    // In single precision, for drawing: where things are at the frame's own time (rope::World::pose).
+    glm::vec3 position(std::size_t particle) const;
+    std::vector<glm::vec3> positions() const;  ///< of all particles
+    rope::Shape shape(const rope::Collider& collider) const { return world_.pose(collider); }
     glm::vec3 velocity(std::size_t particle) const { return glm::vec3(world_.velocity(particle)); }
     double length_error(const rope::Body& body) const { return world_.length_error(body); }
     double length_error() const { return world_.length_error(); }

@@ -24,8 +24,7 @@ class Drawing {
 
     void run() {
         for (std::size_t i = 0; i < world_.state().colliders.size(); ++i) collider(i);
-        positions_.reserve(world_.size());
-        for (std::size_t i = 0; i < world_.size(); ++i) positions_.push_back(world_.position(i));
+        positions_ = world_.positions();
         colours_ = particle_colours(world_, view_.palette, part_.view.strain);
         if (!part_.view.strain) mark_selection();
         for (const rope::Body& body : world_.state().bodies) {
@@ -63,7 +62,7 @@ class Drawing {
     }
 
     void collider(std::size_t i) {
-        const rope::Shape& shape = world_.state().colliders[i].shape;
+        const rope::Shape shape = world_.shape(world_.state().colliders[i]);
         const glm::vec3 colour = collider_colour(i);
         const PickId pick = collider_pick(i);
         if (const auto* sphere = std::get_if<rope::Sphere>(&shape)) {
@@ -221,7 +220,8 @@ class Drawing {
         for (std::size_t i = 0; i < state.colliders.size(); ++i) {
             const bool under_mouse = shown == collider_pick(i);
             if (under_mouse || always)
-                add(rope::centre(state.colliders[i].shape), world_.name(state.colliders[i]), under_mouse);
+                add(rope::centre(world_.shape(state.colliders[i])), world_.name(state.colliders[i]),
+                    under_mouse);
         }
         for (const rope::Body& body : state.bodies)
             if (always) add(positions_[body.first], world_.name(body), false);

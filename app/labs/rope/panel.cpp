@@ -247,7 +247,7 @@ void collider_rows(const RopePart& part, const rope::Collider& collider, Emit& e
     const std::string& name = part.world->name(collider);
     reading("collider", "%s", name.c_str());
     reading("kind", "%s", rope::kind(collider.shape));
-    glm::vec3 at = rope::centre(collider.shape);
+    glm::vec3 at = rope::centre(part.world->shape(collider));
     if (point_field("at", at, 0.01f)) emit.continuously("rope.collider.move", {{"name", name}, {"to", at}});
     explain("Where the collider is. It can be dragged in the picture too.");
     shape_rows(collider, name, emit);

@@ -159,14 +159,15 @@ PoseLines rope_lines(const SharedPart& part) {
     if (threads.empty()) return lines;
     const std::size_t every = (threads.size() + max_threads - 1) / max_threads;
     const std::size_t each = max_lines / ((threads.size() + every - 1) / every);
+    const std::vector<glm::vec3> positions = world.positions();
     for (std::size_t t = 0; t < threads.size(); t += every) {
         const Thread& thread = threads[t];
         const std::size_t links = thread.count - 1, strokes = std::min(links, each);
         for (std::size_t i = 0; i < strokes; ++i) {
             const std::size_t from = i * links / strokes, to = (i + 1) * links / strokes;
             if (thread.whole(from, to))
-                lines.emplace_back(world.position(thread.first + from * thread.step),
-                                   world.position(thread.first + to * thread.step));
+                lines.emplace_back(positions[thread.first + from * thread.step],
+                                   positions[thread.first + to * thread.step]);
         }
     }
     return lines;

@@ -50,10 +50,11 @@ ArgumentList turned(const rope::Shape& shape, glm::quat turn) {
 }
 
 Handle collider_handle(const NamedWorld& world, const rope::Collider& collider, PickId pick) {
-    const bool turns = !std::holds_alternative<rope::Sphere>(collider.shape);
+    const rope::Shape shape = world.shape(collider);
+    const bool turns = !std::holds_alternative<rope::Sphere>(shape);
     return {"collider." + world.name(collider),
             pick,
-            {rope::centre(collider.shape), turn_of(collider.shape)},
+            {rope::centre(shape), turn_of(shape)},
             turns ? Drag::Position | Drag::Rotation : Drag::Position};
 }
 
@@ -85,11 +86,11 @@ glm::vec3 grip_of(const NamedWorld& world, const rope::Body& body) {
     double pins = 0.0;
     for (const rope::Pin& pin : world.state().pins) {
         if (pin.particle - body.first >= body.count) continue;
-        pinned += world.state().position[pin.particle];
+        pinned += glm::dvec3(world.position(pin.particle));
         ++pins;
     }
     if (pins > 0.0) return glm::vec3(pinned / pins);
-    for (std::size_t i = 0; i < body.count; ++i) all += world.state().position[body.first + i];
+    for (std::size_t i = 0; i < body.count; ++i) all += glm::dvec3(world.position(body.first + i));
     return glm::vec3(all / static_cast<double>(body.count));
 }
 
@@ -173,7 +174,7 @@ void RopeLab::drag(const Workspace& workspace, PickId pick, const Handle::Frame&
             now.rotation * (std::holds_alternative<rope::Plane>(collider->shape) ? upright : along_x);
         const bool turns = frame.rotation != now.rotation && (box || glm::distance(by * axis, axis) > 1e-6f);
         if (turns) {
-            ArgumentList arguments = turned(collider->shape, frame.rotation);
+            ArgumentList arguments = turned(part.world->shape(*collider), frame.rotation);
             arguments.push_back({"name", name});
             emit.continuously("rope.collider.set", arguments);
         }
@@ -192,8 +193,8 @@ void RopeLab::drag(const Workspace& workspace, PickId pick, const Handle::Frame&
     if (const rope::Collider* holder = holder_of(*part.world, place->body->first + place->index)) {
         // An attached particle moves with its collider.
         const glm::vec3 by = to - part.world->position(place->body->first + place->index);
-        emit.continuously("rope.collider.move",
-                          {{"name", part.world->name(*holder)}, {"to", rope::centre(holder->shape) + by}});
+        emit.continuously("rope.collider.move", {{"name", part.world->name(*holder)},
+                                                 {"to", rope::centre(part.world->shape(*holder)) + by}});
         return;
     }
     const std::size_t particle = place->body->first + place->index;
@@ -283,7 +284,7 @@ void RopeLab::click_more(const Workspace& workspace, PickId pick, Emit& emit) co
 std::vector<Handle> RopeLab::selectable(const Workspace& workspace) const {
     const NamedWorld& world = *rope_part(workspace).world;
     std::vector<Handle> all;
-    for (std::size_t i = 0; i < world.size(); ++i) all.push_back({{}, particle_pick(i), {world.position(i)}});
+    for (const glm::vec3& at : world.positions()) all.push_back({{}, particle_pick(all.size()), {at}});
     return all;
 }
 

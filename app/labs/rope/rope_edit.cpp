@@ -12,7 +12,9 @@ namespace tendril::app {
 RopeEdit::RopeEdit(RopePart& changed, const Clock& clock, rope::Workspace& workspace)
     : part(changed),
       workspace_(workspace),
-      seconds_(clock.playing ? tick_seconds * static_cast<double>(clock.speed) : 0.0) {}
+      seconds_(clock.playing
+                   ? changed.world->world().pending() + tick_seconds * static_cast<double>(clock.speed)
+                   : 0.0) {}
 
 NamedWorld& RopeEdit::world() {
     if (!copy_ || copy_ != part.world) {

@@ -33,7 +33,7 @@ class RopeEdit {
 
     rope::Workspace& workspace_;
     std::shared_ptr<NamedWorld> copy_;
-    double seconds_;  ///< simulated time of the next tick; 0 while the simulation is paused
+    double seconds_;  ///< until the end of the next tick, from the last substep on; 0 while paused
 };
 
 /// Compares worlds by identity and the rest by value. Ignores quiet_ticks, samples and cost.

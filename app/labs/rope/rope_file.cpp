@@ -148,10 +148,20 @@ std::shared_ptr<Part> RopePart::load(const Json& json, const std::string& where)
 
 namespace {
 
-Json body_state(const NamedWorld& world, const rope::Body& body, const std::vector<bool>& pinned) {
+/// Of all particles, as in the picture.
+struct ShownParticles {
+    std::vector<glm::dvec3> pose;
+    std::vector<bool> pinned;
+    explicit ShownParticles(const NamedWorld& world) : pose(world.size()), pinned(world.size()) {
+        world.world().pose(pose);
+        for (const rope::Pin& pin : world.state().pins) pinned[pin.particle] = true;
+    }
+};
+
+Json body_state(const NamedWorld& world, const rope::Body& body, const ShownParticles& all) {
     Json particles = Json::array();
     for (std::size_t i = body.first; i < body.first + body.count; ++i)
-        particles.push_back({{"position", dpoint(world.state().position[i])}, {"pinned", bool(pinned[i])}});
+        particles.push_back({{"position", dpoint(all.pose[i])}, {"pinned", bool(all.pinned[i])}});
     Json json{{"name", world.name(body)},        {"length", world.length(body)},
               {"radius", number(body.radius)},   {"particles", std::move(particles)},
               {"stretch", number(body.stretch)}, {"length_error", world.length_error(body)},
@@ -163,9 +173,10 @@ Json body_state(const NamedWorld& world, const rope::Body& body, const std::vect
 Json collider_state(const RopePart& part, const rope::Collider& collider) {
     const std::string& name = part.world->name(collider);
     Json json{{"name", name}};
-    const Json shape = save_shape(collider.shape);
+    const rope::Shape now = part.world->shape(collider);
+    const Json shape = save_shape(now);
     for (const auto& [key, value] : shape.items()) json[key] = value;
-    json["centre"] = point(rope::centre(collider.shape));
+    json["centre"] = point(rope::centre(now));
     for (const Swing& swing : part.swings) {
         if (swing.collider == name)
             json["swing"] = {{"by", point(swing.swing)},
@@ -213,14 +224,13 @@ Json RopeLab::state(const Workspace& workspace) const {
     const RopePart& part = rope_part(workspace);
     const NamedWorld& world = *part.world;
     const rope::State& now = world.state();
-    std::vector<bool> pinned(world.size());
-    for (const rope::Pin& pin : now.pins) pinned[pin.particle] = true;
+    const ShownParticles particles(world);
     Json ropes = Json::array(), cloths = Json::array(), hair = Json::array(), colliders = Json::array();
     for (const rope::Body& body : now.bodies) {
         Json& list = body.kind == rope::Body::Kind::Rope    ? ropes
                      : body.kind == rope::Body::Kind::Cloth ? cloths
                                                             : hair;
-        list.push_back(body_state(world, body, pinned));
+        list.push_back(body_state(world, body, particles));
     }
     for (const rope::Collider& collider : now.colliders) colliders.push_back(collider_state(part, collider));
     Json ties = Json::array();

@@ -187,9 +187,9 @@ Bounds RopeLab::bounds(const Workspace& workspace, bool selection_only) const {
     }
     constexpr float none = 1e30f;
     glm::vec3 low(none), high(-none);
-    for (std::size_t i = 0; i < part.world->size(); ++i) {
-        low = glm::min(low, part.world->position(i));
-        high = glm::max(high, part.world->position(i));
+    for (const glm::vec3& at : part.world->positions()) {
+        low = glm::min(low, at);
+        high = glm::max(high, at);
     }
     for (const rope::Collider& collider : part.world->state().colliders)
         include_shape(collider.shape, low, high);

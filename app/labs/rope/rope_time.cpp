@@ -31,7 +31,7 @@ double shuffled(std::uint32_t number) {
 /// Starts each swinging collider's motion to its position at `time`, one tick ahead.
 void aim(const RopePart& part, NamedWorld& world, double time) {
     for (const Swing& swing : part.swings)
-        world.move_collider(swing.collider, swing_point(swing, time), tick_seconds);
+        world.move_collider(swing.collider, swing_point(swing, time), world.world().pending() + tick_seconds);
 }
 
 /// The remaining work of a tick, and the solver's reports so far.

@@ -40,19 +40,15 @@ bool tear_ties(State& state) {
            }) > 0;
 }
 
-dvec3 half_of(const Capsule& capsule) {
-    return 0.5 * dvec3(capsule.b) - 0.5 * dvec3(capsule.a);
-}
-
 /// Turns a capsule whose centre has moved to its direction there.
 void turn(Collider& collider, double part, Scratch::Moving& moving) {
     auto& capsule = std::get<Capsule>(collider.shape);
-    const dvec3 was = half_of(capsule), middle(centre(collider.shape));
+    const dvec3 was = detail::half_of(capsule), middle(centre(collider.shape));
     const dvec3 half = was + part * (*collider.half_goal - was);
     const dvec3 low = moving.low, high = moving.high;
     collider.shape =
         detail::kept_in(Capsule{glm::vec3(middle - half), glm::vec3(middle + half), capsule.radius});
-    moving.turn = half_of(capsule) - was;
+    moving.turn = detail::half_of(capsule) - was;
     // The ends sweep along lines: the bounds of both positions contain everything in between.
     detail::bounds(collider.shape, moving.by, moving.low, moving.high);
     moving.low = glm::min(moving.low, low);

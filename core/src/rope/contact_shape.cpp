@@ -102,6 +102,18 @@ std::optional<double> nearest_between(const Shape& shape, const dvec3& a, const 
     return low.distance <= high.distance ? low.t : high.t;
 }
 
+dvec3 half_of(const Capsule& capsule) noexcept {
+    return 0.5 * dvec3(capsule.b) - 0.5 * dvec3(capsule.a);
+}
+
+Shape on_the_way(const Collider& collider, double part) noexcept {
+    const dvec3 from(centre(collider.shape)), to = from + part * (collider.goal - from);
+    if (!collider.half_goal) return kept_in(moved(collider.shape, glm::vec3(to)));
+    const auto* const capsule = std::get_if<Capsule>(&collider.shape);
+    const dvec3 was = half_of(*capsule), half = was + part * (*collider.half_goal - was);
+    return kept_in(Capsule{glm::vec3(to - half), glm::vec3(to + half), capsule->radius});
+}
+
 Shape kept_in(const Shape& shape) noexcept {
     const auto* capsule = std::get_if<Capsule>(&shape);  // the others are defined by their centre
     if (capsule == nullptr) return shape;

@@ -21,6 +21,11 @@ inline constexpr int max_line_samples = 14;
 std::optional<double> nearest_between(const Shape& shape, const glm::dvec3& a, const glm::dvec3& b,
                                       double reach) noexcept;
 
+/// Half the vector from a to b.
+glm::dvec3 half_of(const Capsule& capsule) noexcept;
+/// A collider's shape after that part of the way to its goal.
+Shape on_the_way(const Collider& collider, double part) noexcept;
+
 /// The same shape with coordinates clamped to max_magnitude, which rounding can exceed.
 Shape kept_in(const Shape& shape) noexcept;
 

@@ -76,8 +76,7 @@ glm::vec3 attached_colour(const Palette& palette) {
 void draw_attachments(const View& view, DrawList& list, const Attachments& attachments) {
     constexpr int sides = 16;
     const NamedWorld& world = *attachments.world;
-    std::vector<glm::vec3> positions;
-    for (std::size_t i = 0; i < world.size(); ++i) positions.push_back(world.position(i));
+    const std::vector<glm::vec3> positions = world.positions();
     std::vector<glm::vec3> colours = particle_colours(world, view.palette, false);
     for (const rope::Body& body : world.state().bodies)
         if (body.kind == rope::Body::Kind::Rope)  // a tail should not look like a leg

@@ -1,0 +1,108 @@
+// Where particles and colliders are between two substeps.
+#include <algorithm>
+#include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
+#include <span>
+
+#include "rope/contact_shape.hpp"
+#include "rope/geometry.hpp"
+#include "tendril/rope/world.hpp"
+
+namespace tendril::rope {
+namespace {
+
+using glm::dvec3;
+
+/// The part of the way to a goal that is covered after `pending` seconds.
+double part_after(double pending, double seconds) {
+    if (pending == 0.0) return 0.0;
+    return seconds > pending ? pending / seconds : 1.0;
+}
+
+/// Part of the world's particles: those from `first` on.
+class PosedParticles {
+  public:
+    PosedParticles(const World& world, std::span<dvec3> at, std::size_t first)
+        : world_(world),
+          state_(world.state()),
+          pending_(world.pending()),
+          first_(std::min(first, world.size())),
+          at_(at.first(std::min(at.size(), world.size() - first_))) {}
+
+    void run() {
+        carry_on();
+        if (pending_ == 0.0) return;
+        for (const Collider& collider : state_.colliders) keep_out(collider);
+        place_pins();
+    }
+
+  private:
+    /// Each goes on as in the last substep.
+    void carry_on() {
+        const double rate = state_.displaced_in > 0.0 ? pending_ / state_.displaced_in : 0.0;
+        constexpr double edge = max_magnitude;
+        for (std::size_t i = 0; i < at_.size(); ++i) {
+            const dvec3& now = state_.position[first_ + i];
+            at_[i] = now;
+            if (rate > 0.0)
+                at_[i] = glm::clamp(now + rate * state_.displacement[first_ + i], dvec3(-edge), dvec3(edge));
+        }
+    }
+
+    /// Nothing comes deeper into a collider than it was after the last substep.
+    void keep_out(const Collider& collider) {
+        const Shape shape = world_.pose(collider);
+        dvec3 low, high;
+        detail::bounds(shape, dvec3(0.0), low, high);
+        for (const Body& body : state_.bodies) {
+            const double radius = static_cast<double>(body.radius);
+            const std::size_t from = std::max(body.first, first_);
+            const std::size_t end = std::min(body.first + body.count, first_ + at_.size());
+            for (std::size_t i = from; i < end; ++i) {
+                dvec3& at = at_[i - first_];
+                const dvec3 nearest = glm::clamp(at, low, high);
+                if (glm::any(glm::greaterThan(glm::abs(at - nearest), dvec3(radius)))) continue;
+                const SurfaceDistance surface = surface_distance(shape, at);
+                if (surface.distance >= radius) continue;
+                const double was = surface_distance(collider.shape, state_.position[i]).distance;
+                const double deeper = std::min(radius, was) - surface.distance;
+                if (deeper > 0.0) at += deeper * surface.normal;
+            }
+        }
+    }
+
+    void place_pins() {
+        auto pin = std::ranges::lower_bound(state_.pins, first_, {}, &Pin::particle);
+        for (; pin != state_.pins.end() && pin->particle - first_ < at_.size(); ++pin) {
+            const dvec3& now = state_.position[pin->particle];
+            dvec3 goal = pin->goal;
+            if (const Collider* const holder = world_.find(pin->collider))
+                goal += dvec3(centre(world_.pose(*holder)));
+            at_[pin->particle - first_] = now + part_after(pending_, pin->seconds) * (goal - now);
+        }
+    }
+
+    const World& world_;
+    const State& state_;
+    double pending_;
+    std::size_t first_;
+    std::span<dvec3> at_;
+};
+
+}  // namespace
+
+double World::pending() const noexcept {
+    constexpr double rounding = 1e-6;  // of a substep, as in advance()
+    return state_.remainder > rounding * state_.settings.substep ? state_.remainder : 0.0;
+}
+
+void World::pose(std::span<dvec3> particles, std::size_t first) const noexcept {
+    PosedParticles(*this, particles, first).run();
+}
+
+Shape World::pose(const Collider& collider) const noexcept {
+    const double part = part_after(pending(), collider.seconds);
+    return part > 0.0 ? detail::on_the_way(collider, part) : collider.shape;
+}
+
+}  // namespace tendril::rope
