@@ -13,6 +13,7 @@
 #include "app/batch/paper_table.hpp"
 #include "app/batch/signal.hpp"
 #include "app/batch/solve.hpp"
+#include "app/batch/trace.hpp"
 #include "app/document/command.hpp"
 #include "app/document/text.hpp"
 #include "app/io/solver_json.hpp"
@@ -205,6 +206,30 @@ CLI::App* add_bake(CLI::App& line, BakeOptions& options) {
     return bake;
 }
 
+CLI::App* add_trace(CLI::App& line, TraceOptions& options) {
+    CLI::App* trace = line.add_subcommand("trace", "Explain what a chain did in an engine, frame by frame");
+    trace->add_option("FILE", options.file, "JSON Lines, CSV or a log; see below")->required();
+    const auto csv = trace->add_flag("--csv", options.csv, "Print rows of comma-separated values");
+    trace->add_flag("--json", options.json, "Print one JSON array")->excludes(csv);
+    ConventionChoice& choice = options.conventions;
+    trace->add_option("--up", choice.up, "The axis that is up, whatever the file says")
+        ->check(CLI::IsMember(trace_ups.names()))
+        ->option_text("y|z");
+    trace->add_option("--handed", choice.handed, "The handedness of its axes")
+        ->check(CLI::IsMember(trace_hands.names()))
+        ->option_text("right|left");
+    trace->add_option("--unit", choice.unit, "The unit of its positions")
+        ->check(CLI::IsMember(trace_units.names()))
+        ->option_text("m|cm|mm");
+    trace->add_option("--rotations", choice.rotations, "The order of a quaternion's numbers")
+        ->check(CLI::IsMember(quaternion_orders.names()))
+        ->option_text("xyzw|wxyz");
+    trace->add_option("--fps", options.fps, "Frames per second; default: the file's, or 60")
+        ->option_text("N");
+    trace->footer(trace_help);
+    return trace;
+}
+
 /// Options before a subcommand are for the window, which a subcommand does not open.
 void refuse_options_before(const CLI::App& line, const CLI::App& subcommand) {
     for (const CLI::Option* option : line.get_options()) {
@@ -226,7 +251,8 @@ class BatchLine {
           paper_(line.add_subcommand("paper", "Measure the solvers and print a table")),
           code_(line.add_subcommand("code", "Print a scene as a C++ program that uses the library")),
           lint_(add_lint(line, lint_options_)),
-          bake_(add_bake(line, bake_options_)) {
+          bake_(add_bake(line, bake_options_)),
+          trace_(add_trace(line, trace_options_)) {
         paper_->add_flag("--csv", paper_csv_, "Print rows of comma-separated values");
         paper_->footer(paper_help);
         code_->add_option("SCENE", scene_, "A scene file; its open lab is printed")->required();
@@ -239,9 +265,11 @@ class BatchLine {
         if (solve_->parsed()) solve_cases(solve_options_.checked(), ending);
         if (signal_->parsed()) run_signal(signal_options_, ending);
         if (paper_->parsed()) print_paper(paper_csv_, ending);
-        if (code_->parsed() || bake_->parsed() || lint_->parsed()) end_at_once_on_signals();
+        if (code_->parsed() || bake_->parsed() || lint_->parsed() || trace_->parsed())
+            end_at_once_on_signals();
         if (code_->parsed()) print_code(scene_);
         if (bake_->parsed()) run_bake(bake_options_);
+        if (trace_->parsed()) return run_trace(trace_options_) > 0 ? 1 : 0;
         return lint_->parsed() && run_lint(lint_options_) > 0 ? 1 : 0;
     }
 
@@ -251,7 +279,8 @@ class BatchLine {
     SignalOptions signal_options_;
     LintOptions lint_options_;
     BakeOptions bake_options_;
-    CLI::App *solve_, *signal_, *paper_, *code_, *lint_, *bake_;
+    TraceOptions trace_options_;
+    CLI::App *solve_, *signal_, *paper_, *code_, *lint_, *bake_, *trace_;
     bool paper_csv_ = false;
     std::string scene_;
 };

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "app/batch/list_reader.hpp"
+#include "app/document/list_reader.hpp"
 #include "app/document/json_complete.hpp"
 #include "app/io/solver_json.hpp"
 

@@ -107,29 +107,6 @@ PoseLines chain_lines(const SharedPart& part) {
 
 namespace {
 
-struct Turn {
-    std::size_t joint = 0;
-    float angle = 0.0f;  ///< radians
-};
-
-/// The bone that turned the furthest (the first, if several turned equally far), and the end of it that moved
-/// further.
-Turn furthest_turn(const Chain& before, const Chain& after) {
-    constexpr float equal = 1e-3f;  // radians
-    const auto a = before.segments(), b = after.segments();
-    Turn furthest;
-    for (std::size_t i = 1; i < a.size(); ++i) {
-        const float angle =
-            angle_between(a[i].position - a[i - 1].position, b[i].position - b[i - 1].position);
-        if (angle <= furthest.angle + equal) continue;
-        const auto moved = [&](std::size_t joint) {
-            return glm::distance(a[joint].position, b[joint].position);
-        };
-        furthest = {moved(i - 1) > moved(i) ? i - 1 : i, angle};
-    }
-    return furthest;
-}
-
 /// Which end of its range each angle of a joint is at: -1, 0 (between), 1.
 struct Sides {
     int hinge = 0, up = 0, left = 0, twist = 0;
@@ -166,70 +143,45 @@ bool limit_switched(const ChainPart& before, const ChainPart& after) {
     return false;
 }
 
-/// What moved from one solve to the next.
-struct Move {
-    float reach = 0.0f;
-    float distance = 0.0f;  ///< metres, of target or pole target, whichever moved further
-    float angle = 0.0f;     ///< radians, of the target as seen from the root
-    float swivel = 0.0f;    ///< radians, of the pole target about the line from root to target
-};
-
-Move move_of(const ChainPart& before, const ChainPart& after) {
-    const glm::vec3 root = after.chain.segments().front().position, line = after.target - root;
-    Move move{.reach = after.chain.reach(),
-              .distance = glm::distance(before.target, after.target),
-              .angle = angle_between(before.target - root, line)};
-    if (!before.reach.pole || !after.reach.pole || *before.reach.pole == *after.reach.pole) return move;
-    move.swivel = angle_between(glm::cross(line, *before.reach.pole - root),
-                                glm::cross(line, *after.reach.pole - root));
-    move.distance = std::max(move.distance, glm::distance(*before.reach.pole, *after.reach.pole));
-    return move;
-}
-
-ReachPose reach_pose(const ChainPart& part) {
-    ReachPose pose{.target = part.target, .pole = part.reach.pole};
+ik::ReachPose reach_pose(const ChainPart& part) {
+    ik::ReachPose pose{.target = part.target, .pole = part.reach.pole};
     for (const Segment& segment : part.chain.segments()) pose.joints.push_back(segment.position);
     return pose;
 }
 
-/// The first that applies.
-FlipReason reason_of(const ChainPart& before, const ChainPart& after) {
-    const ReachPose was = reach_pose(before), is = reach_pose(after);
-    const float reach = after.chain.reach();
-    if (went_through_root(was, is, reach)) return through_root;
-    const PolePassage pole = pole_passage(was, is);
-    if (pole.passed) return passed_pole;
-    if (after.result->report.restarts > 0)
-        return {"the solver restarted from another pose", "Without restarts it keeps to the pose it is in.",
-                FlipCure::NoRestarts};
-    if (limit_switched(before, after))
-        return {"a limit switched sides", "Narrow that limit: both its ends are equally good here."};
-    if (was_straight(was, is, reach)) {
-        const FlipReason& straight = collinear_reason(was, is, reach);
-        if (!after.reach.pole) return straight;
-        return {straight.cause, "Keep the target within reach, where the chain stays bent."};
+/// Why a chain flipped: what the poses show, or else what the solver did.
+struct FlipReason {
+    std::string cause;
+    FlipAdvice advice;
+};
+
+FlipReason reason_of(const ChainPart& before, const ChainPart& after, const ik::ReachPose& was,
+                     const ik::ReachPose& is) {
+    using enum ik::FlipCause;
+    const ik::FlipCause seen = ik::flip_cause(was, is);
+    if (seen != ThroughRoot && seen != PassedPole) {
+        if (after.result->report.restarts > 0)
+            return {"the solver restarted from another pose",
+                    {"Without restarts it keeps to the pose it is in.", FlipCure::NoRestarts}};
+        if (limit_switched(before, after))
+            return {"a limit switched sides", {"Narrow that limit: both its ends are equally good here."}};
     }
-    if (pole.close) return close_to_pole;
-    constexpr const char* switched = "the solver switched to another pose that the target allows";
-    if (after.reach.pole) return {switched, "Narrow the joint limits, or drag the target more slowly."};
-    return {switched, "Add a pole target, or limits: they leave it fewer poses.", FlipCure::AddPole};
+    const FlipAdvice advice = flip_advice(seen, after.reach.pole.has_value());
+    if (seen == Unexplained) return {"the solver switched to another pose that the target allows", advice};
+    return {ik::text(seen), advice};
 }
 
 std::optional<Incident> flip(const ChainPart& before, const ChainPart& after) {
-    const FlipRule& rule = after.flips;
-    const Turn turn = furthest_turn(before.chain, after.chain);
-    if (glm::degrees(turn.angle) <= rule.degrees) return std::nullopt;
-    const Move move = move_of(before, after);
-    const bool far = std::max(move.angle, move.swivel) >= rule.angle_share * turn.angle &&
-                     move.distance >= rule.reach_share * move.reach;
-    if (far) return std::nullopt;
-    const FlipReason reason = reason_of(before, after);
+    const ik::ReachPose was = reach_pose(before), is = reach_pose(after);
+    const auto turn = ik::find_flip(was, is, after.flips);
+    if (!turn) return std::nullopt;
+    const FlipReason reason = reason_of(before, after, was, is);
     return Incident{.kind = Incident::Kind::Flip,
-                    .joint = turn.joint,
-                    .degrees = glm::degrees(turn.angle),
+                    .joint = turn->joint,
+                    .degrees = glm::degrees(turn->radians),
                     .cause = reason.cause,
-                    .cure = reason.cure,
-                    .button = flip_cure(reason.button, before, after)};
+                    .cure = reason.advice.cure,
+                    .button = flip_cure(reason.advice.button, before, after)};
 }
 
 /// "Out of reach: the target is out of reach, ...": the verdict and the meaning of its status.

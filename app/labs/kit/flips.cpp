@@ -67,30 +67,6 @@ void flip_rows(const FlipRule& rule, const FlipWords& words, MoreRows& more, Emi
         });
 }
 
-namespace {
-
-constexpr float near_root = 0.02f, straight = 0.02f;  ///< of the reach
-
-/// The maximum distance of a joint from the line through root and tip, in metres.
-float bend(const std::vector<glm::vec3>& joints) {
-    const glm::vec3 root = joints.front(), line = joints.back() - root;
-    const float length = glm::length(line);
-    float furthest = 0.0f;
-    for (const glm::vec3 joint : joints) {
-        const glm::vec3 from_root = joint - root;
-        const float off =
-            length > 0.0f ? glm::length(glm::cross(from_root, line)) / length : glm::length(from_root);
-        furthest = std::max(furthest, off);
-    }
-    return furthest;
-}
-
-}  // namespace
-
-float angle_between(glm::vec3 a, glm::vec3 b) {
-    return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
-}
-
 double turn_between(const glm::dquat& a, const glm::dquat& b) {
     const glm::dquat between = glm::conjugate(a) * b;
     return 2.0 * std::atan2(glm::length(glm::dvec3(between.x, between.y, between.z)), std::abs(between.w));
@@ -103,30 +79,30 @@ float distance_to(glm::vec3 point, glm::vec3 a, glm::vec3 b) {
     return glm::distance(point, a + t * along);
 }
 
-bool went_through_root(const ReachPose& before, const ReachPose& after, float reach) {
-    return distance_to(after.root(), before.target, after.target) < near_root * reach;
-}
-
-PolePassage pole_passage(const ReachPose& before, const ReachPose& after) {
-    if (!before.pole || !after.pole) return {};
-    constexpr float close = 0.17f;  // radians, ten degrees
-    const glm::vec3 root = after.root();
-    const glm::vec3 was = glm::cross(before.target - root, *before.pole - root);
-    const glm::vec3 is = glm::cross(after.target - root, *after.pole - root);
-    const auto off = [&](const ReachPose& pose) {
-        const float angle = angle_between(pose.target - root, *pose.pole - root);
-        return std::min(angle, glm::pi<float>() - angle);
-    };
-    return {glm::dot(was, is) < 0.0f, std::min(off(before), off(after)) < close};
-}
-
-bool was_straight(const ReachPose& before, const ReachPose& after, float reach) {
-    return std::min(bend(before.joints), bend(after.joints)) < straight * reach;
-}
-
-const FlipReason& collinear_reason(const ReachPose& before, const ReachPose& after, float reach) {
-    const ReachPose& flat = bend(before.joints) <= bend(after.joints) ? before : after;
-    return glm::distance(flat.root(), flat.joints.back()) < 0.5f * reach ? folded_chain : straight_chain;
+FlipAdvice flip_advice(ik::FlipCause cause, bool poled) {
+    using enum ik::FlipCause;
+    switch (cause) {
+        case TargetJump:
+            return {"Lead the target there over some frames, or blend into the new pose."};
+        case ThroughRoot:
+            return {"Lead the target around the root: there, every direction is equally near."};
+        case PassedPole:
+        case ClosePole:
+            return {"Move the pole out of the plane in which the target moves: towards you, if you drag in "
+                    "the view.",
+                    FlipCure::MovePole};
+        case Straight:
+            if (poled) return {"Keep the target within reach, where the chain stays bent."};
+            return {"Add a pole target on the side to which it should bend, or keep the target within reach.",
+                    FlipCure::AddPole};
+        case Folded:
+            if (poled) return {"Keep the target within reach, where the chain stays bent."};
+            return {"Add a pole target on the side to which it should bend.", FlipCure::AddPole};
+        case Unexplained:
+            break;
+    }
+    if (poled) return {"Narrow the joint limits, or drag the target more slowly."};
+    return {"Add a pole target, or limits: they leave it fewer poses.", FlipCure::AddPole};
 }
 
 }  // namespace tendril::app

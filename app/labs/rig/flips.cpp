@@ -303,8 +303,8 @@ Cause by_input(const Both& both) {
 /// At half a turn no direction is the shortest: near it the axis of rotation can swing round, and the bone
 /// turns with it, by twice as much.
 Cause by_half_turn(glm::vec3 from_was, glm::vec3 to_was, glm::vec3 from_is, glm::vec3 to_is, double radians) {
-    const float furthest = std::max(angle_between(from_was, to_was), angle_between(from_is, to_is));
-    const float axis = angle_between(glm::cross(from_was, to_was), glm::cross(from_is, to_is));
+    const float furthest = std::max(ik::angle_between(from_was, to_was), ik::angle_between(from_is, to_is));
+    const float axis = ik::angle_between(glm::cross(from_was, to_was), glm::cross(from_is, to_is));
     if (glm::pi<float>() - furthest > close_by || axis < 0.25f * static_cast<float>(radians))
         return std::nullopt;
     return "the target was about half a turn away, where neither way round is shorter";
@@ -334,9 +334,9 @@ Cause by_aim(const Both& both, const rig::Transform& was, const rig::Transform& 
         const auto second_was = way_to(both.was, *secondary, "/secondary", at_was),
                    second_is = way_to(both.is, *secondary, "/secondary", at_is);
         if (!second_was || !second_is) return std::nullopt;
-        const ReachPose before{{at_was}, at_was + *first_was, at_was + *second_was},
+        const ik::ReachPose before{{at_was}, at_was + *first_was, at_was + *second_was},
             after{{at_was}, at_was + *first_is, at_was + *second_is};
-        const PolePassage passage = pole_passage(before, after);
+        const ik::PolePassage passage = ik::pole_passage(before, after);
         if (passage.passed) return "the second target crossed the line to the first";
         if (passage.close) return "the second target came close to the line to the first";
         return std::nullopt;  // the second target fixes the roll, so no half turn is involved
@@ -366,10 +366,10 @@ std::vector<glm::vec3> joints_between(const RigPart& part, const rig::Item& root
     return joints;
 }
 
-std::optional<ReachPose> reach_pose(const Given& given, const RigPart& found, const RigPart& left,
+std::optional<ik::ReachPose> reach_pose(const Given& given, const RigPart& found, const RigPart& left,
                                     const rig::Item& root, const rig::Item& tip) {
     const auto target = given.point("/target");
-    ReachPose pose{joints_between(left, root, tip), {}, given.point("/pole_target")};
+    ik::ReachPose pose{joints_between(left, root, tip), {}, given.point("/pole_target")};
     // Uses the joints after the unit ran, which show how the chain is bent.
     if (!target || pose.joints.empty() || joints_between(found, root, tip).empty()) return std::nullopt;
     pose.target = *target;
@@ -380,15 +380,9 @@ Cause by_reach(const Both& both, const rig::Item& root, const rig::Item& tip) {
     const auto was = reach_pose(both.was, both.before.found, both.before.left, root, tip),
                is = reach_pose(both.is, both.after.found, both.after.left, root, tip);
     if (!was || !is) return std::nullopt;
-    float reach = 0.0f;
-    for (std::size_t i = 1; i < is->joints.size(); ++i)
-        reach += glm::distance(is->joints[i - 1], is->joints[i]);
-    if (went_through_root(*was, *is, reach)) return through_root.cause;
-    const PolePassage pole = pole_passage(*was, *is);
-    if (pole.passed) return passed_pole.cause;
-    if (was_straight(*was, *is, reach)) return collinear_reason(*was, *is, reach).cause;
-    if (pole.close) return close_to_pole.cause;
-    return std::nullopt;
+    const ik::FlipCause cause = ik::flip_cause(*was, *is);
+    if (cause == ik::FlipCause::Unexplained) return std::nullopt;
+    return ik::text(cause);
 }
 
 Cause by_kind(const Both& both) {

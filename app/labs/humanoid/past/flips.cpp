@@ -179,8 +179,8 @@ constexpr std::array<Limb, 4> limbs{{{{Bone::LeftUpperArm, Bone::LeftLowerArm, B
                                       "right knee"}}};
 
 /// The limb's target, or its end if it has none.
-ReachPose reach_pose(const HumanoidMoment& moment, const Limb& limb) {
-    ReachPose pose;
+ik::ReachPose reach_pose(const HumanoidMoment& moment, const Limb& limb) {
+    ik::ReachPose pose;
     for (const Bone bone : limb.bones) pose.joints.push_back(moment.shown.point(*moment.part.node_of(bone)));
     const auto& target = moment.part.ik.target(limb.effector);
     pose.target = target ? glm::vec3(target->position) : pose.joints.back();
@@ -190,13 +190,10 @@ ReachPose reach_pose(const HumanoidMoment& moment, const Limb& limb) {
 Cause by_limb(const HumanoidMoment& was, const HumanoidMoment& is, const Limb& limb) {
     for (const Bone bone : limb.bones)
         if (!is.part.node_of(bone)) return std::nullopt;
-    const ReachPose before = reach_pose(was, limb), after = reach_pose(is, limb);
-    float reach = 0.0f;
-    for (std::size_t i = 1; i < after.joints.size(); ++i)
-        reach += glm::distance(after.joints[i - 1], after.joints[i]);
-    if (is.part.ik.target(limb.effector) && went_through_root(before, after, reach))
+    const ik::ReachPose before = reach_pose(was, limb), after = reach_pose(is, limb);
+    if (is.part.ik.target(limb.effector) && ik::went_through_root(before, after))
         return std::string("the target went through the ") + limb.root;
-    if (was_straight(before, after, reach)) return std::string("the ") + limb.middle + " was straight";
+    if (ik::was_straight(before, after)) return std::string("the ") + limb.middle + " was straight";
     return std::nullopt;
 }
 

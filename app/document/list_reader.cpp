@@ -1,4 +1,4 @@
-#include "app/batch/list_reader.hpp"
+#include "app/document/list_reader.hpp"
 
 #include "app/document/json_complete.hpp"
 #include "app/document/json_scan.hpp"

@@ -1,5 +1,5 @@
 // A list read value by value: equivalent to parsing it whole, with the same texts refused.
-#include "app/batch/list_reader.hpp"
+#include "app/document/list_reader.hpp"
 
 #include <gtest/gtest.h>
 

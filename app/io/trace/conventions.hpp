@@ -1,0 +1,58 @@
+// The space and unit of a trace: given, or guessed with a reason. Pictures and incidents are right-handed,
+// Y up, in metres.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <span>
+#include <string>
+
+#include "app/document/names.hpp"
+#include "app/io/trace/raw.hpp"
+
+namespace tendril::app {
+
+enum class TraceUp { Y, Z };
+enum class TraceHand { Right, Left };
+enum class TraceUnit { Metres, Centimetres, Millimetres };
+enum class QuaternionOrder { Xyzw, Wxyz };
+
+inline constexpr EnumNames<TraceUp, 2> trace_ups{"up axis", {{"y", "Y up"}, {"z", "Z up"}}};
+inline constexpr EnumNames<TraceHand, 2> trace_hands{"handedness",
+                                                     {{"right", "right-handed"}, {"left", "left-handed"}}};
+inline constexpr EnumNames<TraceUnit, 3> trace_units{
+    "unit", {{"m", "metres"}, {"cm", "centimetres"}, {"mm", "millimetres"}}};
+inline constexpr EnumNames<QuaternionOrder, 2> quaternion_orders{
+    "order of a quaternion", {{"xyzw", "x, y, z, w"}, {"wxyz", "w, x, y, z"}}};
+
+/// A convention, and how it is known.
+template <class Value>
+struct Known {
+    Value value{};
+    bool sure = false;     ///< given, or the data leave no doubt
+    std::string reason{};  ///< for display: "given", "as Unreal has it"
+};
+
+struct Conventions {
+    Known<TraceUp> up;
+    Known<TraceHand> handed;
+    Known<TraceUnit> unit;
+    Known<QuaternionOrder> rotations;
+    bool has_rotations = false;
+
+    /// Metres, right-handed, Y up. NaN stays NaN; what no float holds becomes infinite.
+    glm::vec3 point(const glm::dvec3& p) const;
+    double metres() const;  ///< that one unit is
+    /// "Z up, left-handed, centimetres (as Unreal has it)", with "not sure" where that is so.
+    std::string text() const;
+};
+
+/// What somebody chose. Overrides the file.
+struct ConventionChoice {
+    std::string up, handed, unit, rotations;  ///< names, as in the tables above; empty: as the file says
+};
+
+/// From the header, or guessed from the first frames. Throws std::runtime_error for an unknown name.
+Conventions conventions_of(const RawTrace& trace, std::span<const RawFrame> frames,
+                           const ConventionChoice& choice);
+
+}  // namespace tendril::app

@@ -1,0 +1,107 @@
+#include "app/io/trace/raw.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include "app/document/text.hpp"
+
+namespace tendril::app {
+
+void fail_line(std::size_t line, const std::string& what) {
+    throw std::runtime_error("line " + std::to_string(line) + ": " + what);
+}
+
+bool read_line(std::istream& in, std::string& text, std::size_t& line) {
+    constexpr std::size_t longest = 16u << 20;
+    text.clear();
+    std::streambuf& buffer = *in.rdbuf();
+    bool any = false;
+    for (;;) {
+        const int c = buffer.sbumpc();
+        if (c == std::char_traits<char>::eof()) break;
+        any = true;
+        if (c == '\n') break;
+        if (text.size() == longest) fail_line(line + 1, "is longer than 16 MiB");
+        text.push_back(static_cast<char>(c));
+    }
+    if (!any) return false;
+    ++line;
+    if (text.ends_with('\r')) text.pop_back();
+    constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+    if (line == 1 && text.starts_with(byte_order_mark)) text.erase(0, byte_order_mark.size());
+    return true;
+}
+
+std::optional<double> take_number(std::string_view& text) {
+    std::string_view rest = text;
+    const bool negative = rest.starts_with('-');
+    if (negative || rest.starts_with('+')) rest.remove_prefix(1);
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN(),
+                     infinity = std::numeric_limits<double>::infinity();
+    struct Word {
+        std::string_view text;
+        double value;
+    };
+    static constexpr std::array words{
+        Word{"nan(ind)", nan}, Word{"nan(snan)", nan}, Word{"nan", nan},    Word{"infinity", infinity},
+        Word{"inf", infinity}, Word{"1.#qnan", nan},   Word{"1.#ind", nan}, Word{"1.#inf", infinity}};
+    const std::string start = lower_case(rest.substr(0, 10));
+    for (const Word& word : words) {
+        if (!start.starts_with(word.text)) continue;
+        rest.remove_prefix(word.text.size());
+        while (word.text.starts_with('1') && rest.starts_with('0')) rest.remove_prefix(1);
+        if (rest.starts_with('f') || rest.starts_with('F')) rest.remove_prefix(1);
+        const char after = rest.empty() ? ' ' : rest[0];
+        if ((after >= 'a' && after <= 'z') || (after >= 'A' && after <= 'Z') || after == '_')
+            return std::nullopt;
+        text = rest;
+        return negative ? -word.value : word.value;
+    }
+    const bool digit = !rest.empty() && ((rest[0] >= '0' && rest[0] <= '9') || rest[0] == '.');
+    if (!digit) return std::nullopt;
+    double value = 0.0;
+    const auto [stop, error] = std::from_chars(rest.data(), rest.data() + rest.size(), value);
+    if (error == std::errc::result_out_of_range)
+        value = infinity;
+    else if (error != std::errc())
+        return std::nullopt;
+    rest.remove_prefix(static_cast<std::size_t>(stop - rest.data()));
+    if (rest.starts_with('f') || rest.starts_with('F')) rest.remove_prefix(1);
+    text = rest;
+    return negative ? -value : value;
+}
+
+void count_decimals(RawTrace& trace, std::string_view text) {
+    const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+    for (std::size_t at = text.find('.'); at != text.npos; at = text.find('.', at + 1)) {
+        std::size_t end = at + 1;
+        while (end < text.size() && is_digit(text[end])) ++end;
+        if (at == 0 || !is_digit(text[at - 1])) continue;
+        const bool exponent = end < text.size() && (text[end] == 'e' || text[end] == 'E');
+        if (exponent) trace.decimals = -1;
+        if (trace.decimals >= 0) trace.decimals = std::max(trace.decimals, static_cast<int>(end - at - 1));
+    }
+}
+
+std::unique_ptr<RawTrace> open_raw_trace(std::istream& in) {
+    std::string first;
+    std::size_t line = 0;
+    do {
+        if (!read_line(in, first, line)) throw std::runtime_error("has nothing in it");
+    } while (first.find_first_not_of(" \t") == first.npos);
+    const std::size_t at = first.find_first_not_of(" \t");
+    const std::size_t next = first.find_first_not_of(" \t", at + 1);
+    const char after = next == first.npos ? '\n' : first[next];
+    if (first[at] == '{' && (after == '"' || after == '}' || after == '\n'))
+        return open_json_trace(in, std::move(first), line);
+    if (first[at] == '[' && (after == '[' || after == '{' || after == '\n'))
+        return open_json_trace(in, std::move(first), line);
+    if (begins_table(first)) return open_table_trace(in, std::move(first), line);
+    return open_log_trace(in, std::move(first), line);
+}
+
+}  // namespace tendril::app

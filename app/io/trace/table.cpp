@@ -1,0 +1,239 @@
+// Traces as tables: CSV, or what a spreadsheet copies.
+#include <algorithm>
+#include <array>
+#include <map>
+#include <stdexcept>
+#include <utility>
+
+#include "app/document/text.hpp"
+#include "app/io/trace/raw.hpp"
+
+namespace tendril::app {
+namespace {
+
+std::vector<std::string_view> cells(std::string_view line, char separator) {
+    std::vector<std::string_view> found;
+    while (true) {
+        const std::size_t end = std::min(line.find(separator), line.size());
+        std::string_view cell = line.substr(0, end);
+        while (!cell.empty() && (cell.front() == ' ' || cell.front() == '"' || cell.front() == '\t'))
+            cell.remove_prefix(1);
+        while (!cell.empty() && (cell.back() == ' ' || cell.back() == '"' || cell.back() == '\t'))
+            cell.remove_suffix(1);
+        found.push_back(cell);
+        if (end == line.size()) return found;
+        line.remove_prefix(end + 1);
+    }
+}
+
+/// The one that parts the line into most cells; spaces only where there is no other.
+char separator_of(std::string_view line) {
+    char best = ' ';
+    std::ptrdiff_t most = 0;
+    for (const char each : {',', ';', '\t'}) {
+        const auto count = std::count(line.begin(), line.end(), each);
+        if (count > most) most = count, best = each;
+    }
+    return best;
+}
+
+std::vector<std::string_view> split(std::string_view line, char separator) {
+    std::vector<std::string_view> found = cells(line, separator);
+    if (separator == ' ') std::erase_if(found, [](std::string_view cell) { return cell.empty(); });
+    return found;
+}
+
+std::optional<double> number_in(std::string_view cell) {
+    const auto number = take_number(cell);
+    return number && cell.empty() ? number : std::nullopt;
+}
+
+bool all_numbers(const std::vector<std::string_view>& cells) {
+    return std::ranges::all_of(cells, [](std::string_view cell) { return number_in(cell).has_value(); });
+}
+
+enum class Role { Ignored, Time, Dt, Chain, Target, Pole, Joint };
+struct Column {
+    Role role = Role::Ignored;
+    std::size_t joint = 0;
+    int axis = 0;
+};
+
+/// "Elbow_X" is axis 0 of "elbow".
+std::optional<std::pair<std::string, int>> point_column(std::string_view cell) {
+    std::string name = lower_case(cell);
+    if (name.size() < 2) return std::nullopt;
+    const int axis = name.back() - 'x';
+    if (axis < 0 || axis > 2) return std::nullopt;
+    name.pop_back();
+    while (!name.empty() &&
+           (name.back() == '.' || name.back() == '_' || name.back() == ' ' || name.back() == '-'))
+        name.pop_back();
+    if (name.empty()) return std::nullopt;
+    return std::pair(name, axis);
+}
+
+Role role_of(const std::string& base) {
+    for (const char* word : {"t", "target", "goal", "effector_target"})
+        if (base == word) return Role::Target;
+    for (const char* word : {"p", "pole", "pole_target", "hint"})
+        if (base == word) return Role::Pole;
+    return Role::Joint;
+}
+
+class Table final : public RawTrace {
+  public:
+    Table(std::istream& in, std::string first, std::size_t at) : in_(in), text_(std::move(first)) {
+        line = at;
+        separator_ = separator_of(text_);
+        const auto row = split(text_, separator_);
+        if (all_numbers(row)) {
+            without_names(row.size());
+            return;
+        }
+        read_names(row);
+        waiting_ = false;
+    }
+
+    bool next(RawFrame& frame) override {
+        frame = {};
+        if (one_pose_) return next_pose(frame);
+        do {
+            if (!waiting_ && !read_line(in_, text_, line)) return false;
+            waiting_ = false;
+        } while (text_.find_first_not_of(" \t,;") == text_.npos);
+        count_decimals(*this, text_);
+        frame.line = line;
+        frame.joints.assign(joints_, glm::dvec3(std::numeric_limits<double>::quiet_NaN()));
+        auto row = split(text_, separator_);
+        if (row.size() == columns_.size() + 1 && row.back().empty()) row.pop_back();
+        if (row.size() != columns_.size())
+            fail_line(line, "expected " + std::to_string(columns_.size()) + " columns, found " +
+                                std::to_string(row.size()));
+        for (std::size_t i = 0; i < row.size(); ++i) take(frame, i, row[i]);
+        return true;
+    }
+
+  private:
+    /// Rows of three numbers are the joints of one pose.
+    bool next_pose(RawFrame& frame) {
+        if (done_) return false;
+        done_ = true;
+        frame.line = line;
+        do {
+            if (text_.find_first_not_of(" \t,;") == text_.npos) continue;
+            count_decimals(*this, text_);
+            const auto row = split(text_, separator_);
+            if (row.size() != 3 || !all_numbers(row)) fail_line(line, "expected three numbers, x, y and z");
+            if (frame.joints.size() == max_trace_joints) fail_line(line, "found more than 4096 joints");
+            frame.joints.emplace_back(*number_in(row[0]), *number_in(row[1]), *number_in(row[2]));
+        } while (read_line(in_, text_, line));
+        return true;
+    }
+
+    void without_names(std::size_t count) {
+        if (count == 3) {
+            one_pose_ = true;
+            return;
+        }
+        const bool time = count % 3 == 1;
+        if (count % 3 == 2 || count < 6)
+            fail_line(line, "expected x, y and z of each joint, and perhaps a time before them; found " +
+                                std::to_string(count) + " numbers");
+        if (time) columns_.push_back({.role = Role::Time});
+        for (std::size_t i = 0; i < count / 3; ++i)
+            for (int axis = 0; axis < 3; ++axis) columns_.push_back({Role::Joint, i, axis});
+        joints_ = count / 3;
+    }
+
+    void read_names(const std::vector<std::string_view>& row) {
+        std::map<std::string, std::size_t> joints;
+        std::array<int, 3> axes{};
+        for (const std::string_view cell : row) {
+            Column column;
+            const std::string name = lower_case(cell);
+            const auto point = point_column(cell);
+            if (name == "time" || name == "t" || name == "seconds" || name == "time_s") {
+                column.role = Role::Time;
+            } else if (name == "dt" || name == "delta" || name == "delta_time") {
+                column.role = Role::Dt;
+            } else if (name == "chain") {
+                column.role = Role::Chain;
+            } else if (point) {
+                column.role = role_of(point->first);
+                column.axis = point->second;
+                if (column.role == Role::Joint) {
+                    const auto [at, is_new] = joints.try_emplace(point->first, joints.size());
+                    if (is_new) header.bones.push_back(point->first);
+                    column.joint = at->second;
+                    ++axes[static_cast<std::size_t>(column.axis)];
+                }
+            } else if (!cell.empty()) {
+                notes.push_back("column \"" + printable(cell) + "\" was left out");
+            }
+            columns_.push_back(column);
+        }
+        joints_ = joints.size();
+        for (const int count : axes)
+            if (static_cast<std::size_t>(count) != joints_)
+                fail_line(line, "expected columns x, y and z of every joint: j0x, j0y, j0z, j1x and so on");
+        if (joints_ > max_trace_joints) fail_line(line, "found more than 4096 joints");
+    }
+
+    void take(RawFrame& frame, std::size_t index, std::string_view cell) {
+        const Column& column = columns_[index];
+        if (column.role == Role::Ignored) return;
+        if (column.role == Role::Chain) {
+            frame.chain = std::string(cell);
+            return;
+        }
+        const auto number = number_in(cell);
+        const bool point = column.role == Role::Target || column.role == Role::Pole;
+        if (!number && cell.empty() && point) return;  // a frame without a target
+        if (!number)
+            fail_line(line, "column " + std::to_string(index + 1) + ": expected a number, found \"" +
+                                printable(cell.substr(0, 40)) + '"');
+        const auto put = [&](std::optional<glm::dvec3>& to) {
+            if (!to) to.emplace(0.0);
+            (*to)[column.axis] = *number;
+        };
+        switch (column.role) {
+            case Role::Time:
+                frame.time = *number;
+                break;
+            case Role::Dt:
+                frame.dt = *number;
+                break;
+            case Role::Target:
+                put(frame.target);
+                break;
+            case Role::Pole:
+                put(frame.pole);
+                break;
+            default:
+                frame.joints[column.joint][column.axis] = *number;
+        }
+    }
+
+    std::istream& in_;
+    std::string text_;
+    char separator_ = ',';
+    std::vector<Column> columns_;
+    std::size_t joints_ = 0;
+    bool waiting_ = true, one_pose_ = false, done_ = false;
+};
+
+}  // namespace
+
+bool begins_table(std::string_view line) {
+    const auto row = split(line, separator_of(line));
+    if (row.size() >= 3 && all_numbers(row)) return true;
+    const auto points = std::ranges::count_if(row, [](auto cell) { return point_column(cell).has_value(); });
+    return points >= 3 && separator_of(line) != ' ';
+}
+
+std::unique_ptr<RawTrace> open_table_trace(std::istream& in, std::string first, std::size_t line) {
+    return std::make_unique<Table>(in, std::move(first), line);
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,82 @@
+// Reads a trace: what an engine's chains did, frame by frame. JSON Lines, CSV, tables, or text with vectors
+// in it; the space is converted to Tendril's. Streams: memory does not grow with the number of frames.
+//
+// JSON Lines, the first line optional, `joints` required:
+//   {"tendril": "trace", "up": "z", "handed": "left", "unit": "cm", "rotations": "xyzw", "fps": 60,
+//    "bones": ["upper_arm", "lower_arm"], "limits": [null, [0, 150]]}
+//   {"t": 0.0, "joints": [[0,0,140],[28,0,138],[52,3,130]], "target": [60,0,130], "pole": [30,-50,140]}
+// CSV: time, j0x, j0y, j0z, ..., tx, ty, tz, px, py, pz.
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <functional>
+#include <istream>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <tendril/ik/incident.hpp>
+#include <vector>
+
+#include "app/io/trace/conventions.hpp"
+#include "app/io/trace/raw.hpp"
+
+namespace tendril::app {
+
+/// A frame of one chain in metres, right-handed, Y up.
+struct TracedFrame {
+    std::string chain;  ///< empty if it has no name
+    std::vector<glm::vec3> joints;
+    std::optional<glm::vec3> target, pole;
+    std::optional<float> dt;
+    std::size_t line = 0;
+};
+
+class TraceReader {
+  public:
+    /// Reads the first frames. Throws std::runtime_error if there are none, or they are damaged: "line 3:
+    /// expected ...". `fps` overrides the file.
+    explicit TraceReader(std::istream& in, const ConventionChoice& choice = {},
+                         std::optional<double> fps = {});
+
+    /// False after the last frame, and where the rest is damaged, which is then a note.
+    bool next(TracedFrame& frame);
+
+    const Conventions& conventions() const { return conventions_; }
+    double fps() const { return fps_; }
+    bool fps_known() const { return fps_known_; }  ///< given, or from the times
+    /// How far a coordinate may be off by rounding, metres.
+    float resolution() const;
+    const TraceHeader& header() const { return raw_->header; }
+    /// For display: what was left out, where reading stopped.
+    const std::vector<std::string>& notes() const { return notes_; }
+    std::size_t line() const { return raw_->line; }
+
+  private:
+    bool next_raw(RawFrame& frame);
+    void find_rate();
+
+    std::unique_ptr<RawTrace> raw_;
+    std::deque<RawFrame> first_;
+    Conventions conventions_;
+    std::map<std::string, std::size_t> joints_;  ///< of each chain
+    std::vector<std::string> notes_;
+    double fps_ = 60.0;
+    bool fps_known_ = false, damaged_ = false;
+};
+
+/// What was found in a trace, chain by chain.
+struct TraceFindings {
+    struct Chain {
+        std::string name;  ///< empty if it has none
+        std::vector<ik::ChainIncident> incidents;
+        std::uint64_t frames = 0, left_off = 0;
+    };
+    std::vector<Chain> chains;
+    std::size_t count() const;
+};
+/// Reads to the end. Calls `progress` now and then.
+TraceFindings find_incidents(TraceReader& reader, const std::function<void()>& progress = {});
+
+}  // namespace tendril::app

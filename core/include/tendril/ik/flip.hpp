@@ -1,0 +1,91 @@
+// Flips: a bone that turns far in one frame while its target hardly moves, and why. Judged from positions
+// alone, so it works for the chain of any solver, in any engine.
+//
+// A bone's turn is explained if the target turned enough, as seen from the root, or the pole target did about
+// the line from root to target. What is left is a flip.
+//
+// Cost: O(joints). Nothing here throws; only copies of a pose allocate.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "tendril/vec3.hpp"
+
+namespace tendril::ik {
+
+/// A bone turned by more than `degrees` while the target (in a rig, each moved control) turned, as seen from
+/// the bone's root, by less than `angle_share` of that, or moved by less than `reach_share` of the reach.
+struct FlipRule {
+    float degrees = 30.0f;      ///< 1 to 180
+    float angle_share = 0.2f;   ///< 0 to 1
+    float reach_share = 0.02f;  ///< 0 to 1
+
+    bool operator==(const FlipRule&) const = default;
+};
+
+/// A chain in one frame: at least one joint; all finite. Metres, or any other unit throughout.
+struct ReachPose {
+    std::vector<glm::vec3> joints{};  ///< from the root on
+    std::optional<glm::vec3> target{};
+    std::optional<glm::vec3> pole{};  ///< the pole target
+
+    glm::vec3 root() const noexcept { return joints.front(); }
+};
+
+enum class FlipCause : std::uint8_t {
+    TargetJump,   ///< the target jumped
+    ThroughRoot,  ///< the target went through the root
+    PassedPole,   ///< the line from root to target passed the pole target
+    Straight,     ///< the chain was straight, so every bend was equally near
+    Folded,       ///< likewise, folded onto one line
+    ClosePole,    ///< the line came close to the pole target
+    Unexplained   ///< nothing in the input explains it
+};
+/// For display, a clause: "the target's line passed the pole".
+const char* text(FlipCause cause) noexcept;
+
+/// The bone that turned the furthest (the first, if several turned equally far), and the end of it that moved
+/// further: an arm's elbow. Both poses relative to their roots.
+struct BoneTurn {
+    std::size_t joint = 0;
+    float radians = 0.0f;
+};
+/// Both poses have as many joints.
+BoneTurn furthest_turn(const ReachPose& before, const ReachPose& after) noexcept;
+
+/// The flip between two poses with as many joints, one frame apart; a missing target is taken as still.
+std::optional<BoneTurn> find_flip(const ReachPose& before, const ReachPose& after,
+                                  const FlipRule& rule = {}) noexcept;
+
+/// The likely cause, from the two poses: the first that applies, in the order ThroughRoot, PassedPole,
+/// Straight or Folded, ClosePole, Unexplained.
+FlipCause flip_cause(const ReachPose& before, const ReachPose& after) noexcept;
+
+// The parts of that judgement.
+
+/// Sum of the bones' lengths.
+float reach_of(const ReachPose& pose) noexcept;
+/// Whether the target passed within a fiftieth of the reach of the root.
+bool went_through_root(const ReachPose& before, const ReachPose& after) noexcept;
+
+/// The bending plane has no direction while the line through root and target contains the pole target.
+struct PolePassage {
+    bool passed = false;  ///< the pole target changed sides
+    bool close = false;   ///< in one of the poses the line is within 10 degrees of the pole target
+};
+PolePassage pole_passage(const ReachPose& before, const ReachPose& after) noexcept;
+
+/// The distance of the joint that is furthest from the line through root and tip.
+float bend_of(const ReachPose& pose) noexcept;
+/// Whether the chain was straight in either pose: every joint within a fiftieth of the reach of that line.
+bool was_straight(const ReachPose& before, const ReachPose& after) noexcept;
+/// What such a chain was: Straight, or Folded if its tip was within half its reach of the root.
+FlipCause collinear_cause(const ReachPose& before, const ReachPose& after) noexcept;
+
+/// Radians, 0 to pi; 0 if either has no length.
+float angle_between(glm::vec3 a, glm::vec3 b) noexcept;
+
+}  // namespace tendril::ik

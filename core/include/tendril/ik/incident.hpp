@@ -1,0 +1,153 @@
+// What went wrong in a chain's recorded motion, frame by frame: flips, NaN, bones that change length, joints
+// beyond their limits, tips that do not arrive, lag, jitter, repeated frames and jumps of the target. Judged
+// from joint positions and inputs alone, so the motion may come from any solver in any engine.
+//
+// Frames are added one by one; memory is bounded by the number of joints and of incidents, not of frames.
+// What lasts is one incident, from its first frame to its last. Where a frame has no target, the tip stands
+// in for it: flips, NaN, lengths and limits are still found.
+//
+// Cost: O(joints) a frame. Nothing throws.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "tendril/ik/flip.hpp"
+#include "tendril/ik/observer.hpp"
+#include "tendril/vec3.hpp"
+
+namespace tendril::ik {
+
+enum class IncidentKind : std::uint8_t {
+    Flip,       ///< a bone jumped, or the chain bends to the other side; amount: degrees that the bone turned
+    Nan,        ///< a joint, the target or the pole target is not finite; amount: 0
+    Length,     ///< a bone's length differs from its first; amount: metres, negative if shorter
+    Limit,      ///< a joint is beyond its limit; amount: degrees beyond it
+    Missed,     ///< the tip does not arrive, though the target is within reach; amount: metres short
+    Lag,        ///< the tip is where the target was some frames ago; amount: frames
+    Jitter,     ///< the tip swings while the target is still; amount: metres to either side
+    Repeated,   ///< a frame equals the one before, in the middle of a motion; amount: frames
+    TargetJump  ///< amount: metres
+};
+/// "flip", "nan", "length", "limit", "missed", "lag", "jitter", "repeated", "target_jump"
+const char* name(IncidentKind kind) noexcept;
+/// "degrees", "metres", "frames"; empty for Nan.
+const char* unit(IncidentKind kind) noexcept;
+
+struct ChainIncident {
+    IncidentKind kind = IncidentKind::Flip;
+    std::uint64_t frame = 0, last_frame = 0;  ///< from 0
+    /// From 0 at the root. A flip's is the end of the bone that turned most which moved further; a length's
+    /// the end of the bone further from the root; no_joint for a target's jump or a repeated frame.
+    std::size_t joint = no_joint;
+    double amount = 0.0;
+    double hertz = 0.0;                       ///< a jitter's frequency, else 0
+    const char* cause = "";                   ///< for display, a clause
+    FlipCause flip = FlipCause::Unexplained;  ///< a flip's cause
+};
+
+/// The angle between the bone to a joint and the bone from it, in degrees; 0 is straight.
+struct BendLimit {
+    std::size_t joint = 1;  ///< neither root nor tip
+    float min = 0.0f, max = 180.0f;
+};
+
+struct IncidentOptions {
+    FlipRule flip{};
+    /// How far a coordinate may be off by rounding, metres: half the last digit that was written.
+    float resolution = 0.0f;
+    float fps = 60.0f;  ///< for frequencies
+    std::vector<BendLimit> limits{};
+};
+
+/// At least two joints, and as many in every frame. Values may be NaN or infinite.
+struct TraceFrame {
+    std::span<const glm::vec3> joints;  ///< from the root on, metres
+    std::optional<glm::vec3> target{}, pole{};
+    std::optional<float> dt{};  ///< seconds since the frame before
+};
+
+class IncidentFinder {
+  public:
+    explicit IncidentFinder(IncidentOptions options = {});
+
+    void add(const TraceFrame& frame);
+    /// After the last frame: closes what still lasts. Nothing may be added then.
+    void finish();
+
+    /// Complete, and sorted by frame, after finish(). At most max_incidents; those beyond are counted.
+    const std::vector<ChainIncident>& incidents() const noexcept { return found_; }
+    std::uint64_t left_off() const noexcept { return left_off_; }
+    std::uint64_t frames() const noexcept { return frames_; }
+
+    static constexpr std::size_t max_incidents = 100'000;
+
+  private:
+    static constexpr std::size_t max_lag = 8, still_window = 64;
+
+    /// What lasts over some frames, while `open`.
+    struct Episode {
+        bool open = false;
+        ChainIncident worst{};
+    };
+
+    void note(const ChainIncident& incident);
+    void last(Episode& episode, bool active, const ChainIncident& now);
+    bool find_nan(const TraceFrame& frame);
+    const char* nan_cause(const TraceFrame& frame) const noexcept;
+    void find_lengths(const ReachPose& pose);
+    void find_limits(const ReachPose& pose);
+    void find_flips(const ReachPose& pose, bool jumped);
+    bool changed_sides(const ReachPose& pose, bool jumped);
+    bool find_jump(const ReachPose& pose);
+    void find_repeated(const ReachPose& pose);
+    /// Whether the joint moved more than this many times as far as target and pole target did.
+    static bool leads(const ReachPose& before, const ReachPose& after, std::size_t joint,
+                      float times) noexcept;
+    void find_missed(const ReachPose& pose);
+    void follow(const ReachPose& pose);
+    void find_jitter(const ReachPose& pose);
+    void judge_jitter();
+    void finish_following();
+    void forget_motion() noexcept;
+
+    IncidentOptions options_;
+    std::vector<ChainIncident> found_;
+    std::uint64_t frames_ = 0, left_off_ = 0;
+    float reach_ = 0.0f;  ///< of the first finite frame
+    std::vector<float> lengths_;
+    Episode nan_, missed_;
+    std::vector<Episode> length_, limit_;
+
+    // The latest consecutive finite frames, newest last.
+    std::vector<ReachPose> recent_;
+    std::uint64_t flipped_at_ = 0;
+    bool flipped_ = false;
+    /// The side to which a chain of two bones last bent.
+    struct Side {
+        glm::vec3 line{0.0f}, normal{0.0f};
+        std::optional<glm::vec3> pole{};  ///< relative to the root
+        bool straight_since = false;
+    };
+    std::optional<Side> side_;
+    // A jump and a repeated frame are only sure one frame later.
+    float step_ = 0.0f, step_before_ = 0.0f;
+    std::size_t steps_ = 0;
+    // Sums over frames of the squared distance from the tip to where the target was 0, 1, 2... frames ago.
+    std::vector<glm::vec3> targets_;  ///< relative to the root, newest last
+    std::array<double, max_lag + 1> squares_{};
+    std::uint64_t followed_ = 0;
+    std::optional<std::uint64_t> first_move_;
+    float missed_before_ = 0.0f;
+    std::size_t missed_frames_ = 0;
+    // Tips since the target stands still.
+    std::vector<glm::vec3> tips_;
+    std::uint64_t still_since_ = 0;
+    bool jitter_judged_ = false;
+};
+
+}  // namespace tendril::ik

@@ -1,0 +1,145 @@
+#include "tendril/ik/flip.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+#include <glm/trigonometric.hpp>
+
+namespace tendril::ik {
+namespace {
+
+constexpr float near_root = 0.02f, nearly_straight = 0.02f;  ///< of the reach
+constexpr float close_to_pole = 0.17f;                       ///< radians, ten degrees
+
+float distance_to_segment(glm::vec3 point, glm::vec3 a, glm::vec3 b) noexcept {
+    const glm::vec3 along = b - a;
+    const float square = glm::dot(along, along);
+    const float t = square > 0.0f ? std::clamp(glm::dot(point - a, along) / square, 0.0f, 1.0f) : 0.0f;
+    return glm::distance(point, a + t * along);
+}
+
+/// How far the target and the pole target moved, relative to the root.
+struct InputMove {
+    float distance = 0.0f;  ///< of target or pole target, whichever moved further
+    float angle = 0.0f;     ///< radians: of the target as seen from the root, or of the pole target about the
+                            ///< line from root to target, whichever turned further
+};
+
+InputMove input_move(const ReachPose& before, const ReachPose& after) noexcept {
+    InputMove move;
+    if (!before.target || !after.target) return move;
+    const glm::vec3 from = *before.target - before.root(), to = *after.target - after.root();
+    move = {glm::distance(from, to), angle_between(from, to)};
+    if (!before.pole || !after.pole) return move;
+    const glm::vec3 pole_from = *before.pole - before.root(), pole_to = *after.pole - after.root();
+    if (pole_from == pole_to) return move;
+    move.distance = std::max(move.distance, glm::distance(pole_from, pole_to));
+    move.angle = std::max(move.angle, angle_between(glm::cross(to, pole_from), glm::cross(to, pole_to)));
+    return move;
+}
+
+}  // namespace
+
+const char* text(FlipCause cause) noexcept {
+    static constexpr std::array texts{"the target jumped",
+                                      "the target went through the root",
+                                      "the target's line passed the pole",
+                                      "the chain was straight (collinear)",
+                                      "the chain was folded onto one line (collinear)",
+                                      "the target's line came close to the pole",
+                                      "nothing in the input explains it: look at the solver's own state"};
+    return texts[static_cast<std::size_t>(cause)];
+}
+
+float angle_between(glm::vec3 a, glm::vec3 b) noexcept {
+    return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
+}
+
+BoneTurn furthest_turn(const ReachPose& before, const ReachPose& after) noexcept {
+    constexpr float equal = 1e-3f;  // radians
+    const auto& was = before.joints;
+    const auto& is = after.joints;
+    const glm::vec3 root_move = after.root() - before.root();
+    BoneTurn furthest;
+    for (std::size_t i = 1; i < was.size(); ++i) {
+        const float angle = angle_between(was[i] - was[i - 1], is[i] - is[i - 1]);
+        if (angle <= furthest.radians + equal) continue;
+        const auto moved = [&](std::size_t joint) {
+            return glm::distance(was[joint] + root_move, is[joint]);
+        };
+        furthest = {moved(i - 1) > moved(i) ? i - 1 : i, angle};
+    }
+    return furthest;
+}
+
+std::optional<BoneTurn> find_flip(const ReachPose& before, const ReachPose& after,
+                                  const FlipRule& rule) noexcept {
+    const BoneTurn turn = furthest_turn(before, after);
+    if (glm::degrees(turn.radians) <= rule.degrees) return std::nullopt;
+    const InputMove move = input_move(before, after);
+    const bool explained =
+        move.angle >= rule.angle_share * turn.radians && move.distance >= rule.reach_share * reach_of(after);
+    if (explained) return std::nullopt;
+    return turn;
+}
+
+FlipCause flip_cause(const ReachPose& before, const ReachPose& after) noexcept {
+    if (went_through_root(before, after)) return FlipCause::ThroughRoot;
+    const PolePassage pole = pole_passage(before, after);
+    if (pole.passed) return FlipCause::PassedPole;
+    if (was_straight(before, after)) return collinear_cause(before, after);
+    return pole.close ? FlipCause::ClosePole : FlipCause::Unexplained;
+}
+
+float reach_of(const ReachPose& pose) noexcept {
+    float reach = 0.0f;
+    for (std::size_t i = 1; i < pose.joints.size(); ++i)
+        reach += glm::distance(pose.joints[i - 1], pose.joints[i]);
+    return reach;
+}
+
+bool went_through_root(const ReachPose& before, const ReachPose& after) noexcept {
+    if (!before.target || !after.target) return false;
+    const glm::vec3 from = *before.target - before.root(), to = *after.target - after.root();
+    return distance_to_segment(glm::vec3(0.0f), from, to) < near_root * reach_of(after);
+}
+
+PolePassage pole_passage(const ReachPose& before, const ReachPose& after) noexcept {
+    if (!before.target || !after.target || !before.pole || !after.pole) return {};
+    const auto side = [](const ReachPose& pose) {
+        return glm::cross(*pose.target - pose.root(), *pose.pole - pose.root());
+    };
+    const auto off_line = [](const ReachPose& pose) {
+        const float angle = angle_between(*pose.target - pose.root(), *pose.pole - pose.root());
+        return std::min(angle, glm::pi<float>() - angle);
+    };
+    return {glm::dot(side(before), side(after)) < 0.0f,
+            std::min(off_line(before), off_line(after)) < close_to_pole};
+}
+
+float bend_of(const ReachPose& pose) noexcept {
+    const glm::vec3 line = pose.joints.back() - pose.root();
+    const float length = glm::length(line);
+    float furthest = 0.0f;
+    for (const glm::vec3 joint : pose.joints) {
+        const glm::vec3 from_root = joint - pose.root();
+        const float off =
+            length > 0.0f ? glm::length(glm::cross(from_root, line)) / length : glm::length(from_root);
+        furthest = std::max(furthest, off);
+    }
+    return furthest;
+}
+
+bool was_straight(const ReachPose& before, const ReachPose& after) noexcept {
+    return std::min(bend_of(before), bend_of(after)) < nearly_straight * reach_of(after);
+}
+
+FlipCause collinear_cause(const ReachPose& before, const ReachPose& after) noexcept {
+    const ReachPose& flat = bend_of(before) <= bend_of(after) ? before : after;
+    return glm::distance(flat.root(), flat.joints.back()) < 0.5f * reach_of(after) ? FlipCause::Folded
+                                                                                   : FlipCause::Straight;
+}
+
+}  // namespace tendril::ik

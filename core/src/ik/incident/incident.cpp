@@ -1,0 +1,266 @@
+// Frames in, incidents out: what is not finite, what changes length, what is beyond its limit, what flips.
+#include "tendril/ik/incident.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+#include <utility>
+
+#include "ik/incident/thresholds.hpp"
+
+namespace tendril::ik {
+namespace {
+
+bool finite(glm::vec3 p) noexcept {
+    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
+
+/// `v`, turned by the smallest rotation that takes direction `from` to direction `to`. Both have length 1.
+glm::vec3 transported(glm::vec3 v, glm::vec3 from, glm::vec3 to) noexcept {
+    const glm::vec3 axis = glm::cross(from, to);
+    const float cosine = glm::dot(from, to);
+    if (cosine <= -0.9999f) return v;
+    return v + glm::cross(axis, v) + glm::cross(axis, glm::cross(axis, v)) / (1.0f + cosine);
+}
+
+}  // namespace
+
+const char* name(IncidentKind kind) noexcept {
+    static constexpr std::array names{"flip", "nan",    "length",   "limit",      "missed",
+                                      "lag",  "jitter", "repeated", "target_jump"};
+    return names[static_cast<std::size_t>(kind)];
+}
+
+const char* unit(IncidentKind kind) noexcept {
+    switch (kind) {
+        case IncidentKind::Flip:
+        case IncidentKind::Limit:
+            return "degrees";
+        case IncidentKind::Lag:
+        case IncidentKind::Repeated:
+            return "frames";
+        case IncidentKind::Nan:
+            return "";
+        default:
+            return "metres";
+    }
+}
+
+IncidentFinder::IncidentFinder(IncidentOptions options) : options_(std::move(options)) {}
+
+void IncidentFinder::note(const ChainIncident& incident) {
+    if (found_.size() < max_incidents)
+        found_.push_back(incident);
+    else
+        ++left_off_;
+}
+
+void IncidentFinder::last(Episode& episode, bool active, const ChainIncident& now) {
+    if (!active) {
+        if (episode.open) note(episode.worst);
+        episode.open = false;
+        return;
+    }
+    if (!episode.open) {
+        episode = {true, now};
+        episode.worst.frame = now.frame;
+    }
+    const std::uint64_t first = episode.worst.frame;
+    if (std::abs(now.amount) > std::abs(episode.worst.amount)) episode.worst = now;
+    episode.worst.frame = first;
+    episode.worst.last_frame = frames_;
+}
+
+void IncidentFinder::add(const TraceFrame& frame) {
+    if (find_nan(frame)) {
+        forget_motion();
+        ++frames_;
+        return;
+    }
+    ReachPose pose{.joints = {frame.joints.begin(), frame.joints.end()},
+                   .target = frame.target.value_or(frame.joints.back()),
+                   .pole = frame.pole};
+    if (lengths_.empty()) {
+        for (std::size_t i = 1; i < pose.joints.size(); ++i)
+            lengths_.push_back(glm::distance(pose.joints[i - 1], pose.joints[i]));
+        for (const float length : lengths_) reach_ += length;
+        length_.resize(lengths_.size());
+        limit_.resize(options_.limits.size());
+    }
+    find_lengths(pose);
+    find_limits(pose);
+    const bool jumped = find_jump(pose);
+    find_flips(pose, jumped);
+    find_repeated(pose);
+    if (frame.target) {
+        find_missed(pose);
+        follow(pose);
+        find_jitter(pose);
+    }
+    recent_.push_back(std::move(pose));
+    if (recent_.size() > swing_frames + 1) recent_.erase(recent_.begin());
+    ++frames_;
+}
+
+void IncidentFinder::forget_motion() noexcept {
+    recent_.clear();
+    targets_.clear();
+    tips_.clear();
+    side_.reset();
+    steps_ = 0;
+    missed_frames_ = 0;
+}
+
+const char* IncidentFinder::nan_cause(const TraceFrame& frame) const noexcept {
+    if (frame.target && !finite(*frame.target)) return "the target is not finite";
+    if (frame.pole && !finite(*frame.pole)) return "the pole target is not finite";
+    if (frame.dt && !(*frame.dt > 0.0f)) return "dt is not positive, and something divides by it";
+    if (recent_.empty()) return text(FlipCause::Unexplained);
+    const ReachPose& was = recent_.back();
+    for (std::size_t i = 1; i < was.joints.size(); ++i)
+        if (was.joints[i] == was.joints[i - 1]) return "a bone has no length, and so no direction";
+    if (!frame.target) return text(FlipCause::Unexplained);
+    const glm::vec3 way = *frame.target - (finite(frame.joints.front()) ? frame.joints.front() : was.root());
+    const float distance = glm::length(way);
+    if (distance <= 1e-4f * reach_) return "the target is on the root, where it has no direction";
+    if (frame.pole) {
+        const float angle = angle_between(way, *frame.pole - (*frame.target - way));
+        if (std::min(angle, glm::radians(180.0f) - angle) < glm::radians(0.5f))
+            return "the pole target is on the target's line, where the bend has no direction";
+    }
+    if (distance >= (1.0f - 1e-4f) * reach_)
+        return "the target is out of reach: look for an acos or sqrt out of its range";
+    return text(FlipCause::Unexplained);
+}
+
+bool IncidentFinder::find_nan(const TraceFrame& frame) {
+    const auto bad = std::ranges::find_if_not(frame.joints, finite);
+    const bool joint = bad != frame.joints.end();
+    const bool active =
+        joint || (frame.target && !finite(*frame.target)) || (frame.pole && !finite(*frame.pole));
+    ChainIncident now{.kind = IncidentKind::Nan, .frame = frames_, .last_frame = frames_};
+    if (joint) now.joint = static_cast<std::size_t>(bad - frame.joints.begin());
+    if (active && !nan_.open) now.cause = nan_cause(frame);
+    last(nan_, active, now);
+    return active;
+}
+
+void IncidentFinder::find_lengths(const ReachPose& pose) {
+    for (std::size_t i = 0; i < lengths_.size(); ++i) {
+        const float length = glm::distance(pose.joints[i], pose.joints[i + 1]), off = length - lengths_[i];
+        const float allowed = std::max(length_share * lengths_[i], rounding_steps * options_.resolution);
+        const bool reaching = pose.target && glm::distance(*pose.target, pose.root()) > reach_;
+        last(length_[i], std::abs(off) > allowed,
+             {.kind = IncidentKind::Length,
+              .frame = frames_,
+              .last_frame = frames_,
+              .joint = i + 1,
+              .amount = static_cast<double>(off),
+              .cause = reaching ? "the target is out of reach, and the bone gives way"
+                                : "nothing in the input explains it: lengths are not restored"});
+    }
+}
+
+void IncidentFinder::find_limits(const ReachPose& pose) {
+    for (std::size_t i = 0; i < limit_.size(); ++i) {
+        const BendLimit& limit = options_.limits[i];
+        if (limit.joint == 0 || limit.joint + 1 >= pose.joints.size()) continue;
+        const glm::vec3 at = pose.joints[limit.joint];
+        const float bend =
+            glm::degrees(angle_between(at - pose.joints[limit.joint - 1], pose.joints[limit.joint + 1] - at));
+        const float beyond = std::max(bend - limit.max, limit.min - bend);
+        last(
+            limit_[i], beyond > limit_degrees,
+            {.kind = IncidentKind::Limit,
+             .frame = frames_,
+             .last_frame = frames_,
+             .joint = limit.joint,
+             .amount = static_cast<double>(beyond),
+             .cause = bend > limit.max ? "it bends further than its limit" : "it bends less than its limit"});
+    }
+}
+
+void IncidentFinder::find_flips(const ReachPose& pose, bool jumped) {
+    const auto flip = [&](const BoneTurn& turn, FlipCause cause) {
+        note({.kind = IncidentKind::Flip,
+              .frame = frames_,
+              .last_frame = frames_,
+              .joint = turn.joint,
+              .amount = static_cast<double>(glm::degrees(turn.radians)),
+              .cause = text(cause),
+              .flip = cause});
+        flipped_ = true;
+        flipped_at_ = frames_;
+    };
+    const bool straight_since = side_ && side_->straight_since;
+    const bool other_side = changed_sides(pose, jumped);
+    if (recent_.empty()) return;
+    const ReachPose& before = recent_.back();
+    const auto cause = [&](const ReachPose& was) {
+        return jumped ? FlipCause::TargetJump : flip_cause(was, pose);
+    };
+    if (const auto turn = find_flip(before, pose, options_.flip);
+        turn && leads(before, pose, turn->joint, 1.0f))
+        return flip(*turn, cause(before));
+    if (other_side) {
+        const FlipCause why = cause(before);
+        return flip(furthest_turn(before, pose),
+                    straight_since && why == FlipCause::Unexplained ? FlipCause::Straight : why);
+    }
+    // What turns so far, and moves so much further than what drives it, flips whatever angle the target
+    // describes: close to the root that is any. A damped solver takes some frames for it.
+    const auto swung = [&](const ReachPose& was) -> std::optional<BoneTurn> {
+        const BoneTurn turn = furthest_turn(was, pose);
+        const bool far = glm::degrees(turn.radians) > std::max(options_.flip.degrees, swing_degrees);
+        return far && leads(was, pose, turn.joint, swing_lead) ? std::optional(turn) : std::nullopt;
+    };
+    if (const auto turn = swung(before)) return flip(*turn, cause(before));
+    if (recent_.size() <= swing_frames || (flipped_ && frames_ - flipped_at_ <= swing_frames)) return;
+    if (const auto turn = swung(recent_.front())) flip(*turn, cause(recent_.front()));
+}
+
+bool IncidentFinder::leads(const ReachPose& before, const ReachPose& after, std::size_t joint,
+                           float times) noexcept {
+    const auto moved = [&](glm::vec3 from, glm::vec3 to) {
+        return glm::distance(from - before.root(), to - after.root());
+    };
+    const float driven = std::max(moved(*before.target, *after.target),
+                                  before.pole && after.pole ? moved(*before.pole, *after.pole) : 0.0f);
+    return moved(before.joints[joint], after.joints[joint]) > times * driven;
+}
+
+bool IncidentFinder::changed_sides(const ReachPose& pose, bool jumped) {
+    if (pose.joints.size() != 3) return false;
+    const glm::vec3 line = pose.joints.back() - pose.root(), elbow = pose.joints[1] - pose.root();
+    const float length = glm::length(line);
+    if (bend_of(pose) < side_bend * reach_ || !(length > side_bend * reach_)) {
+        if (side_) side_->straight_since = true;
+        return false;
+    }
+    Side now{.line = line / length, .normal = glm::normalize(glm::cross(line, elbow))};
+    if (pose.pole) now.pole = *pose.pole - pose.root();
+    bool changed = false;
+    if (side_) {
+        const float turned = angle_between(side_->line, now.line);
+        const glm::vec3 was = transported(side_->normal, side_->line, now.line);
+        // Whoever moves the pole target around the chain asks for the other side.
+        const bool asked = side_->pole.has_value() != now.pole.has_value() ||
+                           (now.pole && angle_between(glm::cross(now.line, *side_->pole),
+                                                      glm::cross(now.line, *now.pole)) > side_turn);
+        changed = !asked && turned < (jumped ? 2.0f : 1.0f) * side_turn && glm::dot(was, now.normal) < -0.5f;
+        if (side_->straight_since && now.pole) changed = false;
+    }
+    side_ = now;
+    return changed;
+}
+
+void IncidentFinder::finish() {
+    last(nan_, false, {});
+    for (Episode& each : length_) last(each, false, {});
+    for (Episode& each : limit_) last(each, false, {});
+    finish_following();
+    std::ranges::stable_sort(found_, {}, &ChainIncident::frame);
+}
+
+}  // namespace tendril::ik

@@ -1,0 +1,33 @@
+// What counts as an incident. Shares are of the reach, unless they say otherwise.
+#pragma once
+
+#include <cstddef>
+
+namespace tendril::ik {
+
+inline constexpr float length_share = 2e-3f;   ///< of the bone
+inline constexpr float rounding_steps = 4.0f;  ///< of the resolution: two points, in three coordinates
+inline constexpr float limit_degrees = 0.5f;   ///< beyond a limit
+
+inline constexpr float side_bend = 0.02f;       ///< less is straight, and has no side
+inline constexpr float side_turn = 1.0472f;     ///< radians, 60 degrees: further, sides cannot be compared
+inline constexpr std::size_t swing_frames = 3;  ///< a flip may take so many
+inline constexpr float swing_degrees = 60.0f, swing_lead = 3.0f;
+
+inline constexpr float jump_share = 0.15f;    ///< a target's step
+inline constexpr float jump_factor = 4.0f;    ///< times the steps before and after it
+inline constexpr float moving_share = 1e-3f;  ///< a step of less is still
+
+inline constexpr float missed_share = 0.01f;
+inline constexpr std::size_t missed_run = 5;  ///< frames
+inline constexpr float approach = 0.98f;      ///< a tip that comes closer by more a frame is under way
+
+inline constexpr float lag_share = 3e-3f;     ///< rms
+inline constexpr double lag_better = 0.25;    ///< of the squares without a lag
+inline constexpr std::size_t lag_frames = 8;  ///< moving ones, at least
+
+inline constexpr float jitter_share = 2e-4f;
+inline constexpr std::size_t fast_jitter = 16;  ///< frames
+inline constexpr std::size_t jitter_crossings = 4;
+
+}  // namespace tendril::ik

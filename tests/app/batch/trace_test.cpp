@@ -1,0 +1,141 @@
+// `tendril trace` as a terminal runs it, and the writers that engines copy.
+#include <fstream>
+#include <regex>
+#include <sstream>
+
+#include "app/document/json_complete.hpp"
+#include "app/io/child_process.hpp"
+#include "app/io/trace/trace.hpp"
+#include "app/writers/tendril_trace.hpp"
+#include "tests/app/io/trace_support.hpp"
+#include "tests/app/support/program.hpp"
+#include "tests/places.hpp"
+#include "tests/says.hpp"
+
+namespace tendril::test {
+namespace {
+
+using app::test::Format;
+using app::test::Plant;
+
+class TraceProgram : public testing::Test {
+  protected:
+    std::string file(const char* name, Plant plant, Format format) const {
+        const auto made = app::test::TraceMaker(5).make(plant);
+        write(folder_ / name, app::test::written(made, app::test::spaces[0], format));
+        return path(name);
+    }
+    std::string path(const char* name) const { return (folder_ / name).string(); }
+    /// The frames of a file, read with no choice made.
+    static std::vector<app::TracedFrame> frames_of(const std::string& path) {
+        std::ifstream in(path);
+        app::TraceReader reader(in);
+        std::vector<app::TracedFrame> frames;
+        for (app::TracedFrame frame; reader.next(frame);) frames.push_back(frame);
+        EXPECT_TRUE(reader.notes().empty());
+        return frames;
+    }
+    TempFolder folder_;
+};
+
+TEST_F(TraceProgram, NamesTheFrameTheJointAndTheCauseOfAFlip) {
+    const Outcome outcome = run_here({"trace", file("arm.jsonl", Plant::FlipAtPole, Format::JsonLines)});
+    EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+    EXPECT_TRUE(says(outcome.out, "arm.jsonl: 120 frames, 60 fps, Z up, left-handed, centimetres (given)"));
+    EXPECT_TRUE(says(outcome.out, "frame 60: flip, joint 1, turned"));
+    EXPECT_TRUE(says(outcome.out, "1 incident"));
+}
+
+TEST_F(TraceProgram, ACleanTraceExitsWithZero) {
+    const Outcome outcome = run_here({"trace", file("arm.log", Plant::None, Format::Unreal)});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+    EXPECT_TRUE(says(outcome.out, "(as Unreal has it)"));
+    EXPECT_TRUE(says(outcome.out, "0 incidents"));
+}
+
+TEST_F(TraceProgram, JsonIsOneArrayAndCsvHasARowEach) {
+    const std::string arm = file("arm.csv", Plant::Length, Format::Csv);
+    const Outcome json = run_here({"trace", arm, "--json", "--up", "z", "--unit", "cm"});
+    EXPECT_EQ(json.exit_code, 1);
+    const app::Json list = app::parse_json(json.out);
+    ASSERT_EQ(list.size(), 1u);
+    EXPECT_EQ(list[0]["kind"], "length");
+    EXPECT_EQ(list[0]["frame"], 60);
+    EXPECT_EQ(list[0]["unit"], "metres");
+    const Outcome csv = run_here({"trace", arm, "--csv", "--up", "z", "--unit", "cm"});
+    EXPECT_TRUE(csv.out.starts_with("chain,frame,last_frame,joint,kind,amount,unit,cause\n")) << csv.out;
+    EXPECT_EQ(count_lines(csv.out), 2);
+}
+
+TEST_F(TraceProgram, WhatCannotBeReadIsRefusedByNameAndLine) {
+    write(folder_ / "empty.log", "");
+    write(folder_ / "bad.jsonl", "{\"tendril\": \"trace\"}\n{\"joints\": [[0, 0, 0], [1, \"a\", 0]]}\n");
+    EXPECT_TRUE(complained(run_here({"trace", path("empty.log")}), 2, {"empty.log", "has nothing in it"}));
+    EXPECT_TRUE(complained(run_here({"trace", path("bad.jsonl")}), 2,
+                           {"bad.jsonl", "line 2", "joints.1.1", "expected a number"}));
+    EXPECT_TRUE(complained(run_here({"trace", path("missing.jsonl")}), 2, {"missing.jsonl"}));
+    EXPECT_TRUE(complained(run_here({"trace", folder_.path().string()}), 2, {"is a folder"}));
+    EXPECT_TRUE(complained(run_here({"trace", path("bad.jsonl"), "--up", "w"}), 2, {"--up"}));
+}
+
+TEST_F(TraceProgram, TheCppWriterIsRead) {
+    {
+        tendril_trace::Writer writer(path("cpp.jsonl").c_str(), "z", "left", "cm", 30.0);
+        ASSERT_TRUE(writer.is_open());
+        for (int i = 0; i < 3; ++i) {
+            writer.begin(i / 30.0);
+            writer.joint(0, 0, 140);
+            writer.joint(i == 2 ? std::numeric_limits<double>::quiet_NaN() : 30.0, 0, 140);
+            writer.target(30, 0, 140);
+            writer.pole(0, 50, 140);
+            writer.end();
+        }
+    }
+    const auto frames = frames_of(path("cpp.jsonl"));
+    ASSERT_EQ(frames.size(), 3u);
+    EXPECT_LT(glm::distance(frames[0].joints[1], glm::vec3(0.3f, 1.4f, 0.0f)), 1e-6f);
+    EXPECT_LT(glm::distance(frames[0].pole.value(), glm::vec3(0.0f, 1.4f, 0.5f)), 1e-6f);
+    EXPECT_TRUE(std::isnan(frames[2].joints[1].x));
+}
+
+TEST_F(TraceProgram, ThePythonWriterIsRead) {
+    const auto python = app::find_program("python3");
+    if (python.empty()) GTEST_SKIP() << "python3 is not installed";
+    const std::string module = source_path("app/writers/tendril_trace.py");
+    app::ChildProcess run({python.string(), "-B", "-c",
+                           "import importlib.util as u, sys\n"
+                           "s = u.spec_from_file_location('w', sys.argv[1]); w = u.module_from_spec(s); "
+                           "s.loader.exec_module(w)\n"
+                           "f = open(sys.argv[2], 'w')\n"
+                           "w.write_header(f, 24, ['upper_arm'])\n"
+                           "w.write_frame(f, 0.0, [(0, 0, 1), (0.5, 0, 1)], (0.5, 0, 1), (0, -1, 1))\n"
+                           "w.write_frame(f, 1 / 24, [(0, 0, 1), (float('nan'), 0, 1)])\n"
+                           "f.close()\n",
+                           module, path("python.jsonl")});
+    run.finish(30.0);
+    const auto frames = frames_of(path("python.jsonl"));
+    ASSERT_EQ(frames.size(), 2u);
+    EXPECT_LT(glm::distance(frames[0].pole.value(), glm::vec3(0.0f, 1.0f, 1.0f)), 1e-6f);
+    EXPECT_TRUE(std::isnan(frames[1].joints[1].x));
+}
+
+// The other writers' languages are not here: the line that each says it writes is read.
+TEST_F(TraceProgram, WhatEveryWriterSaysItWritesIsRead) {
+    for (const char* name :
+         {"tendril_trace.hpp", "tendril_trace.py", "TendrilTrace.cs", "tendril_trace.gd", "TendrilTrace.h"}) {
+        const std::string source = read(source_path(std::string("app/writers/") + name));
+        std::smatch sample, header;
+        ASSERT_TRUE(std::regex_search(source, sample, std::regex("Writes: (\\{.*\\})"))) << name;
+        write(folder_ / "sample.jsonl", sample[1].str() + "\n");
+        const auto frames = frames_of(path("sample.jsonl"));
+        ASSERT_EQ(frames.size(), 1u) << name;
+        EXPECT_EQ(frames[0].joints.size(), 3u) << name;
+        EXPECT_TRUE(frames[0].target && frames[0].pole) << name;
+        // The keys that the code writes are those of the sample.
+        for (const char* key : {"joints", "target", "pole", "tendril"})
+            EXPECT_NE(source.find(key), std::string::npos) << name << ": " << key;
+    }
+}
+
+}  // namespace
+}  // namespace tendril::test

@@ -1,0 +1,249 @@
+// Traces in every format and convention, with one fault each, and clean ones.
+#include "app/io/trace/trace.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "tests/app/io/trace_support.hpp"
+
+namespace tendril::app {
+namespace {
+
+using test::Format;
+using test::MadeTrace;
+using test::Plant;
+using test::Space;
+using test::TraceMaker;
+
+/// The space that a format's engine has; any, if the format says it in words.
+const Space& space_for(Format format, unsigned seed) {
+    switch (format) {
+        case Format::Unreal:
+            return test::spaces[0];
+        case Format::Unity:
+            return test::spaces[1];
+        case Format::Godot:
+            return test::spaces[2];
+        case Format::Blender:
+            return test::spaces[3];
+        default:
+            return test::spaces[seed % std::size(test::spaces)];
+    }
+}
+
+bool says_its_space(Format format) {
+    return format == Format::JsonLines || format == Format::JsonList;
+}
+
+struct Read {
+    TraceFindings findings;
+    Conventions conventions;
+    std::vector<std::string> notes;
+    const std::vector<ik::ChainIncident>& incidents() const { return findings.chains.front().incidents; }
+    std::string text() const {
+        std::string all;
+        for (const auto& each : incidents())
+            all += std::string(ik::name(each.kind)) + " at " + std::to_string(each.frame) + " joint " +
+                   std::to_string(static_cast<int>(each.joint)) + " " + std::to_string(each.amount) + ": " +
+                   each.cause + "\n";
+        return all;
+    }
+};
+
+Read read(const std::string& text, const ConventionChoice& choice = {}) {
+    std::istringstream in(text);
+    TraceReader reader(in, choice);
+    Read result{find_incidents(reader), reader.conventions(), {}};
+    result.notes = reader.notes();
+    return result;
+}
+
+std::string refusal(const std::string& text) {
+    try {
+        read(text);
+    } catch (const std::runtime_error& error) {
+        return error.what();
+    }
+    return "read";
+}
+
+TEST(Trace, EveryPlantedFaultIsFoundAtItsFrameWithItsCause) {
+    for (unsigned seed = 0; seed < 300; ++seed) {
+        const auto plant = static_cast<Plant>(1 + seed % test::plants);
+        auto format = static_cast<Format>(seed / test::plants % test::formats);
+        if (plant == Plant::Limit) format = seed % 2 == 0 ? Format::JsonLines : Format::JsonList;
+        const MadeTrace made = TraceMaker(seed).make(plant);
+        const Read found = read(test::written(made, space_for(format, seed), format));
+        const auto same = [&](const ik::ChainIncident& each) {
+            const int joint = each.joint == ik::no_joint ? -1 : static_cast<int>(each.joint);
+            const std::string cause = each.cause;
+            return ik::name(each.kind) == made.kind && joint == made.joint &&
+                   (made.kind == "lag" || each.frame == made.frame ||
+                    (made.kind == "missed" && each.frame < made.frame + 3)) &&
+                   (cause.find(made.cause) != cause.npos ||
+                    (!made.also.empty() && cause.find(made.also) != cause.npos)) &&
+                   (made.tolerance < 0.0 || std::abs(each.amount - made.amount) <= made.tolerance);
+        };
+        EXPECT_TRUE(std::ranges::any_of(found.incidents(), same))
+            << "seed " << seed << ", format " << static_cast<int>(format) << ": " << made.kind << " at "
+            << made.frame << " joint " << made.joint << " (" << made.cause << ", " << made.amount
+            << "); found:\n"
+            << found.text();
+        // A flip at a jump has the jump beside it, and close to the root there may be two.
+        const std::size_t others = plant == Plant::FlipAtJump || plant == Plant::FlipAtRoot ? 1 : 0;
+        EXPECT_LE(found.incidents().size(), 1 + others) << "seed " << seed << ", " << made.kind << ":\n"
+                                                        << found.text();
+    }
+}
+
+TEST(Trace, NothingIsFoundInCleanOnes) {
+    for (unsigned seed = 1000; seed < 1200; ++seed) {
+        const auto format = static_cast<Format>(seed % test::formats);
+        const MadeTrace made = TraceMaker(seed).make(Plant::None);
+        const Read found = read(test::written(made, space_for(format, seed / 10), format));
+        EXPECT_EQ(found.text(), "") << "seed " << seed;
+        EXPECT_EQ(found.notes.size(), 0u);
+    }
+}
+
+TEST(Trace, ConventionsAreGuessedOrNotSure) {
+    std::size_t sure = 0, right = 0;
+    for (unsigned seed = 2000; seed < 2400; ++seed) {
+        const auto format = static_cast<Format>(seed % test::formats);
+        if (says_its_space(format)) continue;
+        const MadeTrace made = TraceMaker(seed).make(Plant::None);
+        const Space& space = space_for(format, seed / 10);
+        const Conventions guess = read(test::written(made, space, format)).conventions;
+        const auto judge = [&](bool is_sure, const std::string& name, const char* is) {
+            if (!is_sure) return;
+            ++sure;
+            right += name == is;
+        };
+        judge(guess.up.sure, trace_ups.name(guess.up.value), space.up);
+        judge(guess.handed.sure, trace_hands.name(guess.handed.value), space.handed);
+        judge(guess.unit.sure, trace_units.name(guess.unit.value), space.unit);
+    }
+    EXPECT_GT(sure, 400u);
+    EXPECT_GE(right, sure * 95 / 100) << "of " << sure;
+}
+
+TEST(Trace, PositionsAreConverted) {
+    for (const Space& space : test::spaces) {
+        const MadeTrace made = TraceMaker(7).make(Plant::None);
+        std::istringstream in(test::written(made, space, Format::JsonLines));
+        TraceReader reader(in);
+        TracedFrame frame;
+        for (const test::MadeFrame& expected : made.frames) {
+            ASSERT_TRUE(reader.next(frame));
+            for (std::size_t j = 0; j < expected.joints.size(); ++j)
+                EXPECT_LT(glm::distance(frame.joints[j], glm::vec3(expected.joints[j])), 2e-5f)
+                    << space.up << space.handed << space.unit;
+            EXPECT_LT(glm::distance(*frame.pole, glm::vec3(*expected.pole)), 2e-5f);
+        }
+        EXPECT_FALSE(reader.next(frame));
+    }
+}
+
+TEST(Trace, OrderOfAQuaternionIsFoundFromTheBones) {
+    for (const bool w_first : {false, true}) {
+        std::string text;
+        for (int i = 0; i < 30; ++i) {
+            const glm::dquat q = glm::angleAxis(0.05 * i + 0.3, glm::normalize(glm::dvec3(0.2, 0.3, 0.9)));
+            const glm::dvec3 tip = q * glm::dvec3(0.5, 0, 0);
+            char line[400];
+            const double numbers[]{w_first ? q.w : q.x, w_first ? q.x : q.y, w_first ? q.y : q.z,
+                                   w_first ? q.z : q.w};
+            std::snprintf(
+                line, sizeof line,
+                "{\"joints\": [[0,0,0],[%.9f,%.9f,%.9f]], \"rotations\": [[%.9f,%.9f,%.9f,%.9f]]}\n", tip.x,
+                tip.y, tip.z, numbers[0], numbers[1], numbers[2], numbers[3]);
+            text += line;
+        }
+        const Conventions guess = read(text).conventions;
+        EXPECT_TRUE(guess.rotations.sure);
+        EXPECT_EQ(guess.rotations.value, w_first ? QuaternionOrder::Wxyz : QuaternionOrder::Xyzw);
+    }
+}
+
+TEST(Trace, PastedPosesAreRead) {
+    const auto joints_of = [](const std::string& text) {
+        std::istringstream in(text);
+        TraceReader reader(in, {.up = "y", .handed = "right", .unit = "m", .rotations = ""});
+        TracedFrame frame;
+        EXPECT_TRUE(reader.next(frame)) << text;
+        return frame;
+    };
+    for (const char* text : {"[[0, 1, 0], [0.5, 1, 0], [1, 1, 0.25]]", "0 1 0\n0.5 1 0\n1 1 0.25\n",
+                             "0,1,0\n0.5,1,0\n1,1,0.25", "0\t1\t0\t0.5\t1\t0\t1\t1\t0.25\n",
+                             "shoulder (0.0, 1.0, 0.0)\nelbow (0.5, 1.0, 0.0)\nhand (1.0, 1.0, 0.25)\n",
+                             "FVector(0, 1, 0), FVector(0.5, 1, 0), FVector(1, 1, 0.25)",
+                             "<Vector (0.0, 1.0, 0.0)> <Vector (0.5000, 1.0000, 0.0)> <Vector (1, 1, 0.25)>",
+                             "[{\"x\": 0, \"y\": 1, \"z\": 0}, {\"x\": 0.5, \"y\": 1, \"z\": 0}, {\"x\": 1, "
+                             "\"y\": 1, \"z\": 0.25}]"}) {
+        const TracedFrame frame = joints_of(text);
+        ASSERT_EQ(frame.joints.size(), 3u) << text;
+        EXPECT_EQ(frame.joints[0], glm::vec3(0, 1, 0)) << text;
+        EXPECT_EQ(frame.joints[2], glm::vec3(1, 1, 0.25f)) << text;
+    }
+    const TracedFrame aimed = joints_of(
+        "root: (0, 1, 0)\nelbow: (0.5, 1, 0)\nhand: (1, 1, 0)\ngoal: (1, 2, 0)\n"
+        "pole_target: (0, 0, 1)\nroot: (0, 1, 0)\nelbow: (0.5, 1, 0)\nhand: (1, 1, 0)\n");
+    EXPECT_EQ(aimed.joints.size(), 3u);
+    EXPECT_EQ(aimed.target, glm::vec3(1, 2, 0));
+    EXPECT_EQ(aimed.pole, glm::vec3(0, 0, 1));
+}
+
+TEST(Trace, DamageIsRefusedByItsLineOrReadUpToIt) {
+    EXPECT_NE(refusal("").find("nothing"), std::string::npos);
+    EXPECT_NE(refusal("hello\nworld\n").find("no positions"), std::string::npos);
+    EXPECT_NE(refusal("{\"joints\": 3}\n").find("line 1"), std::string::npos);
+    EXPECT_NE(
+        refusal("{\"tendril\": \"trace\"}\n{\"joints\": [[0,0,0]]}\n").find("line 2: expected two joints"),
+        std::string::npos);
+    EXPECT_NE(refusal("time,j0x,j0y,j0z,j1x,j1y\n0,0,0,0,1,1\n").find("columns"), std::string::npos);
+    EXPECT_NE(
+        refusal("{\"tendril\": \"trace\", \"up\": \"w\"}\n{\"joints\": [[0,0,0],[1,0,0]]}\n").find("\"w\""),
+        std::string::npos);
+    const std::string frame = "{\"joints\": [[0,0,0],[1,0,0]], \"target\": [1,0,0]}\n";
+    const Read cut = read(frame + frame + "{\"joints\": [[0,0,0],[1,0");
+    ASSERT_EQ(cut.notes.size(), 1u);
+    EXPECT_NE(cut.notes[0].find("line 3"), std::string::npos);
+    EXPECT_EQ(cut.findings.chains[0].frames, 2u);
+    const Read other = read(frame + "{\"joints\": [[0,0,0],[1,0,0],[2,0,0]]}\n");
+    EXPECT_NE(other.notes.at(0).find("expected 2 joints"), std::string::npos);
+}
+
+TEST(Trace, EveryByteCutOrFlippedIsReadOrRefused) {
+    for (const Format format : {Format::JsonLines, Format::Csv, Format::Unreal, Format::JsonList}) {
+        MadeTrace made = TraceMaker(3).make(Plant::None);
+        made.frames.resize(4);
+        const std::string text = test::written(made, test::spaces[0], format);
+        for (std::size_t i = 0; i < text.size(); ++i) {
+            std::string flipped = text, cut = text.substr(0, i), shorter = text;
+            flipped[i] = static_cast<char>(flipped[i] ^ (1 << (i % 8)));
+            shorter.erase(i, 1);
+            for (const std::string& each : {flipped, cut, shorter}) EXPECT_FALSE(refusal(each).empty());
+        }
+    }
+}
+
+TEST(Trace, ChainsAreKeptApart) {
+    std::string text;
+    for (int i = 0; i < 30; ++i)
+        for (const char* chain : {"left", "right"}) {
+            const bool broken = chain[0] == 'r' && i == 20;
+            text += std::string("{\"chain\": \"") + chain + "\", \"joints\": [[0,1,0],[" +
+                    (broken ? "NaN" : "0.5") + ",1,0]], \"target\": [0.5,1,0]}\n";
+        }
+    const Read both = read(text);
+    ASSERT_EQ(both.findings.chains.size(), 2u);
+    EXPECT_TRUE(both.findings.chains[0].incidents.empty());
+    ASSERT_EQ(both.findings.chains[1].incidents.size(), 1u);
+    EXPECT_EQ(both.findings.chains[1].incidents[0].kind, ik::IncidentKind::Nan);
+    EXPECT_EQ(both.findings.chains[1].incidents[0].frame, 20u);
+}
+
+}  // namespace
+}  // namespace tendril::app
