@@ -89,6 +89,9 @@ FileRoute file_route(const Labs& labs, const fs::path& file) {
     const std::vector<FileRoute>& among = fitting.empty() ? routes : fitting;
     for (const FileRoute& route : among)
         if (route.kind.begins != nullptr && route.kind.begins(text)) return route;
+    // One that takes any text with its ending comes before one that has looked and found nothing.
+    for (const FileRoute& route : fitting)
+        if (route.kind.begins == nullptr) return route;
     if (!fitting.empty()) return fitting.front();
     std::error_code unknown;
     const std::string name = file.string();

@@ -8,6 +8,7 @@
 #include "app/labs/chain/chain_runtime.hpp"
 #include "app/labs/chain/commands.hpp"
 #include "app/labs/chain/draw.hpp"
+#include "app/labs/chain/engine_trace.hpp"
 #include "app/labs/chain/past.hpp"
 #include "app/labs/chain/presets.hpp"
 #include "app/labs/kit/arguments.hpp"
@@ -204,6 +205,8 @@ std::vector<LegendRow> ChainLab::legend(const Workspace& workspace) const {
             {"selection", colours.selection, true}};
     if (shown.trace) rows.push_back({"this step", colours.accent, true});
     if (shown.trace) rows.push_back({"start, earlier iterations", colours.ghost});
+    if (traced_ghost(part) != nullptr)
+        rows.push_back({"Tendril's solve", solver_colour(colours, part.reach.method)});
     if (workspace.ui.incident) rows.push_back({"before it happened", colours.ghost});
     if (!part.study.open() && chain_past().shows_ghosts(workspace.settings))
         rows.push_back({ghost_legend, colours.ghost});
@@ -238,6 +241,10 @@ std::vector<Shortcut> ChainLab::shortcuts() const {
         step("shift+right", "iterations", 1, "Microscope, race: iteration forward"),
         step("shift+left", "iterations", -1, "Microscope, race: iteration back"),
     };
+}
+
+std::vector<FileKind> ChainLab::files() const {
+    return {{"traces", {".jsonl", ".csv", ".log", ".txt"}, "chain.trace", {}, begins_like_trace}};
 }
 
 std::vector<LabSetting> ChainLab::settings() const {

@@ -53,6 +53,7 @@ class ChainLab final : public Lab {
     std::string hint(const Workspace& workspace, PickId pick) const override;
 
     Bounds bounds(const Workspace& workspace, bool selection_only) const override;
+    std::vector<FileKind> files() const override;
     TakenText takes_text(const std::string& text) const override;
     void panel(const Workspace& workspace, Emit& emit) const override;
     void inspector(const Workspace& workspace, Emit& emit) const override;

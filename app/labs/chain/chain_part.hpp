@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <tendril/chain/chain.hpp>
+#include <vector>
 
 #include "app/document/document.hpp"
 #include "app/labs/chain/reach.hpp"
@@ -33,6 +34,11 @@ inline constexpr EnumNames<ChainPoint, 2> chain_points{
 inline constexpr FlipWords chain_flip_words{"chain.flips", "target", "the target, as the root sees it,",
                                             "reach", "the chain's reach"};
 
+/// A frame of an engine's trace, and what the lab's solver makes of the same input. As many joints in both.
+struct TracedPose {
+    std::vector<glm::vec3> joints, ghost;
+};
+
 struct ChainPart final : Part {
     Chain chain;
     ChainMode mode = ChainMode::Backward;
@@ -48,6 +54,7 @@ struct ChainPart final : Part {
     std::optional<ReachResult> result;  ///< of the last solve; empty once anything else moved the chain
     Study study;
     FlipRule flips;
+    std::shared_ptr<const TracedPose> traced{};  ///< not saved, nor compared
 
     std::shared_ptr<Part> clone() const override { return std::make_shared<ChainPart>(*this); }
     Json save() const override;

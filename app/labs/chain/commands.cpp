@@ -1,5 +1,7 @@
 #include "app/labs/chain/commands.hpp"
 
+#include "app/labs/chain/engine_trace.hpp"
+
 #include <algorithm>
 #include <utility>
 
@@ -79,6 +81,7 @@ void add_chain_commands(CommandTable& table) {
     add_study_commands(table);
     add_copy_commands(table);
     add_paste_command(table);
+    add_trace_commands(table);
 }
 
 void pull_joints(ChainPart& part, const std::vector<JointPull>& pulls, ChainRuntime& runtime) {

@@ -1,4 +1,5 @@
 #include "app/labs/chain/draw.hpp"
+#include "app/labs/chain/engine_trace.hpp"
 
 #include <imgui.h>
 #include <algorithm>
@@ -62,6 +63,7 @@ class Drawing {
             draw_pole(view_, part_, list_);
         }
         if (!part_.study.open()) draw_past_ghosts(view_, chain_past(), chain_lines, list_);
+        draw_traced_ghost(view_, part_, list_);
         draw_incident(view_, part_, list_);
         path();
         target();

@@ -53,13 +53,13 @@ const ChainPart& chain_of(const SharedPart& part) {
     return dynamic_cast<const ChainPart&>(*part);
 }
 
-/// The same number of joints, with bones of the same lengths.
+/// The same number of joints, with bones of the same lengths, but for the rounding of an engine's log.
 bool same_joints(const Part& then, const Part& now) {
     const auto a = dynamic_cast<const ChainPart&>(then).chain.segments(),
                b = dynamic_cast<const ChainPart&>(now).chain.segments();
     if (a.size() != b.size()) return false;
     for (std::size_t i = 1; i < a.size(); ++i)
-        if (a[i].length != b[i].length) return false;
+        if (std::abs(a[i].length - b[i].length) > 0.01f * b[i].length) return false;
     return true;
 }
 

@@ -10,6 +10,7 @@
 #include "app/io/points.hpp"
 #include "app/labs/chain/chain_lab.hpp"
 #include "app/labs/chain/commands.hpp"
+#include "app/labs/chain/engine_trace.hpp"
 
 namespace tendril::app {
 namespace {
@@ -63,6 +64,8 @@ std::string pasted_text(const ChainPart& part, const std::string& text) {
 }  // namespace
 
 TakenText ChainLab::takes_text(const std::string& text) const {
+    if (holds_trace(text))
+        return {.command = CommandCall{"chain.trace", {{"text", text}}}, .what = "a trace"};
     try {
         read_points(text, max_pasted_points);
     } catch (const std::runtime_error& error) {

@@ -1,0 +1,135 @@
+// A trace from an engine, opened in the Chain lab: the strip is the trace, with its marks.
+#include "app/labs/chain/engine_trace.hpp"
+#include "tests/app/io/trace_support.hpp"
+#include "tests/app/labs/chain_support.hpp"
+#include "tests/app/support/temp_folder.hpp"
+
+namespace tendril::app {
+namespace {
+
+using test::Format;
+using test::MadeTrace;
+using test::Plant;
+
+class ChainTrace : public ChainTest {
+  protected:
+    std::string file(const char* name, const MadeTrace& made, Format format) {
+        tendril::test::write(folder_ / name, test::written(made, test::spaces[0], format));
+        return (folder_ / name).string();
+    }
+    std::string file(const char* name, Plant plant, Format format = Format::JsonLines) {
+        return file(name, test::TraceMaker(5).make(plant), format);
+    }
+    std::vector<Incident> flips() const {
+        std::vector<Incident> all;
+        for (const Incident& each : workspace.rewind.incidents())
+            if (each.kind == Incident::Kind::Flip) all.push_back(each);
+        return all;
+    }
+    tendril::test::TempFolder folder_;
+};
+
+TEST_F(ChainTrace, EachFrameIsAMomentAndAFlipIsMarkedWithItsCauseAndCure) {
+    const MadeTrace made = test::TraceMaker(5).make(Plant::FlipAtPole);
+    run("file.open", {{"path", file("arm.jsonl", made, Format::JsonLines)}});
+    EXPECT_EQ(workspace.lab, chain_lab);
+    ASSERT_EQ(workspace.rewind.size(), made.frames.size() - 1);  // and the present
+    for (std::size_t i = 0; i + 1 < made.frames.size(); ++i) {
+        const auto& then = dynamic_cast<const ChainPart&>(*workspace.rewind.moments()[i].part);
+        for (std::size_t j = 0; j < 3; ++j)
+            EXPECT_LT(glm::distance(then.chain.position(j), glm::vec3(made.frames[i].joints[j])), 1e-4f);
+        EXPECT_LT(glm::distance(then.target, glm::vec3(made.frames[i].target)), 1e-4f);
+    }
+    ASSERT_EQ(flips().size(), 1u);
+    EXPECT_EQ(flips()[0].tick + 1, made.frame);
+    EXPECT_EQ(flips()[0].joint, 1u);
+    EXPECT_NE(flips()[0].cause.find("pole"), std::string::npos);
+    ASSERT_TRUE(flips()[0].button);
+    EXPECT_EQ(flips()[0].button->title, "Move the pole");
+    run("time.incident", {{"number", 0}});
+    EXPECT_TRUE(workspace.ui.incident);
+    EXPECT_EQ(workspace.moment, made.frame);
+}
+
+TEST_F(ChainTrace, TheGhostIsTendrilsSolveUntilTheChainIsChanged) {
+    run("chain.trace", {{"path", file("arm.jsonl", Plant::FlipForNothing)}});
+    run("time.seek", {{"ticks_back", 100}});
+    const auto* ghost = traced_ghost(part());
+    ASSERT_NE(ghost, nullptr);
+    for (std::size_t j = 0; j < 3; ++j)
+        EXPECT_LT(glm::distance((*ghost)[j], part().chain.position(j)), 0.01f * part().chain.reach())
+            << "the same pose, until the engine's chain flips";
+    run("time.seek", {{"ticks_back", 0}});
+    ghost = traced_ghost(part());
+    ASSERT_NE(ghost, nullptr);
+    EXPECT_GT(glm::distance((*ghost)[1], part().chain.position(1)), 0.2f * part().chain.reach());
+    run("time.seek", {{"ticks_back", 90}});
+    const std::size_t moments = workspace.rewind.size();
+    run("chain.target", {{"to", point(part().target + glm::vec3(0.0f, 0.05f, 0.0f))}});
+    EXPECT_EQ(traced_ghost(part()), nullptr);
+    EXPECT_LT(workspace.rewind.size(), moments) << "it goes on from there";
+}
+
+TEST_F(ChainTrace, UndoBringsBackTheChainFromBefore) {
+    const Chain before = part().chain;
+    run("chain.trace", {{"path", file("arm.log", Plant::None, Format::Unreal)}});
+    EXPECT_NE(part().chain, before);
+    run("undo");
+    EXPECT_EQ(part().chain, before);
+}
+
+TEST_F(ChainTrace, AFrameThatIsNotFiniteHoldsThePoseBefore) {
+    const MadeTrace made = test::TraceMaker(6).make(Plant::NanForNothing);
+    run("chain.trace", {{"path", file("arm.jsonl", made, Format::JsonLines)}});
+    ASSERT_EQ(workspace.rewind.incidents().size(), 1u);
+    EXPECT_NE(workspace.rewind.incidents()[0].cause.find("nan"), std::string::npos);
+    const glm::vec3 held(made.frames[made.frame - 1].joints[1]);
+    EXPECT_LT(glm::distance(part().chain.position(1), held), 1e-4f);
+}
+
+TEST_F(ChainTrace, ALongOneIsShownAroundItsFirstIncidentOrFromAFrame) {
+    MadeTrace made = test::TraceMaker(7).make(Plant::FlipForNothing);
+    made.frames.insert(made.frames.begin(), 2000, made.frames.front());
+    const std::string path = file("long.jsonl", made, Format::JsonLines);
+    run("chain.trace", {{"path", path}});
+    ASSERT_EQ(flips().size(), 1u);
+    EXPECT_EQ(flips()[0].tick, Rewind::max_ticks / 2 - 1);
+    run("chain.trace", {{"path", path}, {"from", 10}});
+    EXPECT_TRUE(flips().empty());
+    EXPECT_EQ(workspace.rewind.size() + 1, Rewind::max_ticks);
+}
+
+TEST_F(ChainTrace, PastedTextIsTakenAsATraceIfItIsOne) {
+    const MadeTrace made = test::TraceMaker(8).make(Plant::None);
+    const std::string text = test::written(made, test::spaces[1], Format::Unity);
+    const TakenText taken = ChainLab().takes_text(text);
+    ASSERT_TRUE(taken.command);
+    EXPECT_EQ(taken.command->name, "chain.trace");
+    run("chain.trace", {{"text", text}});
+    EXPECT_EQ(part().chain.size(), 3u);
+    for (const char* points : {"1 2 3", "0 0 0\n1 0 0\n2 0 0\n", "[[0,0,0],[1,0,0]]"})
+        EXPECT_EQ(ChainLab().takes_text(points).command->name, "chain.paste") << points;
+}
+
+TEST_F(ChainTrace, SignalsStillOpenInTheirLab) {
+    tendril::test::write(folder_ / "signal.csv", "dt,input\n0.1,1\n0.1,2\n");
+    run("file.open", {{"path", (folder_ / "signal.csv").string()}});
+    EXPECT_EQ(workspace.lab, "signal");
+    run("file.open", {{"path", file("arm.csv", Plant::None, Format::Csv)}});
+    EXPECT_EQ(workspace.lab, chain_lab);
+}
+
+TEST_F(ChainTrace, WhatCannotBeShownIsRefusedAndNothingIsLost) {
+    const Chain before = part().chain;
+    EXPECT_NE(refused("chain.trace", {}).find("path or text"), std::string::npos);
+    EXPECT_NE(refused("chain.trace", {{"path", "missing.jsonl"}}).find("missing.jsonl"), std::string::npos);
+    EXPECT_NE(refused("chain.trace", {{"text", "{\"joints\": [[null, 0, 0], [1, 0, 0]]}"}}).find("finite"),
+              std::string::npos);
+    EXPECT_NE(
+        refused("chain.trace", {{"path", file("arm.jsonl", Plant::None)}, {"chain", "left"}}).find("left"),
+        std::string::npos);
+    EXPECT_EQ(part().chain, before);
+}
+
+}  // namespace
+}  // namespace tendril::app
