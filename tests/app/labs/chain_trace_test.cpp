@@ -81,8 +81,10 @@ TEST_F(ChainTrace, UndoBringsBackTheChainFromBefore) {
 TEST_F(ChainTrace, AFrameThatIsNotFiniteHoldsThePoseBefore) {
     const MadeTrace made = test::TraceMaker(6).make(Plant::NanForNothing);
     run("chain.trace", {{"path", file("arm.jsonl", made, Format::JsonLines)}});
-    ASSERT_EQ(workspace.rewind.incidents().size(), 1u);
-    EXPECT_NE(workspace.rewind.incidents()[0].cause.find("nan"), std::string::npos);
+    const auto& all = workspace.rewind.incidents();
+    EXPECT_TRUE(std::any_of(all.begin(), all.end(), [&](const Incident& each) {
+        return each.tick + 1 == made.frame && each.cause.find("nan") != std::string::npos;
+    }));
     const glm::vec3 held(made.frames[made.frame - 1].joints[1]);
     EXPECT_LT(glm::distance(part().chain.position(1), held), 1e-4f);
 }
