@@ -194,7 +194,9 @@ CLI::App* add_lint(CLI::App& line, LintOptions& options) {
 CLI::App* add_bake(CLI::App& line, BakeOptions& options) {
     CLI::App* bake = line.add_subcommand("bake", "Write a character's clip to a file, feet on the ground");
     bake->add_option("FILE", options.file, "A character: .gltf, .glb, .vrm, .vrma, .fbx or .bvh")->required();
-    bake->add_option("--clip", options.clip, "A clip; default: the first")->option_text("NAME");
+    CLI::Option* const clip =
+        bake->add_option("--clip", options.clip, "A clip; default: the first")->option_text("NAME");
+    bake->add_flag("--all", options.all, "Every clip, each to a file of its own")->excludes(clip);
     bake->add_option("--ground", options.ground, "What its feet stand on; default: none, feet uncorrected")
         ->check(CLI::IsMember(bake_grounds()))
         ->option_text("KIND");

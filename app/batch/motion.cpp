@@ -79,6 +79,28 @@ fs::path place_beside(const fs::path& file) {
     return file.parent_path() / (file.stem().string() + "_baked" + ending);
 }
 
+ExportReport bake_one(const Character& character, const Clip& clip, const BakeOptions& options,
+                      const fs::path& out) {
+    const double rate = options.fps.value_or(humanoid::frame_rate(clip));
+    Clip corrected = clip;
+    humanoid::Ground ground;
+    if (options.ground != "none") {
+        try {
+            ground = make_ground({.kind = ground_kinds.value(options.ground)});
+            corrected = with_feet_on(ground, character.skeleton, bone_map(character), clip, rate);
+        } catch (const std::runtime_error& error) {
+            throw std::runtime_error(fs::path(options.file).filename().string() + ": " + error.what());
+        }
+    }
+    return export_clip({.character = character,
+                        .file = options.file,
+                        .original = clip,
+                        .corrected = corrected,
+                        .rate = rate,
+                        .ground = &ground},
+                       out);
+}
+
 }  // namespace
 
 std::size_t run_lint(const LintOptions& options) {
@@ -117,29 +139,23 @@ void run_bake(const BakeOptions& options) {
     if (options.fps && !(*options.fps >= min_rate && *options.fps <= largest_rate))
         throw std::runtime_error("--fps: must be 1 to 1000, got " + std::to_string(*options.fps));
     const Character character = read_character(options.file);
-    const Clip& clip = clip_named(character, options);
+    const Clip& first = clip_named(character, options);
     const fs::path out = options.out.empty() ? place_beside(options.file) : fs::path(options.out);
-    const double rate = options.fps.value_or(humanoid::frame_rate(clip));
-    Clip corrected = clip;
-    humanoid::Ground ground;
-    if (options.ground != "none") {
-        try {
-            ground = make_ground({.kind = ground_kinds.value(options.ground)});
-            corrected = with_feet_on(ground, character.skeleton, bone_map(character), clip, rate);
-        } catch (const std::runtime_error& error) {
-            throw std::runtime_error(fs::path(options.file).filename().string() + ": " + error.what());
-        }
-    }
-    const ExportReport report = export_clip({.character = character,
-                                             .file = options.file,
-                                             .original = clip,
-                                             .corrected = corrected,
-                                             .rate = rate,
-                                             .ground = &ground},
-                                            out);
     Progress progress;
     Output print(progress);
-    print.write(out.string() + ": " + printable(clip.name) + ", " + report.text() + '\n');
+    if (options.all) {
+        const std::vector<fs::path> paths = paths_of_clips(character, out);
+        for (std::size_t i = 0; i < paths.size(); ++i) {
+            progress.show("writing", static_cast<double>(i) / static_cast<double>(paths.size()));
+            const Clip& clip = character.clips[i];
+            print.write(paths[i].string() + ": " + printable(clip.name) + ", " +
+                        bake_one(character, clip, options, paths[i]).text() + '\n');
+        }
+    } else {
+        const std::string which = one_of_clips_text(character, first.name);
+        print.write(out.string() + ": " + printable(which.empty() ? first.name : which) + ", " +
+                    bake_one(character, first, options, out).text() + '\n');
+    }
     print.finish();
 }
 
@@ -160,13 +176,15 @@ To open a scene file that is named lint, write ./lint.)";
 const char* const bake_help =
     R"(FILE is a .gltf, .glb, .vrm, .vrma, .fbx or .bvh file. One of its clips, by
 default the first, is written to --out, or to FILE_baked beside the file: as glTF,
-GLB or BVH, depending on the name's ending. glTF from a glTF file keeps its nodes,
-skins, materials, meshes and pictures unchanged. With a ground, the feet are put on
-it first: flat, a slope of 20 degrees or stairs 15 cm high and 30 cm deep, which
-rise along +Z, or terrain, low hills. The file is then read back, and two errors are
-printed: the joint that is furthest from where it was, in mm, and how far a standing
-foot slides at most, before and after. A BVH's frame 0 is time 0. An existing file is
-replaced as a whole, or left as it was (exit code 2). A signal ends it at once.
+GLB or BVH, depending on the name's ending. With --all every clip is written, each
+to a file of its own: its name is added to the file's. glTF from a glTF file keeps
+its nodes, skins, materials, meshes and pictures unchanged. With a ground, the feet
+are put on it first: flat, a slope of 20 degrees or stairs 15 cm high and 30 cm deep,
+which rise along +Z, or terrain, low hills. The file is then read back, and two
+errors are printed: the joint that is furthest from where it was, in mm, and how far
+a standing foot slides at most, before and after. A BVH's frame 0 is time 0. An
+existing file is replaced as a whole, or left as it was (exit code 2). A signal ends
+it at once.
 To open a scene file that is named bake, write ./bake.)";
 
 }  // namespace tendril::app

@@ -18,6 +18,7 @@ std::size_t run_lint(const LintOptions& options);
 struct BakeOptions {
     std::string file;  ///< path of the character
     std::string clip;  ///< by name; empty: the first
+    bool all = false;  ///< every clip, each to a file of its own
     std::string ground = "none";
     std::optional<double> fps{};  ///< frames per second; the clip's own by default
     std::string out;              ///< path; empty: FILE_baked beside the file

@@ -74,7 +74,9 @@ bool FieldRows::changed(const Field& field) const {
     return false;
 }
 
-void FieldRows::draw(const Field& field, const FieldText& text, const RowOptions& options) const {
+void FieldRows::draw(const Field& field, const FieldText& usual, const RowOptions& options) const {
+    FieldText text = usual;
+    if (options.unit != nullptr) text.unit = options.unit;
     if (field.type == FieldType::Choice && !text.listed) return button_rows(field, text);
     ImGui::BeginDisabled(!options.why_not.empty());
     if (field.type == FieldType::Flag)

@@ -1,14 +1,18 @@
 // A clip played on another skeleton: limbs point where the source's do, hips move in proportion.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 #include <random>
 #include <tendril/humanoid/attach.hpp>
+#include <tendril/humanoid/lint.hpp>
 #include <tendril/humanoid/retarget.hpp>
+#include <tendril/humanoid/soles.hpp>
 #include <tendril/humanoid/t_pose.hpp>
 
 #include "tests/core/humanoid_figure.hpp"
+#include "tests/core/humanoid_walk.hpp"
 #include "tests/says.hpp"
 
 namespace tendril::test {
@@ -31,10 +35,16 @@ struct RetargetFigure {
     const Placement& of(const std::vector<Placement>& all, Bone bone) const {
         return all[static_cast<std::size_t>(map[bone].node)];
     }
+    /// Thigh and shin, the mean of both sides.
     double leg() const {
-        const auto all = placed(t_pose(skeleton, map));
-        return of(all, Bone::Hips).position.y -
-               std::min(of(all, Bone::LeftFoot).position.y, of(all, Bone::RightFoot).position.y);
+        const auto all = placed(rest_pose(skeleton));
+        const auto between = [&](Bone a, Bone b) {
+            return glm::distance(of(all, a).position, of(all, b).position);
+        };
+        return 0.5 * (between(Bone::LeftUpperLeg, Bone::LeftLowerLeg) +
+                      between(Bone::LeftLowerLeg, Bone::LeftFoot) +
+                      between(Bone::RightUpperLeg, Bone::RightLowerLeg) +
+                      between(Bone::RightLowerLeg, Bone::RightFoot));
     }
 };
 
@@ -103,6 +113,7 @@ RetargetFigure with_loose_foot(RetargetFigure body) {
     return body;
 }
 
+/// High above the ground, which would hold the feet.
 Clip random_clip(RetargetDice& random, const RetargetFigure& body) {
     Clip clip{.name = "any", .duration = 1.0, .channels = {}};
     for (std::size_t node = 0; node < body.skeleton.size(); ++node) {
@@ -113,8 +124,11 @@ Clip random_clip(RetargetDice& random, const RetargetFigure& body) {
             channel.rotation.values.push_back(glm::normalize(rest.rotation * random.turn(0.8)));
             if (body.map[Bone::Hips].node != static_cast<std::int32_t>(node)) continue;
             channel.translation.times.push_back(time);
+            const glm::dvec3 way(random.from(-1, 1), random.from(99, 101), random.from(-1, 1));
+            const auto parent = static_cast<std::size_t>(body.skeleton[node].parent);
             channel.translation.values.push_back(
-                rest.translation + glm::dvec3(random.from(-1, 1), random.from(-1, 1), random.from(-1, 1)));
+                rest.translation +
+                glm::inverse(body.placed(rest_pose(body.skeleton))[parent].rotation()) * way);
         }
         clip.channels.push_back(std::move(channel));
     }
@@ -144,8 +158,7 @@ TEST(HumanoidRetarget, limbs_point_where_those_of_the_source_do_and_hips_move_in
         ASSERT_TRUE(check(made->clip, to.skeleton));
         EXPECT_NEAR(made->scale, to.leg() / from.leg(), 1e-9);
         const glm::dmat3 turn = frame_of(to) * glm::transpose(frame_of(from));
-        const auto rest_from = from.placed(rest_pose(from.skeleton)),
-                   rest_to = to.placed(rest_pose(to.skeleton));
+        const auto first_from = from.at(clip, 0.0), first_to = to.at(made->clip, 0.0);
         for (const double time : {0.0, 1.0 / 60.0, 0.31, 0.5, 1.0}) {
             const auto was = from.at(clip, time), now = to.at(made->clip, time);
             for (const std::pair<Bone, Bone>& limb : limbs) {
@@ -156,12 +169,13 @@ TEST(HumanoidRetarget, limbs_point_where_those_of_the_source_do_and_hips_move_in
                 EXPECT_LT(glm::distance(turn * direction(from, was), direction(to, now)), 1e-6)
                     << i << ' ' << humanoid::name(upper) << " at " << time;
             }
+            // Since the first moment: at rest not all of them are on the ground.
             const auto moved = [](const RetargetFigure& body, const std::vector<Placement>& all,
-                                  const std::vector<Placement>& rest) {
-                return body.of(all, Bone::Hips).position - body.of(rest, Bone::Hips).position;
+                                  const std::vector<Placement>& first) {
+                return body.of(all, Bone::Hips).position - body.of(first, Bone::Hips).position;
             };
             EXPECT_LT(
-                glm::distance(turn * moved(from, was, rest_from) * made->scale, moved(to, now, rest_to)),
+                glm::distance(turn * moved(from, was, first_from) * made->scale, moved(to, now, first_to)),
                 1e-6);
         }
     }
@@ -181,6 +195,151 @@ TEST(HumanoidRetarget, on_the_same_skeleton_it_is_the_same_motion) {
             EXPECT_LT(glm::distance(body.of(was, static_cast<Bone>(i)).position,
                                     body.of(now, static_cast<Bone>(i)).position),
                       1e-6);
+    }
+}
+
+// ------------------------------------------------------------------------------------------------- walks
+
+/// The figure with other proportions, arms hanging at rest, toes turned out, and hands that point anywhere.
+RetargetFigure other_figure(double legs, double feet, double hips) {
+    RetargetFigure body{make_figure({}), {}};
+    std::vector<Node> nodes = body.skeleton.nodes();
+    const auto stretch = [&](const char* name, double by) {
+        Node& node = nodes[*body.skeleton.find(name)];
+        node.rest.translation = node.rest.translation * by;
+    };
+    const auto about = [](const glm::dvec3& axis, double degrees) {
+        return glm::angleAxis(glm::radians(degrees), glm::normalize(axis));
+    };
+    double fall = 0.0;
+    for (const std::string side : {"Left", "Right"}) {
+        const double out = side == "Left" ? 1.0 : -1.0;
+        const auto named = [&](const char* bone) -> Node& { return nodes[*body.skeleton.find(side + bone)]; };
+        fall = (1.0 - legs) * (glm::length(named("LowerLeg").rest.translation) +
+                               glm::length(named("Foot").rest.translation));
+        named("UpperLeg").rest.translation.x *= hips;
+        for (const char* bone : {"LowerLeg", "Foot"}) stretch((side + bone).c_str(), legs);
+        for (const char* bone : {"Toes", "Toes end"}) named(bone).rest.translation.z *= feet;
+        named("Foot").rest.rotation = about({0, 1, 0}, 15.0 * out);
+        named("UpperArm").rest.rotation = about({0, 0, 1}, -50.0 * out);
+        named("Hand").rest.rotation = about({0.3, 1, 0.5}, 25.0 * out);
+    }
+    nodes[*body.skeleton.find("Hips")].rest.translation.y -= fall;
+    body.skeleton = *Skeleton::make(std::move(nodes));
+    body.map = match_bones(body.skeleton);
+    return body;
+}
+
+/// Three rounds of the walk.
+Clip long_walk(const RetargetFigure& body) {
+    const Clip once = FigureWalk(body.skeleton).clip();
+    Clip walk{.name = "walk", .duration = 3.0 * once.duration, .channels = {}};
+    for (const Channel& each : once.channels) {
+        Channel longer{.node = each.node};
+        for (int round = 0; round < 3; ++round) {
+            const double start = round * once.duration;
+            for (std::size_t i = round > 0 ? 1 : 0; i < each.rotation.times.size(); ++i) {
+                longer.rotation.times.push_back(start + each.rotation.times[i]);
+                longer.rotation.values.push_back(each.rotation.values[i]);
+            }
+            for (std::size_t i = round > 0 ? 1 : 0; i < each.translation.times.size(); ++i) {
+                longer.translation.times.push_back(start + each.translation.times[i]);
+                longer.translation.values.push_back(each.translation.values[i] +
+                                                    glm::dvec3(0.0, 0.0, start * FigureWalk::speed));
+            }
+        }
+        walk.channels.push_back(std::move(longer));
+    }
+    return walk;
+}
+
+TEST(HumanoidRetarget, a_walk_stands_on_other_legs_and_its_hands_point_the_same_way) {
+    const RetargetFigure from{make_figure({}), match_bones(make_figure({}))};
+    const Clip walk = long_walk(from);
+    for (const auto& [legs, feet, hips] : {std::array{0.6, 1.0, 1.0}, {1.4, 0.6, 1.5}, {1.0, 1.4, 0.7}}) {
+        const RetargetFigure to = other_figure(legs, feet, hips);
+        const auto made = retarget({from.skeleton, from.map}, walk, {to.skeleton, to.map});
+        ASSERT_TRUE(made) << made.message();
+        EXPECT_NEAR(made->scale, legs, 1e-3);
+        const Soles soles_from = *find_soles(from.skeleton, from.map),
+                    soles_to = *find_soles(to.skeleton, to.map);
+        std::array<SolePoints, 2> last{};
+        std::array<glm::dvec2, 2> slid{};
+        std::array<bool, 2> stood{};
+        int stands = 0;
+        for (int i = 0; i <= 360; ++i) {
+            const double time = std::min(i / 120.0, walk.duration);
+            const auto was = from.at(walk, time), now = to.at(made->clip, time);
+            for (const auto& [hand, end] :
+                 {std::pair{"LeftHand", "LeftHand end"}, {"RightHand", "RightHand end"}}) {
+                const auto way = [&, a = std::string(hand), b = std::string(end)](const RetargetFigure& body,
+                                                                                  const auto& all) {
+                    return glm::normalize(all[*body.skeleton.find(b)].position -
+                                          all[*body.skeleton.find(a)].position);
+                };
+                EXPECT_LT(glm::distance(way(from, was), way(to, now)), 1e-6);
+            }
+            const auto before = sole_points(soles_from, was), after = sole_points(soles_to, now);
+            for (std::size_t foot = 0; foot < 2; ++foot) {
+                const bool flat =
+                    std::abs(before[foot].heel.y) < 0.001 && std::abs(before[foot].toe.y) < 0.001;
+                if (flat) {
+                    ++stands;
+                    EXPECT_NEAR(after[foot].heel.y, 0.0, 0.005) << legs << " at " << time;
+                    EXPECT_NEAR(after[foot].toe.y, 0.0, 0.005) << legs << " at " << time;
+                    const glm::dvec3 step = after[foot].toe - last[foot].toe;
+                    slid[foot] = stood[foot] ? slid[foot] + glm::dvec2(step.x, step.z) : glm::dvec2(0.0);
+                    EXPECT_LT(glm::length(slid[foot]), 0.01) << legs << " at " << time;
+                }
+                stood[foot] = flat;
+                last[foot] = after[foot];
+            }
+        }
+        EXPECT_GT(stands, 100);
+        for (const Finding& each : lint(to.skeleton, to.map, made->clip).findings)
+            ADD_FAILURE() << legs << ": " << each.text;
+    }
+}
+
+TEST(HumanoidRetarget, fingers_are_carried_over_by_their_names) {
+    const auto with_fingers = [](const std::vector<std::string>& names, double bent) {
+        const Skeleton figure = make_figure({});
+        std::vector<Node> nodes = figure.nodes();
+        auto above = static_cast<std::int32_t>(*figure.find("LeftHand"));
+        for (std::size_t i = 0; i < names.size(); ++i) {
+            nodes.push_back({names[i], above, {.translation = {i == 0 ? 0.09 : 0.03, 0, 0}}});
+            nodes.back().rest.rotation = glm::angleAxis(bent, glm::dvec3(0, 0, 1));
+            above = static_cast<std::int32_t>(nodes.size() - 1);
+        }
+        RetargetFigure body{*Skeleton::make(std::move(nodes)), {}};
+        body.map = match_bones(body.skeleton);
+        return body;
+    };
+    // The target's are bent at rest, and one has a bone of the palm.
+    const RetargetFigure from = with_fingers({"LeftHandMiddle1", "LeftHandMiddle2", "LeftHandMiddle3"}, 0.0),
+                         to = with_fingers(
+                             {"middle_metacarpal_l", "middle_01_l", "middle_02_l", "middle_03_l"}, -0.2);
+    Clip clip{.name = "fist", .duration = 1.0, .channels = {}};
+    for (const char* name : {"LeftHandMiddle1", "LeftHandMiddle2", "LeftHandMiddle3"}) {
+        Channel channel{.node = *from.skeleton.find(name)};
+        channel.rotation.times = {0.0, 1.0};
+        channel.rotation.values = {glm::dquat(1, 0, 0, 0), glm::angleAxis(-0.7, glm::dvec3(0, 0, 1))};
+        clip.channels.push_back(std::move(channel));
+    }
+    const auto made = retarget({from.skeleton, from.map}, clip, {to.skeleton, to.map});
+    ASSERT_TRUE(made) << made.message();
+    for (const double time : {0.0, 0.5, 1.0}) {
+        const auto was = from.at(clip, time), now = to.at(made->clip, time);
+        const auto way = [](const RetargetFigure& body, const auto& all, const char* a, const char* b) {
+            return glm::normalize(all[*body.skeleton.find(b)].position -
+                                  all[*body.skeleton.find(a)].position);
+        };
+        EXPECT_LT(glm::distance(way(from, was, "LeftHandMiddle1", "LeftHandMiddle2"),
+                                way(to, now, "middle_01_l", "middle_02_l")),
+                  1e-6);
+        EXPECT_LT(glm::distance(way(from, was, "LeftHandMiddle2", "LeftHandMiddle3"),
+                                way(to, now, "middle_02_l", "middle_03_l")),
+                  1e-6);
     }
 }
 

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <string_view>
 #include <tendril/humanoid/attach.hpp>
 #include <tendril/humanoid/lint.hpp>
 
@@ -168,6 +169,49 @@ std::string ExportReport::text() const {
     std::snprintf(numbers, sizeof numbers, "; skating %.1f mm before, %.1f mm after", 1000.0 * skating_before,
                   1000.0 * skating_after);
     return text + numbers + found;
+}
+
+std::string one_of_clips_text(const Character& character, const std::string& clip) {
+    const std::size_t count = character.clips.size();
+    return count < 2 ? std::string() : "1 of " + std::to_string(count) + " clips: " + clip;
+}
+
+std::vector<fs::path> paths_of_clips(const Character& character, const fs::path& path) {
+    std::vector<fs::path> paths;
+    for (const humanoid::Clip& clip : character.clips) {
+        std::string name = clip.name;
+        for (char& each : name) {
+            const auto byte = static_cast<unsigned char>(each);
+            if (byte < 0x20 || byte == 0x7f ||
+                std::string_view("/\\:*?\"<>|").find(each) != std::string_view::npos)
+                each = '_';
+        }
+        const std::string stem = path.stem().string() + '_' + name, ending = path.extension().string();
+        fs::path next = path.parent_path() / (stem + ending);
+        for (int i = 2; std::ranges::find(paths, next) != paths.end(); ++i)
+            next = path.parent_path() / (stem + '_' + std::to_string(i) + ending);
+        paths.push_back(std::move(next));
+    }
+    return paths;
+}
+
+std::string sum_text(const std::vector<ExportReport>& reports) {
+    const ExportReport* worst = nullptr;
+    std::size_t fresh = 0;
+    for (const ExportReport& each : reports) {
+        if (worst == nullptr || each.worst > worst->worst) worst = &each;
+        fresh += each.new_findings.size();
+    }
+    std::string text = std::to_string(reports.size()) + (reports.size() == 1 ? " clip" : " clips");
+    if (worst != nullptr) {
+        char number[60];
+        std::snprintf(number, sizeof number, ", %.4f mm", 1000.0 * worst->worst);
+        text += "; worst joint " + worst->worst_joint + number;
+    }
+    return text + "; " +
+           (fresh == 0 ? "no new findings"
+                       : std::to_string(fresh) + (fresh == 1 ? " new finding" : " new findings")) +
+           " in them";
 }
 
 bool ends_as_export(const fs::path& path) {

@@ -43,6 +43,15 @@ inline constexpr double min_rate = 1.0, largest_rate = 1000.0;
 /// Whether the file name has the extension of a format that can be written: .gltf, .glb or .bvh.
 bool ends_as_export(const std::filesystem::path& path);
 
+/// "1 of 14 clips: Walking"; empty if the character has no other clip.
+std::string one_of_clips_text(const Character& character, const std::string& clip);
+/// A file for each of the character's clips: "robot.glb" and "Walking" give "robot_Walking.glb". What a
+/// file's name may not contain becomes '_', and no two are the same.
+std::vector<std::filesystem::path> paths_of_clips(const Character& character,
+                                                  const std::filesystem::path& path);
+/// "14 clips; worst joint Head, 0.0012 mm; no new findings in them"
+std::string sum_text(const std::vector<ExportReport>& reports);
+
 /// Writes the file atomically, in the format of its extension, with the hierarchy of the character's file. A
 /// glTF file keeps the contents of the character's own glTF file (gltf_write.hpp). Throws std::runtime_error
 /// and then writes nothing.

@@ -123,7 +123,8 @@ Playback read_playback(const JsonPlace& place, const LoadedCharacter& character)
 Json cures_json(const std::vector<ClipCure>& cures) {
     Json list = Json::array();
     for (const ClipCure& each : cures) {
-        list.push_back({{"clip", each.clip}, {"kind", humanoid::name(each.fault)}});
+        list.push_back({{"clip", each.clip}});
+        if (each.fault) list.back()["kind"] = humanoid::name(*each.fault);
         if (!each.node.empty()) list.back()["node"] = each.node;
         if (each.frame) list.back()["frame"] = *each.frame;
     }
@@ -135,13 +136,14 @@ void read_cures(const JsonPlace& place, HumanoidPart& part) {
     constexpr std::size_t max_cures = 10'000;
     place.for_each("cures", max_cures, [&](const JsonPlace& each) {
         ClipCure cure{.clip = each["clip"].text()};
-        const auto fault = fault_named(each["kind"].text());
-        if (!fault) each["kind"].fail("there is no such fault");
-        cure.fault = *fault;
+        if (const auto kind = each.optional("kind")) {
+            cure.fault = fault_named(kind->text());
+            if (!cure.fault) kind->fail("there is no such fault");
+        }
         if (const auto node = each.optional("node")) cure.node = node->text();
         if (const auto frame = each.optional("frame")) cure.frame = frame->index(humanoid::max_lint_frames);
         try {
-            part.loaded = cured(part, cure);
+            part.loaded = cured(part, cure).loaded;
         } catch (const std::invalid_argument& error) {
             each.fail(error.what());
         }

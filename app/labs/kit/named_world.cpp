@@ -127,8 +127,14 @@ void NamedWorld::move(std::string_view body, const glm::dvec3& by) {
 void NamedWorld::set_length(std::string_view body, float metres) {
     require_ok(world_.set_length(id(body), metres));
 }
+void NamedWorld::set_width(std::string_view cloth, float metres) {
+    require_ok(world_.set_width(id(cloth), metres));
+}
 void NamedWorld::set_mass(std::string_view body, double kilograms) {
     require_ok(world_.set_mass(id(body), kilograms));
+}
+void NamedWorld::set_density(std::string_view body, double density) {
+    require_ok(world_.set_density(id(body), density));
 }
 void NamedWorld::set_radius(std::string_view body, float metres) {
     require_ok(world_.set_radius(id(body), metres));
@@ -138,6 +144,30 @@ void NamedWorld::set_compliance(std::string_view body, rope::Link::Kind kind, fl
 }
 void NamedWorld::set_tear(std::string_view body, float tear) {
     require_ok(world_.set_tear(id(body), tear));
+}
+
+void NamedWorld::rename(std::string_view body, const std::string& name) {
+    const rope::BodyId renamed = id(body);
+    if (const rope::Body* other = find(name); other != nullptr && other->id == renamed) return;
+    if (name.empty()) refuse("rename", "of at least one character", name);
+    check_free("rename", name);
+    require_value(world_.particle(renamed, 0));
+    bodies_[renamed.index] = name;
+}
+
+std::vector<std::size_t> NamedWorld::take(Expected<rope::Edited> edited) {
+    rope::Edited given = require_value(std::move(edited));
+    world_ = std::move(given.world);
+    return std::move(given.becomes);
+}
+std::vector<std::size_t> NamedWorld::resample(std::string_view body, const rope::Resolution& to) {
+    return take(rope::resample(world_, id(body), to));
+}
+std::vector<std::size_t> NamedWorld::reverse(std::string_view rope) {
+    return take(rope::reverse(world_, id(rope)));
+}
+void NamedWorld::cut_cloth(std::string_view cloth, std::span<const glm::vec2> line) {
+    world_ = require_value(rope::cut_cloth(world_, id(cloth), line));
 }
 
 void NamedWorld::pin(std::size_t particle, const glm::dvec3& at, double seconds) {

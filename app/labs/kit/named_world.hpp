@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <tendril/rope/edit.hpp>
 #include <tendril/rope/quasi_static.hpp>
 #include <tendril/rope/world.hpp>
 #include <vector>
@@ -62,10 +63,17 @@ class NamedWorld {
     std::string cut(std::string_view rope, std::size_t segment);
     // As in rope::World.
     void set_length(std::string_view body, float metres);
+    void set_width(std::string_view cloth, float metres);
     void set_mass(std::string_view body, double kilograms);
+    void set_density(std::string_view body, double density);
     void set_radius(std::string_view body, float metres);
     void set_compliance(std::string_view body, rope::Link::Kind kind, float compliance);
     void set_tear(std::string_view body, float tear);
+    void rename(std::string_view body, const std::string& name);
+    /// Each returns the particle that each particle of the body has become.
+    std::vector<std::size_t> resample(std::string_view body, const rope::Resolution& to);
+    std::vector<std::size_t> reverse(std::string_view rope);
+    void cut_cloth(std::string_view cloth, std::span<const glm::vec2> line);
     std::size_t particle(std::string_view body, std::size_t index) const;
     void pin(std::size_t particle, const glm::dvec3& at, double seconds = 0.0);
     void attach(std::size_t particle, std::string_view collider);
@@ -106,6 +114,7 @@ class NamedWorld {
     rope::BodyId id(std::string_view body) const;
     rope::ColliderId collider_id(std::string_view collider) const;
     rope::TieId tie_id(std::string_view tie) const;
+    std::vector<std::size_t> take(Expected<rope::Edited> edited);
 
     rope::World world_;
     std::vector<std::string> bodies_, colliders_, ties_;  ///< by slot

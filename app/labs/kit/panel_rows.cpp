@@ -95,10 +95,16 @@ void show_verdict(const Verdict& said, const Palette& palette, Emit& emit, Verdi
     const float top = ImGui::GetCursorPosY();
     verdict(said.text, said.kind == Verdict::Kind::Bad ? palette.limit : palette.text);
     if (!said.why.empty()) note(said.why);
-    if (said.cure) cure_line("", said.cure, emit);
-    if (notes) notes();
     const float between = static_cast<float>(room.paragraphs - 1) * ImGui::GetStyle().ItemSpacing.y;
-    keep_room("verdict", top, verdict_height(room.verdict) + note_height(room.notes) + between);
+    const float height = verdict_height(room.verdict) + note_height(room.notes) + between;
+    if (said.cure) {  // its line may end the room, with less space above it: nothing moves once it is gone
+        const float spacing = ImGui::GetStyle().ItemSpacing.y, y = ImGui::GetCursorPosY();
+        const float last = top + height - ImGui::GetTextLineHeight() - spacing;
+        if (last < y && y - spacing <= last) ImGui::SetCursorPosY(last);
+        cure_line("", said.cure, emit);
+    }
+    if (notes) notes();
+    keep_room("verdict", top, height);
 }
 
 }  // namespace tendril::app

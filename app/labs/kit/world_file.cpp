@@ -227,16 +227,16 @@ Json save_world(const NamedWorld& world) {
     for (const rope::Collider& collider : state.colliders)
         colliders.push_back(save_collider(collider, world.name(collider)));
     Json json{{"settings", save_fields(state.settings)},
-                {"remainder", state.remainder},
-                {"moved_in", state.displaced_in},
-                {"substeps", state.substeps},
-                {"dropped", state.dropped},
-                {"drift", dpoint(state.drift)},
-                {"colliders", std::move(colliders)},
-                {"bodies", std::move(bodies)},
-                {"pins", std::move(pins)},
-                {"particles", std::move(particles)},
-                {"links", std::move(links)}};
+              {"remainder", state.remainder},
+              {"moved_in", state.displaced_in},
+              {"substeps", state.substeps},
+              {"dropped", state.dropped},
+              {"drift", dpoint(state.drift)},
+              {"colliders", std::move(colliders)},
+              {"bodies", std::move(bodies)},
+              {"pins", std::move(pins)},
+              {"particles", std::move(particles)},
+              {"links", std::move(links)}};
     if (state.ties.empty()) return json;
     Json& ties = json["ties"] = Json::array();
     for (const rope::Tie& tie : state.ties) ties.push_back(save_tie(tie, world.name(tie)));

@@ -133,6 +133,24 @@ void unpin(RopeEdit& edit, const Arguments& given) {
     }
 }
 
+/// A row of n segments gets f(n) of them, and so does a column of a cloth.
+template <class Divide>
+void divide_body(RopeEdit& edit, const Arguments& given, Divide f) {
+    const rope::Body& body = body_of(edit.seen(), given.text("rope"));
+    rope::Resolution to = rope::resolution(body);
+    to.columns = f(to.columns - 1) + 1;
+    if (body.kind == rope::Body::Kind::Cloth) to.rows = f(to.rows - 1) + 1;
+    resample_body(edit, given.text("rope"), to);
+}
+
+void subdivide(RopeEdit& edit, const Arguments& given) {
+    divide_body(edit, given, [](std::size_t segments) { return 2 * segments; });
+}
+
+void merge(RopeEdit& edit, const Arguments& given) {
+    divide_body(edit, given, [](std::size_t segments) { return (segments + 1) / 2; });
+}
+
 /// Redirects a reference beyond the cut to the same particle of the new rope.
 void follow_cut(std::string& body, std::size_t& particle, const std::string& cut_rope, std::size_t segment,
                 const std::string& rest) {
@@ -183,6 +201,18 @@ void cut(RopeEdit& edit, const Arguments& given) {
     forget_missing(part);
 }
 
+void cut_cloth(RopeEdit& edit, const Arguments& given) {
+    constexpr std::size_t most = 1000;
+    const std::string name = given.text("rope");
+    body_of(edit.seen(), name);
+    std::vector<glm::vec2> line;
+    JsonPlace(given.json("points"), "points").for_each("points", most, [&](const JsonPlace& each) {
+        each.check_size(2, "numbers, a column and a row");
+        line.emplace_back(each.element(0).number(), each.element(1).number());
+    });
+    edit.world().cut_cloth(name, line);
+}
+
 /// A name, followed by the fields of `Shapes`.
 template <class... Shapes>
 std::vector<Argument> adding_arguments(const char* otherwise) {
@@ -224,10 +254,21 @@ void add_body_commands(CommandTable& table) {
     add_adding_commands(table);
     std::vector<Argument> made_of = field_arguments<BodySettings>();
     made_of.insert(made_of.begin(), body_argument("rope", true, "of a rope, cloth or hair"));
+    made_of.push_back(text_argument("name", false, "its new name"));
     table.add(rope_command(
         "rope.set", "Change a rope, cloth or hair", std::move(made_of),
         "Changes the properties of a rope, cloth or hair; omitted ones are kept",
-        [](RopeEdit& edit, const Arguments& given) { set_body(edit.world(), given.text("rope"), given); }));
+        [](RopeEdit& edit, const Arguments& given) { set_body(edit, given.text("rope"), given); }));
+    table.add(rope_command("rope.subdivide", "Subdivide a rope, cloth or hair",
+                           {body_argument("rope", true, "of a rope, cloth or hair")},
+                           "Halves each segment; it keeps its shape, motion and material", subdivide));
+    table.add(rope_command("rope.merge", "Merge segments in pairs",
+                           {body_argument("rope", true, "of a rope, cloth or hair")},
+                           "Merges its segments in pairs; it keeps its shape, motion and material", merge));
+    table.add(
+        rope_command("rope.reverse", "Reverse a rope", {rope_argument(true, "which")},
+                     "Swaps the ends of a rope; pins, ties and motion stay where they are",
+                     [](RopeEdit& edit, const Arguments& given) { reverse_rope(edit, given.text("rope")); }));
     table.add(rope_command(
         "rope.move", "Move a rope, cloth or hair",
         {body_argument("rope", true, "of a rope, cloth or hair"), point_argument("by", true, "metres"),
@@ -255,6 +296,13 @@ void add_body_commands(CommandTable& table) {
                              .low = 0,
                              .high = max_particles - 1}},
                            "Cuts a rope in two", cut));
+    table.add(rope_command(
+        "rope.cloth.cut", "Cut a cloth along a line",
+        {rope_argument(true, "a cloth"),
+         {.name = "points",
+          .type = ArgumentType::List,
+          .help = "of the line, each [column, row] of the cloth, from 0; between particles too"}},
+        "Cuts a cloth along a line through its own columns and rows", cut_cloth));
 }
 
 // The panel's rows that add objects, at a free position, and select them.

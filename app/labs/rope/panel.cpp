@@ -47,7 +47,7 @@ const char* tool_help(RopeTool tool) {
         case RopeTool::Pin:
             return "A click on a particle pins it where it is, or lets a pinned one move again.";
         case RopeTool::Cut:
-            return "A click on a rope cuts that segment.";
+            return "A click on a rope cuts that segment; clicks on a cloth cut it from one to the next.";
         case RopeTool::Tie:
             return "A click on one particle and then on another ties the two.";
         default:
@@ -66,7 +66,8 @@ void tool_rows(const RopePart& part, Emit& emit) {
 }
 
 FieldRows settings_rows(const RopePart& part, Emit& emit) {
-    return FieldRows(part.world->settings(), "rope.settings", emit);
+    FieldRows rows(part.world->settings(), "rope.settings", emit);
+    return rows.compared_with(part.usual);
 }
 
 void solver_rows(const RopePart& part, MoreRows& more, Emit& emit) {
@@ -74,7 +75,7 @@ void solver_rows(const RopePart& part, MoreRows& more, Emit& emit) {
     const FieldRows settings = settings_rows(part, emit).under(more);
     settings.row("solver");
     settings.row("iterations");
-    const bool changed = now.substep != rope::Settings().substep;
+    const bool changed = now.substep != part.usual.substep;
     more.add("substeps", {"rope.settings", {"substep"}}, changed, [&now, &emit] {
         float per_second = static_cast<float>(1.0 / now.substep);
         if (number_field("substeps", per_second, 2.0f, 10.0f, 10000.0f, "%.0f /s"))
@@ -164,10 +165,23 @@ void body_rows(const NamedWorld& world, const rope::Body& body, Emit& emit) {
     rows.row("length", {.why_not = settings.length > 0.0f
                                        ? ""
                                        : "All its particles are in one place: there is no length to scale."});
-    rows.rows("mass", "radius", "stretch");
+    const bool cloth = body.kind == rope::Body::Kind::Cloth;
+    cloth ? rows.rows("width", "columns", "rows") : rows.row("segments");
+    rows.row("mass");
+    if (settings.density) rows.row("density", {.unit = cloth ? "kg/m^2" : "kg/m"});
+    rows.rows("radius", "stretch");
     if (settings.shear) rows.row("shear");
     if (settings.bend) rows.row("bend");
     if (settings.tear) rows.row("tear");
+    const ArgumentList which{{"rope", world.name(body)}};
+    if (row_button("Subdivide", 3, true, "Halves each segment; shape, motion and material stay"))
+        emit("rope.subdivide", which);
+    if (row_button("Merge", 3, body.row > 2, "Merges segments in pairs; shape, motion and material stay"))
+        emit("rope.merge", which);
+    if (row_button("Reverse", 3, body.kind == rope::Body::Kind::Rope && body.count > 1,
+                   "Swaps its ends; pins, ties and motion stay where they are"))
+        emit("rope.reverse", which);
+    end_row();
 }
 
 void particle_rows(const RopePart& part, const rope::Body& body, std::size_t index, Emit& emit) {
@@ -352,7 +366,7 @@ void number_rows(const Workspace& workspace, const Palette& palette, Emit& emit)
         reading("lost to contact", "%.3f J", lost);
         explain("Energy lost to contact and friction in the last second, by bodies near colliders at rest.");
     });
-    more.add("substeps dropped", {}, state.dropped > 0, [&] {
+    more.add("substeps dropped", {}, false, [&] {
         reading("substeps dropped", "%llu", static_cast<unsigned long long>(state.dropped));
         explain(
             "Substeps skipped so as not to fall behind: from frames over the longest frame, and where the "

@@ -137,9 +137,11 @@ std::optional<PastCurve> rope_past_curve(const Workspace& workspace) {
     const auto what = static_cast<Number>(view.chosen(workspace.settings));
     std::optional<RopeSelection> selection = rope_part(workspace).selection;
     if (selection && !selection->of_particles()) selection.reset();
+    // An emptied world shows nothing of what was removed.
+    const bool empty = rope_part(workspace).world->state().bodies.empty();
     const Told words = told(what);
     const std::string name = selection ? words.of_some + measured_name(what, *selection) : words.of_all;
-    std::string of = name;
+    std::string of = empty ? "nothing" : name;
     if (selection)
         for (const std::size_t each : selection->particles.all()) of += " " + std::to_string(each);
     return PastCurve{.name = name,
@@ -147,8 +149,8 @@ std::optional<PastCurve> rope_past_curve(const Workspace& workspace) {
                      .unit = words.unit,
                      .lowest_range = words.lowest_range,
                      .missing = "There was no rope: add one.",
-                     .value = [what, selection](const SharedPart& part) {
-                         return value_of(what, *ropes_of(part).world, selection);
+                     .value = [what, selection, empty](const SharedPart& part) {
+                         return empty ? nothing : value_of(what, *ropes_of(part).world, selection);
                      }};
 }
 

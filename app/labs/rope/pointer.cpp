@@ -218,6 +218,23 @@ std::optional<ParticlePlace> tied_from(const RopePart& part, const ParticlePlace
     return from;
 }
 
+/// With the Cut action, a click on a second particle of a cloth cuts it from the selected one to there.
+std::optional<ParticlePlace> cut_from(const RopePart& part, const ParticlePlace& to) {
+    if (part.tool != RopeTool::Cut || to.body->kind != rope::Body::Kind::Cloth) return std::nullopt;
+    if (!part.selection || !part.selection->of_particles() || part.selection->particles.several())
+        return std::nullopt;
+    const ParticlePlace from{part.world->find(part.selection->body), part.selection->particle()};
+    if (from.body != to.body || from.index == to.index) return std::nullopt;
+    return from;
+}
+
+void cut_between(const NamedWorld& world, const ParticlePlace& from, const ParticlePlace& to, Emit& emit) {
+    const auto at = [](const ParticlePlace& place) {
+        return Json{place.index % place.body->row, place.index / place.body->row};
+    };
+    emit("rope.cloth.cut", {{"rope", world.name(*to.body)}, {"points", SharedJson(Json{at(from), at(to)})}});
+}
+
 /// Selects the tie, so that its length and strength can be set.
 void tie_places(const NamedWorld& world, const ParticlePlace& a, const ParticlePlace& b, Emit& emit) {
     const std::string name = free_name("tie", [&](const auto& n) { return world.find_tie(n) != nullptr; });
@@ -250,11 +267,13 @@ void RopeLab::click(const Workspace& workspace, PickId pick, Emit& emit) const {
         return;
     }
     if (const auto from = tied_from(part, *place)) return tie_places(world, *from, *place, emit);
+    if (const auto from = cut_from(part, *place)) cut_between(world, *from, *place, emit);
     emit("rope.select", of_particle(world, *place));
     if (part.tool == RopeTool::Pin) {
         const bool pinned = world.pinned(place->body->first + place->index);
         emit(pinned ? "rope.unpin" : "rope.pin", of_particle(world, *place));
-    } else if (part.tool == RopeTool::Cut) {  // the command refuses what cannot be cut
+    } else if (part.tool == RopeTool::Cut &&
+               place->body->kind != rope::Body::Kind::Cloth) {  // the command refuses what cannot be cut
         const std::size_t segment = std::min(place->index, std::max<std::size_t>(place->body->count, 2) - 2);
         emit("rope.cut", {{"rope", world.name(*place->body)}, {"segment", segment}});
     }
@@ -343,7 +362,10 @@ std::string RopeLab::hint(const Workspace& workspace, PickId pick) const {
         case RopeTool::Pin:
             return name + ": click pins or unpins it.";
         case RopeTool::Cut:
-            if (place->body->kind != rope::Body::Kind::Rope) return name + ": only ropes can be cut.";
+            if (cut_from(part, *place)) return name + ": click cuts from the selected particle to here.";
+            if (place->body->kind == rope::Body::Kind::Cloth)
+                return name + ": click it, then where to cut to.";
+            if (place->body->kind == rope::Body::Kind::Hair) return name + ": hair cannot be cut.";
             if (place->body->count > 1) return name + ": click cuts here.";
             break;
         case RopeTool::Tie:

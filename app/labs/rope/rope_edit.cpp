@@ -1,6 +1,7 @@
 #include "app/labs/rope/body_commands.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <stdexcept>
 
 #include "app/labs/kit/arguments.hpp"
@@ -187,6 +188,44 @@ NamedWorld released_world(const RopePart& part) {
     NamedWorld world = *part.world;
     for (const std::size_t each : held_particles(part)) world.unpin(each);
     return world;
+}
+
+namespace {
+
+/// The selection follows its particles, each of which `becomes` another; a whole body stays selected.
+void follow_particles(RopePart& part, const std::string& body, const std::vector<std::size_t>& becomes) {
+    if (!part.selection || !part.selection->of_particles() || part.selection->body != body) return;
+    Selection& particles = part.selection->particles;
+    std::vector<std::size_t> now;
+    if (particles.all().size() == becomes.size()) {
+        now.resize(part.world->find(body)->count);
+        std::iota(now.begin(), now.end(), std::size_t{0});
+    } else {
+        for (const std::size_t each : particles.all()) now.push_back(becomes[each]);
+    }
+    now.push_back(becomes[part.selection->particle()]);
+    particles.take(now, false);
+}
+
+}  // namespace
+
+void resample_body(RopeEdit& edit, const std::string& body, const rope::Resolution& to) {
+    const std::size_t now = body_of(edit.seen(), body).count, then = to.columns * to.rows;
+    if (then > now) check_particle_count(edit.seen(), then - now);
+    if (edit.part.hold && edit.part.hold->body == body) let_go(edit.part);
+    follow_particles(edit.part, body, edit.world().resample(body, to));
+}
+
+void reverse_rope(RopeEdit& edit, const std::string& rope) {
+    body_of(edit.seen(), rope);
+    if (edit.part.hold && edit.part.hold->body == rope) let_go(edit.part);
+    follow_particles(edit.part, rope, edit.world().reverse(rope));
+}
+
+void rename_body(RopeEdit& edit, const std::string& body, const std::string& name) {
+    edit.world().rename(body, name);
+    if (edit.part.hold && edit.part.hold->body == body) edit.part.hold->body = name;
+    if (edit.part.selection && edit.part.selection->body == body) edit.part.selection->body = name;
 }
 
 void forget_missing(RopePart& part) {

@@ -81,6 +81,11 @@ void forget_held(RopePart& part, const NamedParticle& named);
 void let_go(RopePart& part);
 /// The world with the drag released.
 NamedWorld released_world(const RopePart& part);
+/// Divides a body more or less finely; ends a drag that holds it. The selection stays on its particles, or
+/// the nearest to them. Throws Refused if there would be too many.
+void resample_body(RopeEdit& edit, const std::string& body, const rope::Resolution& to);
+void reverse_rope(RopeEdit& edit, const std::string& rope);
+void rename_body(RopeEdit& edit, const std::string& body, const std::string& name);
 /// Clears references to removed bodies, particles and colliders.
 void forget_missing(RopePart& part);
 

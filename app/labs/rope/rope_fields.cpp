@@ -11,14 +11,21 @@
 template <>
 std::span<const tendril::Field> tendril::fields<tendril::app::BodySettings>() noexcept {
     using app::BodySettings;
-    constexpr FieldRange any{0.0, max_magnitude};
-    static constexpr Field rows[] = {field<&BodySettings::length>("length", {1e-6, max_magnitude}, "m"),
-                                     field<&BodySettings::mass>("mass", {1e-9, max_magnitude}, "kg"),
-                                     field<&BodySettings::radius>("radius", any, "m"),
-                                     field<&BodySettings::stretch>("stretch", any, "m/N"),
-                                     field<&BodySettings::shear>("shear", any, "m/N"),
-                                     field<&BodySettings::bend>("bend", any, "m/N"),
-                                     field<&BodySettings::tear>("tear", any)};
+    constexpr FieldRange any{0.0, max_magnitude}, extent{1e-6, max_magnitude};
+    constexpr double most = app::max_lab_particles;
+    static constexpr Field rows[] = {
+        field<&BodySettings::length>("length", extent, "m"),
+        field<&BodySettings::width>("width", extent, "m"),
+        field<&BodySettings::segments>("segments", {1.0, most - 1.0}),
+        field<&BodySettings::columns>("columns", {2.0, most / 2.0}),
+        field<&BodySettings::rows>("rows", {2.0, most / 2.0}),
+        field<&BodySettings::mass>("mass", {1e-9, max_magnitude}, "kg"),
+        field<&BodySettings::density>("density", {rope::min_density, max_magnitude}, "kg/m"),
+        field<&BodySettings::radius>("radius", any, "m"),
+        field<&BodySettings::stretch>("stretch", any, "1/N"),
+        field<&BodySettings::shear>("shear", any, "m/N"),
+        field<&BodySettings::bend>("bend", any, "m/N"),
+        field<&BodySettings::tear>("tear", any)};
     return rows;
 }
 
@@ -67,16 +74,41 @@ template <>
 std::span<const FieldText> field_texts<BodySettings>() {
     static constexpr FieldText texts[] = {
         length_row(
-            "Of a rope, a row of a cloth or a strand of hair: all of its segments change in proportion."),
+            "Of a rope, a row of a cloth or a strand of hair: all of its segments change in proportion, and "
+            "its mass with them."),
+        {.name = "width",
+         .label = "width",
+         .help = "Of a cloth, across its rows.",
+         .step = 0.005f,
+         .decimals = 3},
+        {.name = "segments",
+         .label = "segments",
+         .help = "Of a rope or a strand of hair. It keeps its shape, motion and material; pins and ties stay "
+                 "where they are."},
+        {.name = "columns",
+         .label = "columns",
+         .help = "Particles in a row of a cloth. It keeps its shape, motion and material."},
+        {.name = "rows",
+         .label = "rows",
+         .help = "Rows of particles of a cloth. It keeps its shape, motion and material."},
         {.name = "mass", .label = "mass", .help = "Total mass of the body.", .step = 0.005f, .decimals = 3},
+        {.name = "density",
+         .label = "density",
+         .help = "Mass of a metre of a rope or strand, or of a square metre of cloth.",
+         .step = 0.005f,
+         .decimals = 3},
         {.name = "radius",
          .label = "radius",
          .help = "Half its thickness: how far its particles keep from colliders.",
          .step = 0.0005f,
          .decimals = 4},
-        compliance_row("stretch", 2,
-                       "How much longer a segment gets per newton, in addition to the world's compliance. "
-                       "Relaxation uses only this."),
+        {.name = "stretch",
+         .label = "stretch",
+         .help =
+             "The fraction of its length that a rope or strand stretches per newton, or a strip of cloth a "
+             "metre wide, in addition to the world's compliance. Relaxation uses only this.",
+         .scale = 100.0,
+         .unit = "%/N"},
         compliance_row("shear", 1,
                        "How easily a cloth shears across its threads. Higher values drape more softly."),
         compliance_row("bend", 1,
@@ -264,47 +296,58 @@ std::span<const FieldText> field_texts<rope::Settings>() {
     return texts;
 }
 
-namespace {
-
-/// Compliance of the body's links of that kind.
-float compliance_of(const NamedWorld& world, const rope::Body& body, rope::Link::Kind kind) {
-    for (const rope::Link& link : world.state().links)
-        if (link.kind == kind && link.a >= body.first && link.a < body.first + body.count)
-            return link.compliance;
-    return 0.0f;
-}
-
-}  // namespace
-
 BodySettings settings_of(const NamedWorld& world, const rope::Body& body) {
     using Kind = rope::Link::Kind;
+    const auto compliance = [&](Kind kind) {
+        return static_cast<float>(world.world().compliance(body, kind));
+    };
+    const rope::Resolution now = rope::resolution(body);
     BodySettings settings{.length = static_cast<float>(world.length(body)),
                           .mass = world.world().mass(body),
                           .radius = body.radius,
-                          .stretch = compliance_of(world, body, Kind::Stretch)};
-    if (body.kind != rope::Body::Kind::Rope) settings.bend = compliance_of(world, body, Kind::Bend);
-    if (body.kind != rope::Body::Kind::Cloth) return settings;
-    settings.shear = compliance_of(world, body, Kind::Shear);
+                          .stretch = compliance(Kind::Stretch)};
+    if (const double density = world.world().density(body); density > 0.0) settings.density = density;
+    if (body.kind != rope::Body::Kind::Rope) settings.bend = compliance(Kind::Bend);
+    if (body.kind != rope::Body::Kind::Cloth) {
+        settings.segments = static_cast<int>(now.columns) - 1;
+        return settings;
+    }
+    settings.width = static_cast<float>(world.world().width(body));
+    settings.columns = static_cast<int>(now.columns);
+    settings.rows = static_cast<int>(now.rows);
+    settings.shear = compliance(Kind::Shear);
     settings.tear = body.tear;
     return settings;
 }
 
-void set_body(NamedWorld& world, const std::string& name, const Arguments& given) {
+void set_body(RopeEdit& edit, const std::string& name, const Arguments& given) {
     using Kind = rope::Link::Kind;
-    const rope::Body& body = body_of(world, name);
-    const BodySettings now = settings_of(world, body);
+    const rope::Body& body = body_of(edit.seen(), name);
+    const BodySettings now = settings_of(edit.seen(), body);
     for (const Field& field : fields<BodySettings>())
         if (given.has(field.name) && field.optional && std::isnan(field.get(&now)[0]))
             throw Refused("\"" + name + "\" is a " + body_kind_name(body.kind) + "; it has no " + field.name);
+    if (given.has("mass") && given.has("density"))
+        throw Refused("give mass or density, not both: each follows from the other");
     BodySettings wanted = now;
     set_fields(given, wanted);
+    if (wanted.segments != now.segments)
+        resample_body(edit, name,
+                      {static_cast<std::size_t>(*wanted.segments) + 1, rope::resolution(body).rows});
+    if (wanted.columns != now.columns || wanted.rows != now.rows)
+        resample_body(edit, name,
+                      {static_cast<std::size_t>(*wanted.columns), static_cast<std::size_t>(*wanted.rows)});
+    NamedWorld& world = edit.world();
     if (wanted.length != now.length) world.set_length(name, wanted.length);
-    if (wanted.mass != now.mass) world.set_mass(name, wanted.mass);
+    if (wanted.width != now.width) world.set_width(name, *wanted.width);
+    if (given.has("mass")) world.set_mass(name, wanted.mass);
+    if (given.has("density")) world.set_density(name, *wanted.density);
     if (wanted.radius != now.radius) world.set_radius(name, wanted.radius);
     if (wanted.stretch != now.stretch) world.set_compliance(name, Kind::Stretch, wanted.stretch);
     if (wanted.shear != now.shear) world.set_compliance(name, Kind::Shear, *wanted.shear);
     if (wanted.bend != now.bend) world.set_compliance(name, Kind::Bend, *wanted.bend);
     if (wanted.tear != now.tear) world.set_tear(name, *wanted.tear);
+    if (given.has("name")) rename_body(edit, name, given.text("name"));
 }
 
 }  // namespace tendril::app

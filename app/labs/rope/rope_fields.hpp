@@ -13,11 +13,16 @@ class Arguments;
 
 /// Optional fields are empty if the body has no such links or cannot tear.
 struct BodySettings {
-    float length = 1.0f;   ///< metres; of a row of a cloth, of a strand of hair
-    double mass = 1.0;     ///< kilograms, of the whole body
-    float radius = 0.02f;  ///< metres: half of its thickness
-    /// Compliance of its links, m/N.
+    float length = 1.0f;                   ///< metres; of a row of a cloth, of a strand of hair
+    std::optional<float> width{};          ///< metres, across the rows of a cloth
+    std::optional<int> segments{};         ///< of a rope or of each strand
+    std::optional<int> columns{}, rows{};  ///< particles of a cloth
+    double mass = 1.0;                     ///< kilograms, of the whole body
+    std::optional<double> density{};       ///< kg/m, of a cloth kg/m^2; none of a body without length
+    float radius = 0.02f;                  ///< metres: half of its thickness
+    /// Strain per newton: of a rope, a strand, or a strip of cloth a metre wide.
     float stretch = 0.0f;
+    /// Compliance of its links, m/N.
     std::optional<float> shear{}, bend{};
     std::optional<float> tear{};  ///< strain at which its links tear; 0: never
     bool operator==(const BodySettings&) const = default;
@@ -25,9 +30,11 @@ struct BodySettings {
 
 BodySettings settings_of(const NamedWorld& world, const rope::Body& body);
 
+class RopeEdit;
+
 /// Applies the given fields to the body. Throws Refused for a field that the body lacks,
 /// std::invalid_argument if the library refuses.
-void set_body(NamedWorld& world, const std::string& body, const Arguments& given);
+void set_body(RopeEdit& edit, const std::string& body, const Arguments& given);
 
 }  // namespace tendril::app
 

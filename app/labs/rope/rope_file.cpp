@@ -136,6 +136,7 @@ std::shared_ptr<Part> RopePart::load(const Json& json, const std::string& where)
         reading = &world_place;
         part->world = std::make_shared<const NamedWorld>(load_world(world_place));
         check_work(*part->world);
+        part->usual = part->world->settings();
     } catch (const std::logic_error& error) {  // the library's message, with the JSON path
         reading->fail(error.what());
     }

@@ -207,6 +207,12 @@ bool stretches(const NamedWorld& world) {
     });
 }
 
+/// The name of the body whose lengths are furthest off.
+const std::string& worst_body(const NamedWorld& world) {
+    const auto error = [&](const rope::Body& body) { return world.length_error(body); };
+    return world.name(*std::ranges::max_element(world.state().bodies, {}, error));
+}
+
 /// Halves the substep; none at the shortest.
 std::optional<Cure> shorter_substeps(const RopePart& part) {
     const double now = part.world->settings().substep, half = std::max(0.5 * now, rope::min_substep);
@@ -261,7 +267,8 @@ Verdict rope_verdict(const RopePart& part) {
             return {off, Verdict::Kind::Bad, "Contact displaced links after the solve."};
         if (stretches(*part.world))
             return {"Stretched by " + percent, Verdict::Kind::Open,
-                    "It may stretch: its own stretch, or the compliance under Solver, is above 0."};
+                    worst_body(*part.world) +
+                        " may stretch: its own stretch, or the compliance under Solver, is above 0."};
         return {off, Verdict::Kind::Bad, "The solver did not hold them: use more iterations or substeps.",
                 shorter_substeps(part)};
     }

@@ -20,6 +20,7 @@ RopePart first_ropes() {
     RopePart part;
     RopeScene scene = make_rope_scene(rope_scenes().front());
     part.world = std::make_shared<const NamedWorld>(std::move(scene.world));
+    part.usual = part.world->settings();
     part.swings = std::move(scene.swings);
     return part;
 }
@@ -36,6 +37,7 @@ std::shared_ptr<const Part> RopePart::after_undo() const {
 std::shared_ptr<const Part> RopePart::at_moment(std::shared_ptr<const Part> then) const {
     auto part = std::make_shared<RopePart>(dynamic_cast<const RopePart&>(*then));
     let_go(*part);
+    part->usual = usual;
     part->tool = tool;
     part->view = view;
     part->selection = selection;

@@ -91,6 +91,8 @@ inline constexpr std::size_t max_rope_samples = 600;  ///< ten seconds
 
 struct RopePart final : Part {
     std::shared_ptr<const NamedWorld> world = std::make_shared<const NamedWorld>();
+    /// The settings that the scene was opened with: only others count as changed. Not saved.
+    rope::Settings usual;
     std::vector<Swing> swings;
     double time = 0.0;  ///< simulated time, seconds
     RopeTool tool = RopeTool::Move;

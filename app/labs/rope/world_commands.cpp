@@ -17,6 +17,7 @@ namespace {
 void clear(RopeEdit& edit, const Arguments&) {
     if (edit.seen().state().bodies.empty() && edit.seen().state().colliders.empty()) return;
     edit.world().clear();
+    edit.part.samples.clear();
     forget_missing(edit.part);
 }
 
@@ -30,6 +31,7 @@ void take_scene(Workspace& workspace, const Arguments& given) {
     RopeScene scene = make_rope_scene(entry);
     RopePart& part = workspace.document.edit<RopePart>(rope_lab);
     part.world = std::make_shared<const NamedWorld>(std::move(scene.world));
+    part.usual = part.world->settings();
     part.swings = std::move(scene.swings);
     part.time = 0.0;
     part.jitter = {.dial = part.jitter.dial};

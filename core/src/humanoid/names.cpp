@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <iterator>
+#include <utility>
 #include <vector>
 
 namespace tendril::humanoid::detail {
@@ -145,6 +146,33 @@ NameReading read_name(std::string_view name) {
     if (text == "hip" && has_side) reading.part = Part::UpperLeg;  // but Rigify's pelvis.L is no leg
     if (reading.part == Part::None || (reading.part >= Part::Shoulder) != has_side) return {};
     return reading;
+}
+
+bool is_palm_name(std::string_view name) {
+    const std::vector<std::string> words = words_of(name);
+    return std::any_of(words.begin(), words.end(), [](const std::string& word) {
+        return word == "palm" || word == "meta" || word.ends_with("carpal");
+    });
+}
+
+std::optional<Finger> finger_named(std::string_view name) {
+    constexpr std::string_view ends[]{"end", "tip", "nub", "leaf", "site", "ik"};
+    constexpr std::pair<std::string_view, Finger> known[]{
+        {"thumb", Finger::Thumb},   {"index", Finger::Index},  {"middle", Finger::Middle},
+        {"mid", Finger::Middle},    {"ring", Finger::Ring},    {"pinky", Finger::Little},
+        {"pinkie", Finger::Little}, {"little", Finger::Little}};
+    if (is_palm_name(name)) return std::nullopt;
+    std::optional<Finger> finger;
+    bool numbered = false;
+    for (const std::string& word : words_of(name)) {
+        if (is_one_of(word, ends)) return std::nullopt;
+        for (const auto& [text, its] : known)
+            if (word == text) finger = its;
+        if (numbered && !finger && word.front() >= '0' && word.front() <= '4')
+            finger = static_cast<Finger>(word.front() - '0');
+        numbered = word == "finger";
+    }
+    return finger;
 }
 
 bool is_twist_name(std::string_view name) {

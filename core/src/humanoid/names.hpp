@@ -1,6 +1,8 @@
 // Reads a body part and a side from a node's name. Not installed.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -37,6 +39,13 @@ struct NameReading {
 /// Ignores prefixes of programs and characters, case and separators. Part::None for nodes that are no bones
 /// of the body: twist and roll bones, IK targets, end joints, fingers, faces, hair.
 NameReading read_name(std::string_view name);
+
+enum class Finger : std::uint8_t { Thumb, Index, Middle, Ring, Little };
+/// "LeftHandIndex2", "thumb_01_l", "Bip01 L Finger21" (the middle finger's second bone). nullopt for bones of
+/// the palm and for ends.
+std::optional<Finger> finger_named(std::string_view name);
+/// "palm.01.L", "index_metacarpal_l"
+bool is_palm_name(std::string_view name);
 
 /// Whether the node takes a share of a limb's twist: "lowerarm_twist_01_l", "LeftForeArmRoll".
 bool is_twist_name(std::string_view name);

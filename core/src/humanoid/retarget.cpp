@@ -1,14 +1,15 @@
 #include "tendril/humanoid/retarget.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
-#include "humanoid/anatomy.hpp"
 #include "humanoid/input.hpp"
+#include "humanoid/retarget_body.hpp"
+#include "humanoid/retarget_feet.hpp"
 #include "rig/math.hpp"
 #include "tendril/humanoid/lint.hpp"
-#include "tendril/humanoid/t_pose.hpp"
 
 namespace tendril::humanoid {
 namespace {
@@ -17,32 +18,30 @@ using namespace rig::detail;
 
 constexpr std::size_t max_retargeted_keys = 100'000;
 
-std::size_t hips_of(const MappedSkeleton& body) noexcept {
-    return static_cast<std::size_t>(body.map[Bone::Hips].node);
+/// The thigh and shin of a person, to whose size a source is brought before its steps are looked for: files
+/// in a wrong unit are frequent.
+constexpr double person_leg = 0.85;  // metres
+
+constexpr double flat_enough = 8.0;  // degrees from which a foot on the ground is not flat
+
+Clip resized(Clip clip, double by) {
+    for (Channel& each : clip.channels)
+        for (glm::dvec3& value : each.translation.values) value = times(value, by);
+    return clip;
 }
-
-/// A body in its T-pose.
-struct Reference {
-    std::vector<glm::dquat> rotations{};   // of all nodes, in the character's space
-    glm::dvec3 hips{0.0};                  // at rest
-    double height = 0.0;                   // of the hips over the lower foot; 0: no foot is mapped
-    glm::dquat frame{1.0, 0.0, 0.0, 0.0};  // takes x, y, z to left, up, forward
-
-    explicit Reference(const MappedSkeleton& body) {
-        std::vector<Placement> placed(body.skeleton.size());
-        place(body.skeleton, rest_pose(body.skeleton), placed);
-        hips = placed[hips_of(body)].position;
-        place(body.skeleton, t_pose(body.skeleton, body.map), placed);
-        for (const Placement& each : placed) rotations.push_back(each.rotation());
-        const glm::dvec3& from = placed[hips_of(body)].position;
-        for (const Bone foot : {Bone::LeftFoot, Bone::RightFoot})
-            if (const std::int32_t node = body.map[foot].node; node >= 0)
-                height = std::max(height, from.y - placed[static_cast<std::size_t>(node)].position.y);
-        const Facing at = facing(body.skeleton, body.map);
-        // Forward may be reversed (Facing): the frame stays right-handed.
-        frame = Placement{{cross(at.up, at.forward), at.up, at.forward}, glm::dvec3(0.0)}.rotation();
+Skeleton resized(const Skeleton& skeleton, double by) {
+    std::vector<Node> nodes = skeleton.nodes();
+    for (Node& each : nodes) {
+        each.rest.translation = times(each.rest.translation, by);
+        if (each.keys) each.keys->rest.translation = times(each.keys->rest.translation, by);
     }
-};
+    const auto made = Skeleton::make(std::move(nodes));
+    return made ? *made : skeleton;
+}
+double size_for_steps(const MappedSkeleton& body) {
+    const double leg = detail::RetargetBody(body).leg;
+    return leg > 1e-6 && leg < 1e6 ? person_leg / leg : 1.0;
+}
 
 /// Every key of the source and every frame, ascending.
 std::vector<double> moments_of(const Clip& clip) {
@@ -63,35 +62,48 @@ std::vector<double> moments_of(const Clip& clip) {
     return times;
 }
 
+/// First the limbs, then the feet.
 class Retargeter {
   public:
     Retargeter(const MappedSkeleton& from, const Clip& clip, const MappedSkeleton& to)
-        : from_(from), to_(to), clip_(clip), was_(from), now_(to), shared_(to.skeleton.size()) {
+        : size_(size_for_steps(from)),
+          skeleton_(resized(from.skeleton, size_)),
+          clip_(resized(clip, size_)),
+          to_(to),
+          was_({skeleton_, from.map}),
+          now_(to),
+          shared_(to.skeleton.size()),
+          rest_(rest_pose(to.skeleton)),
+          pose_(rest_),
+          source_pose_(skeleton_.size()),
+          source_(skeleton_.size()),
+          placed_(to.skeleton.size()) {
         for (std::size_t i = 0; i < bone_count; ++i) {
             const auto bone = static_cast<Bone>(i);
-            const std::int32_t a = from.map[bone].node, b = to.map[bone].node;
-            if (a >= 0 && b >= 0)
-                shared_[static_cast<std::size_t>(b)] = static_cast<std::size_t>(a);
-            else if (a >= 0)
+            if (was_.has(bone) && now_.has(bone))
+                shared_[now_.node(bone)] = was_.node(bone);
+            else if (was_.has(bone))
                 result_.left_out.push_back(bone);
-            else if (b >= 0)
+            else if (now_.has(bone))
                 result_.at_rest.push_back(bone);
         }
+        for (const bool left : {true, false}) share_hand(left);
         turn_ = math::compose(now_.frame, conjugate(was_.frame));
-        result_.scale = was_.height > 0.0 && now_.height > 0.0 ? now_.height / was_.height : 1.0;
+        scale_ = was_.leg > 0.0 && now_.leg > 0.0 ? now_.leg / was_.leg : 1.0 / size_;
+        result_.scale = scale_ * size_;
+        plan_feet();
     }
 
     Retargeted run(const std::vector<double>& times) {
         result_.clip.name = clip_.name;
         result_.clip.duration = clip_.duration;
         result_.clip.rate = clip_.rate;
-        const std::vector<rig::Transform> rest = rest_pose(to_.skeleton);
         std::vector<Channel> channels(to_.skeleton.size());
-        std::vector<rig::Transform> pose = rest;
         for (const double time : times) {
-            pose_at(time, rest, pose);
+            point_limbs(time);
+            put_down(time);
             for (std::size_t node = 0; node < shared_.size(); ++node)
-                if (moves(node)) add_key(channels[node], time, key_of(to_.skeleton, pose, node), node);
+                if (moves(node)) add_key(channels[node], time, key_of(to_.skeleton, pose_, node), node);
         }
         for (std::size_t node = 0; node < shared_.size(); ++node) {
             if (!moves(node)) continue;
@@ -102,31 +114,154 @@ class Retargeter {
     }
 
   private:
-    void pose_at(double time, const std::vector<rig::Transform>& rest, std::vector<rig::Transform>& pose) {
-        source_pose_.resize(from_.skeleton.size());
-        source_.resize(from_.skeleton.size());
-        sample(clip_, from_.skeleton, time, source_pose_);
-        place(from_.skeleton, source_pose_, source_);
-        placed_.resize(to_.skeleton.size());
+    /// Fingers that both have, and hands whose palms both face down.
+    void share_hand(bool left) {
+        const std::size_t side = left ? 0 : 1;
+        const Bone hand = left ? Bone::LeftHand : Bone::RightHand;
+        if (!was_.has(hand) || !now_.has(hand)) return;
+        const auto before = was_.palm_down(left), after = now_.palm_down(left);
+        if (before && after) was_.turn(was_.node(hand), *before), now_.turn(now_.node(hand), *after);
+        shared_[now_.node(hand)] = was_.hands[side];
+        for (std::size_t finger = 0; finger < was_.fingers[side].size(); ++finger)
+            for (std::size_t i = 0; i < was_.fingers[side][finger].size(); ++i) {
+                const std::int32_t a = was_.fingers[side][finger][i], b = now_.fingers[side][finger][i];
+                if (a < 0 || b < 0) break;
+                auto& from = shared_[static_cast<std::size_t>(b)];
+                if (!from) from = static_cast<std::size_t>(a);
+            }
+    }
+
+    // ---------------------------------------------------------------------------------------------- feet
+
+    /// Needs both legs of both, whole.
+    void plan_feet() {
+        if (!was_.soles || !now_.soles) return;
+        for (std::size_t i = 0; i < 2; ++i)
+            legs_[i] = lint_detail::leg_of(to_.skeleton, to_.map,
+                                           to_.map[i == 0 ? Bone::LeftFoot : Bone::RightFoot].node);
+        const LintSettings settings;
+        LintReport report = lint_detail::blank_report(clip_, settings);
+        rate_ = report.rate;
+        const lint_detail::FeetMotion motion =
+            lint_detail::feet_motion({skeleton_, was_.body.map, clip_, settings, 0.0, report});
+        if (!legs_[0] || !legs_[1] || motion.feet.size() != 2 || report.frames < 4) return;
+        const auto stood_on = lint_detail::floor_of(motion, report.rate);
+        if (stood_on) learn_level_feet(motion);
+        const std::array<detail::SoleTriple, 2> soles{was_.sole(true, motion.feet[0].points[0].above),
+                                                      was_.sole(false, motion.feet[1].points[0].above)};
+        std::vector<detail::PointedFrame> frames;
+        for (std::size_t i = 0; i < report.frames; ++i) {
+            point_limbs(std::min(static_cast<double>(i) / report.rate, clip_.duration));
+            frames.push_back(pointed(soles));
+        }
+        footing_ = detail::plan_feet(
+            {.motion = motion,
+             .frames = frames,
+             .rate = report.rate,
+             .scale = scale_,
+             .leg = now_.leg,
+             .floor = now_.ground,
+             .shift = now_.ground - now_.soles->floor - scale_ * (was_.ground - was_.soles->floor),
+             .stood_on = stood_on,
+             .ground = was_.ground,
+             .turn = turn_});
+    }
+    /// How feet and toes stand, from the frames in which they do.
+    void learn_level_feet(const lint_detail::FeetMotion& motion) {
+        for (const bool left : {true, false}) {
+            const lint_detail::Foot& foot = motion.feet[left ? 0 : 1];
+            was_.level(static_cast<std::size_t>(foot.node), foot.flat);
+            was_.straighten_foot(left);
+            const Bone toes = left ? Bone::LeftToes : Bone::RightToes;
+            if (!was_.has(toes) || motion.knows_soles) continue;
+            glm::dvec3 up(0.0);
+            for (std::size_t i = 0; i < foot.still.size(); ++i) {
+                if (!foot.still[i] || foot.tilt[i] > flat_enough) continue;
+                sample(clip_, skeleton_, std::min(static_cast<double>(i) / rate_, clip_.duration),
+                       source_pose_);
+                place(skeleton_, source_pose_, source_);
+                const glm::dquat turned = source_[was_.node(toes)].rotation();
+                up = plus(up, rotated(conjugate(turned), {0.0, 1.0, 0.0}));
+            }
+            if (const auto mean = direction_of(up, 1e-9)) was_.level(was_.node(toes), *mean);
+        }
+    }
+    detail::PointedFrame pointed(const std::array<detail::SoleTriple, 2>& source_soles) const {
+        detail::PointedFrame frame{.hips = placed_[now_.node(Bone::Hips)].position};
+        for (std::size_t i = 0; i < 2; ++i) {
+            const auto at = [&](std::size_t place) { return placed_[legs_[i]->node(place)].position; };
+            detail::PointedFoot& foot = frame.feet[i];
+            foot.hip = at(legs_[i]->upper), foot.ankle = at(legs_[i]->end);
+            const glm::dvec3 knee = at(legs_[i]->lower);
+            foot.leg = length(minus(knee, foot.hip)) + length(minus(foot.ankle, knee));
+            const Sole& sole = now_.soles->feet[i];
+            const Placement &ankle = placed_[sole.foot], &toes = placed_[sole.toes];
+            foot.sole[0] = minus(ankle.apply(sole.heel), foot.ankle);
+            foot.sole[1] = minus(toes.apply(sole.toe), foot.ankle);
+            foot.source_low = lowest_of_source(i == 0, source_soles[i]);
+            foot.sole[2] = now_.tips[i] ? minus(toes.apply(*now_.tips[i]), foot.ankle) : foot.sole[1];
+        }
+        return frame;
+    }
+    double lowest_of_source(bool left, const detail::SoleTriple& sole) const {
+        const Bone foot = left ? Bone::LeftFoot : Bone::RightFoot,
+                   toes = left ? Bone::LeftToes : Bone::RightToes;
+        const Placement &ankle = source_[was_.node(foot)],
+                        &ball = source_[was_.node(was_.has(toes) ? toes : foot)];
+        return std::min({plus(ankle.position, rotated(ankle.rotation(), sole[0])).y,
+                         plus(ball.position, rotated(ball.rotation(), sole[1])).y,
+                         plus(ball.position, rotated(ball.rotation(), sole[2])).y});
+    }
+    /// Moves hips and feet as planned.
+    void put_down(double time) {
+        if (footing_.empty()) return;
+        const double frame = std::clamp(time * rate_, 0.0, static_cast<double>(footing_.size() - 1));
+        const auto first = static_cast<std::size_t>(frame), next = std::min(first + 1, footing_.size() - 1);
+        const detail::Footing &a = footing_[first], &b = footing_[next];
+        const double part = frame - static_cast<double>(first);
+        const double up = a.hips + (b.hips - a.hips) * part;
+        const std::size_t hips = now_.node(Bone::Hips);
+        const std::int32_t parent = to_.skeleton[hips].parent;
+        const Placement above = parent < 0 ? Placement() : placed_[static_cast<std::size_t>(parent)];
+        pose_[hips].translation = plus(pose_[hips].translation, detail::seen_from(above, {0.0, up, 0.0}));
+        for (std::size_t i = 0; i < 2; ++i) {
+            const detail::Limb& leg = *legs_[i];
+            const glm::dvec3 move = mix(a.feet[i], b.feet[i], part);
+            const glm::dvec3 target = plus(placed_[leg.node(leg.end)].position, move);
+            if (length(minus(move, {0.0, up, 0.0})) < 1e-9) continue;
+            detail::LimbPlacement at = detail::place(leg, Placement{}, pose_);
+            const glm::dquat thigh =
+                math::compose(at.upper.rotation(), conjugate(now_.rotations[leg.node(leg.upper)]));
+            const detail::Pole pole{rotated(thigh, now_.at.forward), 0.005, false};
+            detail::apply(detail::bend_to(at, target, pole, 0.9999), {1.0, 0.0, 0.0, 0.0}, leg, at, pose_);
+        }
+    }
+
+    // --------------------------------------------------------------------------------------------- limbs
+
+    /// Every bone that both have turns as the source's does from its reference pose.
+    void point_limbs(double time) {
+        sample(clip_, skeleton_, time, source_pose_);
+        place(skeleton_, source_pose_, source_);
         for (const std::int32_t each : to_.skeleton.order()) {
             const auto node = static_cast<std::size_t>(each);
             const std::int32_t parent = to_.skeleton[node].parent;
             const Placement above = parent < 0 ? Placement() : placed_[static_cast<std::size_t>(parent)];
-            pose[node] = rest[node];
+            pose_[node] = rest_[node];
             if (const auto& from = shared_[node]) {
-                // From the T-pose to this moment, in the source's frame, then in the target's.
+                // In the source's frame, then in the target's.
                 const glm::dquat moved =
                     math::compose(source_[*from].rotation(), conjugate(was_.rotations[*from]));
                 const glm::dquat wanted = math::compose(
                     math::compose(turn_, math::compose(moved, conjugate(turn_))), now_.rotations[node]);
-                pose[node].rotation = rig::normalised(math::compose(conjugate(above.rotation()), wanted));
-                if (node == hips_of(to_)) {
+                pose_[node].rotation = rig::normalised(math::compose(conjugate(above.rotation()), wanted));
+                if (node == now_.node(Bone::Hips)) {
                     const glm::dvec3 way = minus(source_[*from].position, was_.hips);
-                    const glm::dvec3 at = plus(now_.hips, times(rotated(turn_, way), result_.scale));
-                    pose[node].translation = relative(above, Placement{glm::dmat3(1.0), at}).translation;
+                    const glm::dvec3 at = plus(now_.hips, times(rotated(turn_, way), scale_));
+                    pose_[node].translation = relative(above, Placement{glm::dmat3(1.0), at}).translation;
                 }
             }
-            placed_[node] = above * placement(pose[node]);
+            placed_[node] = above * placement(pose_[node]);
         }
     }
     /// A node whose keys are local to another node than its parent (attach.hpp) needs keys to stay where it
@@ -138,7 +273,7 @@ class Retargeter {
             rotation = glm::dquat(-rotation.w, -rotation.x, -rotation.y, -rotation.z);
         channel.rotation.times.push_back(time);
         channel.rotation.values.push_back(rotation);
-        if (node != hips_of(to_) && !to_.skeleton[node].keys) return;
+        if (node != now_.node(Bone::Hips) && !to_.skeleton[node].keys) return;
         channel.translation.times.push_back(time);
         channel.translation.values.push_back(key.translation);
         if (!to_.skeleton[node].keys) return;
@@ -146,14 +281,21 @@ class Retargeter {
         channel.scale.values.push_back(key.scale);
     }
 
-    const MappedSkeleton from_, to_;
-    const Clip& clip_;
-    const Reference was_, now_;
+    const double size_;  // of the source here, times its own
+    const Skeleton skeleton_;
+    const Clip clip_;
+    const MappedSkeleton to_;
+    detail::RetargetBody was_, now_;
     std::vector<std::optional<std::size_t>> shared_;  // the source's node of each of the target's
-    glm::dquat turn_{1.0, 0.0, 0.0, 0.0};             // from the source's frame to the target's
+    const std::vector<rig::Transform> rest_;
+    glm::dquat turn_{1.0, 0.0, 0.0, 0.0};  // from the source's frame to the target's
+    double scale_ = 1.0;
     Retargeted result_{};
-    std::vector<rig::Transform> source_pose_{};
-    std::vector<Placement> source_{}, placed_{};
+    std::array<std::optional<detail::Limb>, 2> legs_{};
+    std::vector<detail::Footing> footing_{};
+    double rate_ = 0.0;  // of the footing, frames per second
+    std::vector<rig::Transform> pose_, source_pose_;
+    std::vector<Placement> source_, placed_;
 };
 
 }  // namespace

@@ -187,9 +187,10 @@ class Resampling {
             }
             const std::vector<std::size_t> kept = kept_in(across);
             if (to < kept.size()) {
-                char rule[80];
-                std::snprintf(rule, sizeof rule, "%zu or more: its ends, ties and single pins keep particles",
-                              kept.size());
+                char rule[128];
+                std::snprintf(rule, sizeof rule,
+                              "%zu or more, %zu segments: its ends, ties and single pins keep particles",
+                              kept.size(), kept.size() - 1);
                 return refused("resample", across ? "rows" : "columns", rule, to);
             }
             list = divide(across ? grid_.down : grid_.along, kept, to - 1);

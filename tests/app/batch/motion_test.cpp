@@ -115,6 +115,26 @@ TEST_F(MotionProgram, bake_takes_a_clips_name_and_a_frame_rate_and_finds_a_place
     EXPECT_TRUE(test::says(unknown.err, "walk.bvh run motion"));
 }
 
+TEST_F(MotionProgram, bake_says_which_of_many_clips_it_wrote_and_writes_them_all) {
+    // The built-in figure's walk and punch, in one file.
+    const app::Character character = app::stick_figure();
+    humanoid::Clip walk = character.clips[0];
+    app::export_clip({character, {}, walk, walk, 60.0}, folder_ / "two.gltf");
+    Json json = app::parse_json(read(folder_ / "two.gltf"));
+    json["animations"].push_back(json["animations"][0]);
+    json["animations"][1]["name"] = "walk/2";
+    write(folder_ / "two.gltf", json.dump());
+    const Outcome one = run({"bake", path("two.gltf"), "--out", path("one.glb")});
+    EXPECT_EQ(one.exit_code, 0) << one.err;
+    EXPECT_TRUE(test::says(one.out, "one.glb 1 of 2 clips: walk 67 frames")) << one.out;
+    const Outcome all = run({"bake", path("two.gltf"), "--all", "--out", path("all.bvh")});
+    EXPECT_EQ(all.exit_code, 0) << all.err;
+    EXPECT_TRUE(test::says(all.out, "all_walk.bvh walk 67 frames all_walk_2.bvh walk/2 67 frames"))
+        << all.out;
+    EXPECT_NEAR(app::read_character(folder_ / "all_walk_2.bvh").clips.at(0).duration, 1.1, 1e-6);
+    EXPECT_EQ(run({"bake", path("two.gltf"), "--all", "--clip", "walk"}).exit_code, 2);
+}
+
 TEST_F(MotionProgram, what_cannot_be_read_or_written_ends_with_2) {
     const std::string file = figure("walk.glb");
     write(folder_ / "text.glb", "no character");

@@ -111,6 +111,11 @@ TEST_F(RopePast, ARopeThatWasNotThereHasNoValueThen) {
     run("rope.select");
     EXPECT_EQ(values("tension").size(), 6u);
     run("rope.clear");
+    EXPECT_TRUE(values("energy").empty()) << "an emptied scene shows nothing of the old one";
+    EXPECT_TRUE(part().samples.empty());
+    run("undo");
+    EXPECT_EQ(values("energy").size(), 6u);
+    run("rope.clear");
     workspace.rewind.clear();
     EXPECT_TRUE(values("tension").empty());
     EXPECT_TRUE(test::says(rope_past_curve(workspace)->missing, "no rope"));

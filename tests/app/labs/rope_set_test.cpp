@@ -39,7 +39,7 @@ TEST_F(RopeSet, ChangesWhatABodyIsMadeOf) {
     EXPECT_NEAR(rope.length, 1.5f, 1e-6f);
     EXPECT_NEAR(rope.mass, 4.0, 1e-12);
     EXPECT_EQ(rope.radius, 0.1f);
-    EXPECT_EQ(rope.stretch, 1e-4f);
+    EXPECT_NEAR(rope.stretch, 1e-4, 1e-9);
     run("rope.set", {{"rope", "cloth"}, {"shear", 0.5}, {"bend", 0.25}, {"tear", 2}});
     EXPECT_EQ(made_of("cloth").shear, 0.5f);
     EXPECT_EQ(made_of("cloth").bend, 0.25f);
@@ -49,6 +49,79 @@ TEST_F(RopeSet, ChangesWhatABodyIsMadeOf) {
     for (int i = 0; i < 3; ++i) run("undo");
     EXPECT_NEAR(made_of("rope").length, 1.0f, 1e-6f);
     EXPECT_EQ(made_of("hair").bend, rope::HairShape().bend);
+}
+
+/// Mass follows length at constant density, and stretch is the material's.
+TEST_F(RopeSet, TheMaterialStaysAsABodyGrows) {
+    run("rope.set", {{"rope", "rope"}, {"density", 2}, {"stretch", 1e-3}});
+    const double mass = made_of("rope").mass;
+    run("rope.set", {{"rope", "rope"}, {"length", 3}, {"segments", 24}});
+    const BodySettings rope = made_of("rope");
+    EXPECT_NEAR(*rope.density, 2.0, 1e-6);
+    EXPECT_NEAR(rope.mass, 3.0 * mass, 0.15 * mass);
+    EXPECT_NEAR(rope.stretch, 1e-3, 1e-9);
+    EXPECT_EQ(rope.segments, 24);
+    EXPECT_EQ(rope.width.has_value() || rope.columns.has_value(), false);
+    run("rope.set", {{"rope", "cloth"}, {"length", 2}, {"width", 0.5}, {"columns", 12}, {"rows", 5}});
+    const BodySettings cloth = made_of("cloth");
+    EXPECT_NEAR(cloth.length, 2.0, 1e-6);
+    EXPECT_NEAR(*cloth.width, 0.5, 1e-6);
+    EXPECT_EQ(cloth.columns, 12);
+    EXPECT_EQ(cloth.rows, 5);
+    EXPECT_NEAR(cloth.mass, 0.2, 1e-6);
+    EXPECT_FALSE(cloth.segments);
+    EXPECT_TRUE(world().pinned(world().find("cloth")->first + 11));
+    for (int i = 0; i < 3; ++i) run("undo");
+    EXPECT_EQ(made_of("cloth").columns, 8);
+    EXPECT_NEAR(*made_of("rope").density, 1.0, 1e-6);
+}
+
+/// The selection stays on its particles, or the nearest to them.
+TEST_F(RopeSet, TheSelectionFollowsItsParticles) {
+    const auto selected = [&] { return rope_part(workspace).selection->particles.all(); };
+    const auto active = [&] { return rope_part(workspace).selection->particle(); };
+    run("rope.select", {{"rope", "rope"}, {"particles", {4, 12}}});
+    run("rope.set", {{"rope", "rope"}, {"segments", 32}});
+    EXPECT_EQ(selected(), (std::vector<std::size_t>{8, 24}));
+    EXPECT_EQ(active(), 24u);
+    run("rope.reverse", {{"rope", "rope"}});
+    EXPECT_EQ(selected(), (std::vector<std::size_t>{8, 24}));
+    EXPECT_EQ(active(), 8u);
+    run("rope.select", {{"rope", "rope"}});
+    run("rope.merge", {{"rope", "rope"}});
+    EXPECT_EQ(made_of("rope").segments, 16);
+    EXPECT_EQ(selected().size(), 17u);  // still all of it
+    run("rope.subdivide", {{"rope", "rope"}});
+    EXPECT_EQ(selected().size(), 33u);
+    run("rope.subdivide", {{"rope", "cloth"}});
+    EXPECT_EQ(made_of("cloth").columns, 15);
+    run("rope.merge", {{"rope", "cloth"}});
+    EXPECT_EQ(made_of("cloth").rows, 8);
+    run("rope.subdivide", {{"rope", "hair"}});
+    EXPECT_EQ(made_of("hair").segments, 16);
+}
+
+/// While a drag holds it too.
+TEST_F(RopeSet, AHeldRopeIsDividedAndLetGo) {
+    workspace.clock.playing = true;
+    run("rope.hold", {{"rope", "rope"}, {"particle", 16}, {"at", {1, 2.2, 0}}});
+    tick(10);
+    run("rope.set", {{"rope", "rope"}, {"segments", 40}});
+    run("rope.let_go");
+    EXPECT_FALSE(world().pinned(40));
+    EXPECT_TRUE(world().pinned(0));
+}
+
+TEST_F(RopeSet, RenamesABody) {
+    run("rope.select", {{"rope", "rope"}, {"particle", 3}});
+    run("rope.set", {{"rope", "rope"}, {"name", "line"}});
+    EXPECT_EQ(rope_part(workspace).selection->body, "line");
+    EXPECT_EQ(world().find("rope"), nullptr);
+    EXPECT_TRUE(
+        test::says(refused("rope.set", {{"rope", "line"}, {"name", "cloth"}}), "rope.set name cloth"));
+    EXPECT_TRUE(test::says(refused("rope.set", {{"rope", "line"}, {"name", ""}}), "rope.set name"));
+    run("rope.set", {{"rope", "line"}, {"name", "line"}, {"radius", 0.1}});
+    EXPECT_EQ(made_of("line").radius, 0.1f);
 }
 
 /// It continues from its pose, no particle moves further than its share of the change, and none is thrown.
@@ -76,6 +149,48 @@ TEST_F(RopeSet, RefusesWhatABodyDoesNotHave) {
     EXPECT_TRUE(test::says(refused("rope.set", {{"rope", "rope"}, {"mass", 0}}), "rope.set mass 0"));
     EXPECT_TRUE(test::says(refused("rope.set", {{"rope", "rope"}, {"radius", -1}}), "rope.set radius -1"));
     EXPECT_TRUE(test::says(refused("rope.set", {{"mass", 1}}), "rope.set rope missing"));
+    EXPECT_TRUE(test::says(refused("rope.set", {{"rope", "rope"}, {"width", 1}}), "rope.set rope width"));
+    EXPECT_TRUE(test::says(refused("rope.set", {{"rope", "rope"}, {"rows", 9}}), "rope.set rope rows"));
+    EXPECT_TRUE(
+        test::says(refused("rope.set", {{"rope", "cloth"}, {"segments", 9}}), "rope.set cloth segments"));
+    EXPECT_TRUE(test::says(refused("rope.set", {{"rope", "rope"}, {"mass", 1}, {"density", 1}}),
+                           "rope.set mass density"));
+    EXPECT_TRUE(test::says(refused("rope.set", {{"rope", "cloth"}, {"columns", 50000}}), "rope.set maximum"));
+    EXPECT_TRUE(test::says(refused("rope.reverse", {{"rope", "cloth"}}), "rope.reverse only ropes"));
+    EXPECT_TRUE(test::says(refused("rope.subdivide", {{"rope", "line"}}), "rope.subdivide line"));
+    run("rope.pin", {{"rope", "rope"}, {"particle", 7}});
+    EXPECT_TRUE(test::says(refused("rope.set", {{"rope", "rope"}, {"segments", 1}}), "rope.set 2 segments"));
+}
+
+/// By the command, and by a line of clicks.
+TEST_F(RopeSet, ACutClothComesApart) {
+    const auto links = [&] { return world().state().links.size(); };
+    const std::size_t whole = links();
+    run("rope.cloth.cut", {{"rope", "cloth"}, {"points", {{-0.5, 3.5}, {7.5, 3.5}}}});
+    EXPECT_LT(links(), whole);
+    tick(60);
+    const rope::Body cloth = *world().find("cloth");
+    EXPECT_LT(world().position(cloth.first + 63).y, world().position(cloth.first + 7).y - 2.0f);
+    run("undo");
+    EXPECT_EQ(links(), whole);
+
+    run("rope.tool", {{"name", "cut"}});
+    Emit emit;
+    for (const std::size_t at : {24u, 27u, 39u}) {
+        lab().click(workspace, particle_pick(cloth.first + at), emit);
+        for (const Emitted& each : emit.take()) run(each.name.c_str(), *each.arguments);
+    }
+    EXPECT_LT(links(), whole);
+    EXPECT_EQ(rope_part(workspace).selection->particle(), 39u);
+    EXPECT_TRUE(test::says(lab().hint(workspace, particle_pick(cloth.first + 40)), "cuts from the selected"));
+    EXPECT_TRUE(test::says(refused("rope.cloth.cut", {{"rope", "rope"}, {"points", {{0, 0}, {1, 1}}}}),
+                           "rope.cloth.cut only cloth"));
+    EXPECT_TRUE(test::says(refused("rope.cloth.cut", {{"rope", "cloth"}, {"points", {{0, 0}}}}),
+                           "rope.cloth.cut 2 points"));
+    EXPECT_TRUE(test::says(refused("rope.cloth.cut", {{"rope", "cloth"}, {"points", {{0, 0, 1}, {1, 1, 1}}}}),
+                           "rope.cloth.cut points column"));
+    EXPECT_TRUE(
+        test::says(refused("rope.cloth.cut", {{"rope", "line"}, {"points", {{0, 0}, {1, 1}}}}), "line"));
 }
 
 }  // namespace

@@ -52,7 +52,7 @@ TEST_F(RopeVerdict, OfElasticRopesAsksForNothing) {
             run("rope.set", {{"rope", "line"}, {"stretch", 0.005}});
         wait(120);
         EXPECT_TRUE(said().starts_with("Stretched by ")) << how << ": " << said();
-        EXPECT_TRUE(test::says(state()["why"], "stretch compliance")) << state()["why"];
+        EXPECT_TRUE(test::says(state()["why"], "line stretch compliance")) << state()["why"];
     }
 }
 

@@ -68,10 +68,15 @@ TEST_F(CureButton, BendsAStraightChain) {
 TEST_F(CureButton, HalvesTheSubstepOfARopeThatIsNotHeld) {
     run("lab.open", {{"name", "rope"}});
     run("rope.preset", {{"name", "bridge"}});
+    const auto still = seen("Selection");
+    ASSERT_TRUE(still);
     run("rope.settings", {{"solver", "relaxation"}, {"iterations", 1}});
     run("time.play");
     wait(90);
     run("time.pause");
+    const auto heading = seen("Selection");
+    ASSERT_TRUE(heading);
+    EXPECT_EQ(heading->y, still->y) << "the rows below keep still";
     const auto substep = [&] { return app_.state().at("settings").at("substep").get<double>(); };
     const double before = substep();
     click("Halve the substep");

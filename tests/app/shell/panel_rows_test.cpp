@@ -213,6 +213,21 @@ TEST_F(RowsUnderMore, AreCountedInItsTitleIfTheyAreChanged) {
     EXPECT_TRUE(shows("More"));
 }
 
+/// A preset sets what it needs; only what a person changes after that counts.
+TEST_F(RowsUnderMore, AreNotCountedInAFreshPreset) {
+    open("rope");
+    run("view.fold", {{"section", "rope: Solver"}, {"folded", false}});
+    for (const char* preset : {"drape", "well", "flag", "pendulum"}) {
+        run("rope.preset", {{"name", preset}});
+        EXPECT_TRUE(shows("More")) << preset;
+        EXPECT_FALSE(shows("More (1 changed)") || shows("More (2 changed)")) << preset;
+    }
+    run("rope.settings", {{"damping", 0.25}});
+    EXPECT_TRUE(shows("More (1 changed)"));
+    run("rope.settings", {{"damping", 0}});
+    EXPECT_FALSE(shows("More (1 changed)"));
+}
+
 TEST_F(RowsUnderMore, UnfoldForACommandOfThePalette) {
     run("chain.preset", {{"name", "reaching_arm"}});
     run("view.fold", {{"section", "chain: Mode and solver"}, {"folded", true}});

@@ -65,6 +65,11 @@ class TooltipFinder {
         }
         return text;
     }
+    /// Presses or releases the left mouse button.
+    void press(bool down) {
+        const app::Event event = app::MousePress{app::MouseButton::Left, down};
+        input_.take(&event);
+    }
     /// The same without numbers, so that similar panels are searched once.
     template <class Draw>
     std::string text_of(const Draw& draw) {

@@ -68,6 +68,17 @@ TEST_F(Explained, IsAboutAllThreeOfAPoint) {
         EXPECT_EQ(at({x, 45.0f}, vector), "What it does.") << "each has a range of its own";
 }
 
+TEST_F(Explained, IsGoneAfterAClickUntilTheMouseHasLeft) {
+    const auto row = [] { option_button("a wide enough button", false); };
+    EXPECT_EQ(at(name, row), "What it does.");
+    finder_.press(true);
+    EXPECT_EQ(at(name, row), "");
+    finder_.press(false);
+    for (int i = 0; i < 5; ++i) EXPECT_EQ(at(name, row), "") << "what the click does is seen";
+    EXPECT_EQ(at(below, row), "");
+    EXPECT_EQ(at(name, row), "What it does.");
+}
+
 TEST_F(Explained, ARowWithoutANumberHasNoRange) {
     const char* const titles[] = {"one", "two"};
     int chosen = 0;

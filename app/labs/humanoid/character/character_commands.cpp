@@ -161,8 +161,33 @@ void show_all(Workspace& workspace, const LoadedCharacter& character) {
     camera = framed(camera, {{0.0f, 0.0f}, workspace.ui.view_size}, centre, std::max(radius, 0.01f));
 }
 
+/// What another character takes the place of, for the user: "2 fixes, 1 loaded motion"; empty: nothing that a
+/// user made.
+std::string discarded_text(const HumanoidPart& part) {
+    std::string text;
+    const auto add = [&](std::size_t count, const char* one, const char* many) {
+        if (count == 0) return;
+        text += (text.empty() ? "" : ", ") + std::to_string(count) + ' ' + (count == 1 ? one : many);
+    };
+    std::size_t bones = 0;
+    for (std::size_t i = 0; i < humanoid::bone_count; ++i)
+        bones += part.map->bones[i].node != part.loaded->matched.bones[i].node;
+    add(part.loaded->cures.size(), "fix of a clip", "fixes of clips");
+    add(part.loaded->motions.size(), "loaded motion", "loaded motions");
+    add(bones, "corrected bone", "corrected bones");
+    add(static_cast<std::size_t>(
+            std::ranges::count_if(part.ik.targets, [](const auto& each) { return each.has_value(); })),
+        "target", "targets");
+    add(part.attachments.list.size(), "attachment", "attachments");
+    return text;
+}
+
 void show(Workspace& workspace, SharedCharacter character) {
+    if (const std::string text = discarded_text(humanoid_part(workspace)); !text.empty())
+        workspace.toast("Discarded with the last character: " + text + ". Undo brings it back.");
     HumanoidPart part(std::move(character));
+    // A file with one clip is that clip.
+    if (part.loaded->clips().size() == 1) part.playback = {.clip = 0, .playing = true};
     take_springs(part);
     const HumanoidPart& before = humanoid_part(workspace);
     part.view = before.view;
@@ -324,8 +349,9 @@ void add_character_commands(CommandTable& table) {
          .title = "Load a character",
          .arguments = {text_argument(
              "path", false, "a .gltf, .glb, .vrm, .vrma, .fbx or .bvh file; if omitted, the stick figure")},
-         .help = "Loads a character in its rest pose, with nothing playing; selected nodes that it "
-                 "also has stay selected",
+         .help =
+             "Loads a character: in its rest pose, or playing if it has just one clip; selected nodes that "
+             "it also has stay selected",
          .effect = Effect::Edit,
          .apply = load,
          .finish = finish_loading});
@@ -391,20 +417,38 @@ std::size_t clip_for(const HumanoidPart& part, const Arguments& given) {
     return static_cast<std::size_t>(found - clips.begin());
 }
 
-void export_shown(Workspace& workspace, const Arguments& given) {
+ExportReport export_one(Workspace& workspace, const Arguments& given, std::size_t clip,
+                        const std::filesystem::path& path) {
     const HumanoidPart& part = humanoid_part(workspace);
-    const std::size_t clip = clip_for(part, given);
     const Clip& original = part.loaded->clips()[clip];
     const double rate = given.has("fps") ? given.real("fps") : humanoid::frame_rate(original);
     Solvers& solvers = humanoid_runtime(workspace).solvers;
-    const ExportReport report = export_clip({.character = part.loaded->character,
-                                             .file = part.loaded->path,
-                                             .original = original,
-                                             .corrected = clip_as_shown(part, solvers, clip, rate),
-                                             .rate = rate,
-                                             .ground = ground_of_feet(part, solvers)},
-                                            given.text("path"));
-    workspace.toast(written_text(given.text("path")) + ". " + report.text());
+    return export_clip({.character = part.loaded->character,
+                        .file = part.loaded->path,
+                        .original = original,
+                        .corrected = clip_as_shown(part, solvers, clip, rate),
+                        .rate = rate,
+                        .ground = ground_of_feet(part, solvers)},
+                       path);
+}
+
+void export_shown(Workspace& workspace, const Arguments& given) {
+    const Character& character = humanoid_part(workspace).loaded->character;
+    const std::size_t clip = clip_for(humanoid_part(workspace), given);
+    const std::filesystem::path path = given.text("path");
+    if (given.has("all") && given.boolean("all")) {
+        if (given.has("clip")) throw std::invalid_argument("give either a clip or all of them");
+        const std::vector<std::filesystem::path> paths = paths_of_clips(character, path);
+        std::vector<ExportReport> reports;
+        for (std::size_t i = 0; i < paths.size(); ++i)
+            reports.push_back(export_one(workspace, given, i, paths[i]));
+        return workspace.toast(written_text(paths.front()) +
+                               (paths.size() > 1 ? " and the others" : std::string()) + ". " +
+                               sum_text(reports));
+    }
+    const ExportReport report = export_one(workspace, given, clip, path);
+    const std::string which = one_of_clips_text(character, character.clips[clip].name);
+    workspace.toast(written_text(path) + ". " + (which.empty() ? which : which + ". ") + report.text());
 }
 
 std::vector<std::string> fault_names() {
@@ -414,15 +458,16 @@ std::vector<std::string> fault_names() {
     return names;
 }
 
-void cure_clip(HumanoidPart& part, const Arguments& given) {
-    ClipCure cure;
-    cure.clip =
-        part.loaded->clips().empty() ? std::string() : part.loaded->clips()[clip_for(part, given)].name;
-    cure.fault = *fault_named(given.text("kind"));
+void cure_clip(Workspace& workspace, const Arguments& given) {
+    const HumanoidPart& part = humanoid_part(workspace);
+    ClipCure cure{.clip = part.loaded->clips()[clip_for(part, given)].name};
+    if (given.has("kind")) cure.fault = fault_named(given.text("kind"));
     cure.node = given_text(given, "node");
     if (!cure.node.empty()) node_named(part, cure.node);
     if (given.has("frame")) cure.frame = static_cast<std::size_t>(given.integer("frame"));
-    part.loaded = cured(part, cure);
+    CuredClip result = cured(part, cure);
+    workspace.document.edit<HumanoidPart>(humanoid_lab).loaded = std::move(result.loaded);
+    workspace.toast(result.text);
 }
 
 }  // namespace
@@ -449,19 +494,24 @@ void add_humanoid_file_commands(CommandTable& table) {
                .title = "Export a clip",
                .arguments = {text_argument("path", true, "a .gltf, .glb or .bvh file to write"),
                              clip_argument("clip", "which one; default: the chosen one, or the first"),
+                             switch_argument("all", "writes every clip, each to a file with its name added"),
                              number_argument("fps", "frames per second; default: the clip's own", min_rate,
                                              largest_rate)},
                .help = "Writes a clip with everything that IK does to it; says how close the file comes, and "
                        "what Motion lint finds in it",
                .effect = Effect::Look,
                .apply = export_shown});
-    table.add(part_command<HumanoidPart>(
-        humanoid_lab, "humanoid.cure", "Fix a fault in a clip",
-        {choice_argument("kind", true, "of fault", fault_names()),
-         node_argument("node", false, "of the skeleton; all if omitted"),
-         integer_argument("frame", "of the clip's own frames; all if omitted", 0, humanoid::max_lint_frames),
-         clip_argument("clip", "which one; default: the chosen one, or the first")},
-        "Fixes what Motion lint has found in a clip", cure_clip));
+    table.add(
+        {.name = "humanoid.cure",
+         .title = "Fix faults in a clip",
+         .arguments = {choice_argument("kind", false, "of fault; all if omitted", fault_names()),
+                       node_argument("node", false, "of the skeleton; all if omitted"),
+                       integer_argument("frame", "of the clip's own frames; all if omitted", 0,
+                                        humanoid::max_lint_frames),
+                       clip_argument("clip", "which one; default: the chosen one, or the first")},
+         .help = "Fixes what Motion lint has found in a clip, without a new fault; says what is left and why",
+         .effect = Effect::Edit,
+         .apply = cure_clip});
 }
 
 }  // namespace tendril::app

@@ -17,11 +17,11 @@
 
 namespace tendril::app {
 
-/// Which faults of a clip were mended: all of one kind, those of one node, or the one at a frame.
+/// Which faults of a clip were mended: all, those of one kind or node, or those at a frame.
 struct ClipCure {
     std::string clip;
-    humanoid::Fault fault = humanoid::Fault::SignFlip;
-    std::string node{};  ///< empty: all
+    std::optional<humanoid::Fault> fault{};  ///< none: all kinds
+    std::string node{};                      ///< empty: all
     std::optional<std::size_t> frame{};
     bool operator==(const ClipCure&) const = default;
 };

@@ -8,6 +8,7 @@
 #include "app/document/units.hpp"
 #include "app/fields/field_rows.hpp"
 #include "app/io/character/bake.hpp"
+#include "app/io/character/export.hpp"
 #include "app/labs/humanoid/ik/shown_pose.hpp"
 #include "app/labs/humanoid/panel.hpp"
 #include "app/labs/kit/panel_rows.hpp"
@@ -51,7 +52,7 @@ LintReport lint_of_result(const HumanoidPart& part, Solvers& solvers) {
 }
 
 bool is_meant(const Finding& finding, const ClipCure& cure, const humanoid::Skeleton& skeleton) {
-    if (!finding.has_cure || finding.fault != cure.fault) return false;
+    if (cure.fault && finding.fault != *cure.fault) return false;
     if (cure.frame && !(finding.first <= *cure.frame && *cure.frame <= finding.last)) return false;
     if (cure.node.empty()) return true;
     return finding.node >= 0 && skeleton[static_cast<std::size_t>(finding.node)].name == cure.node;
@@ -105,29 +106,62 @@ const LintReport* ClipLint::judge(const HumanoidPart& part, Solvers& solvers) {
     return &*report_;
 }
 
-SharedCharacter cured(const HumanoidPart& part, const ClipCure& cure) {
+namespace {
+
+std::string faults_text(std::size_t count) {
+    return std::to_string(count) + (count == 1 ? " fault" : " faults");
+}
+
+/// `left`: all that are left. Those that were to be fixed are named, with the reason.
+std::string cured_text(const std::string& clip, std::size_t done, std::size_t left,
+                       const std::vector<Finding>& meant) {
+    constexpr std::size_t most = 3;
+    std::string text = clip + ": " + faults_text(done) + " fixed, " +
+                       (left == 0 ? std::string("none") : std::to_string(left)) + " left";
+    for (std::size_t i = 0; i < std::min(meant.size(), most); ++i)
+        text += (i == 0 ? ": " : "; ") + meant[i].text +
+                (meant[i].has_cure ? ", whose fix would make a new fault" : ", for which there is no fix");
+    if (meant.size() > most) text += "; and " + std::to_string(meant.size() - most) + " more";
+    return text;
+}
+
+}  // namespace
+
+CuredClip cured(const HumanoidPart& part, const ClipCure& cure) {
     const std::vector<Clip>& clips = part.loaded->clips();
     const auto place = std::ranges::find(clips, cure.clip, &Clip::name);
     if (place == clips.end()) throw std::invalid_argument("the character has no clip \"" + cure.clip + "\"");
     Clip clip = *place;
-    // Cures the findings in order. Stops when a cure does not reduce their number.
-    std::size_t left = lint_of(part, clip).findings.size() + 1, done = 0;
-    while (true) {
-        const LintReport report = lint_of(part, clip);
-        const auto found = std::ranges::find_if(
-            report.findings, [&](const Finding& each) { return is_meant(each, cure, part.skeleton()); });
-        if (found == report.findings.end() || report.findings.size() >= left) break;
-        left = report.findings.size();
-        const Expected<Clip> mended = humanoid::cure(part.skeleton(), *part.map, clip, *found);
-        if (!mended) throw std::invalid_argument(mended.message());
-        clip = *mended;
-        ++done;
+    const std::optional<BodyLimits> limits = limits_for(part);
+    const humanoid::LintSettings settings{.limits = limits ? &*limits : nullptr};
+    // Each cure leaves fewer findings, so that this ends. What could not be cured may be after another cure.
+    std::vector<Finding> left;
+    std::size_t before = 0;
+    for (bool goes_on = true; goes_on;) {
+        goes_on = false;
+        left = lint(part.skeleton(), *part.map, clip, settings).findings;
+        before = std::max(before, left.size());
+        for (const Finding& each : left) {
+            if (!each.has_cure || !is_meant(each, cure, part.skeleton())) continue;
+            Expected<Clip> mended = humanoid::cure(part.skeleton(), *part.map, clip, each, settings);
+            if (!mended) continue;
+            clip = std::move(mended).value();
+            goes_on = true;
+            break;
+        }
     }
-    if (done == 0) throw std::invalid_argument("clip " + cure.clip + " has no such fault that can be fixed");
+    const std::size_t now = left.size();
+    std::erase_if(left, [&](const Finding& each) { return !is_meant(each, cure, part.skeleton()); });
+    if (clip == *place) {
+        const auto refused = std::ranges::find_if(left, &Finding::has_cure);
+        if (refused == left.end())
+            throw std::invalid_argument("clip " + cure.clip + " has no such fault that can be fixed");
+        throw std::invalid_argument(refused->text + " cannot be fixed without a new fault");
+    }
     auto loaded = std::make_shared<LoadedCharacter>(*part.loaded);
     loaded->character.clips[static_cast<std::size_t>(place - clips.begin())] = std::move(clip);
     loaded->cures.push_back(cure);
-    return loaded;
+    return {std::move(loaded), cured_text(cure.clip, before - now, now, left)};
 }
 
 // The panel's rows: the findings of the lint with their cures, and where maps and clips are saved.
@@ -216,6 +250,10 @@ static void findings_rows(const HumanoidPanel& panel) {
     if (findings.empty()) return note("No faults found.");
     note(std::to_string(findings.size()) + (findings.size() == 1 ? " finding" : " findings") + ", at " +
          fixed_text(report->rate, report->rate == std::floor(report->rate) ? 0 : 2) + " frames a second");
+    const bool any = std::ranges::any_of(findings, &Finding::has_cure);
+    if (row_button("Fix all", 1, any, "Fixes all that can be fixed, as one step to undo"))
+        panel.emit("humanoid.cure", {});
+    end_row();
     for (std::size_t i = 0; i < std::min(findings.size(), max_rows); ++i)
         finding_row(panel, findings[i], static_cast<int>(i));
     if (findings.size() > max_rows) note("and " + std::to_string(findings.size() - max_rows) + " more");
@@ -239,9 +277,17 @@ void export_rows(const HumanoidPanel& panel) {
     text_field("write to", path, "walk.glb");
     explain(
         "A .gltf, .glb or .bvh file for the chosen clip, or the first, with everything that IK does to it.");
-    if (row_button("Export clip", 1, !path.empty(), "An existing file is replaced"))
+    const std::vector<Clip>& clips = panel.part.loaded->clips();
+    const int buttons = clips.size() > 1 ? 2 : 1;
+    if (row_button("Export clip", buttons, !path.empty(), "An existing file is replaced"))
         panel.emit("humanoid.export", {{"path", path}});
+    if (buttons == 2 && row_button("Export all", 2, !path.empty(),
+                                   "Each clip to a file of its own: its name is added to the file's name"))
+        panel.emit("humanoid.export", {{"path", path}, {"all", true}});
     end_row();
+    const std::string which =
+        one_of_clips_text(panel.part.loaded->character, clips[panel.part.playback.clip.value_or(0)].name);
+    if (!which.empty()) note(which + '.');
 }
 
 void map_rows(const HumanoidPanel& panel) {

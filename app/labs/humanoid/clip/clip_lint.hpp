@@ -40,7 +40,12 @@ class ClipLint {
     std::optional<humanoid::LintReport> report_;
 };
 
-/// Cures the faults of a clip that match `cure`. Throws std::invalid_argument if no such fault has a cure.
-SharedCharacter cured(const HumanoidPart& part, const ClipCure& cure);
+struct CuredClip {
+    SharedCharacter loaded;
+    std::string text;  ///< for the user: how many faults are fixed, and which are left and why
+};
+/// Cures the faults of a clip that match `cure`, until no more can be. Throws std::invalid_argument if none
+/// can.
+CuredClip cured(const HumanoidPart& part, const ClipCure& cure);
 
 }  // namespace tendril::app

@@ -186,7 +186,7 @@ void buttons(const HumanoidPanel& panel) {
     if (icon_button("back", Icon::ChevronLeft, "One frame back")) step(panel, -1);
     ImGui::SameLine();
     if (icon_button("play", plays ? Icon::Pause : Icon::Play, plays ? "Pauses the clip" : "Plays the clip")) {
-        panel.emit("humanoid.clip", {{"play", !plays}});
+        panel.emit("humanoid.play", {{"on", !plays}});
         if (!plays && !panel.workspace.clock.playing) panel.emit("time.play");
     }
     ImGui::SameLine();
@@ -322,6 +322,20 @@ void choose(Playback& playback, std::optional<std::size_t> clip) {
     if (!clip) playback.playing = false;
 }
 
+/// Playing again from the end starts over.
+void set_playing(HumanoidPart& part, bool on) {
+    Playback& playback = part.playback;
+    playback.playing = on;
+    if (on && !playback.loop && playback.time >= part.clip()->duration) go_to(playback, *part.loaded, 0.0);
+}
+
+void play(HumanoidPart& part, const Arguments& given) {
+    if (!part.playback.clip) throw std::invalid_argument("no clip is chosen");
+    const Playback before = part.playback;
+    set_playing(part, given.boolean("on"));
+    if (!(part.playback == before)) part.quiet_ticks = 0;
+}
+
 void set_clip(HumanoidPart& part, const Arguments& given) {
     Playback& playback = part.playback;
     const Playback before = playback;
@@ -336,10 +350,10 @@ void set_clip(HumanoidPart& part, const Arguments& given) {
     const bool play = given.has("play") && given.boolean("play");
     if (!playback.clip && (play || given.has("time"))) throw std::invalid_argument("no clip is chosen");
     if (given.has("time")) go_to(playback, *part.loaded, given.real("time"));
-    if (given.has("play")) playback.playing = play;
-    // Playing again from the end starts over.
-    if (play && !given.has("time") && !playback.loop && playback.time >= part.clip()->duration)
-        go_to(playback, *part.loaded, 0.0);
+    if (play && !given.has("time"))
+        set_playing(part, true);
+    else if (given.has("play"))
+        playback.playing = play;
     carry_targets(part, before);
     if (!(playback == before)) part.quiet_ticks = 0;
 }
@@ -368,6 +382,10 @@ void add_clip_commands(CommandTable& table) {
         workspace.camera.target += way;
     };
     table.add(std::move(clip));
+    table.add(part_command<HumanoidPart>(
+        humanoid_lab, "humanoid.play", "Play or pause the clip",
+        {{.name = "on", .type = ArgumentType::Boolean, .help = "false: pauses"}},
+        "Plays the chosen clip or pauses it; no step to undo", play, Effect::Look));
 }
 
 }  // namespace tendril::app

@@ -1,5 +1,4 @@
-// How finely a body is divided, and in which direction it runs: edits of a body that renumber its particles,
-// while it moves.
+// How finely a body is divided, in which direction it runs, and where a cloth is cut, while it moves.
 //
 //     Expected<rope::Edited> finer = rope::resample(world, line, {.columns = 65});
 //     if (finer) world = std::move(finer->world);
@@ -8,6 +7,8 @@
 #pragma once
 
 #include <cstddef>
+#include <glm/vec2.hpp>
+#include <span>
 #include <vector>
 
 #include "tendril/result.hpp"
@@ -40,5 +41,10 @@ Expected<Edited> resample(const World& world, BodyId body, const Resolution& to)
 
 /// Swaps the ends of a rope. Pins, ties and motion stay where they are.
 Expected<Edited> reverse(const World& world, BodyId rope);
+
+/// Cuts a cloth along a line through points of its own grid, each {column, row}: removes the links that cross
+/// it. What is on the line belongs to its left. A piece that comes apart stays a part of the same body, as if
+/// torn off. Refuses a line that crosses no link.
+Expected<World> cut_cloth(const World& world, BodyId cloth, std::span<const glm::vec2> line);
 
 }  // namespace tendril::rope

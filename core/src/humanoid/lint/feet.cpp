@@ -15,39 +15,6 @@ constexpr double enter = 0.6, leave = 1.2, low = 0.03;  // m/s, m
 constexpr double lifted = 0.025, shortest_step = 0.1;   // m, s
 constexpr double landing = 0.05, min_stance = 0.15;     // s
 
-struct Stretch {
-    std::size_t first, last;
-};
-
-/// Frames in which the foot stands on the floor.
-std::vector<Stretch> stances_of(const Foot& foot, double floor, double rate) {
-    std::vector<Stretch> found;
-    bool stands = false, stepped = false;
-    double stood_at = floor;  // height when last still
-    for (std::size_t i = 0; i < foot.height.size(); ++i) {
-        const double height = foot.height[i];
-        if (foot.still[i]) stood_at = height;
-        // A moving foot that is lifted, if only by 8 mm, takes a step.
-        const bool steps = foot.speed[i] > 0.4 && height > stood_at + 0.008;
-        stepped |= steps;
-        stands = height - floor < low && !steps && foot.speed[i] < (stands ? leave : enter);
-        if (!stands) continue;
-        if (!found.empty()) {
-            const std::size_t since = found.back().last;
-            bool stayed_low = true;
-            for (std::size_t k = since; k <= i; ++k) stayed_low &= foot.height[k] - floor < lifted;
-            if (i == since + 1 ||
-                (!stepped && stayed_low && static_cast<double>(i - since) < shortest_step * rate)) {
-                found.back().last = i;
-                continue;
-            }
-        }
-        stepped = false;
-        found.push_back({i, i});
-    }
-    return found;
-}
-
 /// A stance without its ends, in which the foot lands or leaves: from the first to the last still frame. A
 /// foot that is never still slides throughout: a fixed time is cut from both ends.
 Stretch without_ends(const Stretch& stance, const Foot& foot, double rate) {
@@ -135,6 +102,34 @@ void check_sinking(Check& check, const Foot& foot, double limit) {
 }
 
 }  // namespace
+
+std::vector<Stretch> stances_of(const Foot& foot, double floor, double rate) {
+    std::vector<Stretch> found;
+    bool stands = false, stepped = false;
+    double stood_at = floor;  // height when last still
+    for (std::size_t i = 0; i < foot.height.size(); ++i) {
+        const double height = foot.height[i];
+        if (foot.still[i]) stood_at = height;
+        // A moving foot that is lifted, if only by 8 mm, takes a step.
+        const bool steps = foot.speed[i] > 0.4 && height > stood_at + 0.008;
+        stepped |= steps;
+        stands = height - floor < low && !steps && foot.speed[i] < (stands ? leave : enter);
+        if (!stands) continue;
+        if (!found.empty()) {
+            const std::size_t since = found.back().last;
+            bool stayed_low = true;
+            for (std::size_t k = since; k <= i; ++k) stayed_low &= foot.height[k] - floor < lifted;
+            if (i == since + 1 ||
+                (!stepped && stayed_low && static_cast<double>(i - since) < shortest_step * rate)) {
+                found.back().last = i;
+                continue;
+            }
+        }
+        stepped = false;
+        found.push_back({i, i});
+    }
+    return found;
+}
 
 /// Includes points in between: the motion of a rigid foot is linear in the point.
 glm::dvec3 smallest_move(const Foot& foot, std::size_t frame, const glm::dvec3& ground) {

@@ -51,6 +51,11 @@ FeetMotion feet_motion(const Check& check);
 /// Height of the floor that feet stand on: near 0 if the figure rests on the ground and at least a fifth of
 /// the still frames are there, otherwise the most common height. nullopt if feet hardly stand.
 std::optional<double> floor_of(const FeetMotion& motion, double rate);
+struct Stretch {
+    std::size_t first, last;  // frames
+};
+/// Frames in which the foot stands on the floor.
+std::vector<Stretch> stances_of(const Foot& foot, double floor, double rate);
 /// The motion, since the frame before, of the point of the sole that moves the least, minus `ground`, the
 /// ground's own motion.
 glm::dvec3 smallest_move(const Foot& foot, std::size_t frame, const glm::dvec3& ground);

@@ -30,7 +30,7 @@ TEST_F(HumanoidCharacter, IsTheStickFigureAtFirst) {
     EXPECT_EQ(now.at("character").at("file"), "");
     EXPECT_EQ(now.at("character").at("rest"), "T");
     EXPECT_EQ(now.at("clips"), Json({"walk", "punch"}));
-    EXPECT_TRUE(now.at("clip").is_null());
+    EXPECT_EQ(now.at("clip").at("name"), "motion") << "the only one";
     EXPECT_EQ(now.at("character").at("bones").size(), humanoid::bone_count);
     EXPECT_TRUE(now.at("character").at("unmatched").empty());
     EXPECT_NEAR(node("HeadTop_End").y, 1.8, 1e-12);
@@ -59,7 +59,7 @@ TEST_F(HumanoidCharacter, ComesFromAFileAsItRests) {
     EXPECT_TRUE(now.at("body").at("usable").get<bool>());
     EXPECT_NEAR(bone("Hips").y, 0.95, 1e-12);
     EXPECT_NEAR(bone("LeftHand").x, 0.53, 1e-12);
-    EXPECT_FALSE(lab().moving(workspace));
+    EXPECT_TRUE(lab().moving(workspace)) << "it plays";
     run("undo");
     EXPECT_EQ(state().at("clip").at("name"), "walk");
     EXPECT_EQ(state().at("character").at("file"), "");
@@ -114,6 +114,7 @@ TEST_F(HumanoidCharacter, GivesANodeToOneBoneAlone) {
 
 TEST_F(HumanoidCharacter, RestsAsATWhereThatIsWanted) {
     run("humanoid.load", {{"path", write("figure.bvh", bvh_figure())}});
+    run("humanoid.clip", {{"name", ""}});
     const glm::dvec3 shoulder = bone("LeftUpperArm"), leg = bone("LeftFoot");
     const double arm =
         glm::distance(shoulder, bone("LeftLowerArm")) + glm::distance(bone("LeftLowerArm"), bone("LeftHand"));
@@ -191,6 +192,7 @@ TEST_F(HumanoidCharacter, WhoseHeightIsNoPersonsSaysSoAndWhichUnitMendsIt) {
     const std::string path = write("giant.glb", "");
     export_clip({giant, {}, clip, clip, 60.0}, path);
     run("humanoid.load", {{"path", path}});
+    run("humanoid.clip", {{"name", ""}});
     const auto last_note = [&] {
         const Json notes = state().at("character").at("notes");
         return notes.empty() ? std::string() : notes.back().get<std::string>();

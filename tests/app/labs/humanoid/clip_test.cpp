@@ -55,6 +55,7 @@ TEST_F(HumanoidClips, WithMarksOfTheLintSayInTheLegendWhatTheyAre) {
         return std::ranges::find(rows, "lint finding", &LegendRow::name) != rows.end();
     };
     run("humanoid.load", {{"path", test::source_path("tests/app/golden/faulty_walk.bvh")}});
+    run("humanoid.clip", {{"name", ""}});
     EXPECT_FALSE(explained()) << "no clip, no marks";
     run("humanoid.clip", {{"index", 0}});
     EXPECT_TRUE(explained());
@@ -141,6 +142,20 @@ TEST_F(HumanoidClips, ThatDoNotLoopStopAtTheirEnd) {
     EXPECT_EQ(state().at("clip").at("time"), 0.0) << "played again, it begins anew";
     run("humanoid.clip", {{"time", 99.0}});
     EXPECT_EQ(state().at("clip").at("time"), state().at("clip").at("duration"));
+}
+
+TEST_F(HumanoidClips, PlayAndPauseAreNoStepsToUndo) {
+    run("humanoid.clip", {{"name", "walk"}, {"play", true}});
+    tick(10);
+    const std::size_t steps = workspace.history.size();
+    for (const bool on : {false, true, false}) {
+        run("humanoid.play", {{"on", on}});
+        EXPECT_EQ(part().playback.playing, on);
+        EXPECT_EQ(lab().moving(workspace), on);
+    }
+    EXPECT_EQ(workspace.history.size(), steps);
+    run("humanoid.clip", {{"name", ""}});
+    expect_refused("humanoid.play", {{"on", true}}, {"clip"});
 }
 
 TEST_F(HumanoidClips, ThatTurnGoOnAsTheyFace) {

@@ -161,6 +161,66 @@ TEST_F(HumanoidFiles, TheResultIsJudgedOnItsGround) {
     EXPECT_TRUE(report().findings.empty());
 }
 
+TEST_F(HumanoidFiles, AnExportTellsOnWhatItWasJudged) {
+    run("humanoid.clip", {{"name", "walk"}, {"time", 0}});
+    run("humanoid.target", {{"effector", "left_foot"}, {"to", {0.1, 0.05, 0.3}}});
+    for (const char* const ground : {"flat", "stairs"}) {
+        run("humanoid.ground", {{"kind", ground}});
+        run("humanoid.foot_ik", {{"on", true}});
+        run("humanoid.export", {{"path", path("out.glb")}});
+        const std::string told = workspace.ui.toasts.back().text;
+        EXPECT_TRUE(test::says(told, "in the written clip")) << told;
+        EXPECT_EQ(test::says(told, "in the written clip on this ground"), ground == std::string("stairs"))
+            << told;
+    }
+}
+
+TEST_F(HumanoidFiles, AnExportTellsThatThereAreOtherClipsAndWritesThemAll) {
+    run("humanoid.export", {{"path", path("one.glb")}, {"clip", "punch"}});
+    EXPECT_TRUE(test::says(workspace.ui.toasts.back().text, "one.glb 1 of 2 clips: punch"))
+        << workspace.ui.toasts.back().text;
+    run("view.fold", {{"section", "humanoid: Export"}, {"folded", false}});
+    const std::string panel = test::PanelReader().panel(lab(), workspace);
+    EXPECT_TRUE(test::says(panel, "Export clip Export all 1 of 2 clips: walk")) << panel;
+    run("humanoid.export", {{"path", path("all.bvh")}, {"all", true}});
+    EXPECT_TRUE(test::says(workspace.ui.toasts.back().text, "all_walk.bvh others 2 clips worst joint"))
+        << workspace.ui.toasts.back().text;
+    for (const char* const name : {"walk", "punch"}) {
+        const humanoid::Clip& clip = *std::ranges::find(part().loaded->clips(), name, &humanoid::Clip::name);
+        const Character read = read_character(path((std::string("all_") + name + ".bvh").c_str()));
+        EXPECT_NEAR(read.clips.at(0).duration, clip.duration, 0.02) << name;
+    }
+    expect_refused("humanoid.export", {{"path", path("x.glb")}, {"all", true}, {"clip", "walk"}}, {"clip"});
+    // A file with one clip does not say that it is one of one.
+    run("humanoid.load", {{"path", path("all_walk.bvh")}});
+    run("humanoid.export", {{"path", path("again.bvh")}});
+    EXPECT_FALSE(test::says(workspace.ui.toasts.back().text, "1 of")) << workspace.ui.toasts.back().text;
+}
+
+TEST_F(HumanoidFiles, AFileWithOneClipPlaysIt) {
+    run("humanoid.export", {{"path", path("one.glb")}, {"clip", "punch"}});
+    run("humanoid.load", {{"path", path("one.glb")}});
+    ASSERT_TRUE(part().clip());
+    EXPECT_EQ(part().clip()->name, "punch");
+    EXPECT_TRUE(part().playback.playing);
+    run("humanoid.load");
+    EXPECT_FALSE(part().clip()) << "of two clips, a user chooses one";
+}
+
+TEST_F(HumanoidFiles, AnotherCharacterTellsWhatItDiscards) {
+    const std::string walk = tendril::test::source_path("tests/app/golden/faulty_walk.bvh");
+    run("humanoid.load", {{"path", walk}});
+    EXPECT_TRUE(workspace.ui.toasts.empty()) << "nothing to discard";
+    run("humanoid.cure", Json::object());
+    run("humanoid.target", {{"effector", "left_hand"}, {"to", {0.5, 1.2, 0.3}}});
+    const HumanoidPart before = part();
+    run("humanoid.load");
+    EXPECT_TRUE(test::says(workspace.ui.toasts.back().text, "Discarded 1 fix 1 target Undo"))
+        << workspace.ui.toasts.back().text;
+    run("undo");
+    EXPECT_TRUE(part() == before);
+}
+
 TEST_F(HumanoidFiles, AnExportKeepsTheClipsFrameRate) {
     for (const auto& [frame_time, rate] :
          {std::pair{"0.016667", 60.0}, {"0.04", 25.0}, {"0.0083333", 120.0}}) {
@@ -239,6 +299,35 @@ TEST_F(HumanoidFiles, AFootThatSlidesStandsAfterTheClick) {
     EXPECT_LT(report().skating, 0.02);
     run("humanoid.cure", {{"kind", "knee_pop"}});
     EXPECT_TRUE(report().findings.empty());
+}
+
+TEST_F(HumanoidFiles, AllFaultsAreFixedInOneStep) {
+    run("humanoid.load", {{"path", tendril::test::source_path("tests/app/golden/faulty_walk.bvh")}});
+    run("humanoid.clip", {{"name", "motion"}});
+    const HumanoidPart before = part();
+    const std::size_t steps = workspace.history.size();
+    run("humanoid.cure", Json::object());
+    EXPECT_TRUE(report().findings.empty());
+    EXPECT_EQ(workspace.history.size(), steps + 1);
+    EXPECT_TRUE(test::says(workspace.ui.toasts.back().text, "motion 2 faults fixed none left"))
+        << workspace.ui.toasts.back().text;
+    EXPECT_EQ(humanoid_part(reopened()).loaded->clips(), part().loaded->clips());
+    expect_refused("humanoid.cure", Json::object(), {"motion"});
+    run("undo");
+    EXPECT_TRUE(part() == before);
+}
+
+TEST_F(HumanoidFiles, AfterAllFixesItSaysWhatIsLeftAndWhy) {
+    const auto robot = tendril::test::characters_folder() / "robot.glb";
+    if (!std::filesystem::exists(robot)) GTEST_SKIP() << robot << " is not there";
+    run("humanoid.load", {{"path", robot.string()}});
+    run("humanoid.clip", {{"name", "Robot_Dance"}});
+    run("view.fold", {{"section", "humanoid: Motion lint"}, {"folded", false}});
+    const std::string text = test::PanelReader().panel(lab(), workspace);
+    EXPECT_TRUE(test::says(text, "3 findings Fix all")) << text;
+    run("humanoid.cure", Json::object());
+    EXPECT_TRUE(test::says(workspace.ui.toasts.back().text, "2 faults fixed 1 left Head limit no fix"))
+        << workspace.ui.toasts.back().text;
 }
 
 TEST_F(HumanoidFiles, FindingsCallANodeByItsBone) {

@@ -16,6 +16,7 @@ class HumanoidSprings : public HumanoidTest {
   protected:
     HumanoidSprings() {
         run("humanoid.load", {{"path", tendril::test::source_path("tests/app/golden/antennae.bvh")}});
+        run("humanoid.clip", {{"name", ""}});
     }
 
     void put_on_springs() {

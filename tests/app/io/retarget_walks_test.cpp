@@ -1,0 +1,317 @@
+// Motions of people's files on people's characters: each of the shared walks on each of the shared humanoids.
+// Feet are on the ground where the source's stand, no knee pops, and arms, hands and heads point as the
+// source's do.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <map>
+#include <tendril/humanoid/lint.hpp>
+#include <tendril/humanoid/retarget.hpp>
+#include <tendril/humanoid/soles.hpp>
+#include <tendril/humanoid/t_pose.hpp>
+
+#include "app/io/character/read.hpp"
+#include "tests/places.hpp"
+
+namespace tendril::app {
+namespace {
+
+using namespace humanoid;
+
+constexpr double to_degrees = 57.29577951308232;
+
+/// A figure in the poses of a clip.
+class Walker {
+  public:
+    Walker(const Skeleton& skeleton, const BoneMap& map, const Clip& clip)
+        : skeleton_(skeleton), map_(map), clip_(clip), facing_(facing(skeleton, map)) {
+        place_at(0.0);
+        rest_.resize(skeleton.size());
+        place(skeleton, rest_pose(skeleton), rest_);
+        t_.resize(skeleton.size());
+        place(skeleton, t_pose(skeleton, map), t_);
+    }
+    void place_at(double time) {
+        std::vector<rig::Transform> pose(skeleton_.size());
+        placed_.resize(skeleton_.size());
+        sample(clip_, skeleton_, time, pose);
+        place(skeleton_, pose, placed_);
+    }
+    bool has(Bone bone) const { return map_[bone].node >= 0; }
+    std::size_t node(Bone bone) const { return static_cast<std::size_t>(map_[bone].node); }
+    const glm::dvec3& at(Bone bone) const { return placed_[node(bone)].position; }
+    /// In left, up and forward of the figure.
+    glm::dvec3 seen(const glm::dvec3& v) const {
+        return {glm::dot(v, glm::cross(facing_.up, facing_.forward)), glm::dot(v, facing_.up),
+                glm::dot(v, facing_.forward)};
+    }
+    glm::dvec3 way(Bone from, Bone to) const { return seen(glm::normalize(at(to) - at(from))); }
+    /// A direction of the T-pose, as the bone has turned it since.
+    glm::dvec3 turned(Bone bone, const glm::dvec3& direction) const {
+        return seen(placed_[node(bone)].rotation() * (glm::inverse(t_[node(bone)].rotation()) * direction));
+    }
+    const Facing& directions() const { return facing_; }
+    /// From the wrist to the middle finger, or to the middle of what the hand has.
+    std::optional<glm::dvec3> hand(Bone bone) const {
+        glm::dvec3 sum(0.0);
+        int best = 0;
+        for (std::size_t i = 0; i < skeleton_.size(); ++i) {
+            if (!skeleton_.is_below(i, node(bone)) || i == node(bone)) continue;
+            const glm::dvec3 away = placed_[i].position - at(bone);
+            // Rigid on the hand: whatever is between them is at the wrist, or of the palm.
+            bool rigid = glm::length(away) > 1e-4 * size() && !is_palm(i);
+            for (std::size_t above = parent(i); above != node(bone); above = parent(above))
+                rigid &= is_palm(above) || glm::distance(placed_[above].position, at(bone)) < 1e-4 * size();
+            if (!rigid) continue;
+            const auto named = [&](const char* word) { return says(i, word); };
+            const int rank = named("mid") || named("finger2")     ? 3
+                             : named("thumb") || named("finger0") ? 1
+                                                                  : 2;
+            if (rank < best) continue;
+            if (rank > best) sum = glm::dvec3(0.0), best = rank;
+            sum += glm::normalize(away);
+        }
+        if (best == 0) return std::nullopt;
+        return seen(glm::normalize(sum));
+    }
+    double size() const {
+        return glm::distance(rest_[node(Bone::LeftUpperLeg)].position,
+                             rest_[node(Bone::LeftLowerLeg)].position) +
+               glm::distance(rest_[node(Bone::LeftLowerLeg)].position, rest_[node(Bone::LeftFoot)].position);
+    }
+    /// Heel, ball and tip of the toes.
+    std::array<glm::dvec3, 3> sole(const Soles& soles, std::size_t foot) const {
+        const SolePoints points = sole_points(soles, placed_)[foot];
+        const std::size_t toes = soles.feet[foot].toes;
+        std::size_t tip = toes;
+        double far = 0.0;
+        for (std::size_t i = 0; i < skeleton_.size(); ++i)
+            if (skeleton_.is_below(i, toes))
+                if (const glm::dvec3 way = t_[i].position - t_[soles.feet[foot].foot].position;
+                    std::hypot(way.x, way.z) > far)
+                    far = std::hypot(way.x, way.z), tip = i;
+        const glm::dvec3 ball = t_[toes].apply(soles.feet[foot].toe),
+                         end(t_[tip].position.x, ball.y, t_[tip].position.z);
+        const glm::dvec3 ankle = t_[soles.feet[foot].foot].position;
+        if (std::hypot(ball.x - ankle.x, ball.z - ankle.z) > far)
+            return {points.heel, points.toe, points.toe};
+        return {points.heel, points.toe,
+                placed_[toes].apply(glm::inverse(t_[toes].axes) * (end - t_[toes].position))};
+    }
+
+  private:
+    std::size_t parent(std::size_t node) const { return static_cast<std::size_t>(skeleton_[node].parent); }
+    bool says(std::size_t node, const char* word) const {
+        std::string name;
+        for (const char c : skeleton_[node].name) name += static_cast<char>(std::tolower(c));
+        return name.find(word) != name.npos;
+    }
+    bool is_palm(std::size_t node) const { return says(node, "palm") || says(node, "carpal"); }
+
+    const Skeleton& skeleton_;
+    const BoneMap& map_;
+    const Clip& clip_;
+    Facing facing_;
+    std::vector<Placement> placed_, rest_, t_;
+};
+
+Clip first_seconds(Clip clip, double seconds) {
+    if (clip.duration <= seconds) return clip;
+    clip.duration = seconds;
+    const auto cut = [&](auto& track) {
+        const std::size_t width = track.interpolation == Interpolation::Cubic ? 3 : 1;
+        while (!track.times.empty() && track.times.back() > seconds) track.times.pop_back();
+        track.values.resize(track.times.size() * width);
+    };
+    for (Channel& each : clip.channels) cut(each.translation), cut(each.rotation), cut(each.scale);
+    return clip;
+}
+
+struct Measured {
+    double arms = 0.0, hands = 0.0, head = 0.0;  // degrees from the source's directions
+    double off_ground = 0.0, slide = 0.0;        // metres at a person's size, while the source's foot stands
+    std::map<std::string, int> faults{};         // that lint finds here and not in the source
+};
+
+class Comparison {
+  public:
+    Comparison(const Character& from, const BoneMap& from_map, const Clip& clip, const Character& to,
+               const BoneMap& to_map, const Clip& made)
+        : was_(from.skeleton, from_map, clip), now_(to.skeleton, to_map, made) {
+        const Soles soles = clip_soles(from.skeleton, from_map, *find_soles(from.skeleton, from_map), clip),
+                    own = clip_soles(to.skeleton, to_map, *find_soles(to.skeleton, to_map), made);
+        const double rate = frame_rate(clip), floor = clip_floor(from.skeleton, soles, clip);
+        for (double i = 0.0; i <= std::floor(clip.duration * rate + 1e-6); ++i) {
+            const double time = std::min(i / rate, clip.duration);
+            was_.place_at(time), now_.place_at(time);
+            compare_directions();
+            for (std::size_t foot = 0; foot < 2; ++foot)
+                compare_feet(foot, was_.sole(soles, foot), now_.sole(own, foot), floor, rate);
+        }
+        for (const Finding& each : lint(from.skeleton, from_map, clip).findings)
+            --found.faults[name(each.fault)];
+        for (const Finding& each : lint(to.skeleton, to_map, made).findings) ++found.faults[name(each.fault)];
+    }
+    Measured found{};
+
+  private:
+    using Points = std::array<glm::dvec3, 3>;
+
+    static double angle(const glm::dvec3& a, const glm::dvec3& b) {
+        return to_degrees * std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
+    }
+    static std::size_t lowest(const Points& points) {
+        std::size_t best = 0;
+        for (std::size_t i = 1; i < points.size(); ++i)
+            if (points[i].y < points[best].y) best = i;
+        return best;
+    }
+    void compare_directions() {
+        constexpr std::pair<Bone, Bone> arms[]{{Bone::LeftUpperArm, Bone::LeftLowerArm},
+                                               {Bone::LeftLowerArm, Bone::LeftHand},
+                                               {Bone::RightUpperArm, Bone::RightLowerArm},
+                                               {Bone::RightLowerArm, Bone::RightHand}};
+        for (const auto& [upper, lower] : arms)
+            found.arms = std::max(found.arms, angle(was_.way(upper, lower), now_.way(upper, lower)));
+        for (const Bone hand : {Bone::LeftHand, Bone::RightHand}) {
+            const auto before = was_.hand(hand), after = now_.hand(hand);
+            if (before && after) found.hands = std::max(found.hands, angle(*before, *after));
+        }
+        const auto turned = [](const Walker& each, bool up) {
+            return each.turned(Bone::Head, up ? each.directions().up : each.directions().forward);
+        };
+        for (const bool up : {false, true})
+            found.head = std::max(found.head, angle(turned(was_, up), turned(now_, up)));
+    }
+    void compare_feet(std::size_t foot, const Points& before, const Points& after, double floor,
+                      double rate) {
+        const double size = was_.size() / person_leg, own_size = now_.size() / person_leg;
+        const std::size_t low = lowest(before), own_low = lowest(after);
+        Last& last = last_[foot];
+        const bool stands = last.known && std::abs(before[low].y - floor) < 0.005 * size &&
+                            glm::length(before[low] - last.before[low]) * rate < 0.2 * size;
+        if (stands) {
+            found.off_ground = std::max(found.off_ground, std::abs(after[own_low].y) / own_size);
+            const glm::dvec3 step = after[own_low] - last.after[own_low];
+            if (last.stood) last.slid += glm::dvec2(step.x, step.z);
+            found.slide = std::max(found.slide, glm::length(last.slid) / own_size);
+        } else {
+            last.slid = glm::dvec2(0.0);
+        }
+        last = {true, stands, before, after, last.slid};
+    }
+
+    static constexpr double person_leg = 0.85;
+    struct Last {
+        bool known = false, stood = false;
+        Points before{}, after{};
+        glm::dvec2 slid{0.0};
+    };
+    Walker was_, now_;
+    std::array<Last, 2> last_{};
+};
+
+/// A walk, and which faults it may have on others: those that it has itself, unnoticed.
+struct Source {
+    const char* file;
+    const char* clip;
+    std::vector<std::string> own_faults{};
+    double unsure = 0.0;  // metres: feet without toes do not show where their soles are
+};
+const std::vector<Source>& retargeted_sources() {
+    static const std::vector<Source> sources{{"characters/cmu_01_01.bvh", ""},
+                                             {"characters/cmu_12_01_walk.bvh", ""},
+                                             {"characters/pab_walk.fbx", ""},
+                                             {"characters/cmu_91_48.fbx", ""},
+                                             {"characters/cmu_91_50.fbx", "", {"knee_pop"}, 0.001},
+                                             {"characters/human_clip.glb", ""},
+                                             {"characters/rigify_names.glb", ""},
+                                             {"characters/robot.glb", "Robot_Walking"},
+                                             {"characters/robot.glb", "Robot_Running"},
+                                             {"characters/robot.glb", "Robot_Dance"},
+                                             {"characters/robot.glb", "Robot_Jump"},
+                                             {"characters/robot.glb", "Robot_Sitting"},
+                                             // Walks on the spot, and its feet slide all the time.
+                                             {"characters/cesium_man.gltf", "", {"sinking", "knee_pop"}},
+                                             {"characters/mixed_orders.bvh", ""},
+                                             {"characters/pab_skeleton.fbx", ""},
+                                             {"found/fbx_motionbuilder_jog.fbx", ""},
+                                             {"found/bvh_z_up.bvh", ""},
+                                             {"found/fbx_inherit_scale_human.fbx", ""}};
+    return sources;
+}
+/// `off_ground`: metres; more for figures whose rest pose does not show their soles.
+struct Target {
+    const char* file;
+    double off_ground = 0.005;
+    bool may_skate = false;  // lint's limit is for persons: the robot is far taller
+};
+constexpr Target retargeted_targets[]{{"characters/human_male.glb"},
+                                      {"characters/robot.glb", 0.005, true},
+                                      {"characters/zombie.glb"},
+                                      {"characters/rigify_names.glb"},
+                                      {"characters/pab_skeleton.fbx"},
+                                      {"characters/cesium_man.gltf"},
+                                      {"characters/cmu_12_01_walk.bvh", 0.005, true},
+                                      {"found/fbx_motionbuilder_jog.fbx", 0.012},
+                                      {"found/fbx_inherit_scale_human.fbx"}};
+
+class RetargetedWalks : public testing::TestWithParam<Source> {
+  protected:
+    /// In a plausible unit.
+    static const Character& character(const std::string& file) {
+        static std::map<std::string, Character> read;
+        if (const auto found = read.find(file); found != read.end()) return found->second;
+        Character& made = read[file] = read_character(test::characters_folder().parent_path() / file);
+        std::vector<Placement> rest(made.skeleton.size());
+        place(made.skeleton, rest_pose(made.skeleton), rest);
+        const auto doubt = doubted_unit(bounds_at_rest(made, rest).height(), made.scale, bone_map(made));
+        if (doubt && doubt->height > 10.0) read_as(made, doubt->unit.metres, made.space);
+        return made;
+    }
+};
+
+TEST_P(RetargetedWalks, FeetStandAndHandsPointAsInTheSource) {
+    const Source& source = GetParam();
+    if (!std::filesystem::exists(test::characters_folder().parent_path() / source.file)) GTEST_SKIP();
+    const Character& from = character(source.file);
+    const BoneMap from_map = bone_map(from);
+    const Clip* clip = &from.clips.front();
+    for (const Clip& each : from.clips)
+        if (each.name == source.clip) clip = &each;
+    const Clip walk = first_seconds(*clip, 4.0);
+    for (const Target& target : retargeted_targets) {
+        SCOPED_TRACE(target.file);
+        const Character& to = character(target.file);
+        const BoneMap to_map = bone_map(to);
+        const auto made = retarget({from.skeleton, from_map}, walk, {to.skeleton, to_map});
+        ASSERT_TRUE(made) << made.message();
+        ASSERT_TRUE(check(made->clip, to.skeleton));
+        const Measured found = Comparison(from, from_map, walk, to, to_map, made->clip).found;
+        EXPECT_LT(found.arms, 1.0);
+        EXPECT_LT(found.hands, 5.0);
+        EXPECT_LT(found.head, 5.0);
+        EXPECT_LT(found.off_ground, target.off_ground + source.unsure);
+        EXPECT_LT(found.slide, 0.015);
+        for (const auto& [fault, count] : found.faults) {
+            const bool own = std::ranges::find(source.own_faults, fault) != source.own_faults.end();
+            if (own || (fault == "skating" && target.may_skate)) continue;
+            const bool matters =
+                fault == "knee_pop" || fault == "skating" || fault == "floating" || fault == "sinking";
+            EXPECT_LE(matters ? count : 0, 0) << fault;
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Shared, RetargetedWalks, testing::ValuesIn(retargeted_sources()),
+                         [](const testing::TestParamInfo<Source>& info) {
+                             std::string name;
+                             for (const char c : std::string(info.param.file) + info.param.clip)
+                                 if (std::isalnum(static_cast<unsigned char>(c)) != 0) name += c;
+                             return name;
+                         });
+
+}  // namespace
+}  // namespace tendril::app
