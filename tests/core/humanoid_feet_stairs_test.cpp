@@ -16,14 +16,15 @@ TEST(FeetOnStairs, UpwardsComeDownWhereTheyStandThen) {
             stroll.from.z = -1.0;
             FeetState state;
             double strike[2]{}, before[2]{};
-            bool down[2]{};
+            bool down[2]{}, shifts[2]{};
             for (int frame = 0; frame < 480; ++frame) {
                 const FeetReport report = walker.step(stairs, stroll, frame, state);
                 for (std::size_t i = 0; i < 2; ++i) {
                     const FootState& foot = state.feet[i];
                     const double low = std::min(foot.heel.y, foot.toe.y);
                     if (low < 0.002 && before[i] >= 0.002 && frame > 60)
-                        down[i] = true, strike[i] = foot.lift;
+                        down[i] = true, strike[i] = foot.lift,
+                        shifts[i] = std::hypot(foot.shift_x, foot.shift_z) > 0.01;
                     before[i] = low;
                     if (low < 0.002) {
                         const glm::dvec3& heel = report.feet[i].heel;
@@ -32,7 +33,12 @@ TEST(FeetOnStairs, UpwardsComeDownWhereTheyStandThen) {
                     }
                     if (!down[i] || !report.feet[i].planted) continue;
                     down[i] = false;
-                    EXPECT_NEAR(strike[i], foot.lift, 0.025) << frame;
+                    if (shifts[i]) {  // to a tread that its whole sole stands on, which it comes down to
+                        EXPECT_GT(strike[i], foot.lift - 0.06) << frame;
+                        EXPECT_LT(strike[i], foot.lift + 0.16) << frame;
+                    } else {
+                        EXPECT_NEAR(strike[i], foot.lift, 0.025) << frame;
+                    }
                 }
             }
         }

@@ -64,8 +64,7 @@ TEST_F(FeetSwing, ClearsStairsUpAndDown) {
         for (const double speed : {0.7, 1.0})
             for (const auto& [heading, z] : {std::pair(0.0, -1.0), std::pair(swing_pi, 6.0)})
                 for (const double start : {0.0, 0.37})
-                    EXPECT_LT(through(*Ground::stairs(height, depth), heading, z, speed, start),
-                              height > 0.15 ? 0.016 : 0.01)
+                    EXPECT_LT(through(*Ground::stairs(height, depth), heading, z, speed, start), 0.0105)
                         << height << " on " << depth << ", heading " << heading << " at " << speed << " from "
                         << start;
 }

@@ -16,6 +16,8 @@ constexpr double jump_part = 0.6;
 constexpr double catching_up = 0.3;
 /// The part of max_speed at which the hips are lowered for a foot that comes down.
 constexpr double landing = 0.15;
+/// The part of max_speed at which a foot moves relative to the clip where it goes up and aside at once.
+constexpr double both_ways = 1.25;
 /// A foot that is moved away from an edge stands once this much or less remains, metres.
 constexpr double shifting = 0.001;
 
@@ -45,8 +47,15 @@ double FeetStep::missing(std::size_t i, double lift) const noexcept {
     return state_.base - lift - way.y - std::sqrt(std::max(0.0, longest * longest - level));
 }
 
+/// How far the lift may change in this step, less for a foot whose offset moves fast.
+double FeetStep::lift_limit(std::size_t i) const noexcept {
+    const double most = options_.max_speed * dt_, together = both_ways * most, level = goals_[i].shifted;
+    return std::min(most, std::sqrt(std::max(0.0, together * together - level * level)));
+}
+
 /// The lift follows its goal; a jump of the goal eases in. Rising along a slope is no jump, however steep.
-void FeetStep::ease_lift(FootState& foot, double goal, double rise) const noexcept {
+void FeetStep::ease_lift(std::size_t i, double goal, double rise) const noexcept {
+    FootState& foot = state_.feet[i];
     const double most = options_.max_speed * dt_, change = goal - foot.goal, before = foot.lift;
     foot.goal = goal;
     if (fresh_) {
@@ -62,7 +71,7 @@ void FeetStep::ease_lift(FootState& foot, double goal, double rise) const noexce
     // Up it goes at once: what it must be over may be near.
     const double half_life = options_.lift_half_life * (foot.ease.value < 0.0 ? 0.85 : 1.0);
     const double sprung = step_spring(foot.ease, half_life, 0.0, dt_);
-    const double limit = std::max(most, std::abs(rise) + catching_up * most);
+    const double limit = std::max(lift_limit(i), std::abs(rise) + catching_up * most);
     foot.lift = toward(before, goal + sprung, limit);
     if (foot.lift != goal + sprung) set(foot.ease, sprung, foot.lift - goal, 0.0);
     if (std::abs(foot.ease.value) < 1e-9) {
@@ -130,6 +139,15 @@ void FeetStep::spare_standing_knees() noexcept {
     state_.drop = drop;
 }
 
+/// A foot that its leg does not reach down to stays above its place, not beside it.
+void FeetStep::stay_above(std::size_t i) noexcept {
+    FootState& foot = state_.feet[i];
+    const double short_by = missing(i, foot.lift) - state_.drop;
+    if (fresh_ || is_standing(i) || !(dt_ > 0.0) || !(short_by > 0.0)) return;
+    foot.lift = toward(lifts_[i], foot.lift + short_by, lift_limit(i));
+    foot.ease.value = foot.lift - foot.goal;
+}
+
 /// A foot in the air moves only as far as the knee's speed allows.
 void FeetStep::spare_knee(std::size_t i, double along) noexcept {
     FootState& foot = state_.feet[i];
@@ -143,7 +161,7 @@ void FeetStep::spare_knee(std::size_t i, double along) noexcept {
     foot.lift = from + way * part;
     if (part == 0.0) {
         // The clip itself moves the leg too fast: choose the lift with the slowest knee.
-        const double most = options_.max_speed * dt_;
+        const double most = lift_limit(i);
         double least = knee_speed(i, along, from);
         for (const double by : {0.25, -0.25, 0.5, -0.5, 0.75, -0.75, 1.0, -1.0}) {
             if (least <= fastest) break;
@@ -159,7 +177,10 @@ void FeetStep::spare_knee(std::size_t i, double along) noexcept {
 void FeetStep::move() noexcept {
     const double along = state_.base - state_.drop;
     for (std::size_t i = 0; i < 2; ++i) {
-        if (state_.feet[i].alone != FootAlone::No) ease_lift(state_.feet[i], along, 0.0);
+        if (state_.feet[i].alone != FootAlone::No)
+            ease_lift(i, along, 0.0);
+        else
+            stay_above(i);
         spare_knee(i, along);
     }
     if (along != 0.0) {

@@ -155,8 +155,8 @@ void FeetStep::find_feet() noexcept {
     for (std::size_t i = 0; i < 2; ++i) {
         FootState& foot = state_.feet[i];
         const bool was_out_of_reach = foot.alone == FootAlone::CannotReach;
-        detail::update_lock(foot, clips_[i], context);
-        goals_[i] = detail::find_goal(foot, clips_[i], context);
+        const glm::dvec3 eased = detail::update_lock(foot, clips_[i], context);
+        goals_[i] = detail::find_goal(foot, clips_[i], eased, context);
         const double most = options_.pelvis_drop * (was_out_of_reach ? reach_again : 1.0);
         if (foot.alone == FootAlone::No && missing(i, goals_[i].lift) > most)
             foot.alone = FootAlone::CannotReach;
@@ -164,17 +164,8 @@ void FeetStep::find_feet() noexcept {
             foot.locked = foot.speed_known = false;
             continue;
         }
-        ease_lift(foot, goals_[i].lift, goals_[i].rise);
+        ease_lift(i, goals_[i].lift, goals_[i].rise);
     }
-}
-
-/// Whether the resulting foot is neither in the ground nor above it.
-bool FeetStep::is_on_ground(const FootReport& foot) const noexcept {
-    double lowest = 1e300;
-    for (const glm::dvec3& point : {foot.heel, foot.toe})
-        if (const auto hit = ground_.below({point.x, point.y + options_.ray_start, point.z}))
-            lowest = std::min(lowest, point.y - hit->height);
-    return std::abs(lowest) <= touching;
 }
 
 FeetReport FeetStep::report() const noexcept {
@@ -185,7 +176,15 @@ FeetReport FeetStep::report() const noexcept {
         made.alone = foot.alone;
         made.heel = legs_[i].end.apply(plan_.soles.feet[i].heel);
         made.toe = legs_[i].tail.apply(plan_.soles.feet[i].toe);
-        made.planted = foot.standing && is_on_ground(made);
+        if (foot.alone != FootAlone::No) continue;
+        const auto over = [&](const glm::dvec3& point) {
+            const auto hit = ground_.below({point.x, point.y + options_.ray_start, point.z});
+            return hit ? point.y - hit->height : 1e300;
+        };
+        const double lowest = std::min(over(made.heel), over(made.toe));
+        made.planted = foot.standing && std::abs(lowest) <= touching;
+        made.depth = std::max(0.0, -std::min(lowest, over(legs_[i].tail.apply(plan_.balls[i]))));
+        made.late = std::max(0.0, foot.goal - foot.lift);
     }
     return report;
 }

@@ -54,13 +54,14 @@ class FeetStep {
     double first_base() const noexcept;
     double ground_around() const noexcept;
     double missing(std::size_t leg, double lift) const noexcept;
-    void ease_lift(FootState& foot, double goal, double rise) const noexcept;
-    bool is_on_ground(const FootReport& foot) const noexcept;
+    double lift_limit(std::size_t leg) const noexcept;
+    void ease_lift(std::size_t leg, double goal, double rise) const noexcept;
     glm::dvec3 target(std::size_t leg, double lift) const noexcept;
     double knee_speed(std::size_t leg, double along, double lift) const noexcept;
     bool is_standing(std::size_t leg) const noexcept {
         return state_.feet[leg].standing && state_.feet[leg].locked;
     }
+    void stay_above(std::size_t leg) noexcept;
     void spare_knee(std::size_t leg, double along) noexcept;
 
     const FeetPlan& plan_;

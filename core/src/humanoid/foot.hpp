@@ -29,12 +29,15 @@ struct FootGoal {
     double contact = 0.0;  // the lift that puts the sole on the ground
     double rise = 0.0;     // of the plane below the foot, along its way in this step
     glm::dvec3 slip{0.0};  // horizontal
+    double shifted = 0.0;  // horizontal, in this step, relative to the clip
 };
 
-/// Locks or releases the foot, and eases out the offset of a released lock.
-void update_lock(FootState& foot, const FootClip& clip, const FootContext& context) noexcept;
+/// Locks or releases the foot, and moves the offset of one in the air towards its foothold. Returns that
+/// move.
+glm::dvec3 update_lock(FootState& foot, const FootClip& clip, const FootContext& context) noexcept;
 
 /// Queries the ground and turns the foot by it; sets foot.alone if there is no ground to stand on.
-FootGoal find_goal(FootState& foot, const FootClip& clip, const FootContext& context) noexcept;
+FootGoal find_goal(FootState& foot, const FootClip& clip, const glm::dvec3& eased,
+                   const FootContext& context) noexcept;
 
 }  // namespace tendril::humanoid::detail

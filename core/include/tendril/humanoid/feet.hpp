@@ -15,10 +15,11 @@
 //  2. A foot in stance (its sole low over the clip's own floor, and slow) is locked: its toe keeps its
 //     horizontal position. Locked or not, rays from above the ankle, down through heel and toe, find the
 //     ground. The foot turns by the mean of the two normals and keeps the clip's height over its floor,
-//     measured from whichever of the two is supported (on level ground, the higher hit). When a lock is
-//     released, its offset eases out. A foot in the air is lifted with its heel, ball and toe over the ground
-//     below it and over every step that it comes to; it is kept back in front of a riser until it is above
-//     it.
+//     measured from whichever of the two is supported (on level ground, the higher hit). A foot that is about
+//     to land, by how it brakes, goes to a place where its whole sole has ground under it, or, where treads
+//     are too short for that, as much of it as fits. When a lock is released, its offset eases out. A foot in
+//     the air is lifted over the ground ahead of it, as far as it comes before it lands, in time to rise
+//     steadily; it is kept back in front of a riser until it is above it.
 //  3. The pelvis is lowered until the legs reach, by a critically damped spring, or faster than the spring
 //     if a foot on the ground needs it.
 //  4. Legs are solved in closed form. A knee stays on the side where the clip has it; a straight one bends
@@ -29,11 +30,11 @@
 //
 // Hips, and knees and feet in the air, move relative to the clip no faster than `max_speed`, except along a
 // slope, which a foot follows at any speed; a jump of the ground eases in. A walk of 1 m/s passes no more
-// than 10 mm through slopes of up to 40 degrees and stairs of 0.15 m on 0.3 m, and 16 mm through stairs of
-// 0.18 m on 0.28 m. Faster or steeper ones may need more than `max_speed`: such a foot goes on through the
-// edges. A foot that goes down stairs may be late: it is kept above the upper step until its heel is clear,
-// and if the clip has put it down by then, the remaining way takes as long as `max_speed` allows, 5 frames
-// for 0.16 m. It counts as planted once it arrives.
+// than 10 mm through slopes of up to 40 degrees and stairs of up to 0.18 m on 0.28 m. Faster walks or steeper
+// stairs may need more than `max_speed`: such a foot goes on through the edges, and the report says how deep
+// and how late it is (`FootReport::depth`). A foot that goes down stairs may be late: it is kept above the
+// upper step until its heel is clear, and if the clip has put it down by then, the remaining way takes as
+// long as `max_speed` allows, 5 frames for 0.16 m. It counts as planted once it arrives.
 //
 // Sources: R. S. Johansen, "Automated Semi-Procedural Animation for Character Locomotion", 2009 (feet on
 // uneven ground); L. Kovar, J. Schreiner, M. Gleicher, "Footskate Cleanup for Motion Capture Editing", SCA
@@ -72,10 +73,10 @@ struct FeetOptions {
     double ray_start = 0.5;                ///< above the ankle; 0 to 1e3
     double max_turn = 0.610865238198015;   ///< 35 degrees: the ground turns a foot by at most this; 0 to 1.5
     double max_slope = 0.785398163397448;  ///< 45 degrees: steeper ground is ignored; 0 to 1.5
-    double edge = 0.012;       ///< a foot locked with heel or toe this near to the edge of a step is moved
-                               ///< away from it by as much; 0 to 0.1
-    double max_step = 0.5;     ///< ground this far above or below that under the root is ignored; 0 to 1e3
-    double root_radius = 0.3;  ///< of the disc whose mean height the root follows; 0 to 1e3
+    double edge = 0.012;    ///< a sole keeps this distance to the edges of the step that it stands on; 0: it
+                            ///< stays where the clip puts it; 0 to 0.1
+    double max_step = 0.5;  ///< ground this far above or below that under the root is ignored; 0 to 1e3
+    double root_radius = 0.3;        ///< of the disc whose mean height the root follows; 0 to 1e3
     double root_half_life = 0.05;    ///< 1e-6 to 10
     double pelvis_drop = 0.4;        ///< the pelvis is lowered by at most this; 0 to 1e3
     double pelvis_half_life = 0.05;  ///< 1e-6 to 10
@@ -98,8 +99,8 @@ struct FootState {
     glm::dvec3 heel{0.0}, toe{0.0};         ///< of the clip, in the ground's space
     glm::dvec3 velocity{0.0};               ///< of the clip's toe, horizontal
     double lock_x = 0.0, lock_z = 0.0;      ///< where the toe is locked
-    double shift_x = 0.0, shift_z = 0.0;    ///< remaining shift of the lock that takes it clear of edges
-    bool edges_known = false;               ///< checked since the foot was locked
+    double shift_x = 0.0, shift_z = 0.0;    ///< remaining shift to where the whole sole stands
+    bool edges_known = false;               ///< that place was looked for since the foot was locked
     double offset_x = 0.0, offset_z = 0.0;  ///< of the toe from the clip
     double lift = 0.0;                      ///< of the ankle from the clip
     double goal = 0.0;                      ///< the lift without the ease
@@ -130,6 +131,8 @@ struct FootReport {
     bool planted = false;  ///< locked, and standing on the ground
     FootAlone alone = FootAlone::No;
     glm::dvec3 heel{0.0}, toe{0.0};  ///< of the corrected pose, in the ground's space
+    double depth = 0.0;  ///< how far heel, ball or toe is below the ground, metres; at full weight
+    double late = 0.0;   ///< how far the foot still has to rise: max_speed allows no more. Metres
 };
 
 struct FeetReport {

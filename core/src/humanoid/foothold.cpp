@@ -1,0 +1,143 @@
+#include "humanoid/foothold.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tendril::humanoid::detail {
+namespace {
+
+using namespace rig::detail;
+
+/// Parts of the sole's length where the ground below it is looked at. Between the two in the middle it must
+/// have ground below it.
+constexpr std::array<double, 4> looks_along{0.0, 0.4, 0.75, 1.0};
+/// A foothold is no farther than this part of break_distance.
+constexpr double farthest_foothold = 0.75;
+/// How much a foothold's distance from the one before counts beside its own.
+constexpr double staying = 0.5;
+/// Steps to the side that are tried, metres: for a sole that lies along an edge.
+constexpr double aside[]{0.02, -0.02, 0.05, -0.05};
+
+/// A sole over the ground, lying flat.
+class SoleOver {
+  public:
+    SoleOver(const glm::dvec3& heel, const glm::dvec3& toe, double from, const FootContext& context) noexcept
+        : heel_(heel), from_(from), context_(context) {
+        const glm::dvec3 way = minus(toe, heel), level{way.x, 0.0, way.z};
+        along_ = direction_of(level, 1e-9).value_or(glm::dvec3(0.0, 0.0, 1.0));
+        size_ = length(way);
+        margin_ = context.options.edge;
+    }
+    glm::dvec3 side() const noexcept { return {along_.z, 0.0, -along_.x}; }
+    const glm::dvec3& along() const noexcept { return along_; }
+    double size() const noexcept { return size_; }
+
+    enum class Stand { Nowhere, Hanging, Whole };
+    /// How it stands when shifted, with `margin` to the next step before and behind it.
+    Stand stand(const glm::dvec3& shift, double margin) const noexcept {
+        std::array<double, looks_along.size()> heights;
+        std::optional<GroundHit> first;
+        for (std::size_t i = 0; i < heights.size(); ++i) {
+            const glm::dvec3 by = plus(shift, times(along_, place(i, margin)));
+            const auto hit = below(by);
+            if (judge(hit, context_) != FootAlone::No) {
+                heights[i] = -1e300;  // a hole
+                continue;
+            }
+            if (!first) first = hit, origin_ = by;
+            heights[i] = hit->height - height_of_plane(*first, by.x - origin_.x, by.z - origin_.z);
+        }
+        const double highest = *std::max_element(heights.begin(), heights.end());
+        const auto holds = [&](std::size_t i) { return heights[i] >= highest - step_over_plane; };
+        if (!first || !holds(1) || !holds(2)) return Stand::Nowhere;
+        return holds(0) && holds(3) ? Stand::Whole : Stand::Hanging;
+    }
+    /// Calls `visit` with the distance from the heel of every step below the sole.
+    void for_steps(auto visit) const noexcept {
+        std::optional<GroundHit> before = below(times(along_, place(0, margin_)));
+        double last = place(0, margin_);
+        for (std::size_t i = 1; i < looks_along.size(); ++i) {
+            const double here = place(i, margin_);
+            const auto hit = below(times(along_, here));
+            if (before && is_step(*before, last, hit, here)) {
+                double low = last, high = here;
+                while (high - low > 0.002) {
+                    const double middle = 0.5 * (low + high);
+                    (is_step(*before, last, below(times(along_, middle)), middle) ? high : low) = middle;
+                }
+                visit(0.5 * (low + high));
+            }
+            before = hit, last = here;
+        }
+    }
+
+  private:
+    double place(std::size_t i, double margin) const noexcept {
+        const double ends = i == 0 ? -margin : i + 1 == looks_along.size() ? margin : 0.0;
+        return looks_along[i] * size_ + ends;
+    }
+    std::optional<GroundHit> below(const glm::dvec3& by) const noexcept {
+        return context_.ground.below({heel_.x + by.x, from_, heel_.z + by.z});
+    }
+    bool is_step(const GroundHit& before, double at, const std::optional<GroundHit>& hit,
+                 double here) const noexcept {
+        if (!hit) return true;
+        const double way = here - at;
+        return std::abs(hit->height - height_of_plane(before, along_.x * way, along_.z * way)) >
+               step_over_plane;
+    }
+
+    glm::dvec3 heel_, along_{0.0};
+    double from_, size_ = 0.0, margin_ = 0.0;
+    const FootContext& context_;
+    mutable glm::dvec3 origin_{0.0};
+};
+
+}  // namespace
+
+FootAlone judge(const std::optional<GroundHit>& hit, const FootContext& context) noexcept {
+    if (!hit) return FootAlone::NoHit;
+    if (hit->normal.y < context.steepest) return FootAlone::TooSteep;
+    const double step = std::abs(hit->height - (context.floor + context.base));
+    return step <= context.options.max_step ? FootAlone::No : FootAlone::TooFar;
+}
+
+glm::dvec3 find_foothold(const glm::dvec3& heel, const glm::dvec3& toe, double from, const glm::dvec3& before,
+                         const FootContext& context) noexcept {
+    const SoleOver sole(heel, toe, from, context);
+    const double margin = context.options.edge, most = farthest_foothold * context.options.break_distance;
+    using Stand = SoleOver::Stand;
+    if (!(margin > 0.0)) return glm::dvec3(0.0);
+    glm::dvec3 best{0.0};
+    constexpr int best_stand = 4;
+    int best_rank = 0;
+    double least = 1e300;
+    const auto offer = [&](const glm::dvec3& shift) {
+        const double size = length(shift);
+        if (size > most) return;
+        const double cost = size + staying * length(minus(shift, before));
+        // The whole sole with its margin is better than without, and that better than an end in the air.
+        if (best_rank == best_stand && cost >= least) return;
+        const Stand wide = sole.stand(shift, margin),
+                    close = wide == Stand::Whole ? wide : sole.stand(shift, 0.0);
+        const int rank = wide == Stand::Whole      ? best_stand
+                         : close == Stand::Whole   ? 3
+                         : wide == Stand::Hanging  ? 2
+                         : close == Stand::Hanging ? 1
+                                                   : 0;
+        if (rank < best_rank || (rank == best_rank && cost >= least)) return;
+        best = shift, best_rank = rank, least = cost;
+    };
+    offer(glm::dvec3(0.0));
+    if (best_rank == best_stand) return best;
+    sole.for_steps([&](double at) {
+        for (const double clear : {margin, 0.25 * margin}) {
+            offer(times(sole.along(), at + clear));
+            offer(times(sole.along(), at - clear - sole.size()));
+        }
+    });
+    for (const double by : aside) offer(times(sole.side(), by));
+    return best;
+}
+
+}  // namespace tendril::humanoid::detail

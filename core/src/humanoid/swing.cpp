@@ -1,0 +1,108 @@
+#include "humanoid/swing.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "humanoid/foothold.hpp"
+
+namespace tendril::humanoid::detail {
+namespace {
+
+using namespace rig::detail;
+
+/// The ground ahead of the foot is looked at this far, in so many looks; metres.
+constexpr double farthest = 0.8;
+constexpr int looks = 8;
+/// The part of max_speed at which a foot rises for what is ahead, and how long before the edge it is up,
+/// seconds: its lift comes that much later than its goal.
+constexpr double rising = 0.6, early = 0.04;
+/// A foot goes on gaining speed for this long, seconds.
+constexpr double gaining = 0.1;
+
+/// When a foot gets somewhere along its way, from its speed and how that changes.
+class Pace {
+  public:
+    Pace(const SoleInAir& sole, double dt) noexcept : speed_(length(sole.velocity)) {
+        if (!(speed_ > 1e-9)) return;
+        along_ = times(sole.velocity, 1.0 / speed_);
+        gain_ = (speed_ - dot(sole.before, along_)) / dt;
+    }
+    const glm::dvec3& along() const noexcept { return along_; }
+    bool moves() const noexcept { return speed_ > 1e-9; }
+    /// Seconds; huge if it stops before.
+    double until(double way) const noexcept {
+        if (!(way > 0.0)) return 0.0;
+        if (!(speed_ > 1e-9)) return 1e9;
+        const double most = speed_ * speed_ + 2.0 * gain_ * way;
+        if (gain_ < 0.0 && most <= 0.0) return 1e9;
+        const double time = 2.0 * way / (speed_ + std::sqrt(most));
+        if (gain_ <= 0.0 || time <= gaining) return time;
+        const double gone = (speed_ + 0.5 * gain_ * gaining) * gaining;
+        return gaining + (way - gone) / (speed_ + gain_ * gaining);
+    }
+
+  private:
+    double speed_, gain_ = 0.0;
+    glm::dvec3 along_{0.0};
+};
+
+}  // namespace
+
+OverWay over_way(const SoleInAir& sole, double from, const FootContext& context) noexcept {
+    const Pace pace(sole, context.dt);
+    const double most = context.options.max_speed, rate = rising * most;
+    std::array<glm::dvec3, 3> points = sole.points;  // before they moved
+    std::array<double, 3> at;
+    for (std::size_t i = 0; i < 3; ++i) {
+        points[i] = minus(points[i], sole.moved);
+        at[i] = dot(points[i], pace.along());
+    }
+    const auto first = static_cast<std::size_t>(std::max_element(at.begin(), at.end()) - at.begin());
+    const auto below = [&](const glm::dvec3& point) {
+        return context.ground.below({point.x, from, point.z});
+    };
+    const auto base = below(points[first]);
+    if (judge(base, context) != FootAlone::No) return {};
+    const auto plane = [&](const glm::dvec3& point) {
+        return height_of_plane(*base, point.x - points[first].x, point.z - points[first].z);
+    };
+    // Over the plane below the foremost point, which a foot follows at any speed.
+    const auto height = [&](const glm::dvec3& point) {
+        const auto hit = below(point);
+        return judge(hit, context) == FootAlone::No ? hit->height - plane(point) : 0.0;
+    };
+    OverWay way;
+    // For all points that will be there.
+    const auto pass = [&](double where, double high) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (at[i] > where + 1e-9) continue;
+            const double time = std::max(0.0, pace.until(where - at[i]) - early);
+            way.raise = std::max(way.raise, plane(points[i]) + high - rate * time - points[i].y);
+        }
+    };
+    for (std::size_t i = 0; i < 3; ++i) pass(at[i], i == first ? 0.0 : height(points[i]));
+    if (!pace.moves()) return way;
+    const double advance = dot(sole.moved, pace.along()), own = points[first].y - plane(points[first]);
+    double lower = 0.0, last = 0.0;
+    for (int i = 1; i <= looks; ++i) {
+        const double ahead = std::min(farthest * i / looks, sole.left + advance);
+        if (pace.until(ahead) > 1.0) break;
+        const auto high_at = [&](double by) { return height(plus(points[first], times(pace.along(), by))); };
+        const double there = high_at(ahead);
+        double edge = ahead;
+        for (double low = last; there > lower + step_over_plane && edge - low > 0.008;) {
+            const double middle = 0.5 * (low + edge);
+            (high_at(middle) > 0.5 * (lower + there) ? edge : low) = middle;
+        }
+        pass(at[first] + edge, there);
+        if (there > lower + step_over_plane && there > own && advance > 1e-9) {
+            const double steps = (there - own) / (most * context.dt);
+            way.part = std::min(way.part, std::max(0.0, edge - 0.008) / (steps * advance));
+        }
+        if (ahead == sole.left + advance) break;
+        lower = there, last = ahead;
+    }
+    return way;
+}
+
+}  // namespace tendril::humanoid::detail
