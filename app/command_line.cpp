@@ -185,6 +185,8 @@ CLI::App* add_signal(CLI::App& line, SignalOptions& options) {
 CLI::App* add_lint(CLI::App& line, LintOptions& options) {
     CLI::App* lint = line.add_subcommand("lint", "Report what is wrong with a character's clips");
     lint->add_option("FILE", options.file, "A character: .gltf, .glb, .vrm, .vrma, .fbx or .bvh")->required();
+    lint->add_option("--motion", options.motion, "Check another character's clips on this one")
+        ->option_text("FILE");
     lint->add_flag("--json", options.json, "Print one JSON object");
     lint->footer(lint_help);
     return lint;
@@ -193,6 +195,8 @@ CLI::App* add_lint(CLI::App& line, LintOptions& options) {
 CLI::App* add_bake(CLI::App& line, BakeOptions& options) {
     CLI::App* bake = line.add_subcommand("bake", "Write a character's clip to a file, feet on the ground");
     bake->add_option("FILE", options.file, "A character: .gltf, .glb, .vrm, .vrma, .fbx or .bvh")->required();
+    bake->add_option("--motion", options.motion, "Take the clip from another character's file")
+        ->option_text("FILE");
     bake->add_option("--clip", options.clip, "A clip; default: the first")->option_text("NAME");
     bake->add_option("--ground", options.ground, "What its feet stand on; default: none, feet uncorrected")
         ->check(CLI::IsMember(bake_grounds()))
