@@ -186,6 +186,8 @@ CLI::App* add_signal(CLI::App& line, SignalOptions& options) {
 CLI::App* add_lint(CLI::App& line, LintOptions& options) {
     CLI::App* lint = line.add_subcommand("lint", "Report what is wrong with a character's clips");
     lint->add_option("FILE", options.file, "A character: .gltf, .glb, .vrm, .vrma, .fbx or .bvh")->required();
+    lint->add_option("--motion", options.motion, "Check another character's clips on this one")
+        ->option_text("FILE");
     lint->add_flag("--json", options.json, "Print one JSON object");
     lint->footer(lint_help);
     return lint;
@@ -194,6 +196,8 @@ CLI::App* add_lint(CLI::App& line, LintOptions& options) {
 CLI::App* add_bake(CLI::App& line, BakeOptions& options) {
     CLI::App* bake = line.add_subcommand("bake", "Write a character's clip to a file, feet on the ground");
     bake->add_option("FILE", options.file, "A character: .gltf, .glb, .vrm, .vrma, .fbx or .bvh")->required();
+    bake->add_option("--motion", options.motion, "Take the clips from another character's file")
+        ->option_text("FILE");
     CLI::Option* const clip =
         bake->add_option("--clip", options.clip, "A clip; default: the first")->option_text("NAME");
     bake->add_flag("--all", options.all, "Every clip, each to a file of its own")->excludes(clip);

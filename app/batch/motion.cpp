@@ -10,6 +10,7 @@
 #include "app/document/json_complete.hpp"
 #include "app/document/text.hpp"
 #include "app/io/character/bake.hpp"
+#include "app/io/character/carried_motion.hpp"
 #include "app/io/character/export.hpp"
 #include "app/io/character/read.hpp"
 #include "app/labs/humanoid/ik/ground.hpp"
@@ -61,16 +62,28 @@ void print_lines(const LintReport& report, const Clip& clip, Output& out) {
     }
 }
 
-const Clip& clip_named(const Character& character, const BakeOptions& options) {
-    const std::string file = fs::path(options.file).filename().string();
-    if (character.clips.empty()) throw std::runtime_error(file + ": has no clips");
-    if (options.clip.empty()) return character.clips.front();
-    std::string names;
-    for (const Clip& each : character.clips) {
-        if (each.name == options.clip) return each;
-        names += (names.empty() ? "" : ", ") + each.name;
+/// The motion's clips, or the named one, carried over to the character in place of its own. Returns what to
+/// say of that.
+std::vector<std::string> play_motion(Character& character, const std::string& motion,
+                                     const std::string* clip) {
+    const humanoid::BoneMap map = bone_map(character);
+    std::vector<std::string> notes = guesses_of(character, map);
+    if (motion.empty()) return notes;
+    const Character source = read_character(motion);
+    const Clip& first = clip_named(source, motion, clip ? *clip : std::string());
+    character.clips.clear();
+    for (const Clip& each : source.clips) {
+        if (clip && &each != &first) continue;
+        CarriedMotion carried = carry_over(source, motion, each, character.skeleton, map);
+        if (character.clips.empty())
+            notes.push_back(fs::path(motion).filename().string() + ": " + joined(carried.notes));
+        character.clips.push_back(std::move(carried.clip));
     }
-    throw std::runtime_error(file + ": has no clip \"" + options.clip + "\"; it has " + names);
+    return notes;
+}
+
+void print_notes(const std::vector<std::string>& notes, Output& out) {
+    for (const std::string& each : notes) out.write("Note: " + printable(each) + '\n');
 }
 
 /// The default output: beside the file, in its format if that can be written, else glTF.
@@ -104,10 +117,12 @@ ExportReport bake_one(const Character& character, const Clip& clip, const BakeOp
 }  // namespace
 
 std::size_t run_lint(const LintOptions& options) {
-    const Character character = read_character(options.file);
+    Character character = read_character(options.file);
+    const std::vector<std::string> notes = play_motion(character, options.motion, nullptr);
     const humanoid::BoneMap map = bone_map(character);
     Progress progress;
     Output out(progress);
+    if (!options.json) print_notes(notes, out);
     Json clips = Json::array();
     std::size_t findings = 0;
     const std::vector<Clip> all = clips_of(character);
@@ -121,9 +136,10 @@ std::size_t run_lint(const LintOptions& options) {
             print_lines(report, all[i], out);
     }
     if (options.json)
-        out.write(Json{{"file", options.file}, {"clips", clips}, {"findings", findings}}.dump(
-                      2, ' ', false, Json::error_handler_t::replace) +
-                  '\n');
+        out.write(
+            Json{{"file", options.file}, {"notes", notes}, {"clips", clips}, {"findings", findings}}.dump(
+                2, ' ', false, Json::error_handler_t::replace) +
+            '\n');
     else
         out.write(counted(findings, "finding") + " in " + counted(character.clips.size(), "clip") + '\n');
     out.finish();
@@ -138,11 +154,15 @@ void run_bake(const BakeOptions& options) {
     // The command line's own check accepts NaN.
     if (options.fps && !(*options.fps >= min_rate && *options.fps <= largest_rate))
         throw std::runtime_error("--fps: must be 1 to 1000, got " + std::to_string(*options.fps));
-    const Character character = read_character(options.file);
-    const Clip& first = clip_named(character, options);
+    Character character = read_character(options.file);
+    const std::vector<std::string> notes =
+        play_motion(character, options.motion, options.all ? nullptr : &options.clip);
+    const Clip& first =
+        options.motion.empty() ? clip_named(character, options.file, options.clip) : character.clips.front();
     const fs::path out = options.out.empty() ? place_beside(options.file) : fs::path(options.out);
     Progress progress;
     Output print(progress);
+    print_notes(notes, print);
     if (options.all) {
         const std::vector<fs::path> paths = paths_of_clips(character, out);
         for (std::size_t i = 0; i < paths.size(); ++i) {
@@ -163,9 +183,10 @@ const char* const lint_help =
     R"(FILE is a .gltf, .glb, .vrm, .vrma, .fbx or .bvh file. All of its clips are checked for
 skating, floating and sinking feet, knees that pop, rotation keys that go the long
 way round, joints that jump or bend far beyond human range, scale and axis faults.
-Prints one line per finding, with its frame, time, joint and amount; with --json
-one object:
-  {"file", "findings": 2, "clips": [{"name", "duration", "frame_rate", "frames",
+With --motion, the clips of that file are checked as they are on this character.
+Prints what of the files was guessed, and one line per finding, with its frame, time,
+joint and amount; with --json one object:
+  {"file", "notes": [], "findings": 2, "clips": [{"name", "duration", "frame_rate", "frames",
    "floor", "findings": [{"kind", "frame", "first_frame", "last_frame", "time",
    "joint", "amount", "unit", "text", "cure"}]}]}
 Frames are counted from 0 at the rate of the clip's keys; the floor is null if no
@@ -177,14 +198,16 @@ const char* const bake_help =
     R"(FILE is a .gltf, .glb, .vrm, .vrma, .fbx or .bvh file. One of its clips, by
 default the first, is written to --out, or to FILE_baked beside the file: as glTF,
 GLB or BVH, depending on the name's ending. With --all every clip is written, each
-to a file of its own: its name is added to the file's. glTF from a glTF file keeps
-its nodes, skins, materials, meshes and pictures unchanged. With a ground, the feet
-are put on it first: flat, a slope of 20 degrees or stairs 15 cm high and 30 cm deep,
-which rise along +Z, or terrain, low hills. The file is then read back, and two
-errors are printed: the joint that is furthest from where it was, in mm, and how far
-a standing foot slides at most, before and after. A BVH's frame 0 is time 0. An
-existing file is replaced as a whole, or left as it was (exit code 2). A signal ends
-it at once.
+to a file of its own: its name is added to the file's. With --motion, the clips are
+those of that file, another character's, carried over: the feet stand where the
+other's do. glTF from a glTF file keeps its nodes, skins, materials, meshes and
+pictures unchanged. With a ground, the feet are put on it first: flat, a slope of 20
+degrees or stairs 15 cm high and 30 cm deep, which rise along +Z, or terrain, low
+hills. The file is then read back, and two errors are printed: the joint that is
+furthest from where it was, in mm, and how far a standing foot slides at most, before
+and after. A BVH's frame 0 is time 0. What a file does not say and was guessed (unit,
+up axis, root) is printed first. An existing file is replaced as a whole, or left as
+it was (exit code 2). A signal ends it at once.
 To open a scene file that is named bake, write ./bake.)";
 
 }  // namespace tendril::app

@@ -8,17 +8,19 @@
 namespace tendril::app {
 
 struct LintOptions {
-    std::string file;   ///< path of the character
-    bool json = false;  ///< one JSON object instead of lines
+    std::string file;    ///< path of the character
+    std::string motion;  ///< path of a file with motions of another; empty: the character's own clips
+    bool json = false;   ///< one JSON object instead of lines
 };
 /// Prints the faults of each of the file's clips. Returns the number of findings. Throws std::runtime_error
 /// if the file cannot be read or the output cannot be written.
 std::size_t run_lint(const LintOptions& options);
 
 struct BakeOptions {
-    std::string file;  ///< path of the character
-    std::string clip;  ///< by name; empty: the first
-    bool all = false;  ///< every clip, each to a file of its own
+    std::string file;    ///< path of the character
+    std::string motion;  ///< path of a file with the clips of another; empty: the character's own
+    std::string clip;    ///< by name; empty: the first
+    bool all = false;    ///< every clip, each to a file of its own
     std::string ground = "none";
     std::optional<double> fps{};  ///< frames per second; the clip's own by default
     std::string out;              ///< path; empty: FILE_baked beside the file

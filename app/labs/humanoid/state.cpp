@@ -2,6 +2,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "app/document/json_complete.hpp"
+#include "app/labs/humanoid/clip/motions.hpp"
 #include "app/labs/humanoid/humanoid_lab.hpp"
 #include "app/labs/humanoid/humanoid_part.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
@@ -78,6 +79,9 @@ Json root_positions_state(const Character& character) {
 Json notes_state(const HumanoidPart& part) {
     Json notes = part.loaded->character.sentences();
     if (const auto doubt = part.loaded->doubted_unit(*part.map)) notes.push_back(text(*doubt));
+    if (part.playback.clip)
+        if (const LoadedMotion* motion = motion_of(*part.loaded, *part.playback.clip))
+            for (const std::string& each : motion->notes) notes.push_back(each);
     return notes;
 }
 

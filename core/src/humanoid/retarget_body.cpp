@@ -14,8 +14,6 @@ using namespace rig::detail;
 
 namespace {
 
-constexpr glm::dquat no_turn{1.0, 0.0, 0.0, 0.0};
-
 struct LegBones {
     Bone upper, lower, foot, toes;
 };

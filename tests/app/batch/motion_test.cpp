@@ -135,6 +135,30 @@ TEST_F(MotionProgram, bake_says_which_of_many_clips_it_wrote_and_writes_them_all
     EXPECT_EQ(run({"bake", path("two.gltf"), "--all", "--clip", "walk"}).exit_code, 2);
 }
 
+TEST_F(MotionProgram, lint_and_bake_take_another_characters_motion_and_say_what_was_guessed) {
+    // The figure's own walk, as a BVH has it: without a unit.
+    const std::string body = figure("body.glb"), walk = figure("walk.bvh");
+    const Outcome judged = run({"lint", body, "--motion", walk});
+    EXPECT_EQ(judged.exit_code, 0) << judged.out << judged.err;
+    EXPECT_TRUE(test::says(judged.out, "Note: walk.bvh hips scaled 1.00 unit 0 findings 1 clip"))
+        << judged.out;
+    const Json json = app::parse_json(run({"lint", body, "--motion", walk, "--json"}).out);
+    EXPECT_EQ(json["clips"].at(0)["name"], "motion");
+    EXPECT_TRUE(test::says(json["notes"].dump(), "hips scaled unit"));
+    EXPECT_TRUE(test::says(run({"lint", walk}).out, "Note: unit 0 findings")) << "of a file alone, too";
+
+    const Outcome baked = run(
+        {"bake", body, "--motion", walk, "--clip", "motion", "--ground", "flat", "--out", path("out.glb")});
+    EXPECT_EQ(baked.exit_code, 0) << baked.err;
+    EXPECT_TRUE(test::says(baked.out, "Note: walk.bvh hips scaled unit out.glb: motion")) << baked.out;
+    const app::Character written = app::read_character(path("out.glb"));
+    ASSERT_EQ(written.clips.size(), 1u);
+    EXPECT_EQ(written.clips[0].name, "motion");
+    const Outcome unknown = run({"bake", body, "--motion", walk, "--clip", "run"});
+    EXPECT_EQ(unknown.exit_code, 2);
+    EXPECT_TRUE(test::says(unknown.err, "walk.bvh no clip run motion")) << unknown.err;
+}
+
 TEST_F(MotionProgram, what_cannot_be_read_or_written_ends_with_2) {
     const std::string file = figure("walk.glb");
     write(folder_ / "text.glb", "no character");

@@ -28,9 +28,10 @@ struct ClipCure {
 
 /// A clip of another file that was carried over.
 struct LoadedMotion {
-    std::string file;  ///< as given
-    std::string path;  ///< absolute
-    std::string clip;  ///< its name there
+    std::string file;                  ///< as given
+    std::string path;                  ///< absolute
+    std::string clip;                  ///< its name there
+    std::vector<std::string> notes{};  ///< CarriedMotion::notes
     bool operator==(const LoadedMotion&) const = default;
 };
 

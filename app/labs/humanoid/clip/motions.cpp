@@ -4,11 +4,10 @@
 #include <algorithm>
 #include <filesystem>
 #include <stdexcept>
-#include <tendril/humanoid/retarget.hpp>
 
 #include "app/document/json_complete.hpp"
 #include "app/document/json_place.hpp"
-#include "app/document/units.hpp"
+#include "app/io/character/carried_motion.hpp"
 #include "app/io/character/read.hpp"
 #include "app/labs/humanoid/humanoid_commands.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
@@ -22,14 +21,6 @@ namespace {
 
 using humanoid::Clip;
 
-const Clip& clip_of_motion(const Character& character, const std::string& name) {
-    if (character.clips.empty()) throw std::runtime_error("has no clips");
-    if (name.empty()) return character.clips.front();
-    const auto found = std::ranges::find(character.clips, name, &Clip::name);
-    if (found == character.clips.end()) throw std::runtime_error("has no clip \"" + name + '"');
-    return *found;
-}
-
 std::string free_name(const LoadedCharacter& character, const std::string& wanted) {
     std::string name = wanted;
     for (int i = 2; std::ranges::find(character.clips(), name, &Clip::name) != character.clips().end(); ++i)
@@ -37,39 +28,26 @@ std::string free_name(const LoadedCharacter& character, const std::string& wante
     return name;
 }
 
-std::string bones_text(const std::vector<humanoid::Bone>& bones) {
-    std::string text;
-    for (const humanoid::Bone each : bones)
-        text += (text.empty() ? "" : ", ") + std::string(humanoid::name(each));
-    return text;
-}
-
 }  // namespace
 
 PlayedMotion with_motion(const HumanoidPart& part, const std::string& file, const std::string& clip) {
     const Character source = read_character(file);
-    const std::string name = std::filesystem::path(file).filename().string();
-    try {
-        const Clip& wanted = clip_of_motion(source, clip);
-        auto made =
-            humanoid::retarget({source.skeleton, bone_map(source)}, wanted, {part.skeleton(), *part.map});
-        if (!made) throw std::runtime_error(made.message());
-        auto loaded = std::make_shared<LoadedCharacter>(*part.loaded);
-        made->clip.name = free_name(*loaded, wanted.name);
-        PlayedMotion played;
-        played.text =
-            "Clip " + made->clip.name + ", the hips' motion scaled by " + fixed_text(made->scale, 2);
-        if (!made->left_out.empty()) played.text += ". Not on this character: " + bones_text(made->left_out);
-        if (!made->at_rest.empty())
-            played.text += ". Not in the file, so at rest: " + bones_text(made->at_rest);
-        loaded->motions.push_back(
-            {file, std::filesystem::absolute(file).lexically_normal().string(), wanted.name});
-        loaded->character.clips.push_back(std::move(made->clip));
-        played.loaded = std::move(loaded);
-        return played;
-    } catch (const std::exception& error) {
-        throw std::runtime_error(name + ": " + error.what());
-    }
+    const Clip& wanted = clip_named(source, file, clip);
+    CarriedMotion carried = carry_over(source, file, wanted, part.skeleton(), *part.map);
+    auto loaded = std::make_shared<LoadedCharacter>(*part.loaded);
+    carried.clip.name = free_name(*loaded, wanted.name);
+    PlayedMotion played;
+    played.text = "Clip " + carried.clip.name + ": " + joined(carried.notes);
+    loaded->motions.push_back({file, std::filesystem::absolute(file).lexically_normal().string(), wanted.name,
+                               std::move(carried.notes)});
+    loaded->character.clips.push_back(std::move(carried.clip));
+    played.loaded = std::move(loaded);
+    return played;
+}
+
+const LoadedMotion* motion_of(const LoadedCharacter& character, std::size_t clip) {
+    const std::size_t own = character.clips().size() - character.motions.size();
+    return clip >= own && clip < character.clips().size() ? &character.motions[clip - own] : nullptr;
 }
 
 Json motions_json(const LoadedCharacter& character) {
@@ -120,25 +98,30 @@ void motion_rows(const HumanoidPanel& panel, MoreRows& more) {
         text_field("motion", path, "walk.vrma");
         explain(
             "A file with a motion of another character: .vrma, .vrm, .gltf, .glb, .fbx or .bvh. Its first "
-            "clip "
-            "is carried over by the two bone maps.");
+            "clip is carried over by the two bone maps, with the feet on the ground where the other's are.");
         if (row_button("Load motion", 1, !path.empty(), "Adds it to this character's clips and plays it"))
             panel.emit("humanoid.motion.load", {{"path", path}});
         end_row();
     });
+    if (!panel.part.playback.clip) return;
+    const LoadedMotion* motion = motion_of(*panel.part.loaded, *panel.part.playback.clip);
+    if (!motion) return;
+    note("From " + std::filesystem::path(motion->file).filename().string() + ". " + joined(motion->notes));
 }
 
 void add_motion_commands(CommandTable& table) {
-    table.add({.name = "humanoid.motion.load",
-               .title = "Load another character's motion",
-               .arguments = {text_argument("path", true,
-                                           "a .vrma, .vrm, .gltf, .glb, .fbx or .bvh file with a clip"),
-                             text_argument("clip", false, "which one, by name; default: the first")},
-               .help =
-                   "Plays a clip of another character on this one, by the two bone maps: limbs point in the "
-                   "same directions, and the hips move in proportion to their height",
-               .effect = Effect::Edit,
-               .apply = load_motion});
+    table.add(
+        {.name = "humanoid.motion.load",
+         .title = "Load another character's motion",
+         .arguments = {text_argument("path", true,
+                                     "a .vrma, .vrm, .gltf, .glb, .fbx or .bvh file with a clip"),
+                       text_argument("clip", false, "which one, by name; default: the first")},
+         .help =
+             "Plays a clip of another character on this one, by the two bone maps: limbs, hands and fingers "
+             "point in the same directions, feet stand where the other's do, and the hips move in "
+             "proportion to the legs",
+         .effect = Effect::Edit,
+         .apply = load_motion});
 }
 
 }  // namespace tendril::app

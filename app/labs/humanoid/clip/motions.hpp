@@ -20,6 +20,9 @@ struct PlayedMotion {
 /// begins with the file's name.
 PlayedMotion with_motion(const HumanoidPart& part, const std::string& file, const std::string& clip);
 
+/// The motion that this clip is; null: a clip of the character's own.
+const LoadedMotion* motion_of(const LoadedCharacter& character, std::size_t clip);
+
 Json motions_json(const LoadedCharacter& character);
 /// Reads the files again. Throws std::runtime_error that begins with the JSON path.
 void read_motions(const JsonPlace& place, HumanoidPart& part);

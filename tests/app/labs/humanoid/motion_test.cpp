@@ -116,6 +116,23 @@ TEST_F(HumanoidMotions, ItIsAClipLikeOthers) {
     EXPECT_NEAR(part().loaded->clips()[0].duration, 1.0, 1e-6);
 }
 
+TEST_F(HumanoidMotions, WhatWasGuessedOfItsFileIsSaid) {
+    // A BVH says neither its unit nor its up axis.
+    run("humanoid.load", {{"path", path("body.vrm")}});
+    run("humanoid.export", {{"path", path("wave.bvh")}});
+    run("humanoid.load");
+    const auto notes = [&] { return state().at("character").at("notes").dump(); };
+    const std::string before = notes();
+    run("humanoid.motion.load", {{"path", path("wave.bvh")}});
+    EXPECT_TRUE(test::says(notes(), "hips scaled at rest: Chest unit")) << notes();
+    EXPECT_TRUE(test::says(workspace.ui.toasts.back().text, "Clip hips scaled unit"))
+        << workspace.ui.toasts.back().text;
+    const Workspace again = reopened();
+    EXPECT_EQ(humanoid_part(again).loaded->motions, part().loaded->motions);
+    run("humanoid.clip", {{"index", 0}});
+    EXPECT_EQ(notes(), before) << "of a clip of its own there is nothing to say";
+}
+
 TEST_F(HumanoidMotions, WhatCannotBeCarriedOverIsRefusedOrSaid) {
     test::write(folder_ / "still.gltf",
                 R"({"asset":{"version":"2.0"},"nodes":[{"children":[1]},{}],"skins":[{"joints":[0,1]}]})");

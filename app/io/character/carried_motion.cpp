@@ -1,0 +1,77 @@
+#include "app/io/character/carried_motion.hpp"
+
+#include <cmath>
+#include <stdexcept>
+#include <tendril/humanoid/retarget.hpp>
+
+#include "app/document/units.hpp"
+
+namespace tendril::app {
+namespace {
+
+constexpr double hardly_sure = 0.8;  // confidence of a bone that is said to be a guess
+
+std::string bone_names(const std::vector<humanoid::Bone>& bones) {
+    std::string text;
+    for (const humanoid::Bone each : bones)
+        text += (text.empty() ? "" : ", ") + std::string(humanoid::name(each));
+    return text;
+}
+
+std::runtime_error refusal_of(const std::filesystem::path& file, const std::string& why) {
+    return std::runtime_error(file.filename().string() + ": " + why);
+}
+
+}  // namespace
+
+const humanoid::Clip& clip_named(const Character& character, const std::filesystem::path& file,
+                                 const std::string& name) {
+    if (character.clips.empty()) throw refusal_of(file, "has no clips");
+    if (name.empty()) return character.clips.front();
+    std::string names;
+    for (const humanoid::Clip& each : character.clips) {
+        if (each.name == name) return each;
+        names += (names.empty() ? "" : ", ") + each.name;
+    }
+    throw refusal_of(file, "has no clip \"" + name + "\"; it has " + names);
+}
+
+CarriedMotion carry_over(const Character& source, const std::filesystem::path& file,
+                         const humanoid::Clip& clip, const humanoid::Skeleton& skeleton,
+                         const humanoid::BoneMap& map) {
+    const humanoid::BoneMap source_map = bone_map(source);
+    auto made = humanoid::retarget({source.skeleton, source_map}, clip, {skeleton, map});
+    if (!made) throw refusal_of(file, std::string(made.message()));
+    CarriedMotion carried{.clip = std::move(made->clip), .notes = {}};
+    carried.notes.push_back("The hips' motion is scaled by " + fixed_text(made->scale, 2) + '.');
+    if (!made->left_out.empty())
+        carried.notes.push_back("Not on this character: " + bone_names(made->left_out) + '.');
+    if (!made->at_rest.empty())
+        carried.notes.push_back("Not in the file, so at rest: " + bone_names(made->at_rest) + '.');
+    for (const std::string& each : guesses_of(source, source_map)) carried.notes.push_back(each);
+    return carried;
+}
+
+std::vector<std::string> guesses_of(const Character& character, const humanoid::BoneMap& map) {
+    std::vector<std::string> all;
+    const Character::Guesses& own = character.guesses;
+    for (const std::string& each : {own.up, own.positions, own.unit})
+        if (!each.empty()) all.push_back(each);
+    std::string bones;
+    for (std::size_t i = 0; i < humanoid::bone_count; ++i) {
+        const humanoid::BoneMatch& match = map.bones[i];
+        if (match.node < 0 || match.confidence >= hardly_sure) continue;
+        bones += (bones.empty() ? "" : ", ") + std::string(humanoid::name(static_cast<humanoid::Bone>(i))) +
+                 " (" + fixed_text(100.0 * match.confidence, 0) + " % sure)";
+    }
+    if (!bones.empty()) all.push_back("Guessed bones: " + bones + '.');
+    return all;
+}
+
+std::string joined(std::span<const std::string> sentences) {
+    std::string text;
+    for (const std::string& each : sentences) text += (text.empty() ? "" : " ") + each;
+    return text;
+}
+
+}  // namespace tendril::app

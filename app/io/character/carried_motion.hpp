@@ -1,0 +1,34 @@
+// A clip of another character's file, carried over to a character (humanoid::retarget), and what that took.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "app/io/character/character.hpp"
+
+namespace tendril::app {
+
+struct CarriedMotion {
+    humanoid::Clip clip{};             ///< of the character; has the name that it has in its file
+    std::vector<std::string> notes{};  ///< sentences: what was scaled, not carried over, and guessed
+};
+
+/// The clip of that name; empty: the first one. Throws std::runtime_error: "walk.bvh: has no clip "run"; it
+/// has walk".
+const humanoid::Clip& clip_named(const Character& character, const std::filesystem::path& file,
+                                 const std::string& name);
+
+/// Throws std::runtime_error that begins with the file's name.
+CarriedMotion carry_over(const Character& source, const std::filesystem::path& file,
+                         const humanoid::Clip& clip, const humanoid::Skeleton& skeleton,
+                         const humanoid::BoneMap& map);
+
+/// In sentences: how a file without a unit or an up axis was read, and which bones its nodes hardly show.
+std::vector<std::string> guesses_of(const Character& character, const humanoid::BoneMap& map);
+
+/// One text of several sentences.
+std::string joined(std::span<const std::string> sentences);
+
+}  // namespace tendril::app
