@@ -51,6 +51,12 @@ Json lint_json(const LintReport& report, const Clip& clip, const humanoid::Skele
             {"findings", findings}};
 }
 
+/// What the reader guessed (unit, up axis, root), left out or changed, a line each.
+void print_how_it_was_read(const Character& character, const std::string& file, Output& out) {
+    for (const std::string& each : character.sentences())
+        out.write(fs::path(file).filename().string() + ": " + printable(each) + '\n');
+}
+
 void print_lines(const LintReport& report, const Clip& clip, Output& out) {
     for (const Finding& each : report.findings) {
         char place[120];
@@ -89,6 +95,7 @@ std::size_t run_lint(const LintOptions& options) {
     Json clips = Json::array();
     std::size_t findings = 0;
     const std::vector<Clip> all = clips_of(character);
+    if (!options.json) print_how_it_was_read(character, options.file, out);
     for (std::size_t i = 0; i < all.size(); ++i) {
         progress.show("judging", static_cast<double>(i) / static_cast<double>(all.size()));
         const LintReport report = lint(character.skeleton, map, all[i]);
@@ -99,8 +106,11 @@ std::size_t run_lint(const LintOptions& options) {
             print_lines(report, all[i], out);
     }
     if (options.json)
-        out.write(Json{{"file", options.file}, {"clips", clips}, {"findings", findings}}.dump(
-                      2, ' ', false, Json::error_handler_t::replace) +
+        out.write(Json{{"file", options.file},
+                       {"read", character.sentences()},
+                       {"clips", clips},
+                       {"findings", findings}}
+                      .dump(2, ' ', false, Json::error_handler_t::replace) +
                   '\n');
     else
         out.write(counted(findings, "finding") + " in " + counted(character.clips.size(), "clip") + '\n');
@@ -139,6 +149,7 @@ void run_bake(const BakeOptions& options) {
                                             out);
     Progress progress;
     Output print(progress);
+    print_how_it_was_read(character, options.file, print);
     print.write(out.string() + ": " + printable(clip.name) + ", " + report.text() + '\n');
     print.finish();
 }
@@ -147,11 +158,12 @@ const char* const lint_help =
     R"(FILE is a .gltf, .glb, .vrm, .vrma, .fbx or .bvh file. All of its clips are checked for
 skating, floating and sinking feet, knees that pop, rotation keys that go the long
 way round, joints that jump or bend far beyond human range, scale and axis faults.
-Prints one line per finding, with its frame, time, joint and amount; with --json
-one object:
-  {"file", "findings": 2, "clips": [{"name", "duration", "frame_rate", "frames",
-   "floor", "findings": [{"kind", "frame", "first_frame", "last_frame", "time",
-   "joint", "amount", "unit", "text", "cure"}]}]}
+Prints how the file was read, where it does not say: its unit, the axis that is up,
+where its root is, what was left out. Then one line per finding, with its frame,
+time, joint and amount; with --json one object:
+  {"file", "read": [sentences], "findings": 2, "clips": [{"name", "duration",
+   "frame_rate", "frames", "floor", "findings": [{"kind", "frame", "first_frame",
+   "last_frame", "time", "joint", "amount", "unit", "text", "cure"}]}]}
 Frames are counted from 0 at the rate of the clip's keys; the floor is null if no
 foot ever stands. Feet and knees need a skeleton with legs.
 Exit code 0: nothing was found; 1: something was; 2: the file cannot be read.
@@ -166,7 +178,8 @@ it first: flat, a slope of 20 degrees or stairs 15 cm high and 30 cm deep, which
 rise along +Z, or terrain, low hills. The file is then read back, and two errors are
 printed: the joint that is furthest from where it was, in mm, and how far a standing
 foot slides at most, before and after. A BVH's frame 0 is time 0. An existing file is
-replaced as a whole, or left as it was (exit code 2). A signal ends it at once.
+replaced as a whole, or left as it was (exit code 2). What the file does not say and
+was guessed (unit, up axis, root) is printed first. A signal ends it at once.
 To open a scene file that is named bake, write ./bake.)";
 
 }  // namespace tendril::app
