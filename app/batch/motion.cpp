@@ -184,11 +184,12 @@ const char* const lint_help =
 skating, floating and sinking feet, knees that pop, rotation keys that go the long
 way round, joints that jump or bend far beyond human range, scale and axis faults.
 With --motion, the clips of that file are checked as they are on this character.
-Prints what of the files was guessed, and one line per finding, with its frame, time,
-joint and amount; with --json one object:
-  {"file", "notes": [], "findings": 2, "clips": [{"name", "duration", "frame_rate", "frames",
-   "floor", "findings": [{"kind", "frame", "first_frame", "last_frame", "time",
-   "joint", "amount", "unit", "text", "cure"}]}]}
+Prints how the files were read, where they do not say: unit, up axis, root, what was
+left out. Then one line per finding, with its frame, time, joint and amount; with
+--json one object:
+  {"file", "notes": [sentences], "findings": 2, "clips": [{"name", "duration",
+   "frame_rate", "frames", "floor", "findings": [{"kind", "frame", "first_frame",
+   "last_frame", "time", "joint", "amount", "unit", "text", "cure"}]}]}
 Frames are counted from 0 at the rate of the clip's keys; the floor is null if no
 foot ever stands. Feet and knees need a skeleton with legs.
 Exit code 0: nothing was found; 1: something was; 2: the file cannot be read.

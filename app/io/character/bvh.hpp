@@ -7,11 +7,12 @@
 // colons, a ^Z or NUL at the end. A joint's position replaces its OFFSET.
 //
 // A file does not say whether that is so for the root too, which axis is up or how long its unit is:
-// judge_space() finds out (bvh_space.hpp). Memory stays below a constant times the size of the file.
+// judge_space() finds out. Memory stays below a constant times the size of the file.
 #pragma once
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "app/io/character/character.hpp"
 #include "app/io/character/progress.hpp"
@@ -21,6 +22,16 @@ namespace tendril::app {
 /// `name` is the file's, for messages: `walk.bvh, line 12: expected CHANNELS, found "OFFSET"`. Throws
 /// std::runtime_error.
 Character parse_bvh(std::string_view text, const std::string& name, LoadProgress* progress = nullptr);
+
+/// Decides what a file leaves open: which axis points up, whether a root's positions replace its OFFSET or
+/// are added to it, how long its unit is, and how the figure stands when it does not move. All of it is
+/// judged by the zero pose and the motion together, if legs and a head are found; without them Y is up,
+/// positions replace the OFFSET, and only the unit is guessed.
+///
+/// `nodes` rest in the zero pose, at their OFFSETs. `character` has the motion and the root offsets in the
+/// file's units and axes, with the roots' positions as they stand there. Sets the scale, the space and the
+/// skeleton, converts the motion, and says what was guessed.
+void judge_space(Character& character, std::vector<humanoid::Node> nodes);
 
 /// The clip at `rate` frames per second from time 0 to its duration, Y up, in metres, or in millimetres for a
 /// figure over 4.5 m; parse_bvh() guesses either correctly. Offsets are those of the rest pose, in the

@@ -7,7 +7,6 @@
 
 #include "app/document/units.hpp"
 #include "app/io/character/bvh.hpp"
-#include "app/io/character/bvh_space.hpp"
 #include "app/io/character/unique_names.hpp"
 
 namespace tendril::app {

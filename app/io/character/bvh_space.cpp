@@ -1,4 +1,4 @@
-#include "app/io/character/bvh_space.hpp"
+#include "app/io/character/bvh.hpp"
 
 #include <algorithm>
 #include <array>

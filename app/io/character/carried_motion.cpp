@@ -53,10 +53,7 @@ CarriedMotion carry_over(const Character& source, const std::filesystem::path& f
 }
 
 std::vector<std::string> guesses_of(const Character& character, const humanoid::BoneMap& map) {
-    std::vector<std::string> all;
-    const Character::Guesses& own = character.guesses;
-    for (const std::string& each : {own.up, own.positions, own.unit})
-        if (!each.empty()) all.push_back(each);
+    std::vector<std::string> all = character.sentences();
     std::string bones;
     for (std::size_t i = 0; i < humanoid::bone_count; ++i) {
         const humanoid::BoneMatch& match = map.bones[i];

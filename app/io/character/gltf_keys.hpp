@@ -16,8 +16,6 @@ struct DroppedKeys {
     std::string first{};  ///< where
 
     bool any() const { return early + doubled + zero > 0; }
-    /// "Keys dropped: 3 before 0 s, 1 rotation of length 0 (first in clip bend, j1)."
-    std::string text() const;
 };
 
 namespace detail {

@@ -37,6 +37,18 @@ struct MendedNodes {
     }
 };
 
+/// "Keys dropped: 3 before 0 s, 1 rotation of length 0 (first in clip bend, j1)."
+std::string dropped_text(const DroppedKeys& keys) {
+    std::string list;
+    const auto add = [&](std::size_t count, const std::string& what) {
+        if (count > 0) list += (list.empty() ? "" : ", ") + std::to_string(count) + ' ' + what;
+    };
+    add(keys.early, "before 0 s");
+    add(keys.doubled, "with another at the same time");
+    add(keys.zero, std::string(keys.zero == 1 ? "rotation" : "rotations") + " of length 0");
+    return "Keys dropped: " + list + " (first in " + keys.first + ").";
+}
+
 /// Translation, rotation and scale of a column-major matrix, as in glTF; shear is lost.
 rig::Transform decomposed(const std::vector<double>& m) {
     humanoid::Placement placement;
@@ -113,7 +125,7 @@ class GltfReader {
         for (std::size_t i = 0; i < model_.nodes.size(); ++i)
             local.push_back(humanoid::placement(local_of(model_.nodes[i], i)));
         character.skin = gltf_skin(model_, {parents_, place_}, local, dropped_, character.notes);
-        if (dropped_.any()) character.notes.push_back(dropped_.text());
+        if (dropped_.any()) character.notes.push_back(dropped_text(dropped_));
         return character;
     }
 

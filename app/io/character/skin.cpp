@@ -136,6 +136,8 @@ void SkinBuilder::add_part(const std::string& what, Corners corners, std::vector
             throw std::runtime_error(what + ": vertex " + std::to_string(i) + " has no finite position");
     if (corners.normals.size() != count) corners.normals = normals_of(corners.positions, indices);
     for (glm::vec3& normal : corners.normals) normal = unit(normal);
+    for (glm::vec2& uv : corners.uvs)
+        if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) uv = glm::vec2(0.0f);
 
     // Attributes that only some parts have get defaults in the others.
     if (!corners.uvs.empty() && mesh_.uvs.size() < first) mesh_.uvs.resize(first, glm::vec2(0.0f));

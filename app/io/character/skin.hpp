@@ -74,8 +74,8 @@ class SkinBuilder {
         std::size_t only_joint = 0;  ///< for vertices without influences
     };
     /// Adds triangles with one material; `indices` count the part's vertices from 0. Throws
-    /// std::runtime_error that begins with `what` for an index out of range, a number that is not finite, or
-    /// too many vertices.
+    /// std::runtime_error that begins with `what` for an index out of range, a position that is not finite,
+    /// or too many vertices; a texture coordinate that is not finite becomes 0.
     void add_part(const std::string& what, Corners corners, std::vector<std::uint32_t> indices,
                   SkinPart material);
     /// Adds a morph of the last part. Returns its index.

@@ -26,6 +26,19 @@ std::size_t pixels(const glm::ivec2& size) {
     return static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y);
 }
 
+/// Whether a PNG has the bytes that its chunks claim: stb allocates them before it looks. Other files pass.
+bool has_its_chunks(std::string_view bytes) {
+    if (!bytes.starts_with("\x89PNG")) return true;
+    std::size_t at = 8;
+    while (at + 8 <= bytes.size()) {
+        std::size_t length = 0;
+        for (std::size_t i = 0; i < 4; ++i) length = length << 8 | static_cast<unsigned char>(bytes[at + i]);
+        if (length > bytes.size() - at - 8) return false;
+        at += 8 + length + 4;
+    }
+    return true;
+}
+
 /// Each pixel is the mean of four.
 Picture halved(const Picture& whole) {
     Picture half;
@@ -54,7 +67,8 @@ std::int32_t SkinBuilder::add_picture(std::string_view bytes) {
     Picture picture;
     const auto* const data = reinterpret_cast<const stbi_uc*>(bytes.data());
     const int length = static_cast<int>(std::min<std::size_t>(bytes.size(), 1u << 30));
-    if (!stbi_info_from_memory(data, length, &picture.size.x, &picture.size.y, &channels) ||
+    if (!has_its_chunks(bytes) ||
+        !stbi_info_from_memory(data, length, &picture.size.x, &picture.size.y, &channels) ||
         picture.size.x <= 0 || picture.size.y <= 0 ||
         pixels(picture.size) > std::min(max_pixels, max_pixels_of_byte * bytes.size()))
         return -1;

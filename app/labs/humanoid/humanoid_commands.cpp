@@ -4,18 +4,7 @@
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "app/labs/kit/arguments.hpp"
 
-// Commands on selection and view, which leave no undo step, and on the flip rule; the fields of the file's
-// axes.
-
-template <>
-std::span<const tendril::Field> tendril::fields<tendril::app::FileSpace>() noexcept {
-    using namespace app;
-    static constexpr auto axes = up_axes.name_array();
-    static constexpr auto ways = root_positions.name_array();
-    static constexpr Field rows[] = {field<&FileSpace::up>("axis", axes),
-                                     field<&FileSpace::positions>("positions", ways)};
-    return rows;
-}
+// Commands on selection and view, which leave no undo step, and on the flip rule.
 
 template <>
 std::span<const tendril::Field> tendril::fields<tendril::app::HumanoidView>() noexcept {
@@ -32,28 +21,6 @@ std::span<const tendril::Field> tendril::fields<tendril::app::HumanoidView>() no
 }
 
 namespace tendril::app {
-
-template <>
-std::span<const FieldText> field_texts<FileSpace>() {
-    static constexpr FieldText texts[] = {
-        {.name = "axis",
-         .label = "up axis",
-         .help =
-             "The axis of the file that points up. A BVH does not say, so it is found from the zero pose and "
-             "the motion; of FBX and glTF, Y means up as the file says",
-         .more = true,
-         .listed = true,
-         .choices = up_axes.rows},
-        {.name = "positions",
-         .label = "root",
-         .help =
-             "What the positions of the root in a BVH do: replace its OFFSET or be added to it. Chosen so "
-             "that the feet are on the floor",
-         .more = true,
-         .listed = true,
-         .choices = root_positions.rows}};
-    return texts;
-}
 
 template <>
 std::span<const FieldText> field_texts<HumanoidView>() {

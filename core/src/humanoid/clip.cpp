@@ -6,6 +6,7 @@
 
 #include "rig/checks.hpp"
 #include "rig/math.hpp"
+#include "tendril/humanoid/lint.hpp"
 
 namespace tendril::humanoid {
 namespace {
@@ -162,16 +163,46 @@ void sample(const Clip& clip, const Skeleton& skeleton, double time,
                      placed_node(skeleton, pose, skeleton[node].keys->parent) * placement(pose[node]));
 }
 
-Frames frames_at(const Clip& clip, double rate) noexcept {
-    const std::vector<double>* own = nullptr;
+namespace {
+
+/// Of the track with the most keys; null if none has two.
+const std::vector<double>* densest_times(const Clip& clip) noexcept {
+    const std::vector<double>* densest = nullptr;
     const auto look_at = [&](const std::vector<double>& times) {
-        if (times.size() > 1 && (!own || times.size() > own->size())) own = &times;
+        if (times.size() > 1 && (!densest || times.size() > densest->size())) densest = &times;
     };
     for (const Channel& channel : clip.channels) {
         look_at(channel.translation.times);
         look_at(channel.rotation.times);
         look_at(channel.scale.times);
     }
+    return densest;
+}
+
+}  // namespace
+
+double frame_rate(const Clip& clip) noexcept {
+    constexpr double otherwise = 60.0;
+    if (clip.rate >= 20.0 && clip.rate <= 1000.0) return clip.rate;
+    const std::vector<double>* const densest = densest_times(clip);
+    if (!densest) return otherwise;
+    // The median step: missing keys make some longer, and a clip's end may make one shorter.
+    std::vector<double> steps;
+    for (std::size_t i = 1; i < densest->size(); ++i) steps.push_back((*densest)[i] - (*densest)[i - 1]);
+    std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2),
+                     steps.end());
+    double step = steps[steps.size() / 2];
+    // Times in files are rounded: the whole range gives a better step, if it is a whole number of steps.
+    const double whole = densest->back() - densest->front(), count = std::floor(whole / step + 0.5);
+    if (count > 0.0 && std::abs(whole / count - step) < 0.01 * step) step = whole / count;
+    const double rate = 1.0 / step;
+    if (!(rate > 20.0 * 0.999 && rate <= 1000.0)) return otherwise;
+    const double nearest = std::floor(rate + 0.5);
+    return std::abs(rate - nearest) < 1e-3 * nearest ? nearest : rate;
+}
+
+Frames frames_at(const Clip& clip, double rate) noexcept {
+    const std::vector<double>* const own = densest_times(clip);
     constexpr double same_rate = 1e-3;
     if (own && own->front() == 0.0 && clip.duration - own->back() < 1e-9) {
         const double steps = static_cast<double>(own->size() - 1), step = clip.duration / steps;

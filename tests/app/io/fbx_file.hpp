@@ -240,4 +240,48 @@ class FbxScene {
     std::vector<FbxRecord> objects_{}, connections_{};
 };
 
+/// Two bones and a mesh that follows them, animated: one of each kind of object.
+inline FbxScene bent_leg() {
+    FbxScene scene;
+    const std::int64_t hips =
+        scene.model("Hips", 0, {FbxScene::vector("Lcl Translation", {0.0, 100.0, 0.0})});
+    const std::int64_t knee =
+        scene.model("Knee", hips, {FbxScene::vector("Lcl Translation", {0.0, -50.0, 0.0})});
+    const std::int64_t body = scene.model("Body", 0, {}, "Mesh");
+    const std::int64_t mesh = scene.add(
+        "Geometry", "", "Mesh",
+        {FbxScene::list("Vertices", std::vector<double>{0, 100, 0, 10, 100, 0, 0, 50, 0, 10, 50, 0}),
+         FbxScene::list("PolygonVertexIndex", std::vector<std::int64_t>{0, 1, 3, -3})});
+    scene.connect(mesh, body);
+    const std::int64_t skin = scene.add("Deformer", "", "Skin");
+    scene.connect(skin, mesh);
+    const auto cluster = [&](std::int64_t bone, std::vector<std::int64_t> points, double y) {
+        const std::int64_t id =
+            scene.add("Deformer", "", "Cluster",
+                      {FbxScene::list("Indexes", points),
+                       FbxScene::list("Weights", std::vector<double>(points.size(), 1.0)),
+                       FbxScene::list("Transform",
+                                      std::vector<double>{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -y, 0, 1})});
+        scene.connect(id, skin);
+        scene.connect(bone, id);
+    };
+    cluster(hips, {0, 1}, 100.0);
+    cluster(knee, {2, 3}, 50.0);
+    const std::int64_t shapes = scene.add("Deformer", "", "BlendShape");
+    scene.connect(shapes, mesh);
+    const std::int64_t channel = scene.add("Deformer", "smile", "BlendShapeChannel");
+    scene.connect(channel, shapes);
+    const std::int64_t shape = scene.add("Geometry", "smile", "Shape",
+                                         {FbxScene::list("Indexes", std::vector<std::int64_t>{1}),
+                                          FbxScene::list("Vertices", std::vector<double>{0, 0, 20})});
+    scene.connect(shape, channel);
+    const std::int64_t layer = scene.layer(scene.stack("bend", 1.0));
+    scene.animate(layer, hips, "Lcl Rotation", {{}, {}, {{0.0, 0.0}, {1.0, 90.0}}}, glm::dvec3(0.0));
+    const std::int64_t weight = scene.add("AnimationCurveNode", "", "");
+    scene.connect(weight, layer);
+    scene.connect(weight, channel, "DeformPercent");
+    scene.connect(scene.curve({{0.0, 0.0}, {1.0, 50.0}}), weight, "d|DeformPercent");
+    return scene;
+}
+
 }  // namespace tendril::test

@@ -71,4 +71,25 @@ class GltfText {
     std::vector<std::string> views_{};
 };
 
+/// A triangle on one bone, with a base colour texture; `texture` and `info` add members to it.
+inline GltfText textured(const std::string& image, const std::string& texture = R"("source":0)",
+                         const std::string& info = "") {
+    GltfText file;
+    const std::string positions = file.vectors({0, 0, 0, 1, 0, 0, 0, 1, 0}),
+                      joints = file.add<unsigned char>("VEC4", 4, std::vector<unsigned char>(12, 0)),
+                      weights = file.quaternions({1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}),
+                      uvs = file.add<float>("VEC2", 2, {0, 0, 1, 0, 0, 0.5f});
+    file.members =
+        R"("nodes":[{"name":"bone"},{"mesh":0,"skin":0}],"skins":[{"joints":[0]}],"meshes":[{"primitives":[{)"
+        R"("material":0,"attributes":{"POSITION":)" +
+        positions + R"(,"JOINTS_0":)" + joints + R"(,"WEIGHTS_0":)" + weights + R"(,"TEXCOORD_0":)" + uvs +
+        R"(}}]}],"materials":[{"pbrMetallicRoughness":{"baseColorFactor":[1,0,0,1],"baseColorTexture":{"index":0)" +
+        info + R"(}}}],"textures":[{)" + texture + R"(}],"images":[{)" + image + "}]";
+    return file;
+}
+
+/// One white pixel.
+inline const std::string white_png = from_base64(
+    "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAQAAAC1HAwCAAAAC0lEQVR42mP8/x8AAwMCAO+ip1sAAAAASUVORK5CYII=");
+
 }  // namespace tendril::app::test_gltf

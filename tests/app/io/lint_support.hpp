@@ -96,6 +96,12 @@ class Frames {
     std::string name_;
 };
 
+inline std::string texts(const LintReport& report) {
+    std::string all;
+    for (const Finding& each : report.findings) all += each.text + '\n';
+    return all;
+}
+
 class LintFigure : public ::testing::Test {
   protected:
     const Character figure = stick_figure();
@@ -108,11 +114,6 @@ class LintFigure : public ::testing::Test {
     LintReport run(const Clip& clip) const {
         EXPECT_TRUE(check(clip, skeleton)) << check(clip, skeleton).message();
         return lint(skeleton, map, clip);
-    }
-    static std::string texts(const LintReport& report) {
-        std::string all;
-        for (const Finding& each : report.findings) all += each.text + '\n';
-        return all;
     }
 };
 

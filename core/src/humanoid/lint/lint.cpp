@@ -65,34 +65,6 @@ const char* name(Fault fault) noexcept {
     return names[static_cast<std::size_t>(fault)];
 }
 
-double frame_rate(const Clip& clip) noexcept {
-    constexpr double otherwise = 60.0;
-    if (clip.rate >= 20.0 && clip.rate <= 1000.0) return clip.rate;
-    const std::vector<double>* densest = nullptr;
-    const auto look_at = [&](const std::vector<double>& times) {
-        if (times.size() > 1 && (!densest || times.size() > densest->size())) densest = &times;
-    };
-    for (const Channel& channel : clip.channels) {
-        look_at(channel.translation.times);
-        look_at(channel.rotation.times);
-        look_at(channel.scale.times);
-    }
-    if (!densest) return otherwise;
-    // The median step: missing keys make some longer, and a clip's end may make one shorter.
-    std::vector<double> steps;
-    for (std::size_t i = 1; i < densest->size(); ++i) steps.push_back((*densest)[i] - (*densest)[i - 1]);
-    std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2),
-                     steps.end());
-    double step = steps[steps.size() / 2];
-    // Times in files are rounded: the whole range gives a better step, if it is a whole number of steps.
-    const double whole = densest->back() - densest->front(), count = std::floor(whole / step + 0.5);
-    if (count > 0.0 && std::abs(whole / count - step) < 0.01 * step) step = whole / count;
-    const double rate = 1.0 / step;
-    if (!(rate > 20.0 * 0.999 && rate <= 1000.0)) return otherwise;
-    const double nearest = std::floor(rate + 0.5);
-    return std::abs(rate - nearest) < 1e-3 * nearest ? nearest : rate;
-}
-
 LintReport lint(const Skeleton& skeleton, const BoneMap& given, const Clip& clip,
                 const LintSettings& settings) {
     const BoneMap& map = detail::map_or_none(given, skeleton);
