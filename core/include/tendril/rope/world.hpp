@@ -27,8 +27,6 @@
 // bodies in proportion to size: max_pass_work, and that on searches for a way out of colliders.
 #pragma once
 
-#include <optional>
-
 #include "tendril/result.hpp"
 #include "tendril/rope/state.hpp"
 #include "tendril/rope/workspace.hpp"
