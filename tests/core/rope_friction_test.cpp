@@ -130,5 +130,42 @@ TEST(RopeFriction, WithoutAnyItRunsOff) {
     EXPECT_GE(runs_off(Solver::Direct, 0.0f, 1.2, 128, 1.0), 0.3);
 }
 
+/// A body's own friction holds it where the settings' would not, on every kind of solver.
+TEST(RopeFriction, OfABodyIsItsOwn) {
+    for (const Solver solver : all_solvers) {
+        World world = world_with({.solver = solver, .damping = 0.0f, .friction = 0.1f});
+        const float c = std::cos(0.3f), s = std::sin(0.3f);
+        const glm::vec3 up{-s, c, 0}, along(c, s, 0);
+        world.add_collider("slope", Plane{{0, 0, 0}, up});
+        for (const auto& [name, z] : {std::pair{"slides", 0.0f}, {"stays", 1.0f}}) {
+            const glm::vec3 from = 0.02f * up + glm::vec3(0, 0, z);
+            world.add_rope(name, {.from = from, .to = from + along, .segments = 16});
+        }
+        for (const auto& [name, z] : {std::pair{"cloth slides", 2.0f}, {"cloth stays", 4.0f}})
+            world.add_cloth(name, {.corner = 0.01f * up + glm::vec3(0, 0, z),
+                                   .along = along,
+                                   .down = {0, 0, 1},
+                                   .columns = 6,
+                                   .rows = 6});
+        allow(world.set_friction(world.id("stays"), 0.6f));
+        allow(world.set_friction(world.id("cloth stays"), 0.6f));
+        const auto middle = [&](const char* name) { return world.position(world.particle(name, 8)); };
+        const glm::vec3 rope = middle("stays"), cloth = middle("cloth stays"), other = middle("slides"),
+                        sheet = middle("cloth slides");
+        EXPECT_TRUE(same_bits(World(world.state()).state(), world.state()));
+        run(world, 1.0);
+        EXPECT_LT(distance(middle("stays"), rope), 0.002) << name(solver);
+        EXPECT_LT(distance(middle("cloth stays"), cloth), 0.02) << name(solver);
+        EXPECT_GT(distance(middle("slides"), other), 0.5) << name(solver);
+        EXPECT_GT(distance(middle("cloth slides"), sheet), 0.5) << name(solver);
+        EXPECT_FALSE(world.set_friction(world.id("stays"), -1.0f));
+        EXPECT_FALSE(world.set_friction(world.id("stays"), 101.0f));
+        EXPECT_FALSE(world.set_friction({}, 0.5f));
+        allow(world.set_friction(world.id("stays"), std::nullopt));
+        run(world, 1.0);
+        EXPECT_GT(distance(middle("stays"), rope), 0.5) << name(solver);
+    }
+}
+
 }  // namespace
 }  // namespace tendril::test

@@ -57,8 +57,9 @@ class StateBits {
         if (wind != glm::vec3(0.0f)) add(wind, gusts);
     }
     void put(const rope::Body& body) {
-        const auto& [id, kind, first, count, row, radius, tear, stretch] = body;
+        const auto& [id, kind, first, count, row, radius, tear, friction, stretch] = body;
         add(id, kind, first, count, row, radius, tear, stretch);
+        if (friction) add(*friction);
     }
     void put(const rope::Link& link) {
         const auto& [a, b, rest, kind, compliance, tension] = link;

@@ -142,6 +142,9 @@ void NamedWorld::set_radius(std::string_view body, float metres) {
 void NamedWorld::set_compliance(std::string_view body, rope::Link::Kind kind, float compliance) {
     require_ok(world_.set_compliance(id(body), kind, compliance));
 }
+void NamedWorld::set_friction(std::string_view body, std::optional<float> friction) {
+    require_ok(world_.set_friction(id(body), friction));
+}
 void NamedWorld::set_tear(std::string_view body, float tear) {
     require_ok(world_.set_tear(id(body), tear));
 }

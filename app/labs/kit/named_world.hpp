@@ -1,6 +1,7 @@
 // A rope world with named bodies, colliders and ties: the library uses handles, users and files use names.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <tendril/rope/edit.hpp>
@@ -68,6 +69,7 @@ class NamedWorld {
     void set_density(std::string_view body, double density);
     void set_radius(std::string_view body, float metres);
     void set_compliance(std::string_view body, rope::Link::Kind kind, float compliance);
+    void set_friction(std::string_view body, std::optional<float> friction);
     void set_tear(std::string_view body, float tear);
     void rename(std::string_view body, const std::string& name);
     /// Each returns the particle that each particle of the body has become.

@@ -94,6 +94,7 @@ Json save_body(const rope::Body& body, const std::string& name) {
               {"first", body.first}, {"count", body.count},
               {"row", body.row},     {"radius", number(body.radius)}};
     if (body.tear != 0.0f) json["tear"] = number(body.tear);
+    if (body.friction) json["friction"] = number(*body.friction);
     if (body.stretch != 0.0f) json["stretch"] = number(body.stretch);
     return json;
 }
@@ -112,6 +113,7 @@ rope::Body load_body(const JsonPlace& place) {
     body.row = place["row"].index(max_lab_particles);
     body.radius = place["radius"].number();
     if (const auto tear = place.optional("tear")) body.tear = tear->number();
+    if (const auto friction = place.optional("friction")) body.friction = friction->number();
     if (const auto stretch = place.optional("stretch")) body.stretch = stretch->number();
     return body;
 }

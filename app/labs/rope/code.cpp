@@ -137,10 +137,16 @@ class RopeProgram {
         list("    state.settings = {", member_texts(state.settings, "rope::Solver::"), "};", "        ");
         for (const rope::Body& body : state.bodies) {
             name(world_.name(body));
-            add("bodies", {".id = {}", std::string(".kind = ") + kind_text(body.kind),
-                           ".first = " + std::to_string(body.first), ".count = " + std::to_string(body.count),
-                           ".row = " + std::to_string(body.row), ".radius = " + literal(body.radius),
-                           ".tear = " + literal(body.tear), ".stretch = " + literal(body.stretch)});
+            std::vector<std::string> members{".id = {}",
+                                             std::string(".kind = ") + kind_text(body.kind),
+                                             ".first = " + std::to_string(body.first),
+                                             ".count = " + std::to_string(body.count),
+                                             ".row = " + std::to_string(body.row),
+                                             ".radius = " + literal(body.radius),
+                                             ".tear = " + literal(body.tear)};
+            if (body.friction) members.push_back(".friction = " + literal(*body.friction));
+            members.push_back(".stretch = " + literal(body.stretch));
+            add("bodies", members);
         }
         if (!state.position.empty()) {
             say("for (const Particle& each : particles) {");

@@ -22,6 +22,7 @@ std::span<const tendril::Field> tendril::fields<tendril::app::BodySettings>() no
         field<&BodySettings::mass>("mass", {1e-9, max_magnitude}, "kg"),
         field<&BodySettings::density>("density", {rope::min_density, max_magnitude}, "kg/m"),
         field<&BodySettings::radius>("radius", any, "m"),
+        field<&BodySettings::friction>("friction", {0.0, rope::max_friction}),
         field<&BodySettings::stretch>("stretch", any, "1/N"),
         field<&BodySettings::shear>("shear", any, "m/N"),
         field<&BodySettings::bend>("bend", any, "m/N"),
@@ -102,6 +103,10 @@ std::span<const FieldText> field_texts<BodySettings>() {
          .help = "Half its thickness: how far its particles keep from colliders.",
          .step = 0.0005f,
          .decimals = 4},
+        {.name = "friction",
+         .label = "friction",
+         .help =
+             "Coulomb's coefficient between it and colliders. Set to the world's, it follows that again."},
         {.name = "stretch",
          .label = "stretch",
          .help =
@@ -305,6 +310,7 @@ BodySettings settings_of(const NamedWorld& world, const rope::Body& body) {
     BodySettings settings{.length = static_cast<float>(world.length(body)),
                           .mass = world.world().mass(body),
                           .radius = body.radius,
+                          .friction = body.friction.value_or(world.settings().friction),
                           .stretch = compliance(Kind::Stretch)};
     if (const double density = world.world().density(body); density > 0.0) settings.density = density;
     if (body.kind != rope::Body::Kind::Rope) settings.bend = compliance(Kind::Bend);
@@ -343,6 +349,10 @@ void set_body(RopeEdit& edit, const std::string& name, const Arguments& given) {
     if (given.has("mass")) world.set_mass(name, wanted.mass);
     if (given.has("density")) world.set_density(name, *wanted.density);
     if (wanted.radius != now.radius) world.set_radius(name, wanted.radius);
+    if (given.has("friction")) {
+        const bool own = wanted.friction != world.settings().friction;
+        world.set_friction(name, own ? std::optional(wanted.friction) : std::nullopt);
+    }
     if (wanted.stretch != now.stretch) world.set_compliance(name, Kind::Stretch, wanted.stretch);
     if (wanted.shear != now.shear) world.set_compliance(name, Kind::Shear, *wanted.shear);
     if (wanted.bend != now.bend) world.set_compliance(name, Kind::Bend, *wanted.bend);

@@ -20,6 +20,7 @@ struct BodySettings {
     double mass = 1.0;                     ///< kilograms, of the whole body
     std::optional<double> density{};       ///< kg/m, of a cloth kg/m^2; none of a body without length
     float radius = 0.02f;                  ///< metres: half of its thickness
+    float friction = 0.0f;                 ///< the world's, unless it has its own
     /// Strain per newton: of a rope, a strand, or a strip of cloth a metre wide.
     float stretch = 0.0f;
     /// Compliance of its links, m/N.

@@ -44,6 +44,11 @@ double compliance(const Settings& settings, const Link& link) noexcept;
 /// The relative length error of a stretch link, or its length if its rest is 0; 0 for other links.
 double length_error(const State& state, const Link& link) noexcept;
 
+/// Coulomb's coefficient of a body.
+inline double friction(const State& state, const Body& body) noexcept {
+    return static_cast<double>(body.friction.value_or(state.settings.friction));
+}
+
 /// The distance that a tie keeps in a substep of h seconds, metres.
 double distance_kept(const Tie& tie, double h) noexcept;
 

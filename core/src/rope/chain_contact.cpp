@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rope/build.hpp"
 #include "rope/chain_newton.hpp"
 #include "rope/contact_shape.hpp"
 #include "rope/geometry.hpp"
@@ -226,7 +227,7 @@ bool ChainNewton::update_planes(ContactScratch::Contact& contact) {
 void ChainNewton::rub(ContactScratch::Contact& contact) {
     const detail::ChainNode& node = s_.nodes[contact.node];
     detail::NodeContact& hold = s_.holds[static_cast<std::size_t>(node.contact)];
-    const double friction = static_cast<double>(state_.settings.friction);
+    const double friction = detail::friction(state_, state_.bodies[plan_.chains[chain_].body]);
     hold.drag = 0.0;
     if (hold.planes == 0 || friction == 0.0) return;
     dvec3 by(0.0);
@@ -303,7 +304,7 @@ bool ChainNewton::update_link(ContactScratch::LinkContact& contact) {
 /// Friction of a link: its ends share the drag.
 void ChainNewton::rub_link(const ContactScratch::LinkContact& contact) {
     const detail::BondContact& hold = s_.bond_holds[static_cast<std::size_t>(s_.bonds[contact.bond].contact)];
-    const double friction = static_cast<double>(state_.settings.friction);
+    const double friction = detail::friction(state_, state_.bodies[plan_.chains[chain_].body]);
     const double normal = std::max(0.0, hold.multiplier);
     if (friction == 0.0 || normal == 0.0) return;
     const detail::ChainNode &a = s_.nodes[contact.bond], &b = s_.nodes[contact.bond + 1];

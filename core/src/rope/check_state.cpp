@@ -91,6 +91,8 @@ Result check_body(const State& state, std::size_t i, std::size_t next) {
         {"radius", body.radius}, {"tear", body.tear}, {"stretch", body.stretch}};
     for (const auto& [member, value] : lengths)
         if (const Result r = check_length(op, Argument("bodies", i, member), value); !r) return r;
+    if (body.friction && !(*body.friction >= 0.0f && static_cast<double>(*body.friction) <= max_friction))
+        return refused(op, Argument("bodies", i, "friction"), "0 to 100", *body.friction);
     return {};
 }
 

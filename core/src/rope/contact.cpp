@@ -9,6 +9,7 @@
 #include <limits>
 #include <optional>
 
+#include "rope/build.hpp"
 #include "rope/contact_shape.hpp"
 #include "rope/geometry.hpp"
 #include "rope/substep.hpp"
@@ -116,14 +117,14 @@ Touch& Substep::touch(std::uint32_t i, std::uint32_t collider, const dvec3& norm
     return touch;
 }
 
-void Substep::apply_friction(std::uint32_t i) {
+void Substep::apply_friction(std::uint32_t i, std::uint32_t body) {
     Touch& touch = scratch_.touch[i];
     const double normal_part = detail::dot(touch.displacement, touch.normal);
     const dvec3 friction = touch.displacement - normal_part * touch.normal;
     const dvec3 slip = scratch_.place[i] - state_.position[i] - touch.collider_displacement;
     dvec3 wanted = friction - (slip - detail::dot(slip, touch.normal) * touch.normal);
     const double size = detail::length(wanted),
-                 limit = static_cast<double>(state_.settings.friction) * normal_part;
+                 limit = detail::friction(state_, state_.bodies[body]) * normal_part;
     if (size > limit) wanted = (limit / size) * wanted;
     scratch_.place[i] += wanted - friction;
     touch.displacement = normal_part * touch.normal + wanted;
@@ -161,7 +162,7 @@ void Substep::resolve_particle(std::uint32_t i, std::uint32_t number, std::uint3
     Touch& contact = touch(i, number, surface.normal);
     if (detail::dot(contact.normal, surface.normal) < 0.9) return;  // the second of two
     contact.displacement += depth * surface.normal;
-    apply_friction(i);
+    apply_friction(i, body);
 }
 
 /// Records that a collider displaced a body by `depth`.
@@ -196,7 +197,7 @@ void Substep::resolve_link(const Link& link, std::uint32_t number, std::uint32_t
         Touch& contact = touch(i, number, surface.normal);
         if (detail::dot(contact.normal, surface.normal) < 0.9) return;
         contact.displacement += by * surface.normal;
-        apply_friction(i);
+        apply_friction(i, body);
     };
     displace(link.a, depth * share_a / shares);
     displace(link.b, depth * share_b / shares);

@@ -89,7 +89,7 @@ void ImplicitStep::rub(ClothContact& contact) const {
     dvec3& slip = contact.slip;
     slip = contact.at - between(contact, state_.position) - collider_of(contact).by_at(contact.at);
     slip -= detail::dot(slip, n) * n;
-    const double size = detail::length(slip), most = state_.settings.friction * contact.force;
+    const double size = detail::length(slip), most = friction_of(contact) * contact.force;
     contact.drag = size * stiffness_ > most ? most / size : stiffness_;
 }
 

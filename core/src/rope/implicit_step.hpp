@@ -4,6 +4,7 @@
 // previous solve: M. Li et al., "Incremental Potential Contact", 2020). Not installed.
 #pragma once
 
+#include "rope/build.hpp"
 #include "rope/scratch.hpp"
 
 namespace tendril::rope {
@@ -21,6 +22,10 @@ class ImplicitStep : protected IslandStep {
     double potential_of(const ClothContact& contact) const;
     const Scratch::Moving& collider_of(const ClothContact& contact) const {
         return scratch_.colliders[local_.near[contact.near].collider];
+    }
+    double friction_of(const ClothContact& contact) const {
+        const Plan::Chunk& chunk = plan_.chunks[local_.near[contact.near].chunk];
+        return detail::friction(state_, state_.bodies[chunk.body]);
     }
     static glm::dvec3 between(const ClothContact& contact, const std::vector<glm::dvec3>& all) {
         return (1.0 - contact.t) * all[contact.a] + contact.t * all[contact.b];

@@ -26,6 +26,15 @@ Result World::set_radius(BodyId body, float metres) noexcept {
     return result;
 }
 
+Result World::set_friction(BodyId body, std::optional<float> friction) noexcept {
+    Body* const changed = found(body);
+    if (changed == nullptr) return missing("set_friction", "body", "body", body.index);
+    if (friction && !(*friction >= 0.0f && static_cast<double>(*friction) <= max_friction))
+        return refused("set_friction", "friction", "0 to 100", *friction);
+    changed->friction = friction;
+    return {};
+}
+
 Result World::set_tear(BodyId body, float tear) noexcept {
     Body* const changed = found(body);
     if (changed == nullptr) return missing("set_tear", "body", "body", body.index);

@@ -53,7 +53,7 @@ class Substep : IslandStep {
     void resolve_particle(std::uint32_t i, std::uint32_t collider, std::uint32_t body, bool first);
     void resolve_link(const Link& link, std::uint32_t collider, std::uint32_t body);
     void strike(std::uint32_t body, double depth);
-    void apply_friction(std::uint32_t i);  ///< Coulomb's friction
+    void apply_friction(std::uint32_t i, std::uint32_t body);  ///< Coulomb's friction
     Touch& touch(std::uint32_t i, std::uint32_t collider, const glm::dvec3& normal);
 
     // depenetration.cpp: what is still inside after the last pass

@@ -112,6 +112,23 @@ TEST_F(RopeSet, AHeldRopeIsDividedAndLetGo) {
     EXPECT_TRUE(world().pinned(0));
 }
 
+/// Saved and copied as C++; set to the world's, it follows that again.
+TEST_F(RopeSet, ABodyHasAFrictionOfItsOwn) {
+    run("rope.settings", {{"friction", 0.25}});
+    EXPECT_EQ(made_of("rope").friction, 0.25f);
+    run("rope.set", {{"rope", "rope"}, {"friction", 0.75}});
+    run("rope.settings", {{"friction", 0.5}});
+    EXPECT_EQ(made_of("rope").friction, 0.75f);
+    EXPECT_EQ(made_of("cloth").friction, 0.5f);
+    run("rope.copy");
+    EXPECT_NE(workspace.ui.copied.value().find(".friction = 0.75f"), std::string::npos);
+    load_scene(workspace, save_scene(workspace));
+    EXPECT_EQ(made_of("rope").friction, 0.75f);
+    run("rope.set", {{"rope", "rope"}, {"friction", 0.5}});
+    run("rope.settings", {{"friction", 0.125}});
+    EXPECT_EQ(made_of("rope").friction, 0.125f);
+}
+
 TEST_F(RopeSet, RenamesABody) {
     run("rope.select", {{"rope", "rope"}, {"particle", 3}});
     run("rope.set", {{"rope", "rope"}, {"name", "line"}});

@@ -30,6 +30,8 @@ struct Body {
     /// Strain at which a stretch link of a cloth tears, 0.1 for 10 % over its rest; 0: never. Shear and bend
     /// links tear at 0.5 more.
     float tear = 0.0f;
+    /// Coulomb's coefficient between it and colliders, 0 to max_friction; empty: the settings'.
+    std::optional<float> friction{};
     /// Maximum relative length error of its stretch links, |length / rest - 1| (or the length if rest is 0),
     /// as the solver last left it; for hair before contact. World::length_error() includes contact.
     float stretch = 0.0f;

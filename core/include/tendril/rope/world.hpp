@@ -114,7 +114,8 @@ class World {
     double mass(const Body& body) const noexcept;
     /// Of its material, min_density to 1e9: kg/m of a rope or strand, kg/m^2 of a cloth.
     Result set_density(BodyId body, double density) noexcept;
-    double density(const Body& body) const noexcept;  ///< 0 for a body of length 0
+    double density(const Body& body) const noexcept;                           ///< 0 for a body of length 0
+    Result set_friction(BodyId body, std::optional<float> friction) noexcept;  ///< empty: the settings'
     /// Strain at which its links tear; 0: never.
     Result set_tear(BodyId body, float tear) noexcept;
     /// Of its links of that kind, 0 to 1e9. Of stretch links that of its material, in addition to the
