@@ -168,6 +168,7 @@ void body_rows(const NamedWorld& world, const rope::Body& body, Emit& emit) {
     if (settings.shear) rows.row("shear");
     if (settings.bend) rows.row("bend");
     if (settings.tear) rows.row("tear");
+    collision_rows(world, body, emit);
 }
 
 void particle_rows(const RopePart& part, const rope::Body& body, std::size_t index, Emit& emit) {
