@@ -16,12 +16,13 @@ class StateBits {
   public:
     explicit StateBits(const rope::State& state) {
         const auto& [settings, bodies, links, position, displacement, mass, pins, colliders, body_slots,
-                     collider_slots, ties, tie_slots, remainder, displaced_in, substeps, dropped, drift] =
-            state;
+                     collider_slots, ties, tie_slots, collisions, contacts, remainder, displaced_in, substeps,
+                     dropped, drift] = state;
         add(settings, bodies, links, position, displacement, mass, pins, colliders, body_slots,
             collider_slots, remainder, displaced_in, substeps, dropped);
         if (!tie_slots.empty()) add(ties, tie_slots);
         if (drift != glm::dvec3(0.0)) put(drift);
+        if (!collisions.empty()) add(collisions, contacts);
     }
     bool operator==(const StateBits&) const = default;
 
@@ -56,6 +57,8 @@ class StateBits {
             longest_frame);
         if (wind != glm::vec3(0.0f)) add(wind, gusts);
     }
+    void put(const rope::Collision& collision) { add(collision.a, collision.b); }
+    void put(const rope::BodyContact& contact) { add(contact.a, contact.b, contact.force); }
     void put(const rope::Body& body) {
         const auto& [id, kind, first, count, row, radius, tear, friction, stretch] = body;
         add(id, kind, first, count, row, radius, tear, stretch);

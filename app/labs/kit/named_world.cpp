@@ -199,6 +199,10 @@ void NamedWorld::untie(std::string_view name) {
     require_ok(world_.untie(tie_id(name)));
 }
 
+void NamedWorld::set_collides(std::string_view a, std::string_view b, bool on) {
+    require_ok(world_.set_collides(id(a), id(b), on));
+}
+
 void NamedWorld::add_collider(const std::string& name, const rope::Shape& shape) {
     if (name.empty()) refuse("add_collider", "not empty", name);
     if (find_collider(name) != nullptr) refuse("add_collider", "one that no other collider has", name);

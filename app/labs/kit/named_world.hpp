@@ -85,6 +85,8 @@ class NamedWorld {
     std::string tie(const std::string& name, std::size_t a, std::size_t b, const rope::TieShape& shape = {});
     void set_tie(std::string_view name, const rope::TieShape& shape);
     void untie(std::string_view name);
+    void set_collides(std::string_view a, std::string_view b, bool on);
+    bool collides(std::string_view a, std::string_view b) const { return world_.collides(id(a), id(b)); }
     void add_collider(const std::string& name, const rope::Shape& shape);
     void move_collider(std::string_view name, const glm::vec3& to, double seconds = 0.0);
     void move_capsule(std::string_view name, const rope::Capsule& to, double seconds = 0.0);

@@ -187,6 +187,47 @@ rope::Collider load_collider(const JsonPlace& place) {
     return collider;
 }
 
+/// Pairs of names, in the order of bodies.
+Json save_collisions(const NamedWorld& world) {
+    const auto& bodies = world.state().bodies;
+    Json pairs = Json::array();
+    for (std::size_t a = 0; a < bodies.size(); ++a)
+        for (std::size_t b = a; b < bodies.size(); ++b) {
+            const std::string &first = world.name(bodies[a]), &second = world.name(bodies[b]);
+            if (world.collides(first, second)) pairs.push_back({first, second});
+        }
+    return pairs;
+}
+
+void load_collisions(const JsonPlace& place, const Names& bodies, rope::State& state) {
+    const auto body = [&](const JsonPlace& name) {
+        const auto found = std::find(bodies.begin(), bodies.end(), name.text());
+        if (found == bodies.end()) name.fail("there is no body " + json_summary(name.json()));
+        return rope::BodyId{static_cast<std::uint32_t>(found - bodies.begin()), 1};  // as slots are numbered
+    };
+    place.for_each("collisions", bodies.size() * (bodies.size() + 1) / 2, [&](const JsonPlace& pair) {
+        if (!pair.json().is_array() || pair.json().size() != 2)
+            pair.fail("expected the names of two bodies, found " + json_summary(pair.json()));
+        const auto at = [&](std::size_t i) { return JsonPlace(pair.json()[i], pair.where()); };
+        state.collisions.push_back({body(at(0)), body(at(1))});
+    });
+}
+
+/// [a, b, x, y, z]
+rope::BodyContact load_contact(const JsonPlace& place, std::size_t particles) {
+    const Json& row = place.json();
+    if (!row.is_array() || row.size() != 5)
+        place.fail("expected [a, b, x, y, z], found " + json_summary(row));
+    const auto at = [&](std::size_t i) { return JsonPlace(row[i], place.where()); };
+    const std::size_t last = particles == 0 ? 0 : particles - 1;
+    rope::BodyContact contact;
+    contact.a = static_cast<std::uint32_t>(at(0).index(last));
+    contact.b = static_cast<std::uint32_t>(at(1).index(last));
+    for (int i = 0; i < 3; ++i)
+        contact.force[i] = json_real(row[static_cast<std::size_t>(i) + 2], place.where());
+    return contact;
+}
+
 }  // namespace
 
 const char* body_kind_name(rope::Body::Kind kind) {
@@ -239,9 +280,16 @@ Json save_world(const NamedWorld& world) {
               {"pins", std::move(pins)},
               {"particles", std::move(particles)},
               {"links", std::move(links)}};
-    if (state.ties.empty()) return json;
-    Json& ties = json["ties"] = Json::array();
-    for (const rope::Tie& tie : state.ties) ties.push_back(save_tie(tie, world.name(tie)));
+    if (!state.ties.empty()) {
+        Json& ties = json["ties"] = Json::array();
+        for (const rope::Tie& tie : state.ties) ties.push_back(save_tie(tie, world.name(tie)));
+    }
+    if (!state.collisions.empty()) {
+        json["collisions"] = save_collisions(world);
+        Json& contacts = json["contacts"] = Json::array();
+        for (const rope::BodyContact& each : state.contacts)
+            contacts.push_back({each.a, each.b, each.force.x, each.force.y, each.force.z});
+    }
     return json;
 }
 
@@ -278,6 +326,12 @@ NamedWorld load_world(const JsonPlace& place) {
             state.ties.push_back(load_tie(each, size));
             tie_names.push_back(each["name"].text());
         });
+    if (const auto collisions = place.optional("collisions")) {
+        load_collisions(*collisions, body_names, state);
+        place["contacts"].for_each("contacts", 8 * max_lab_particles, [&](const JsonPlace& row) {
+            state.contacts.push_back(load_contact(row, size));
+        });
+    }
     return {std::move(state), body_names, collider_names, tie_names};
 }
 

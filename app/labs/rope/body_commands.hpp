@@ -26,6 +26,7 @@ void add_world_commands(CommandTable& table);
 void add_body_commands(CommandTable& table);
 void add_collider_commands(CommandTable& table);
 void add_tie_commands(CommandTable& table);
+void add_collision_commands(CommandTable& table);
 void add_look_commands(CommandTable& table);
 
 }  // namespace tendril::app

@@ -179,6 +179,14 @@ class RopeProgram {
             add("pins", {".particle = " + std::to_string(pin.particle), ".goal = " + braced(pin.goal),
                          ".seconds = " + double_text(pin.seconds), ".collider = " + holder});
         }
+        for (std::size_t a = 0; a < state.bodies.size(); ++a)
+            for (std::size_t b = a; b < state.bodies.size(); ++b)
+                if (world_.world().collides(state.bodies[a].id, state.bodies[b].id))
+                    say("state.collisions.push_back({state.bodies[" + std::to_string(a) +
+                        "].id, state.bodies[" + std::to_string(b) + "].id});");
+        for (const rope::BodyContact& each : state.contacts)
+            add("contacts", {".a = " + std::to_string(each.a), ".b = " + std::to_string(each.b),
+                             ".force = " + braced(each.force)});
         say("state.remainder = " + double_text(state.remainder) + ';');
         say("state.displaced_in = " + double_text(state.displaced_in) + ';');
         say("return state;");

@@ -182,6 +182,7 @@ void body_rows(const NamedWorld& world, const rope::Body& body, Emit& emit) {
                    "Swaps its ends; pins, ties and motion stay where they are"))
         emit("rope.reverse", which);
     end_row();
+    collision_rows(world, body, emit);
 }
 
 void particle_rows(const RopePart& part, const rope::Body& body, std::size_t index, Emit& emit) {

@@ -28,6 +28,8 @@ glm::vec3 free_place(const Workspace& workspace, const Space& needed);
 void adding_rows(const Workspace& workspace, Emit& emit);
 /// How well lengths are kept.
 Verdict rope_verdict(const RopePart& part);
+/// Buttons for what a rope collides with.
+void collision_rows(const NamedWorld& world, const rope::Body& body, Emit& emit);
 /// Of a selected tie.
 void tie_rows(const RopePart& part, const rope::Tie& tie, Emit& emit);
 /// The selection, and actions on it.

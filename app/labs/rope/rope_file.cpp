@@ -237,6 +237,10 @@ Json RopeLab::state(const Workspace& workspace) const {
     Json ties = Json::array();
     const std::vector<OverPulled> pulled = over_pulled(world);
     for (const rope::Tie& tie : now.ties) ties.push_back(tie_state(world, tie, pulled));
+    Json collisions = Json::array();
+    for (const rope::Collision& each : now.collisions)
+        collisions.push_back(
+            {world.name(*world.world().find(each.a)), world.name(*world.world().find(each.b))});
     Json held = nullptr;
     if (part.hold)
         held = {{"rope", part.hold->body},
@@ -252,6 +256,8 @@ Json RopeLab::state(const Workspace& workspace) const {
                 {"hair", std::move(hair)},
                 {"colliders", std::move(colliders)},
                 {"ties", std::move(ties)},
+                {"collisions", std::move(collisions)},
+                {"contacts", now.contacts.size()},
                 {"substeps", now.substeps},
                 {"substeps_dropped", now.dropped},
                 {"settings", save_fields(now.settings)},

@@ -94,6 +94,7 @@ void RopeLab::add_commands(CommandTable& table) const {
     add_body_commands(table);
     add_collider_commands(table);
     add_tie_commands(table);
+    add_collision_commands(table);
     add_look_commands(table);
 }
 

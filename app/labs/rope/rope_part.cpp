@@ -11,7 +11,9 @@ std::size_t bytes_of(const rope::State& state) {
     constexpr std::size_t particle = 3 * sizeof(glm::dvec3) + sizeof(double);
     return state.position.size() * particle + state.links.size() * sizeof(rope::Link) +
            state.bodies.size() * sizeof(rope::Body) + state.pins.size() * sizeof(rope::Pin) +
-           state.colliders.size() * sizeof(rope::Collider) + state.ties.size() * sizeof(rope::Tie);
+           state.colliders.size() * sizeof(rope::Collider) + state.ties.size() * sizeof(rope::Tie) +
+           state.collisions.size() * sizeof(rope::Collision) +
+           state.contacts.size() * sizeof(rope::BodyContact);
 }
 
 }  // namespace

@@ -59,7 +59,9 @@ const std::vector<RopeSceneEntry>& rope_scenes() {
         {"line", "Cloth line", "A cloth tied to a rope, which bends under it, in a light wind", line_scene,
          view({0.0f, 1.15f, 0.0f}, -26.0f, 12.0f, 4.4f)},
         {"hangers", "Hanger bridge", "A deck hangs by ropes from two main ropes, every end tied",
-         hanger_scene, view({0.0f, 0.95f, 0.0f}, -30.0f, 14.0f, 6.2f)}};
+         hanger_scene, view({0.0f, 0.95f, 0.0f}, -30.0f, 14.0f, 6.2f)},
+        {"knot", "Knot", "A weight pulls a loose knot tight, in a rope that collides with itself", knot_scene,
+         view({0.0f, 1.35f, 0.0f}, -24.0f, 8.0f, 3.6f)}};
     return list;
 }
 
@@ -240,6 +242,47 @@ RopeScene hanger_scene() {
     }
     rope::Settings settings = world.settings();
     settings.damping = 1.0f;
+    world.set_settings(settings);
+    return scene;
+}
+
+/// An overhand knot in a hanging rope: a trefoil, cut open at the tip of a lobe, where its ends lead up and
+/// down.
+RopeScene knot_scene() {
+    RopeScene scene;
+    NamedWorld& world = scene.world;
+    add_ground(world);
+    constexpr float top = 2.3f, middle = 1.75f, size = 0.04f, depth = 0.065f, radius = 0.014f, opened = 0.15f;
+    constexpr int pieces = 240;
+    const auto trefoil = [](float t) {
+        // Turned so that the lobe that is cut points along +X.
+        constexpr float lobe = glm::pi<float>() / 3.0f, turn = -glm::pi<float>() / 6.0f;
+        t += lobe;
+        const float x = std::sin(t) + 2.0f * std::sin(2.0f * t), y = std::cos(t) - 2.0f * std::cos(2.0f * t);
+        const float c = std::cos(turn), s = std::sin(turn);
+        return glm::vec3(size * (c * x - s * y - 3.0f), middle + size * (s * x + c * y),
+                         -depth * std::sin(3.0f * t));
+    };
+    std::vector<glm::vec3> line;
+    for (int i = 0; i <= pieces; ++i)
+        line.push_back(
+            trefoil(opened + (glm::two_pi<float>() - 2.0f * opened) * static_cast<float>(i) / pieces));
+    if (line[0].y < line[1].y) std::reverse(line.begin(), line.end());
+    const glm::vec3 first = line.front(), last = line.back();
+    line.insert(line.begin(), {first.x, top, first.z});
+    line.push_back({last.x, last.y - 0.25f, last.z});
+    world.add_rope("rope", {.from = line.front(),
+                            .to = line.back(),
+                            .segments = 160,
+                            .radius = radius,
+                            .density = 0.3f,
+                            .pin_start = true});
+    lay(world, "rope", line);
+    weigh_down(world, "rope", 1, 0.5);
+    world.set_collides("rope", "rope", true);
+    rope::Settings settings = world.settings();
+    settings.damping = 0.6f;
+    settings.friction = 0.15f;
     world.set_settings(settings);
     return scene;
 }

@@ -40,6 +40,7 @@ RopeScene curtain_scene();
 RopeScene flag_scene();
 RopeScene line_scene();
 RopeScene hanger_scene();
+RopeScene knot_scene();
 
 /// Adds the ground that every scene has.
 void add_ground(NamedWorld& world);

@@ -131,11 +131,26 @@ void Workspace::Parts::add_up(Advance& done) {
         done.unconverged += thread.done.unconverged;
         done.fallbacks += thread.done.fallbacks;
         done.suspended += thread.done.suspended;
+        done.held_back += thread.done.held_back;
         done.contact_loss += thread.done.contact_loss;
         thread.done = {};
     }
     done.passes += passes;
     done.shortened += shortened;
+}
+
+/// Keeps the contacts of the substep.
+void Workspace::Parts::note_contacts(State& state) {
+    if (plan.colliding == 0 && state.contacts.empty()) return;
+    state.contacts.clear();
+    const double per_square = 1.0 / (state.settings.substep * state.settings.substep);
+    for (const BodyContactScratch& island : scratch.body_contacts)
+        for (const BodyContactScratch::Contact& each : island.contacts)
+            if (each.force != dvec3(0.0))
+                state.contacts.push_back(
+                    {state.links[each.a].a, state.links[each.b].a, per_square * each.force});
+    std::sort(state.contacts.begin(), state.contacts.end(),
+              [](const BodyContact& p, const BodyContact& q) { return p.a != q.a ? p.a < q.a : p.b < q.b; });
 }
 
 Advance World::advance(double seconds, Workspace& workspace, const AdvanceOptions& options) {
@@ -166,6 +181,7 @@ Advance World::advance(double seconds, Workspace& workspace, const AdvanceOption
         move_colliders(state_, parts.scratch);
         parts.solve_islands(state_, !is_due());
         parts.add_up(done);
+        parts.note_contacts(state_);
         ++done.substeps;
         ++state_.substeps;
         detail::drift_gusts(state_);

@@ -43,15 +43,19 @@ ContactScratch::Contact& ChainNewton::contact_of(std::uint32_t node) {
     return s_.contacts.back();
 }
 
+void ChainNewton::open(std::uint32_t chain) {
+    chain_ = chain;
+    radius_ = state_.bodies[plan_.chains[chain].body].radius;
+}
+
 bool ChainNewton::find(std::uint32_t number) {
-    chain_ = number;
+    open(number);
     s_.contacts.clear();
     s_.planes.clear();
     s_.link_contacts.clear();
     s_.link_colliders.clear();
     if (local_.near.empty()) return false;
     const Plan::Chain& chain = plan_.chains[number];
-    radius_ = state_.bodies[chain.body].radius;
     std::uint32_t chunk = island_.chunks.first, sought = chunk + island_.chunks.count;
     std::span<const IslandScratch::Near> near;
     bool link_before = false;
@@ -190,11 +194,11 @@ bool ChainNewton::update_planes(ContactScratch::Contact& contact) {
         const Scratch::Moving& moving = collider(plane.collider);
         ++local_.done.work;
         const bool was = plane.active;
-        if (moved_ && !was && moving.far_from(node.x, radius_)) continue;
+        if (s_.progress.moved && !was && moving.far_from(node.x, radius_)) continue;
         plane.gap = dot(plane.normal, node.x - plane.point);
         // A particle far behind a plane that it touched has come through it: the surface nearest to it now is
         // another one. If it did not touch the plane, it may have gone round.
-        if (moved_ && (!was || plane.gap > -0.5 * moving.size - radius_)) {
+        if (s_.progress.moved && (!was || plane.gap > -0.5 * moving.size - radius_)) {
             const SurfaceDistance surface = surface_distance(*moving.shape, node.x);
             plane.normal = surface.normal;
             plane.gap = surface.distance - radius_;
@@ -202,12 +206,12 @@ bool ChainNewton::update_planes(ContactScratch::Contact& contact) {
         }
         if (plane.gap < -depth) {
             plane.active = true;
-            changed |= plane.gap < (may_go_ ? -harmful : -harmful_late);
-        } else if (was && may_go_) {
+            changed |= plane.gap < (s_.progress.may_go ? -harmful : -harmful_late);
+        } else if (was && s_.progress.may_go) {
             // The force that the contact has to bear: what is out of balance without it.
             plane.active = dot(node.force, plane.normal) + node.mass * plane.gap <= 0.0;
         }
-        changed |= may_go_ && plane.active != was;
+        changed |= s_.progress.may_go && plane.active != was;
         if (!plane.active) continue;
         // Sorted by depth, deepest first.
         constexpr int most = detail::NodeContact::most;
@@ -241,7 +245,7 @@ void ChainNewton::rub(ContactScratch::Contact& contact) {
         slip = beside(slip, hold.normal[p]);
     }
     double slipped = detail::length(slip);
-    if (!moved_) {  // as far as it slipped before, or as it would freely
+    if (!s_.progress.moved) {  // as far as it slipped before, or as it would freely
         const double before = detail::length(state_.displacement[particle(contact.node)] - by);
         const double alone = detail::length(slip + (1.0 / node.mass) * force) - friction * normal / node.mass;
         slipped = std::max(before, alone);
@@ -260,14 +264,14 @@ bool ChainNewton::update_link(ContactScratch::LinkContact& contact) {
         hold.gap = dot(hold.normal, a + hold.at * (b - a) - contact.point);
         if (hold.gap < -thick) return true;  // it has come through
     }
-    double deepest = was && (!may_go_ || hold.multiplier >= 0.0) ? touching : -depth;
+    double deepest = was && (!s_.progress.may_go || hold.multiplier >= 0.0) ? touching : -depth;
     std::uint32_t touched = ~0u;
     hold.active = false;
     for (std::uint32_t c = contact.first; c < contact.first + contact.count; ++c) {
         const Scratch::Moving& moving = collider(s_.link_colliders[c]);
         // The start of the substep as seen by the collider, which has moved since.
-        const dvec3 by_a = moved_ ? dvec3(0.0) : moving.by_at(a),
-                    by_b = moved_ ? dvec3(0.0) : moving.by_at(b);
+        const dvec3 by_a = s_.progress.moved ? dvec3(0.0) : moving.by_at(a),
+                    by_b = s_.progress.moved ? dvec3(0.0) : moving.by_at(b);
         const dvec3 from = a + by_a, along = b + by_b - from;
         if (moving.far_from(from + 0.5 * along, radius_ + touching + 0.5 * detail::length(along))) continue;
         local_.done.work += detail::max_line_samples;
@@ -278,7 +282,7 @@ bool ChainNewton::update_link(ContactScratch::LinkContact& contact) {
         const SurfaceDistance surface = surface_distance(*moving.shape, nearest);
         const double distance = surface.distance - radius_;
         const double gap = distance - dot(surface.normal, by_a + *at * (by_b - by_a));
-        if ((moved_ ? gap : std::min(gap, distance)) >= deepest) continue;
+        if ((s_.progress.moved ? gap : std::min(gap, distance)) >= deepest) continue;
         deepest = gap;
         touched = s_.link_colliders[c];
         hold.active = true;
@@ -292,10 +296,10 @@ bool ChainNewton::update_link(ContactScratch::LinkContact& contact) {
     } else if (touched != contact.collider) {
         // A rough estimate of the force that it has to bear.
         const dvec3 force = s_.nodes[contact.bond].force + s_.nodes[contact.bond + 1].force;
-        hold.multiplier = moved_ ? 0.0 : std::max(0.0, -dot(force, hold.normal));
+        hold.multiplier = s_.progress.moved ? 0.0 : std::max(0.0, -dot(force, hold.normal));
     }
-    const bool changed = (may_go_ && (hold.active != was || touched != contact.collider)) ||
-                         (hold.active && hold.gap < (may_go_ ? -harmful : -harmful_late));
+    const bool changed = (s_.progress.may_go && (hold.active != was || touched != contact.collider)) ||
+                         (hold.active && hold.gap < (s_.progress.may_go ? -harmful : -harmful_late));
     contact.collider = touched;
     if (hold.active) rub_link(contact);
     return changed;
@@ -316,7 +320,7 @@ void ChainNewton::rub_link(const ContactScratch::LinkContact& contact) {
     const dvec3 slip_a = slip_of(contact.bond), slip_b = slip_of(contact.bond + 1);
     const double t = hold.at;
     double slipped = detail::length((1.0 - t) * slip_a + t * slip_b);
-    if (!moved_) {
+    if (!s_.progress.moved) {
         const dvec3 before = (1.0 - t) * state_.displacement[particle(contact.bond)] +
                              t * state_.displacement[particle(contact.bond + 1)];
         slipped = detail::length(beside(before - collider(contact.collider).by, hold.normal));

@@ -45,7 +45,7 @@ void ChainNewton::begin() {
         node.pinned = scratch_.weight[i] == 0.0;
         node.x = node.pinned ? node.base : state_.position[i];
         node.mass = state_.mass[i];
-        node.contact = -1;
+        node.contact = node.push = -1;
         if (k == chain.links) break;
         const Link& link = state_.links[chain.first_link + k];
         detail::ChainBond& bond = s_.bonds[k];
@@ -68,6 +68,11 @@ void ChainNewton::begin() {
         s_.bonds[s_.link_contacts[c].bond].contact = static_cast<std::int32_t>(c);
         s_.link_contacts[c].collider = ~0u;
     }
+    s_.pushes.clear();
+    s_.progress = {};
+    detail::ChainSystem system = this->system();
+    system.evaluate(0.0);
+    s_.progress.worst = system.largest_error();
 }
 
 void ChainNewton::keep() {
@@ -111,54 +116,58 @@ bool ChainNewton::went_too_far(double& turned) const {
 
 void ChainNewton::solve() {
     begin();
-    detail::ChainSystem system{s_.nodes, s_.bonds, s_.holds, s_.bond_holds};
-    const int steps = std::min(max_steps, state_.settings.iterations);
-    double stiffer = 0.0, used = 0.0, turned = 1.0;
-    int taken = 0, rejected = 0;
-    moved_ = false;
-    system.evaluate(stiffer);
-    double worst = system.largest_error();
-    for (;; ++taken) {
-        may_go_ = taken <= steps_to_let_go;
-        const bool changed = update_contacts();
-        const double enough = taken <= few_steps ? accepted : may_go_ ? 10.0 * accepted : 100.0 * accepted;
-        const bool done = moved_ && !changed && worst <= enough && used == 0.0;
-        if (done || taken == steps) break;
-        keep();
-        system.step();
-        local_.done.work += s_.bonds.size();
-        system.evaluate(stiffer);
-        const bool wild = went_too_far(turned);
-        if (wild && rejected < max_rejected) {
-            ++rejected;
-            stiffer = std::max(first_stiffer, 100.0 * stiffer);
-            go_back(0.0);
-            system.evaluate(stiffer);
-            continue;
-        }
-        rejected = 0;
-        if (wild && turned > turned_too_far) {
-            go_back(turned_too_far / turned);
-            system.evaluate(stiffer);
-        }
-        moved_ = true;
-        used = stiffer;
-        stiffer = stiffer > first_stiffer ? 0.1 * stiffer : 0.0;
-        worst = system.largest_error();
+    while (step(false, false)) {
     }
-    finish(worst);
-    local_.done.passes = std::max(local_.done.passes, taken);
-    if (taken == steps && !(worst <= 100.0 * accepted)) ++local_.done.unconverged;
+    finish();
 }
 
-void ChainNewton::finish(double worst) {
+bool ChainNewton::step(bool presses, bool more) {
+    detail::ChainSystem system = this->system();
+    auto& p = s_.progress;
+    const int steps = std::min(max_steps, state_.settings.iterations);
+    if (presses) system.evaluate(p.stiffer);
+    p.may_go = p.taken <= steps_to_let_go;
+    const bool changed = update_contacts();
+    const double enough = p.taken <= few_steps ? accepted : p.may_go ? 10.0 * accepted : 100.0 * accepted;
+    const bool done = p.moved && !changed && p.worst <= enough && p.used == 0.0;
+    if ((done && !more) || p.taken == steps) return false;
+    ++p.taken;
+    keep();
+    system.step();
+    local_.done.work += s_.bonds.size();
+    system.evaluate(p.stiffer);
+    const bool wild = went_too_far(p.turned);
+    if (wild && p.rejected < max_rejected) {
+        ++p.rejected;
+        p.stiffer = std::max(first_stiffer, 100.0 * p.stiffer);
+        go_back(0.0);
+        system.evaluate(p.stiffer);
+        return true;
+    }
+    p.rejected = 0;
+    if (wild && p.turned > turned_too_far) {
+        go_back(turned_too_far / p.turned);
+        system.evaluate(p.stiffer);
+    }
+    p.moved = true;
+    p.used = p.stiffer;
+    p.stiffer = p.stiffer > first_stiffer ? 0.1 * p.stiffer : 0.0;
+    p.worst = system.largest_error();
+    return true;
+}
+
+void ChainNewton::finish() {
     const Plan::Chain& chain = plan_.chains[chain_];
     for (std::uint32_t k = 0; k <= chain.links; ++k) {
         const std::uint32_t i = particle(k);
         if (scratch_.weight[i] > 0.0) scratch_.place[i] = s_.nodes[k].x;
         if (k < chain.links) scratch_.multiplier[chain.first_link + k] = s_.bonds[k].multiplier;
     }
-    scratch_.chain_error[chain_] = worst;
+    const auto& p = s_.progress;
+    scratch_.chain_error[chain_] = p.worst;
+    local_.done.passes = std::max(local_.done.passes, p.taken);
+    const bool spent = p.taken == std::min(max_steps, state_.settings.iterations);
+    if (spent && !(p.worst <= 100.0 * accepted)) ++local_.done.unconverged;
 }
 
 }  // namespace tendril::rope

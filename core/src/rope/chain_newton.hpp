@@ -20,7 +20,11 @@ class ChainNewton {
   public:
     ChainNewton(const State& state, const Plan& plan, const Plan::Island& island, Scratch& scratch,
                 IslandScratch& local)
-        : state_(state), plan_(plan), island_(island), scratch_(scratch), local_(local), s_(local.contact) {}
+        : ChainNewton(state, plan, island, scratch, local, local.contact) {}
+    /// With memory of its own, so that several chains can be solved in turns.
+    ChainNewton(const State& state, const Plan& plan, const Plan::Island& island, Scratch& scratch,
+                IslandScratch& local, ContactScratch& own)
+        : state_(state), plan_(plan), island_(island), scratch_(scratch), local_(local), s_(own) {}
 
     /// Finds what a chain may touch in this substep; false if there is nothing.
     bool find(std::uint32_t chain);
@@ -32,6 +36,14 @@ class ChainNewton {
     /// there are none.
     void solve();
 
+    // The same in parts. Between steps the caller sets what presses on nodes from other chains.
+    void open(std::uint32_t chain);  ///< of a chain that was found earlier
+    void begin();
+    /// `presses`: what does has changed since the last step. `more`: a step is wanted in any case. False if
+    /// none was taken.
+    bool step(bool presses, bool more);
+    void finish();
+
   private:
     const Scratch::Moving& collider(std::uint32_t number) const { return scratch_.colliders[number]; }
     std::uint32_t particle(std::uint32_t node) const;
@@ -40,7 +52,6 @@ class ChainNewton {
 
     bool link_touches(const ContactScratch::LinkContact& contact, const glm::dvec3& a, const glm::dvec3& b,
                       bool moved) const;
-    void begin();
     void begin_plane(ContactScratch::Contact& contact, ContactScratch::Plane& plane);
     bool update_contacts();
     bool update_planes(ContactScratch::Contact& contact);
@@ -50,7 +61,7 @@ class ChainNewton {
     void keep();
     void go_back(double part);
     bool went_too_far(double& turned) const;
-    void finish(double worst);
+    detail::ChainSystem system() const { return {s_.nodes, s_.bonds, s_.holds, s_.bond_holds, s_.pushes}; }
 
     const State& state_;
     const Plan& plan_;
@@ -60,8 +71,6 @@ class ChainNewton {
     ContactScratch& s_;
     std::uint32_t chain_ = 0;
     double radius_ = 0.0;
-    bool moved_ = false;   ///< a step was taken in this substep
-    bool may_go_ = false;  ///< contacts may still be dropped
 };
 
 }  // namespace tendril::rope

@@ -47,7 +47,7 @@ void hold(ChainNode& node, const NodeContact& contact) noexcept {
 }
 
 inline void solve_node(ChainNode& node, const Sweep& before, double stiffness,
-                       std::span<const NodeContact> contacts) noexcept {
+                       std::span<const NodeContact> contacts, std::span<const NodePush> pushes) noexcept {
     if (node.pinned) {
         node.mobility = {};
         node.offset = dvec3(0.0);
@@ -60,6 +60,11 @@ inline void solve_node(ChainNode& node, const Sweep& before, double stiffness,
     if (contact != nullptr) diagonal += contact->drag, right -= contact->drag * contact->slip;
     Symmetric3 matrix = before.matrix;
     matrix.xx += diagonal, matrix.yy += diagonal, matrix.zz += diagonal;
+    if (node.push >= 0) {
+        const Symmetric3& more = pushes[static_cast<std::size_t>(node.push)].stiffness;
+        matrix.xx += more.xx, matrix.xy += more.xy, matrix.xz += more.xz;
+        matrix.yy += more.yy, matrix.yz += more.yz, matrix.zz += more.zz;
+    }
     node.mobility = inverse_of(matrix);
     node.offset = node.mobility * right;
     if (contact != nullptr) hold(node, *contact);
@@ -139,6 +144,10 @@ void ChainSystem::evaluate(double stiffer) noexcept {
             }
         }
         node.force = node.mass * (node.base - node.x) + pull - pull_before;
+        if (node.push >= 0) {
+            const NodePush& push = pushes[static_cast<std::size_t>(node.push)];
+            node.force += push.force + push.stiffness * (push.at - node.x);
+        }
         // On the next node tension pulls back, but the contact's share pushes.
         pull_before = pull - push_next;
     }
@@ -158,7 +167,7 @@ void ChainSystem::step() noexcept {
         const bool forward = next > k;
         ChainNode& node = nodes[k];
         ChainBond& bond = bonds[forward ? k : next];
-        solve_node(node, before, before.stiffness + bond.stiffness, contacts);
+        solve_node(node, before, before.stiffness + bond.stiffness, contacts, pushes);
         const dvec3 along = forward ? bond.along : -bond.along;
         const double weights = weight(node) + weight(nodes[next]);
         Sweep after = eliminate(node, bond, along, weights);
@@ -184,7 +193,7 @@ void ChainSystem::step() noexcept {
     both.matrix.xx += right.matrix.xx, both.matrix.xy += right.matrix.xy, both.matrix.xz += right.matrix.xz;
     both.matrix.yy += right.matrix.yy, both.matrix.yz += right.matrix.yz, both.matrix.zz += right.matrix.zz;
     both.right += right.right;
-    solve_node(node, both, left.stiffness + right.stiffness, contacts);
+    solve_node(node, both, left.stiffness + right.stiffness, contacts, pushes);
     node.x += node.offset;
     const auto substitute = [&](const dvec3& next_by, std::size_t k, std::size_t next) {
         const bool forward = next > k;

@@ -41,11 +41,20 @@ struct ChainNode {
     dvec3 base{0.0};            ///< position without links and contacts
     double mass = 1.0;          ///< kg, over 0
     std::int32_t contact = -1;  ///< index of its NodeContact; negative: none
+    std::int32_t push = -1;     ///< index of its NodePush; negative: none
     bool pinned = false;
     dvec3 force{0.0};  ///< out of balance, times h^2; without contact
     // Within a step: moves by `offset`, plus `mobility` times any further force.
     dvec3 offset{0.0};
     Symmetric3 mobility;
+};
+
+/// What presses on a node from other segments.
+struct NodePush {
+    std::uint32_t node = 0;
+    dvec3 at{0.0};         ///< where the node was expected
+    dvec3 force{0.0};      ///< there, times h^2
+    Symmetric3 stiffness;  ///< how much it falls as the node moves, times h^2
 };
 
 /// A link, from its node to the next.
@@ -90,6 +99,7 @@ struct ChainSystem {
     std::span<ChainBond> bonds;  ///< one fewer than nodes
     std::span<const NodeContact> contacts;
     std::span<BondContact> bond_contacts;
+    std::span<const NodePush> pushes;
 
     /// Computes directions, errors and forces from the positions of nodes. `stiffer`: sideways stiffness in
     /// addition to the tension's, relative to a node's mass, so that a step turns links less.

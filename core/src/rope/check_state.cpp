@@ -177,12 +177,42 @@ Result check_ties(const State& state) {
     return check_handles(state.ties, state.tie_slots, "ties");
 }
 
+Result check_collisions(const State& state) {
+    for (std::size_t i = 0; i < state.collisions.size(); ++i) {
+        const Collision& each = state.collisions[i];
+        for (const BodyId id : {each.a, each.b}) {
+            const Body* const body = find_in(state.bodies, id);
+            if (body == nullptr) return missing(op, "a body of a collision", "body", id.index);
+            if (body->kind != Body::Kind::Rope)
+                return refused(op, Argument("collisions", i), "between ropes",
+                               static_cast<std::size_t>(id.index));
+        }
+        const bool ascends = i == 0 || before(state.collisions[i - 1], each);
+        if (!ascends || each.b.index < each.a.index)
+            return refused(op, Argument("collisions", i), "in the order of slots",
+                           static_cast<std::size_t>(each.a.index));
+    }
+    const auto key = [](const BodyContact& each) { return std::pair(each.a, each.b); };
+    for (std::size_t i = 0; i < state.contacts.size(); ++i) {
+        const BodyContact& each = state.contacts[i];
+        if (each.a >= each.b || each.b >= state.position.size())
+            return refused(op, Argument("contacts", i), "between two existing particles",
+                           static_cast<std::size_t>(each.b));
+        if (i > 0 && !(key(state.contacts[i - 1]) < key(each)))
+            return refused(op, Argument("contacts", i), "in the order of particles",
+                           static_cast<std::size_t>(each.a));
+        if (!is_offset(each.force))
+            return refused(op, Argument("contacts", i, "force"), "finite", worst(each.force));
+    }
+    return {};
+}
+
 }  // namespace
 
 Result check(const State& state) {
     if (const Result r = rope::check(op, state.settings); !r) return r;
-    for (const auto part :
-         {check_particles, check_bodies, check_links, check_colliders, check_pins, check_ties})
+    for (const auto part : {check_particles, check_bodies, check_links, check_colliders, check_pins,
+                            check_ties, check_collisions})
         if (const Result r = part(state); !r) return r;
     for (const auto& [name, value] :
          {std::pair{"remainder", state.remainder}, {"displaced_in", state.displaced_in}}) {

@@ -14,6 +14,7 @@
 #include <array>
 #include <cmath>
 
+#include "rope/body_contacts.hpp"
 #include "rope/build.hpp"
 #include "rope/chain_newton.hpp"
 #include "rope/cloth_solver.hpp"
@@ -37,6 +38,8 @@ constexpr double accepted_gain = 1e-3;          ///< of energy; a result that ga
 constexpr int max_restarts = 6, fallback_passes = 16;
 /// Minimum passes of chains that share particles, while near a collider.
 constexpr int min_contact_passes = 4;
+/// In which contacts between tied bodies are projected.
+constexpr int contact_passes = 8;
 /// A chain that shares particles may be asked for impossible lengths, straight between two pins: its system
 /// is damped (Levenberg, Marquardt), or it would fling its particles about.
 constexpr double shared_damping = 2e-2;
@@ -64,9 +67,12 @@ int Substep::direct_alone() {
         const bool falls = acceleration_ != dvec3(0.0);
         if (falls && ledger_of(plan_.chains[r]).gains(accepted_gain)) slow_correction(plan_.chains[r]);
     };
+    std::fill(scratch_.chain_solved.begin() + first, scratch_.chain_solved.begin() + end, std::uint8_t{0});
+    if (island_.contacts != 0) BodyContacts(*this).solve();
     for (std::uint32_t r = first; r < end; ++r) {
-        scratch_.chain_solved[r] = near(r) && newton.find(r) && newton.touches();
-        if (scratch_.chain_solved[r] != 0) solve(r);
+        if (scratch_.chain_solved[r] != 0 || !near(r) || !newton.find(r) || !newton.touches()) continue;
+        scratch_.chain_solved[r] = 1;
+        solve(r);
     }
     report_.work += island_.links.count;
     for (const Plan::Group& group : Plan::part(plan_.groups, island_.groups)) solve_group(group, 0);
@@ -121,7 +127,12 @@ int Substep::direct_tied() {
 int Substep::direct() {
     if (island_.alone) return direct_alone();
     if (island_.grid != 0) return direct_grid();
-    if (island_.tied != 0) return direct_tied();
+    if (island_.tied != 0) {
+        const int steps = direct_tied();
+        for (int pass = 0; island_.contacts != 0 && pass < contact_passes; ++pass)
+            BodyContacts(*this).project();
+        return steps;
+    }
     for (const std::uint32_t i : Plan::part(plan_.soft, island_.soft)) scratch_.multiplier[i] = 0.0;
     for (const Plan::Chain& chain : Plan::part(plan_.chains, island_.chains)) {
         if (!chain.alone) std::fill_n(scratch_.multiplier.begin() + chain.first_link, chain.links, 0.0);

@@ -135,9 +135,13 @@ bool Substep::Ledger::suspended() const {
 
 Substep::Ledger Substep::ledger_of(const Plan::Chain& chain) const {
     Ledger ledger(*this, scratch_.body_near[chain.body]);
+    add_chain(ledger, chain);
+    return ledger;
+}
+
+void Substep::add_chain(Ledger& ledger, const Plan::Chain& chain) const {
     for (std::uint32_t k = 0; k <= chain.links; ++k) ledger.add_particle(plan_.nodes[chain.first_node + k]);
     for (std::uint32_t k = 0; k < chain.links; ++k) ledger.add_link(chain.first_link + k);
-    return ledger;
 }
 
 Substep::Ledger Substep::ledger_of_all() const {
@@ -166,8 +170,22 @@ void Substep::balance_energy() {
         slowed_ = balance(ledger_of_all());
         return;
     }
-    for (std::uint32_t r = island_.chains.first; r < island_.chains.first + island_.chains.count; ++r)
+    // What one chain gains from another through a contact, the other loses.
+    std::span<const std::uint32_t> together;
+    if (island_.contacts != 0) together = scratch_.body_contacts[island_.contacts - 1].chains;
+    if (!together.empty()) {
+        Scratch::Nearest near = Scratch::Nearest::None;
+        for (const std::uint32_t r : together)
+            near = std::max(near, scratch_.body_near[plan_.chains[r].body]);
+        Ledger ledger(*this, near);
+        for (const std::uint32_t r : together) add_chain(ledger, plan_.chains[r]);
+        const Slowed slowed = balance(ledger);
+        for (const std::uint32_t r : together) scratch_.chain_slowed[r] = slowed;
+    }
+    for (std::uint32_t r = island_.chains.first; r < island_.chains.first + island_.chains.count; ++r) {
+        if (std::binary_search(together.begin(), together.end(), r)) continue;
         scratch_.chain_slowed[r] = balance(ledger_of(plan_.chains[r]));
+    }
 }
 
 /// Scales velocities and the tension of elastic links; positions stay.

@@ -7,8 +7,8 @@
 namespace tendril::rope::detail {
 namespace {
 
-/// Bodies whose chains are all alone are merged until an island has this many links: enough to fill
-/// registers, few enough to spread a large world over threads.
+/// Bodies whose chains are all alone, and that collide with none, are merged until an island has this many
+/// links: enough to fill registers, few enough to spread a large world over threads.
 constexpr std::uint32_t island_links = 2048;
 
 /// Sets of bodies joined by links or ties, identified by their first body (union-find).
@@ -60,11 +60,20 @@ std::vector<std::uint32_t> make_islands(const State& state, const std::vector<st
         ++links[body_of[link.a]];
     }
     for (const Tie& tie : state.ties) joined.join(body_of[tie.a], body_of[tie.b]);
+    const auto each_collision = [&](auto visit) {
+        for (std::uint32_t b = 0; b + 1 < plan.meets_first.size(); ++b)
+            for (std::uint32_t m = plan.meets_first[b]; m < plan.meets_first[b + 1]; ++m)
+                visit(b, plan.meets[m]);
+    };
+    each_collision([&](std::uint32_t a, std::uint32_t b) { joined.join(a, b); });
     std::vector<std::uint8_t> shares(bodies, 0);
     for (const Plan::Chain& chain : plan.chains)
         if (!chain.alone) shares[joined.first_of(chain.body)] = 1;
     for (const Tie& tie : state.ties) shares[joined.first_of(body_of[tie.a])] = 1;
     for (const std::uint32_t i : plan.soft) shares[joined.first_of(body_of[state.links[i].a])] = 1;
+
+    std::vector<std::uint8_t> collides(bodies, 0);
+    each_collision([&](std::uint32_t a, std::uint32_t) { collides[joined.first_of(a)] = 1; });
 
     std::vector<std::uint32_t> island_of(bodies, 0);
     std::uint32_t open = 0, open_links = island_links;  // the island that lone bodies go to
@@ -72,16 +81,20 @@ std::vector<std::uint32_t> make_islands(const State& state, const std::vector<st
         const std::uint32_t first = joined.first_of(b);
         if (first != b) {
             island_of[b] = island_of[first];
-        } else if (shares[b] != 0 || open_links >= island_links) {
+        } else if (shares[b] != 0 || collides[b] != 0 || open_links >= island_links) {
             island_of[b] = static_cast<std::uint32_t>(plan.islands.size());
             plan.islands.push_back({.alone = shares[b] == 0});
-            if (shares[b] == 0) open = island_of[b], open_links = 0;
+            if (shares[b] == 0 && collides[b] == 0) open = island_of[b], open_links = 0;
         } else {
             island_of[b] = open;
         }
-        if (shares[first] == 0) open_links += links[b];
+        if (shares[first] == 0 && collides[first] == 0) open_links += links[b];
         plan.islands[island_of[b]].particles += static_cast<std::uint32_t>(state.bodies[b].count);
     }
+    each_collision([&](std::uint32_t a, std::uint32_t) {
+        std::uint32_t& number = plan.islands[island_of[a]].contacts;
+        if (number == 0) number = ++plan.colliding;
+    });
     return island_of;
 }
 

@@ -4,6 +4,7 @@
 
 #include "rope/cloth_plan.hpp"
 #include "rope/islands.hpp"
+#include "rope/slots.hpp"
 
 namespace tendril::rope {
 namespace {
@@ -30,6 +31,7 @@ std::size_t row_of(const Body& body) {
 
 Plan::Plan(const State& state) {
     find_chains(state);
+    note_collisions(state);
     find_triangles(state);
     cut_into_chunks(state);
     detail::divide_into_islands(state, *this);
@@ -37,6 +39,7 @@ Plan::Plan(const State& state) {
     group_chains(state.position.size());
     order_tied(state);
     particles_ = state.position.size();
+    collisions_ = state.collisions;
     joined_.reserve(state.links.size());
     for (const Link& link : state.links) joined_.push_back({link.a, link.b, link.rest, link.kind});
     for (const Tie& tie : state.ties) tied_.emplace_back(tie.a, tie.b);
@@ -104,7 +107,7 @@ void Plan::find_triangles(const State& state) {
 }
 
 bool Plan::fits(const State& state) const noexcept {
-    return particles_ == state.position.size() &&
+    return particles_ == state.position.size() && collisions_ == state.collisions &&
            std::equal(state.links.begin(), state.links.end(), joined_.begin(), joined_.end(),
                       [](const Link& link, const Joined& joined) {
                           return link.a == joined.a && link.b == joined.b && link.rest == joined.rest &&
@@ -140,6 +143,38 @@ void Plan::group_chains(std::size_t particles) {
         }
         island.groups.count = static_cast<std::uint32_t>(groups.size()) - island.groups.first;
     }
+}
+
+void Plan::note_collisions(const State& state) {
+    if (state.collisions.empty()) return;
+    const auto index_of = [&](BodyId id) {
+        return static_cast<std::uint32_t>(detail::find_in(state.bodies, id) - state.bodies.data());
+    };
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
+    for (const Collision& each : state.collisions)
+        pairs.push_back(std::minmax({index_of(each.a), index_of(each.b)}));
+    std::sort(pairs.begin(), pairs.end());
+    meets_first.assign(state.bodies.size() + 1, 0);
+    for (const auto& [a, b] : pairs) ++meets_first[a + 1], meets.push_back(b);
+    for (std::size_t b = 0; b < state.bodies.size(); ++b) meets_first[b + 1] += meets_first[b];
+    collides.assign(state.bodies.size(), 0);
+    for (const auto& [a, b] : pairs) collides[a] = collides[b] = 1;
+    chain_of.assign(state.links.size(), 0);
+    arc.assign(state.links.size(), 0.0);
+    for (std::uint32_t c = 0; c < chains.size(); ++c) {
+        double along = 0.0;
+        for (std::uint32_t i = chains[c].first_link; i < chains[c].first_link + chains[c].links; ++i) {
+            chain_of[i] = c;
+            arc[i] = along;
+            along += state.links[i].rest;
+        }
+    }
+}
+
+bool Plan::collide(std::uint32_t body_a, std::uint32_t body_b) const noexcept {
+    const auto pair = std::minmax(body_a, body_b);
+    const auto first = meets.begin() + meets_first[pair.first];
+    return std::binary_search(first, meets.begin() + meets_first[pair.first + 1], pair.second);
 }
 
 void Plan::order_tied(const State& state) {

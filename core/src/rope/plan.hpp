@@ -25,6 +25,8 @@ struct Plan {
         bool alone = false;      ///< every chain is alone, and there are no soft links
         std::uint32_t grid = 0;  ///< 1-based index in `grids` of the one with all its links; 0: none
         std::uint32_t tied = 0;  ///< 1-based index in `tied` if it has ties; 0: none
+        /// 1-based index in Scratch::body_contacts if its bodies collide with each other; 0: none
+        std::uint32_t contacts = 0;
     };
     /// Bodies that ties join: the order in which their system is solved.
     struct Tied {
@@ -82,6 +84,15 @@ struct Plan {
     std::vector<Tied> tied;
     std::vector<std::uint32_t> places;  ///< of each tied particle, in the order of its system
 
+    /// Of each body the ones, from itself on, that it collides with: ascending, `meets` from meets_first on.
+    /// Empty, as the next two, if nothing collides.
+    std::vector<std::uint32_t> meets_first, meets;
+    std::vector<std::uint8_t> collides;   ///< of each body: with any
+    std::vector<std::uint32_t> chain_of;  ///< of each link; that of a soft link means nothing
+    std::vector<double> arc;              ///< of each link: where it begins along its chain, metres
+    std::uint32_t colliding = 0;          ///< islands with collisions
+    bool collide(std::uint32_t body_a, std::uint32_t body_b) const noexcept;
+
     std::vector<std::uint32_t> nodes;
     std::vector<std::uint32_t> chunk_links;
     /// Of each particle of a cloth: whether the cell that begins there has all stretch links around it, and
@@ -96,6 +107,7 @@ struct Plan {
     void cut_into_chunks(const State& state);
     void group_chains(std::size_t particles);
     void order_tied(const State& state);
+    void note_collisions(const State& state);
 
     // The inputs that it depends on.
     struct Joined {
@@ -110,6 +122,7 @@ struct Plan {
     std::vector<Joined> joined_;  ///< links
     std::vector<detail::Elimination::Edge> tied_;
     std::vector<Particles> ranges_;  ///< bodies
+    std::vector<Collision> collisions_;
     std::size_t particles_ = 0;
 };
 

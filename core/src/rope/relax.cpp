@@ -1,6 +1,7 @@
 // Relaxation: one link after the other, repeatedly.
 #include <algorithm>
 
+#include "rope/body_contacts.hpp"
 #include "rope/build.hpp"
 #include "rope/geometry.hpp"
 #include "rope/substep.hpp"
@@ -67,6 +68,7 @@ int Substep::relax() {
     for (int pass = 0; pass < passes; ++pass) {
         report_.work += links.size() + island_.ties.count;
         resolve_contacts(pass == 0);
+        if (island_.contacts != 0) BodyContacts(*this).project();
         for (const std::uint32_t i : links) {
             const Link& link = state_.links[i];
             if (link.kind != Link::Kind::Stretch) continue;

@@ -22,6 +22,94 @@ struct Touch {
     bool touching = false;
 };
 
+/// Memory for solving a chain among colliders.
+struct ContactScratch {
+    /// The tangent plane of a collider nearest to a particle.
+    struct Plane {
+        std::uint32_t collider = 0;
+        bool active = false;
+        double gap = 0.0;
+        glm::dvec3 normal{0.0}, point{0.0};  ///< a particle on the plane touches
+        glm::dvec3 by{0.0};                  ///< displacement of the collider there, in the substep
+    };
+    struct Contact {
+        std::uint32_t node = 0;
+        std::uint32_t first = 0, count = 0;  ///< in `planes`
+    };
+    /// With colliders so small that a link can touch them between its ends.
+    struct LinkContact {
+        std::uint32_t bond = 0;
+        std::uint32_t first = 0, count = 0;    ///< in `link_colliders`
+        std::uint32_t collider = 0xffffffffu;  ///< the one that it touches
+        glm::dvec3 point{0.0};                 ///< on its plane
+    };
+    struct Kept {
+        glm::dvec3 x{0.0};
+        double multiplier = 0.0, error = 0.0;
+    };
+    std::vector<Contact> contacts;  ///< parallel to `holds`, by node
+    std::vector<Plane> planes;
+    std::vector<LinkContact> link_contacts;  ///< parallel to `bond_holds`, by bond
+    std::vector<std::uint32_t> link_colliders;
+    std::vector<detail::ChainNode> nodes;
+    std::vector<detail::ChainBond> bonds;
+    std::vector<detail::NodeContact> holds;
+    std::vector<detail::BondContact> bond_holds;
+    std::vector<Kept> kept;  ///< nodes and bonds before a step
+    std::vector<double> kept_contacts;
+    std::vector<detail::NodePush> pushes;  ///< of contacts with other segments
+    /// Of the solve so far.
+    struct {
+        double stiffer = 0.0, used = 0.0, turned = 1.0, worst = 0.0;
+        int taken = 0, rejected = 0;
+        bool moved = false;   ///< a step was taken
+        bool may_go = false;  ///< contacts may still be dropped
+    } progress;
+};
+
+/// Contacts between the bodies of an island.
+struct BodyContactScratch {
+    /// Where a segment may be in the substep: in a ball.
+    struct Ball {
+        glm::dvec3 middle{0.0};
+        double radius = 0.0;
+        double reach = 0.0;  ///< the part of it beyond the segment at the start
+        std::uint32_t link = 0;
+    };
+    /// Segments that may come near each other.
+    struct Pair {
+        std::uint32_t a = 0, b = 0;  ///< links, a < b
+        glm::dvec3 normal{0.0};      ///< from a to b where they are nearest, at the start of the substep
+        double apart = 0.0;          ///< then, between centre lines, metres
+        double thickness = 0.0;
+        double at_a = 0.0, at_b = 0.0;  ///< where on each they are nearest, 0 to 1
+    };
+    /// A pair that is nearer than its neighbours are.
+    struct Contact {
+        std::uint32_t a = 0, b = 0;  ///< links, a < b
+        glm::dvec3 start{0.0};       ///< the normal at the start of the substep
+        double thickness = 0.0;
+        glm::dvec3 force{0.0};  ///< on b, times h^2
+        double target = 0.0;    ///< the gap to reach, metres; below 0 while pressed into each other
+        double stiffness = 0.0;
+    };
+    /// A contact as one of its two chains sees it.
+    struct Side {
+        std::uint32_t chain = 0, bond = 0, contact = 0;
+        bool is_b = false;
+    };
+    std::vector<glm::dvec3> low, high;  ///< of chunks
+    std::vector<double> reach, length;  ///< of chunks: of their balls, of their segments together
+    glm::dvec3 mean{0.0};               ///< of all particles' ways
+    std::vector<std::uint32_t> chunks;  ///< with collisions, sorted by `low.x`
+    std::vector<Ball> balls;            ///< of the chunks' segments, as in Plan::chunk_links
+    std::vector<Pair> pairs;
+    std::vector<Contact> contacts;
+    std::vector<Side> sides;            ///< sorted by chain and bond
+    std::vector<std::uint32_t> chains;  ///< that are solved together
+    std::vector<std::uint8_t> taken;    ///< of State::contacts: continued by a contact
+};
+
 /// Shared by the islands: each writes only what belongs to its own bodies, links, chains and chunks.
 /// Colliders have moved before islands are solved.
 struct Scratch {
@@ -67,50 +155,15 @@ struct Scratch {
         bool any() const { return whole != 1.0 || apart != 1.0 || tension != 1.0; }
     };
     std::vector<Slowed> chain_slowed;
-    std::vector<std::uint32_t> collider_at;       ///< list index by slot
-    std::vector<detail::Cloth> cloths;            ///< of the plan's grids
-    std::vector<detail::EliminationSystem> tied;  ///< of the plan's tied bodies
-    std::vector<double> tie_multiplier;           ///< of each tie: tension times h^2
+    std::vector<BodyContactScratch> body_contacts;  ///< of the plan's islands with collisions
+    std::vector<ContactScratch> chain_contacts;     ///< of each chain; empty if nothing collides
+    std::vector<std::uint32_t> collider_at;         ///< list index by slot
+    std::vector<detail::Cloth> cloths;              ///< of the plan's grids
+    std::vector<detail::EliminationSystem> tied;    ///< of the plan's tied bodies
+    std::vector<double> tie_multiplier;             ///< of each tie: tension times h^2
     detail::VectorUnit unit;
     detail::GridUnit grid_unit;
     detail::ClothUnit cloth_unit;
-};
-
-/// Memory for solving a chain among colliders.
-struct ContactScratch {
-    /// The tangent plane of a collider nearest to a particle.
-    struct Plane {
-        std::uint32_t collider = 0;
-        bool active = false;
-        double gap = 0.0;
-        glm::dvec3 normal{0.0}, point{0.0};  ///< a particle on the plane touches
-        glm::dvec3 by{0.0};                  ///< displacement of the collider there, in the substep
-    };
-    struct Contact {
-        std::uint32_t node = 0;
-        std::uint32_t first = 0, count = 0;  ///< in `planes`
-    };
-    /// With colliders so small that a link can touch them between its ends.
-    struct LinkContact {
-        std::uint32_t bond = 0;
-        std::uint32_t first = 0, count = 0;    ///< in `link_colliders`
-        std::uint32_t collider = 0xffffffffu;  ///< the one that it touches
-        glm::dvec3 point{0.0};                 ///< on its plane
-    };
-    struct Kept {
-        glm::dvec3 x{0.0};
-        double multiplier = 0.0, error = 0.0;
-    };
-    std::vector<Contact> contacts;  ///< parallel to `holds`, by node
-    std::vector<Plane> planes;
-    std::vector<LinkContact> link_contacts;  ///< parallel to `bond_holds`, by bond
-    std::vector<std::uint32_t> link_colliders;
-    std::vector<detail::ChainNode> nodes;
-    std::vector<detail::ChainBond> bonds;
-    std::vector<detail::NodeContact> holds;
-    std::vector<detail::BondContact> bond_holds;
-    std::vector<Kept> kept;  ///< nodes and bonds before a step
-    std::vector<double> kept_contacts;
 };
 
 /// A contact of a collider with a particle of a cloth, or with a link between its ends.
@@ -196,6 +249,7 @@ struct Workspace::Parts {
     void solve_islands(State& state, bool measures);
     /// Adds what the threads did in the substep to the report of the call.
     void add_up(Advance& done);
+    void note_contacts(State& state);
 };
 
 }  // namespace tendril::rope

@@ -45,6 +45,18 @@ std::size_t erase_ties(State& state, Gone gone) noexcept {
     });
 }
 
+inline Collision ordered(BodyId a, BodyId b) noexcept {
+    return b.index < a.index ? Collision{b, a} : Collision{a, b};
+}
+inline bool before(const Collision& a, const Collision& b) noexcept {
+    return a.a.index != b.a.index ? a.a.index < b.a.index : a.b.index < b.b.index;
+}
+/// Once, at its place.
+inline void insert_collision(std::vector<Collision>& list, const Collision& each) {
+    const auto at = std::lower_bound(list.begin(), list.end(), each, before);
+    if (at == list.end() || !(*at == each)) list.insert(at, each);
+}
+
 inline bool owns(const Body& body, const Link& link) noexcept {
     return link.a >= body.first && link.a - body.first < body.count;
 }

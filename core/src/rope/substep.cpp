@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 
+#include "rope/body_contacts.hpp"
 #include "rope/build.hpp"
 #include "rope/check_state.hpp"
 #include "rope/geometry.hpp"
@@ -49,10 +50,12 @@ void Substep::run(bool measures) {
     measures_ = measures;
     move_particles();
     find_near();
+    if (island_.contacts != 0) BodyContacts(*this).find();
     const int passes = state_.settings.solver == Solver::Direct ? direct() : relax();
     report_.passes = std::max(report_.passes, passes);
     depenetrate();
     stay_in_the_world();
+    if (island_.contacts != 0) BodyContacts(*this).keep_apart();
     balance_energy();
     commit();
 }

@@ -88,6 +88,7 @@ class Substep : IslandStep {
     using Slowed = Scratch::Slowed;
     Ledger ledger_of(const Plan::Chain& chain) const;
     Ledger ledger_of_all() const;
+    void add_chain(Ledger& ledger, const Plan::Chain& chain) const;
     void balance_energy();
     Slowed balance(const Ledger& ledger);
     void slow_down();

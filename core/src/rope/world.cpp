@@ -126,6 +126,9 @@ Result World::remove(BodyId body) noexcept {
     for (Link& link : state_.links) renumber(link.a), renumber(link.b);
     for (Pin& pin : state_.pins) renumber(pin.particle);
     for (Tie& tie : state_.ties) renumber(tie.a), renumber(tie.b);
+    std::erase_if(state_.contacts, [&](const BodyContact& each) { return inside(each.a) || inside(each.b); });
+    for (BodyContact& each : state_.contacts) renumber(each.a), renumber(each.b);
+    std::erase_if(state_.collisions, [&](const Collision& each) { return each.a == body || each.b == body; });
     detail::free_slot(state_.body_slots, body);
     erase_range(state_.bodies, static_cast<std::size_t>(gone - state_.bodies.data()), 1);
     for (Body& each : state_.bodies) renumber(each.first);
@@ -211,6 +214,15 @@ Expected<BodyId> World::cut(BodyId rope, std::size_t segment) {
     rest.id = detail::take_slot<BodyId>(state_.body_slots, state_.bodies.size());
     state_.bodies.insert(state_.bodies.begin() + (whole - state_.bodies.data()) + 1, rest);
     std::erase_if(state_.links, [&](const Link& link) { return link.a == at && link.b == at + 1; });
+    std::erase_if(state_.contacts, [&](const BodyContact& each) { return each.a == at || each.b == at; });
+    // It collides with what the whole collided with.
+    std::vector<Collision> more;
+    for (const Collision& each : state_.collisions) {
+        if (each.a != rope && each.b != rope) continue;
+        more.push_back(detail::ordered(each.a == rope ? rest.id : each.a, each.b == rope ? rest.id : each.b));
+        if (each.a == each.b) more.push_back(detail::ordered(rope, rest.id));
+    }
+    for (const Collision& each : more) detail::insert_collision(state_.collisions, each);
     return rest.id;
 }
 
@@ -272,6 +284,28 @@ Result World::untie(TieId tie) noexcept {
 
 const Tie* World::find(TieId tie) const noexcept {
     return detail::find_in(state_.ties, tie);
+}
+
+Result World::set_collides(BodyId a, BodyId b, bool on) {
+    for (const BodyId each : {a, b}) {
+        const Body* const body = find(each);
+        if (body == nullptr) return missing("set_collides", each == a ? "a" : "b", "body", each.index);
+        if (body->kind != Body::Kind::Rope)
+            return Result(ErrorCode::InvalidArgument,
+                          "set_collides: only ropes can collide, not cloth or hair");
+    }
+    const Collision wanted = detail::ordered(a, b);
+    if (on) {
+        detail::insert_collision(state_.collisions, wanted);
+    } else {
+        std::erase(state_.collisions, wanted);
+    }
+    return {};
+}
+
+bool World::collides(BodyId a, BodyId b) const noexcept {
+    const Collision sought = detail::ordered(a, b);
+    return std::find(state_.collisions.begin(), state_.collisions.end(), sought) != state_.collisions.end();
 }
 
 Expected<ColliderId> World::add_collider(const Shape& shape) {

@@ -89,15 +89,15 @@ TEST_F(MotionProgram, lint_prints_what_it_finds_and_exits_with_1) {
 TEST_F(MotionProgram, what_was_guessed_of_a_file_is_printed) {
     // A BVH states no unit.
     const std::string file = figure("walk.bvh");
-    EXPECT_TRUE(test::says(run({"lint", file}).out, "walk.bvh unit 0 findings"));
+    EXPECT_TRUE(test::says(run({"lint", file}).out, "Note unit 0 findings"));
     const Outcome baked = run({"bake", file, "--out", path("out.glb")});
-    EXPECT_TRUE(test::says(baked.out, "walk.bvh unit out.glb 67 frames"));
+    EXPECT_TRUE(test::says(baked.out, "Note unit out.glb 67 frames"));
     const Json json = app::parse_json(run({"lint", file, "--json"}).out);
-    ASSERT_EQ(json["read"].size(), 1u);
-    EXPECT_TRUE(test::says(json["read"][0].get<std::string>(), "unit"));
+    ASSERT_EQ(json["notes"].size(), 1u);
+    EXPECT_TRUE(test::says(json["notes"][0].get<std::string>(), "unit"));
     // A glTF says all that.
     EXPECT_EQ(run({"lint", figure("walk.glb")}).out, "0 findings in 1 clip\n");
-    EXPECT_EQ(app::parse_json(run({"lint", path("walk.glb"), "--json"}).out)["read"], Json::array());
+    EXPECT_EQ(app::parse_json(run({"lint", path("walk.glb"), "--json"}).out)["notes"], Json::array());
 }
 
 TEST_F(MotionProgram, bake_writes_the_clip_and_says_how_near_it_came) {

@@ -8,6 +8,7 @@
 
 #include "tendril/rope/body.hpp"
 #include "tendril/rope/collider.hpp"
+#include "tendril/rope/collision.hpp"
 #include "tendril/rope/settings.hpp"
 #include "tendril/rope/tie.hpp"
 #include "tendril/vec3.hpp"
@@ -36,8 +37,10 @@ struct State {
     std::vector<std::uint32_t> body_slots, collider_slots;
     std::vector<Tie> ties;
     std::vector<std::uint32_t> tie_slots;
-    double remainder = 0.0;     ///< seconds not simulated yet
-    double displaced_in = 0.0;  ///< seconds of the last substep; 0: nothing has moved yet
+    std::vector<Collision> collisions;  ///< sorted by slots
+    std::vector<BodyContact> contacts;  ///< sorted by particles
+    double remainder = 0.0;             ///< seconds not simulated yet
+    double displaced_in = 0.0;          ///< seconds of the last substep; 0: nothing has moved yet
     std::uint64_t substeps = 0, dropped = 0;
     glm::dvec3 drift{0.0};  ///< how far the wind has carried the gusts, metres; repeats after 2^20 m
 

@@ -59,6 +59,7 @@ struct Advance {
     std::uint64_t fallbacks = 0;    ///< times a body used the fallback, or a step was taken only in part
     std::uint64_t suspended = 0;    ///< times a body that nothing holds or touches did not fall freely: it is
                                     ///< at the edge of the world, or the solver held it
+    std::uint64_t held_back = 0;    ///< times two segments would have crossed, and were held back
     double contact_loss = 0.0;      ///< joules that bodies near resting colliders lost beyond damping: to
                                     ///< contact, friction and the solver. Its rounding depends on threads
     bool refused = false;           ///< `seconds` was not a number from 0 to 1e9: nothing was done
@@ -136,6 +137,11 @@ class World {
     Result set_tie(TieId tie, const TieShape& shape) noexcept;
     Result untie(TieId tie) noexcept;
     const Tie* find(TieId tie) const noexcept;
+
+    /// Whether two ropes pass through each other, or one through itself. Initially they do. See
+    /// collision.hpp.
+    Result set_collides(BodyId a, BodyId b, bool on);
+    bool collides(BodyId a, BodyId b) const noexcept;
 
     Expected<ColliderId> add_collider(const Shape& shape);
     /// Moves a collider evenly to `to` in the next `seconds` of simulated time, 0: within the next substep.

@@ -1,0 +1,128 @@
+// Ropes that collide, in the Rope lab: the command, the buttons, files, undo, code, the scene with a knot.
+#include "app/labs/rope/code.hpp"
+#include "tests/app/labs/rope_support.hpp"
+#include "tests/app/support/panel_text.hpp"
+#include "tests/app/support/temp_folder.hpp"
+#include "tests/says.hpp"
+
+namespace tendril::app {
+namespace {
+
+class RopeCollisionTest : public RopeTest {
+  protected:
+    /// A rope that falls across another one, which hangs between two pins.
+    void crossed() {
+        run("rope.clear");
+        run("rope.add", {{"name", "line"},
+                         {"from", {-0.5, 2, 0}},
+                         {"to", {0.5, 2, 0}},
+                         {"length", 1.05},
+                         {"pin_start", true},
+                         {"pin_end", true}});
+        run("rope.add", {{"name", "other"}, {"from", {0, 2.1, -0.4}}, {"to", {0, 2.1, 0.4}}});
+    }
+    void collide(const char* a, const char* b, bool on = true) {
+        run("rope.collide", {{"a", a}, {"b", b}, {"on", on}});
+    }
+    double lowest(const char* rope) const {
+        const rope::Body& body = *world().find(rope);
+        double y = 1e9;
+        for (std::size_t i = body.first; i < body.first + body.count; ++i)
+            y = std::min(y, world().state().position[i].y);
+        return y;
+    }
+};
+
+TEST_F(RopeCollisionTest, OneRopeStaysOnAnotherUntilSwitchedOff) {
+    crossed();
+    collide("line", "other");
+    wait(30);
+    EXPECT_EQ(state()["collisions"], Json::array({{"line", "other"}}));
+    EXPECT_GT(state()["contacts"], 0);
+    EXPECT_GT(lowest("other"), 1.3) << "it hangs on the other one";
+    collide("other", "line", false);
+    EXPECT_EQ(state()["collisions"], Json::array());
+    wait(90);
+    EXPECT_LT(lowest("other"), 0.0) << "it has fallen";
+}
+
+TEST_F(RopeCollisionTest, AllIsEveryRopeAndUndoneInOneStep) {
+    crossed();
+    run("rope.cloth.add",
+        {{"corner", {2, 1, 0}}, {"along", {1, 0, 0}}, {"down", {0, -1, 0}}, {"columns", 3}, {"rows", 3}});
+    collide("all", "all");
+    EXPECT_EQ(state()["collisions"], Json::array({{"line", "line"}, {"line", "other"}, {"other", "other"}}));
+    run("undo");
+    EXPECT_EQ(state()["collisions"], Json::array());
+    collide("other", "all");
+    EXPECT_EQ(state()["collisions"], Json::array({{"line", "other"}, {"other", "other"}}));
+}
+
+TEST_F(RopeCollisionTest, TheInspectorHasAButtonForItselfAndOneForAll) {
+    crossed();
+    run("rope.select", {{"rope", "line"}, {"particle", 3}});
+    EXPECT_TRUE(test::says(test::PanelReader().inspector(lab(), workspace), "Hits itself Hits all ropes"));
+    run("rope.cloth.add", {{"name", "sail"},
+                           {"corner", {2, 1, 0}},
+                           {"along", {1, 0, 0}},
+                           {"down", {0, -1, 0}},
+                           {"columns", 3},
+                           {"rows", 3}});
+    run("rope.select", {{"rope", "sail"}, {"particle", 3}});
+    EXPECT_FALSE(test::says(test::PanelReader().inspector(lab(), workspace), "Hits itself"));
+}
+
+TEST_F(RopeCollisionTest, SavedOpenedAndRewoundItContinuesTheSame) {
+    crossed();
+    collide("all", "all");
+    wait(40);
+    ASSERT_GT(state()["contacts"], 0);
+    const test::TempFolder folder;
+    const std::string path = (folder / "scene.json").string();
+    run("scene.save", {{"path", path}});
+    wait(40);
+    const rope::State first = world().state();
+    run("scene.open", {{"path", path}});
+    EXPECT_EQ(state()["collisions"].size(), 3u);
+    wait(40);
+    EXPECT_EQ(world().state().position, first.position);
+    EXPECT_EQ(world().state().displacement, first.displacement);
+    EXPECT_EQ(world().state().contacts, first.contacts);
+    EXPECT_TRUE(test::says(rope_code(part()),
+                           "rope::number_slots state.collisions.push_back({state.bodies[0].id, "
+                           "state.bodies[0].id}) state.contacts.push_back .force"));
+}
+
+TEST_F(RopeCollisionTest, Refusals) {
+    crossed();
+    run("rope.cloth.add", {{"name", "sail"},
+                           {"corner", {2, 1, 0}},
+                           {"along", {1, 0, 0}},
+                           {"down", {0, -1, 0}},
+                           {"columns", 3},
+                           {"rows", 3}});
+    expect_refused("rope.collide", {{"a", "line"}, {"b", "sail"}, {"on", true}}, {"only ropes"});
+    expect_refused("rope.collide", {{"a", "line"}, {"b", "none"}, {"on", true}}, {"none"});
+    expect_refused("rope.collide", {{"a", "line"}, {"b", "other"}}, {"on"});
+}
+
+TEST_F(RopeCollisionTest, AKnotIsPulledTightByItsWeight) {
+    run("rope.preset", {{"name", "knot"}});
+    const double before = lowest("rope");
+    wait(900);
+    EXPECT_LT(lowest("rope"), before - 0.3) << "it has become longer";
+    EXPECT_GT(lowest("rope"), 0.05) << "it hangs clear of the ground";
+    EXPECT_GT(state()["contacts"], 5);
+    EXPECT_LT(world().length_error(), 1e-3);
+    // Without the knot it would hang straight, at its length.
+    const rope::Body& rope = *world().find("rope");
+    EXPECT_GT(lowest("rope"), world().position(rope.first).y - world().length(rope) + 0.15);
+    EXPECT_EQ(state()["verdict"], "Lengths hold");
+    run("rope.collide", {{"a", "rope"}, {"b", "rope"}, {"on", false}});
+    wait(300);
+    EXPECT_LT(lowest("rope"), world().position(rope.first).y - world().length(rope) + 0.05)
+        << "it has come undone";
+}
+
+}  // namespace
+}  // namespace tendril::app

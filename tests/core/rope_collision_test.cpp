@@ -1,0 +1,376 @@
+// Ropes that collide with each other and with themselves: they never pass, keep their thickness at rest, and
+// gain no energy. Whether something passed is judged by invariants of knots and links, not by distances.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <glm/geometric.hpp>
+#include <string>
+#include <vector>
+
+#include "jobs.hpp"
+#include "random.hpp"
+#include "rope_collision_support.hpp"
+
+namespace tendril::test {
+namespace {
+
+using glm::dvec3;
+
+constexpr float radius = 0.01f;
+const char* const below = "rope";  // as the test's World names them
+const char* const on_top = "rope 2";
+
+/// Random scenes of the hostile test: TENDRIL_SCENES of them, a few by default.
+int scenes_to_play() {
+    const char* const wanted = std::getenv("TENDRIL_SCENES");
+    return wanted == nullptr ? 100 : std::atoi(wanted);
+}
+
+/// A rope with weights at its ends is dropped on another one, across it.
+World crossed(int segments, double weight = 1.0) {
+    World world;
+    world.add_rope(below, {.from = {-0.5f, 1, 0},
+                           .to = {0.5f, 1, 0},
+                           .segments = segments,
+                           .length = 1.05f,
+                           .radius = radius,
+                           .pin_start = true,
+                           .pin_end = true});
+    world.add_rope(on_top, {.from = {0.003f, 1.05f, -0.4f},
+                            .to = {0, 1.05f, 0.4f},
+                            .segments = segments,
+                            .length = 0.8f,
+                            .radius = radius});
+    collide(world, below, on_top);
+    const rope::Body upper = *world.find(on_top);
+    rope::State state = world.state();
+    state.mass[upper.first] = state.mass[upper.first + upper.count - 1] = weight;
+    return World(std::move(state));
+}
+
+/// A rope closed by a detour far up or down.
+std::vector<dvec3> closed(std::vector<dvec3> points, double height) {
+    const dvec3 first = points.front(), last = points.back();
+    points.push_back({last.x, height, last.z});
+    points.push_back({first.x, height, first.z});
+    points.push_back(first);
+    return points;
+}
+/// How often the two are linked if the lower one is closed far above and the upper one far below.
+int linked(const World& world) {
+    return static_cast<int>(std::lround(
+        gauss_integral(closed(points_of(world, below), 100), closed(points_of(world, on_top), -100))));
+}
+
+void expect_never_pass(int segments, double seconds, int frames_a_look) {
+    World world = crossed(segments);
+    const int before = linked(world);
+    ASSERT_NE(before, 0);
+    std::uint64_t unconverged = 0;
+    for (int frame = 0; frame < static_cast<int>(60.0 * seconds); ++frame) {
+        unconverged += world.advance(1.0 / 60.0).unconverged;
+        if (frame % frames_a_look != 0) continue;
+        ASSERT_EQ(linked(world), before) << "frame " << frame;
+        ASSERT_LT(world.length_error(), 0.01) << "frame " << frame;
+    }
+    EXPECT_TRUE(all_finite(world));
+    EXPECT_LE(unconverged, static_cast<std::uint64_t>(10.0 * seconds));
+    EXPECT_EQ(linked(world), before);
+}
+
+TEST(RopeCollision, CrossedRopesUnderTensionNeverPass) {
+    expect_never_pass(64, 60.0, 20);
+}
+
+TEST(RopeCollision, CrossedRopesOfManySegmentsNeverPass) {
+    expect_never_pass(1024, 1.0, 30);
+}
+
+TEST(RopeCollision, WithoutCollisionTheyPass) {
+    World world = crossed(64);
+    const int before = linked(world);
+    allow(world.set_collides(world.id(below), world.id(on_top), false));
+    run(world, 2.0);
+    EXPECT_NE(linked(world), before);
+    EXPECT_TRUE(world.state().contacts.empty());
+}
+
+TEST(RopeCollision, AtRestTheyKeepTheirThickness) {
+    World world = crossed(64, 0.2);
+    rope::Settings settings = world.settings();
+    settings.damping = 2.0f;
+    world.set_settings(settings);
+    run(world, 10.0);
+    EXPECT_LT(top_speed(world), 0.05);
+    const double apart = distance_between(world, below, on_top);
+    EXPECT_GT(apart, 0.98 * 2 * radius);
+    EXPECT_LT(apart, 1.02 * 2 * radius);
+    ASSERT_FALSE(world.state().contacts.empty());
+    EXPECT_LT(stretch(world, on_top), 1e-3);
+    // What they carry is the upper one's weight.
+    dvec3 force(0.0);
+    for (const rope::BodyContact& contact : world.state().contacts) force += contact.force;
+    double mass = 0.0;
+    const rope::Body& upper = *world.find(on_top);
+    for (std::size_t i = upper.first; i < upper.first + upper.count; ++i) mass += world.state().mass[i];
+    EXPECT_NEAR(force.y, 9.81 * mass, 0.05 * 9.81 * mass);
+}
+
+/// A rope of 3 m with a loose overhand knot, its ends pinned.
+World knotted(int segments, float thickness) {
+    const auto trefoil = [](double t) {
+        return 0.08 *
+               dvec3(std::sin(t) + 2 * std::sin(2 * t), std::cos(t) - 2 * std::cos(2 * t), -std::sin(3 * t));
+    };
+    const double opened = 0.15, begin = pi / 3 + opened, end = pi / 3 + 2 * pi - opened;
+    const dvec3 out = glm::normalize(trefoil(begin) - trefoil(begin + 0.01)),
+                far = glm::normalize(trefoil(end) - trefoil(end - 0.01));
+    std::vector<dvec3> path;
+    for (int i = 400; i > 0; --i) path.push_back(trefoil(begin) + 0.001 * i * out);
+    for (int i = 0; i <= 4000; ++i) path.push_back(trefoil(begin + (end - begin) * i / 4000));
+    for (int i = 1; i <= 400; ++i) path.push_back(trefoil(end) + 0.001 * i * far);
+    double length = 0.0;
+    for (std::size_t i = 0; i + 1 < path.size(); ++i) length += glm::length(path[i + 1] - path[i]);
+
+    World world;
+    world.add_rope("rope", {.from = {0, 0, 0},
+                            .to = {1, 0, 0},
+                            .segments = segments,
+                            .length = static_cast<float>(length),
+                            .radius = thickness,
+                            .pin_start = true,
+                            .pin_end = true});
+    rope::State state = world.state();
+    state.settings.gravity = {0, 0, 0};
+    double along = 0.0;
+    std::size_t next = 0;
+    for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+        const double step = glm::length(path[i + 1] - path[i]);
+        for (; next < state.position.size(); ++next) {
+            const double wanted = length * static_cast<double>(next) / segments;
+            if (wanted > along + step && i + 2 < path.size()) break;
+            state.position[next] = path[i] + (wanted - along) / step * (path[i + 1] - path[i]);
+        }
+        along += step;
+    }
+    for (rope::Link& link : state.links)
+        link.rest = static_cast<float>(glm::length(state.position[link.b] - state.position[link.a]));
+    for (rope::Pin& pin : state.pins) pin.goal = state.position[pin.particle];
+    World tied(std::move(state));
+    collide(tied, "rope", "rope");
+    const dvec3 middle = 0.5 * (tied.core().position(0) + tied.core().position(tied.size() - 1));
+    allow(tied.core().pin(0, middle + 0.44 * length * out, 3.0));
+    allow(tied.core().pin(tied.size() - 1, middle + 0.44 * length * far, 3.0));
+    return tied;
+}
+
+TEST(RopeCollision, AKnotPulledTightStaysOne) {
+    for (const int segments : {48, 128}) {
+        World world = knotted(segments, 0.015f);
+        ASSERT_EQ(knot_determinant(points_of(world, "rope")), 3) << segments;
+        for (int frame = 0; frame < 600; ++frame) {
+            world.advance(1.0 / 60.0);
+            ASSERT_EQ(knot_determinant(points_of(world, "rope")), 3) << segments << ", frame " << frame;
+        }
+        EXPECT_LT(world.length_error(), 1e-3) << segments;
+    }
+}
+
+TEST(RopeCollision, WithoutCollisionTheKnotComesUndone) {
+    World world = knotted(128, 0.015f);
+    allow(world.set_collides(world.id("rope"), world.id("rope"), false));
+    run(world, 8.0);
+    EXPECT_EQ(knot_determinant(points_of(world, "rope")), 1);
+}
+
+TEST(RopeCollision, ContactNeverAddsEnergy) {
+    for (const int segments : {16, 64}) {
+        World world = crossed(segments, 0.3);
+        rope::Settings settings = world.settings();
+        settings.damping = 0.0f;
+        settings.friction = 0.0f;
+        world.set_settings(settings);
+        const double before = world.energy(), fall = weight(world) * 1.0;
+        double highest = before;
+        for (int frame = 0; frame < 1200; ++frame) {
+            world.advance(1.0 / 60.0);
+            highest = std::max(highest, world.energy());
+        }
+        EXPECT_LT(highest - before, 0.01 * fall) << segments;
+    }
+}
+
+TEST(RopeCollision, FrictionHoldsARopeOnAnother) {
+    const auto slid = [](float friction) {
+        World world = crossed(64, 0.2);
+        rope::Settings settings = world.settings();
+        settings.friction = friction;
+        settings.damping = 1.0f;
+        world.set_settings(settings);
+        run(world, 4.0);
+        // Unequal weights: the rope runs over the other one unless friction holds it.
+        rope::State state = world.state();
+        const rope::Body upper = *world.find(on_top);
+        state.mass[upper.first] *= 1.5;
+        World uneven(std::move(state));
+        run(uneven, 2.0);
+        return uneven.position(upper.first).y - uneven.position(upper.first + upper.count - 1).y;
+    };
+    EXPECT_LT(std::abs(slid(1.0f)), 0.1);
+    EXPECT_GT(std::abs(slid(0.0f)), 0.4);
+}
+
+/// Groups of ropes that collide within the group.
+World groups() {
+    World world;
+    for (int g = 0; g < 4; ++g) {
+        const auto x = 3.0f * static_cast<float>(g);
+        const std::string n = std::to_string(g);
+        world.add_rope("a" + n, {.from = {x - 0.5f, 1, 0},
+                                 .to = {x + 0.5f, 1, 0},
+                                 .segments = 300,
+                                 .length = 1.1f,
+                                 .radius = radius,
+                                 .pin_start = true,
+                                 .pin_end = true});
+        world.add_rope(
+            "b" + n,
+            {.from = {x, 1.1f, -0.4f}, .to = {x + 0.01f, 1.1f, 0.4f}, .segments = 300, .radius = radius});
+        collide(world, ("a" + n).c_str(), ("b" + n).c_str());
+        collide(world, ("b" + n).c_str(), ("b" + n).c_str());
+    }
+    return world;
+}
+
+TEST(RopeCollision, ThreadsGiveTheSameBits) {
+    World alone = groups();
+    rope::World shared = alone.core();
+    run(alone, 0.75);
+    ASSERT_FALSE(alone.state().contacts.empty());
+    rope::Workspace workspace;
+    Jobs jobs;
+    jobs.backwards = true;
+    allow(workspace.use_threads(3, {run_on_jobs, &jobs}));
+    for (int i = 0; i < 3; ++i) shared.advance(0.25, workspace);
+    EXPECT_GT(jobs.calls, 0u);
+    EXPECT_TRUE(same_bits(alone.state(), shared.state()));
+}
+
+TEST(RopeCollision, ACopyContinuesTheSame) {
+    World world = crossed(64);
+    run(world, 0.5);
+    ASSERT_FALSE(world.state().contacts.empty());
+    World copy(world.state());
+    run(world, 0.5);
+    run(copy, 0.5);
+    EXPECT_TRUE(same_bits(world.state(), copy.state()));
+}
+
+TEST(RopeCollision, OtherSolversAndTiedRopesDoNotPassEither) {
+    for (const rope::Solver solver : all_solvers) {
+        World world = crossed(32, 0.2);
+        if (solver == rope::Solver::Direct) {  // tied: the ends of the lower one to each other
+            const rope::Body lower = *world.find(below);
+            allow(world.core().tie(lower.first, lower.first + lower.count - 1, {.length = 1.0f}).error());
+        }
+        rope::Settings settings = world.settings();
+        settings.solver = solver;
+        world.set_settings(settings);
+        double before = gauss_integral(points_of(world, below), points_of(world, on_top));
+        run_substeps(world, 960, [&] {  // one may slide off the other, but not pass through it
+            const double now = gauss_integral(points_of(world, below), points_of(world, on_top));
+            EXPECT_LT(std::abs(now - before), 0.6) << name(solver);
+            before = now;
+        });
+        EXPECT_TRUE(all_finite(world));
+    }
+}
+
+TEST(RopeCollision, EditsKeepThePairs) {
+    World world = crossed(16);
+    const rope::BodyId lower = world.id(below), upper = world.id(on_top);
+    EXPECT_TRUE(world.collides(upper, lower));
+    EXPECT_FALSE(world.collides(lower, lower));
+    run(world, 0.5);
+    const std::string rest = world.cut(on_top, 3);
+    EXPECT_TRUE(world.collides(lower, world.id(rest)));
+    EXPECT_FALSE(world.collides(upper, world.id(rest)));  // the whole did not collide with itself
+    world.remove(below);
+    EXPECT_TRUE(world.state().collisions.empty());
+    EXPECT_TRUE(world.state().contacts.empty());
+    EXPECT_TRUE(world.set_collides(upper, upper, true));
+    const std::string last = world.cut(on_top, 1);
+    EXPECT_TRUE(world.collides(upper, world.id(last)));
+    EXPECT_TRUE(rope::World::from_state(world.state()));
+    EXPECT_TRUE(world.set_collides(upper, upper, false));
+    EXPECT_FALSE(world.collides(upper, upper));
+}
+
+TEST(RopeCollision, RefusesWhatCannotCollide) {
+    World world = crossed(4);
+    const rope::BodyId lower = world.id(below);
+    world.add_cloth("cloth", {.columns = 3, .rows = 3});
+    EXPECT_EQ(world.set_collides(lower, world.id("cloth"), true).code(), ErrorCode::InvalidArgument);
+    EXPECT_EQ(world.set_collides(lower, {}, true).code(), ErrorCode::OutOfRange);
+    rope::State state = world.state();
+    state.collisions.push_back(state.collisions.front());
+    EXPECT_FALSE(rope::World::from_state(state));
+    state = world.state();
+    state.contacts = {{3, 2, dvec3(0.0)}};
+    EXPECT_FALSE(rope::World::from_state(state));
+}
+
+/// Ropes of a few segments thrown at each other, some tied, some pinned, any solver, among balls.
+World thrown(Random& random) {
+    World world;
+    rope::Settings settings;
+    settings.solver = all_solvers[random.below(3)];
+    settings.friction = random.part();
+    world.set_settings(settings);
+    const std::size_t ropes = 2 + random.below(3);
+    for (std::size_t r = 0; r < ropes; ++r)
+        world.add_rope({.from = random.point(0.5f) + glm::vec3(0, static_cast<float>(r), 0),
+                        .to = random.point(0.5f) + glm::vec3(0.3f, static_cast<float>(r), 0),
+                        .segments = static_cast<int>(1 + random.below(12)),
+                        .radius = 0.002f + 0.05f * random.part(),
+                        .pin_start = random.below(4) == 0,
+                        .pin_end = random.below(4) == 0});
+    if (random.below(2) == 0) world.add_collider("ball", rope::Sphere{{0, -0.5f, 0}, 0.3f});
+    const auto& bodies = world.state().bodies;
+    for (const rope::Body& a : bodies)
+        for (const rope::Body& b : bodies)
+            if (a.id.index <= b.id.index) allow(world.core().set_collides(a.id, b.id, true));
+    return world;
+}
+
+TEST(RopeCollision, NothingPassesInRandomScenes) {
+    for (int seed = 0; seed < scenes_to_play(); ++seed) {
+        Random random(static_cast<std::uint64_t>(seed));
+        World world = thrown(random);
+        std::vector<std::vector<dvec3>> before;
+        const auto points = [&] {
+            std::vector<std::vector<dvec3>> all;
+            for (const rope::Body& body : world.state().bodies)
+                all.push_back(points_of(world, world.name(body).c_str()));
+            return all;
+        };
+        before = points();
+        for (int substep = 0; substep < 240; ++substep) {
+            world.advance(world.settings().substep);
+            ASSERT_TRUE(all_finite(world)) << "seed " << seed;
+            std::vector<std::vector<dvec3>> now = points();
+            for (std::size_t a = 0; a < now.size(); ++a)
+                for (std::size_t b = a + 1; b < now.size(); ++b) {
+                    // Where two segments pass through each other, the integral jumps by one.
+                    const double change =
+                        gauss_integral(now[a], now[b]) - gauss_integral(before[a], before[b]);
+                    ASSERT_LT(std::abs(change), 0.6) << "seed " << seed << ", substep " << substep;
+                }
+            before = std::move(now);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace tendril::test
