@@ -76,6 +76,10 @@ void put_back(State& state, BodyId id, const Taken& taken, const std::vector<std
         for (std::uint32_t* each : {&tie.a, &tie.b})
             *each = *each - first < was ? static_cast<std::uint32_t>(first + becomes[*each - first])
                                         : number(*each);
+    const auto changed = [&](std::uint32_t particle) { return particle - first < was; };
+    std::erase_if(state.contacts,
+                  [&](const BodyContact& each) { return changed(each.a) || changed(each.b); });
+    for (BodyContact& each : state.contacts) each.a = number(each.a), each.b = number(each.b);
     for (Body& each : state.bodies)
         if (each.first >= end) each.first = each.first - was + now;
     body.count = now;
