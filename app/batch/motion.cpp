@@ -83,11 +83,16 @@ ExportReport bake_one(const Character& character, const Clip& clip, const BakeOp
                       const fs::path& out) {
     const double rate = options.fps.value_or(humanoid::frame_rate(clip));
     Clip corrected = clip;
+    if (options.travel) {
+        const glm::dvec3 ground_moves = lint(character.skeleton, bone_map(character), clip).treadmill;
+        if (ground_moves != glm::dvec3(0.0))
+            corrected = travelling(character.skeleton, clip, -ground_moves, rate);
+    }
     humanoid::Ground ground;
     if (options.ground != "none") {
         try {
             ground = make_ground({.kind = ground_kinds.value(options.ground)});
-            corrected = with_feet_on(ground, character.skeleton, bone_map(character), clip, rate);
+            corrected = with_feet_on(ground, character.skeleton, bone_map(character), corrected, rate);
         } catch (const std::runtime_error& error) {
             throw std::runtime_error(fs::path(options.file).filename().string() + ": " + error.what());
         }
@@ -180,7 +185,8 @@ GLB or BVH, depending on the name's ending. With --all every clip is written, ea
 to a file of its own: its name is added to the file's. glTF from a glTF file keeps
 its nodes, skins, materials, meshes and pictures unchanged. With a ground, the feet
 are put on it first: flat, a slope of 20 degrees or stairs 15 cm high and 30 cm deep,
-which rise along +Z, or terrain, low hills. The file is then read back, and two
+which rise along +Z, or terrain, low hills. A clip that walks in place climbs nothing:
+with --travel it goes along at the speed of its standing foot. The file is then read back, and two
 errors are printed: the joint that is furthest from where it was, in mm, and how far
 a standing foot slides at most, before and after. A BVH's frame 0 is time 0. An
 existing file is replaced as a whole, or left as it was (exit code 2). A signal ends
