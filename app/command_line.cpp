@@ -204,6 +204,8 @@ CLI::App* add_bake(CLI::App& line, BakeOptions& options) {
     bake->add_option("--ground", options.ground, "What its feet stand on; default: none, feet uncorrected")
         ->check(CLI::IsMember(bake_grounds()))
         ->option_text("KIND");
+    bake->add_flag("--travel", options.travel,
+                   "A clip that walks in place travels, as its standing foot does");
     bake->add_option("--fps", options.fps, "Frames per second, 1 to 1000; default: the clip's own")
         ->check(CLI::Range(1.0, 1000.0))
         ->option_text("N");

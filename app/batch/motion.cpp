@@ -96,11 +96,16 @@ ExportReport bake_one(const Character& character, const Clip& clip, const BakeOp
                       const fs::path& out) {
     const double rate = options.fps.value_or(humanoid::frame_rate(clip));
     Clip corrected = clip;
+    if (options.travel) {
+        const glm::dvec3 ground_moves = lint(character.skeleton, bone_map(character), clip).treadmill;
+        if (ground_moves != glm::dvec3(0.0))
+            corrected = travelling(character.skeleton, clip, -ground_moves, rate);
+    }
     humanoid::Ground ground;
     if (options.ground != "none") {
         try {
             ground = make_ground({.kind = ground_kinds.value(options.ground)});
-            corrected = with_feet_on(ground, character.skeleton, bone_map(character), clip, rate);
+            corrected = with_feet_on(ground, character.skeleton, bone_map(character), corrected, rate);
         } catch (const std::runtime_error& error) {
             throw std::runtime_error(fs::path(options.file).filename().string() + ": " + error.what());
         }
@@ -204,7 +209,8 @@ those of that file, another character's, carried over: the feet stand where the
 other's do. glTF from a glTF file keeps its nodes, skins, materials, meshes and
 pictures unchanged. With a ground, the feet are put on it first: flat, a slope of 20
 degrees or stairs 15 cm high and 30 cm deep, which rise along +Z, or terrain, low
-hills. The file is then read back, and two errors are printed: the joint that is
+hills. A clip that walks in place climbs nothing: with --travel it goes along at the
+speed of its standing foot. The file is then read back, and two errors are printed: the joint that is
 furthest from where it was, in mm, and how far a standing foot slides at most, before
 and after. A BVH's frame 0 is time 0. What a file does not say and was guessed (unit,
 up axis, root) is printed first. An existing file is replaced as a whole, or left as

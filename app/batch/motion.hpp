@@ -22,6 +22,7 @@ struct BakeOptions {
     std::string clip;    ///< by name; empty: the first
     bool all = false;    ///< every clip, each to a file of its own
     std::string ground = "none";
+    bool travel = false;          ///< a clip that walks in place travels at the speed of its standing foot
     std::optional<double> fps{};  ///< frames per second; the clip's own by default
     std::string out;              ///< path; empty: FILE_baked beside the file
 };

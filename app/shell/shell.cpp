@@ -3,6 +3,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "app/document/command.hpp"
@@ -281,6 +282,20 @@ void begin_region(const char* name, const Rect& rect, glm::vec3 colour, ImVec2 p
     ImGui::PopStyleColor();
 }
 
+/// Content that became shorter cannot stay where it was scrolled to. Once it is as long as before, as after
+/// undo, it is there again, unless the user has scrolled since.
+void Shell::keep_scroll(Scrolled& scrolled) {
+    constexpr float same = 1.0f;  // pixels
+    const float now = ImGui::GetScrollY(), most = ImGui::GetScrollMaxY();
+    const bool moved = std::abs(now - scrolled.shown) > same;
+    if (moved && !(now < scrolled.shown && now > most - same && most < scrolled.most)) scrolled.wanted = now;
+    scrolled.shown = now;
+    scrolled.most = most;
+    if (scrolled.wanted < now + same || most < now + same) return;
+    scrolled.shown = std::min(scrolled.wanted, most);
+    ImGui::SetScrollY(scrolled.shown);
+}
+
 void Shell::side_panel(const ShellFrame& frame, bool left, Emit& emit) {
     const Rect& rect = left ? frame.layout.left : frame.layout.right;
     if (rect.size().x < 1.0f) return;
@@ -311,6 +326,7 @@ void Shell::side_panel(const ShellFrame& frame, bool left, Emit& emit) {
     ImGui::PopStyleColor();
     ImGui::PopStyleVar();
     overflow = ImGui::GetScrollMaxY();
+    keep_scroll(scrolled_[{frame.workspace.lab, left}]);
     if (left) {
         frame.lab.panel(frame.workspace, emit);
     } else {

@@ -3,9 +3,11 @@
 
 #include <imgui.h>
 
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 
 #include "app/labs/card.hpp"
 #include "app/labs/labs.hpp"
@@ -50,6 +52,12 @@ class Shell {
     void side_panel(const ShellFrame& frame, bool left, Emit& emit);
 
     float overflow_[2] = {0.0f, 0.0f};  ///< how far each side panel can scroll
+    /// Where a panel's content was scrolled to, and where it is while there is too little of it.
+    struct Scrolled {
+        float wanted = 0.0f, shown = 0.0f, most = 0.0f;
+    };
+    void keep_scroll(Scrolled& scrolled);
+    std::map<std::pair<std::string, bool>, Scrolled> scrolled_;  ///< by lab, and whether it is the left one
     std::vector<Rect> overlays_;
     PickId lit_ = no_pick;  ///< of the highlighted handle; see show_card_halo()
     std::optional<glm::vec2> card_ring_;

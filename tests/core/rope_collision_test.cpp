@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <glm/geometric.hpp>
 #include <string>
+#include <tendril/rope/edit.hpp>
 #include <vector>
 
 #include "jobs.hpp"
@@ -370,6 +371,35 @@ TEST(RopeCollision, NothingPassesInRandomScenes) {
             before = std::move(now);
         }
     }
+}
+
+TEST(RopeCollision, ContactsFollowTheParticlesOfRopesThatAreDividedAnew) {
+    // A rope that takes no part comes first, so that its particles move the numbers of the others.
+    World world;
+    world.add_rope("first", {.from = {5, 0, 0}, .to = {6, 0, 0}, .segments = 8});
+    world.add_rope(below, {.from = {-0.5f, 1, 0},
+                           .to = {0.5f, 1, 0},
+                           .segments = 16,
+                           .radius = radius,
+                           .pin_start = true,
+                           .pin_end = true});
+    world.add_rope(
+        on_top, {.from = {0.003f, 1.05f, -0.4f}, .to = {0, 1.05f, 0.4f}, .segments = 16, .radius = radius});
+    collide(world, below, on_top);
+    run(world, 1.0);
+    const auto before = world.state().contacts;
+    ASSERT_FALSE(before.empty());
+    const auto moved = rope::resample(world, world.id("first"), {17, 1});
+    ASSERT_TRUE(moved) << moved.error().message();
+    const auto& after = moved->world.state().contacts;
+    ASSERT_EQ(after.size(), before.size());
+    for (std::size_t i = 0; i < after.size(); ++i) {
+        EXPECT_EQ(after[i].a, before[i].a + 8);
+        EXPECT_EQ(after[i].b, before[i].b + 8);
+    }
+    const auto anew = rope::resample(world, world.id(below), {33, 1});
+    ASSERT_TRUE(anew) << anew.error().message();
+    EXPECT_TRUE(anew->world.state().contacts.empty());
 }
 
 }  // namespace

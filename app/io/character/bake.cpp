@@ -77,6 +77,14 @@ Clip baked(const Skeleton& skeleton, const Clip& clip, double rate, const PoseSt
     return result;
 }
 
+humanoid::Clip travelling(const humanoid::Skeleton& skeleton, const humanoid::Clip& clip,
+                          const glm::dvec3& velocity, double rate) {
+    return baked(skeleton, clip, rate, [&](std::span<rig::Transform> pose, double time, double) {
+        for (std::size_t i = 0; i < pose.size(); ++i)
+            if (skeleton[i].parent < 0) pose[i].translation += time * velocity;
+    });
+}
+
 Clip with_feet_on(const humanoid::Ground& ground, const Skeleton& skeleton, const humanoid::BoneMap& map,
                   const Clip& clip, double rate) {
     const auto soles = humanoid::find_soles(skeleton, map);

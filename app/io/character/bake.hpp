@@ -18,6 +18,10 @@ using PoseStep = std::function<void(std::span<rig::Transform> pose, double time,
 humanoid::Clip baked(const humanoid::Skeleton& skeleton, const humanoid::Clip& clip, double rate,
                      const PoseStep& step);
 
+/// The clip with its roots moved at a velocity, m/s.
+humanoid::Clip travelling(const humanoid::Skeleton& skeleton, const humanoid::Clip& clip,
+                          const glm::dvec3& velocity, double rate);
+
 /// The clip with its feet on the ground. Throws std::runtime_error if the map lacks two legs.
 humanoid::Clip with_feet_on(const humanoid::Ground& ground, const humanoid::Skeleton& skeleton,
                             const humanoid::BoneMap& map, const humanoid::Clip& clip, double rate);

@@ -184,6 +184,7 @@ std::shared_ptr<Part> HumanoidPart::load(const Json& json, const std::string& wh
     if (const auto motions = place.optional("motions")) read_motions(*motions, *part);
     if (const auto cures = place.optional("cures")) read_cures(*cures, *part);
     if (const auto clip = place.optional("clip")) part->playback = read_playback(*clip, *part->loaded);
+    measure_pace(*part);
     if (const auto on = place.optional("t_pose")) part->t_pose = on->flag();
     if (const auto ik_place = place.optional("ik")) read_ik(*ik_place, *part);
     if (const auto swinging = place.optional("springs")) read_springs(*swinging, *part);

@@ -45,7 +45,6 @@ bool HumanoidLab::moving(const Workspace& workspace) const {
 void HumanoidLab::step(Workspace& workspace) const {
     const bool modified = workspace.modified(), follows = humanoid_part(workspace).view.follow;
     const glm::vec3 before = standing_at(workspace);
-    const std::vector<rig::Transform> held = shown_pose(workspace).before_springs;
     HumanoidPart& part = workspace.document.edit<HumanoidPart>(humanoid_lab);
     const double seconds = tick_seconds * static_cast<double>(workspace.clock.speed);
     HumanoidRuntime& runtime = humanoid_runtime(workspace);
@@ -54,8 +53,7 @@ void HumanoidLab::step(Workspace& workspace) const {
     part.quiet_ticks = quiet ? part.quiet_ticks + 1 : 0;
     const Playback playback = part.playback;
     advance(part.playback, *part.loaded, seconds);
-    // The body does not leap with its targets: it leaves them and comes to them as after a release.
-    if (carry_targets(part, playback)) ease_from(part, runtime.solvers, held);
+    carry_targets(part, playback);
     const ShownPose shown = solve_pose(part, runtime.solvers, seconds, part.ik_state);
     advance(part.attachments, wearer_of(part, runtime.solvers, shown), runtime.ropes, seconds);
     if (follows) workspace.camera.target += standing_at(workspace) - before;

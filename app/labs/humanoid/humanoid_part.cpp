@@ -86,6 +86,7 @@ void set_bone(HumanoidPart& part, Bone bone, std::optional<std::size_t> node) {
         map[bone] = {to, node ? 1.0 : 0.0, node ? "picked by hand" : "removed by hand"};
     humanoid::review(map, part.skeleton());
     part.map = std::make_shared<const BoneMap>(std::move(map));
+    if (part.playback.travel) measure_pace(part);
 }
 
 void check_bones(const HumanoidPart& part) {

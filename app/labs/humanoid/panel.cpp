@@ -3,6 +3,7 @@
 #include <imgui.h>
 #include <algorithm>
 #include <filesystem>
+#include <glm/geometric.hpp>
 
 #include "app/document/units.hpp"
 #include "app/fields/field_rows.hpp"
@@ -116,6 +117,23 @@ void loaded_rows(const HumanoidPanel& panel, MoreRows& more) {
     for (const std::string& each : loaded.character.sentences()) note(each);
 }
 
+/// Of a clip that walks in place.
+void pace_rows(const HumanoidPanel& panel) {
+    // Seconds. A walk in place is a cycle, and a long clip is slow to measure.
+    constexpr double longest = 20.0;
+    const Playback& playback = panel.part.playback;
+    const humanoid::Clip* const clip = panel.part.clip();
+    if (clip == nullptr || clip->duration > longest) return;
+    const Solvers::Gait* const gait = panel.runtime.solvers.gait(panel.part);
+    if (gait == nullptr || gait->pace == glm::dvec3(0.0)) return;
+    note("The clip was recorded in place.");
+    const std::string title = "Travel at " + fixed_text(glm::length(gait->pace), 1) + " m/s";
+    if (row_option(title.c_str(), 1, playback.travel,
+                   "Moves the figure at the speed of its standing foot, so that it can climb stairs"))
+        panel.emit("humanoid.clip", {{"travel", !playback.travel}});
+    end_row();
+}
+
 void playback_rows(const HumanoidPanel& panel, MoreRows& more) {
     const std::vector<humanoid::Clip>& clips = panel.part.loaded->clips();
     const Playback& playback = panel.part.playback;
@@ -135,7 +153,10 @@ void playback_rows(const HumanoidPanel& panel, MoreRows& more) {
         end_list();
     }
     explain("The motion to play. Type part of a name to find one.");
-    FieldRows(playback, "humanoid.clip", panel.emit).under(more).rows("speed", "loop", "in_place");
+    FieldRows(playback, "humanoid.clip", panel.emit)
+        .under(more)
+        .rows("speed", "loop", "in_place", "travel", "targets_travel");
+    pace_rows(panel);
     motion_rows(panel, more);
     if (playback.playing && !panel.workspace.clock.playing) note("Paused: press Space to play.");
 }

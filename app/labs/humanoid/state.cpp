@@ -300,6 +300,9 @@ Json clip_state(const HumanoidPart& part) {
                 {"speed", playback.speed},
                 {"loop", playback.loop},
                 {"in_place", playback.in_place},
+                {"travel", playback.travel},
+                {"targets_travel", playback.targets_travel},
+                {"pace", {playback.pace.x, playback.pace.y, playback.pace.z}},
                 {"rounds", playback.rounds}};
 }
 

@@ -173,6 +173,22 @@ TEST_F(MotionProgram, lint_and_bake_take_another_characters_motion_and_say_what_
     EXPECT_TRUE(test::says(unknown.err, "walk.bvh no clip run motion")) << unknown.err;
 }
 
+TEST_F(MotionProgram, bake_makes_a_clip_that_walks_in_place_travel) {
+    const app::Character character = app::stick_figure();
+    humanoid::Clip walk = character.clips[0];
+    for (glm::dvec3& at : walk.channels.at(0).translation.values) at.z = 0.0;
+    app::export_clip({character, {}, walk, walk, 60.0}, folder_ / "still.glb");
+    for (const bool travels : {false, true}) {
+        Strings arguments{"bake", path("still.glb"), "--ground", "stairs", "--out", path("up.bvh")};
+        if (travels) arguments.push_back("--travel");
+        EXPECT_EQ(run(arguments).exit_code, 0);
+        const app::Character read = app::read_character(folder_ / "up.bvh");
+        const auto& hips = read.clips.at(0).channels.at(0).translation.values;
+        EXPECT_NEAR(hips.back().z - hips.front().z, travels ? 1.1 : 0.0, 0.1);
+        EXPECT_EQ(hips.back().y > hips.front().y + 0.2, travels);
+    }
+}
+
 TEST_F(MotionProgram, what_cannot_be_read_or_written_ends_with_2) {
     const std::string file = figure("walk.glb");
     write(folder_ / "text.glb", "no character");

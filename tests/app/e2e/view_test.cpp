@@ -3,6 +3,7 @@
 
 #include "tests/app/support/panel_places.hpp"
 #include "tests/app/support/play.hpp"
+#include "tests/places.hpp"
 
 namespace tendril::test {
 namespace {
@@ -104,6 +105,35 @@ TEST(View, TwoFingersShiftItWhereThatIsChosenAndZoomWithCtrl) {
     // Over a panel, the panel scrolls.
     const Seen panel = seen_after(scrolls("pan").move({100, 400}).line(wheel(2, 2)));
     EXPECT_EQ(panel.target, before.target);
+}
+
+/// What a fix takes out of a panel, undo puts back, and the panel is scrolled as it was.
+TEST(Panels, AreScrolledAsTheyWereAfterUndo) {
+    const ScriptText scrolled =
+        ScriptText()
+            .command("lab.open", {{"name", "humanoid"}})
+            .command("time.pause")
+            .command("humanoid.load", {{"path", source_path("tests/app/golden/faulty_walk.bvh")}})
+            .command("humanoid.play", {{"on", false}})
+            .command("view.fold", {{"section", "humanoid: Motion lint"}, {"folded", false}})
+            .move({130, 500})
+            .wait(2)
+            .wheel(-30)
+            .wait(2)
+            .move({620, 300})
+            .wait(3);
+    const PlayOptions low{.picture = true, .more = {"--size", "1280x520"}};
+    const auto panel = [](const app::Image& picture) {
+        std::vector<std::uint8_t> pixels;
+        for (int y = 60; y < 480; ++y)
+            for (int x = 0; x < 4 * 240; ++x)
+                pixels.push_back(picture.rgba[static_cast<std::size_t>(4 * picture.size.x * y + x)]);
+        return pixels;
+    };
+    const app::Image before = play(scrolled, low).picture;
+    const ScriptText fixed = ScriptText(scrolled).command("humanoid.cure").wait(4);
+    EXPECT_NE(panel(play(fixed, low).picture), panel(before));
+    EXPECT_EQ(panel(play(ScriptText(fixed).command("undo").wait(4), low).picture), panel(before));
 }
 
 TEST(Panels, ASectionFoldsByAClickOnItsTitle) {

@@ -211,7 +211,12 @@ std::string discarded_text(const HumanoidPart& part) {
     add(static_cast<std::size_t>(
             std::ranges::count_if(part.ik.targets, [](const auto& each) { return each.has_value(); })),
         "target", "targets");
+    // Those of the built-in figure may be the opening's.
+    if (part.loaded->file.empty()) return text;
     add(part.attachments.list.size(), "attachment", "attachments");
+    IkSettings rest = part.ik;
+    rest.targets = {};
+    if (!(rest == IkSettings())) text += (text.empty() ? "" : ", ") + std::string("IK settings");
     return text;
 }
 
@@ -272,6 +277,7 @@ void read_again(Workspace& workspace, double metres, const FileSpace& space) {
     part.loaded = loaded;
     part.map = std::make_shared<const humanoid::BoneMap>(loaded->matched);
     take_map(part, wanted);
+    measure_pace(part);
     part.ik_state.springs.clear();  // springs and fading are in the old metres
     part.ik_state.release = {};
     remake_attachments(workspace, metres / was);
@@ -499,7 +505,9 @@ void cure_clip(Workspace& workspace, const Arguments& given) {
     if (!cure.node.empty()) node_named(part, cure.node);
     if (given.has("frame")) cure.frame = static_cast<std::size_t>(given.integer("frame"));
     CuredClip result = cured(part, cure);
-    workspace.document.edit<HumanoidPart>(humanoid_lab).loaded = std::move(result.loaded);
+    HumanoidPart& now = workspace.document.edit<HumanoidPart>(humanoid_lab);
+    now.loaded = std::move(result.loaded);
+    measure_pace(now);
     workspace.toast(result.text);
 }
 

@@ -61,14 +61,23 @@ bool is_meant(const Finding& finding, const ClipCure& cure, const humanoid::Skel
 }  // namespace
 
 Clip clip_as_shown(HumanoidPart part, Solvers& solvers, std::size_t clip, double rate) {
-    part.playback = {.clip = clip, .loop = false};
+    const Playback was = part.playback;
+    part.playback = {.clip = clip,
+                     .loop = false,
+                     .travel = was.travel,
+                     .targets_travel = was.targets_travel,
+                     .pace = was.clip == clip ? was.pace : glm::dvec3(0.0)};
+    if (was.clip != clip) measure_pace(part);
+    carry_targets(part, was);
     IkState state;
     const Clip& before = part.loaded->clips()[clip];
     return baked(part.skeleton(), before, rate, [&](std::span<rig::Transform> pose, double time, double dt) {
         // In ticks, as it plays, also at a lower rate: springs depend on the length of a step.
         const int steps = std::max(1, static_cast<int>(std::ceil(dt / tick_seconds - 1e-6)));
         for (int i = 1; i <= steps; ++i) {
+            const Playback last = part.playback;
             part.playback.time = time - dt * (1.0 - static_cast<double>(i) / steps);
+            carry_targets(part, last);
             const ShownPose shown = solve_pose(part, solvers, dt / steps, state);
             if (i == steps) std::ranges::copy(shown.local, pose.begin());
         }
@@ -80,8 +89,25 @@ const humanoid::Ground* ground_of_feet(const HumanoidPart& part, Solvers& solver
 }
 
 ClipLint::Judged ClipLint::wanted(const HumanoidPart& part) {
-    Judged judged{part.loaded, part.map, part.playback.clip, part.ik.limits};
-    if (part.view.judged == JudgedClip::Result) judged.ik = part.ik, judged.springs = part.springs;
+    Judged judged{part.loaded, part.map, {.clip = part.playback.clip}, part.ik.limits};
+    if (part.view.judged != JudgedClip::Result) return judged;
+    // Targets as they are at the clip's start, whatever moment is shown; rounded, as they come from there.
+    HumanoidPart start = part;
+    start.playback.time = 0.0;
+    start.playback.rounds = 0;
+    carry_targets(start, part.playback);
+    const auto rounded = [](double value) { return std::round(1e6 * value) * 1e-6; };
+    for (std::optional<TargetSetting>& target : start.ik.targets) {
+        if (!target) continue;
+        for (int i = 0; i < 3; ++i) target->position[i] = rounded(target->position[i]);
+        for (int i = 0; i < 4 && target->rotation; ++i)
+            (*target->rotation)[i] = rounded((*target->rotation)[i]);
+    }
+    judged.playback.travel = part.playback.travel;
+    judged.playback.targets_travel = part.playback.targets_travel;
+    judged.playback.pace = part.playback.pace;
+    judged.ik = std::move(start.ik);
+    judged.springs = part.springs;
     return judged;
 }
 

@@ -29,7 +29,7 @@ class ClipLint {
     struct Judged {
         SharedCharacter loaded;
         std::shared_ptr<const humanoid::BoneMap> map;
-        std::optional<std::size_t> clip;
+        Playback playback;  ///< the clip; for the result also whether it travels
         LimitsFrom limits = LimitsFrom::Defaults;
         std::optional<IkSettings> ik{};  ///< for the result
         std::vector<SpringSetting> springs{};

@@ -86,6 +86,7 @@ void load_motion(Workspace& workspace, const Arguments& given) {
     part.playback.time = 0.0;
     part.playback.rounds = 0;
     part.playback.playing = true;
+    measure_pace(part);
     part.quiet_ticks = 0;
     workspace.toast(played.text);
 }

@@ -8,6 +8,7 @@
 #include <glm/vector_relational.hpp>
 #include <optional>
 #include <stdexcept>
+#include <tendril/humanoid/lint.hpp>
 #include <tendril/magnitude.hpp>
 
 #include "app/labs/humanoid/humanoid_commands.hpp"
@@ -66,6 +67,19 @@ rig::Transform transform(const RoundTurn& ground) {
             .rotation = {std::cos(half), 0.0, std::sin(half), 0.0}};
 }
 
+/// How far the pace has led at that time of a round.
+Complex along(const Playback& playback, double time) {
+    return {playback.pace.z * time, playback.pace.x * time};
+}
+
+/// The hips at the end of a round, with the pace.
+OnGround end_of_round(const Playback& playback, const humanoid::Clip& clip,
+                      const humanoid::Skeleton& skeleton, std::size_t hips) {
+    OnGround end = hips_at(skeleton, sampled(clip, skeleton, clip.duration), hips);
+    end.at += along(playback, clip.duration);
+    return end;
+}
+
 double duration_of(const Playback& playback, const LoadedCharacter& character) {
     return playback.clip ? character.clips()[*playback.clip].duration : 0.0;
 }
@@ -107,31 +121,45 @@ std::vector<rig::Transform> animated_pose(const Playback& playback, const Loaded
     if (!playback.clip) return humanoid::rest_pose(skeleton);
     const humanoid::Clip& clip = character.clips()[*playback.clip];
     std::vector<rig::Transform> pose = sampled(clip, skeleton, playback.time);
-    if (!hips || (playback.rounds == 0 && !playback.in_place)) return pose;
+    const bool paces = playback.pace != glm::dvec3(0.0);
+    if (!hips || (playback.rounds == 0 && !playback.in_place && !paces)) return pose;
     const OnGround first = hips_at(skeleton, sampled(clip, skeleton, 0.0), *hips);
     RoundTurn ground;
-    if (playback.in_place)
+    if (playback.in_place) {
         ground.move = first.at - hips_at(skeleton, pose, *hips).at;
-    else
-        ground = of_rounds(first, hips_at(skeleton, sampled(clip, skeleton, clip.duration), *hips),
+    } else {
+        ground = of_rounds(first, end_of_round(playback, clip, skeleton, *hips),
                            static_cast<double>(playback.rounds));
+        ground.move += ground.turn * along(playback, playback.time);
+    }
     for (std::size_t i = 0; i < pose.size(); ++i)
         if (skeleton[i].parent < 0) pose[i] = rig::compose(transform(ground), pose[i]);
     return pose;
 }
 
-bool carry_targets(HumanoidPart& part, const Playback& before) {
+glm::dvec3 pace_of(const HumanoidPart& part, std::size_t clip) {
+    return -humanoid::lint(part.skeleton(), *part.map, part.loaded->clips()[clip]).treadmill;
+}
+
+void measure_pace(HumanoidPart& part) {
+    Playback& playback = part.playback;
+    playback.pace = playback.travel && playback.clip ? pace_of(part, *playback.clip) : glm::dvec3(0.0);
+}
+
+void carry_targets(HumanoidPart& part, const Playback& before) {
     const Playback& now = part.playback;
     const auto hips = part.node_of(humanoid::Bone::Hips);
-    if (now.in_place || !hips || !now.clip || now.clip != before.clip || now.rounds == before.rounds ||
+    if (now.in_place || !now.targets_travel || !hips || !now.clip || now.clip != before.clip ||
         !part.ik.has_targets())
-        return false;
+        return;
     const humanoid::Skeleton& skeleton = part.skeleton();
     const humanoid::Clip& clip = *part.clip();
-    const rig::Transform along =
-        transform(of_rounds(hips_at(skeleton, sampled(clip, skeleton, 0.0), *hips),
-                            hips_at(skeleton, sampled(clip, skeleton, clip.duration), *hips),
-                            static_cast<double>(now.rounds - before.rounds)));
+    if (!(clip.duration > 0.0)) return;
+    const double rounds =
+        static_cast<double>(now.rounds - before.rounds) + (now.time - before.time) / clip.duration;
+    if (rounds == 0.0) return;
+    const rig::Transform along = transform(of_rounds(hips_at(skeleton, sampled(clip, skeleton, 0.0), *hips),
+                                                     end_of_round(now, clip, skeleton, *hips), rounds));
     for (std::optional<TargetSetting>& target : part.ik.targets) {
         if (!target) continue;
         const glm::dvec3 at = along.translation + along.rotation * target->position;
@@ -140,7 +168,6 @@ bool carry_targets(HumanoidPart& part, const Playback& before) {
         target->position = at;
         if (target->rotation) target->rotation = rig::normalised(along.rotation * *target->rotation);
     }
-    return true;
 }
 
 glm::dvec3 missing_velocity(const Playback& playback, const LoadedCharacter& character,
@@ -153,7 +180,7 @@ glm::dvec3 missing_velocity(const Playback& playback, const LoadedCharacter& cha
     const humanoid::Skeleton& skeleton = character.skeleton();
     const auto at = [&](double time) { return hips_at(skeleton, sampled(clip, skeleton, time), *hips).at; };
     const Complex velocity = (at(to) - at(from)) / (to - from);
-    return {velocity.imag(), 0.0, velocity.real()};
+    return glm::dvec3(velocity.imag(), 0.0, velocity.real()) + playback.pace;
 }
 
 // The strip below the scene: the clip with buttons to play and step it, or the last ten seconds.
@@ -263,7 +290,9 @@ template <>
 std::span<const tendril::Field> tendril::fields<tendril::app::Playback>() noexcept {
     using app::Playback;
     static constexpr Field rows[] = {field<&Playback::speed>("speed", {0.0, app::fastest_clip}),
-                                     field<&Playback::loop>("loop"), field<&Playback::in_place>("in_place")};
+                                     field<&Playback::loop>("loop"), field<&Playback::in_place>("in_place"),
+                                     field<&Playback::travel>("travel"),
+                                     field<&Playback::targets_travel>("targets_travel")};
     return rows;
 }
 
@@ -283,12 +312,21 @@ std::span<const FieldText> field_texts<Playback>() {
         {.name = "loop",
          .label = "Loop",
          .help =
-             "Plays the clip over and over; a walk carries on from where it is, and targets go along from "
-             "round to round. Off: it stops at the end.",
+             "Plays the clip over and over; a walk carries on from where it is. Off: it stops at the end.",
          .more = true},
         {.name = "in_place",
          .label = "In place",
          .help = "The hips stay above the point where the clip begins.",
+         .more = true},
+        {.name = "travel",
+         .label = "Travel",
+         .help =
+             "A clip that walks in place goes along at the speed of its standing foot, so that it can climb "
+             "stairs and slopes. One that travels already stays as it is.",
+         .more = true},
+        {.name = "targets_travel",
+         .label = "Targets travel",
+         .help = "Targets go along with a walk. Off: they stay where they are in the world.",
          .more = true}};
     return texts;
 }
@@ -347,6 +385,7 @@ void set_clip(HumanoidPart& part, const Arguments& given) {
     else if (given.has("name") || given.has("index"))
         choose(playback, chosen_clip(*part.loaded, given));
     set_fields(given, playback);
+    if (playback.clip != before.clip || playback.travel != before.travel) measure_pace(part);
     const bool play = given.has("play") && given.boolean("play");
     if (!playback.clip && (play || given.has("time"))) throw std::invalid_argument("no clip is chosen");
     if (given.has("time")) go_to(playback, *part.loaded, given.real("time"));

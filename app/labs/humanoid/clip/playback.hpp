@@ -2,10 +2,11 @@
 //
 // A looping clip continues where the previous round ended: each round moves the hips on the ground and turns
 // them about the vertical by the difference between the clip's first and last moment. Played in place, the
-// hips stay above their starting point.
+// hips stay above their starting point. A clip that was recorded in place can be made to travel.
 #pragma once
 
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <optional>
 #include <tendril/rig/transform.hpp>
 
@@ -28,6 +29,9 @@ struct Playback {
     double speed = 1.0;       ///< 0 to fastest_clip
     bool loop = true;
     bool in_place = false;
+    bool travel = false;         ///< a clip that walks in place goes along with `pace`
+    bool targets_travel = true;  ///< targets go along with a clip that travels
+    glm::dvec3 pace{0.0};        ///< m/s, by measure_pace(); 0 without `travel`
     bool operator==(const Playback&) const = default;
 };
 
@@ -44,14 +48,21 @@ void go_to(Playback& playback, const LoadedCharacter& character, double seconds)
 std::vector<rig::Transform> animated_pose(const Playback& playback, const LoadedCharacter& character,
                                           std::optional<std::size_t> hips);
 
-/// Takes the targets from the round that `before` was in along to the current one, so that the clip reaches
-/// them in each round alike. True if there were any to take.
-bool carry_targets(HumanoidPart& part, const Playback& before);
+/// How fast a clip that walks in place should travel for its standing feet to stay where they are, m/s; 0 for
+/// one that travels, or stands.
+glm::dvec3 pace_of(const HumanoidPart& part, std::size_t clip);
+/// Call after a change of clip, bone map or Playback::travel.
+void measure_pace(HumanoidPart& part);
+
+/// Takes the targets along from where the clip was: each moves at the average speed of the round, turning
+/// with it, so that the clip reaches them in each round alike.
+void carry_targets(HumanoidPart& part, const Playback& before);
 
 /// Whether the strip of the clip has marks of Motion lint.
 bool shows_lint_marks(const Workspace& workspace);
 
-/// The hips' ground velocity that playing in place removes at that moment, m/s at the recorded speed.
+/// The hips' ground velocity that playing in place removes at that moment, m/s at the recorded speed; with
+/// `travel`, that of the pace too.
 glm::dvec3 missing_velocity(const Playback& playback, const LoadedCharacter& character,
                             std::optional<std::size_t> hips);
 

@@ -46,7 +46,8 @@ class FeetWalk {
 FeetHistory::Before FeetHistory::before(const HumanoidPart& part, Solvers& solvers) {
     const humanoid::Clip* const clip = part.clip();
     if (clip == nullptr) return {};
-    Of of{part.loaded, part.map, part.playback.clip, part.playback.in_place, part.ik.ground, part.ik.foot_ik};
+    Of of{part.loaded,        part.map,       part.playback.clip, part.playback.in_place,
+          part.playback.pace, part.ik.ground, part.ik.foot_ik};
     if (!(of_ == of)) {
         of_ = std::move(of);
         pasts_.clear();

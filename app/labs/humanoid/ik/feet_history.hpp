@@ -41,6 +41,7 @@ class FeetHistory {
         std::shared_ptr<const humanoid::BoneMap> map;
         std::optional<std::size_t> clip;
         bool in_place = false;
+        glm::dvec3 pace{0.0};
         GroundSetting ground;
         FootIkSetting foot_ik;
         bool operator==(const Of&) const = default;

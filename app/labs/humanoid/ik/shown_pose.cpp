@@ -276,13 +276,13 @@ std::string why_no_balance(const HumanoidPart& part, const ShownPose& shown, Sol
 std::string why_in_air(const HumanoidPart& part, const ShownPose& shown, Solvers& solvers, std::size_t side) {
     if (!shown.feet || shown.feet->feet[side].planted || !why_alone(part, shown, side).empty()) return {};
     const Solvers::Gait* const gait = solvers.gait(part);
-    if (gait == nullptr) return {};
+    if (gait == nullptr || part.playback.pace != glm::dvec3(0.0)) return {};
     const double slide = gait->slide[side];
     if (slide < part.ik.foot_ik.enter_speed) return {};
     const std::string speed = fixed_text(slide, 1) + " m/s";
     if (gait->travel < 0.35 * gait->slide[side])
         return "Feet are not planted: the clip walks in place, and they slide at " + speed +
-               " while low. Use a clip that travels.";
+               " while low. Turn on Travel, under Clip.";
     return "Feet are not planted: near the ground they move at " + speed + ", over \"plant below\".";
 }
 

@@ -130,6 +130,7 @@ const Solvers::Gait* Solvers::gait(const HumanoidPart& part) {
     const auto [found, added] = gaits_.try_emplace(*part.playback.clip);
     Gait& gait = found->second;
     if (!added) return &gait;
+    gait.pace = pace_of(part, *part.playback.clip);
     const humanoid::Clip& clip = *part.clip();
     const humanoid::Skeleton& skeleton = part.skeleton();
     const double steps = std::clamp(std::ceil(60.0 * clip.duration), 1.0, 10'000.0);

@@ -46,6 +46,7 @@ class Solvers {
     struct Gait {
         std::array<double, 2> slide{};  ///< m/s, the median of the toe; left, right. 0 if it is never low
         double travel = 0.0;            ///< m/s
+        glm::dvec3 pace{0.0};           ///< see pace_of()
     };
     /// Null for the rest pose, or without feet.
     const Gait* gait(const HumanoidPart& part);

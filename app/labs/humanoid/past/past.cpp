@@ -204,8 +204,8 @@ bool comparable(const HumanoidPart& was, const HumanoidPart& is) {
     const Playback &before = was.playback, &after = is.playback;
     const bool plays = before.playing || (before.time == after.time && before.rounds == after.rounds);
     return was.loaded == is.loaded && (was.map == is.map || *was.map == *is.map) &&
-           before.clip == after.clip && before.in_place == after.in_place && plays &&
-           was.t_pose == is.t_pose && was.springs == is.springs &&
+           before.clip == after.clip && before.in_place == after.in_place && before.pace == after.pace &&
+           plays && was.t_pose == is.t_pose && was.springs == is.springs &&
            without_places(was.ik) == without_places(is.ik);
 }
 

@@ -84,10 +84,13 @@ struct LintSettings {
 inline constexpr std::size_t max_lint_frames = 500'000;
 
 struct LintReport {
-    double rate = 30.0;               ///< frames per second
-    std::size_t frames = 0;           ///< number of frames judged
-    bool has_floor = false;           ///< feet stand in this clip, and were judged
-    double floor = 0.0;               ///< height of the clip's floor, metres; from the ground, if given
+    double rate = 30.0;      ///< frames per second
+    std::size_t frames = 0;  ///< number of frames judged
+    bool has_floor = false;  ///< feet stand in this clip, and were judged
+    double floor = 0.0;      ///< height of the clip's floor, metres; from the ground, if given
+    /// Velocity of the ground under a figure that walks in place, m/s: how its standing feet move. 0 if the
+    /// clip travels.
+    glm::dvec3 treadmill{0.0};
     double skating = 0.0;             ///< maximum slide of a standing foot, metres, even if tolerated
     std::vector<Finding> findings{};  ///< by frame
 };

@@ -171,6 +171,7 @@ void check_feet(Check& check) {
     if (check.report.frames < 4) return;
     const FeetMotion motion = feet_motion(check);
     if (motion.feet.empty()) return;
+    check.report.treadmill = motion.treadmill;
     const std::optional<double> floor = floor_of(motion, check.report.rate);
     if (!floor) return;
     check.report.has_floor = true;

@@ -3,10 +3,13 @@
 #include <fstream>
 
 #include "app/labs/card.hpp"
+#include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "app/labs/humanoid/ik/shown_pose.hpp"
 #include "humanoid_support.hpp"
+#include "tests/app/support/panel_text.hpp"
 #include "tests/app/support/temp_folder.hpp"
 #include "tests/places.hpp"
+#include "tests/says.hpp"
 
 namespace tendril::app {
 namespace {
@@ -33,7 +36,7 @@ TEST_F(HumanoidClips, TargetsGoAlongFromRoundToRound) {
     EXPECT_LT(glm::distance(at(), to), 1e-6);
 }
 
-/// A target that goes along by a metre at once takes the body along gently.
+/// Targets go along throughout a round, so that nothing leaps at its end.
 TEST_F(HumanoidClips, ARoundThatEndsMakesNoLimbLeap) {
     run("humanoid.clip", {{"name", "walk"}, {"time", 0.3}});
     const glm::dvec3 hand = bone("LeftHand");
@@ -46,7 +49,7 @@ TEST_F(HumanoidClips, ARoundThatEndsMakesNoLimbLeap) {
         most = std::max(most, glm::distance(was, bone("LeftHand")));
     }
     EXPECT_GE(part().playback.rounds, 2);
-    EXPECT_LT(most, 0.25) << "of a way of a metre and more";
+    EXPECT_LT(most, 0.06) << "at 1 m/s, and a little more on its way to the target";
 }
 
 TEST_F(HumanoidClips, WithMarksOfTheLintSayInTheLegendWhatTheyAre) {
@@ -156,6 +159,71 @@ TEST_F(HumanoidClips, PlayAndPauseAreNoStepsToUndo) {
     EXPECT_EQ(workspace.history.size(), steps);
     run("humanoid.clip", {{"name", ""}});
     expect_refused("humanoid.play", {{"on", true}}, {"clip"});
+}
+
+TEST_F(HumanoidClips, ThatWalkInPlaceCanTravel) {
+    const test::TempFolder folder;
+    run("humanoid.load", {{"path", treadmill_figure(folder.path())}});
+    run("humanoid.clip", {{"index", 0}, {"play", true}});
+    EXPECT_TRUE(
+        test::says(test::PanelReader().panel(lab(), workspace), "recorded in place Travel at 1.0 m/s"));
+    run("humanoid.clip", {{"travel", true}});
+    EXPECT_NEAR(part().playback.pace.z, 1.0, 0.05) << "the speed of the standing foot";
+    // On through the rounds without a jump, and up the stairs.
+    run("humanoid.ground", {{"kind", "stairs"}, {"step_height", 0.15}, {"step_depth", 0.3}});
+    const glm::dvec3 begin = bone("Hips");
+    glm::dvec3 last = begin;
+    for (int i = 0; i < 240; ++i) {
+        tick();
+        EXPECT_LT(glm::distance(bone("Hips"), last), 0.06) << i;
+        last = bone("Hips");
+    }
+    EXPECT_NEAR(last.z - begin.z, 4.0 * part().playback.pace.z, 0.1);
+    EXPECT_GT(last.y - begin.y, 1.2);
+    // What is judged and exported travels as well, and its feet stand.
+    run("humanoid.ground", {{"kind", "flat"}});
+    run("humanoid.view", {{"judged", "result"}});
+    HumanoidRuntime& runtime = humanoid_runtime(workspace);
+    const humanoid::LintReport* const result = runtime.lint.judge(part(), runtime.solvers);
+    ASSERT_NE(result, nullptr);
+    EXPECT_EQ(result->treadmill, glm::dvec3(0.0)) << "the ground stands still";
+    EXPECT_TRUE(result->findings.empty()) << result->findings[0].text;
+    run("humanoid.export", {{"path", (folder / "out.glb").string()}});
+    const Workspace other = reopened();
+    EXPECT_EQ(humanoid_part(other).playback, part().playback);
+    run("humanoid.load", {{"path", (folder / "out.glb").string()}});
+    run("humanoid.clip", {{"index", 0}, {"time", walk_seconds}});
+    EXPECT_NEAR(bone("Hips").z, walk_metres, 0.06);
+    // A clip that travels by itself goes no faster.
+    run("humanoid.load");
+    run("humanoid.clip", {{"name", "walk"}, {"travel", true}, {"time", walk_seconds}});
+    EXPECT_EQ(part().playback.pace, glm::dvec3(0.0));
+    EXPECT_NEAR(bone("Hips").z, walk_metres, 1e-6);
+}
+
+TEST_F(HumanoidClips, TakeTargetsAlongWithinARound) {
+    for (const bool travels : {true, false}) {
+        run("humanoid.load");
+        run("humanoid.clip", {{"name", "walk"}, {"play", true}, {"targets_travel", travels}});
+        const glm::dvec3 hand(0.35, 1.3, 0.4);
+        run("humanoid.target", {{"effector", "left_hand"}, {"to", {hand.x, hand.y, hand.z}}});
+        const auto target = [&] { return part().ik.target(humanoid::Effector::LeftHand)->position; };
+        for (int i = 1; i <= 150; ++i) {
+            tick();
+            const double gone = travels ? i / 60.0 : 0.0;  // the walk advances at 1 m/s
+            EXPECT_LT(glm::distance(target(), hand + glm::dvec3(0.0, 0.0, gone)), 1e-6) << i;
+            if (!travels) continue;
+            EXPECT_LT(glm::distance(bone("LeftHand"), target()), 0.03) << i;
+        }
+    }
+    // In another moment they are where the figure then is, and an export has them there from its start.
+    run("humanoid.clip", {{"time", 0.0}, {"targets_travel", true}});
+    const glm::dvec3 start = part().ik.target(humanoid::Effector::LeftHand)->position;
+    run("humanoid.clip", {{"time", 0.5 * walk_seconds}});
+    EXPECT_NEAR(part().ik.target(humanoid::Effector::LeftHand)->position.z, start.z + 0.5 * walk_metres,
+                1e-9);
+    run("humanoid.clip", {{"time", 0.0}});
+    EXPECT_LT(glm::distance(part().ik.target(humanoid::Effector::LeftHand)->position, start), 1e-9);
 }
 
 TEST_F(HumanoidClips, ThatTurnGoOnAsTheyFace) {

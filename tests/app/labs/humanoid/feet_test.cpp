@@ -203,7 +203,7 @@ TEST_F(HumanoidFeet, SayWhyTheyNeverRest) {
     run("humanoid.foot_ik", {{"on", true}});
     tick(100);
     while (foot(0).at("planted").get<bool>() || foot(1).at("planted").get<bool>()) tick();
-    EXPECT_TRUE(test::says(foot(0).at("why_in_air"), "walks in place slide 1.0 m/s travels"));
+    EXPECT_TRUE(test::says(foot(0).at("why_in_air"), "walks in place slide 1.0 m/s Travel"));
     run("view.fold", {{"section", "humanoid: Ground and feet"}, {"folded", false}});
     const std::string text = test::PanelReader().panel(lab(), workspace);
     const std::size_t first = text.find("walks in place");

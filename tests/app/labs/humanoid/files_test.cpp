@@ -125,7 +125,7 @@ TEST_F(HumanoidFiles, TheResultIsJudgedAndAnExportTellsWhatIsNewInIt) {
     run("humanoid.export", {{"path", path("out.glb")}});
     const std::string told = workspace.ui.toasts.back().text;
     EXPECT_TRUE(test::says(told, std::to_string(count) + " in the written clip, " + std::to_string(count) +
-                                     " of them new " + report().findings[0].text.substr(0, 12)))
+                                     " of them new " + report().findings[0].text.substr(0, 15)))
         << told;
     // Reopened, the file has what was told.
     run("humanoid.load", {{"path", path("out.glb")}});
@@ -213,9 +213,10 @@ TEST_F(HumanoidFiles, AnotherCharacterTellsWhatItDiscards) {
     EXPECT_TRUE(workspace.ui.toasts.empty()) << "nothing to discard";
     run("humanoid.cure", Json::object());
     run("humanoid.target", {{"effector", "left_hand"}, {"to", {0.5, 1.2, 0.3}}});
+    run("humanoid.ground", {{"kind", "flat"}});
     const HumanoidPart before = part();
     run("humanoid.load");
-    EXPECT_TRUE(test::says(workspace.ui.toasts.back().text, "Discarded 1 fix 1 target Undo"))
+    EXPECT_TRUE(test::says(workspace.ui.toasts.back().text, "Discarded 1 fix 1 target IK settings Undo"))
         << workspace.ui.toasts.back().text;
     run("undo");
     EXPECT_TRUE(part() == before);
