@@ -466,6 +466,10 @@ Verdict humanoid_verdict(const Workspace& workspace) {
     double worst = -1.0;
     for (const humanoid::Effector effector : all_effectors)
         if (part.ik.target(effector)) worst = std::max(worst, shown.residual(effector).value_or(-1.0));
+    if (const auto deepest = foot_in_ground(shown); deepest && worst < 1e-3)
+        return {std::string(deepest->side == 0 ? "Left" : "Right") + " foot " +
+                    fixed_text(1000.0 * deepest->depth, 0) + " mm in the ground",
+                Verdict::Kind::Bad, why_in_ground(part, *deepest)};
     if (worst < 0.0 && all) return {"Complete body", Verdict::Kind::Good, bones + '.'};
     if (worst < 0.0)
         return {"Usable body", Verdict::Kind::Good,

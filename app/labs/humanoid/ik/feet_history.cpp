@@ -25,11 +25,11 @@ class FeetWalk {
           playback_(part.playback) {
         playback_.loop = true;
     }
-    void step(std::int64_t tick, double dt, humanoid::FeetState& state) {
+    humanoid::FeetReport step(std::int64_t tick, double dt, humanoid::FeetState& state) {
         go_to(playback_, *part_.loaded, static_cast<double>(tick) * tick_seconds);
         options_.root_velocity = missing_velocity(playback_, *part_.loaded, hips_);
         std::vector<rig::Transform> pose = animated_pose(playback_, *part_.loaded, hips_);
-        feet_.step(pose, ground_, dt, state, options_);
+        return feet_.step(pose, ground_, dt, state, options_);
     }
 
   private:
@@ -41,7 +41,18 @@ class FeetWalk {
     Playback playback_;
 };
 
+bool less_deep(const FeetHistory::Deepest& a, const FeetHistory::Deepest& b) {
+    return a.depth < b.depth;
+}
+
 }  // namespace
+
+FeetHistory::Deepest FeetHistory::deepest_of(const humanoid::FeetReport& report) {
+    const auto of = [&](std::size_t side) {
+        return Deepest{side, report.feet[side].depth, report.feet[side].late};
+    };
+    return std::max(of(0), of(1), less_deep);
+}
 
 FeetHistory::Before FeetHistory::before(const HumanoidPart& part, Solvers& solvers) {
     const humanoid::Clip* const clip = part.clip();
@@ -58,7 +69,11 @@ FeetHistory::Before FeetHistory::before(const HumanoidPart& part, Solvers& solve
     if (tick < 0) return {};
     const std::int64_t block = tick / block_ticks;
     const std::int64_t begin = std::max<std::int64_t>(block - 1, 0) * block_ticks;
-    Before found{at(tick, begin, part, solvers), seconds - static_cast<double>(tick) * tick_seconds};
+    Before found{.state = at(tick, begin, part, solvers),
+                 .dt = seconds - static_cast<double>(tick) * tick_seconds};
+    const std::vector<Deepest>& deepest = pasts_[begin].deepest;
+    for (std::int64_t i = std::max<std::int64_t>(tick - begin - lately, 0); i <= tick - begin; ++i)
+        found.deepest = std::max(found.deepest, deepest[static_cast<std::size_t>(i)], less_deep);
     // The past of the next block grows along while the clip plays, so that no frame has to make up for it.
     if (block > 0) {
         const std::int64_t next = block * block_ticks, known = pasts_.contains(next) ? pasts_[next].tick : -1;
@@ -84,7 +99,8 @@ humanoid::FeetState FeetHistory::at(std::int64_t tick, std::int64_t begin, const
     }
     while (past.tick < wanted) {
         ++past.tick;
-        walk.step(begin + past.tick, past.tick == 0 ? 0.0 : tick_seconds, past.last);
+        past.deepest.push_back(
+            deepest_of(walk.step(begin + past.tick, past.tick == 0 ? 0.0 : tick_seconds, past.last)));
         if (past.tick % ticks_apart == 0) past.kept.push_back(past.last);
     }
     return past.last;

@@ -28,12 +28,25 @@ class FeetHistory {
     static constexpr std::int64_t block_ticks = 1800;  ///< 30 s
     static constexpr std::int64_t ticks_apart = 16;    ///< between the states that are kept
 
+    /// The deepest that a foot has been in the ground lately: in the last `lately` ticks.
+    struct Deepest {
+        std::size_t side = 0;  ///< 0 is left
+        double depth = 0.0;    ///< metres
+        double late = 0.0;     ///< how far it still had to rise then, metres
+        bool operator==(const Deepest&) const = default;
+    };
+    static constexpr std::int64_t lately = 120;
+
     struct Before {
         humanoid::FeetState state{};
+        Deepest deepest{};
         double dt = 0.0;  ///< seconds from there to the moment; 0: nothing came before
     };
     /// The state that the step to the part's moment starts from. Needs feet. The rest pose has no past.
     Before before(const HumanoidPart& part, Solvers& solvers);
+
+    /// The deeper of both feet.
+    static Deepest deepest_of(const humanoid::FeetReport& report);
 
   private:
     struct Of {
@@ -49,6 +62,7 @@ class FeetHistory {
     /// The states since a tick, in steps.
     struct Past {
         std::vector<humanoid::FeetState> kept{};  // every ticks_apart
+        std::vector<Deepest> deepest{};           // at each tick
         humanoid::FeetState last{};
         std::int64_t tick = -1;  // of `last`, since the beginning of this past
     };

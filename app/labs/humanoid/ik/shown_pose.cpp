@@ -33,6 +33,8 @@ void stand(const HumanoidPart& part, Solvers& solvers, ShownPose& shown) {
     if (!report.valid) return;
     shown.feet = report;
     shown.feet_state = before.state;
+    shown.deepest = FeetHistory::deepest_of(report);
+    if (before.deepest.depth > shown.deepest.depth) shown.deepest = before.deepest;
 }
 
 /// The stored state may belong to another body, if a file was edited; then it is reset.
@@ -284,6 +286,19 @@ std::string why_in_air(const HumanoidPart& part, const ShownPose& shown, Solvers
         return "Feet are not planted: the clip walks in place, and they slide at " + speed +
                " while low. Turn on Travel, under Clip.";
     return "Feet are not planted: near the ground they move at " + speed + ", over \"plant below\".";
+}
+
+std::optional<FeetHistory::Deepest> foot_in_ground(const ShownPose& shown) {
+    return shown.feet && shown.deepest.depth > max_depth ? std::optional(shown.deepest) : std::nullopt;
+}
+
+std::string why_in_ground(const HumanoidPart& part, const FeetHistory::Deepest& deepest) {
+    const bool stairs = part.ik.ground.kind == humanoid::GroundKind::Stairs;
+    if (deepest.late > 0.5 * deepest.depth)
+        return stairs ? "It is too fast for the stairs. Use lower steps or a slower clip."
+                      : "It is too fast for the ground. Use a gentler ground or a slower clip.";
+    return stairs ? "It has too little room on the steps. Make them deeper."
+                  : "It has too little room on the ground there.";
 }
 
 const ShownPose& HumanoidRuntime::shown(const Workspace& workspace) {

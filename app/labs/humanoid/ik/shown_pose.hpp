@@ -23,6 +23,7 @@ struct ShownPose {
     std::optional<humanoid::LookAtReport> look;   ///< if look-at is on
     std::optional<humanoid::FeetReport> feet;     ///< if foot IK is on
     humanoid::FeetState feet_state;               ///< what it remembers then
+    FeetHistory::Deepest deepest{};               ///< of the feet in the ground, lately
     std::vector<humanoid::SpringReport> springs;  ///< in the order of the part's springs
     std::array<humanoid::SolePoints, 2> soles{};  ///< left, right
     bool has_soles = false;
@@ -75,6 +76,11 @@ std::string why_no_balance(const HumanoidPart& part, const ShownPose& shown, Sol
 
 /// Why foot IK hardly ever plants a foot of this clip; empty if it does, or if the foot is planted now.
 std::string why_in_air(const HumanoidPart& part, const ShownPose& shown, Solvers& solvers, std::size_t side);
+
+/// How deep a foot has lately passed through the ground, and why; empty up to `max_depth`.
+std::optional<FeetHistory::Deepest> foot_in_ground(const ShownPose& shown);
+std::string why_in_ground(const HumanoidPart& part, const FeetHistory::Deepest& deepest);
+inline constexpr double max_depth = 0.01;  ///< metres
 
 /// The displayed pose of the lab's part, cached until the part changes. Valid until the next call.
 const ShownPose& shown_pose(const Workspace& workspace);
