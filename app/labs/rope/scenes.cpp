@@ -58,7 +58,7 @@ const std::vector<RopeSceneEntry>& rope_scenes() {
          view({0.0f, 1.1f, 0.0f}, -32.0f, 14.0f, 4.6f)},
         {"line", "Cloth line", "A cloth tied to a rope, which bends under it, in a light wind", line_scene,
          view({0.0f, 1.15f, 0.0f}, -26.0f, 12.0f, 4.4f)},
-        {"hangers", "Hanger bridge", "A deck hangs by ropes from two main ropes, every end tied",
+        {"hangers", "Hangers", "A deck hangs by ropes from two main ropes, every end tied",
          hanger_scene, view({0.0f, 0.95f, 0.0f}, -30.0f, 14.0f, 6.2f)},
         {"knot", "Knot", "A weight pulls a loose knot tight, in a rope that collides with itself", knot_scene,
          view({0.0f, 1.35f, 0.0f}, -24.0f, 8.0f, 3.6f)}};

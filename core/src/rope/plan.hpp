@@ -16,7 +16,7 @@ struct Plan {
     struct Range {
         std::uint32_t first = 0, count = 0;
     };
-    /// Bodies that no link or tie joins to any other. Nothing in a substep reaches from one island to
+    /// Bodies that no link, tie or collision joins to any other. Nothing in a substep reaches from one island to
     /// another, so islands can be solved in any order and in parallel. Bodies whose chains are all alone are
     /// merged to fill registers.
     struct Island {

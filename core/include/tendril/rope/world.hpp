@@ -30,7 +30,7 @@
 // allocates nothing once the workspace has seen the world in its shape, unless more colliders are near than
 // ever before.
 //
-// Bodies that no link or tie joins do not affect each other. Threads can share them, and a cloth of 8 192
+// Bodies that no link, tie or collision joins do not affect each other. Threads can share them, and a cloth of 8 192
 // particles or more: Workspace::use_threads. A rope is solved on one thread. Two limits are shared by such
 // bodies in proportion to size: max_pass_work, and that on searches for a way out of colliders.
 #pragma once
