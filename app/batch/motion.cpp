@@ -10,9 +10,9 @@
 #include "app/document/json_complete.hpp"
 #include "app/document/text.hpp"
 #include "app/io/character/bake.hpp"
-#include "app/io/character/carried_motion.hpp"
 #include "app/io/character/export.hpp"
 #include "app/io/character/read.hpp"
+#include "app/io/character/retargeted_motion.hpp"
 #include "app/labs/humanoid/ik/ground.hpp"
 
 namespace tendril::app {
@@ -62,8 +62,7 @@ void print_lines(const LintReport& report, const Clip& clip, Output& out) {
     }
 }
 
-/// The motion's clips, or the named one, carried over to the character in place of its own. Returns what to
-/// say of that.
+/// Gives the character the motion's clips, or the named one, instead of its own. Returns what to say of that.
 std::vector<std::string> play_motion(Character& character, const std::string& motion,
                                      const std::string* clip) {
     const humanoid::BoneMap map = bone_map(character);
@@ -74,10 +73,10 @@ std::vector<std::string> play_motion(Character& character, const std::string& mo
     character.clips.clear();
     for (const Clip& each : source.clips) {
         if (clip && &each != &first) continue;
-        CarriedMotion carried = carry_over(source, motion, each, character.skeleton, map);
+        RetargetedMotion made = retargeted_clip(source, motion, each, character.skeleton, map);
         if (character.clips.empty())
-            notes.push_back(fs::path(motion).filename().string() + ": " + joined(carried.notes));
-        character.clips.push_back(std::move(carried.clip));
+            notes.push_back(fs::path(motion).filename().string() + ": " + joined(made.notes));
+        character.clips.push_back(std::move(made.clip));
     }
     return notes;
 }
@@ -205,16 +204,16 @@ const char* const bake_help =
 default the first, is written to --out, or to FILE_baked beside the file: as glTF,
 GLB or BVH, depending on the name's ending. With --all every clip is written, each
 to a file of its own: its name is added to the file's. With --motion, the clips are
-those of that file, another character's, carried over: the feet stand where the
-other's do. glTF from a glTF file keeps its nodes, skins, materials, meshes and
+those of that file, another character's: limbs point as they do there, and the feet
+stand where they do. glTF from a glTF file keeps its nodes, skins, materials, meshes and
 pictures unchanged. With a ground, the feet are put on it first: flat, a slope of 20
 degrees or stairs 15 cm high and 30 cm deep, which rise along +Z, or terrain, low
 hills. A clip that walks in place climbs nothing: with --travel it goes along at the
-speed of its standing foot. The file is then read back, and two errors are printed: the joint that is
-furthest from where it was, in mm, and how far a standing foot slides at most, before
-and after. A BVH's frame 0 is time 0. What a file does not say and was guessed (unit,
-up axis, root) is printed first. An existing file is replaced as a whole, or left as
-it was (exit code 2). A signal ends it at once.
+speed of its standing foot. The file is then read back, and two errors are printed:
+the joint that is furthest from where it was, in mm, and how far a standing foot
+slides at most, before and after. A BVH's frame 0 is time 0. What a file does not say
+and was guessed (unit, up axis, root) is printed first. An existing file is replaced
+as a whole, or left as it was (exit code 2). A signal ends it at once.
 To open a scene file that is named bake, write ./bake.)";
 
 }  // namespace tendril::app

@@ -31,7 +31,7 @@ struct LoadedMotion {
     std::string file;                  ///< as given
     std::string path;                  ///< absolute
     std::string clip;                  ///< its name there
-    std::vector<std::string> notes{};  ///< CarriedMotion::notes
+    std::vector<std::string> notes{};  ///< RetargetedMotion::notes
     bool operator==(const LoadedMotion&) const = default;
 };
 

@@ -7,8 +7,8 @@
 
 #include "app/document/json_complete.hpp"
 #include "app/document/json_place.hpp"
-#include "app/io/character/carried_motion.hpp"
 #include "app/io/character/read.hpp"
+#include "app/io/character/retargeted_motion.hpp"
 #include "app/labs/humanoid/humanoid_commands.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "app/labs/humanoid/panel.hpp"
@@ -33,14 +33,14 @@ std::string free_name(const LoadedCharacter& character, const std::string& wante
 PlayedMotion with_motion(const HumanoidPart& part, const std::string& file, const std::string& clip) {
     const Character source = read_character(file);
     const Clip& wanted = clip_named(source, file, clip);
-    CarriedMotion carried = carry_over(source, file, wanted, part.skeleton(), *part.map);
+    RetargetedMotion motion = retargeted_clip(source, file, wanted, part.skeleton(), *part.map);
     auto loaded = std::make_shared<LoadedCharacter>(*part.loaded);
-    carried.clip.name = free_name(*loaded, wanted.name);
+    motion.clip.name = free_name(*loaded, wanted.name);
     PlayedMotion played;
-    played.text = "Clip " + carried.clip.name + ": " + joined(carried.notes);
+    played.text = "Clip " + motion.clip.name + ": " + joined(motion.notes);
     loaded->motions.push_back({file, std::filesystem::absolute(file).lexically_normal().string(), wanted.name,
-                               std::move(carried.notes)});
-    loaded->character.clips.push_back(std::move(carried.clip));
+                               std::move(motion.notes)});
+    loaded->character.clips.push_back(std::move(motion.clip));
     played.loaded = std::move(loaded);
     return played;
 }

@@ -1,4 +1,4 @@
-// A clip of another character's file, carried over to a character (humanoid::retarget), and what that took.
+// A clip of another character's file, played on a character (humanoid::retarget), and what that took.
 #pragma once
 
 #include <filesystem>
@@ -10,9 +10,9 @@
 
 namespace tendril::app {
 
-struct CarriedMotion {
+struct RetargetedMotion {
     humanoid::Clip clip{};             ///< of the character; has the name that it has in its file
-    std::vector<std::string> notes{};  ///< sentences: what was scaled, not carried over, and guessed
+    std::vector<std::string> notes{};  ///< sentences: what was scaled, is missing, or was guessed
 };
 
 /// The clip of that name; empty: the first one. Throws std::runtime_error: "walk.bvh: has no clip "run"; it
@@ -21,9 +21,9 @@ const humanoid::Clip& clip_named(const Character& character, const std::filesyst
                                  const std::string& name);
 
 /// Throws std::runtime_error that begins with the file's name.
-CarriedMotion carry_over(const Character& source, const std::filesystem::path& file,
-                         const humanoid::Clip& clip, const humanoid::Skeleton& skeleton,
-                         const humanoid::BoneMap& map);
+RetargetedMotion retargeted_clip(const Character& source, const std::filesystem::path& file,
+                                 const humanoid::Clip& clip, const humanoid::Skeleton& skeleton,
+                                 const humanoid::BoneMap& map);
 
 /// In sentences: how a file without a unit or an up axis was read, and which bones its nodes hardly show.
 std::vector<std::string> guesses_of(const Character& character, const humanoid::BoneMap& map);

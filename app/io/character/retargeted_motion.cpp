@@ -1,6 +1,5 @@
-#include "app/io/character/carried_motion.hpp"
+#include "app/io/character/retargeted_motion.hpp"
 
-#include <cmath>
 #include <stdexcept>
 #include <tendril/humanoid/retarget.hpp>
 
@@ -36,32 +35,29 @@ const humanoid::Clip& clip_named(const Character& character, const std::filesyst
     throw refusal_of(file, "has no clip \"" + name + "\"; it has " + names);
 }
 
-CarriedMotion carry_over(const Character& source, const std::filesystem::path& file,
-                         const humanoid::Clip& clip, const humanoid::Skeleton& skeleton,
-                         const humanoid::BoneMap& map) {
+RetargetedMotion retargeted_clip(const Character& source, const std::filesystem::path& file,
+                                 const humanoid::Clip& clip, const humanoid::Skeleton& skeleton,
+                                 const humanoid::BoneMap& map) {
     const humanoid::BoneMap source_map = bone_map(source);
     auto made = humanoid::retarget({source.skeleton, source_map}, clip, {skeleton, map});
     if (!made) throw refusal_of(file, std::string(made.message()));
-    CarriedMotion carried{.clip = std::move(made->clip), .notes = {}};
-    carried.notes.push_back("The hips' motion is scaled by " + fixed_text(made->scale, 2) + '.');
+    RetargetedMotion motion{.clip = std::move(made->clip), .notes = {}};
+    motion.notes.push_back("The hips' motion is scaled by " + fixed_text(made->scale, 2) + '.');
     if (!made->left_out.empty())
-        carried.notes.push_back("Not on this character: " + bone_names(made->left_out) + '.');
+        motion.notes.push_back("Not on this character: " + bone_names(made->left_out) + '.');
     if (!made->at_rest.empty())
-        carried.notes.push_back("Not in the file, so at rest: " + bone_names(made->at_rest) + '.');
-    for (const std::string& each : guesses_of(source, source_map)) carried.notes.push_back(each);
-    return carried;
+        motion.notes.push_back("Not in the file, so at rest: " + bone_names(made->at_rest) + '.');
+    for (const std::string& each : guesses_of(source, source_map)) motion.notes.push_back(each);
+    return motion;
 }
 
 std::vector<std::string> guesses_of(const Character& character, const humanoid::BoneMap& map) {
     std::vector<std::string> all = character.sentences();
-    std::string bones;
-    for (std::size_t i = 0; i < humanoid::bone_count; ++i) {
-        const humanoid::BoneMatch& match = map.bones[i];
-        if (match.node < 0 || match.confidence >= hardly_sure) continue;
-        bones += (bones.empty() ? "" : ", ") + std::string(humanoid::name(static_cast<humanoid::Bone>(i))) +
-                 " (" + fixed_text(100.0 * match.confidence, 0) + " % sure)";
-    }
-    if (!bones.empty()) all.push_back("Guessed bones: " + bones + '.');
+    std::vector<humanoid::Bone> bones;
+    for (std::size_t i = 0; i < humanoid::bone_count; ++i)
+        if (map.bones[i].node >= 0 && map.bones[i].confidence < hardly_sure)
+            bones.push_back(static_cast<humanoid::Bone>(i));
+    if (!bones.empty()) all.push_back("Guessed bones: " + bone_names(bones) + '.');
     return all;
 }
 
