@@ -164,6 +164,7 @@ Json save_collider(const rope::Collider& collider, const std::string& name) {
     json["goal"] = dpoint(collider.goal);
     if (collider.seconds != 0.0) json["seconds"] = collider.seconds;
     if (collider.half_goal) json["half_goal"] = dpoint(*collider.half_goal);
+    if (collider.drive.any()) json["drive"] = save_fields(collider.drive);
     return json;
 }
 
@@ -182,6 +183,7 @@ rope::Collider load_collider(const JsonPlace& place) {
     collider.goal = place["goal"].dpoint();
     if (const auto seconds = place.optional("seconds")) collider.seconds = seconds->real(0.0, 1e9);
     if (const auto half = place.optional("half_goal")) collider.half_goal = half->dpoint();
+    if (const auto drive = place.optional("drive")) load_fields(*drive, collider.drive);
     return collider;
 }
 
@@ -227,16 +229,16 @@ Json save_world(const NamedWorld& world) {
     for (const rope::Collider& collider : state.colliders)
         colliders.push_back(save_collider(collider, world.name(collider)));
     Json json{{"settings", save_fields(state.settings)},
-                {"remainder", state.remainder},
-                {"moved_in", state.displaced_in},
-                {"substeps", state.substeps},
-                {"dropped", state.dropped},
-                {"drift", dpoint(state.drift)},
-                {"colliders", std::move(colliders)},
-                {"bodies", std::move(bodies)},
-                {"pins", std::move(pins)},
-                {"particles", std::move(particles)},
-                {"links", std::move(links)}};
+              {"remainder", state.remainder},
+              {"moved_in", state.displaced_in},
+              {"substeps", state.substeps},
+              {"dropped", state.dropped},
+              {"drift", dpoint(state.drift)},
+              {"colliders", std::move(colliders)},
+              {"bodies", std::move(bodies)},
+              {"pins", std::move(pins)},
+              {"particles", std::move(particles)},
+              {"links", std::move(links)}};
     if (state.ties.empty()) return json;
     Json& ties = json["ties"] = Json::array();
     for (const rope::Tie& tie : state.ties) ties.push_back(save_tie(tie, world.name(tie)));

@@ -177,6 +177,7 @@ Json collider_state(const RopePart& part, const rope::Collider& collider) {
     const Json shape = save_shape(now);
     for (const auto& [key, value] : shape.items()) json[key] = value;
     json["centre"] = point(rope::centre(now));
+    if (collider.drive.any()) json["drive"] = save_fields(collider.drive);
     for (const Swing& swing : part.swings) {
         if (swing.collider == name)
             json["swing"] = {{"by", point(swing.swing)},

@@ -150,7 +150,9 @@ void require(const Swing& swing) {
 bool at_rest(const RopePart& part) {
     const rope::State& state = part.world->state();
     const auto on_its_way = [](const auto& each) { return each.seconds > 0.0; };
-    if (!part.swings.empty() || std::any_of(state.colliders.begin(), state.colliders.end(), on_its_way) ||
+    const auto driven = [](const rope::Collider& each) { return each.drive.any(); };
+    if (!part.swings.empty() || std::ranges::any_of(state.colliders, driven) ||
+        std::any_of(state.colliders.begin(), state.colliders.end(), on_its_way) ||
         std::any_of(state.pins.begin(), state.pins.end(), on_its_way) ||
         std::any_of(state.ties.begin(), state.ties.end(),
                     [](const rope::Tie& tie) { return tie.now != tie.length; }))
