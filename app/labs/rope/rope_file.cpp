@@ -113,7 +113,7 @@ RopeView load_view(const JsonPlace& place) {
 Json RopePart::save() const {
     Json moving = Json::array();
     for (const Swing& swing : swings) moving.push_back(save_swing(swing));
-    return Json{
+    Json json{
         {"time", time},
         {"tool", rope_tools.name(tool)},
         {"selected", save_selection(selection)},
@@ -121,6 +121,8 @@ Json RopePart::save() const {
         {"jitter", save_jitter(jitter)},
         {"swings", std::move(moving)},
         {"world", held_particles(*this).empty() ? save_world(*world) : save_world(released_world(*this))}};
+    if (walker.figure) json["character"] = save_walker(walker);
+    return json;
 }
 
 std::shared_ptr<Part> RopePart::load(const Json& json, const std::string& where) const {
@@ -140,6 +142,7 @@ std::shared_ptr<Part> RopePart::load(const Json& json, const std::string& where)
         reading->fail(error.what());
     }
     part->swings = load_swings(place["swings"], *part->world);
+    if (const auto character = place.optional("character")) part->walker = load_walker(*character);
     part->selection = load_selection(place["selected"], *part->world);
     return part;
 }
@@ -252,6 +255,7 @@ Json RopeLab::state(const Workspace& workspace) const {
                 {"hair", std::move(hair)},
                 {"colliders", std::move(colliders)},
                 {"ties", std::move(ties)},
+                {"character", save_walker(part.walker)},
                 {"substeps", now.substeps},
                 {"substeps_dropped", now.dropped},
                 {"settings", save_fields(now.settings)},

@@ -95,6 +95,7 @@ void RopeLab::add_commands(CommandTable& table) const {
     add_collider_commands(table);
     add_tie_commands(table);
     add_look_commands(table);
+    add_walker_commands(table);
 }
 
 bool RopeLab::moving(const Workspace& workspace) const {

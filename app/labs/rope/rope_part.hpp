@@ -14,6 +14,7 @@
 #include "app/labs/kit/motion.hpp"
 #include "app/labs/kit/named_world.hpp"
 #include "app/labs/kit/selection.hpp"
+#include "app/labs/rope/walker.hpp"
 
 namespace tendril::app {
 
@@ -92,6 +93,7 @@ inline constexpr std::size_t max_rope_samples = 600;  ///< ten seconds
 struct RopePart final : Part {
     std::shared_ptr<const NamedWorld> world = std::make_shared<const NamedWorld>();
     std::vector<Swing> swings;
+    Walker walker;
     double time = 0.0;  ///< simulated time, seconds
     RopeTool tool = RopeTool::Move;
     std::optional<RopeSelection> selection;

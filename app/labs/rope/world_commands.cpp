@@ -31,6 +31,7 @@ void take_scene(Workspace& workspace, const Arguments& given) {
     RopePart& part = workspace.document.edit<RopePart>(rope_lab);
     part.world = std::make_shared<const NamedWorld>(std::move(scene.world));
     part.swings = std::move(scene.swings);
+    part.walker = {};
     part.time = 0.0;
     part.jitter = {.dial = part.jitter.dial};
     part.selection.reset();
