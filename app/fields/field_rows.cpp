@@ -21,6 +21,7 @@ namespace {
 std::string shown_unit(std::string unit) {
     if (unit.empty()) return "";
     if (unit == "deg" || unit == "rad") return "\u00b0";
+    if (unit == "rad/s") return "\u00b0/s";
     if (unit == "%") return " %%";
     if (unit.starts_with("1/")) unit.erase(0, 1);
     if (const std::size_t square = unit.find("^2"); square != std::string::npos)

@@ -86,6 +86,7 @@ FieldValue loaded(const JsonPlace& place, const Field& field) {
 std::string unit_sentence(std::string_view unit) {
     if (unit.empty()) return {};
     const std::string_view word = unit == "deg" || unit == "rad" ? "degrees"
+                                  : unit == "rad/s"              ? "degrees per second"
                                   : unit == "m"                  ? "metres"
                                   : unit == "s"                  ? "seconds"
                                                                  : unit;
@@ -130,7 +131,8 @@ Argument argument(const Field& field, const FieldText& text) {
 }  // namespace
 
 bool is_angle(const Field& field) {
-    return field.type == FieldType::Number && field.unit == std::string_view("rad");
+    const std::string_view unit = field.unit;
+    return field.type == FieldType::Number && (unit == "rad" || unit == "rad/s");
 }
 
 std::string file_name(const Field& field) {

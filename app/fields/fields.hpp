@@ -15,7 +15,8 @@
 
 namespace tendril::app {
 
-/// Whether a field holds an angle: a number of unit "rad". Files, commands and panels have it in degrees.
+/// Whether a field holds an angle: a number of unit "rad" or "rad/s". Files, commands and panels have it in
+/// degrees.
 bool is_angle(const Field& field);
 /// A field's name in files and commands: "damping"; for an angle, "twist_min_deg".
 std::string file_name(const Field& field);

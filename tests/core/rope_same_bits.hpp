@@ -52,10 +52,11 @@ class StateBits {
     }
     void put(const rope::Settings& settings) {
         const auto& [substep, iterations, solver, damping, gravity, gravity_scale, external, wind, gusts,
-                     compliance, friction, longest_frame] = settings;
+                     still_air, compliance, friction, longest_frame] = settings;
         add(substep, iterations, solver, damping, gravity, gravity_scale, external, compliance, friction,
             longest_frame);
         if (wind != glm::vec3(0.0f)) add(wind, gusts);
+        if (still_air) add(still_air);
     }
     void put(const rope::Collision& collision) { add(collision.a, collision.b); }
     void put(const rope::BodyContact& contact) { add(contact.a, contact.b, contact.force); }
@@ -77,10 +78,15 @@ class StateBits {
         add(particle, goal, seconds, collider);
     }
     void put(const rope::Collider& collider) {
-        const auto& [id, shape, goal, seconds, half_goal] = collider;
+        const auto& [id, shape, goal, seconds, half_goal, drive] = collider;
         add(id, shape.index(), goal, seconds);
         if (half_goal) add(*half_goal);
+        if (drive.any()) put(drive);
         std::visit([&](const auto& each) { put(each); }, shape);
+    }
+    void put(const rope::Drive& drive) {
+        const auto& [velocity, axis, spin] = drive;
+        add(velocity, axis, spin);
     }
     void put(const rope::Sphere& sphere) {
         const auto& [centre, radius] = sphere;

@@ -214,6 +214,9 @@ void NamedWorld::move_collider(std::string_view name, const glm::vec3& to, doubl
 void NamedWorld::move_capsule(std::string_view name, const rope::Capsule& to, double seconds) {
     require_ok(world_.move_capsule(collider_id(name), to, seconds));
 }
+void NamedWorld::drive_collider(std::string_view name, const rope::Drive& drive) {
+    require_ok(world_.drive_collider(collider_id(name), drive));
+}
 void NamedWorld::set_collider(std::string_view name, const rope::Shape& shape) {
     require_ok(world_.set_collider(collider_id(name), shape));
 }

@@ -90,6 +90,7 @@ class NamedWorld {
     void add_collider(const std::string& name, const rope::Shape& shape);
     void move_collider(std::string_view name, const glm::vec3& to, double seconds = 0.0);
     void move_capsule(std::string_view name, const rope::Capsule& to, double seconds = 0.0);
+    void drive_collider(std::string_view name, const rope::Drive& drive);
     void set_collider(std::string_view name, const rope::Shape& shape);
     void remove_collider(std::string_view name);
 

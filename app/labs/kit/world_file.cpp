@@ -166,6 +166,7 @@ Json save_collider(const rope::Collider& collider, const std::string& name) {
     json["goal"] = dpoint(collider.goal);
     if (collider.seconds != 0.0) json["seconds"] = collider.seconds;
     if (collider.half_goal) json["half_goal"] = dpoint(*collider.half_goal);
+    if (collider.drive.any()) json["drive"] = save_fields(collider.drive);
     return json;
 }
 
@@ -184,6 +185,7 @@ rope::Collider load_collider(const JsonPlace& place) {
     collider.goal = place["goal"].dpoint();
     if (const auto seconds = place.optional("seconds")) collider.seconds = seconds->real(0.0, 1e9);
     if (const auto half = place.optional("half_goal")) collider.half_goal = half->dpoint();
+    if (const auto drive = place.optional("drive")) load_fields(*drive, collider.drive);
     return collider;
 }
 

@@ -162,6 +162,11 @@ class RopeProgram {
             if (collider.seconds != 0.0) members.push_back(".seconds = " + double_text(collider.seconds));
             if (collider.half_goal)
                 members.push_back(".half_goal = glm::dvec3" + braced(*collider.half_goal));
+            if (collider.drive.any()) {
+                const auto& [velocity, axis, spin] = collider.drive;
+                members.push_back(".drive = {" + braced(velocity) + ", " + braced(axis) + ", " +
+                                  literal(spin) + '}');
+            }
             name(world_.name(collider));
             add("colliders", members);
         }

@@ -122,7 +122,8 @@ void RopeLab::panel(const Workspace& workspace, Emit& emit) const {
     section("World", true, [&](MoreRows& more) {
         settings_rows(part, emit)
             .under(more)
-            .rows("wind", "gusts", "damping", "friction", "gravity", "gravity_scale", "external");
+            .rows("wind", "gusts", "still_air", "damping", "friction", "gravity", "gravity_scale",
+                  "external");
     });
     section("Solver", false, [&](MoreRows& more) { solver_rows(part, more, emit); });
     section("Time", false, [&](MoreRows& more) { time_rows(workspace, more, emit); });
@@ -280,6 +281,9 @@ void collider_rows(const RopePart& part, const rope::Collider& collider, Emit& e
         if (number_field("period", period, 0.02f, min_period, max_period, "%.2f s")) swing();
         explain("How long it takes to swing there and back.");
     }
+    const FieldRows drive(collider.drive, "rope.collider.drive", emit, {{"name", name}});
+    drive.rows("velocity", "spin");
+    if (collider.drive.spin != 0.0f) drive.row("axis");
     if (row_button("Remove", 3, true, "Removes the collider")) emit("rope.collider.remove", {{"name", name}});
     end_row();
 }

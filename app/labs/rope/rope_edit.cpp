@@ -64,14 +64,16 @@ Command rope_command(const char* name, const char* title, std::vector<Argument> 
                     RopeEdit edit(part, workspace.clock, runtime.workspace);
                     change(edit, given);
                     if (part.world != old.world) check_work(*part.world);
-                    if (part.world != old.world || part.swings != old.swings) part.quiet_ticks = 0;
+                    if (part.world != old.world || part.swings != old.swings || part.walker != old.walker)
+                        part.quiet_ticks = 0;
                 });
             }};
 }
 
 bool operator==(const RopePart& a, const RopePart& b) {
-    return a.world == b.world && a.swings == b.swings && a.time == b.time && a.tool == b.tool &&
-           a.selection == b.selection && a.hold == b.hold && a.jitter == b.jitter && a.view == b.view;
+    return a.world == b.world && a.swings == b.swings && a.walker == b.walker && a.time == b.time &&
+           a.tool == b.tool && a.selection == b.selection && a.hold == b.hold && a.jitter == b.jitter &&
+           a.view == b.view;
 }
 
 void check_particle_count(const NamedWorld& world, std::size_t more) {
@@ -246,6 +248,13 @@ void forget_missing(RopePart& part) {
                            : !selection.collider.empty() ? world.find_collider(selection.collider) != nullptr
                                                          : !selection.particles.empty();
         if (!stays) part.selection.reset();
+    }
+    if (part.walker.figure) {
+        const auto capsules = walker_capsules(part.walker, part.time);
+        const auto is_there = [&](const WalkerCapsule& each) {
+            return world.find_collider(each.name) != nullptr;
+        };
+        if (std::ranges::none_of(capsules, is_there)) part.walker = {};
     }
     std::erase_if(part.swings,
                   [&](const Swing& swing) { return world.find_collider(swing.collider) == nullptr; });

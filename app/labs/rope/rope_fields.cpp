@@ -231,6 +231,27 @@ std::span<const FieldText> field_texts<rope::Shape>() {
 }
 
 template <>
+std::span<const FieldText> field_texts<rope::Drive>() {
+    static constexpr FieldText texts[] = {
+        {.name = "velocity",
+         .label = "moves at",
+         .help = "A steady velocity; what lies on it goes along. A plane stays, and its surface moves: a "
+                 "conveyor belt.",
+         .step = 0.02f,
+         .in_line = true},
+        {.name = "axis",
+         .label = "turns about",
+         .help = "The axis through its centre that it turns about.",
+         .in_line = true},
+        {.name = "spin",
+         .label = "turns by",
+         .help = "How fast it turns; what lies on it turns along.",
+         .step = 0.5f,
+         .decimals = 1}};
+    return texts;
+}
+
+template <>
 std::span<const FieldText> field_texts<rope::Settings>() {
     static constexpr EnumRow solvers[] = {rope_solvers.row(rope::Solver::Direct),
                                           rope_solvers.row(rope::Solver::Xpbd),
@@ -268,14 +289,18 @@ std::span<const FieldText> field_texts<rope::Settings>() {
          .more = true},
         {.name = "wind",
          .label = "wind",
-         .help = "The velocity of the air along each axis. It pushes cloth, and makes a flag flutter. At 0 "
-                 "there is no air.",
+         .help = "The velocity of the air along each axis. It pushes cloth, ropes and hair, and makes a flag "
+                 "flutter. At 0 there is no air, unless still air resists.",
          .step = 0.05f,
          .decimals = 1,
          .in_line = true},
         {.name = "gusts",
          .label = "gusts",
          .help = "How much the wind varies, relative to its speed. At 0 it is steady.",
+         .more = true},
+        {.name = "still_air",
+         .label = "still air resists",
+         .help = "Whether air resists without wind too: cloth then falls slowly, and swings less and less.",
          .more = true},
         {.name = "compliance",
          .label = "compliance",

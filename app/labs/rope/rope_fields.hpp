@@ -61,5 +61,7 @@ std::span<const FieldText> field_texts<rope::HairPatch>();
 /// For all kinds of collider.
 template <>
 std::span<const FieldText> field_texts<rope::Shape>();
+template <>
+std::span<const FieldText> field_texts<rope::Drive>();
 
 }  // namespace tendril::app

@@ -113,7 +113,7 @@ RopeView load_view(const JsonPlace& place) {
 Json RopePart::save() const {
     Json moving = Json::array();
     for (const Swing& swing : swings) moving.push_back(save_swing(swing));
-    return Json{
+    Json json{
         {"time", time},
         {"tool", rope_tools.name(tool)},
         {"selected", save_selection(selection)},
@@ -121,6 +121,8 @@ Json RopePart::save() const {
         {"jitter", save_jitter(jitter)},
         {"swings", std::move(moving)},
         {"world", held_particles(*this).empty() ? save_world(*world) : save_world(released_world(*this))}};
+    if (walker.figure) json["character"] = save_walker(walker);
+    return json;
 }
 
 std::shared_ptr<Part> RopePart::load(const Json& json, const std::string& where) const {
@@ -141,6 +143,7 @@ std::shared_ptr<Part> RopePart::load(const Json& json, const std::string& where)
         reading->fail(error.what());
     }
     part->swings = load_swings(place["swings"], *part->world);
+    if (const auto character = place.optional("character")) part->walker = load_walker(*character);
     part->selection = load_selection(place["selected"], *part->world);
     return part;
 }
@@ -178,6 +181,7 @@ Json collider_state(const RopePart& part, const rope::Collider& collider) {
     const Json shape = save_shape(now);
     for (const auto& [key, value] : shape.items()) json[key] = value;
     json["centre"] = point(rope::centre(now));
+    if (collider.drive.any()) json["drive"] = save_fields(collider.drive);
     for (const Swing& swing : part.swings) {
         if (swing.collider == name)
             json["swing"] = {{"by", point(swing.swing)},
@@ -258,6 +262,7 @@ Json RopeLab::state(const Workspace& workspace) const {
                 {"ties", std::move(ties)},
                 {"collisions", std::move(collisions)},
                 {"contacts", now.contacts.size()},
+                {"character", save_walker(part.walker)},
                 {"substeps", now.substeps},
                 {"substeps_dropped", now.dropped},
                 {"settings", save_fields(now.settings)},

@@ -96,6 +96,7 @@ void RopeLab::add_commands(CommandTable& table) const {
     add_tie_commands(table);
     add_collision_commands(table);
     add_look_commands(table);
+    add_walker_commands(table);
 }
 
 bool RopeLab::moving(const Workspace& workspace) const {

@@ -14,6 +14,7 @@
 #include "app/labs/kit/motion.hpp"
 #include "app/labs/kit/named_world.hpp"
 #include "app/labs/kit/selection.hpp"
+#include "app/labs/rope/walker.hpp"
 
 namespace tendril::app {
 
@@ -94,6 +95,7 @@ struct RopePart final : Part {
     /// The settings that the scene was opened with: only others count as changed. Not saved.
     rope::Settings usual;
     std::vector<Swing> swings;
+    Walker walker;
     double time = 0.0;  ///< simulated time, seconds
     RopeTool tool = RopeTool::Move;
     std::optional<RopeSelection> selection;

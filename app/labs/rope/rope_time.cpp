@@ -28,10 +28,11 @@ double shuffled(std::uint32_t number) {
     return static_cast<double>(x ^ (x >> 16)) / 4294967295.0;
 }
 
-/// Starts each swinging collider's motion to its position at `time`, one tick ahead.
+/// Starts the motion of what swings or walks to its position at `time`, one tick ahead.
 void aim(const RopePart& part, NamedWorld& world, double time) {
     for (const Swing& swing : part.swings)
         world.move_collider(swing.collider, swing_point(swing, time), world.world().pending() + tick_seconds);
+    if (part.walker.figure) aim_walker(part.walker, world, time - tick_seconds, time);
 }
 
 /// The remaining work of a tick, and the solver's reports so far.
@@ -54,11 +55,11 @@ void advance(NamedWorld& world, double seconds, rope::Workspace& workspace, Tick
     report.contact_loss += static_cast<float>(done.contact_loss);
 }
 
-/// Advances by a frame. If anything swings, the frame is split at the lab's ticks, where swings are aimed, so
-/// that they do not depend on how time is divided.
+/// Advances by a frame. If anything swings or walks, the frame is split at the lab's ticks, where that is
+/// aimed, so that it does not depend on how time is divided.
 void pass_frame(RopePart& part, NamedWorld& world, double seconds, rope::Workspace& workspace, Tick& tick) {
     constexpr double rounding = 1e-6;  // of a tick
-    if (part.swings.empty()) {
+    if (part.swings.empty() && !part.walker.figure) {
         advance(world, seconds, workspace, tick);
         part.time += seconds;
         return;
@@ -150,7 +151,10 @@ void require(const Swing& swing) {
 bool at_rest(const RopePart& part) {
     const rope::State& state = part.world->state();
     const auto on_its_way = [](const auto& each) { return each.seconds > 0.0; };
-    if (!part.swings.empty() || std::any_of(state.colliders.begin(), state.colliders.end(), on_its_way) ||
+    if (part.walker.figure && !part.walker.clip.empty()) return false;
+    const auto driven = [](const rope::Collider& each) { return each.drive.any(); };
+    if (!part.swings.empty() || std::ranges::any_of(state.colliders, driven) ||
+        std::any_of(state.colliders.begin(), state.colliders.end(), on_its_way) ||
         std::any_of(state.pins.begin(), state.pins.end(), on_its_way) ||
         std::any_of(state.ties.begin(), state.ties.end(),
                     [](const rope::Tie& tie) { return tie.now != tie.length; }))

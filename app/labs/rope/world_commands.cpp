@@ -33,6 +33,7 @@ void take_scene(Workspace& workspace, const Arguments& given) {
     part.world = std::make_shared<const NamedWorld>(std::move(scene.world));
     part.usual = part.world->settings();
     part.swings = std::move(scene.swings);
+    part.walker = {};
     part.time = 0.0;
     part.jitter = {.dial = part.jitter.dial};
     part.selection.reset();
@@ -55,6 +56,7 @@ void blow(RopeEdit& edit, const Arguments& given) {
     rope::Settings wanted = edit.seen().settings();
     wanted.wind = given.point("velocity");
     if (given.has("gusts")) wanted.gusts = static_cast<float>(given.number("gusts"));
+    if (given.has("still_air")) wanted.still_air = given.boolean("still_air");
     if (wanted != edit.seen().settings()) edit.world().set_settings(wanted);
 }
 
@@ -101,8 +103,9 @@ void add_world_commands(CommandTable& table) {
                            "Sets how ropes are simulated; omitted settings are kept", settings));
     table.add(rope_command("rope.wind", "Set the wind",
                            {point_argument("velocity", true, "of the air, m/s; 0: no air"),
-                            number_argument("gusts", "strength of the gusts relative to the wind", 0.0, 1.0)},
-                           "Sets the wind that cloth flutters in", blow));
+                            number_argument("gusts", "strength of the gusts relative to the wind", 0.0, 1.0),
+                            switch_argument("still_air", "true: air resists without wind too")},
+                           "Sets the wind that cloth, ropes and hair are in", blow));
     table.add(
         rope_command("rope.jitter", "Make frame times uneven",
                      {{.name = "dial", .help = "0: even frames; 1: from 1 to 250 ms", .low = 0, .high = 1}},
@@ -208,6 +211,13 @@ void set_swing(RopeEdit& edit, const Arguments& given) {
         edit.part.swings.push_back(wanted);
 }
 
+void set_drive(RopeEdit& edit, const Arguments& given) {
+    const std::string name = given.text("name");
+    rope::Drive wanted = collider_of(edit.seen(), name).drive;
+    set_fields(given, wanted);
+    if (wanted != collider_of(edit.seen(), name).drive) edit.world().drive_collider(name, wanted);
+}
+
 Argument name_argument() {
     return collider_argument("name", true, "which");
 }
@@ -232,6 +242,10 @@ void add_collider_commands(CommandTable& table) {
                            "Moves a collider; it pushes what it meets", move));
     table.add(rope_command("rope.collider.remove", "Remove a collider", {name_argument()},
                            "Removes a collider", remove_collider));
+    std::vector<Argument> drive = field_arguments<rope::Drive>();
+    drive.insert(drive.begin(), name_argument());
+    table.add(rope_command("rope.collider.drive", "Move a collider steadily", std::move(drive),
+                           "Moves and turns a collider steadily; it carries what lies on it", set_drive));
     table.add(rope_command(
         "rope.collider.swing", "Swing a collider",
         {name_argument(), point_argument("by", true, "metres to each side; 0: off"),

@@ -59,6 +59,38 @@ void turn(Collider& collider, double part, Scratch::Moving& moving) {
     collider.goal = dvec3(centre(collider.shape));
 }
 
+/// Adds a steady motion to that of the substep. What a spinning body sweeps is within a ball.
+void drive(State& state, Collider& collider, Scratch::Moving& moving) {
+    const double h = state.settings.substep;
+    const dvec3 was(centre(collider.shape));
+    collider.shape = detail::driven(collider.shape, collider.drive, h);
+    moving.spins = collider.drive.spin != 0.0f;
+    moving.unspin = glm::conjugate(detail::turn_by(collider.drive, h));
+    moving.middle = dvec3(centre(collider.shape));
+    if (const auto* const plane = std::get_if<Plane>(&collider.shape)) {
+        const dvec3 normal = detail::unit(dvec3(plane->normal)), by = h * dvec3(collider.drive.velocity);
+        moving.by += by - detail::dot(by, normal) * normal;
+        return;
+    }
+    moving.by += moving.middle - was;
+    constexpr double edge = max_magnitude;
+    collider.goal = glm::clamp(collider.goal + (moving.middle - was), dvec3(-edge), dvec3(edge));
+    if (moving.spins) {
+        const glm::dquat turn = glm::conjugate(moving.unspin);
+        if (collider.half_goal) collider.half_goal = turn * *collider.half_goal;
+        for (Pin& pin : state.pins)
+            if (pin.collider == collider.id) pin.goal = turn * pin.goal;
+    }
+    double reach = static_cast<double>(size(collider.shape));
+    if (const auto* const box = std::get_if<Box>(&collider.shape))
+        reach = detail::length(dvec3(box->half_extents));
+    if (const auto* const capsule = std::get_if<Capsule>(&collider.shape))
+        reach += detail::length(detail::half_of(*capsule));
+    const dvec3 first = moving.middle - moving.by;
+    moving.low = glm::min(moving.low, glm::min(first, moving.middle) - dvec3(reach));
+    moving.high = glm::max(moving.high, glm::max(first, moving.middle) + dvec3(reach));
+}
+
 void move_colliders(State& state, Scratch& scratch) {
     for (std::size_t i = 0; i < state.colliders.size(); ++i) {
         Collider& collider = state.colliders[i];
@@ -73,6 +105,8 @@ void move_colliders(State& state, Scratch& scratch) {
         moving.turn = dvec3(0.0);
         detail::bounds(collider.shape, moving.by, moving.low, moving.high);
         if (collider.half_goal) turn(collider, part, moving);
+        moving.spins = false;
+        if (collider.drive.any()) drive(state, collider, moving);
     }
 }
 

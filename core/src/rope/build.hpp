@@ -34,6 +34,10 @@ Expected<BodyId> append(State& state, const char* operation, Draft draft);
 glm::dvec3 down(const Settings& settings) noexcept;
 /// Gravity plus external acceleration, m/s^2.
 glm::dvec3 acceleration(const Settings& settings) noexcept;
+/// Whether anything resists or pushes.
+inline bool has_air(const Settings& settings) noexcept {
+    return settings.wind != glm::vec3(0.0f) || settings.still_air;
+}
 /// Of the wind on a cloth that faces it, in a gust, N/m^2.
 double wind_pressure(const Settings& settings) noexcept;
 /// Carries the gusts along for a substep.

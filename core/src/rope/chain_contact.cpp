@@ -323,7 +323,9 @@ void ChainNewton::rub_link(const ContactScratch::LinkContact& contact) {
     if (!s_.progress.moved) {
         const dvec3 before = (1.0 - t) * state_.displacement[particle(contact.bond)] +
                              t * state_.displacement[particle(contact.bond + 1)];
-        slipped = detail::length(beside(before - collider(contact.collider).by, hold.normal));
+        const Scratch::Moving& moving = collider(contact.collider);
+        const dvec3 by = moving.spins ? moving.by_at((1.0 - t) * a.x + t * b.x) : moving.by;
+        slipped = detail::length(beside(before - by, hold.normal));
     }
     const double drag = friction * normal / std::max(slipped, creep);
     const auto share = [&](const detail::ChainNode& node, double part, const dvec3& slip) {

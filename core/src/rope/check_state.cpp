@@ -151,6 +151,7 @@ Result check_colliders(const State& state) {
             return refused(op, Argument("colliders", i, "goal"), "finite", worst(collider.goal));
         if (!is_amount(collider.seconds))
             return refused(op, Argument("colliders", i, "seconds"), "0 or more", collider.seconds);
+        if (const Result r = check_fields(op, collider.drive); !r) return r;
         if (!collider.half_goal) continue;
         if (!std::holds_alternative<Capsule>(collider.shape))
             return refused(op, Argument("colliders", i, "half_goal"), "set on capsules only",

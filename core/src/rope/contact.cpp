@@ -39,6 +39,13 @@ struct Bounds {
 }  // namespace
 
 dvec3 Scratch::Moving::by_at(const dvec3& at) const {
+    if (spins) {
+        const dvec3 from = at - middle, all = by + (from - unspin * from);
+        const auto* const plane = std::get_if<Plane>(shape);
+        if (plane == nullptr) return all;
+        const dvec3 normal = detail::unit(dvec3(plane->normal));  // along which it stays
+        return all - detail::dot(all, normal) * normal;
+    }
     if (turn == dvec3(0.0)) return by;
     const auto& capsule = std::get<Capsule>(*shape);
     const dvec3 a(capsule.a), axis = dvec3(capsule.b) - a;

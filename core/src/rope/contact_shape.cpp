@@ -114,6 +114,27 @@ Shape on_the_way(const Collider& collider, double part) noexcept {
     return kept_in(Capsule{glm::vec3(to - half), glm::vec3(to + half), capsule->radius});
 }
 
+glm::dquat turn_by(const Drive& drive, double seconds) noexcept {
+    const double half = 0.5 * seconds * static_cast<double>(drive.spin);
+    return {std::cos(half), std::sin(half) * unit(dvec3(drive.axis))};
+}
+
+Shape driven(const Shape& shape, const Drive& drive, double seconds) noexcept {
+    if (std::holds_alternative<Plane>(shape)) return shape;
+    constexpr double edge = max_magnitude;
+    const dvec3 from(centre(shape)), to = from + seconds * dvec3(drive.velocity);
+    Shape there = moved(shape, glm::vec3(glm::clamp(to, dvec3(-edge), dvec3(edge))));
+    if (drive.spin == 0.0f) return kept_in(there);
+    const glm::dquat turn = turn_by(drive, seconds);
+    if (auto* box = std::get_if<Box>(&there))
+        box->rotation = glm::quat(glm::normalize(turn * glm::dquat(box->rotation)));
+    if (auto* capsule = std::get_if<Capsule>(&there)) {
+        const dvec3 middle(centre(there)), half = turn * half_of(*capsule);
+        *capsule = {glm::vec3(middle - half), glm::vec3(middle + half), capsule->radius};
+    }
+    return kept_in(there);
+}
+
 Shape kept_in(const Shape& shape) noexcept {
     const auto* capsule = std::get_if<Capsule>(&shape);  // the others are defined by their centre
     if (capsule == nullptr) return shape;

@@ -1,6 +1,7 @@
 // Geometry of shapes for finding contacts. Not installed.
 #pragma once
 
+#include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
 
@@ -25,6 +26,10 @@ std::optional<double> nearest_between(const Shape& shape, const glm::dvec3& a, c
 glm::dvec3 half_of(const Capsule& capsule) noexcept;
 /// A collider's shape after that part of the way to its goal.
 Shape on_the_way(const Collider& collider, double part) noexcept;
+/// The rotation by a steady spin.
+glm::dquat turn_by(const Drive& drive, double seconds) noexcept;
+/// The shape after a steady motion for some seconds. A plane stays.
+Shape driven(const Shape& shape, const Drive& drive, double seconds) noexcept;
 
 /// The same shape with coordinates clamped to max_magnitude, which rounding can exceed.
 Shape kept_in(const Shape& shape) noexcept;

@@ -33,6 +33,7 @@ std::span<const Field> fields<rope::Settings>() noexcept {
         field<&Settings::external>("external", acceleration, "m/s^2"),
         field<&Settings::wind>("wind", {-max_wind, max_wind}, "m/s"),
         field<&Settings::gusts>("gusts", {0.0, 1.0}),
+        field<&Settings::still_air>("still_air"),
         field<&Settings::compliance>("compliance", {0.0, max_compliance}, "1/N"),
         field<&Settings::friction>("friction", {0.0, max_friction}),
         field<&Settings::longest_frame>("longest_frame", {min_longest_frame, max_longest_frame}, "s")};
@@ -137,6 +138,16 @@ std::span<const Field> fields<rope::Box>() noexcept {
     static constexpr Field rows[] = {field<&Box::centre>("centre", anywhere, "m"),
                                      field<&Box::half_extents>("half_extents", any_size, "m"),
                                      field<&Box::rotation>("rotation", anywhere)};
+    return rows;
+}
+
+template <>
+std::span<const Field> fields<rope::Drive>() noexcept {
+    using rope::Drive;
+    static constexpr Field rows[] = {
+        field<&Drive::velocity>("velocity", {-rope::max_drive, rope::max_drive}, "m/s"),
+        field<&Drive::axis>("axis", anywhere),
+        field<&Drive::spin>("spin", {-rope::max_spin, rope::max_spin}, "rad/s")};
     return rows;
 }
 

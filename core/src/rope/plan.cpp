@@ -32,7 +32,7 @@ std::size_t row_of(const Body& body) {
 Plan::Plan(const State& state) {
     find_chains(state);
     note_collisions(state);
-    find_triangles(state);
+    find_faces(state);
     cut_into_chunks(state);
     detail::divide_into_islands(state, *this);
     detail::find_grids(state, *this);
@@ -80,12 +80,10 @@ void Plan::find_chains(const State& state) {
     }
 }
 
-/// The surface of cloths, for the wind. Torn cells have none.
-void Plan::find_triangles(const State& state) {
-    const auto is_cloth = [](const Body& body) { return row_of(body) != 0; };
-    if (std::none_of(state.bodies.begin(), state.bodies.end(), is_cloth)) return;
+/// The surface of all bodies, for the wind. Torn cells have none.
+void Plan::find_faces(const State& state) {
     const std::size_t particles = state.position.size();
-    whole.assign(particles, 0), triangles.assign(particles, 0);
+    whole.assign(particles, 0), faces.assign(particles, 0);
     constexpr unsigned right = 1, down = 2;
     std::vector<std::uint8_t> linked(particles, 0);
     const std::vector<std::uint32_t> body_of = detail::bodies_of_particles(state);
@@ -95,13 +93,20 @@ void Plan::find_triangles(const State& state) {
         if (link.b == link.a + state.bodies[body_of[link.a]].row) linked[link.a] |= down;
     }
     for (const Body& body : state.bodies) {
-        if (!is_cloth(body)) continue;
+        if (row_of(body) == 0) {
+            for (std::size_t i = body.first; i + 1 < body.first + body.count; ++i) {
+                if ((linked[i] & right) == 0) continue;
+                whole[i] = 1;
+                faces[i] += 1, faces[i + 1] += 1;
+            }
+            continue;
+        }
         for (std::size_t i = body.first; i + body.row + 1 < body.first + body.count; ++i) {
             const std::size_t below = i + body.row;
             if (linked[i] != (right | down) || (linked[i + 1] & down) == 0 || (linked[below] & right) == 0)
                 continue;
             whole[i] = 1;
-            triangles[i] += 1, triangles[i + 1] += 2, triangles[below] += 2, triangles[below + 1] += 1;
+            faces[i] += 1, faces[i + 1] += 2, faces[below] += 2, faces[below + 1] += 1;
         }
     }
 }

@@ -95,15 +95,16 @@ struct Plan {
 
     std::vector<std::uint32_t> nodes;
     std::vector<std::uint32_t> chunk_links;
-    /// Of each particle of a cloth: whether the cell that begins there has all stretch links around it, and
-    /// in how many triangles of such cells it is. A cell is two triangles. Empty without cloth.
-    std::vector<std::uint8_t> whole, triangles;
+    /// What the air meets. Of each particle: whether the cell of a cloth, of two triangles, or the segment of
+    /// a rope or hair that begins there has all its stretch links, and in how many such triangles or segments
+    /// the particle is.
+    std::vector<std::uint8_t> whole, faces;
     std::uint32_t longest = 0;  ///< links in the longest chain
     bool tears = false;
 
   private:
     void find_chains(const State& state);
-    void find_triangles(const State& state);
+    void find_faces(const State& state);
     void cut_into_chunks(const State& state);
     void group_chains(std::size_t particles);
     void order_tied(const State& state);

@@ -6,6 +6,7 @@
 
 #include "rope/contact_shape.hpp"
 #include "rope/geometry.hpp"
+#include "tendril/magnitude.hpp"
 #include "tendril/rope/world.hpp"
 
 namespace tendril::rope {
@@ -76,8 +77,10 @@ class PosedParticles {
         for (; pin != state_.pins.end() && pin->particle - first_ < at_.size(); ++pin) {
             const dvec3& now = state_.position[pin->particle];
             dvec3 goal = pin->goal;
-            if (const Collider* const holder = world_.find(pin->collider))
+            if (const Collider* const holder = world_.find(pin->collider)) {
+                if (holder->drive.spin != 0.0f) goal = detail::turn_by(holder->drive, pending_) * goal;
                 goal += dvec3(centre(world_.pose(*holder)));
+            }
             at_[pin->particle - first_] = now + part_after(pending_, pin->seconds) * (goal - now);
         }
     }
@@ -101,8 +104,10 @@ void World::pose(std::span<dvec3> particles, std::size_t first) const noexcept {
 }
 
 Shape World::pose(const Collider& collider) const noexcept {
-    const double part = part_after(pending(), collider.seconds);
-    return part > 0.0 ? detail::on_the_way(collider, part) : collider.shape;
+    const double ahead = pending(), part = part_after(ahead, collider.seconds);
+    if (part == 0.0) return collider.shape;
+    const Shape there = detail::on_the_way(collider, part);
+    return collider.drive.any() ? detail::driven(there, collider.drive, ahead) : there;
 }
 
 }  // namespace tendril::rope

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/gtc/quaternion.hpp>
 #include <span>
 #include <vector>
 
@@ -130,6 +131,9 @@ struct Scratch {
         glm::dvec3 low{0.0}, high{0.0};
         double size = 0.0;
         glm::dvec3 turn{0.0};  ///< of a capsule: how far end b moves beyond `by`; end a moves oppositely
+        bool spins = false;
+        glm::dquat unspin{1.0, 0.0, 0.0, 0.0};  ///< back to before the substep
+        glm::dvec3 middle{0.0};                 ///< that it spins about, at the end of the substep
 
         /// The displacement of the shape at its point nearest to `at`.
         glm::dvec3 by_at(const glm::dvec3& at) const;
@@ -137,7 +141,7 @@ struct Scratch {
         /// `at` back to where it first touches, on the side that it came from.
         SurfaceDistance entered(const glm::dvec3& was, glm::dvec3& at, double radius,
                                 std::uint64_t& work) const;
-        bool moves() const { return by != glm::dvec3(0.0) || turn != glm::dvec3(0.0); }
+        bool moves() const { return by != glm::dvec3(0.0) || turn != glm::dvec3(0.0) || spins; }
         /// Whether a ball is entirely beyond the shape's bounds in the substep.
         bool far_from(const glm::dvec3& at, double radius) const {
             return at.x + radius < low.x || at.y + radius < low.y || at.z + radius < low.z ||

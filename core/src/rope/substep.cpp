@@ -44,7 +44,7 @@ Substep::Substep(State& state, const Plan& plan, const Plan::Island& island, Scr
     : IslandStep(state, plan, island, scratch, local),
       report_(local.done),
       acceleration_(detail::acceleration(state.settings)),
-      blows_(state.settings.wind != glm::vec3(0.0f)) {}
+      blows_(detail::has_air(state.settings)) {}
 
 void Substep::run(bool measures) {
     measures_ = measures;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 
 #include "rope/scratch.hpp"
 #include "tendril/rope/world.hpp"
@@ -45,7 +46,17 @@ class Substep : IslandStep {
         double gusts;   ///< their maximum, in the same unit
     };
     void blow();
-    void blow_on(const std::array<std::size_t, 3>& corners, const Air& air);
+    /// A triangle of a cloth, or a segment of a rope or hair.
+    struct Face {
+        double mass = 0.0;
+        glm::dvec3 past{0.0};  ///< how far the air moves past it in the substep
+    };
+    Face face_of(std::span<const std::size_t> corners, const Air& air) const;
+    void blow_on_cloth(const Body& body, const Air& air);
+    void blow_on_strands(const Body& body, const Air& air);
+    void blow_on_triangle(const std::array<std::size_t, 3>& corners, const Air& air);
+    void blow_on_segment(const std::array<std::size_t, 2>& ends, double thickness, const Air& air);
+    void push(std::span<const std::size_t> corners, const glm::dvec3& by);
 
     // contact.cpp: finds what is near, and keeps what is not solved with its contacts out of colliders
     void find_near();
@@ -99,7 +110,7 @@ class Substep : IslandStep {
     double damping_ = 1.0;  ///< of velocity, in the substep
     Slowed slowed_;
     glm::dvec3 acceleration_;
-    bool blows_;  ///< whether there is wind
+    bool blows_;  ///< whether there is air
 };
 
 /// The energy that particles and links gain in this substep, in joules.

@@ -1,14 +1,16 @@
-// Wind on cloth. The air pushes each triangle of a cloth: mostly along its normal, as on a flat plate at an
-// angle, and a little along its surface. A wave that runs down a flag slower than the wind is then driven by
-// it, so that a flag flutters; gusts start the waves.
+// Wind, and the drag of air at rest (J. Wejchert, D. Haumann, "Animation Aerodynamics", SIGGRAPH 1991). The
+// air pushes each triangle of a cloth: mostly along its normal, as on a flat plate at an angle, which lifts
+// it too, and a little along its surface. A wave that runs down a flag slower than the wind is then driven by
+// it, so that a flag flutters; gusts start the waves. A segment of a rope or hair is a cylinder.
 //
-// The air's force is a drag on the motion relative to it, applied implicitly: in a substep a triangle covers
-// a part of the difference, never more. Added up over the triangles of a cloth without pins, this cannot
-// raise its kinetic energy as seen by the air, in however strong a wind. The ledger counts the work of the
-// wind (energy.cpp).
+// The air's force is a drag on the motion relative to it, applied implicitly: in a substep a face covers a
+// part of the difference, never more. Added up over the faces of a body without pins, this cannot raise its
+// kinetic energy as seen by the air, in however strong a wind. The ledger counts the work of the wind
+// (energy.cpp).
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <span>
 
 #include "rope/build.hpp"
 #include "rope/geometry.hpp"
@@ -22,8 +24,15 @@ using glm::dvec3;
 constexpr double air_density = 1.2;  // kg/m^3
 /// Coefficients of the force on a plate, of dynamic pressure times area, along its normal and along itself.
 constexpr double across_plate = 2.0, along_plate = 0.1;
+/// The same for a cylinder, of its thickness times its length.
+constexpr double across_thread = 1.2, along_thread = 0.03;
 constexpr double eddy = 1.0;                              // metres: the distance over which gusts differ
 constexpr std::uint64_t period = std::uint64_t{1} << 20;  // eddies after which the gusts repeat
+
+/// The part of the difference that is covered at a rate per substep.
+double reached(double rate) {
+    return rate < 1e12 ? rate / (1.0 + rate) : 1.0;
+}
 
 /// A random number from -1 to 1 in each coordinate: the gust at a corner of the lattice of eddies.
 dvec3 corner_gust(std::uint64_t x, std::uint64_t y, std::uint64_t z) {
@@ -72,51 +81,78 @@ void detail::drift_gusts(State& state) noexcept {
     for (int c = 0; c < 3; ++c) state.drift[c] = std::fmod(state.drift[c], lap);
 }
 
-/// Adds what the wind moves cloth by to `base`.
+/// Adds what the air moves bodies by to `base`.
 void Substep::blow() {
     const dvec3 wind(state_.settings.wind);
     const Air air{.by = h_ * wind,
                   .gusts = h_ * static_cast<double>(state_.settings.gusts) * detail::length(wind)};
     for (const std::uint32_t b : Plan::part(plan_.bodies, island_.bodies)) {
         const Body& body = state_.bodies[b];
-        if (body.kind != Body::Kind::Cloth) continue;
         const std::size_t end = body.first + body.count;
         for (std::size_t i = body.first; i < end; ++i) scratch_.blown[i] = dvec3(0.0);
-        for (std::size_t i = body.first; i + body.row + 1 < end; ++i) {
-            if (plan_.whole[i] == 0) continue;
-            const std::size_t below = i + body.row;
-            blow_on({i, i + 1, below}, air);
-            blow_on({i + 1, below + 1, below}, air);
-        }
+        if (body.kind == Body::Kind::Cloth)
+            blow_on_cloth(body, air);
+        else
+            blow_on_strands(body, air);
         for (std::size_t i = body.first; i < end; ++i)
             if (scratch_.weight[i] != 0.0) scratch_.base[i] += scratch_.blown[i];
     }
 }
 
-/// A particle shares its mass and motion among its triangles.
-void Substep::blow_on(const std::array<std::size_t, 3>& corners, const Air& air) {
-    double mass = 0.0;
+void Substep::blow_on_cloth(const Body& body, const Air& air) {
+    for (std::size_t i = body.first; i + body.row + 1 < body.first + body.count; ++i) {
+        if (plan_.whole[i] == 0) continue;
+        const std::size_t below = i + body.row;
+        blow_on_triangle({i, i + 1, below}, air);
+        blow_on_triangle({i + 1, below + 1, below}, air);
+    }
+}
+
+void Substep::blow_on_strands(const Body& body, const Air& air) {
+    for (std::size_t i = body.first; i + 1 < body.first + body.count; ++i)
+        if (plan_.whole[i] != 0) blow_on_segment({i, i + 1}, 2.0 * static_cast<double>(body.radius), air);
+}
+
+/// A particle shares its mass and motion among its faces.
+Substep::Face Substep::face_of(std::span<const std::size_t> corners, const Air& air) const {
+    Face face;
     dvec3 momentum(0.0), middle(0.0);
     for (const std::size_t i : corners) {
-        const double share = state_.mass[i] / plan_.triangles[i];
-        mass += share;
+        const double share = state_.mass[i] / plan_.faces[i];
+        face.mass += share;
         momentum += share * (scratch_.base[i] - state_.position[i]);
-        middle += (1.0 / 3.0) * state_.position[i];
+        middle += (1.0 / static_cast<double>(corners.size())) * state_.position[i];
     }
+    face.past = air.by - (1.0 / face.mass) * momentum;
+    if (air.gusts > 0.0) face.past += air.gusts * smooth_gust((1.0 / eddy) * (middle - state_.drift));
+    return face;
+}
+
+void Substep::push(std::span<const std::size_t> corners, const dvec3& by) {
+    for (const std::size_t i : corners) scratch_.blown[i] += (1.0 / plan_.faces[i]) * by;
+}
+
+void Substep::blow_on_triangle(const std::array<std::size_t, 3>& corners, const Air& air) {
     const dvec3& a = state_.position[corners[0]];
     const dvec3 normal = detail::cross(state_.position[corners[1]] - a, state_.position[corners[2]] - a);
     const double twice = detail::length(normal);
     if (!(twice > 1e-30)) return;
-    dvec3 past = air.by - (1.0 / mass) * momentum;  // how far the air moves past the triangle
-    if (air.gusts > 0.0) past += air.gusts * smooth_gust((1.0 / eddy) * (middle - state_.drift));
-    const double grip = 0.25 * air_density * twice * detail::length(past) / mass;
-    const auto reached = [grip](double coefficient) {
-        const double rate = coefficient * grip;
-        return rate < 1e12 ? rate / (1.0 + rate) : 1.0;
-    };
-    const dvec3 facing = detail::dot(past, normal) / (twice * twice) * normal;
-    const dvec3 by = reached(across_plate) * facing + reached(along_plate) * (past - facing);
-    for (const std::size_t i : corners) scratch_.blown[i] += (1.0 / plan_.triangles[i]) * by;
+    const Face face = face_of(corners, air);
+    const double grip = 0.25 * air_density * twice * detail::length(face.past) / face.mass;
+    const dvec3 facing = detail::dot(face.past, normal) / (twice * twice) * normal;
+    push(corners, reached(across_plate * grip) * facing + reached(along_plate * grip) * (face.past - facing));
+}
+
+/// Across it only the flow across counts, however fast it is along (S. Hoerner, "Fluid-Dynamic Drag", 1965).
+void Substep::blow_on_segment(const std::array<std::size_t, 2>& ends, double thickness, const Air& air) {
+    const dvec3 along = state_.position[ends[1]] - state_.position[ends[0]];
+    const double square = detail::dot(along, along);
+    if (!(square > 1e-30)) return;
+    const Face face = face_of(ends, air);
+    const dvec3 facing = face.past - detail::dot(face.past, along) / square * along;
+    const double grip = 0.5 * air_density * thickness * std::sqrt(square) / face.mass;
+    push(ends, reached(across_thread * grip * detail::length(facing)) * facing +
+                   reached(along_thread * grip * detail::length(face.past)) * (face.past - facing));
 }
 
 }  // namespace tendril::rope

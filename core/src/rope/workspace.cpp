@@ -89,7 +89,7 @@ Result Workspace::use_threads(int threads, const Tasks& tasks) {
 void Workspace::Parts::prepare(const State& state) {
     if (!prepared || !plan.fits(state)) replan(state);
     scratch.colliders.resize(state.colliders.size());
-    if (state.settings.wind != glm::vec3(0.0f)) scratch.blown.assign(state.position.size(), glm::dvec3(0.0));
+    if (detail::has_air(state.settings)) scratch.blown.assign(state.position.size(), glm::dvec3(0.0));
     for (IslandScratch& thread : threads) thread.close.reserve(state.colliders.size());
     scratch.collider_at.resize(state.collider_slots.size());
     for (std::uint32_t i = 0; i < state.colliders.size(); ++i)

@@ -341,6 +341,14 @@ Result World::move_capsule(ColliderId capsule, const Capsule& to, double seconds
     return {};
 }
 
+Result World::drive_collider(ColliderId collider, const Drive& drive) noexcept {
+    Collider* const driven = found(collider);
+    if (driven == nullptr) return missing("drive_collider", "collider", "collider", collider.index);
+    if (const Result bad = check_fields("drive_collider", drive); !bad) return bad;
+    driven->drive = drive;
+    return {};
+}
+
 Result World::set_collider(ColliderId collider, const Shape& shape) noexcept {
     Collider* const there = found(collider);
     if (there == nullptr) return missing("set_collider", "collider", "collider", collider.index);

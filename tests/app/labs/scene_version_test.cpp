@@ -61,7 +61,8 @@ TEST_F(SceneVersion1, is_saved_again_as_version_2_with_w_last_everywhere) {
         if (row.size() == 10)
             row.erase(row.begin() + 6, row.begin() + 9);  // the displacement of the substep before
     Json saved = now["labs"]["rope"];
-    for (const char* newer : {"wind", "gusts"}) EXPECT_EQ(saved["world"]["settings"].erase(newer), 1u);
+    for (const char* newer : {"wind", "gusts", "still_air"})
+        EXPECT_EQ(saved["world"]["settings"].erase(newer), 1u);
     EXPECT_EQ(saved["world"].erase("drift"), 1u);
     EXPECT_EQ(saved, expected);
 

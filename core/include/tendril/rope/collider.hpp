@@ -62,6 +62,16 @@ float size(const Shape& shape) noexcept;
 /// length 0. The message names `operation`, the member and its value.
 Result check(const char* operation, const Shape& shape) noexcept;
 
+/// A steady motion. Friction carries what lies on it, and what it meets is pushed.
+struct Drive {
+    glm::vec3 velocity{0.0f};          ///< m/s
+    glm::vec3 axis{0.0f, 1.0f, 0.0f};  ///< through its centre, of any length; (0, 0, 0) is upright too
+    float spin = 0.0f;                 ///< rad/s about the axis
+    bool any() const noexcept { return velocity != glm::vec3(0.0f) || spin != 0.0f; }
+    bool operator==(const Drive&) const = default;
+};
+inline constexpr float max_drive = 1e4f, max_spin = 1e3f;  ///< m/s along each axis, rad/s
+
 struct Collider {
     ColliderId id;
     Shape shape;           ///< current
@@ -69,6 +79,7 @@ struct Collider {
     double seconds = 0.0;  ///< of simulated time until it arrives; 0: within the next substep
     /// For a capsule that turns as it moves: half the vector from `a` to `b` at its goal.
     std::optional<glm::dvec3> half_goal{};
+    Drive drive{};
     bool operator==(const Collider&) const = default;
 };
 
@@ -82,3 +93,5 @@ template <>
 std::span<const tendril::Field> tendril::fields<tendril::rope::Plane>() noexcept;
 template <>
 std::span<const tendril::Field> tendril::fields<tendril::rope::Box>() noexcept;
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::rope::Drive>() noexcept;

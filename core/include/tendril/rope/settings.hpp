@@ -58,12 +58,14 @@ struct Settings {
     float gravity_scale = 1.0f;  ///< -max_scale to max_scale
     /// Acceleration in addition to gravity, m/s^2.
     glm::vec3 external{0.0f};
-    /// Velocity of the air, m/s, each coordinate up to max_wind. It pushes cloth, not ropes or hair. At 0
-    /// there is no air: nothing resists.
+    /// Velocity of the air, m/s, each coordinate up to max_wind. It pushes cloth by its faces, ropes and hair
+    /// by their thickness. Colliders cast no lee. At 0 there is no air, unless `still_air` is set.
     glm::vec3 wind{0.0f};
     /// Maximum of gusts relative to the wind, in each coordinate, 0 to 1. They drift with the wind
     /// (State::drift), and are always the same ones. A change of wind or substep does not move them.
     float gusts = 0.3f;
+    /// Whether air at rest resists too: cloth then falls at the speed at which its drag is its weight.
+    bool still_air = false;
     /// Strain per newton, 1/N, 0 to max_compliance: how much a metre of rope stretches under one newton.
     /// Relaxation ignores it.
     float compliance = 0.0f;

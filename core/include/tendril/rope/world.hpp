@@ -150,6 +150,9 @@ class World {
     /// The same for both ends of a capsule, each along a straight line, so that it turns. Its radius becomes
     /// that of `to` at once.
     Result move_capsule(ColliderId capsule, const Capsule& to, double seconds = 0.0) noexcept;
+    /// Moves and turns a collider steadily, in addition to the above, until it is told otherwise. A plane
+    /// stays where it is, and its surface moves along itself: a conveyor belt, a ground that passes by.
+    Result drive_collider(ColliderId collider, const Drive& drive) noexcept;
     Result set_collider(ColliderId collider, const Shape& shape) noexcept;  ///< takes effect at once
     /// Unpins what is attached to it.
     Result remove_collider(ColliderId collider) noexcept;

@@ -1,0 +1,181 @@
+#include "app/labs/rope/walker.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <glm/common.hpp>
+#include <stdexcept>
+#include <tendril/humanoid/clip.hpp>
+#include <tendril/magnitude.hpp>
+
+#include "app/document/json_complete.hpp"
+#include "app/document/json_place.hpp"
+#include "app/io/character/read.hpp"
+#include "app/io/character/skin.hpp"
+#include "app/io/character/stick_figure.hpp"
+#include "app/labs/kit/arguments.hpp"
+#include "app/labs/rope/body_commands.hpp"
+
+namespace tendril::app {
+namespace {
+
+constexpr double walker_edge = 1e6;  ///< metres: no capsule is farther out
+
+const humanoid::Clip* clip_of(const Walker& walker) {
+    const auto& clips = walker.figure->character.clips;
+    const auto found = std::ranges::find(clips, walker.clip, &humanoid::Clip::name);
+    return found == clips.end() ? nullptr : &*found;
+}
+
+/// How often the clip has begun again.
+double rounds(const Walker& walker, double time) {
+    const humanoid::Clip* const clip = clip_of(walker);
+    if (clip == nullptr || !(clip->duration > 0.0)) return 0.0;
+    return std::floor((time - walker.began) / clip->duration + 1e-9);
+}
+
+glm::vec3 within(const glm::dvec3& point, const glm::vec3& at) {
+    glm::dvec3 kept(at);
+    for (int i = 0; i < 3; ++i)
+        if (std::isfinite(point[i])) kept[i] += point[i];
+    return glm::vec3(glm::clamp(kept, glm::dvec3(-walker_edge), glm::dvec3(walker_edge)));
+}
+
+}  // namespace
+
+std::shared_ptr<const WalkerFigure> read_walker(const std::string& file) {
+    auto figure = std::make_shared<WalkerFigure>();
+    figure->file = file;
+    if (!file.empty()) figure->path = std::filesystem::absolute(file).lexically_normal().string();
+    figure->character = file.empty() ? stick_figure() : read_character(file);
+    const humanoid::Skeleton& skeleton = figure->character.skeleton;
+    figure->map = bone_map(figure->character);
+    const Skin& skin = figure->character.skin;
+    if (skin.mesh) {
+        std::vector<humanoid::Placement> rest(skeleton.size());
+        humanoid::place(skeleton, humanoid::rest_pose(skeleton), rest);
+        figure->capsules = humanoid::fitted_capsules(skeleton, figure->map, skin_points(skin, rest));
+    } else {
+        figure->capsules = humanoid::default_capsules(skeleton, figure->map);
+    }
+    if (figure->capsules.empty()) throw std::runtime_error(file + ": no bone of a body was found in it");
+    return figure;
+}
+
+std::vector<WalkerCapsule> walker_capsules(const Walker& walker, double time) {
+    const WalkerFigure& figure = *walker.figure;
+    const humanoid::Skeleton& skeleton = figure.character.skeleton;
+    std::vector<rig::Transform> pose = humanoid::rest_pose(skeleton);
+    if (const humanoid::Clip* const clip = clip_of(walker)) {
+        const double since = time - walker.began - rounds(walker, time) * clip->duration;
+        humanoid::sample(*clip, skeleton, since, pose);
+    }
+    std::vector<humanoid::Placement> placed(skeleton.size());
+    humanoid::place(skeleton, pose, placed);
+    std::vector<WalkerCapsule> all;
+    for (const humanoid::BodyCapsule& each : figure.capsules) {
+        const humanoid::PlacedCapsule there = humanoid::place(each, figure.map, placed);
+        all.push_back({humanoid::name(each.bone),
+                       {within(there.from, walker.at), within(there.to, walker.at),
+                        static_cast<float>(std::clamp(there.radius, 0.0, walker_edge))}});
+    }
+    return all;
+}
+
+void aim_walker(const Walker& walker, NamedWorld& world, double now, double next) {
+    const bool again = rounds(walker, now) != rounds(walker, next);
+    for (const WalkerCapsule& each : walker_capsules(walker, next)) {
+        const rope::Collider* const there = world.find_collider(each.name);
+        if (there == nullptr || !std::holds_alternative<rope::Capsule>(there->shape)) continue;
+        if (again)
+            world.set_collider(each.name, each.shape);
+        else
+            world.move_capsule(each.name, each.shape, world.world().pending() + (next - now));
+    }
+}
+
+Json save_walker(const Walker& walker) {
+    if (!walker.figure) return nullptr;
+    Json json{{"file", walker.figure->file},
+              {"clip", walker.clip},
+              {"at", point(walker.at)},
+              {"began", walker.began}};
+    if (!walker.figure->path.empty()) json["path"] = walker.figure->path;
+    return json;
+}
+
+Walker load_walker(const JsonPlace& place) {
+    if (place.json().is_null()) return {};
+    const std::string file = place["file"].text();
+    const auto path = place.optional("path");
+    Walker walker;
+    try {  // the saved path may not exist on another machine
+        const bool there = path && std::filesystem::exists(path->text());
+        walker.figure = read_walker(there ? path->text() : file);
+    } catch (const std::exception& error) {
+        place["file"].fail(error.what());
+    }
+    if (walker.figure->file != file) {
+        auto named = std::make_shared<WalkerFigure>(*walker.figure);
+        named->file = file;
+        walker.figure = std::move(named);
+    }
+    walker.clip = place["clip"].text();
+    if (!walker.clip.empty() && clip_of(walker) == nullptr)
+        place["clip"].fail("the character has no such clip");
+    walker.at = place["at"].point();
+    walker.began = place["began"].real(0.0, 1e9);
+    return walker;
+}
+
+namespace {
+
+void leave(RopeEdit& edit) {
+    if (!edit.part.walker.figure) return;
+    for (const WalkerCapsule& each : walker_capsules(edit.part.walker, edit.part.time))
+        if (edit.seen().find_collider(each.name) != nullptr) edit.world().remove_collider(each.name);
+    edit.part.walker = {};
+    forget_missing(edit.part);
+}
+
+void enter(RopeEdit& edit, const Arguments& given) {
+    Walker walker;
+    walker.figure = read_walker(given.has("path") ? given.text("path") : std::string());
+    const auto& clips = walker.figure->character.clips;
+    if (given.has("clip"))
+        walker.clip = given.text("clip");
+    else if (!clips.empty())
+        walker.clip = clips.front().name;
+    if (!walker.clip.empty() && clip_of(walker) == nullptr)
+        throw Refused("the character has no clip \"" + walker.clip + "\"");
+    if (given.has("at")) walker.at = given.point("at");
+    walker.began = edit.part.time;
+    leave(edit);
+    for (const WalkerCapsule& each : walker_capsules(walker, walker.began)) {
+        check_collider_count(edit.seen());
+        edit.world().add_collider(each.name, each.shape);
+    }
+    edit.part.walker = std::move(walker);
+}
+
+void leave_by_command(RopeEdit& edit, const Arguments&) {
+    if (!edit.part.walker.figure) throw Refused("there is no character");
+    leave(edit);
+}
+
+}  // namespace
+
+void add_walker_commands(CommandTable& table) {
+    table.add(rope_command(
+        "rope.character", "Let a character walk in",
+        {text_argument("path", false,
+                       "a .gltf, .glb, .vrm, .vrma, .fbx or .bvh file; if omitted, the stick figure"),
+         text_argument("clip", false, "which of its clips; omitted: the first; empty: it stands"),
+         point_argument("at", false, "where the origin of its file is, metres")},
+        "Makes the capsules of a character colliders that follow its clip; replaces an earlier character",
+        enter));
+    table.add(rope_command("rope.character.remove", "Remove the character", {},
+                           "Removes the character and its colliders", leave_by_command));
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,55 @@
+// A character in the Rope lab: the capsules of its body are colliders that follow one of its clips.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <memory>
+#include <string>
+#include <tendril/humanoid/capsules.hpp>
+#include <tendril/rope/collider.hpp>
+#include <vector>
+
+#include "app/document/json.hpp"
+#include "app/io/character/character.hpp"
+
+namespace tendril::app {
+
+class CommandTable;
+class JsonPlace;
+class NamedWorld;
+
+/// Read from a file; copies of the document share it.
+struct WalkerFigure {
+    std::string file;  ///< as given; empty: the stick figure
+    std::string path;  ///< absolute; empty for the stick figure
+    Character character;
+    humanoid::BoneMap map;
+    std::vector<humanoid::BodyCapsule> capsules;
+};
+/// Throws std::runtime_error if the file cannot be read, or has no body.
+std::shared_ptr<const WalkerFigure> read_walker(const std::string& file);
+
+struct Walker {
+    std::shared_ptr<const WalkerFigure> figure;  ///< null: there is none
+    std::string clip;                            ///< plays over and over; empty: it stands as at rest
+    glm::vec3 at{0.0f};                          ///< of its file's origin, metres
+    double began = 0.0;                          ///< simulated time at which the clip began
+    bool operator==(const Walker&) const = default;
+};
+
+/// Where a capsule is; its collider has the name of its bone.
+struct WalkerCapsule {
+    std::string name;
+    rope::Capsule shape;
+};
+std::vector<WalkerCapsule> walker_capsules(const Walker& walker, double time);
+/// Starts its colliders' motion to where they are at `next`, seconds from `now`. Where the clip begins again
+/// they are put there. Those that were removed stay away.
+void aim_walker(const Walker& walker, NamedWorld& world, double now, double next);
+
+Json save_walker(const Walker& walker);
+/// Reads the character's file again.
+Walker load_walker(const JsonPlace& place);
+
+void add_walker_commands(CommandTable& table);
+
+}  // namespace tendril::app
