@@ -65,4 +65,11 @@ void ClothSolver::note_forces() {
     }
 }
 
+/// How far the deepest contact is inside a collider.
+double ClothSolver::deepest() const {
+    double depth = 0.0;
+    for (const ClothContact& each : local_.cloth_contacts) depth = std::max(depth, -each.gap);
+    return depth;
+}
+
 }  // namespace tendril::rope

@@ -126,8 +126,8 @@ void GridSystem::precondition(const Loops& loops, std::size_t index) {
     smooth();
 }
 
-GridSystem::Solved GridSystem::solve(const GridUnit& unit, float floor, double tolerance, int iterations,
-                                     tendril::detail::ForkJoin& with) {
+GridSystem::Solved GridSystem::solve(const GridUnit& unit, float floor, const Tolerance& tolerance,
+                                     int iterations, tendril::detail::ForkJoin& with) {
     const Loops loops(unit, with);
     const GridLevel& fine = finest();
     for (std::size_t i = 0; i < levels_.size(); ++i) {
@@ -144,13 +144,14 @@ GridSystem::Solved GridSystem::solve(const GridUnit& unit, float floor, double t
         return all;
     };
     Solved solved;
-    double first = 0.0, before = 0.0;
+    double enough = 0.0, before = 0.0;
     for (;; ++solved.iterations) {
         precondition(loops, 0);
         const double now = dot(fine.right, fine.x);
-        if (solved.iterations == 0) first = now;
+        if (solved.iterations == 0)
+            enough = std::max(tolerance.square, tolerance.relative * tolerance.relative * now);
         if (!std::isfinite(now)) return solved;
-        solved.converged = now <= tolerance * tolerance * first;
+        solved.converged = now <= enough;
         if (solved.converged || solved.iterations >= iterations) return solved;
         const float kept = solved.iterations == 0 ? 0.0f : static_cast<float>(now / before);
         loops.cells(fine, [&](GridRange part) { unit.scale_and_add(kept, fine.x, direction_, part); });

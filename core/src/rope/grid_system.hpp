@@ -110,10 +110,13 @@ class GridSystem {
         int iterations = 0;
         bool converged = false;
     };
-    /// Iterates until the residual, in the preconditioner's norm, is `tolerance` of its initial value.
-    /// `floor`: lower bound of the eigenvalues of the diagonal's blocks. `loops`: threads that may help;
-    /// changes no bit.
-    Solved solve(const GridUnit& unit, float floor, double tolerance, int iterations,
+    /// Of the residual in the preconditioner's norm: its square, or relative to its initial value.
+    struct Tolerance {
+        double square = 0.0, relative = 0.0;
+    };
+    /// Iterates until the residual is within either tolerance. `floor`: lower bound of the eigenvalues of the
+    /// diagonal's blocks. `loops`: threads that may help; changes no bit.
+    Solved solve(const GridUnit& unit, float floor, const Tolerance& tolerance, int iterations,
                  tendril::detail::ForkJoin& loops);
     const GridVector& solution() const { return solution_; }
 
