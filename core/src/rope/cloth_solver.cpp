@@ -19,9 +19,12 @@ constexpr double min_stiffness = 1e4, max_stiffness = 1e6;
 /// colliders, is accepted. None needs to be solved well: its system is linear, and lengths are not.
 constexpr int min_newton_steps = 2, max_newton_steps = 8;
 constexpr double accepted_strain = 0.007;
-constexpr double accepted_depth = 0.02;    ///< relative to the shortest stretch link
-constexpr double forcing_term = 0.1;       ///< relative residual at which a step is solved
-constexpr double remaining_strain = 1e-3;  ///< of a single link; its energy may remain
+constexpr double accepted_depth = 0.02;  ///< relative to the shortest stretch link
+/// The residual at which a step is solved: relative to its initial value, in the first and in later ones; or,
+/// in later ones, to the forces that act on free particles, but less than it takes to strain a single link.
+constexpr double first_residual = 0.1, later_residual = 0.1, driven_residual = 0.15;
+constexpr double residual_strain = 1e-3;
+constexpr double far_driven = 0.1;  ///< by forces in a substep, relative to a link
 constexpr int max_halvings = 6;
 
 }  // namespace
@@ -128,15 +131,25 @@ void ClothSolver::pin() {
     });
 }
 
-/// A step of Newton's method. If it strains links, it is halved until the potential does not rise.
-int ClothSolver::step(int iterations, double tolerance) {
+/// A step of Newton's method. If it strains links, it is halved until the potential does not rise. What is
+/// left of the first one is free motion.
+int ClothSolver::step(int iterations, bool first, double enough) {
+    const detail::GridSystem::Tolerance tolerance{first ? 0.0 : enough,
+                                                  first ? first_residual : later_residual};
     scratch_.cloth_unit.cells(level_, cloth_.arrays);
     add_contacts();
     pin();
-    const auto solved = cloth_.system.solve(scratch_.grid_unit, lightest_, {tolerance, forcing_term},
-                                            iterations, local_.loops);
+    const auto solved =
+        cloth_.system.solve(scratch_.grid_unit, lightest_, tolerance, iterations, local_.loops);
     converged_ = solved.converged;
     const detail::GridVector& by = cloth_.system.solution();
+    if (first)
+        each_cell([&](std::size_t i, std::size_t cell) {
+            const dvec3 free = scratch_.base[i] - scratch_.place[i];
+            scratch_.place[i] = scratch_.base[i];
+            by[0][cell] -= static_cast<float>(free.x), by[1][cell] -= static_cast<float>(free.y);
+            by[2][cell] -= static_cast<float>(free.z);
+        });
     const auto go = [&](float part) {
         each_cell([&](std::size_t i, std::size_t cell) {
             scratch_.place[i] += dvec3(part * by[0][cell], part * by[1][cell], part * by[2][cell]);
@@ -193,19 +206,31 @@ void ClothSolver::finish() {
 }
 
 /// Starts as if nothing had changed since the previous substep: links and contacts then push as they did.
+/// Where forces move particles by as much as a link that is no guide, and it starts from free motion.
 int ClothSolver::solve(int iterations) {
     load();
+    const double far = far_driven * shortest_;
+    double driven = 0.0, farthest = 0.0;
+    const auto unchanged = [&](std::size_t i) { return state_.position[i] + state_.displacement[i]; };
     each_cell([&](std::size_t i, std::size_t) {
-        if (scratch_.weight[i] > 0.0) scratch_.place[i] = state_.position[i] + state_.displacement[i];
+        if (scratch_.weight[i] == 0.0) return;
+        const dvec3 by = scratch_.base[i] - unchanged(i);
+        const double square = detail::dot(by, by);
+        driven += state_.mass[i] / mass_ * square;
+        farthest = std::max(farthest, square);
+    });
+    each_cell([&](std::size_t i, std::size_t) {
+        if (scratch_.weight[i] > 0.0 && farthest < far * far) scratch_.place[i] = unchanged(i);
     });
     evaluate();
-    const double tolerance = remaining_strain * remaining_strain * shortest_ * shortest_ * stiffness_;
+    const double small = residual_strain * shortest_;
+    const double enough = std::min(driven_residual * driven_residual * driven, small * small * stiffness_);
     int most = 0;
     for (int taken = 0;; ++taken) {
         find_contacts(taken == 0);
         const bool good = strain_ <= accepted_strain && deepest() <= accepted_depth * shortest_;
         if (taken == max_newton_steps || (good && taken >= min_newton_steps)) break;
-        most = std::max(most, step(iterations, taken == 0 ? 0.0 : tolerance));
+        most = std::max(most, step(iterations, taken == 0, enough));
         note_forces();
     }
     finish();

@@ -22,7 +22,7 @@ class ClothSolver : ImplicitStep {
     void load();
     void evaluate();
     void pin();
-    int step(int iterations, double tolerance);
+    int step(int iterations, bool first, double enough);
     double potential() const;
     void finish();
 

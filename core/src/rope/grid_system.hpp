@@ -123,10 +123,14 @@ class GridSystem {
   private:
     class Loops;
     void precondition(const Loops& loops, std::size_t level);
+    void factorize_coarsest();
+    void solve_coarsest();
+    void balance(const Loops& loops);
 
     std::vector<float> memory_;
     std::vector<double> sums_;  ///< partial sums of a dot product
     std::vector<GridLevel> levels_;
+    std::vector<double> coarsest_, coarsest_x_;  ///< its factor L D L^T, by rows; its solution
     GridVector solution_{}, direction_{}, product_{};
 };
 
