@@ -227,7 +227,7 @@ TEST(RopeWind, SurvivesTearing) {
                              .down = {1, 0, 0},
                              .columns = 12,
                              .rows = 12,
-                             .tear = 0.02f,
+                             .tear = 0.005f,
                              .pins = ClothShape::Pins::Corners});
     const std::size_t links = world.state().links.size();
     run(world, 4.0);

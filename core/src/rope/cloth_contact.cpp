@@ -25,9 +25,6 @@ void add(const detail::GridVector& vector, std::size_t cell, const dvec3& value)
     vector[1][cell] += static_cast<float>(value.y);
     vector[2][cell] += static_cast<float>(value.z);
 }
-dvec3 at(const detail::GridVector& vector, std::size_t cell) {
-    return {vector[0][cell], vector[1][cell], vector[2][cell]};
-}
 
 }  // namespace
 
@@ -58,11 +55,17 @@ void ClothSolver::add_contact(const ClothContact& contact) {
 
 /// Stores the force of each contact after a solve.
 void ClothSolver::note_forces() {
-    const detail::GridVector& by = cloth_.system.solution();
     for (ClothContact& each : local_.cloth_contacts) {
-        const dvec3 moved = (1.0 - each.t) * at(by, cell_of(each.a)) + each.t * at(by, cell_of(each.b));
-        each.force = -stiffness_ * (each.gap + taken_ * detail::dot(each.normal, moved));
+        const dvec3 moved = between(each, scratch_.place) - each.at;
+        each.force = -stiffness_ * (each.gap + detail::dot(each.normal, moved));
     }
+}
+
+/// How far the deepest contact is inside a collider.
+double ClothSolver::deepest() const {
+    double depth = 0.0;
+    for (const ClothContact& each : local_.cloth_contacts) depth = std::max(depth, -each.gap);
+    return depth;
 }
 
 }  // namespace tendril::rope

@@ -20,6 +20,9 @@
 
 namespace tendril::rope::detail {
 
+/// Stretch links are the first of grid_steps.
+inline constexpr std::size_t stretch_steps = 2;
+
 /// All in the layout of the finest level.
 struct ClothArrays {
     std::array<float*, fine_steps> rest{}, stiffness{};  ///< of links, by the cell they begin in; 0: no link
@@ -39,8 +42,9 @@ struct Cloth {
 
 /// Compiled for each vector unit.
 struct ClothUnit {
-    /// Computes the blocks of links, without contacts, and their pull.
-    void (*links)(const GridLevel&, const ClothArrays&) = nullptr;
+    /// Computes the blocks of links, without contacts, and their pull. Returns the maximum strain of stretch
+    /// links of a stiffness.
+    float (*links)(const GridLevel&, const ClothArrays&, float stiffness) = nullptr;
     /// Computes the diagonal and the right side.
     void (*cells)(const GridLevel&, const ClothArrays&) = nullptr;
 };

@@ -15,9 +15,16 @@ using glm::dvec3;
 constexpr double strain_by_weight = 2e-3;
 /// Of a link, in m / h^2.
 constexpr double min_stiffness = 1e4, max_stiffness = 1e6;
-constexpr double residual_tolerance = 1e-3;  ///< relative to the initial residual
-/// Strain of a stretch link up to which two steps are enough.
-constexpr double accepted_strain = 0.01;
+/// Steps of Newton's method; more are only taken until every stretch link, and how deep particles are in
+/// colliders, is accepted. None needs to be solved well: its system is linear, and lengths are not.
+constexpr int min_newton_steps = 2, max_newton_steps = 8;
+constexpr double accepted_strain = 0.007;
+constexpr double accepted_depth = 0.02;  ///< relative to the shortest stretch link
+/// The residual at which a step is solved: relative to its initial value, in the first and in later ones; or,
+/// in later ones, to the forces that act on free particles, but less than it takes to strain a single link.
+constexpr double first_residual = 0.1, later_residual = 0.1, driven_residual = 0.1;
+constexpr double residual_strain = 1e-3;
+constexpr double far_driven = 0.05;  ///< by forces in a substep, relative to a link
 constexpr int max_halvings = 6;
 
 }  // namespace
@@ -40,21 +47,21 @@ ClothSolver::ClothSolver(const IslandStep& step)
       level_(cloth_.system.finest()),
       first_(state_.bodies[grid_.body].first) {
     const std::size_t count = state_.bodies[grid_.body].count;
-    double whole = 0.0, shortest = 1e30, longest = 0.0;
+    double whole = 0.0, longest = 0.0;
     for (std::size_t i = first_; i < first_ + count; ++i) whole += state_.mass[i];
     for (const std::uint32_t i : Plan::part(plan_.links, island_.links)) {
         const Link& link = state_.links[i];
         if (link.kind == Link::Kind::Stretch && link.rest > 0.0f) {
-            shortest = std::min(shortest, static_cast<double>(link.rest));
+            shortest_ = std::min(shortest_, static_cast<double>(link.rest));
             longest = std::max(longest, static_cast<double>(link.rest));
         }
     }
     mass_ = whole / static_cast<double>(count);
     unit_ = mass_ / (h_ * h_);
-    const double area = (grid_.columns - 1.0) * (grid_.rows - 1.0) * shortest * longest;
+    const double area = (grid_.columns - 1.0) * (grid_.rows - 1.0) * shortest_ * longest;
     const double weight = whole * detail::length(detail::acceleration(state_.settings)) +
                           area * detail::wind_pressure(state_.settings);
-    stiffness_ = std::clamp(weight / (strain_by_weight * shortest * unit_), min_stiffness, max_stiffness);
+    stiffness_ = std::clamp(weight / (strain_by_weight * shortest_ * unit_), min_stiffness, max_stiffness);
 }
 
 /// Calls `visit` with each particle and its cell.
@@ -84,21 +91,20 @@ void ClothSolver::load() {
         level_.free[cell] = scratch_.weight[i] == 0.0 ? 0.0f : 1.0f;
     });
     for (float* each : to.stiffness) std::fill_n(each, cells, 0.0f);
-    elastic_ = 0.0;
-    double rests = 0.0;
+    double elastic = 0.0, rests = 0.0;
     for (const Plan::GridLink& each : Plan::part(plan_.grid_links, grid_.links)) {
         const Link& link = state_.links[each.link];
         const double stiffness = stiffness_of(link), tension = link.tension;
         to.rest[each.step][each.cell] = link.rest;
         to.stiffness[each.step][each.cell] = static_cast<float>(stiffness);
-        elastic_ += 0.5 * tension * tension / (stiffness * unit_);
+        elastic += 0.5 * tension * tension / (stiffness * unit_);
         rests += link.rest;
     }
-    local_.cloth_energy = {.length = rests / (grid_.columns + grid_.rows), .gained = -elastic_};
+    local_.cloth_energy = {.length = rests / (grid_.columns + grid_.rows), .gained = -elastic};
 }
 
-/// Builds the system at the current positions.
-void ClothSolver::assemble() {
+/// Computes the blocks of links at the current positions, and their maximum strain.
+void ClothSolver::evaluate() {
     detail::ClothArrays& to = cloth_.arrays;
     const dvec3 origin = scratch_.place[first_];
     each_cell([&](std::size_t i, std::size_t cell) {
@@ -107,8 +113,7 @@ void ClothSolver::assemble() {
         to.place[1][cell] = static_cast<float>(place.y), to.lag[1][cell] = static_cast<float>(lag.y);
         to.place[2][cell] = static_cast<float>(place.z), to.lag[2][cell] = static_cast<float>(lag.z);
     });
-    scratch_.cloth_unit.links(level_, to);
-    scratch_.cloth_unit.cells(level_, to);
+    strain_ = scratch_.cloth_unit.links(level_, to, static_cast<float>(stiffness_));
 }
 
 /// Takes pinned particles out of the system.
@@ -126,24 +131,35 @@ void ClothSolver::pin() {
     });
 }
 
-/// A step of Newton's method. If it strains links, it is halved until the potential does not rise.
-int ClothSolver::step(int iterations) {
-    assemble();
+/// A step of Newton's method. If it strains links, it is halved until the potential does not rise. What is
+/// left of the first one is free motion.
+int ClothSolver::step(int iterations, bool first, double enough) {
+    const detail::GridSystem::Tolerance tolerance{first ? 0.0 : enough,
+                                                  first ? first_residual : later_residual};
+    scratch_.cloth_unit.cells(level_, cloth_.arrays);
     add_contacts();
     pin();
     const auto solved =
-        cloth_.system.solve(scratch_.grid_unit, lightest_, residual_tolerance, iterations, local_.loops);
+        cloth_.system.solve(scratch_.grid_unit, lightest_, tolerance, iterations, local_.loops);
     converged_ = solved.converged;
     const detail::GridVector& by = cloth_.system.solution();
+    if (first)
+        each_cell([&](std::size_t i, std::size_t cell) {
+            const dvec3 free = scratch_.base[i] - scratch_.place[i];
+            scratch_.place[i] = scratch_.base[i];
+            by[0][cell] -= static_cast<float>(free.x), by[1][cell] -= static_cast<float>(free.y);
+            by[2][cell] -= static_cast<float>(free.z);
+        });
     const auto go = [&](float part) {
         each_cell([&](std::size_t i, std::size_t cell) {
             scratch_.place[i] += dvec3(part * by[0][cell], part * by[1][cell], part * by[2][cell]);
         });
     };
     go(1.0f);
-    double after = potential();
+    evaluate();
     taken_ = 1.0;
     if (strain_ <= accepted_strain) return solved.iterations;
+    double after = potential();
     go(-1.0f);
     const double before = potential();
     go(1.0f);
@@ -155,51 +171,69 @@ int ClothSolver::step(int iterations) {
     }
     if (!(after <= before)) go(-part), part = 0.0f;
     taken_ = part;
-    potential();  // for its side effects
+    if (part < 1.0f) evaluate();
     return solved.iterations;
 }
 
 /// Twice the incremental potential at `place`, over the mean mass and times h^2: inertia, links and contacts.
-/// Also stores the links' multipliers and energy there, and the maximum strain of a stretch link.
-double ClothSolver::potential() {
+double ClothSolver::potential() const {
     double sum = 0.0;
     for (std::size_t i = first_; i < first_ + state_.bodies[grid_.body].count; ++i) {
         const dvec3 beside = scratch_.place[i] - scratch_.base[i];
         sum += state_.mass[i] / mass_ * detail::dot(beside, beside);
     }
-    strain_ = 0.0;
-    double links = 0.0;
     for (const std::uint32_t i : Plan::part(plan_.links, island_.links)) {
         const Link& link = state_.links[i];
         const double longer = detail::length(scratch_.place[link.b] - scratch_.place[link.a]) - link.rest;
-        const double stiffness = stiffness_of(link), pull = stiffness * longer;
-        scratch_.multiplier[i] = mass_ * pull;
-        links += pull * longer;
-        if (link.kind == Link::Kind::Stretch && stiffness == stiffness_)
-            strain_ = std::max(strain_, std::abs(longer) / link.rest);
+        sum += stiffness_of(link) * longer * longer;
     }
-    elastic_ = 0.5 * unit_ * links;
     for (const ClothContact& each : local_.cloth_contacts) sum += potential_of(each);
-    return sum + links;
+    return sum;
 }
 
+/// Stores the multipliers of links, and their energy.
+void ClothSolver::finish() {
+    double elastic = 0.0;
+    for (const std::uint32_t i : Plan::part(plan_.links, island_.links)) {
+        const Link& link = state_.links[i];
+        const double longer = detail::length(scratch_.place[link.b] - scratch_.place[link.a]) - link.rest;
+        const double pull = stiffness_of(link) * longer;
+        scratch_.multiplier[i] = mass_ * pull;
+        elastic += pull * longer;
+    }
+    local_.cloth_energy.elastic = 0.5 * unit_ * elastic;
+    local_.cloth_energy.gained += local_.cloth_energy.elastic;
+}
+
+/// Starts as if nothing had changed since the previous substep: links and contacts then push as they did.
+/// Where forces move particles by as much as a link that is no guide, and it starts from free motion.
 int ClothSolver::solve(int iterations) {
-    // With a single step a swinging cloth gains energy. Two steps, half as exact, lose some.
-    constexpr int rounds = 2, rounds_in_contact = 3, max_rounds = 6, max_rounds_in_contact = 4;
     load();
+    const double far = far_driven * shortest_;
+    double driven = 0.0, farthest = 0.0;
+    const auto unchanged = [&](std::size_t i) { return state_.position[i] + state_.displacement[i]; };
+    each_cell([&](std::size_t i, std::size_t) {
+        if (scratch_.weight[i] == 0.0) return;
+        const dvec3 by = scratch_.base[i] - unchanged(i);
+        const double square = detail::dot(by, by);
+        driven += state_.mass[i] / mass_ * square;
+        farthest = std::max(farthest, square);
+    });
+    each_cell([&](std::size_t i, std::size_t) {
+        if (scratch_.weight[i] > 0.0 && farthest < far * far) scratch_.place[i] = unchanged(i);
+    });
+    evaluate();
+    const double small = residual_strain * shortest_;
+    const double enough = std::min(driven_residual * driven_residual * driven, small * small * stiffness_);
     int most = 0;
-    for (int round = 0; round < max_rounds; ++round) {
-        find_contacts(round == 0);
-        const bool touches = !local_.cloth_contacts.empty();
-        const int enough = strain_ > accepted_strain ? (touches ? max_rounds_in_contact : max_rounds)
-                           : touches                 ? rounds_in_contact
-                                                     : rounds;
-        if (round >= enough) break;
-        most = std::max(most, step(touches || strain_ > accepted_strain ? iterations : (iterations + 1) / 2));
+    for (int taken = 0;; ++taken) {
+        find_contacts(taken == 0);
+        const bool good = strain_ <= accepted_strain && deepest() <= accepted_depth * shortest_;
+        if (taken == max_newton_steps || (good && taken >= min_newton_steps)) break;
+        most = std::max(most, step(iterations, taken == 0, enough));
         note_forces();
     }
-    local_.cloth_energy.elastic = elastic_;
-    local_.cloth_energy.gained += elastic_;
+    finish();
     return most;
 }
 

@@ -20,15 +20,17 @@ class ClothSolver : ImplicitStep {
   private:
     // cloth_solver.cpp
     void load();
-    void assemble();
+    void evaluate();
     void pin();
-    int step(int iterations);
-    double potential();
+    int step(int iterations, bool first, double enough);
+    double potential() const;
+    void finish();
 
     // cloth_contact.cpp
     void add_contacts();
     void add_contact(const ClothContact& contact);
     void note_forces();
+    double deepest() const;
 
     double stiffness_of(const Link& link) const;
     std::size_t cell_of(std::size_t particle) const {
@@ -45,8 +47,8 @@ class ClothSolver : ImplicitStep {
     double unit_ = 0.0;  ///< mean mass of a particle, over h^2
     float lightest_ = 1.0f;
     double taken_ = 1.0;
-    double elastic_ = 0.0;  ///< energy in links, joules
-    double strain_ = 0.0;   ///< maximum of a stretch link
+    double shortest_ = 1e30;  ///< rest length of a stretch link
+    double strain_ = 0.0;     ///< maximum of a stretch link
     bool converged_ = true;
 };
 

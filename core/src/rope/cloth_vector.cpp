@@ -13,7 +13,8 @@ HWY_BEFORE_NAMESPACE();
 namespace tendril::rope::detail {
 namespace HWY_NAMESPACE {
 
-void links(const GridLevel& level, const ClothArrays& cloth) {
+float links(const GridLevel& level, const ClothArrays& cloth, float hard) {
+    V strain = hn::Zero(Tag());
     const V zero = hn::Zero(Tag()), one = hn::Set(Tag(), 1.0f), shortest = hn::Set(Tag(), 1e-18f);
     for (std::size_t s = 0; s < fine_steps; ++s) {
         const std::ptrdiff_t step = level.step(s);
@@ -28,6 +29,11 @@ void links(const GridLevel& level, const ClothArrays& cloth) {
             const V inverse = hn::Div(one, hn::IfThenElse(some, length, one));
             const V3 n = {hn::IfThenElse(some, hn::Mul(by.x, inverse), one), hn::Mul(by.y, inverse),
                           hn::Mul(by.z, inverse)};
+            if (s < stretch_steps) {
+                const V by_rest = hn::Div(hn::Abs(hn::Sub(length, rest)), hn::Max(rest, shortest));
+                const auto counts = hn::Eq(stiffness, hn::Set(Tag(), hard));
+                strain = hn::Max(strain, hn::IfThenElseZero(counts, by_rest));
+            }
             const V pull = hn::Mul(hn::Mul(stiffness, hn::Sub(length, rest)), inverse);
             const V sideways = hn::Max(pull, zero), along = hn::Sub(stiffness, sideways);
             const V3 a = along * n;
@@ -40,6 +46,7 @@ void links(const GridLevel& level, const ClothArrays& cloth) {
             hn::StoreU(hn::Add(hn::Mul(a.z, n.z), sideways), Tag(), blocks[5] + i);
         });
     }
+    return hn::GetLane(hn::MaxOfLanes(Tag(), strain));
 }
 
 void cells(const GridLevel& level, const ClothArrays& cloth) {

@@ -7,9 +7,8 @@
 namespace tendril::rope::detail {
 namespace {
 
-/// Size of the coarsest level.
-constexpr std::size_t coarsest = 2;
-constexpr int coarsest_passes = 6;
+/// Size of the coarsest level, which is solved exactly.
+constexpr std::size_t coarsest = 4;
 /// The unit of work that threads share in a loop.
 constexpr std::size_t part_cells = 16 * dot_cells;
 
@@ -105,29 +104,94 @@ class GridSystem::Loops {
     tendril::detail::ForkJoin& loops_;
 };
 
+void GridSystem::factorize_coarsest() {
+    const GridLevel& level = levels_.back();
+    const std::size_t columns = level.columns, n = 3 * columns * level.rows;
+    constexpr std::size_t part[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
+    std::vector<double>& a = coarsest_;
+    a.assign(n * n, 0.0);
+    const auto put = [&](std::size_t i, std::size_t j, const GridBlocks& blocks, std::size_t cell,
+                         double by) {
+        for (std::size_t r = 0; r < 3; ++r)
+            for (std::size_t c = 0; c < 3; ++c)
+                a[(3 * i + r) * n + 3 * j + c] += by * static_cast<double>(blocks[part[r][c]][cell]);
+    };
+    for (std::size_t row = 0; row < level.rows; ++row)
+        for (std::size_t column = 0; column < columns; ++column) {
+            const std::size_t cell = row * level.stride + column, i = row * columns + column;
+            put(i, i, level.diagonal, cell, 1.0);
+            for (std::size_t s = 0; s < level.steps; ++s) {
+                const auto there = static_cast<std::ptrdiff_t>(column) + grid_steps[s].column;
+                const std::size_t below = row + static_cast<std::size_t>(grid_steps[s].row);
+                if (there < 0 || static_cast<std::size_t>(there) >= columns || below >= level.rows) continue;
+                const std::size_t j = below * columns + static_cast<std::size_t>(there);
+                put(std::max(i, j), std::min(i, j), level.links[s], cell, -1.0);
+            }
+        }
+    for (std::size_t j = 0; j < n; ++j) {
+        for (std::size_t k = 0; k < j; ++k) a[j * n + j] -= a[j * n + k] * a[j * n + k] * a[k * n + k];
+        const double inverse = 1.0 / a[j * n + j];
+        for (std::size_t i = j + 1; i < n; ++i) {
+            for (std::size_t k = 0; k < j; ++k) a[i * n + j] -= a[i * n + k] * a[j * n + k] * a[k * n + k];
+            a[i * n + j] *= inverse;
+        }
+    }
+}
+
+void GridSystem::solve_coarsest() {
+    const GridLevel& level = levels_.back();
+    const std::size_t columns = level.columns, n = 3 * columns * level.rows;
+    const auto each = [&](auto visit) {
+        for (std::size_t i = 0; i < n; ++i)
+            visit(coarsest_x_[i], i % 3, i / 3 / columns * level.stride + i / 3 % columns);
+    };
+    coarsest_x_.resize(n);
+    std::vector<double>&x = coarsest_x_, &a = coarsest_;
+    each(
+        [&](double& to, std::size_t c, std::size_t cell) { to = static_cast<double>(level.right[c][cell]); });
+    for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t k = 0; k < i; ++k) x[i] -= a[i * n + k] * x[k];
+    for (std::size_t i = n; i-- > 0;) {
+        x[i] /= a[i * n + i];
+        for (std::size_t k = i + 1; k < n; ++k) x[i] -= a[k * n + i] * x[k];
+    }
+    each([&](double& from, std::size_t c, std::size_t cell) { level.x[c][cell] = static_cast<float>(from); });
+}
+
+/// Makes the residual add up to zero in each cell of the coarsest level: however early the iteration ended,
+/// large parts keep their momentum.
+void GridSystem::balance(const Loops& loops) {
+    for (std::size_t i = 0; i + 1 < levels_.size(); ++i) {
+        const GridLevel &level = levels_[i], &next = levels_[i + 1];
+        for (float* each : level.product) std::fill_n(each, level.cells(), 0.0f);
+        for (float* each : level.x) std::fill_n(each, level.cells(), 0.0f);
+        loops.rows(next, [&](GridRange part) { loops.unit.restrict_to(level, next, part); });
+    }
+    solve_coarsest();
+    for (std::size_t i = levels_.size() - 1; i-- > 0;) {
+        const GridLevel &level = levels_[i], &next = levels_[i + 1];
+        loops.rows(next, [&](GridRange part) { loops.unit.prolong(level, next, part); });
+    }
+    loops.cells(finest(), [&](GridRange part) { loops.unit.add(1.0f, finest().x, solution_, part); });
+}
+
 /// One cycle: computes x from the right side.
 void GridSystem::precondition(const Loops& loops, std::size_t index) {
     const GridUnit& unit = loops.unit;
     const GridLevel& level = levels_[index];
+    if (index + 1 == levels_.size()) return solve_coarsest();
     loops.cells(level, [&](GridRange part) { unit.smooth_first(level, part); });
-    const auto smooth = [&] {
-        loops.multiply(level, level.x, level.product);
-        loops.cells(level, [&](GridRange part) { unit.smooth(level, part); });
-    };
-    if (index + 1 == levels_.size()) {
-        for (int pass = 0; pass < coarsest_passes; ++pass) smooth();
-        return;
-    }
     const GridLevel& next = levels_[index + 1];
     loops.multiply(level, level.x, level.product);
     loops.rows(next, [&](GridRange part) { unit.restrict_to(level, next, part); });
     precondition(loops, index + 1);
     loops.rows(next, [&](GridRange part) { unit.prolong(level, next, part); });
-    smooth();
+    loops.multiply(level, level.x, level.product);
+    loops.cells(level, [&](GridRange part) { unit.smooth(level, part); });
 }
 
-GridSystem::Solved GridSystem::solve(const GridUnit& unit, float floor, double tolerance, int iterations,
-                                     tendril::detail::ForkJoin& with) {
+GridSystem::Solved GridSystem::solve(const GridUnit& unit, float floor, const Tolerance& tolerance,
+                                     int iterations, tendril::detail::ForkJoin& with) {
     const Loops loops(unit, with);
     const GridLevel& fine = finest();
     for (std::size_t i = 0; i < levels_.size(); ++i) {
@@ -135,6 +199,7 @@ GridSystem::Solved GridSystem::solve(const GridUnit& unit, float floor, double t
         if (i > 0) loops.rows(level, [&](GridRange part) { unit.coarsen(levels_[i - 1], level, part); });
         loops.cells(level, [&](GridRange part) { unit.factorize(level, floor, part); });
     }
+    factorize_coarsest();
     for (float* array : solution_) std::fill_n(array, fine.cells(), 0.0f);
     for (float* array : direction_) std::fill_n(array, fine.cells(), 0.0f);
     const auto dot = [&](const GridVector& a, const GridVector& b) {
@@ -144,14 +209,18 @@ GridSystem::Solved GridSystem::solve(const GridUnit& unit, float floor, double t
         return all;
     };
     Solved solved;
-    double first = 0.0, before = 0.0;
+    double enough = 0.0, before = 0.0;
     for (;; ++solved.iterations) {
         precondition(loops, 0);
         const double now = dot(fine.right, fine.x);
-        if (solved.iterations == 0) first = now;
+        if (solved.iterations == 0)
+            enough = std::max(tolerance.square, tolerance.relative * tolerance.relative * now);
         if (!std::isfinite(now)) return solved;
-        solved.converged = now <= tolerance * tolerance * first;
-        if (solved.converged || solved.iterations >= iterations) return solved;
+        solved.converged = now <= enough;
+        if (solved.converged || solved.iterations >= iterations) {
+            balance(loops);
+            return solved;
+        }
         const float kept = solved.iterations == 0 ? 0.0f : static_cast<float>(now / before);
         loops.cells(fine, [&](GridRange part) { unit.scale_and_add(kept, fine.x, direction_, part); });
         before = now;

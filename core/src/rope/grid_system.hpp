@@ -110,20 +110,27 @@ class GridSystem {
         int iterations = 0;
         bool converged = false;
     };
-    /// Iterates until the residual, in the preconditioner's norm, is `tolerance` of its initial value.
-    /// `floor`: lower bound of the eigenvalues of the diagonal's blocks. `loops`: threads that may help;
-    /// changes no bit.
-    Solved solve(const GridUnit& unit, float floor, double tolerance, int iterations,
+    /// Of the residual in the preconditioner's norm: its square, or relative to its initial value.
+    struct Tolerance {
+        double square = 0.0, relative = 0.0;
+    };
+    /// Iterates until the residual is within either tolerance. `floor`: lower bound of the eigenvalues of the
+    /// diagonal's blocks. `loops`: threads that may help; changes no bit.
+    Solved solve(const GridUnit& unit, float floor, const Tolerance& tolerance, int iterations,
                  tendril::detail::ForkJoin& loops);
     const GridVector& solution() const { return solution_; }
 
   private:
     class Loops;
     void precondition(const Loops& loops, std::size_t level);
+    void factorize_coarsest();
+    void solve_coarsest();
+    void balance(const Loops& loops);
 
     std::vector<float> memory_;
     std::vector<double> sums_;  ///< partial sums of a dot product
     std::vector<GridLevel> levels_;
+    std::vector<double> coarsest_, coarsest_x_;  ///< its factor L D L^T, by rows; its solution
     GridVector solution_{}, direction_{}, product_{};
 };
 

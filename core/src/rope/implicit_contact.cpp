@@ -42,7 +42,7 @@ void ImplicitStep::find_contacts(bool first) {
             const Link& link = state_.links[number];
             ClothContact contact{.near = n, .a = link.a, .b = link.b, .link = number};
             contact.force = force_before(contact);
-            if (link.rest > size) find_at_link(contact, radius);
+            if (link.rest > size) find_at_link(contact, radius, first);
         }
     }
 }
@@ -57,10 +57,10 @@ void ImplicitStep::find_at_particle(ClothContact contact, double radius, bool fi
     keep(contact,
          first ? collider.entered(state_.position[i], place, radius, local_.done.work)
                : surface_distance(*collider.shape, place),
-         radius);
+         radius, first);
 }
 
-void ImplicitStep::find_at_link(ClothContact contact, double radius) {
+void ImplicitStep::find_at_link(ClothContact contact, double radius, bool first) {
     const Scratch::Moving& collider = collider_of(contact);
     const dvec3 a = scratch_.place[contact.a], b = scratch_.place[contact.b], along = b - a;
     if (scratch_.weight[contact.a] + scratch_.weight[contact.b] == 0.0) return;
@@ -69,16 +69,22 @@ void ImplicitStep::find_at_link(ClothContact contact, double radius) {
     const std::optional<double> t = detail::nearest_between(*collider.shape, a, b, radius);
     if (!t) return;
     contact.t = *t;
-    keep(contact, surface_distance(*collider.shape, a + *t * along), radius);
+    keep(contact, surface_distance(*collider.shape, a + *t * along), radius, first);
 }
 
-void ImplicitStep::keep(ClothContact contact, const SurfaceDistance& surface, double radius) {
+/// At first a contact is also one that would be without links, and presses as much as it takes to prevent
+/// that.
+void ImplicitStep::keep(ClothContact contact, const SurfaceDistance& surface, double radius, bool first) {
     contact.gap = surface.distance - radius;
     contact.normal = surface.normal;
+    double depth = -contact.gap;
+    if (first) {
+        const dvec3 further = between(contact, scratch_.base) - between(contact, scratch_.place);
+        depth = std::max(depth, depth - detail::dot(contact.normal, further));
+    }
     const bool presses = contact.force > 0.0;
-    if (contact.gap >= 0.0 && !presses) return;
-    // Initially the force that lifts it out.
-    if (!presses) contact.force = -contact.gap * state_.mass[contact.a] / mass_;
+    if (depth <= 0.0 && !presses) return;
+    if (!presses) contact.force = depth * state_.mass[contact.a] / mass_;
     local_.cloth_contacts.push_back(contact);
 }
 

@@ -16,8 +16,8 @@ class ImplicitStep : protected IslandStep {
     // implicit_contact.cpp
     void find_contacts(bool first);
     void find_at_particle(ClothContact contact, double radius, bool first);
-    void find_at_link(ClothContact contact, double radius);
-    void keep(ClothContact contact, const SurfaceDistance& surface, double radius);
+    void find_at_link(ClothContact contact, double radius, bool first);
+    void keep(ClothContact contact, const SurfaceDistance& surface, double radius, bool first);
     void rub(ClothContact& contact) const;
     double potential_of(const ClothContact& contact) const;
     const Scratch::Moving& collider_of(const ClothContact& contact) const {
