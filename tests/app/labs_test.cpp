@@ -59,11 +59,12 @@ bool is_word_of_its_own(const std::string& path, const std::string& literal) {
     return (literal == "rope" && hangs) || (literal == "rig" && path == "app/labs/humanoid/state.cpp");
 }
 
-/// The table itself; the subcommands of the solvers, which belong to no lab; and the reader of VRM files,
-/// which have a member with a lab's name.
+/// The table itself; the subcommands of the solvers, which belong to no lab; and the readers of VRM files and
+/// of traces, which have a member with a lab's name.
 bool may_name(const std::string& path, const std::string& lab) {
     return path == "app/labs/labs.cpp" || path.starts_with("app/labs/" + lab + "/") ||
-           path.starts_with("app/batch/") || path == "app/io/character/gltf_vrm.cpp";
+           path.starts_with("app/batch/") || path == "app/io/character/gltf_vrm.cpp" ||
+           path.starts_with("app/io/trace/");
 }
 
 TEST(LabsAreFolders, NothingOutsideALabNamesIt) {

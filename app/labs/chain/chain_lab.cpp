@@ -244,7 +244,7 @@ std::vector<Shortcut> ChainLab::shortcuts() const {
 }
 
 std::vector<FileKind> ChainLab::files() const {
-    return {{"traces", {".jsonl", ".csv", ".log", ".txt"}, "chain.trace", {}, begins_like_trace}};
+    return {{"traces", {".jsonl", ".csv", ".log"}, "chain.trace", {}, begins_like_trace}};
 }
 
 std::vector<LabSetting> ChainLab::settings() const {

@@ -22,7 +22,7 @@ constexpr double accepted_strain = 0.007;
 constexpr double accepted_depth = 0.02;  ///< relative to the shortest stretch link
 /// The residual at which a step is solved: relative to its initial value, in the first and in later ones; or,
 /// in later ones, to the forces that act on free particles, but less than it takes to strain a single link.
-constexpr double first_residual = 0.1, later_residual = 0.1, driven_residual = 0.1;
+constexpr double first_residual = 0.01, later_residual = 0.1, driven_residual = 0.1;
 constexpr double residual_strain = 1e-3;
 constexpr double far_driven = 0.05;  ///< by forces in a substep, relative to a link
 constexpr int max_halvings = 6;

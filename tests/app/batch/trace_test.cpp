@@ -15,14 +15,14 @@
 namespace tendril::test {
 namespace {
 
-using app::test::Format;
-using app::test::Plant;
+using made::Format;
+using made::Plant;
 
 class TraceProgram : public testing::Test {
   protected:
     std::string file(const char* name, Plant plant, Format format) const {
-        const auto made = app::test::TraceMaker(5).make(plant);
-        write(folder_ / name, app::test::written(made, app::test::spaces[0], format));
+        const auto made = made::TraceMaker(5).make(plant);
+        write(folder_ / name, made::written(made, made::spaces[0], format));
         return path(name);
     }
     std::string path(const char* name) const { return (folder_ / name).string(); }

@@ -181,7 +181,9 @@ TEST(SelectByMouse, ABoxSelectsTheNodesOfTheFigureThatAreSeen) {
 
 TEST(SelectByMouse, ABoxLeavesOutHelperNodesThatAreHidden) {
     ScriptText script = figure();
-    script.command("humanoid.load", {{"path", source_path("tests/app/golden/antennae.bvh")}}).wait(2);
+    script.command("humanoid.load", {{"path", source_path("tests/app/golden/antennae.bvh")}})
+        .command("humanoid.clip", {{"name", ""}})
+        .wait(2);
     const glm::vec2 tip = handle(state_after(script), "node.antenna_l_5"), margin(25.0f, 25.0f);
     ScriptText hidden = script;
     hidden.command("view.character_helpers", {{"nodes", "hidden"}}).wait(2);

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace tendril::app::test {
+namespace tendril::test::made {
 
 struct MadeFrame {
     std::vector<glm::dvec3> joints;
@@ -417,4 +417,4 @@ inline std::string written(const MadeTrace& trace, const Space& space, Format fo
     return text;
 }
 
-}  // namespace tendril::app::test
+}  // namespace tendril::test::made

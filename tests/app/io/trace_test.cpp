@@ -11,25 +11,25 @@
 namespace tendril::app {
 namespace {
 
-using test::Format;
-using test::MadeTrace;
-using test::Plant;
-using test::Space;
-using test::TraceMaker;
+using test::made::Format;
+using test::made::MadeTrace;
+using test::made::Plant;
+using test::made::Space;
+using test::made::TraceMaker;
 
 /// The space that a format's engine has; any, if the format says it in words.
 const Space& space_for(Format format, unsigned seed) {
     switch (format) {
         case Format::Unreal:
-            return test::spaces[0];
+            return test::made::spaces[0];
         case Format::Unity:
-            return test::spaces[1];
+            return test::made::spaces[1];
         case Format::Godot:
-            return test::spaces[2];
+            return test::made::spaces[2];
         case Format::Blender:
-            return test::spaces[3];
+            return test::made::spaces[3];
         default:
-            return test::spaces[seed % std::size(test::spaces)];
+            return test::made::spaces[seed % std::size(test::made::spaces)];
     }
 }
 
@@ -37,7 +37,7 @@ bool says_its_space(Format format) {
     return format == Format::JsonLines || format == Format::JsonList;
 }
 
-struct Read {
+struct ReadTrace {
     TraceFindings findings;
     Conventions conventions;
     std::vector<std::string> notes;
@@ -52,17 +52,17 @@ struct Read {
     }
 };
 
-Read read(const std::string& text, const ConventionChoice& choice = {}) {
+ReadTrace read_trace(const std::string& text, const ConventionChoice& choice = {}) {
     std::istringstream in(text);
     TraceReader reader(in, choice);
-    Read result{find_incidents(reader), reader.conventions(), {}};
+    ReadTrace result{find_incidents(reader), reader.conventions(), {}};
     result.notes = reader.notes();
     return result;
 }
 
-std::string refusal(const std::string& text) {
+std::string trace_refusal(const std::string& text) {
     try {
-        read(text);
+        read_trace(text);
     } catch (const std::runtime_error& error) {
         return error.what();
     }
@@ -71,11 +71,11 @@ std::string refusal(const std::string& text) {
 
 TEST(Trace, EveryPlantedFaultIsFoundAtItsFrameWithItsCause) {
     for (unsigned seed = 0; seed < 300; ++seed) {
-        const auto plant = static_cast<Plant>(1 + seed % test::plants);
-        auto format = static_cast<Format>(seed / test::plants % test::formats);
+        const auto plant = static_cast<Plant>(1 + seed % test::made::plants);
+        auto format = static_cast<Format>(seed / test::made::plants % test::made::formats);
         if (plant == Plant::Limit) format = seed % 2 == 0 ? Format::JsonLines : Format::JsonList;
         const MadeTrace made = TraceMaker(seed).make(plant);
-        const Read found = read(test::written(made, space_for(format, seed), format));
+        const ReadTrace found = read_trace(test::made::written(made, space_for(format, seed), format));
         const auto same = [&](const ik::ChainIncident& each) {
             const int joint = each.joint == ik::no_joint ? -1 : static_cast<int>(each.joint);
             const std::string cause = each.cause;
@@ -100,9 +100,9 @@ TEST(Trace, EveryPlantedFaultIsFoundAtItsFrameWithItsCause) {
 
 TEST(Trace, NothingIsFoundInCleanOnes) {
     for (unsigned seed = 1000; seed < 1200; ++seed) {
-        const auto format = static_cast<Format>(seed % test::formats);
+        const auto format = static_cast<Format>(seed % test::made::formats);
         const MadeTrace made = TraceMaker(seed).make(Plant::None);
-        const Read found = read(test::written(made, space_for(format, seed / 10), format));
+        const ReadTrace found = read_trace(test::made::written(made, space_for(format, seed / 10), format));
         EXPECT_EQ(found.text(), "") << "seed " << seed;
         EXPECT_EQ(found.notes.size(), 0u);
     }
@@ -111,11 +111,11 @@ TEST(Trace, NothingIsFoundInCleanOnes) {
 TEST(Trace, ConventionsAreGuessedOrNotSure) {
     std::size_t sure = 0, right = 0;
     for (unsigned seed = 2000; seed < 2400; ++seed) {
-        const auto format = static_cast<Format>(seed % test::formats);
+        const auto format = static_cast<Format>(seed % test::made::formats);
         if (says_its_space(format)) continue;
         const MadeTrace made = TraceMaker(seed).make(Plant::None);
         const Space& space = space_for(format, seed / 10);
-        const Conventions guess = read(test::written(made, space, format)).conventions;
+        const Conventions guess = read_trace(test::made::written(made, space, format)).conventions;
         const auto judge = [&](bool is_sure, const std::string& name, const char* is) {
             if (!is_sure) return;
             ++sure;
@@ -130,12 +130,12 @@ TEST(Trace, ConventionsAreGuessedOrNotSure) {
 }
 
 TEST(Trace, PositionsAreConverted) {
-    for (const Space& space : test::spaces) {
+    for (const Space& space : test::made::spaces) {
         const MadeTrace made = TraceMaker(7).make(Plant::None);
-        std::istringstream in(test::written(made, space, Format::JsonLines));
+        std::istringstream in(test::made::written(made, space, Format::JsonLines));
         TraceReader reader(in);
         TracedFrame frame;
-        for (const test::MadeFrame& expected : made.frames) {
+        for (const test::made::MadeFrame& expected : made.frames) {
             ASSERT_TRUE(reader.next(frame));
             for (std::size_t j = 0; j < expected.joints.size(); ++j)
                 EXPECT_LT(glm::distance(frame.joints[j], glm::vec3(expected.joints[j])), 2e-5f)
@@ -161,7 +161,7 @@ TEST(Trace, OrderOfAQuaternionIsFoundFromTheBones) {
                 tip.y, tip.z, numbers[0], numbers[1], numbers[2], numbers[3]);
             text += line;
         }
-        const Conventions guess = read(text).conventions;
+        const Conventions guess = read_trace(text).conventions;
         EXPECT_TRUE(guess.rotations.sure);
         EXPECT_EQ(guess.rotations.value, w_first ? QuaternionOrder::Wxyz : QuaternionOrder::Xyzw);
     }
@@ -196,22 +196,22 @@ TEST(Trace, PastedPosesAreRead) {
 }
 
 TEST(Trace, DamageIsRefusedByItsLineOrReadUpToIt) {
-    EXPECT_NE(refusal("").find("nothing"), std::string::npos);
-    EXPECT_NE(refusal("hello\nworld\n").find("no positions"), std::string::npos);
-    EXPECT_NE(refusal("{\"joints\": 3}\n").find("line 1"), std::string::npos);
-    EXPECT_NE(
-        refusal("{\"tendril\": \"trace\"}\n{\"joints\": [[0,0,0]]}\n").find("line 2: expected two joints"),
-        std::string::npos);
-    EXPECT_NE(refusal("time,j0x,j0y,j0z,j1x,j1y\n0,0,0,0,1,1\n").find("columns"), std::string::npos);
-    EXPECT_NE(
-        refusal("{\"tendril\": \"trace\", \"up\": \"w\"}\n{\"joints\": [[0,0,0],[1,0,0]]}\n").find("\"w\""),
-        std::string::npos);
+    EXPECT_NE(trace_refusal("").find("nothing"), std::string::npos);
+    EXPECT_NE(trace_refusal("hello\nworld\n").find("no positions"), std::string::npos);
+    EXPECT_NE(trace_refusal("{\"joints\": 3}\n").find("line 1"), std::string::npos);
+    EXPECT_NE(trace_refusal("{\"tendril\": \"trace\"}\n{\"joints\": [[0,0,0]]}\n")
+                  .find("line 2: expected two joints"),
+              std::string::npos);
+    EXPECT_NE(trace_refusal("time,j0x,j0y,j0z,j1x,j1y\n0,0,0,0,1,1\n").find("columns"), std::string::npos);
+    EXPECT_NE(trace_refusal("{\"tendril\": \"trace\", \"up\": \"w\"}\n{\"joints\": [[0,0,0],[1,0,0]]}\n")
+                  .find("\"w\""),
+              std::string::npos);
     const std::string frame = "{\"joints\": [[0,0,0],[1,0,0]], \"target\": [1,0,0]}\n";
-    const Read cut = read(frame + frame + "{\"joints\": [[0,0,0],[1,0");
+    const ReadTrace cut = read_trace(frame + frame + "{\"joints\": [[0,0,0],[1,0");
     ASSERT_EQ(cut.notes.size(), 1u);
     EXPECT_NE(cut.notes[0].find("line 3"), std::string::npos);
     EXPECT_EQ(cut.findings.chains[0].frames, 2u);
-    const Read other = read(frame + "{\"joints\": [[0,0,0],[1,0,0],[2,0,0]]}\n");
+    const ReadTrace other = read_trace(frame + "{\"joints\": [[0,0,0],[1,0,0],[2,0,0]]}\n");
     EXPECT_NE(other.notes.at(0).find("expected 2 joints"), std::string::npos);
 }
 
@@ -219,12 +219,12 @@ TEST(Trace, EveryByteCutOrFlippedIsReadOrRefused) {
     for (const Format format : {Format::JsonLines, Format::Csv, Format::Unreal, Format::JsonList}) {
         MadeTrace made = TraceMaker(3).make(Plant::None);
         made.frames.resize(4);
-        const std::string text = test::written(made, test::spaces[0], format);
+        const std::string text = test::made::written(made, test::made::spaces[0], format);
         for (std::size_t i = 0; i < text.size(); ++i) {
             std::string flipped = text, cut = text.substr(0, i), shorter = text;
             flipped[i] = static_cast<char>(flipped[i] ^ (1 << (i % 8)));
             shorter.erase(i, 1);
-            for (const std::string& each : {flipped, cut, shorter}) EXPECT_FALSE(refusal(each).empty());
+            for (const std::string& each : {flipped, cut, shorter}) EXPECT_FALSE(trace_refusal(each).empty());
         }
     }
 }
@@ -237,7 +237,7 @@ TEST(Trace, ChainsAreKeptApart) {
             text += std::string("{\"chain\": \"") + chain + "\", \"joints\": [[0,1,0],[" +
                     (broken ? "NaN" : "0.5") + ",1,0]], \"target\": [0.5,1,0]}\n";
         }
-    const Read both = read(text);
+    const ReadTrace both = read_trace(text);
     ASSERT_EQ(both.findings.chains.size(), 2u);
     EXPECT_TRUE(both.findings.chains[0].incidents.empty());
     ASSERT_EQ(both.findings.chains[1].incidents.size(), 1u);

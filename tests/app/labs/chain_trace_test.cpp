@@ -7,18 +7,18 @@
 namespace tendril::app {
 namespace {
 
-using test::Format;
-using test::MadeTrace;
-using test::Plant;
+using test::made::Format;
+using test::made::MadeTrace;
+using test::made::Plant;
 
 class ChainTrace : public ChainTest {
   protected:
     std::string file(const char* name, const MadeTrace& made, Format format) {
-        tendril::test::write(folder_ / name, test::written(made, test::spaces[0], format));
+        tendril::test::write(folder_ / name, test::made::written(made, test::made::spaces[0], format));
         return (folder_ / name).string();
     }
     std::string file(const char* name, Plant plant, Format format = Format::JsonLines) {
-        return file(name, test::TraceMaker(5).make(plant), format);
+        return file(name, test::made::TraceMaker(5).make(plant), format);
     }
     std::vector<Incident> flips() const {
         std::vector<Incident> all;
@@ -30,7 +30,7 @@ class ChainTrace : public ChainTest {
 };
 
 TEST_F(ChainTrace, EachFrameIsAMomentAndAFlipIsMarkedWithItsCauseAndCure) {
-    const MadeTrace made = test::TraceMaker(5).make(Plant::FlipAtPole);
+    const MadeTrace made = test::made::TraceMaker(5).make(Plant::FlipAtPole);
     run("file.open", {{"path", file("arm.jsonl", made, Format::JsonLines)}});
     EXPECT_EQ(workspace.lab, chain_lab);
     ASSERT_EQ(workspace.rewind.size(), made.frames.size() - 1);  // and the present
@@ -79,7 +79,7 @@ TEST_F(ChainTrace, UndoBringsBackTheChainFromBefore) {
 }
 
 TEST_F(ChainTrace, AFrameThatIsNotFiniteHoldsThePoseBefore) {
-    const MadeTrace made = test::TraceMaker(6).make(Plant::NanForNothing);
+    const MadeTrace made = test::made::TraceMaker(6).make(Plant::NanForNothing);
     run("chain.trace", {{"path", file("arm.jsonl", made, Format::JsonLines)}});
     const auto& all = workspace.rewind.incidents();
     EXPECT_TRUE(std::any_of(all.begin(), all.end(), [&](const Incident& each) {
@@ -90,7 +90,7 @@ TEST_F(ChainTrace, AFrameThatIsNotFiniteHoldsThePoseBefore) {
 }
 
 TEST_F(ChainTrace, ALongOneIsShownAroundItsFirstIncidentOrFromAFrame) {
-    MadeTrace made = test::TraceMaker(7).make(Plant::FlipForNothing);
+    MadeTrace made = test::made::TraceMaker(7).make(Plant::FlipForNothing);
     made.frames.insert(made.frames.begin(), 2000, made.frames.front());
     const std::string path = file("long.jsonl", made, Format::JsonLines);
     run("chain.trace", {{"path", path}});
@@ -102,8 +102,8 @@ TEST_F(ChainTrace, ALongOneIsShownAroundItsFirstIncidentOrFromAFrame) {
 }
 
 TEST_F(ChainTrace, PastedTextIsTakenAsATraceIfItIsOne) {
-    const MadeTrace made = test::TraceMaker(8).make(Plant::None);
-    const std::string text = test::written(made, test::spaces[1], Format::Unity);
+    const MadeTrace made = test::made::TraceMaker(8).make(Plant::None);
+    const std::string text = test::made::written(made, test::made::spaces[1], Format::Unity);
     const TakenText taken = ChainLab().takes_text(text);
     ASSERT_TRUE(taken.command);
     EXPECT_EQ(taken.command->name, "chain.trace");
