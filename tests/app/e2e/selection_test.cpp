@@ -183,6 +183,7 @@ TEST(SelectByMouse, ABoxLeavesOutHelperNodesThatAreHidden) {
     ScriptText script = figure();
     script.command("humanoid.load", {{"path", source_path("tests/app/golden/antennae.bvh")}})
         .command("humanoid.clip", {{"name", ""}})
+        .command("camera.frame", {{"what", "all"}})
         .wait(2);
     const glm::vec2 tip = handle(state_after(script), "node.antenna_l_5"), margin(25.0f, 25.0f);
     ScriptText hidden = script;
