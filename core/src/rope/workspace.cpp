@@ -3,6 +3,7 @@
 
 #include "math/checks.hpp"
 #include "math/tasks.hpp"
+#include "rope/build.hpp"
 #include "rope/scratch.hpp"
 
 namespace tendril::rope {

@@ -306,9 +306,9 @@ TEST_P(RetargetedWalks, FeetStandAndHandsPointAsInTheSource) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Shared, RetargetedWalks, testing::ValuesIn(retargeted_sources()),
-                         [](const testing::TestParamInfo<Source>& info) {
+                         [](const testing::TestParamInfo<Source>& each) {
                              std::string name;
-                             for (const char c : std::string(info.param.file) + info.param.clip)
+                             for (const char c : std::string(each.param.file) + each.param.clip)
                                  if (std::isalnum(static_cast<unsigned char>(c)) != 0) name += c;
                              return name;
                          });
