@@ -169,8 +169,8 @@ TEST(RopeResample, ATornClothStaysTorn) {
     rope::State state = world.state();
     // Torn between the columns 4 and 5.
     std::erase_if(state.links, [](const Link& link) {
-        const auto [low, high] = std::minmax(link.a % 9, link.b % 9);
-        return low <= 4 && high >= 5;
+        const auto a = link.a % 9, b = link.b % 9;
+        return std::min(a, b) <= 4 && std::max(a, b) >= 5;
     });
     world = World(state);
     divide(world, "cloth", 17, 17);
