@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "app/document/text.hpp"
 #include "app/io/character/tiny_gltf.hpp"
 
 namespace tendril::app {
@@ -113,6 +114,7 @@ class Checker {
     explicit Checker(const json& file) : file_(file, "") {}
 
     void run() {
+        check_version();
         for (const Item& each : file_.list("buffers")) buffers_.push_back(buffer(each));
         for (const Item& each : file_.list("bufferViews")) views_.push_back(view(each));
         const std::vector<Item> accessors = file_.list("accessors");
@@ -129,6 +131,13 @@ class Checker {
     }
 
   private:
+    /// glTF 1.0 has objects where 2.0 has lists: name the version, not the first difference.
+    void check_version() const {
+        const auto asset = file_.object("asset");
+        const std::string version = asset ? asset->text("version") : "";
+        if (!version.empty() && !version.starts_with("2."))
+            throw std::runtime_error("is glTF " + message(version) + "; only glTF 2.0 is read");
+    }
     /// The buffer's size. Limited, since tinygltf allocates a buffer before reading its bytes.
     Size buffer(const Item& item) {
         const Size size = item.number("byteLength").value_or(1);

@@ -44,6 +44,9 @@ struct Chunks {
 /// The chunks of a GLB file. Others than JSON and BIN are ignored; an empty BIN chunk is valid.
 Chunks chunks_of(std::string_view bytes) {
     if (bytes.size() < 20) throw std::runtime_error("ends in its header");
+    if (const std::uint32_t version = number_at(bytes, 4); version != 2)
+        throw std::runtime_error("is binary glTF version " + std::to_string(version) +
+                                 "; only version 2 is read");
     if (const std::uint32_t size = number_at(bytes, 8); size > bytes.size())
         throw std::runtime_error("is cut off: its header says " + std::to_string(size) + " bytes, it has " +
                                  std::to_string(bytes.size()));

@@ -106,6 +106,13 @@ std::string clip_of(std::vector<float> times, float place) {
     return keys(base64(times), three_times, three_places);
 }
 
+TEST_F(HostileCharacter, another_version_of_gltf_is_named) {
+    refuses("one.gltf", R"({"asset":{"version":"1.0"},"buffers":{"a":{"byteLength":0}}})",
+            "is glTF 1.0; only glTF 2.0");
+    refuses("one.glb", "glTF" + raw(1u) + raw(4u) + raw(0u) + raw(0u) + "{}  ",
+            "is binary glTF version 1; only version 2");
+}
+
 TEST_F(HostileCharacter, a_gltf_that_is_well_is_read) {
     EXPECT_EQ(refusal("well.gltf", two_joints("", "", clip_of({0.0f, 0.5f, 1.0f}, 2.0f))), "");
     EXPECT_EQ(character_.skeleton.size(), 2u);
