@@ -198,6 +198,55 @@ TEST(HumanoidRetarget, on_the_same_skeleton_it_is_the_same_motion) {
     }
 }
 
+TEST(HumanoidRetarget, the_root_travels_and_helpers_follow_the_bones_that_they_stand_on) {
+    RetargetDice random(11);
+    for (int i = 0; i < 20; ++i) {
+        const RetargetFigure from = random_body(random, true);
+        RetargetFigure to = random_body(random, false);
+        std::vector<Node> nodes = to.skeleton.nodes();
+        const auto rest_of_body = to.placed(rest_pose(to.skeleton));
+        const auto add = [&](const char* name, std::int32_t parent, const glm::dvec3& at) {
+            const Placement above = parent < 0 ? Placement() : rest_of_body[static_cast<std::size_t>(parent)];
+            const Placement own = placement({.translation = at, .rotation = random.turn(3.0)});
+            nodes.push_back({name, parent, relative(above, own)});
+            return nodes.size() - 1;
+        };
+        const auto stood = [&](Bone bone) { return to.of(rest_of_body, bone).position; };
+        const glm::dvec3 far(0.0, 0.0, 2.0 * to.leg());
+        const std::size_t foot =
+                              add("ik_foot_l", 0, stood(Bone::LeftFoot) + glm::dvec3(0, -0.05, 0) * to.leg()),
+                          knee = add("pole_l", 0, stood(Bone::LeftLowerLeg) + far),
+                          rig = add("rig", -1, -far), camera = add("camera", -1, 2.0 * far);
+        nodes.push_back(
+            {"ik_hand_r", static_cast<std::int32_t>(rig),
+             relative(placement(nodes[rig].rest), placement({.translation = stood(Bone::RightHand)}))});
+        const std::size_t hand = nodes.size() - 1;
+        to.skeleton = *Skeleton::make(std::move(nodes));
+        const Clip clip = random_clip(random, from);
+        const auto made = retarget({from.skeleton, from.map}, clip, {to.skeleton, to.map});
+        ASSERT_TRUE(made) << made.message();
+        EXPECT_EQ(made->helpers, (std::vector<std::size_t>{knee, rig, camera}));
+        const auto rest = to.placed(rest_pose(to.skeleton));
+        const auto seen = [](const std::vector<Placement>& all, std::size_t node, std::size_t by) {
+            return glm::inverse(all[by].rotation()) * (all[node].position - all[by].position);
+        };
+        const auto node_of = [&](Bone bone) { return static_cast<std::size_t>(to.map[bone].node); };
+        for (const double time : {0.0, 0.31, 0.6, 1.0}) {
+            const auto now = to.at(made->clip, time);
+            const glm::dvec3 way = to.of(now, Bone::Hips).position - to.of(rest, Bone::Hips).position;
+            for (const std::size_t each : {std::size_t{0}, knee, rig})
+                EXPECT_LT(glm::distance(now[each].position - rest[each].position, {way.x, 0.0, way.z}), 1e-6);
+            EXPECT_EQ(now[camera].position, rest[camera].position);
+            const bool is_key = time != 0.6;
+            for (const auto& [helper, bone] :
+                 {std::pair{foot, node_of(Bone::LeftFoot)}, {hand, node_of(Bone::RightHand)}}) {
+                EXPECT_LT(glm::distance(seen(now, helper, bone), seen(rest, helper, bone)),
+                          is_key ? 1e-6 : 1e-3 * to.leg());
+            }
+        }
+    }
+}
+
 // ------------------------------------------------------------------------------------------------- walks
 
 /// The figure with other proportions, arms hanging at rest, toes turned out, and hands that point anywhere.

@@ -22,6 +22,8 @@ constexpr std::size_t max_retargeted_keys = 100'000;
 /// in a wrong unit are frequent.
 constexpr double person_leg = 0.85;  // metres
 
+constexpr double on_the_bone = 0.1;  // of a leg's length from a node at rest: helpers that near follow it
+
 constexpr double flat_enough = 8.0;  // degrees from which a foot on the ground is not flat
 
 Clip resized(Clip clip, double by) {
@@ -73,11 +75,14 @@ class Retargeter {
           was_({skeleton_, from.map}),
           now_(to),
           shared_(to.skeleton.size()),
+          leaders_(to.skeleton.size()),
+          travels_(to.skeleton.size()),
           rest_(rest_pose(to.skeleton)),
           pose_(rest_),
           source_pose_(skeleton_.size()),
           source_(skeleton_.size()),
           placed_(to.skeleton.size()) {
+        find_root();
         for (std::size_t i = 0; i < bone_count; ++i) {
             const auto bone = static_cast<Bone>(i);
             if (was_.has(bone) && now_.has(bone))
@@ -102,6 +107,7 @@ class Retargeter {
         for (const double time : times) {
             point_limbs(time);
             put_down(time);
+            move_helpers();
             for (std::size_t node = 0; node < shared_.size(); ++node)
                 if (moves(node)) add_key(channels[node], time, key_of(to_.skeleton, pose_, node), node);
         }
@@ -129,6 +135,54 @@ class Retargeter {
                 auto& from = shared_[static_cast<std::size_t>(b)];
                 if (!from) from = static_cast<std::size_t>(a);
             }
+    }
+
+    // ------------------------------------------------------------------------------------------- helpers
+
+    /// What is not below the hips. The root above them travels along, and with it what hangs on it. Helpers
+    /// that stand on a node of the body at rest, as IK targets do, follow that node. Other roots stay, unless
+    /// they have such helpers.
+    void find_root() {
+        const Skeleton& skeleton = to_.skeleton;
+        const auto hips = now_.node(Bone::Hips);
+        place(skeleton, rest_, placed_);
+        rest_placed_ = placed_;
+        const double near = on_the_bone * now_.leg;
+        for (const std::int32_t each : skeleton.order()) {
+            const auto node = static_cast<std::size_t>(each);
+            if (skeleton.is_below(node, hips)) continue;
+            std::size_t top = node;
+            while (skeleton[top].parent >= 0) top = static_cast<std::size_t>(skeleton[top].parent);
+            if (skeleton.is_below(hips, node)) {
+                travels_[top] = true;
+                continue;
+            }
+            double nearest = near;
+            for (std::size_t i = 0; i < skeleton.size(); ++i) {
+                if (!skeleton.is_below(i, hips)) continue;
+                const double away = length(minus(rest_placed_[i].position, rest_placed_[node].position));
+                if (away < nearest) nearest = away, leaders_[node] = i;
+            }
+            if (leaders_[node] && top != node) travels_[top] = true;
+            if (!leaders_[node]) result_.helpers.push_back(node);
+        }
+    }
+    /// Each stays where it is at rest, seen from the node that it follows.
+    void move_helpers() {
+        place(to_.skeleton, pose_, placed_);
+        for (const std::int32_t each : to_.skeleton.order()) {
+            const auto node = static_cast<std::size_t>(each);
+            if (const auto& leader = leaders_[node]) {
+                const Placement &now = placed_[*leader], &rest = rest_placed_[*leader],
+                                &own = rest_placed_[node];
+                const glm::dquat turned = math::compose(now.rotation(), conjugate(rest.rotation()));
+                Placement wanted{own.axes,
+                                 plus(now.position, rotated(turned, minus(own.position, rest.position)))};
+                for (int axis = 0; axis < 3; ++axis) wanted.axes[axis] = rotated(turned, own.axes[axis]);
+                pose_[node] = relative(above_of(node), wanted);
+            }
+            placed_[node] = above_of(node) * placement(pose_[node]);
+        }
     }
 
     // ---------------------------------------------------------------------------------------------- feet
@@ -221,9 +275,8 @@ class Retargeter {
         const double part = frame - static_cast<double>(first);
         const double up = a.hips + (b.hips - a.hips) * part;
         const std::size_t hips = now_.node(Bone::Hips);
-        const std::int32_t parent = to_.skeleton[hips].parent;
-        const Placement above = parent < 0 ? Placement() : placed_[static_cast<std::size_t>(parent)];
-        pose_[hips].translation = plus(pose_[hips].translation, detail::seen_from(above, {0.0, up, 0.0}));
+        pose_[hips].translation =
+            plus(pose_[hips].translation, detail::seen_from(above_of(hips), {0.0, up, 0.0}));
         for (std::size_t i = 0; i < 2; ++i) {
             const detail::Limb& leg = *legs_[i];
             const glm::dvec3 move = mix(a.feet[i], b.feet[i], part);
@@ -243,11 +296,13 @@ class Retargeter {
     void point_limbs(double time) {
         sample(clip_, skeleton_, time, source_pose_);
         place(skeleton_, source_pose_, source_);
+        const glm::dvec3 way =
+            times(rotated(turn_, minus(source_[was_.node(Bone::Hips)].position, was_.hips)), scale_);
         for (const std::int32_t each : to_.skeleton.order()) {
             const auto node = static_cast<std::size_t>(each);
-            const std::int32_t parent = to_.skeleton[node].parent;
-            const Placement above = parent < 0 ? Placement() : placed_[static_cast<std::size_t>(parent)];
+            const Placement above = above_of(node);
             pose_[node] = rest_[node];
+            if (travels_[node]) pose_[node].translation = plus(pose_[node].translation, {way.x, 0.0, way.z});
             if (const auto& from = shared_[node]) {
                 // In the source's frame, then in the target's.
                 const glm::dquat moved =
@@ -255,25 +310,32 @@ class Retargeter {
                 const glm::dquat wanted = math::compose(
                     math::compose(turn_, math::compose(moved, conjugate(turn_))), now_.rotations[node]);
                 pose_[node].rotation = rig::normalised(math::compose(conjugate(above.rotation()), wanted));
-                if (node == now_.node(Bone::Hips)) {
-                    const glm::dvec3 way = minus(source_[*from].position, was_.hips);
-                    const glm::dvec3 at = plus(now_.hips, times(rotated(turn_, way), scale_));
-                    pose_[node].translation = relative(above, Placement{glm::dmat3(1.0), at}).translation;
-                }
+                if (node == now_.node(Bone::Hips))
+                    pose_[node].translation =
+                        relative(above, Placement{glm::dmat3(1.0), plus(now_.hips, way)}).translation;
             }
             placed_[node] = above * placement(pose_[node]);
         }
     }
     /// A node whose keys are local to another node than its parent (attach.hpp) needs keys to stay where it
     /// is below its parent.
-    bool moves(std::size_t node) const { return shared_[node] || to_.skeleton[node].keys; }
+    bool moves(std::size_t node) const {
+        return shared_[node] || travels_[node] || leaders_[node] || to_.skeleton[node].keys;
+    }
+    bool is_translated(std::size_t node) const {
+        return node == now_.node(Bone::Hips) || travels_[node] || leaders_[node] || to_.skeleton[node].keys;
+    }
+    Placement above_of(std::size_t node) const {
+        const std::int32_t parent = to_.skeleton[node].parent;
+        return parent < 0 ? Placement() : placed_[static_cast<std::size_t>(parent)];
+    }
     void add_key(Channel& channel, double time, const rig::Transform& key, std::size_t node) const {
         glm::dquat rotation = key.rotation;
         if (!channel.rotation.values.empty() && dot(channel.rotation.values.back(), rotation) < 0.0)
             rotation = glm::dquat(-rotation.w, -rotation.x, -rotation.y, -rotation.z);
         channel.rotation.times.push_back(time);
         channel.rotation.values.push_back(rotation);
-        if (node != now_.node(Bone::Hips) && !to_.skeleton[node].keys) return;
+        if (!is_translated(node)) return;
         channel.translation.times.push_back(time);
         channel.translation.values.push_back(key.translation);
         if (!to_.skeleton[node].keys) return;
@@ -286,7 +348,9 @@ class Retargeter {
     const Clip clip_;
     const MappedSkeleton to_;
     detail::RetargetBody was_, now_;
-    std::vector<std::optional<std::size_t>> shared_;  // the source's node of each of the target's
+    std::vector<std::optional<std::size_t>> shared_;   // the source's node of each of the target's
+    std::vector<std::optional<std::size_t>> leaders_;  // what a helper follows
+    std::vector<bool> travels_;                        // roots that go along with the hips
     const std::vector<rig::Transform> rest_;
     glm::dquat turn_{1.0, 0.0, 0.0, 0.0};  // from the source's frame to the target's
     double scale_ = 1.0;
@@ -295,7 +359,7 @@ class Retargeter {
     std::vector<detail::Footing> footing_{};
     double rate_ = 0.0;  // of the footing, frames per second
     std::vector<rig::Transform> pose_, source_pose_;
-    std::vector<Placement> source_, placed_;
+    std::vector<Placement> source_, placed_, rest_placed_;
 };
 
 }  // namespace

@@ -46,6 +46,8 @@ struct Retargeted {
     double scale = 1.0;            ///< of the hips' translation: the ratio of the legs' lengths
     std::vector<Bone> left_out{};  ///< bones of the source that the target lacks
     std::vector<Bone> at_rest{};   ///< bones of the target that the source lacks
+    /// Nodes of the target that are neither above nor below its hips, and follow no bone.
+    std::vector<std::size_t> helpers{};
 };
 
 /// Keys are linear, at every key of the source and at every frame of frame_rate(). Refuses a map or clip that
