@@ -296,6 +296,88 @@ TEST(SpringChain, SizeMakesNoDifference) {
     EXPECT_GT(small.report.angle, 0.01);
 }
 
+/// Tips stay outside of one sphere or capsule that passes through the antenna, and bones keep their lengths.
+TEST(SpringChain, StaysOutsideAColliderWithLengthsKept) {
+    std::mt19937 random(7);
+    const auto number = [&](double from, double to) {
+        return std::uniform_real_distribution<double>(from, to)(random);
+    };
+    int held = 0;
+    for (int run = 0; run < 200; ++run) {
+        Antenna antenna(5);
+        const SpringOptions options{.strength = number(0.5, 8.0), .hit_radius = number(0.0, 0.03)};
+        const bool is_sphere = run % 2 == 0;
+        const double radius = number(0.01, 0.3);
+        const glm::dvec3 middle(number(-0.2, 0.2), number(2.0, 2.4), number(-0.2, 0.2));
+        const glm::dvec3 along(number(-0.3, 0.3), number(-0.3, 0.3), number(-0.3, 0.3));
+        const glm::dvec3 pace(number(-1.0, 1.0), number(-1.0, 1.0), number(-1.0, 1.0));
+        for (int frame = 0; frame < 60; ++frame) {
+            const glm::dvec3 at = middle + pace * (frame / 60.0 - 0.5);
+            const PlacedCapsule collider{at, is_sphere ? at : at + along, radius};
+            std::vector<rig::Transform> pose = rest_pose(antenna.skeleton);
+            pose[0].translation = {0.1 * std::sin(0.3 * frame), 1.0, 0.0};
+            antenna.report = antenna.chain.step(pose, options, 1.0 / 60, antenna.state, {&collider, 1});
+            ASSERT_TRUE(antenna.report.valid);
+            const std::vector<glm::dvec3> points = positions_of(antenna.skeleton, pose);
+            for (std::size_t i = antenna.root; i + 1 < points.size(); ++i) {
+                ASSERT_NEAR(glm::distance(points[i], points[i + 1]), 0.1, 1e-12);
+                const auto apart = [&](const glm::dvec3& point) {
+                    return gap({point, point, options.hit_radius}, collider);
+                };
+                // A bone that begins too deep inside cannot reach the surface.
+                const double reachable = std::min(0.0, apart(points[i]) + 0.1);
+                if (!is_sphere && reachable < 0.0) continue;
+                ASSERT_GE(apart(points[i + 1]), reachable - 1e-6)
+                    << run << " frame " << frame << " tip " << i;
+            }
+            for (const SpringMass& mass : antenna.state.masses) held += mass.held ? 1 : 0;
+        }
+    }
+    EXPECT_GT(held, 1000);
+}
+
+TEST(SpringChain, LeansOnAColliderAndLeavesItWithoutABounce) {
+    Antenna antenna(3);
+    const PlacedCapsule wall{{0.6, 2.0, 0.0}, {0.6, 2.0, 0.0}, 0.65};  // 5 cm into its upright pose
+    std::vector<rig::Transform> pose;
+    for (int frame = 0; frame < 300; ++frame) {
+        pose = rest_pose(antenna.skeleton);
+        antenna.report = antenna.chain.step(pose, {}, 1.0 / 60, antenna.state, {&wall, 1});
+    }
+    EXPECT_LT(antenna.report.speed, 1e-9) << "it comes to rest";
+    EXPECT_TRUE(antenna.state.masses[1].held);
+    EXPECT_NEAR(glm::distance(antenna.tip(pose), wall.from), wall.radius, 1e-6);
+    const std::vector<rig::Transform> leaning = pose;
+    pose = rest_pose(antenna.skeleton);
+    const SpringChainState before = antenna.state;
+    antenna.chain.step(pose, {}, 0.0, antenna.state, {&wall, 1});
+    EXPECT_EQ(antenna.state, before) << "no time passes";
+    EXPECT_LT(glm::distance(antenna.tip(pose), antenna.tip(leaning)), 1e-9);
+    // The collider leaves: back to its pose, by no more than the spring alone overshoots.
+    double other_side = 0.0;
+    const double start = -antenna.tip(leaning).x;
+    ASSERT_GT(start, 0.02);
+    for (int frame = 0; frame < 300; ++frame)
+        other_side = std::max(other_side, antenna.tip(antenna.step({0.0, 1.0, 0.0}, {}, 1.0 / 60)).x);
+    EXPECT_LT(other_side, 0.6 * start);
+    EXPECT_LT(antenna.report.angle, 1e-4);
+}
+
+/// Colliders out of reach change no bit.
+TEST(SpringChain, CollidersThatItDoesNotTouchChangeNothing) {
+    Antenna alone(5), beside(5);
+    const PlacedCapsule far[]{{{3.0, 1.0, 0.0}, {3.0, 2.0, 0.0}, 0.5}, {{0.0, -3.0, 0.0}, {}, 0.1}};
+    for (int frame = 0; frame < 120; ++frame) {
+        const glm::dvec3 at(0.2 * std::sin(0.2 * frame), 1.0, 0.1 * std::sin(0.3 * frame));
+        const std::vector<rig::Transform> expected = alone.step(at, {}, 1.0 / 60);
+        std::vector<rig::Transform> pose = rest_pose(beside.skeleton);
+        pose[0].translation = at;
+        beside.chain.step(pose, {}, 1.0 / 60, beside.state, far);
+        ASSERT_EQ(pose, expected);
+        ASSERT_EQ(alone.state, beside.state);
+    }
+}
+
 TEST(SpringChain, TakesBranchesAndASingleNode) {
     std::vector<Node> nodes = make_figure({}).nodes();
     const auto head = static_cast<std::int32_t>(*make_figure({}).find("Head"));
@@ -365,15 +447,28 @@ TEST(SpringChain, StandsAnythingWithoutMemory) {
         const SpringOptions options{.strength = std::pow(10.0, number(-2.0, 2.0)),
                                     .critical_damping = number(0.0, 10.0),
                                     .weight = number(0.0, 1.0),
-                                    .max_angle = number(0.0, 3.14)};
+                                    .max_angle = number(0.0, 3.14),
+                                    .hit_radius = round % 2 == 0 ? 0.0 : number(0.0, 1000.0)};
+        std::vector<PlacedCapsule> colliders(static_cast<std::size_t>(round % 4));
+        for (PlacedCapsule& each : colliders) {
+            const double size = std::pow(10.0, number(-12.0, 6.0));
+            for (int i = 0; i < 3; ++i) each.from[i] = size * number(-1.0, 1.0);
+            for (int i = 0; i < 3; ++i) each.to[i] = size * number(-1.0, 1.0);
+            if (round % 5 == 0) each.to = each.from;
+            if (round % 9 == 0) each.from = each.to = pose[antenna.root].translation;
+            each.radius = round % 19 == 0 ? nan : std::pow(10.0, number(-12.0, 9.0));
+        }
         const double dt = std::pow(10.0, number(-12.0, 12.0));
         const std::vector<rig::Transform> before = pose;
         const SpringChainState state = antenna.state;
         SpringReport report;
         without_memory([&] {
             report = round % 3 == 0 ? antenna.chain.teleport(pose, options, antenna.state)
-                                    : antenna.chain.step(pose, options, dt, antenna.state);
+                                    : antenna.chain.step(pose, options, dt, antenna.state, colliders);
         });
+        if (round % 19 == 0 && round % 3 != 0 && !colliders.empty()) {
+            ASSERT_FALSE(report.valid);
+        }
         if (!report.valid) {
             ASSERT_EQ(0, std::memcmp(pose.data(), before.data(), pose.size() * sizeof(rig::Transform)));
             ASSERT_EQ(0, std::memcmp(antenna.state.masses.data(), state.masses.data(),

@@ -93,6 +93,11 @@ void read_as(Character& character, double scale, const FileSpace& space) {
         if (const Result bad = check(clip, character.skeleton); !bad)
             throw std::runtime_error(std::string(bad.message()));
     scale_skin(character.skin, times);
+    for (NamedSpring& spring : character.springs) {
+        spring.hit_radius *= times;
+        for (SpringCollider& each : spring.colliders)
+            each = {each.node, times * each.from, times * each.to, times * each.radius};
+    }
 }
 
 humanoid::BoneMap bone_map(const Character& character) {

@@ -51,11 +51,20 @@ struct RootOffset {
     glm::dvec3 offset{0.0};
 };
 
+/// A capsule that keeps springs out, or a sphere if its ends are one point.
+struct SpringCollider {
+    std::size_t node = 0;           ///< it moves with
+    glm::dvec3 from{0.0}, to{0.0};  ///< in the node's space
+    double radius = 0.0;            ///< metres
+    bool operator==(const SpringCollider&) const = default;
+};
 /// A spring of the file on a node and all its descendants, as humanoid::SpringOptions.
 struct NamedSpring {
     std::size_t node = 0;
     double strength = 0.0;  ///< Hz
     double critical_damping = 0.0;
+    double hit_radius = 0.0;  ///< metres
+    std::vector<SpringCollider> colliders{};
 };
 
 struct Character {

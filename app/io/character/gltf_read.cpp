@@ -176,7 +176,10 @@ class GltfReader {
             throw std::runtime_error("has no skeleton: no node is a joint of a skin, and none is animated" +
                                      compressed_text());
         springs_ = vrm_springs(model_);
-        for (const VrmSpring& each : springs_) choose_below(static_cast<std::size_t>(each.node), wanted);
+        for (const VrmSpring& each : springs_) {
+            choose_below(static_cast<std::size_t>(each.node), wanted);
+            for (const SpringCollider& collider : each.colliders) wanted[collider.node] = true;
+        }
         if (model_.skins.empty()) choose_whole_trees(wanted);
         place_.assign(model_.nodes.size(), -1);
         for (std::size_t i = 0; i < wanted.size(); ++i) {

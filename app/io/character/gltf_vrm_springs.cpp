@@ -9,7 +9,7 @@ namespace {
 
 using tinygltf::Value;
 
-constexpr std::size_t max_vrm_springs = 4096;
+constexpr std::size_t max_vrm_springs = 4096, max_colliders = 256;  // colliders: of one spring
 
 const Value* part_of(const Value* object, const char* name) {
     return object && object->IsObject() && object->Has(name) ? &object->Get(name) : nullptr;
@@ -31,11 +31,41 @@ const Value* extension(const tinygltf::Model& model, const char* name) {
     return found == model.extensions.end() ? nullptr : &found->second;
 }
 
-constexpr double max_stiffness = 1e3, max_gravity = 1e3;
+constexpr double max_stiffness = 1e3, max_gravity = 1e3, max_radius = 1e3, max_offset = 1e6;
+
+/// An offset of VRM 1.0, [x, y, z], or of VRM 0.x, {x, y, z} with Unity's z.
+glm::dvec3 offset_of(const Value* offset) {
+    if (offset && offset->IsObject())
+        return {number_or(part_of(offset, "x"), 0.0, -max_offset, max_offset),
+                number_or(part_of(offset, "y"), 0.0, -max_offset, max_offset),
+                -number_or(part_of(offset, "z"), 0.0, -max_offset, max_offset)};
+    glm::dvec3 at(0.0);
+    for (int k = 0; k < 3; ++k)
+        at[k] = number_or(part_of(offset, static_cast<std::size_t>(k)), 0.0, -max_offset, max_offset);
+    return at;
+}
+double radius_of(const Value* object, const char* name) {
+    return number_or(part_of(object, name), 0.0, 0.0, max_radius);
+}
+void add_collider(const tinygltf::Model& model, const Value* node, const Value* shape, VrmSpring& spring) {
+    const int at = node_or_none(node, model);
+    if (at < 0 || !shape || !shape->IsObject() || spring.colliders.size() == max_colliders) return;
+    const glm::dvec3 from = offset_of(part_of(shape, "offset"));
+    const Value* tail = part_of(shape, "tail");
+    spring.colliders.push_back(
+        {static_cast<std::size_t>(at), from, tail ? offset_of(tail) : from, radius_of(shape, "radius")});
+}
+/// The element of the list that `index` names.
+const Value* named_by(const Value* list, const Value* index) {
+    return index && index->IsInt() && index->GetNumberAsInt() >= 0
+               ? part_of(list, static_cast<std::size_t>(index->GetNumberAsInt()))
+               : nullptr;
+}
 
 /// VRM 0.x: groups of roots with the same settings. Its directions have Unity's z.
 void add_groups(const tinygltf::Model& model, std::vector<VrmSpring>& springs) {
-    const Value* groups = part_of(part_of(extension(model, "VRM"), "secondaryAnimation"), "boneGroups");
+    const Value* all = part_of(extension(model, "VRM"), "secondaryAnimation");
+    const Value *groups = part_of(all, "boneGroups"), *shapes = part_of(all, "colliderGroups");
     for (std::size_t i = 0; const Value* group = part_of(groups, i); ++i) {
         VrmSpring spring;
         spring.stiffness = number_or(part_of(group, "stiffiness"), 1.0, 0.0, max_stiffness);  // sic
@@ -46,6 +76,14 @@ void add_groups(const tinygltf::Model& model, std::vector<VrmSpring>& springs) {
             return number_or(part_of(direction, axis), otherwise, -1.0, 1.0);
         };
         spring.gravity = power * glm::dvec3(along("x", 0.0), along("y", -1.0), -along("z", 0.0));
+        spring.hit_radius = radius_of(group, "hitRadius");
+        const Value* named = part_of(group, "colliderGroups");
+        for (std::size_t k = 0; const Value* index = part_of(named, k); ++k) {
+            const Value* bone = named_by(shapes, index);
+            const Value* spheres = part_of(bone, "colliders");
+            for (std::size_t j = 0; const Value* sphere = part_of(spheres, j); ++j)
+                add_collider(model, part_of(bone, "node"), sphere, spring);
+        }
         const Value* roots = part_of(group, "bones");
         for (std::size_t k = 0; const Value* root = part_of(roots, k); ++k) {
             spring.node = node_or_none(root, model);
@@ -56,7 +94,9 @@ void add_groups(const tinygltf::Model& model, std::vector<VrmSpring>& springs) {
 
 /// VRM 1.0: a list of joints each. The first one's settings are taken for all.
 void add_chains(const tinygltf::Model& model, std::vector<VrmSpring>& springs) {
-    const Value* chains = part_of(extension(model, "VRMC_springBone"), "springs");
+    const Value* all = extension(model, "VRMC_springBone");
+    const Value *chains = part_of(all, "springs"), *groups = part_of(all, "colliderGroups"),
+                *shapes = part_of(all, "colliders");
     for (std::size_t i = 0; const Value* chain = part_of(chains, i); ++i) {
         const Value* first = part_of(part_of(chain, "joints"), std::size_t{0});
         VrmSpring spring;
@@ -68,6 +108,17 @@ void add_chains(const tinygltf::Model& model, std::vector<VrmSpring>& springs) {
         for (int k = 0; k < 3; ++k)
             spring.gravity[k] = power * number_or(part_of(direction, static_cast<std::size_t>(k)),
                                                   k == 1 ? -1.0 : 0.0, -1.0, 1.0);
+        spring.hit_radius = radius_of(first, "hitRadius");
+        const Value* named = part_of(chain, "colliderGroups");
+        for (std::size_t k = 0; const Value* index = part_of(named, k); ++k) {
+            const Value* members = part_of(named_by(groups, index), "colliders");
+            for (std::size_t j = 0; const Value* member = part_of(members, j); ++j) {
+                const Value* collider = named_by(shapes, member);
+                const Value* shape = part_of(collider, "shape");
+                for (const char* kind : {"sphere", "capsule"})
+                    add_collider(model, part_of(collider, "node"), part_of(shape, kind), spring);
+            }
+        }
         if (spring.node >= 0 && springs.size() < max_vrm_springs) springs.push_back(spring);
     }
 }
@@ -184,9 +235,11 @@ std::vector<NamedSpring> named_springs(const std::vector<VrmSpring>& springs, co
         const double s = std::clamp(shape.first / shape.whole, 0.01, 1.0);
         result.push_back(
             {node, std::clamp(rate.strength * s * std::sqrt((6.0 - 4.0 * s + s * s) / 3.0), 0.01, 100.0),
-             rate.critical_damping});
+             rate.critical_damping, each.hit_radius, each.colliders});
+        for (SpringCollider& collider : result.back().colliders)
+            collider.node = static_cast<std::size_t>(place[collider.node]);
     }
-    notes.push_back("The file's springs swing without its colliders; gravity only changes their strength.");
+    notes.push_back("Gravity only changes the strength of the file's springs.");
     if (left_out > 0)
         notes.push_back(std::to_string(left_out) + (left_out == 1 ? " spring is" : " springs are") +
                         " left out: on bones of the body, or on one another.");

@@ -16,6 +16,8 @@ struct VrmSpring {
     int node = -1;  ///< the file's; its descendants swing with it
     double stiffness = 1.0, drag = 0.4;
     glm::dvec3 gravity{0.0};  ///< direction times power
+    double hit_radius = 0.0;
+    std::vector<SpringCollider> colliders{};  ///< on the file's nodes
 };
 
 /// Springs on nodes that do not exist are left out; numbers are limited to sane ones.

@@ -366,12 +366,13 @@ class HumanoidProgram {
             say("");
             make_solver("SpringChain", name,
                         "*skeleton, map, *skeleton->find(" + string_text(part_.springs[i].node) + ')');
-            list("const humanoid::SpringOptions " + name + "_options{",
-                 {".strength = " + double_text(options.strength),
-                  ".critical_damping = " + double_text(options.critical_damping),
-                  ".weight = " + double_text(options.weight),
-                  ".max_angle = " + double_text(options.max_angle)},
-                 "};");
+            std::vector<std::string> members{".strength = " + double_text(options.strength),
+                                             ".critical_damping = " + double_text(options.critical_damping),
+                                             ".weight = " + double_text(options.weight),
+                                             ".max_angle = " + double_text(options.max_angle)};
+            if (const NamedSpring* file = colliding(part_, part_.springs[i]))
+                members.push_back(".hit_radius = " + double_text(file->hit_radius));
+            list("const humanoid::SpringOptions " + name + "_options{", members, "};");
             say("humanoid::SpringChainState " + name + "_state;");
             if (i >= part_.ik_state.springs.size()) continue;
             for (const humanoid::SpringMass& mass : part_.ik_state.springs[i].masses)
@@ -379,6 +380,29 @@ class HumanoidProgram {
                      {braced(mass.position), braced(mass.velocity), braced(mass.target),
                       flag_text(mass.started), flag_text(mass.has_velocity)},
                      "});");
+        }
+    }
+
+    void swing() {
+        const SpringChains& chains = solvers_.springs(part_);
+        bool placed = false;
+        for (std::size_t i = 0; i < chains.size(); ++i) {
+            if (chains[i] == nullptr) continue;
+            const std::string name = "spring_" + std::to_string(i);
+            const NamedSpring* const file = colliding(part_, part_.springs[i]);
+            if (file != nullptr) {
+                if (!std::exchange(placed, true)) say("humanoid::place(*skeleton, pose, placed);");
+                std::vector<std::string> rows;
+                for (const SpringCollider& each : file->colliders) {
+                    const std::string at = "placed[*skeleton->find(" +
+                                           string_text(part_.skeleton()[each.node].name) + ")].apply(";
+                    rows.push_back("{" + at + braced(each.from) + "), " + at + braced(each.to) + "), " +
+                                   double_text(each.radius) + "}");
+                }
+                list("const humanoid::PlacedCapsule " + name + "_colliders[] = {", rows, "};");
+            }
+            say(name + "->step(pose, " + name + "_options, dt, " + name + "_state" +
+                (file != nullptr ? ", " + name + "_colliders" : "") + ");");
         }
     }
 
@@ -403,12 +427,8 @@ class HumanoidProgram {
         if (gaze_on()) say("look->step(pose, look_options, dt, look_state);");
         if (hands_on()) say("hands->step(pose, hand_targets, dt, hands_state, hands_options);");
         if (body_on() && !acts()) solve();
-        for (std::size_t i = 0; i < chains.size(); ++i) {
-            const std::string name = "spring_" + std::to_string(i);
-            if (chains[i] != nullptr)
-                say(name + "->step(pose, " + name + "_options, dt, " + name + "_state);");
-        }
         say("std::vector<humanoid::Placement> placed(skeleton->size());");
+        swing();
         say("humanoid::place(*skeleton, pose, placed);");
         say("for (const humanoid::Placement& each : placed)");
         say("    std::printf(\"%.17g %.17g %.17g\\n\", each.position.x, each.position.y, each.position.z);");

@@ -151,12 +151,22 @@ class Drawing {
         if (marks) ball.layer = Layer::Overlay;
     }
 
-    /// Outlines of the volumes that hands are kept out of.
+    /// Outlines of the volumes that hands are kept out of, and those of selected springs.
     void volumes() {
         Solvers& solvers = humanoid_runtime(view_.workspace).solvers;
         for (const humanoid::BodyCapsule& each : solvers.capsules(part_)) {
             const humanoid::PlacedCapsule at = humanoid::place(each, *part_.map, shown_.placed);
             outline(glm::vec3(at.from), glm::vec3(at.to), static_cast<float>(at.radius));
+        }
+        std::vector<SpringCollider> drawn;  // strands of hair share them
+        for (const std::size_t spring : selected_springs(part_)) {
+            const NamedSpring* const file = colliding(part_, part_.springs[spring]);
+            for (std::size_t i = 0; file != nullptr && i < file->colliders.size(); ++i) {
+                if (std::ranges::find(drawn, file->colliders[i]) != drawn.end()) continue;
+                drawn.push_back(file->colliders[i]);
+                const humanoid::PlacedCapsule at = place(drawn.back(), shown_.placed);
+                outline(glm::vec3(at.from), glm::vec3(at.to), static_cast<float>(at.radius));
+            }
         }
     }
     void outline(glm::vec3 from, glm::vec3 to, float radius) {

@@ -285,6 +285,8 @@ Json springs_state(const Workspace& workspace, const ShownPose& shown) {
                         {"weight", each.weight},
                         {"max_angle_deg", each.max_angle_deg},
                         {"angle_deg", glm::degrees(shown.springs[i].angle)}});
+        if (const NamedSpring* file = colliding(part, each))
+            list.back()["colliders"] = file->colliders.size();
     }
     return list;
 }

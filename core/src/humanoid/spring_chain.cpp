@@ -62,7 +62,11 @@ void spring(SpringMass& mass, const glm::dvec3& target, double strength, double 
         offset.value = times(out, reach);
         offset.velocity = minus(offset.velocity, times(out, std::max(0.0, dot(offset.velocity, out))));
     }
-    mass = {plus(target, offset.value), plus(offset.velocity, pace), target, true, true};
+    mass = {.position = plus(target, offset.value),
+            .velocity = plus(offset.velocity, pace),
+            .target = target,
+            .started = true,
+            .has_velocity = true};
 }
 
 /// A mass's offset from its target, at most `reach`: a drag while paused, or a file, may put it anywhere.
@@ -71,6 +75,51 @@ glm::dvec3 swing_of(const SpringMass& mass, double reach) noexcept {
     if (!signal::is_input(way)) return glm::dvec3(0.0);
     const double away = length(way);
     return away > reach ? times(way, reach / away) : way;
+}
+
+/// The nearest direction to `points` in which the tip of a bone of that length is not inside a collider. In
+/// the plane of bone and collider the law of cosines gives the angle at the base. Colliders that overlap, and
+/// the other end of a capsule, take more rounds.
+glm::dvec3 outside(std::span<const PlacedCapsule> colliders, double margin, const glm::dvec3& base,
+                   double bone, glm::dvec3 points) noexcept {
+    constexpr int rounds = 8;
+    constexpr double tolerance = 1.0 - 1e-9;
+    bool moved = true;
+    for (int i = 0; i < rounds && moved; ++i) {
+        moved = false;
+        for (const PlacedCapsule& each : colliders) {
+            const glm::dvec3 tip = plus(base, times(points, bone));
+            const glm::dvec3 axis = minus(each.to, each.from);
+            const double squared = dot(axis, axis),
+                         part = squared > 0.0 ? dot(minus(tip, each.from), axis) / squared : 0.0;
+            const glm::dvec3 centre = plus(each.from, times(axis, std::clamp(part, 0.0, 1.0)));
+            const double radius = each.radius + margin;
+            const glm::dvec3 way = minus(tip, centre);
+            if (dot(way, way) >= radius * radius * tolerance) continue;
+            const auto inwards = direction_of(minus(centre, base), shortest);
+            if (!inwards) continue;
+            const double away = length(minus(centre, base));
+            const double cosine = std::max(
+                -1.0, std::min(1.0, (bone * bone + away * away - radius * radius) / (2.0 * bone * away)));
+            const glm::dvec3 aside =
+                direction_of(across(points, *inwards), shortest).value_or(perpendicular(*inwards));
+            points = plus(times(*inwards, cosine), times(aside, std::sqrt(1.0 - cosine * cosine)));
+            moved = true;
+        }
+    }
+    return points;
+}
+/// What is left of a tip's velocity when a collider turned its bone: nothing along the bone or back inside.
+glm::dvec3 kept(const glm::dvec3& velocity, const glm::dvec3& inside, const glm::dvec3& free) noexcept {
+    const glm::dvec3 left = across(velocity, free);
+    const auto out = direction_of(across(minus(free, inside), free), 0.0);
+    return out ? minus(left, times(*out, std::min(0.0, dot(left, *out)))) : left;
+}
+bool are_sane(std::span<const PlacedCapsule> colliders) noexcept {
+    return std::ranges::all_of(colliders, [](const PlacedCapsule& each) {
+        return detail::is_within(each.from) && detail::is_within(each.to) && each.radius >= 0.0 &&
+               each.radius <= static_cast<double>(max_magnitude);
+    });
 }
 
 }  // namespace
@@ -82,9 +131,9 @@ struct SpringChain::Plan {
     std::vector<std::size_t> turning{};  // the node of each mass
     double longest = 0.0;                // from the base to the farthest tip
     double size = 1.0;                   // scratch: scale of the character's root
-    // Scratch for each chain node: in the pose; swinging; the offset of its tip.
+    // Scratch for each chain node: in the pose; swinging; the offset of its tip; its target's velocity.
     std::vector<Placement> before{}, after{};
-    std::vector<glm::dvec3> swing{};
+    std::vector<glm::dvec3> swing{}, pace{};
 
     glm::dvec3 tip(const ChainNode& each, std::span<const rig::Transform> pose) const noexcept {
         if (each.ends.empty()) return each.beyond;
@@ -104,11 +153,12 @@ struct SpringChain::Plan {
         return true;
     }
     void move(std::span<const rig::Transform> pose, const SpringOptions& options, Time time, double dt,
-              SpringChainState& state, SpringReport& report) const noexcept;
-    void turn(std::span<rig::Transform> pose, const Placement& base, const SpringOptions& options,
-              const SpringChainState& state, SpringReport& report) noexcept;
+              SpringChainState& state) noexcept;
+    void turn(std::span<rig::Transform> pose, const Placement& base, const SpringOptions& options, Time time,
+              SpringChainState& state, std::span<const PlacedCapsule> colliders,
+              SpringReport& report) noexcept;
     SpringReport run(std::span<rig::Transform> pose, const SpringOptions& options, Time time, double dt,
-                     SpringChainState& state) noexcept;
+                     SpringChainState& state, std::span<const PlacedCapsule> colliders) noexcept;
 };
 
 Result check(const SpringOptions& options) noexcept {
@@ -117,7 +167,8 @@ Result check(const SpringOptions& options) noexcept {
         {"strength", &SpringOptions::strength, 0.01, 100.0, "from 0.01 to 100 Hz"},
         {"critical_damping", &SpringOptions::critical_damping, 0.0, 10.0, "from 0 to 10"},
         {"weight", &SpringOptions::weight, 0.0, 1.0, "from 0 to 1"},
-        {"max_angle", &SpringOptions::max_angle, 0.0, 3.14, "from 0 to 3.14 radians"}};
+        {"max_angle", &SpringOptions::max_angle, 0.0, 3.14, "from 0 to 3.14 radians"},
+        {"hit_radius", &SpringOptions::hit_radius, 0.0, 1000.0, "from 0 to 1000 m"}};
     if (const Result bad = detail::check_ranges<SpringOptions>(operation, options, ranges); !bad) return bad;
     const Expected<rig::Transform> root = rig::checked(options.root, operation, "root");
     return root ? Result() : root.error();
@@ -171,6 +222,7 @@ Expected<SpringChain> SpringChain::make(const Skeleton& skeleton, const BoneMap&
     plan->before.resize(plan->chain.size());
     plan->after.resize(plan->chain.size());
     plan->swing.resize(plan->chain.size());
+    plan->pace.resize(plan->chain.size());
     return SpringChain(std::move(plan));
 }
 
@@ -184,7 +236,7 @@ std::span<const std::size_t> SpringChain::bones() const noexcept {
 }
 
 void SpringChain::Plan::move(std::span<const rig::Transform> pose, const SpringOptions& options, Time time,
-                             double dt, SpringChainState& state, SpringReport& report) const noexcept {
+                             double dt, SpringChainState& state) noexcept {
     for (std::size_t i = 0; i < chain.size(); ++i) {
         const ChainNode& each = chain[i];
         if (each.mass == no_place) continue;
@@ -203,15 +255,13 @@ void SpringChain::Plan::move(std::span<const rig::Transform> pose, const SpringO
                    signal::detail::bounded_dt(dt));
         else
             mass = {.position = target, .target = target, .started = true};
-        if (!mass.has_velocity) continue;
-        const glm::dvec3 pace = times(minus(target, was), 1.0 / signal::detail::bounded_dt(dt));
-        report.speed = std::max(report.speed, length(minus(mass.velocity, pace)));
+        pace[i] = times(minus(target, was), 1.0 / signal::detail::bounded_dt(dt));
     }
 }
 
 void SpringChain::Plan::turn(std::span<rig::Transform> pose, const Placement& base,
-                             const SpringOptions& options, const SpringChainState& state,
-                             SpringReport& report) noexcept {
+                             const SpringOptions& options, Time time, SpringChainState& state,
+                             std::span<const PlacedCapsule> colliders, SpringReport& report) noexcept {
     for (std::size_t i = 0; i < chain.size(); ++i) {
         const ChainNode& each = chain[i];
         const Placement& above = i == 0 ? base : after[each.above];
@@ -228,7 +278,21 @@ void SpringChain::Plan::turn(std::span<rig::Transform> pose, const Placement& ba
         if (!rest || !carried) continue;
         const glm::dvec3 leads = plus(bone, minus(swing[i], swing_above));
         const glm::dvec3 points = direction_of(leads, shortest).value_or(*rest);
-        const glm::dvec3 now = detail::turned_toward(*rest, points, options.max_angle);
+        glm::dvec3 now = detail::turned_toward(*rest, points, options.max_angle);
+        if (!colliders.empty()) {
+            const double reach = length(minus(after[i].apply(end), after[i].position));
+            const glm::dvec3 free =
+                outside(colliders, size * options.hit_radius, after[i].position, reach, now);
+            if (time == Time::Passes && free != now) {
+                SpringMass& mass = state.masses[each.mass];
+                swing[i] = plus(swing_above, minus(times(free, length(bone)), bone));
+                mass.position = plus(mass.target, swing[i]);
+                if (mass.has_velocity)
+                    mass.velocity = plus(pace[i], kept(minus(mass.velocity, pace[i]), now, free));
+                mass.held = true;
+            }
+            now = free;
+        }
         report.angle = std::max(report.angle, detail::angle_between(*rest, now));
         detail::turn(swung, above, minimal_rotation(*carried, now));
         after[i] = above * placement(swung);
@@ -238,8 +302,10 @@ void SpringChain::Plan::turn(std::span<rig::Transform> pose, const Placement& ba
 }
 
 SpringReport SpringChain::Plan::run(std::span<rig::Transform> pose, const SpringOptions& options, Time time,
-                                    double dt, SpringChainState& state) noexcept {
-    if (pose.size() != nodes || !detail::is_sane(pose) || !check(options)) return {.valid = false};
+                                    double dt, SpringChainState& state,
+                                    std::span<const PlacedCapsule> colliders) noexcept {
+    if (pose.size() != nodes || !detail::is_sane(pose) || !check(options) || !are_sane(colliders))
+        return {.valid = false};
     const glm::dvec3& scale = options.root.scale;
     size = std::max({std::abs(scale.x), std::abs(scale.y), std::abs(scale.z)});
     Placement base = placement(options.root);
@@ -250,19 +316,23 @@ SpringReport SpringChain::Plan::run(std::span<rig::Transform> pose, const Spring
         state.masses.assign(turning.size(), {});
     }
     SpringReport report;
-    move(pose, options, time, dt, state, report);
-    turn(pose, base, options, state, report);
+    move(pose, options, time, dt, state);
+    turn(pose, base, options, time, state, colliders, report);
+    for (std::size_t i = 0; time == Time::Passes && i < chain.size(); ++i)
+        if (chain[i].mass != no_place && state.masses[chain[i].mass].has_velocity)
+            report.speed =
+                std::max(report.speed, length(minus(state.masses[chain[i].mass].velocity, pace[i])));
     return report;
 }
 
 SpringReport SpringChain::step(std::span<rig::Transform> pose, const SpringOptions& options, double dt,
-                               SpringChainState& state) noexcept {
-    return plan_->run(pose, options, signal::is_step(dt) ? Time::Passes : Time::Stands, dt, state);
+                               SpringChainState& state, std::span<const PlacedCapsule> colliders) noexcept {
+    return plan_->run(pose, options, signal::is_step(dt) ? Time::Passes : Time::Stands, dt, state, colliders);
 }
 
 SpringReport SpringChain::teleport(std::span<rig::Transform> pose, const SpringOptions& options,
                                    SpringChainState& state) noexcept {
-    return plan_->run(pose, options, Time::Jumps, 0.0, state);
+    return plan_->run(pose, options, Time::Jumps, 0.0, state, {});
 }
 
 }  // namespace tendril::humanoid

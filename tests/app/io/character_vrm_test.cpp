@@ -150,7 +150,7 @@ TEST(VrmCharacter, springs_of_both_versions_are_the_characters) {
         ASSERT_EQ(each->springs.size(), 2u);
         EXPECT_EQ(each->skeleton[each->springs[0].node].name, "hair_l");
         EXPECT_EQ(each->skeleton[each->springs[1].node].name, "hair_r");
-        EXPECT_TRUE(test::says(each->notes.at(0), "springs colliders gravity"));
+        EXPECT_TRUE(test::says(each->notes.at(0), "Gravity strength springs"));
         const SpringRate rate = spring_rate({2, 2.0, 0.3, {}}, 0.2, {0.0, -1.0, 0.0});
         EXPECT_NEAR(each->springs[0].critical_damping, rate.critical_damping, 1e-9);
         EXPECT_LT(each->springs[0].strength, rate.strength);
@@ -158,6 +158,42 @@ TEST(VrmCharacter, springs_of_both_versions_are_the_characters) {
     }
     EXPECT_TRUE(test::says(old.notes.at(1), "2 springs left out body")) << "on the head, and below the first";
     EXPECT_TRUE(with_hair(R"("VRM":{)" + hips_and_head_0 + "}").springs.empty());
+}
+
+TEST(VrmCharacter, colliders_of_both_versions_are_the_springs) {
+    // Radius and hit radius; a sphere on the head, for VRM 0.x with Unity's z; and all that may be wrong.
+    const Character old = with_hair(
+        R"("VRM":{)" + hips_and_head_0 +
+        R"(,"secondaryAnimation":{"colliderGroups":[{"node":99,"colliders":[{"radius":1}]},)"
+        R"({"node":1,"colliders":[{"offset":{"x":0.1,"y":-0.1,"z":0.2},"radius":0.3},{"radius":-7},7]},{"node":0}],)"
+        R"("boneGroups":[{"hitRadius":0.02,"bones":[2],"colliderGroups":[1,0,2,-1,99,"x"]},{"bones":[4]}]}})");
+    const Character fresh = with_hair(
+        R"("VRMC_springBone":{"colliders":[{"node":1,"shape":{"sphere":{"offset":[0.1,-0.1,-0.2],"radius":0.3}}},)"
+        R"({"node":0,"shape":{"capsule":{"offset":[0,0.1,0],"radius":0.2,"tail":[0,0.4,"x"]}}},)"
+        R"({"node":99,"shape":{"sphere":{}}},{"node":0},{"node":0,"shape":{"plane":{}}},7],)"
+        R"("colliderGroups":[{"colliders":[]},{"colliders":[0,5,2,1,3,4,99]}],"springs":[)"
+        R"({"joints":[{"node":2,"hitRadius":0.02},{"node":3}],"colliderGroups":[0,1,7,"x"]},)"
+        R"({"joints":[{"node":4},{"node":5}]}]})");
+    for (const Character* each : {&old, &fresh}) {
+        ASSERT_EQ(each->springs.size(), 2u);
+        EXPECT_EQ(each->springs[0].hit_radius, 0.02);
+        EXPECT_TRUE(each->springs[1].colliders.empty());
+        ASSERT_EQ(each->springs[0].colliders.size(), 2u);
+        const SpringCollider sphere = each->springs[0].colliders[0];
+        EXPECT_EQ(each->skeleton[sphere.node].name, "head");
+        EXPECT_EQ(sphere.from, glm::dvec3(0.1, -0.1, -0.2));
+        EXPECT_EQ(sphere.to, sphere.from);
+        EXPECT_EQ(sphere.radius, 0.3);
+    }
+    EXPECT_EQ(old.springs[0].colliders[1].radius, 0.0);
+    const SpringCollider capsule = fresh.springs[0].colliders[1];
+    EXPECT_EQ(fresh.skeleton[capsule.node].name, "hips");
+    EXPECT_EQ(capsule.from, glm::dvec3(0.0, 0.1, 0.0));
+    EXPECT_EQ(capsule.to, glm::dvec3(0.0, 0.4, 0.0));
+    Character large = fresh;
+    read_as(large, 2.0, large.space);
+    EXPECT_EQ(large.springs[0].hit_radius, 0.04);
+    EXPECT_EQ(large.springs[0].colliders[1].to, glm::dvec3(0.0, 0.8, 0.0));
 }
 
 }  // namespace

@@ -201,7 +201,7 @@ ShownPose solve_pose(const HumanoidPart& part, Solvers& solvers, double dt, IkSt
     shown.local = part.t_pose && !part.playback.clip ? unsolved_pose(part) : before;
     solve(part, solvers, dt, state, shown);
     shown.before_springs = shown.local;
-    shown.springs = swing(part.springs, solvers.springs(part), dt, shown.local, state.springs);
+    shown.springs = swing(part, solvers.springs(part), dt, shown.local, state.springs);
     shown.placed = placed(part, shown.local);
     if (const humanoid::Feet* const feet = solvers.feet(part)) {
         shown.soles = humanoid::sole_points(feet->soles(), shown.placed);

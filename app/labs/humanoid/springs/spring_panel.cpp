@@ -110,6 +110,10 @@ void spring_inspector(const HumanoidPanel& panel) {
         note((alike ? "Showing the one from " : "They differ. Showing the one from ") + spring.node +
              " down; changes apply to all.");
     setting_rows(panel, spring, nodes);
+    if (const NamedSpring* file = colliding(part, spring)) {
+        reading("colliders", "%.0f", static_cast<double>(file->colliders.size()));
+        explain("Spheres and capsules of the file that keep its bones out.");
+    }
     const SpringChains& chains = panel.runtime.solvers.springs(part);
     for (const std::size_t each : selected)
         if (chains[each] == nullptr)

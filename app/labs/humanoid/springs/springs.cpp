@@ -56,11 +56,9 @@ std::string overlap(const HumanoidPart& part, std::size_t node) {
 }
 
 Json mass_json(const humanoid::SpringMass& mass) {
-    return Json{{"position", dpoint(mass.position)},
-                {"velocity", dpoint(mass.velocity)},
-                {"target", dpoint(mass.target)},
-                {"started", mass.started},
-                {"has_velocity", mass.has_velocity}};
+    return Json{{"position", dpoint(mass.position)}, {"velocity", dpoint(mass.velocity)},
+                {"target", dpoint(mass.target)},     {"started", mass.started},
+                {"has_velocity", mass.has_velocity}, {"held", mass.held}};
 }
 
 humanoid::SpringMass read_mass(const JsonPlace& place) {
@@ -68,7 +66,8 @@ humanoid::SpringMass read_mass(const JsonPlace& place) {
             .velocity = place["velocity"].dpoint(),
             .target = place["target"].dpoint(),
             .started = place["started"].flag(),
-            .has_velocity = place["has_velocity"].flag()};
+            .has_velocity = place["has_velocity"].flag(),
+            .held = place.optional("held") && place["held"].flag()};
 }
 
 }  // namespace
@@ -170,16 +169,39 @@ void read_springs(const JsonPlace& place, HumanoidPart& part) {
     });
 }
 
-std::vector<humanoid::SpringReport> swing(const std::vector<SpringSetting>& settings,
-                                          const SpringChains& chains, double dt,
+const NamedSpring* colliding(const HumanoidPart& part, const SpringSetting& setting) {
+    for (const NamedSpring& each : part.loaded->character.springs)
+        if (!each.colliders.empty() && part.skeleton()[each.node].name == setting.node) return &each;
+    return nullptr;
+}
+
+humanoid::PlacedCapsule place(const SpringCollider& collider,
+                              const std::vector<humanoid::Placement>& placed) {
+    const humanoid::Placement& at = placed[collider.node];
+    return {at.apply(collider.from), at.apply(collider.to), collider.radius};
+}
+
+std::vector<humanoid::SpringReport> swing(const HumanoidPart& part, const SpringChains& chains, double dt,
                                           std::vector<rig::Transform>& pose, SpringStates& states) {
     std::vector<humanoid::SpringReport> reports(chains.size());
+    std::vector<humanoid::Placement> placed;
     states.resize(chains.size());
     for (std::size_t i = 0; i < chains.size(); ++i) {
-        if (chains[i] != nullptr)
-            reports[i] = chains[i]->step(pose, settings[i].options(), dt, states[i]);
-        else
+        if (chains[i] == nullptr) {
             states[i] = {};
+            continue;
+        }
+        humanoid::SpringOptions options = part.springs[i].options();
+        std::vector<humanoid::PlacedCapsule> colliders;
+        if (const NamedSpring* file = colliding(part, part.springs[i])) {
+            if (placed.empty()) {
+                placed.resize(pose.size());
+                humanoid::place(part.skeleton(), pose, placed);
+            }
+            options.hit_radius = file->hit_radius;
+            for (const SpringCollider& each : file->colliders) colliders.push_back(place(each, placed));
+        }
+        reports[i] = chains[i]->step(pose, options, dt, states[i], colliders);
     }
     return reports;
 }
@@ -196,7 +218,7 @@ bool at_rest(const SpringStates& states) {
     for (const humanoid::SpringChainState& each : states)
         for (const humanoid::SpringMass& mass : each.masses)
             if (glm::length(mass.velocity) > resting_speed ||
-                glm::distance(mass.position, mass.target) > resting_way)
+                (!mass.held && glm::distance(mass.position, mass.target) > resting_way))
                 return false;
     return true;
 }

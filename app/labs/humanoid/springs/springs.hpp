@@ -9,6 +9,7 @@
 
 #include "app/document/json.hpp"
 #include "app/fields/fields.hpp"
+#include "app/io/character/character.hpp"
 
 namespace tendril::app {
 
@@ -59,13 +60,17 @@ namespace tendril::app {
 
 // Applying springs to a pose.
 
+/// The file's own spring from the same node down, if that has colliders; else null.
+const NamedSpring* colliding(const HumanoidPart& part, const SpringSetting& setting);
+humanoid::PlacedCapsule place(const SpringCollider& collider, const std::vector<humanoid::Placement>& placed);
+
 /// One per setting; null if the bone map leaves no room for it.
 using SpringChains = std::vector<std::unique_ptr<humanoid::SpringChain>>;
 using SpringStates = std::vector<humanoid::SpringChainState>;
 
-/// Turns the nodes of the pose. With a dt of 0 no time passes.
-std::vector<humanoid::SpringReport> swing(const std::vector<SpringSetting>& settings,
-                                          const SpringChains& chains, double dt,
+/// Turns the nodes of the pose. With a dt of 0 no time passes. Colliders are where the pose has them before
+/// any spring turns it.
+std::vector<humanoid::SpringReport> swing(const HumanoidPart& part, const SpringChains& chains, double dt,
                                           std::vector<rig::Transform>& pose, SpringStates& states);
 /// After the pose was set instead of reached over time.
 void carry(const std::vector<SpringSetting>& settings, const SpringChains& chains,

@@ -20,32 +20,42 @@ class Moves {
   public:
     explicit Moves(const std::vector<glm::dvec3>& moves) : moves_(moves) {}
     const glm::dvec3& operator[](std::ptrdiff_t i) const noexcept {
-        const auto last = static_cast<std::ptrdiff_t>(moves_.size()) - 1;
-        return moves_[static_cast<std::size_t>(std::clamp(i, std::ptrdiff_t{1}, last))];
+        return moves_[static_cast<std::size_t>(inside(i))];
+    }
+    std::ptrdiff_t inside(std::ptrdiff_t i) const noexcept {
+        return std::clamp(i, std::ptrdiff_t{1}, static_cast<std::ptrdiff_t>(moves_.size()) - 1);
     }
 
   private:
     const std::vector<glm::dvec3>& moves_;
 };
 
-constexpr double times_the_change = 3.0;
-
-/// How far frames i to i + held - 1 depart from those before and after; 0 if they do not. Apart from the
-/// usual motion, the move into them and the move out of them are opposite.
+/// How far frames i to i + held - 1 depart from those before and after; 0 if they do not. They depart if
+/// shifting them back leaves a smooth motion: one in which a cubic through the two frames before and the two
+/// after meets each frame. So a fast motion, which turns by tens of degrees within a frame and changes as
+/// fast, is no departure, and hides none.
 double spike(const Moves& moves, std::ptrdiff_t i, std::ptrdiff_t held, double minimum) {
-    const glm::dvec3 &before = moves[i - 1], &after = moves[i + held + 1];
-    const glm::dvec3 usual = middle(before, after);
-    const glm::dvec3 in = minus(moves[i], usual), out = minus(moves[i + held], usual);
-    const double far = 0.5 * apart(in, out);
-    if (far <= minimum || length(plus(in, out)) > 0.5 * far) return 0.0;
-    double change =
-        std::max({apart(before, after), apart(before, moves[i - 2]), apart(after, moves[i + held + 2])});
-    for (std::ptrdiff_t k = 1; k < held; ++k) change = std::max(change, apart(moves[i + k], usual));
-    return far > times_the_change * change ? far : 0.0;
+    constexpr double times_the_roughness = 7.0;
+    const auto frames = static_cast<double>(held);
+    const glm::dvec3 trend = times(minus(moves[i - 1], moves[i + held + 1]), frames / (frames + 2.0));
+    const glm::dvec3 departure = times(minus(minus(moves[i], moves[i + held]), trend), 0.5);
+    const double far = length(departure);
+    if (far <= minimum) return 0.0;
+    const auto shifted = [&](std::ptrdiff_t k) {
+        k = moves.inside(k);
+        return k == i ? minus(moves[k], departure) : k == i + held ? plus(moves[k], departure) : moves[k];
+    };
+    for (std::ptrdiff_t k = i - 2; k <= i + held + 1; ++k) {
+        const glm::dvec3 inner = minus(shifted(k + 1), shifted(k)),
+                         outer = minus(shifted(k + 2), shifted(k - 1));
+        if (far <= times_the_roughness / 6.0 * length(minus(outer, times(inner, 3.0)))) return 0.0;
+    }
+    return far;
 }
 
 /// How far the motion jumps at frame i without coming back; 0 if it does not.
 double step(const Moves& moves, std::ptrdiff_t i, double minimum) {
+    constexpr double times_the_change = 3.0;
     const glm::dvec3 &before = moves[i - 1], &after = moves[i + 1];
     const double far = apart(moves[i], middle(before, after));
     if (far <= minimum) return 0.0;

@@ -278,5 +278,46 @@ TEST_F(HumanoidSprings, OfAVrmAreOnItOnceItIsLoaded) {
     EXPECT_TRUE(part().springs.empty());
 }
 
+/// Hair that hangs into a sphere on the hips is held at its surface and comes to rest there.
+TEST_F(HumanoidSprings, AreKeptOutOfTheCollidersOfTheirFile) {
+    const test::TempFolder folder;
+    test::write(
+        folder / "hair.vrm",
+        R"({"asset":{"version":"2.0"},"nodes":[{"name":"hips","children":[1]},)"
+        R"({"name":"hair","translation":[0.05,1,0],"children":[2]},{"name":"tip","translation":[0,-0.2,0]}],)"
+        R"("skins":[{"joints":[0]}],"extensions":{"VRMC_springBone":{)"
+        R"("colliders":[{"node":0,"shape":{"capsule":{"offset":[0,0.8,0],"tail":[0,0.6,0],"radius":0.1}}}],)"
+        R"("colliderGroups":[{"colliders":[0]}],"springs":[)"
+        R"({"joints":[{"node":1,"hitRadius":0.02,"stiffness":1},{"node":2}],"colliderGroups":[0]}]}}})");
+    run("humanoid.load", {{"path", (folder / "hair.vrm").string()}});
+    EXPECT_EQ(state().at("springs")[0].at("colliders"), 1);
+    run("humanoid.spring", {{"node", "hair"}, {"strength", 2.0}});
+    run("time.play");
+    const auto apart = [&] {
+        return glm::distance(shown_pose(workspace).placed[*part().skeleton().find("tip")].position,
+                             glm::dvec3(0.0, 0.8, 0.0));
+    };
+    int ticks = 0;
+    for (; ticks < 1000 && lab().moving(workspace); ++ticks) {
+        tick();
+        ASSERT_GE(apart(), 0.12 - 1e-6);
+    }
+    EXPECT_LT(ticks, 1000) << "it never comes to rest";
+    EXPECT_NEAR(apart(), 0.12, 1e-6);
+    EXPECT_GT(aside("tip"), 0.06);
+    EXPECT_EQ(lab().state(reopened()), state());
+    EXPECT_NE(lab().code(workspace).find("spring_0_colliders"), std::string::npos);
+    // Its outline is drawn while the spring is selected.
+    const auto strokes = [&] {
+        const Camera camera({.target = {0.0f, 0.9f, 0.0f}}, {{0.0f, 0.0f}, {1000.0f, 700.0f}});
+        DrawList list;
+        lab().draw({.workspace = workspace, .camera = camera, .palette = palette(Theme::Dark)}, list);
+        return list.strokes.size();
+    };
+    const std::size_t before = strokes();
+    run("humanoid.select", {{"node", "hair"}});
+    EXPECT_GT(strokes(), before + 20);
+}
+
 }  // namespace
 }  // namespace tendril::app
