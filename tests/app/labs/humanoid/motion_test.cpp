@@ -1,5 +1,6 @@
 // Motions of other characters, carried over to the lab's.
 #include "app/io/character/character.hpp"
+#include "app/labs/humanoid/draw.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "humanoid_support.hpp"
 #include "tests/app/io/gltf_text.hpp"
@@ -13,7 +14,7 @@ using humanoid::Bone;
 
 /// A VRM's motion, half a man's size, facing -Z, whose left arm goes up while it walks 1 m ahead in a second.
 /// `extension`: who names the bones.
-std::string vrma(const char* extension = "VRMC_vrm_animation") {
+std::string vrma(const char* extension = "VRMC_vrm_animation", bool has_toes = true) {
     struct Joint {
         const char* bone;
         int parent;
@@ -38,9 +39,10 @@ std::string vrma(const char* extension = "VRMC_vrm_animation") {
                              {"", 12, 0, -0.03f, -0.08f},
                              {"", 15, 0, -0.03f, -0.08f}};
     std::string nodes, bones;
-    for (int i = 0; i < static_cast<int>(std::size(joints)); ++i) {
+    const int count = static_cast<int>(std::size(joints)) - (has_toes ? 0 : 2);
+    for (int i = 0; i < count; ++i) {
         std::string children;
-        for (int k = 0; k < static_cast<int>(std::size(joints)); ++k)
+        for (int k = 0; k < count; ++k)
             if (joints[k].parent == i) children += (children.empty() ? "" : ",") + std::to_string(k);
         nodes += (i > 0 ? "," : "") + std::string(R"({"translation":[)") + std::to_string(joints[i].x) + "," +
                  std::to_string(joints[i].y) + "," + std::to_string(joints[i].z) + "]" +
@@ -114,6 +116,29 @@ TEST_F(HumanoidMotions, ItIsAClipLikeOthers) {
     ASSERT_EQ(part().loaded->clips().size(), 1u);
     EXPECT_EQ(part().loaded->clips()[0].name, "wave_2");
     EXPECT_NEAR(part().loaded->clips()[0].duration, 1.0, 1e-6);
+}
+
+TEST_F(HumanoidMotions, TheRootGoesAlongAndOnlyBonesAreDrawnAsBones) {
+    test::write(folder_ / "no_toes.vrm", vrma("VRMC_vrm", false));
+    run("humanoid.load", {{"path", path("no_toes.vrm")}});
+    run("humanoid.motion.load", {{"path", path("wave.vrma")}});
+    run("humanoid.clip", {{"time", 1.0}, {"play", false}, {"loop", false}});
+    const std::vector<humanoid::Placement>& placed = shown_pose(workspace).placed;
+    EXPECT_LT(glm::distance(placed[0].position, glm::dvec3(0, 0, -1)), 1e-6);
+    const Camera camera({.target = {0.0f, 0.5f, -1.0f}, .distance = 3.0f}, {{0.0f, 0.0f}, {1000.0f, 700.0f}});
+    const Palette colours = palette(Theme::Dark);
+    DrawList list;
+    lab().draw({.workspace = workspace, .camera = camera, .palette = colours}, list);
+    const std::size_t foot = *part().node_of(Bone::LeftFoot);
+    glm::dvec3 end(0.0);
+    for (const Stroke& each : list.strokes) {
+        const bool line = glm::distance(each.a, each.b) > 1e-5f;
+        EXPECT_FALSE(line && each.pick == node_pick(0)) << "from the root to the hips";
+        if (line && each.pick == node_pick(foot)) end = each.b;
+    }
+    const glm::dvec3 way = end - placed[foot].position;
+    EXPECT_LT(way.z, -0.05) << "the foot points ahead, not on along the shin";
+    EXPECT_GT(way.y, -0.08);
 }
 
 TEST_F(HumanoidMotions, WhatWasGuessedOfItsFileIsSaid) {
