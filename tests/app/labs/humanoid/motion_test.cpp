@@ -14,7 +14,7 @@ using humanoid::Bone;
 
 /// A VRM's motion, half a man's size, facing -Z, whose left arm goes up while it walks 1 m ahead in a second.
 /// `extension`: who names the bones.
-std::string vrma(const char* extension = "VRMC_vrm_animation", bool has_toes = true) {
+std::string vrma(const char* extension = "VRMC_vrm_animation", bool has_toes = true, bool has_pole = false) {
     struct Joint {
         const char* bone;
         int parent;
@@ -44,6 +44,7 @@ std::string vrma(const char* extension = "VRMC_vrm_animation", bool has_toes = t
         std::string children;
         for (int k = 0; k < count; ++k)
             if (joints[k].parent == i) children += (children.empty() ? "" : ",") + std::to_string(k);
+        if (i == 0 && has_pole) children += "," + std::to_string(count);
         nodes += (i > 0 ? "," : "") + std::string(R"({"translation":[)") + std::to_string(joints[i].x) + "," +
                  std::to_string(joints[i].y) + "," + std::to_string(joints[i].z) + "]" +
                  (children.empty() ? "" : R"(,"children":[)" + children + "]") + "}";
@@ -51,6 +52,7 @@ std::string vrma(const char* extension = "VRMC_vrm_animation", bool has_toes = t
             bones += (bones.empty() ? "" : ",") + std::string("\"") + joints[i].bone + R"(":{"node":)" +
                      std::to_string(i) + "}";
     }
+    if (has_pole) nodes += R"(,{"name":"pole","translation":[0.1,0.3,-0.6]})";
     test_gltf::GltfText file;
     const float half = std::sqrt(0.5f);
     const std::string times = file.scalars({0, 1}), turns = file.quaternions({0, 0, 0, 1, 0, 0, -half, half}),
@@ -149,9 +151,7 @@ TEST_F(HumanoidMotions, WhatWasGuessedOfItsFileIsSaid) {
     const auto notes = [&] { return state().at("character").at("notes").dump(); };
     const std::string before = notes();
     run("humanoid.motion.load", {{"path", path("wave.bvh")}});
-    EXPECT_TRUE(test::says(notes(), "hips scaled at rest: Chest unit")) << notes();
-    EXPECT_TRUE(test::says(workspace.ui.toasts.back().text, "Clip hips scaled unit"))
-        << workspace.ui.toasts.back().text;
+    EXPECT_TRUE(test::says(notes(), "At rest: Chest hips scaled unit")) << notes();
     const Workspace again = reopened();
     EXPECT_EQ(humanoid_part(again).loaded->motions, part().loaded->motions);
     run("humanoid.clip", {{"index", 0}});
@@ -169,8 +169,17 @@ TEST_F(HumanoidMotions, WhatCannotBeCarriedOverIsRefusedOrSaid) {
                            "wave.vrma no clip run"));
     run("humanoid.motion.load", {{"path", path("wave.vrma")}});
     const std::string said = workspace.ui.toasts.back().text;
-    EXPECT_TRUE(test::says(said, "wave hips scaled")) << said;
-    EXPECT_TRUE(test::says(said, "at rest: Chest")) << said;
+    EXPECT_TRUE(test::says(said, "Clip wave wave.vrma At rest: Chest, UpperChest, Neck, Shoulder, Toes."))
+        << said;
+    EXPECT_EQ(said.find("hips"), said.npos) << "a line; the rest is in the panel";
+    run("humanoid.load", {{"path", path("body.vrm")}});
+    run("humanoid.motion.load", {{"path", path("wave.vrma")}});
+    EXPECT_TRUE(test::says(workspace.ui.toasts.back().text, "wave_2 Every bone"));
+    // A root and a control beside the body.
+    test::write(folder_ / "rig.vrm", vrma("VRMC_vrm", true, true));
+    run("humanoid.load", {{"path", path("rig.vrm")}});
+    run("humanoid.motion.load", {{"path", path("wave.vrma")}});
+    EXPECT_TRUE(test::says(workspace.ui.toasts.back().text, "wave_2 Left as it is: pole."));
     run("humanoid.map", {{"bone", "Hips"}});
     EXPECT_TRUE(
         test::says(refused("humanoid.motion.load", {{"path", path("wave.vrma")}}), "wave.vrma to.map Hips"));
