@@ -20,6 +20,8 @@ struct LegBones {
 constexpr LegBones leg_bones[2]{{Bone::LeftUpperLeg, Bone::LeftLowerLeg, Bone::LeftFoot, Bone::LeftToes},
                                 {Bone::RightUpperLeg, Bone::RightLowerLeg, Bone::RightFoot, Bone::RightToes}};
 
+constexpr double level_feet = 0.01;  // of a leg's length between the heights of both feet at rest
+
 }  // namespace
 
 RetargetBody::RetargetBody(const MappedSkeleton& given) : body(given), at(facing(given.skeleton, given.map)) {
@@ -199,16 +201,17 @@ void RetargetBody::find_feet() {
     }
 }
 
-/// Legs may differ in length: both soles are as thick as the thinner one. Where the rest pose does not show
-/// how thick, there is nothing below the lowest joint, as for the lint.
+/// On legs of unequal length both soles are as thick as the thinner one. If the rest pose does not show how
+/// thick, there is nothing below the lowest joint, as for the lint.
 void RetargetBody::even_soles(const std::vector<Placement>& standing, bool shows_thickness) {
     std::array<double, 2> lowest{1e9, 1e9};
     for (std::size_t side = 0; side < 2; ++side)
         for (std::size_t i = 0; i < standing.size(); ++i)
             if (body.skeleton.is_below(i, soles->feet[side].foot))
                 lowest[side] = std::min(lowest[side], standing[i].position.y);
-    const double both = std::min(lowest[0], lowest[1]),
-                 thickness = shows_thickness ? both - soles->floor : 0.0;
+    const double both = std::min(lowest[0], lowest[1]);
+    if (shows_thickness && std::abs(lowest[0] - lowest[1]) < level_feet * leg) return;
+    const double thickness = shows_thickness ? both - soles->floor : 0.0;
     for (std::size_t side = 0; side < 2; ++side) {
         Sole& each = soles->feet[side];
         const glm::dvec3 up{0.0, lowest[side] - thickness - soles->floor, 0.0};
