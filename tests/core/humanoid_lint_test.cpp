@@ -218,6 +218,25 @@ double largest_turn(const Clip& clip, std::size_t node, double rate) {
     return largest;
 }
 
+TEST(Lint, a_jump_is_measured_in_metres_below_a_scaled_node) {
+    std::vector<Node> nodes = snake().nodes();
+    nodes[0].rest.scale = glm::dvec3(0.01);
+    for (std::size_t i = 1; i < nodes.size(); ++i) nodes[i].rest.translation *= 100.0;
+    const Skeleton centimetres = *Skeleton::make(std::move(nodes));
+    const auto found = [&](double units) {
+        Clip clip = winding(60.0, 120);
+        Track<glm::dvec3>& track = clip.channels[2].translation;
+        track.times = clip.channels[2].rotation.times;
+        for (std::size_t i = 0; i < track.times.size(); ++i)
+            track.values.push_back({50.0, 0.0, i < 50 ? 0.0 : units});
+        return lint(centimetres, match_bones(centimetres), clip);
+    };
+    EXPECT_TRUE(found(0.3).findings.empty()) << texts(found(0.3));
+    const LintReport report = found(25.0);
+    ASSERT_EQ(report.findings.size(), 1u) << texts(report);
+    EXPECT_NEAR(report.findings[0].amount, 250.0, 1.0);
+}
+
 TEST(Lint, a_mended_jump_leaves_nothing_between_cubic_keys) {
     for (const auto& [goes_on, frame] :
          {std::pair{false, 50u}, {false, 51u}, {false, 52u}, {false, 90u}, {true, 50u}, {true, 73u}}) {

@@ -350,6 +350,54 @@ TEST(HumanoidRetarget, a_walk_stands_on_other_legs_and_its_hands_point_the_same_
     }
 }
 
+TEST(HumanoidRetarget, feet_stand_level_on_legs_of_unequal_length) {
+    const RetargetFigure from{make_figure({}), match_bones(make_figure({}))};
+    RetargetFigure to = from;
+    std::vector<Node> nodes = to.skeleton.nodes();
+    nodes[*to.skeleton.find("LeftFoot")].rest.translation *= 0.95;
+    to.skeleton = *Skeleton::make(std::move(nodes));
+    const Clip walk = long_walk(from);
+    const auto made = retarget({from.skeleton, from.map}, walk, {to.skeleton, to.map});
+    ASSERT_TRUE(made) << made.message();
+    const Soles soles = *find_soles(from.skeleton, from.map);
+    std::array<double, 2> sum{};
+    std::array<int, 2> count{};
+    for (int i = 0; i <= 360; ++i) {
+        const double time = std::min(i / 120.0, walk.duration);
+        const auto before = sole_points(soles, from.at(walk, time));
+        const auto now = to.at(made->clip, time);
+        for (std::size_t foot = 0; foot < 2; ++foot) {
+            if (std::abs(before[foot].heel.y) > 0.001 || std::abs(before[foot].toe.y) > 0.001) continue;
+            sum[foot] += to.of(now, foot == 0 ? Bone::LeftFoot : Bone::RightFoot).position.y;
+            ++count[foot];
+        }
+    }
+    ASSERT_GT(std::min(count[0], count[1]), 30);
+    EXPECT_NEAR(sum[0] / count[0], sum[1] / count[1], 0.003);
+}
+
+TEST(HumanoidRetarget, bones_of_the_palm_beside_the_hand_turn_with_it) {
+    RetargetDice random(13);
+    const RetargetFigure from{make_figure({}), match_bones(make_figure({}))};
+    RetargetFigure to = from;
+    std::vector<Node> nodes = to.skeleton.nodes();
+    const std::size_t hand = *to.skeleton.find("LeftHand"), palm = nodes.size();
+    nodes.push_back({"palm.02.L", nodes[hand].parent, nodes[hand].rest});
+    nodes.back().rest.translation += glm::dvec3(0.0, 0.0, 0.02);
+    to.skeleton = *Skeleton::make(std::move(nodes));
+    const auto rest = to.placed(rest_pose(to.skeleton));
+    const Clip clip = random_clip(random, from);
+    const auto made = retarget({from.skeleton, from.map}, clip, {to.skeleton, to.map});
+    ASSERT_TRUE(made) << made.message();
+    const auto seen = [&](const std::vector<Placement>& all) {
+        return glm::inverse(all[hand].rotation()) * (all[palm].position - all[hand].position);
+    };
+    for (const double time : {0.0, 0.31, 1.0}) {
+        const auto now = to.at(made->clip, time);
+        EXPECT_LT(glm::distance(seen(now), seen(rest)), 1e-6);
+    }
+}
+
 TEST(HumanoidRetarget, fingers_are_carried_over_by_their_names) {
     const auto with_fingers = [](const std::vector<std::string>& names, double bent) {
         const Skeleton figure = make_figure({});

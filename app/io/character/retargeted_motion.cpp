@@ -1,6 +1,8 @@
 #include "app/io/character/retargeted_motion.hpp"
 
+#include <algorithm>
 #include <stdexcept>
+#include <string_view>
 #include <tendril/humanoid/retarget.hpp>
 
 #include "app/document/units.hpp"
@@ -10,11 +12,38 @@ namespace {
 
 constexpr double hardly_sure = 0.8;  // confidence of a bone that is said to be a guess
 
+/// "Chest, Toes": left and right as one, if both are in the list.
 std::string bone_names(const std::vector<humanoid::Bone>& bones) {
+    constexpr std::string_view left = "Left", right = "Right";
     std::string text;
-    for (const humanoid::Bone each : bones)
-        text += (text.empty() ? "" : ", ") + std::string(humanoid::name(each));
+    const auto has = [&](const std::string& name) {
+        return std::ranges::any_of(bones, [&](humanoid::Bone each) { return humanoid::name(each) == name; });
+    };
+    for (const humanoid::Bone each : bones) {
+        std::string name = humanoid::name(each);
+        if (name.starts_with(right) && has(std::string(left).append(name, right.size()))) continue;
+        if (name.starts_with(left) && has(std::string(right).append(name, left.size())))
+            name.erase(0, left.size());
+        text += (text.empty() ? "" : ", ") + name;
+    }
     return text;
+}
+
+/// What a person needs to know of a retargeted motion, in a line.
+std::string what_stays(const humanoid::Retargeted& made, const humanoid::Skeleton& skeleton) {
+    constexpr std::size_t few = 3;
+    std::vector<std::string> parts;
+    if (!made.left_out.empty()) parts.push_back("Not on this character: " + bone_names(made.left_out) + '.');
+    if (!made.at_rest.empty()) parts.push_back("At rest: " + bone_names(made.at_rest) + '.');
+    if (made.helpers.size() > few)
+        parts.push_back("Left as they are: " + std::to_string(made.helpers.size()) + " helper nodes.");
+    else if (!made.helpers.empty()) {
+        std::string names;
+        for (const std::size_t each : made.helpers)
+            names += (names.empty() ? "" : ", ") + skeleton[each].name;
+        parts.push_back((made.helpers.size() == 1 ? "Left as it is: " : "Left as they are: ") + names + '.');
+    }
+    return parts.empty() ? "Every bone was carried over." : joined(parts);
 }
 
 std::runtime_error refusal_of(const std::filesystem::path& file, const std::string& why) {
@@ -41,12 +70,8 @@ RetargetedMotion retargeted_clip(const Character& source, const std::filesystem:
     const humanoid::BoneMap source_map = bone_map(source);
     auto made = humanoid::retarget({source.skeleton, source_map}, clip, {skeleton, map});
     if (!made) throw refusal_of(file, std::string(made.message()));
-    RetargetedMotion motion{.clip = std::move(made->clip), .notes = {}};
+    RetargetedMotion motion{.clip = std::move(made->clip), .notes = {what_stays(*made, skeleton)}};
     motion.notes.push_back("The hips' motion is scaled by " + fixed_text(made->scale, 2) + '.');
-    if (!made->left_out.empty())
-        motion.notes.push_back("Not on this character: " + bone_names(made->left_out) + '.');
-    if (!made->at_rest.empty())
-        motion.notes.push_back("Not in the file, so at rest: " + bone_names(made->at_rest) + '.');
     for (const std::string& each : guesses_of(source, source_map)) motion.notes.push_back(each);
     return motion;
 }

@@ -11,8 +11,9 @@
 namespace tendril::app {
 
 struct RetargetedMotion {
-    humanoid::Clip clip{};             ///< of the character; has the name that it has in its file
-    std::vector<std::string> notes{};  ///< sentences: what was scaled, is missing, or was guessed
+    humanoid::Clip clip{};  ///< of the character; has the name that it has in its file
+    /// The first is a line on what was not carried over; then what was scaled, and what was guessed.
+    std::vector<std::string> notes{};
 };
 
 /// The clip of that name; empty: the first one. Throws std::runtime_error: "walk.bvh: has no clip "run"; it

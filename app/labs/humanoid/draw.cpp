@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <tendril/humanoid/soles.hpp>
 
 #include "app/labs/humanoid/attachments/attachment_panel.hpp"
 #include "app/labs/humanoid/humanoid_lab.hpp"
@@ -83,8 +84,10 @@ class Drawing {
         return body_[i] ? view_.palette.joint : view_.palette.neutral;
     }
 
-    /// From a node to its children, which move when it turns.
+    /// From a node to its children, which move when it turns. A rig's root and controls are no bones.
     void bones_from(std::size_t i) {
+        const auto hips = part_.node_of(humanoid::Bone::Hips);
+        if (!body_[i] && !springs_[i] && hips && !part_.skeleton().is_below(i, *hips)) return;
         if (tapered_ && !clad_ && part_.node_of(humanoid::Bone::Head) == i && head(i)) return;
         bool ended = false;
         for (const std::int32_t each : part_.skeleton().children(i)) {
@@ -450,6 +453,9 @@ std::vector<bool> swinging_nodes(const HumanoidPart& part, Solvers& solvers) {
 glm::dvec3 end_of(const HumanoidPart& part, std::size_t node) {
     const std::int32_t parent = part.skeleton()[node].parent;
     if (parent < 0) return glm::dvec3(0.0);
+    if (const auto soles = humanoid::find_soles(part.skeleton(), *part.map))
+        for (const humanoid::Sole& each : soles->feet)
+            if (each.foot == node && each.toes == node) return each.toe;
     const humanoid::Placement& at = part.loaded->rest[node];
     const glm::dvec3 way = at.position - part.loaded->rest[static_cast<std::size_t>(parent)].position;
     return 0.5 * (glm::conjugate(at.rotation()) * way);

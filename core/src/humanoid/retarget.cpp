@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "humanoid/input.hpp"
+#include "humanoid/names.hpp"
 #include "humanoid/retarget_body.hpp"
 #include "humanoid/retarget_feet.hpp"
 #include "rig/math.hpp"
@@ -120,7 +121,8 @@ class Retargeter {
     }
 
   private:
-    /// Fingers that both have, and hands whose palms both face down.
+    /// Fingers that both have, and hands whose palms both face down. Where bones of the palm hang beside the
+    /// one that is mapped, they follow it.
     void share_hand(bool left) {
         const std::size_t side = left ? 0 : 1;
         const Bone hand = left ? Bone::LeftHand : Bone::RightHand;
@@ -128,6 +130,14 @@ class Retargeter {
         const auto before = was_.palm_down(left), after = now_.palm_down(left);
         if (before && after) was_.turn(was_.node(hand), *before), now_.turn(now_.node(hand), *after);
         shared_[now_.node(hand)] = was_.hands[side];
+        const std::int32_t arm = to_.skeleton[now_.node(hand)].parent;
+        if (arm >= 0)
+            for (const std::int32_t each : to_.skeleton.children(static_cast<std::size_t>(arm))) {
+                const auto node = static_cast<std::size_t>(each);
+                const std::string& name = to_.skeleton[node].name;
+                if (node != now_.node(hand) && (detail::is_palm_name(name) || detail::finger_named(name)))
+                    leaders_[node] = now_.node(hand);
+            }
         for (std::size_t finger = 0; finger < was_.fingers[side].size(); ++finger)
             for (std::size_t i = 0; i < was_.fingers[side][finger].size(); ++i) {
                 const std::int32_t a = was_.fingers[side][finger][i], b = now_.fingers[side][finger][i];
@@ -167,7 +177,7 @@ class Retargeter {
             if (!leaders_[node]) result_.helpers.push_back(node);
         }
     }
-    /// Each stays where it is at rest, seen from the node that it follows.
+    /// Each stands as it does at rest, seen from the node that it follows.
     void move_helpers() {
         place(to_.skeleton, pose_, placed_);
         for (const std::int32_t each : to_.skeleton.order()) {
@@ -180,6 +190,7 @@ class Retargeter {
                                  plus(now.position, rotated(turned, minus(own.position, rest.position)))};
                 for (int axis = 0; axis < 3; ++axis) wanted.axes[axis] = rotated(turned, own.axes[axis]);
                 pose_[node] = relative(above_of(node), wanted);
+                pose_[node].scale = rest_[node].scale;  // it gets no keys
             }
             placed_[node] = above_of(node) * placement(pose_[node]);
         }

@@ -20,6 +20,8 @@ struct LegBones {
 constexpr LegBones leg_bones[2]{{Bone::LeftUpperLeg, Bone::LeftLowerLeg, Bone::LeftFoot, Bone::LeftToes},
                                 {Bone::RightUpperLeg, Bone::RightLowerLeg, Bone::RightFoot, Bone::RightToes}};
 
+constexpr double level_feet = 0.01;  // of a leg's length between the heights of both feet at rest
+
 }  // namespace
 
 RetargetBody::RetargetBody(const MappedSkeleton& given) : body(given), at(facing(given.skeleton, given.map)) {
@@ -187,7 +189,7 @@ void RetargetBody::find_feet() {
     const auto found = standing ? find_soles(*standing, body.map) : Expected<Soles>(standing.error());
     if (!found) return;
     soles = *found;
-    if (!as_it_rests) stand_on_joints();
+    even_soles(rest, as_it_rests);
     if (as_it_rests && std::abs(soles->floor) < 0.5 * soles->leg) ground = soles->floor;
     for (std::size_t i = 0; i < 2; ++i) {
         const std::size_t toes = soles->feet[i].toes, tip = farthest_below(body.skeleton, rest, toes);
@@ -195,23 +197,28 @@ void RetargetBody::find_feet() {
                          ankle = rest[soles->feet[i].foot].position;
         const auto level = [](const glm::dvec3& v) { return std::sqrt(v.x * v.x + v.z * v.z); };
         if (tip != toes && level(minus(end, ankle)) > level(minus(ball, ankle)))
-            tips[i] = seen_from(rest[toes], minus({end.x, soles->floor, end.z}, rest[toes].position));
+            tips[i] = seen_from(rest[toes], minus({end.x, ball.y, end.z}, rest[toes].position));
     }
 }
 
-/// How thick the soles are is not known: as for the lint, there is nothing below the lowest joint.
-void RetargetBody::stand_on_joints() {
-    double lowest = 1e9;
-    for (std::size_t i = 0; i < placed.size(); ++i)
-        for (const Sole& each : soles->feet)
-            if (i == each.foot || body.skeleton.is_below(i, each.foot))
-                lowest = std::min(lowest, placed[i].position.y);
-    const glm::dvec3 up{0.0, lowest - soles->floor, 0.0};
-    soles->floor = lowest;
-    for (Sole& each : soles->feet) {
-        each.heel = plus(each.heel, seen_from(placed[each.foot], up));
-        each.toe = plus(each.toe, seen_from(placed[each.toes], up));
+/// On legs of unequal length both soles are as thick as the thinner one. If the rest pose does not show how
+/// thick, there is nothing below the lowest joint, as for the lint.
+void RetargetBody::even_soles(const std::vector<Placement>& standing, bool shows_thickness) {
+    std::array<double, 2> lowest{1e9, 1e9};
+    for (std::size_t side = 0; side < 2; ++side)
+        for (std::size_t i = 0; i < standing.size(); ++i)
+            if (body.skeleton.is_below(i, soles->feet[side].foot))
+                lowest[side] = std::min(lowest[side], standing[i].position.y);
+    const double both = std::min(lowest[0], lowest[1]);
+    if (shows_thickness && std::abs(lowest[0] - lowest[1]) < level_feet * leg) return;
+    const double thickness = shows_thickness ? both - soles->floor : 0.0;
+    for (std::size_t side = 0; side < 2; ++side) {
+        Sole& each = soles->feet[side];
+        const glm::dvec3 up{0.0, lowest[side] - thickness - soles->floor, 0.0};
+        each.heel = plus(each.heel, seen_from(standing[each.foot], up));
+        each.toe = plus(each.toe, seen_from(standing[each.toes], up));
     }
+    soles->floor = both - thickness;
 }
 
 SoleTriple RetargetBody::sole(bool left, double above) const {

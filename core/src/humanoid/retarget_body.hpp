@@ -60,7 +60,7 @@ struct RetargetBody {
     void find_fingers(bool left);
     void straighten_hand(bool left);
     void find_feet();
-    void stand_on_joints();
+    void even_soles(const std::vector<Placement>& standing, bool shows_thickness);
     glm::dvec3 way(std::size_t from, std::size_t to) const noexcept;
 };
 

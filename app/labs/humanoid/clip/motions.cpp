@@ -3,6 +3,7 @@
 #include <imgui.h>
 #include <algorithm>
 #include <filesystem>
+#include <span>
 #include <stdexcept>
 
 #include "app/document/json_complete.hpp"
@@ -15,6 +16,7 @@
 #include "app/labs/kit/panel_rows.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/text.hpp"
+#include "app/widgets/tooltip.hpp"
 
 namespace tendril::app {
 namespace {
@@ -37,7 +39,8 @@ PlayedMotion with_motion(const HumanoidPart& part, const std::string& file, cons
     auto loaded = std::make_shared<LoadedCharacter>(*part.loaded);
     motion.clip.name = free_name(*loaded, wanted.name);
     PlayedMotion played;
-    played.text = "Clip " + motion.clip.name + ": " + joined(motion.notes);
+    played.text = "Clip " + motion.clip.name + " from " + std::filesystem::path(file).filename().string() +
+                  ". " + motion.notes.front();
     loaded->motions.push_back({file, std::filesystem::absolute(file).lexically_normal().string(), wanted.name,
                                std::move(motion.notes)});
     loaded->character.clips.push_back(std::move(motion.clip));
@@ -107,7 +110,8 @@ void motion_rows(const HumanoidPanel& panel, MoreRows& more) {
     if (!panel.part.playback.clip) return;
     const LoadedMotion* motion = motion_of(*panel.part.loaded, *panel.part.playback.clip);
     if (!motion) return;
-    note("From " + std::filesystem::path(motion->file).filename().string() + ". " + joined(motion->notes));
+    note("From " + std::filesystem::path(motion->file).filename().string() + ". " + motion->notes.front());
+    if (ImGui::IsItemHovered()) tooltip(joined(std::span(motion->notes).subspan(1)));
 }
 
 void add_motion_commands(CommandTable& table) {

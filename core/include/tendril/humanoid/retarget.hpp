@@ -5,28 +5,33 @@
 //     sample(walk->clip, robot, seconds, pose);
 //
 // Directions. Each bone that both maps have turns as the source's turns from its reference pose, in the frame
-// of the character that it belongs to (facing()). The reference pose is the T-pose (t_pose.hpp) with hands,
-// fingers and feet straightened: from the wrist to the middle finger the hand points along the arm, and from
-// the ankle to the ball the foot points forward. So arms, hands and feet point in the same directions,
-// whatever the rest poses and the axes of the nodes are. Rotations are taken in the character's space: what
-// the source has more of, such as a third bone of the spine, is included in the bones above it; what it lacks
-// stays at rest. Fingers are found by their names, and carried over where both have them. (VRM Consortium,
-// "VRMC_vrm_animation-1.0", 2024, does the same between T-poses.)
+// of its own character (facing()). The reference pose is the T-pose (t_pose.hpp) with hands, fingers and feet
+// straightened: the hand points along the arm, from the wrist to the middle finger, and the foot points
+// forward, from the ankle to the ball. So arms, hands and feet point in the same directions, whatever the
+// rest poses and the axes of the nodes are. Rotations are taken in the character's space: a bone that only
+// the source has, such as a third one in the spine, is included in the bones above it; one that only the
+// target has stays at rest. Fingers are matched by name. (VRM Consortium, "VRMC_vrm_animation-1.0", 2024,
+// does the same between T-poses.)
 //
-// Feet. The hips move as the source's do, times the ratio of the legs' lengths. Then the source's stances are
-// found, as the lint finds them (lint.hpp), and are kept: the sole stands on the target's ground, and does
-// not slide unless the source's foot slides by over 4 cm. The leg is solved in closed form. Between stances
-// the displacement of the ankle blends from the one to the next; the hips are lowered, smoothly, where a leg
-// would be too short. The last frame of a clip that ends as it begins goes over into the first. (Stances as
-// constraints, and smooth displacements that meet them: M. Gleicher, "Retargetting Motion to New Characters",
-// SIGGRAPH 1998. Closed-form legs instead of his optimisation, in the spirit of K. Choi, H. Ko, "On-line
-// Motion Retargetting", Pacific Graphics 1999.) Figures need both legs whole for that; without them, or if no
-// foot of the source ever stands, the hips keep their height over the ground.
+// Root. The topmost node above the hips travels with them over the ground; it neither rises nor turns.
+// Whatever hangs on it goes along. A helper beside the body that stands on one of its nodes at rest (within
+// a tenth of a leg), as IK targets do, follows that node; so do bones of the palm that hang beside the hand.
 //
-// The target stands on its floor at rest; on height 0 if its rest pose is far from there, as a BVH's often
+// Feet. The hips move as the source's do, scaled by the ratio of the legs' lengths. The source's stances are
+// found as the lint finds them (lint.hpp), and are kept: the sole stands on the target's ground, and slides
+// only if the source's foot slides by over 4 cm. Legs are solved in closed form. Between stances the
+// displacement of the ankle blends from one to the next; the hips are lowered, smoothly, where a leg would be
+// too short. If a clip ends as it begins, its last frame leads into its first. (Stances as constraints, and
+// smooth displacements that meet them: M. Gleicher, "Retargetting Motion to New Characters", SIGGRAPH 1998.
+// Closed-form legs instead of his optimisation, in the spirit of K. Choi, H. Ko, "On-line Motion
+// Retargetting", Pacific Graphics 1999.) Both figures need whole legs for that; otherwise, or if no foot of
+// the source ever stands, the hips keep their height over the ground.
+//
+// The target stands on its floor at rest, or on height 0 if its rest pose is far from there, as a BVH's often
 // is.
 //
-// Cost: two passes over the keys, 0.5 to 1 µs per key and node.
+// Cost: two passes over the keys, linear in their number. About 3700 instructions for each key and each node
+// of both skeletons, 1 to 2 µs: 2 s for 10 000 keys of 38 nodes on 67.
 #pragma once
 
 #include <vector>

@@ -87,15 +87,16 @@ void skip_steps(const Check& check, const Track<T>& track, std::vector<glm::dvec
     }
 }
 
+/// `unit`: of the track, in metres or degrees.
 template <class T, class Member>
-void check_track(Check& check, const Channel& channel, const Track<T>& track, Member member, double minimum,
-                 bool turns) {
+void check_track(Check& check, const Channel& channel, const Track<T>& track, Member member, double unit,
+                 double minimum, bool turns) {
     if (!is_judged(track)) return;
     rig::Transform last, next;
     std::vector<glm::dvec3> moves(check.report.frames, glm::dvec3(0.0));
     for (std::size_t i = 0; i < moves.size(); ++i) {
         sample(channel, check.time_of(i), next);
-        if (i > 0) moves[i] = step_between(last.*member, next.*member);
+        if (i > 0) moves[i] = times(step_between(last.*member, next.*member), unit);
         last = next;
     }
     skip_steps(check, track, moves);
@@ -199,9 +200,13 @@ std::vector<Outlier> outliers(const std::vector<glm::dvec3>& list, double minimu
 void check_jumps(Check& check) {
     const double turn = check.settings.turn * slower(check.report.rate);
     const double shift = std::max(check.settings.shift * check.height, 1e-6);
+    std::vector<Placement> rest(check.skeleton.size());
+    place(check.skeleton, rest_pose(check.skeleton), rest);
     for (const Channel& channel : check.clip.channels) {
-        check_track(check, channel, channel.rotation, &rig::Transform::rotation, turn, true);
-        check_track(check, channel, channel.translation, &rig::Transform::translation, shift, false);
+        const std::int32_t above = check.skeleton[channel.node].key_parent();
+        const double metres = above < 0 ? 1.0 : length(rest[static_cast<std::size_t>(above)].axes[0]);
+        check_track(check, channel, channel.rotation, &rig::Transform::rotation, 1.0, turn, true);
+        check_track(check, channel, channel.translation, &rig::Transform::translation, metres, shift, false);
     }
 }
 

@@ -1,5 +1,6 @@
 // Motions of other characters, carried over to the lab's.
 #include "app/io/character/character.hpp"
+#include "app/labs/humanoid/draw.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "humanoid_support.hpp"
 #include "tests/app/io/gltf_text.hpp"
@@ -13,7 +14,7 @@ using humanoid::Bone;
 
 /// A VRM's motion, half a man's size, facing -Z, whose left arm goes up while it walks 1 m ahead in a second.
 /// `extension`: who names the bones.
-std::string vrma(const char* extension = "VRMC_vrm_animation") {
+std::string vrma(const char* extension = "VRMC_vrm_animation", bool has_toes = true, bool has_pole = false) {
     struct Joint {
         const char* bone;
         int parent;
@@ -38,10 +39,12 @@ std::string vrma(const char* extension = "VRMC_vrm_animation") {
                              {"", 12, 0, -0.03f, -0.08f},
                              {"", 15, 0, -0.03f, -0.08f}};
     std::string nodes, bones;
-    for (int i = 0; i < static_cast<int>(std::size(joints)); ++i) {
+    const int count = static_cast<int>(std::size(joints)) - (has_toes ? 0 : 2);
+    for (int i = 0; i < count; ++i) {
         std::string children;
-        for (int k = 0; k < static_cast<int>(std::size(joints)); ++k)
+        for (int k = 0; k < count; ++k)
             if (joints[k].parent == i) children += (children.empty() ? "" : ",") + std::to_string(k);
+        if (i == 0 && has_pole) children += "," + std::to_string(count);
         nodes += (i > 0 ? "," : "") + std::string(R"({"translation":[)") + std::to_string(joints[i].x) + "," +
                  std::to_string(joints[i].y) + "," + std::to_string(joints[i].z) + "]" +
                  (children.empty() ? "" : R"(,"children":[)" + children + "]") + "}";
@@ -49,6 +52,7 @@ std::string vrma(const char* extension = "VRMC_vrm_animation") {
             bones += (bones.empty() ? "" : ",") + std::string("\"") + joints[i].bone + R"(":{"node":)" +
                      std::to_string(i) + "}";
     }
+    if (has_pole) nodes += R"(,{"name":"pole","translation":[0.1,0.3,-0.6]})";
     test_gltf::GltfText file;
     const float half = std::sqrt(0.5f);
     const std::string times = file.scalars({0, 1}), turns = file.quaternions({0, 0, 0, 1, 0, 0, -half, half}),
@@ -116,6 +120,29 @@ TEST_F(HumanoidMotions, ItIsAClipLikeOthers) {
     EXPECT_NEAR(part().loaded->clips()[0].duration, 1.0, 1e-6);
 }
 
+TEST_F(HumanoidMotions, TheRootGoesAlongAndOnlyBonesAreDrawnAsBones) {
+    test::write(folder_ / "no_toes.vrm", vrma("VRMC_vrm", false));
+    run("humanoid.load", {{"path", path("no_toes.vrm")}});
+    run("humanoid.motion.load", {{"path", path("wave.vrma")}});
+    run("humanoid.clip", {{"time", 1.0}, {"play", false}, {"loop", false}});
+    const std::vector<humanoid::Placement>& placed = shown_pose(workspace).placed;
+    EXPECT_LT(glm::distance(placed[0].position, glm::dvec3(0, 0, -1)), 1e-6);
+    const Camera camera({.target = {0.0f, 0.5f, -1.0f}, .distance = 3.0f}, {{0.0f, 0.0f}, {1000.0f, 700.0f}});
+    const Palette colours = palette(Theme::Dark);
+    DrawList list;
+    lab().draw({.workspace = workspace, .camera = camera, .palette = colours}, list);
+    const std::size_t foot = *part().node_of(Bone::LeftFoot);
+    glm::dvec3 end(0.0);
+    for (const Stroke& each : list.strokes) {
+        const bool line = glm::distance(each.a, each.b) > 1e-5f;
+        EXPECT_FALSE(line && each.pick == node_pick(0)) << "from the root to the hips";
+        if (line && each.pick == node_pick(foot)) end = each.b;
+    }
+    const glm::dvec3 way = end - placed[foot].position;
+    EXPECT_LT(way.z, -0.05) << "the foot points ahead, not on along the shin";
+    EXPECT_GT(way.y, -0.08);
+}
+
 TEST_F(HumanoidMotions, WhatWasGuessedOfItsFileIsSaid) {
     // A BVH says neither its unit nor its up axis.
     run("humanoid.load", {{"path", path("body.vrm")}});
@@ -124,9 +151,7 @@ TEST_F(HumanoidMotions, WhatWasGuessedOfItsFileIsSaid) {
     const auto notes = [&] { return state().at("character").at("notes").dump(); };
     const std::string before = notes();
     run("humanoid.motion.load", {{"path", path("wave.bvh")}});
-    EXPECT_TRUE(test::says(notes(), "hips scaled at rest: Chest unit")) << notes();
-    EXPECT_TRUE(test::says(workspace.ui.toasts.back().text, "Clip hips scaled unit"))
-        << workspace.ui.toasts.back().text;
+    EXPECT_TRUE(test::says(notes(), "At rest: Chest hips scaled unit")) << notes();
     const Workspace again = reopened();
     EXPECT_EQ(humanoid_part(again).loaded->motions, part().loaded->motions);
     run("humanoid.clip", {{"index", 0}});
@@ -144,8 +169,17 @@ TEST_F(HumanoidMotions, WhatCannotBeCarriedOverIsRefusedOrSaid) {
                            "wave.vrma no clip run"));
     run("humanoid.motion.load", {{"path", path("wave.vrma")}});
     const std::string said = workspace.ui.toasts.back().text;
-    EXPECT_TRUE(test::says(said, "wave hips scaled")) << said;
-    EXPECT_TRUE(test::says(said, "at rest: Chest")) << said;
+    EXPECT_TRUE(test::says(said, "Clip wave wave.vrma At rest: Chest, UpperChest, Neck, Shoulder, Toes."))
+        << said;
+    EXPECT_EQ(said.find("hips"), said.npos) << "a line; the rest is in the panel";
+    run("humanoid.load", {{"path", path("body.vrm")}});
+    run("humanoid.motion.load", {{"path", path("wave.vrma")}});
+    EXPECT_TRUE(test::says(workspace.ui.toasts.back().text, "wave_2 Every bone"));
+    // A root and a control beside the body.
+    test::write(folder_ / "rig.vrm", vrma("VRMC_vrm", true, true));
+    run("humanoid.load", {{"path", path("rig.vrm")}});
+    run("humanoid.motion.load", {{"path", path("wave.vrma")}});
+    EXPECT_TRUE(test::says(workspace.ui.toasts.back().text, "wave_2 Left as it is: pole."));
     run("humanoid.map", {{"bone", "Hips"}});
     EXPECT_TRUE(
         test::says(refused("humanoid.motion.load", {{"path", path("wave.vrma")}}), "wave.vrma to.map Hips"));
