@@ -6,6 +6,7 @@
 #include "random.hpp"
 #include "rope_named.hpp"
 #include "tendril/chain/chain.hpp"
+#include "tendril/ik/curve.hpp"
 #include "tendril/ik/solver.hpp"
 
 namespace tendril::test {
@@ -192,6 +193,35 @@ std::uint64_t solve_hash() {
             hash.add(static_cast<float>(report.iterations));
             hash.add(static_cast<float>(report.status));
             for (const glm::vec3& joint : joints) hash.add(joint);
+        }
+    }
+    return hash.value();
+}
+
+std::uint64_t curve_hash() {
+    Random random(20260104);
+    Fnv hash;
+    for (int i = 0; i < 400; ++i) {
+        std::vector<glm::vec3> points(2 + random.below(9)), joints(2 + random.below(20));
+        for (glm::vec3& each : points) each = random.point(4.0f);
+        const std::vector<float> lengths(joints.size() - 1, 0.125f * float(1 + random.below(8)));
+        for (std::size_t bone = 0; bone < lengths.size(); ++bone)
+            joints[bone + 1] = joints[bone] + glm::vec3(lengths[bone], 0.0f, 0.0f);
+        ik::State state(lengths.size());
+        ik::CurveMemory memory(lengths.size());
+        ik::CurveOptions options;
+        options.kind = random.chance(2) ? ik::CurveKind::BSpline : ik::CurveKind::Hermite;
+        options.fit = random.chance(3);
+        options.roll_end = random.around(4.0f);
+        options.weight = random.chance(3) ? 0.5f : 1.0f;
+        for (int turn = 0; turn < 4; ++turn) {
+            points[random.below(points.size())] = random.point(4.0f);
+            const ik::CurveReport report =
+                ik::place_along(points, {lengths, {}}, joints, state, memory, options);
+            hash.add(report.factor);
+            hash.add(static_cast<float>(report.bones_past_end));
+            for (const glm::vec3& joint : joints) hash.add(joint);
+            for (const glm::quat& each : state.rotations) hash.add({each.x, each.y, each.z});
         }
     }
     return hash.value();

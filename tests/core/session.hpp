@@ -19,6 +19,13 @@ inline constexpr std::uint64_t golden_solve_hash = 0x3f3a3d35f788b568u;
 /// of every joint and report.
 std::uint64_t solve_hash();
 
+/// The expected curve_hash().
+inline constexpr std::uint64_t golden_curve_hash = 0x6412e79709d604deu;
+
+/// Places 400 chains along moving curves of both kinds, fitted or not, rolled and half blended, and hashes the
+/// bits of every joint and rotation.
+std::uint64_t curve_hash();
+
 /// The expected rope_hash().
 inline constexpr std::uint64_t golden_rope_hash = 0x2b7457a32f233dd8u;
 

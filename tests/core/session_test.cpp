@@ -12,6 +12,10 @@ TEST(Session, SolvesEndInTheSameBitsInEveryBuild) {
     EXPECT_EQ(solve_hash(), golden_solve_hash);
 }
 
+TEST(Session, CurvesEndInTheSameBitsInEveryBuild) {
+    EXPECT_EQ(curve_hash(), golden_curve_hash);
+}
+
 TEST(Session, RopesEndInTheSameBitsInEveryBuild) {
     EXPECT_EQ(rope_hash(), golden_rope_hash);
 }

@@ -1,0 +1,292 @@
+#include <algorithm>
+#include <cmath>
+
+#include "ik/curve/path.hpp"
+#include "math/checks.hpp"
+#include "math/elementary.hpp"
+#include "tendril/ik/curve.hpp"
+
+namespace tendril::ik {
+namespace detail {
+namespace {
+
+using tendril::detail::is_length;
+using tendril::detail::is_point;
+
+constexpr std::size_t max_control_points = 4096;
+
+bool is_unit(const glm::dvec3& v) noexcept {
+    return std::abs(dot(v, v) - 1.0) <= 2e-3;
+}
+bool within(float value, float low, float high) noexcept {
+    return value >= low && value <= high;
+}
+
+bool is_valid(std::span<const glm::vec3> points, const CurveChain& chain, std::span<const glm::vec3> joints,
+              const State& state, const CurveMemory& memory, const CurveOptions& options) noexcept {
+    const std::size_t bones = chain.lengths.size();
+    const auto unit_quaternion = [](const glm::quat& q) {
+        return std::abs(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z - 1.0f) <= 2e-3f;
+    };
+    return bones > 0 && joints.size() == bones + 1 && state.bones() == bones &&
+           (memory.joints.empty() || memory.joints.size() == bones + 1) &&
+           memory.at.size() == memory.joints.size() &&
+           (chain.rest_directions.empty() || chain.rest_directions.size() == bones) &&
+           (options.weights.empty() || options.weights.size() == bones) && points.size() >= 2 &&
+           points.size() <= max_control_points && std::ranges::all_of(points, is_point) &&
+           std::ranges::all_of(joints, is_point) && std::ranges::all_of(chain.lengths, is_length) &&
+           std::ranges::all_of(chain.rest_directions,
+                               [](const glm::vec3& each) { return is_point(each) && is_unit(wide(each)); }) &&
+           std::ranges::all_of(state.rotations, unit_quaternion) && is_point(options.up) &&
+           std::abs(options.roll_start) <= 1e6f && std::abs(options.roll_end) <= 1e6f &&
+           options.max_factor > 1.0f && options.max_factor <= 100.0f && within(options.weight, 0.0f, 1.0f) &&
+           std::ranges::all_of(options.weights, [](float each) { return within(each, 0.0f, 1.0f); }) &&
+           (options.kind == CurveKind::Hermite || options.kind == CurveKind::BSpline);
+}
+
+/// Where the tip comes to lie, with all bones scaled by `factor`: metres beyond the end of the path, or, if
+/// negative, short of it.
+double overshoot(Path& path, std::span<const float> lengths, double factor) noexcept {
+    Place place;
+    glm::dvec3 joint = path.point(place);
+    for (const float each : lengths) {
+        place = path.next(place, joint, factor * static_cast<double>(each));
+        joint = path.point(place);
+    }
+    return path.on_ray(place) ? place.t : -length(minus(path.end(), joint));
+}
+
+/// The factor at which the tip lies on the end of the path, or the nearer bound: regula falsi (Illinois: M.
+/// Dowell, P. Jarratt, 1971), every fourth time halving. Where the tip jumps over the end, the better side of
+/// the jump.
+double fitted_factor(Path& path, std::span<const float> lengths, double most) noexcept {
+    struct Fit {
+        double factor, overshoot;
+    };
+    const auto at = [&](double factor) { return Fit{factor, overshoot(path, lengths, factor)}; };
+    Fit low = at(1.0 / most), high = at(most);
+    if (low.overshoot >= 0.0) return low.factor;
+    if (high.overshoot <= 0.0) return high.factor;
+    double below = low.overshoot, above = high.overshoot;
+    int side = 0;
+    for (int i = 0; i < 60 && high.factor - low.factor > 1e-9 * low.factor; ++i) {
+        const Fit found = at(i % 4 == 3 ? 0.5 * (low.factor + high.factor)
+                                        : (low.factor * above - high.factor * below) / (above - below));
+        if (found.overshoot == 0.0) return found.factor;
+        if (found.overshoot < 0.0) {
+            low = found, below = found.overshoot;
+            if (side < 0) above *= 0.5;
+            side = -1;
+        } else {
+            high = found, above = found.overshoot;
+            if (side > 0) below *= 0.5;
+            side = 1;
+        }
+    }
+    return -low.overshoot < high.overshoot ? low.factor : high.factor;
+}
+
+/// A point of the path with its tangent and a normal that turns as little as possible along the path.
+struct Frame {
+    glm::dvec3 at, tangent, normal;
+
+    /// Double reflection. A point too near to give a direction is passed over.
+    void move_to(const glm::dvec3& next, const glm::dvec3& next_tangent) noexcept {
+        const glm::dvec3 step = minus(next, at);
+        const double squared = dot(step, step);
+        if (squared > 0.0) {
+            const glm::dvec3 side = minus(normal, times(step, 2.0 / squared * dot(step, normal)));
+            const glm::dvec3 ahead = minus(tangent, times(step, 2.0 / squared * dot(step, tangent)));
+            const glm::dvec3 turn = minus(next_tangent, ahead);
+            const double turned = dot(turn, turn);
+            normal = turned > 0.0 ? minus(side, times(turn, 2.0 / turned * dot(turn, side))) : side;
+        } else {
+            normal = rotated(minimal_rotation(tangent, next_tangent), normal);
+        }
+        at = next, tangent = next_tangent;
+        const auto kept = direction_of(across(normal, tangent), 0.0);
+        normal = kept ? *kept : perpendicular(tangent);
+    }
+};
+
+void carry(Frame& frame, Path& path, const Place& from, const Place& to) noexcept {
+    constexpr double samples = 8.0;  // a piece
+    for (std::size_t k = from.piece; k <= to.piece; ++k) {
+        const double start = k == from.piece ? from.t : 0.0;
+        const double stop = k == to.piece ? to.t : 1.0;
+        const int count = k < path.pieces() ? 1 + static_cast<int>(samples * (stop - start)) : 1;
+        for (int i = 1; i <= count; ++i) {
+            const Place place{k, start + (stop - start) * i / count};
+            frame.move_to(path.point(place), path.tangent(place, frame.tangent));
+        }
+    }
+}
+
+glm::dvec3 upper_side(const glm::dvec3& up, const glm::dvec3& along) noexcept {
+    const auto side = direction_of(across(up, along), 1e-6 * length(up));
+    return side ? *side : perpendicular(along);
+}
+
+/// The rotation about the unit vector `axis` that takes one unit vector perpendicular to it to another.
+glm::dquat twist_between(const glm::dvec3& axis, const glm::dvec3& from, const glm::dvec3& to) noexcept {
+    const double cosine = dot(from, to), sine = dot(cross(from, to), axis);
+    const double w = std::sqrt(std::max(0.0, 0.5 * (1.0 + cosine)));  // half the angle
+    const double s = std::copysign(std::sqrt(std::max(0.0, 0.5 * (1.0 - cosine))), sine);
+    return unit_quaternion(w, axis.x * s, axis.y * s, axis.z * s);
+}
+glm::dquat roll_about(const glm::dvec3& axis, double radians) noexcept {
+    const math::SineCosine half = math::sine_cosine(radians / (4.0 * math::pi));
+    return {half.cosine, axis.x * half.sine, axis.y * half.sine, axis.z * half.sine};
+}
+glm::quat narrow_rotation(const glm::dquat& q) noexcept {
+    return {static_cast<float>(q.w), static_cast<float>(q.x), static_cast<float>(q.y),
+            static_cast<float>(q.z)};
+}
+
+/// Compares with the last call, and remembers this one.
+class Jumps {
+  public:
+    Jumps(Path& path, std::span<const glm::vec3> points, CurveMemory& memory) noexcept
+        : memory_(memory), comparable_(memory.points == points.size() && !memory.joints.empty()) {
+        if (comparable_)
+            for (std::size_t i = 0; i < memory.at.size(); ++i) {
+                const double at = memory.at[i];
+                const std::size_t piece =
+                    std::min(static_cast<std::size_t>(std::max(0.0, at)), path.pieces());
+                const glm::dvec3 now = path.point({piece, at - static_cast<double>(piece)});
+                moved_ = std::max(moved_, length(minus(now, wide(memory.joints[i]))));
+            }
+        memory_.points = points.size();
+    }
+
+    void joint(std::size_t i, const Place& place, const glm::dvec3& now, double reach) noexcept {
+        if (memory_.joints.empty()) return;
+        // The joints are kept as floats, so a curve at rest seems to move a little.
+        if (comparable_ && !jumped &&
+            length(minus(now, wide(memory_.joints[i]))) > 20.0 * moved_ + 1e-5 * reach)
+            jumped = i;
+        memory_.at[i] = static_cast<double>(place.piece) + place.t;
+        memory_.joints[i] = narrow(now);
+    }
+
+    std::optional<std::size_t> jumped{};
+
+  private:
+    CurveMemory& memory_;
+    bool comparable_;
+    double moved_ = 0.0;
+};
+
+}  // namespace
+}  // namespace detail
+
+const char* name(CurveKind kind) noexcept {
+    return kind == CurveKind::BSpline ? "b_spline" : "hermite";
+}
+
+glm::vec3 curve_point(std::span<const glm::vec3> points, CurveKind kind, float at) noexcept {
+    using namespace detail;
+    if (points.size() < 2 || !(at >= 0.0f)) return glm::vec3(0.0f);
+    const std::size_t last = points.size() - 2;
+    const std::size_t piece = at < static_cast<float>(last) ? static_cast<std::size_t>(at) : last;
+    Path path(points, kind, {1.0, 0.0, 0.0});
+    return narrow(path.point({piece, std::min(1.0, static_cast<double>(at) - static_cast<double>(piece))}));
+}
+
+CurveReport place_along(std::span<const glm::vec3> points, const CurveChain& chain,
+                        std::span<glm::vec3> joints, State& state, CurveMemory& memory,
+                        const CurveOptions& options) noexcept {
+    using namespace detail;
+    if (!is_valid(points, chain, joints, state, memory, options)) return {.status = Status::InvalidInput};
+    const auto rest_direction = [&](std::size_t i) {
+        return chain.rest_directions.empty() ? glm::dvec3(1.0, 0.0, 0.0)
+                                             : *direction_of(wide(chain.rest_directions[i]), 0.0);
+    };
+    Path path(points, options.kind, rest_direction(0));
+    const std::span<const float> lengths = chain.lengths;
+    const std::size_t bones = lengths.size();
+    double reach = 0.0;
+    for (const float each : lengths) reach += static_cast<double>(each);
+
+    CurveReport report;
+    report.collapsed = path.collapsed();
+    const double factor = options.fit && !path.collapsed() && reach > 0.0
+                              ? fitted_factor(path, lengths, static_cast<double>(options.max_factor))
+                              : 1.0;
+    report.factor = static_cast<float>(factor);
+
+    Jumps jumps(path, points, memory);
+    Place place;
+    glm::dvec3 on_path = path.point(place);
+    jumps.joint(0, place, on_path, reach);
+    const glm::dvec3 up = wide(options.up);
+    const glm::dvec3 first_tangent = path.tangent(place, rest_direction(0));
+    Frame frame{on_path, first_tangent, upper_side(up, first_tangent)};
+    glm::dvec3 rest_before = rest_direction(0), rest_side = upper_side(up, rest_before);
+
+    const double last_length = static_cast<double>(lengths.back());
+    const double roll_start = static_cast<double>(options.roll_start);
+    const double roll_end = static_cast<double>(options.roll_end);
+    const bool rolls = roll_start != 0.0 || roll_end != 0.0;
+    double along = 0.0;           // metres of bones before this one
+    bool on_curve = true;         // all bones so far lie on the path
+    glm::vec3 given = joints[0];  // this bone's near joint in the given pose
+    if (options.weight < 1.0f) on_curve = false;
+    joints[0] = on_curve ? narrow(on_path)
+                         : narrow(plus(wide(given), times(minus(on_path, wide(given)),
+                                                          static_cast<double>(options.weight))));
+    for (std::size_t i = 0; i < bones; ++i) {
+        const double bone = factor * static_cast<double>(lengths[i]);
+        const Place next = path.next(place, on_path, bone);
+        const glm::dvec3 next_on_path = path.point(next);
+        jumps.joint(i + 1, next, next_on_path, reach);
+        if (path.on_ray(next)) ++report.bones_past_end;
+
+        // The side that turns least from the rest pose, then the path's, then the roll.
+        const glm::dvec3 rest = rest_direction(i);
+        if (rest != rest_before) rest_side = rotated(minimal_rotation(rest_before, rest), rest_side);
+        rest_before = rest;
+        const glm::dvec3 direction =
+            direction_of(minus(next_on_path, on_path), 1e-12 * reach).value_or(frame.tangent);
+        const glm::dvec3 side = rotated(minimal_rotation(frame.tangent, direction), frame.normal);
+        const glm::dquat swing = minimal_rotation(rest, direction);
+        const glm::dvec3 swung = rotated(swing, rest_side);
+        glm::dquat target = compose(twist_between(direction, swung, side), swing);
+        if (rolls) {
+            const double share = reach > last_length ? along / (reach - last_length) : 0.0;
+            target = compose(roll_about(direction, roll_start + share * (roll_end - roll_start)), target);
+        }
+
+        const float weight = options.weight * (options.weights.empty() ? 1.0f : options.weights[i]);
+        const glm::vec3 given_next = joints[i + 1];
+        if (weight < 1.0f) {
+            const glm::quat& old = state.rotations[i];
+            const glm::vec3 was = rotated(old, narrow(rest));
+            const glm::quat from =
+                compose(minimal_rotation(was, math::direction(given, given_next, was)), old);
+            state.rotations[i] = math::slerp(from, narrow_rotation(target), weight);
+            on_curve = false;
+        } else {
+            state.rotations[i] = narrow_rotation(target);
+        }
+        const double drawn =
+            static_cast<double>(lengths[i]) * (1.0 + static_cast<double>(weight) * (factor - 1.0));
+        joints[i + 1] = on_curve
+                            ? narrow(next_on_path)
+                            : math::moved(joints[i], wide(rotated(state.rotations[i], narrow(rest))), drawn);
+        carry(frame, path, place, next);
+        along += static_cast<double>(lengths[i]);
+        given = given_next, place = next, on_path = next_on_path;
+    }
+    report.jumped = jumps.jumped;
+    const double off = length(minus(on_path, path.end()));
+    if (path.on_ray(place)) {
+        report.past_end = static_cast<float>(place.t);
+        if (place.t > 1e-6 * reach) report.status = Status::Stretched;
+    } else {
+        report.short_of_end = static_cast<float>(off);
+    }
+    return report;
+}
+
+}  // namespace tendril::ik

@@ -1,0 +1,377 @@
+// Chains placed along curves: cases of an independent implementation, the rule itself on random curves,
+// frames, fit, weights, jumps, and hostile input.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <numeric>
+#include <vector>
+
+#include "memory.hpp"
+#include "random.hpp"
+#include "tendril/ik/curve.hpp"
+#include "tests/places.hpp"
+
+namespace tendril::test::ik_curve_test {
+namespace {
+
+using ik::CurveKind;
+using ik::CurveOptions;
+using ik::CurveReport;
+using ik::Status;
+using Points = std::vector<glm::vec3>;
+using Json = nlohmann::json;
+
+struct Placed {
+    explicit Placed(std::vector<float> bones, Points rest = {})
+        : lengths(std::move(bones)),
+          rest_directions(std::move(rest)),
+          joints(lengths.size() + 1),
+          state(lengths.size()),
+          memory(lengths.size()) {
+        for (std::size_t i = 0; i < lengths.size(); ++i) {
+            const glm::vec3 along = rest_directions.empty() ? glm::vec3(1, 0, 0) : rest_directions[i];
+            joints[i + 1] = joints[i] + lengths[i] * along;
+        }
+    }
+    CurveReport place(const Points& points, const CurveOptions& options = {}) {
+        return ik::place_along(points, {lengths, rest_directions}, joints, state, memory, options);
+    }
+    float reach() const { return std::accumulate(lengths.begin(), lengths.end(), 0.0f); }
+
+    std::vector<float> lengths;
+    Points rest_directions, joints;
+    ik::State state;
+    ik::CurveMemory memory;
+};
+
+Points random_points(Random& random, std::size_t count, float size = 1.0f) {
+    Points points(count);
+    for (glm::vec3& each : points) each = random.point(size);
+    return points;
+}
+std::vector<float> random_lengths(Random& random, std::size_t count, float most) {
+    std::vector<float> lengths(count);
+    for (float& each : lengths) each = most * (0.1f + 0.9f * random.part());
+    return lengths;
+}
+Points read_points(const Json& list) {
+    Points points;
+    for (const Json& each : list) points.emplace_back(each[0], each[1], each[2]);
+    return points;
+}
+glm::vec3 turned(const glm::quat& q, const glm::vec3& v) {
+    return q * v;
+}
+const float nan = std::numeric_limits<float>::quiet_NaN();
+
+void matches(const Json& expected) {
+    Placed chain(expected.at("lengths").get<std::vector<float>>());
+    const CurveReport report = chain.place(read_points(expected.at("control_points")));
+    const Points joints = read_points(expected.at("joints"));
+    for (std::size_t i = 0; i < joints.size(); ++i)
+        EXPECT_LE(glm::distance(chain.joints[i], joints[i]), 1e-5f * chain.reach()) << "joint " << i;
+    EXPECT_EQ(report.bones_past_end, expected.at("bones_past_end").get<std::size_t>());
+}
+
+TEST(IkCurve, a_small_case_worked_out_by_hand) {
+    // Two points make a straight line of constant speed.
+    Placed chain({0.5f, 0.25f, 1.0f});
+    const CurveReport report = chain.place({{1, 1, 1}, {1, 2, 1}});
+    EXPECT_EQ(chain.joints, (Points{{1, 1, 1}, {1, 1.5f, 1}, {1, 1.75f, 1}, {1, 2.75f, 1}}));
+    EXPECT_EQ(report.status, Status::Stretched);
+    EXPECT_EQ(report.bones_past_end, 1u);
+    EXPECT_FLOAT_EQ(report.past_end, 0.75f);
+}
+
+TEST(IkCurve, agrees_with_an_independent_implementation) {
+    std::ifstream file(reference_path("spline.json"));
+    if (!file) GTEST_SKIP() << "spline.json is not here";
+    const Json cases = Json::parse(file).at("cases");
+    ASSERT_GE(cases.size(), 40u);
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        SCOPED_TRACE("case " + std::to_string(i));
+        matches(cases[i]);
+    }
+}
+
+// The rule, by brute force: no point of the curve between a joint and the next is as far as the bone is long.
+TEST(IkCurve, each_joint_is_the_first_point_at_its_bones_length) {
+    Random random(71);
+    for (int trial = 0; trial < 300; ++trial) {
+        const CurveKind kind = trial % 2 ? CurveKind::BSpline : CurveKind::Hermite;
+        const Points points = random_points(random, 2 + random.below(10));
+        Placed chain(random_lengths(random, 1 + random.below(20), 0.5f));
+        const CurveReport report = chain.place(points, {.kind = kind});
+        ASSERT_EQ(chain.joints[0], points[0]);
+        for (std::size_t i = 0; i < chain.lengths.size(); ++i) {
+            const float length = chain.lengths[i];
+            ASSERT_NEAR(glm::distance(chain.joints[i], chain.joints[i + 1]), length, 1e-6f);
+            const double from = chain.memory.at[i], to = chain.memory.at[i + 1];
+            ASSERT_LT(from, to);
+            if (from >= static_cast<double>(points.size() - 1)) continue;  // beyond the end
+            const double last = std::min(to, static_cast<double>(points.size() - 1));
+            for (int k = 0; k < 200; ++k) {
+                const auto at = static_cast<float>(from + (last - from) * k / 200.0);
+                ASSERT_LE(glm::distance(ik::curve_point(points, kind, at), chain.joints[i]),
+                          length * 1.00001f + 1e-6f)
+                    << "trial " << trial << " bone " << i;
+            }
+        }
+        EXPECT_EQ(report.status == Status::Stretched, report.bones_past_end > 0);
+    }
+}
+
+TEST(IkCurve, both_kinds_begin_and_end_on_the_control_points) {
+    Random random(5);
+    for (const CurveKind kind : {CurveKind::Hermite, CurveKind::BSpline}) {
+        const Points points = random_points(random, 6);
+        EXPECT_LE(glm::distance(ik::curve_point(points, kind, 0.0f), points.front()), 1e-6f);
+        EXPECT_LE(glm::distance(ik::curve_point(points, kind, 5.0f), points.back()), 1e-6f);
+        EXPECT_LE(glm::distance(ik::curve_point(points, kind, 99.0f), points.back()), 1e-6f);
+    }
+    EXPECT_EQ(ik::curve_point(random_points(random, 6), CurveKind::Hermite, nan), glm::vec3(0.0f));
+}
+
+// ---------------------------------------------------------------------------------------------- rotations
+
+TEST(IkCurve, rotations_take_the_rest_directions_to_the_bones) {
+    Random random(9);
+    for (int trial = 0; trial < 200; ++trial) {
+        Points rest(12);
+        for (glm::vec3& each : rest) each = glm::normalize(random.point(1.0f) + glm::vec3(0, 0, 1e-3f));
+        Placed chain(random_lengths(random, 12, 0.3f), rest);
+        chain.place(random_points(random, 5), {.roll_start = random.around(3), .roll_end = random.around(3)});
+        for (std::size_t i = 0; i < 12; ++i) {
+            const glm::vec3 bone = (chain.joints[i + 1] - chain.joints[i]) / chain.lengths[i];
+            ASSERT_LE(glm::distance(turned(chain.state.rotations[i], rest[i]), bone), 2e-5f);
+        }
+        ASSERT_TRUE(ik::check(chain.state, 12));
+    }
+}
+
+TEST(IkCurve, along_its_rest_pose_a_chain_does_not_rotate) {
+    Placed chain(std::vector<float>(8, 0.25f));
+    chain.place({{0, 0, 0}, {1, 0, 0}, {3, 0, 0}});
+    for (const glm::quat& each : chain.state.rotations) EXPECT_NEAR(std::abs(each.w), 1.0f, 1e-6f);
+}
+
+TEST(IkCurve, a_loop_in_a_plane_causes_no_roll) {
+    Points circle;
+    for (int i = 0; i <= 32; ++i) {
+        const float angle = 6.2831853f * static_cast<float>(i) / 16.0f;  // twice round
+        circle.emplace_back(std::cos(angle), 0.0f, std::sin(angle));
+    }
+    Placed chain(std::vector<float>(60, 0.2f));
+    chain.place(circle, {.up = {0, 1, 0}});
+    for (const glm::quat& each : chain.state.rotations)
+        EXPECT_LE(glm::distance(turned(each, {0, 1, 0}), glm::vec3(0, 1, 0)), 1e-5f);
+}
+
+TEST(IkCurve, roll_is_spread_from_the_first_bone_to_the_last) {
+    Placed chain({1, 2, 1, 1});
+    chain.place({{0, 0, 0}, {5, 0, 0}}, {.roll_start = 0.2f, .roll_end = 1.0f});
+    const float expected[]{0.2f, 0.4f, 0.8f, 1.0f};
+    for (std::size_t i = 0; i < 4; ++i) {
+        const glm::vec3 side = turned(chain.state.rotations[i], {0, 1, 0});
+        EXPECT_NEAR(std::atan2(side.z, side.y), expected[i], 1e-5f);
+    }
+}
+
+// On a helix of slope b a rotation-minimising frame turns by 2 pi (1 - sin(slope)) a turn against the normal.
+TEST(IkCurve, frames_on_a_helix_turn_as_its_geometry_says) {
+    constexpr float pitch = 0.5f, two_pi = 6.2831853f;
+    Points helix;
+    for (int i = 0; i <= 64; ++i) {
+        const float turns = static_cast<float>(i) / 32.0f;
+        helix.emplace_back(std::cos(two_pi * turns), pitch * turns, std::sin(two_pi * turns));
+    }
+    const float turn = std::hypot(two_pi, pitch);
+    Placed chain(std::vector<float>(100, turn / 50.0f));
+    chain.place(helix, {.up = {1, 0, 0}});
+    const auto roll_at = [&](std::size_t bone) {  // of the side against the direction to the axis
+        const glm::vec3 at = 0.5f * (chain.joints[bone] + chain.joints[bone + 1]);
+        const glm::vec3 along = glm::normalize(chain.joints[bone + 1] - chain.joints[bone]);
+        const glm::vec3 out = glm::normalize(glm::vec3(at.x, 0, at.z));
+        const glm::vec3 side = turned(chain.state.rotations[bone], {0, 0, 1});
+        return std::atan2(glm::dot(glm::cross(out, side), along), glm::dot(out, side));
+    };
+    const float sine = pitch / turn;
+    const float found = std::remainder(roll_at(75) - roll_at(25), two_pi);
+    EXPECT_NEAR(std::abs(found), two_pi * sine, 0.02f);
+}
+
+// ------------------------------------------------------------------------------------------- fit, weights
+
+TEST(IkCurve, a_fitted_chain_ends_on_the_last_control_point) {
+    Random random(13);
+    int fitted = 0;
+    for (int trial = 0; trial < 300; ++trial) {
+        const bool gentle = trial % 2 == 0;
+        Points points = random_points(random, 3 + random.below(4));
+        if (gentle)
+            for (std::size_t i = 0; i < points.size(); ++i)
+                points[i] = 0.3f * points[i] + glm::vec3(static_cast<float>(i), 0.0f, 0.0f);
+        Placed chain(std::vector<float>(40, 0.02f + 0.1f * random.part()));
+        const CurveReport report = chain.place(points, {.fit = true, .max_factor = 20.0f});
+        ASSERT_GE(report.factor, 0.05f);
+        ASSERT_LE(report.factor, 20.0f);
+        for (std::size_t i = 0; i < 40; ++i)
+            ASSERT_NEAR(glm::distance(chain.joints[i], chain.joints[i + 1]), report.factor * chain.lengths[i],
+                        1e-5f);
+        const float left = report.past_end + report.short_of_end;
+        EXPECT_NEAR(glm::distance(chain.joints.back(), points.back()), left, 1e-5f);
+        if (gentle) {
+            EXPECT_LE(left, 1e-5f) << "trial " << trial;
+        } else if (left < 1e-5f) {
+            ++fitted;
+        }
+    }
+    EXPECT_GE(fitted, 90) << "of 150 curves with folds, at some of which the tip jumps over the end";
+}
+
+TEST(IkCurve, a_fit_stops_at_its_limit_and_reports_what_is_left) {
+    Placed chain(std::vector<float>(4, 1.0f));
+    const CurveReport report = chain.place({{0, 0, 0}, {10, 0, 0}}, {.fit = true, .max_factor = 1.5f});
+    EXPECT_FLOAT_EQ(report.factor, 1.5f);
+    EXPECT_NEAR(report.short_of_end, 4.0f, 1e-5f);
+}
+
+TEST(IkCurve, weights_leave_bones_where_they_are_and_keep_lengths) {
+    Random random(17);
+    const Points points = random_points(random, 5);
+    Placed rest(std::vector<float>(9, 0.2f)), none(rest), half(rest), root_half(rest), whole(rest);
+    none.place(points, {.weight = 0.0f});
+    for (std::size_t i = 0; i < 10; ++i) EXPECT_LE(glm::distance(none.joints[i], rest.joints[i]), 1e-5f);
+    half.place(points, {.weight = 0.5f});
+    whole.place(points);
+    std::vector<float> falloff(9, 1.0f);
+    for (std::size_t i = 5; i < 9; ++i) falloff[i] = 0.0f;
+    root_half.place(points, {.weights = falloff});
+    for (std::size_t i = 0; i < 9; ++i) {
+        EXPECT_NEAR(glm::distance(half.joints[i], half.joints[i + 1]), 0.2f, 1e-6f);
+        EXPECT_NEAR(glm::distance(root_half.joints[i], root_half.joints[i + 1]), 0.2f, 1e-6f);
+        if (i < 5) {
+            EXPECT_EQ(root_half.joints[i + 1], whole.joints[i + 1]);
+        } else {
+            EXPECT_LE(glm::distance(root_half.joints[i + 1] - root_half.joints[i], glm::vec3(0.2f, 0, 0)),
+                      1e-5f);
+        }
+    }
+    EXPECT_LE(glm::distance(half.joints[0], 0.5f * points[0]), 1e-6f);
+}
+
+// ---------------------------------------------------------------------------------------- small movements
+
+TEST(IkCurve, a_small_movement_moves_joints_little_unless_a_jump_is_reported) {
+    Random random(23);
+    int jumps = 0;
+    for (int trial = 0; trial < 400; ++trial) {
+        Points points = random_points(random, 3 + random.below(8));
+        Placed chain(random_lengths(random, 30, 0.2f));
+        EXPECT_FALSE(chain.place(points).jumped) << "the first call";
+        EXPECT_FALSE(chain.place(points).jumped) << "nothing moved";
+        const Points before = chain.joints;
+        points[random.below(points.size())] += 1e-4f * glm::normalize(random.point(1.0f) + glm::vec3(1e-3f));
+        const CurveReport report = chain.place(points);
+        if (report.jumped) {
+            ++jumps;
+            continue;
+        }
+        for (std::size_t i = 0; i < before.size(); ++i)
+            ASSERT_LE(glm::distance(before[i], chain.joints[i]), 20.0f * 1e-4f + 2e-5f * chain.reach())
+                << "trial " << trial;
+    }
+    EXPECT_LT(jumps, 60);
+}
+
+// ------------------------------------------------------------------------------------------------ hostile
+
+TEST(IkCurve, degenerate_curves_give_finite_chains_of_their_lengths) {
+    Random random(31);
+    std::vector<Points> curves{{{1, 2, 3}, {1, 2, 3}},
+                               Points(64, {5, 5, 5}),
+                               {{0, 0, 0}, {1e-30f, 0, 0}},
+                               {{0, 0, 0}, {1, 0, 0}, {0, 0, 0}},
+                               {{0, 0, 0}, {1, 0, 0}, {1, 0, 0}, {1, 0, 0}},
+                               {{0, 0, 0}, {0, 0, 0}, {1, 1, 0}},
+                               {{1e9f, 1e9f, -1e9f}, {-1e9f, 1e9f, 1e9f}},
+                               random_points(random, 64, 1e-3f),
+                               random_points(random, 64, 100.0f)};
+    Points line;
+    for (int i = 0; i < 64; ++i) line.emplace_back(random.around(3.0f), 0.0f, 0.0f);
+    curves.push_back(line);
+    for (int trial = 0; trial < 2000; ++trial) {
+        Points points = random_points(random, 2 + random.below(8));
+        for (glm::vec3& each : points) {
+            if (random.chance(3)) each = points[random.below(points.size())];
+            if (random.chance(20)) each = random.point(1e6f);
+            if (random.chance(20)) each *= 1e-12f;
+        }
+        curves.push_back(points);
+    }
+    for (std::size_t c = 0; c < curves.size(); ++c)
+        for (const CurveKind kind : {CurveKind::Hermite, CurveKind::BSpline}) {
+            std::vector<float> lengths = random_lengths(random, 7, 1.0f);
+            if (c % 3 == 0) lengths[random.below(7)] = 0.0f;
+            if (c % 5 == 0) lengths[random.below(7)] = 1e-20f;
+            Placed chain(lengths);
+            const glm::vec3 up = c % 4 ? random.point(1.0f) : glm::vec3(0.0f);
+            const CurveReport report = chain.place(
+                curves[c], {.kind = kind, .fit = c % 7 == 0, .up = up, .weight = c % 2 ? 1.0f : 0.7f});
+            ASSERT_NE(report.status, Status::InvalidInput) << c;
+            const bool all_equal =
+                std::ranges::all_of(curves[c], [&](const glm::vec3& each) { return each == curves[c][0]; });
+            ASSERT_EQ(report.collapsed, all_equal) << c;
+            ASSERT_TRUE(ik::check(chain.state, 7)) << c;
+            for (std::size_t i = 0; i < 7; ++i) {
+                const float size = 1.0f + glm::length(chain.joints[i]);
+                ASSERT_TRUE(std::isfinite(size)) << c;
+                if (c % 7 != 0) {
+                    ASSERT_NEAR(glm::distance(chain.joints[i], chain.joints[i + 1]), lengths[i], 2e-6f * size)
+                        << c;
+                }
+            }
+        }
+}
+
+TEST(IkCurve, bad_input_is_refused_and_changes_nothing) {
+    const Points good{{0, 0, 0}, {1, 1, 0}};
+    Placed chain({0.5f, 0.5f});
+    const Placed before = chain;
+    const std::vector<float> nan_weights{1.0f, nan}, one_weight{1.0f};
+    const Points too_many(5000, {0, 1, 0});
+    EXPECT_EQ(chain.place({}).status, Status::InvalidInput);
+    EXPECT_EQ(chain.place({{0, 0, 0}}).status, Status::InvalidInput);
+    EXPECT_EQ(chain.place(too_many).status, Status::InvalidInput);
+    EXPECT_EQ(chain.place({{0, 0, 0}, {1, nan, 0}}).status, Status::InvalidInput);
+    EXPECT_EQ(chain.place({{0, 0, 0}, {2e9f, 0, 0}}).status, Status::InvalidInput);
+    const CurveOptions bad[]{{.max_factor = 1.0f},     {.max_factor = nan}, {.up = {nan, 0, 0}},
+                             {.roll_start = nan},      {.weight = 1.5f},    {.weights = one_weight},
+                             {.weights = nan_weights}, {.roll_end = 1e30f}};
+    for (const CurveOptions& options : bad)
+        EXPECT_EQ(chain.place(good, options).status, Status::InvalidInput);
+    Placed long_bone({-1.0f, 0.5f});
+    EXPECT_EQ(long_bone.place(good).status, Status::InvalidInput);
+    Placed no_unit({1.0f, 1.0f}, {{1, 0, 0}, {0.5f, 0, 0}});
+    EXPECT_EQ(no_unit.place(good).status, Status::InvalidInput);
+    EXPECT_EQ(chain.joints, before.joints);
+    EXPECT_EQ(chain.state, before.state);
+    EXPECT_EQ(chain.memory, before.memory);
+}
+
+TEST(IkCurve, needs_no_memory) {
+    Random random(3);
+    const Points points = random_points(random, 8);
+    Placed chain(std::vector<float>(30, 0.1f));
+    CurveReport report;
+    without_memory([&] { report = chain.place(points, {.fit = true}); });
+    EXPECT_NE(report.status, Status::InvalidInput);
+}
+
+}  // namespace
+}  // namespace tendril::test::ik_curve_test
