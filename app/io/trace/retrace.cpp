@@ -229,10 +229,19 @@ PreventedFlip prevent_flip(std::span<const TracedFrame> frames, std::size_t at, 
     return result;
 }
 
-const char* Prevention::title() const {
-    static constexpr std::array titles{"Change the solver", "Move the pole", "Add a soft zone",
-                                       "Add a hinge"};
-    return adds_pole ? "Add a pole target" : titles[static_cast<std::size_t>(kind)];
+std::string Prevention::title() const {
+    switch (kind) {
+        case Kind::Method:
+            return solver_title(solve.method);
+        case Kind::Pole:
+            if (adds_pole) return "Pole target added";
+            return "Pole moved by " + length_text(static_cast<double>(glm::length(solve.pole_by)));
+        case Kind::SoftZone:
+            return "Soft zone of " + fixed_text(static_cast<double>(solve.soft_zone), 2);
+        case Kind::Hinge:
+            break;
+    }
+    return "Hinge at joint " + std::to_string(solve.hinge);
 }
 
 std::string Prevention::text(const Conventions& space) const {

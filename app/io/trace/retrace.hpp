@@ -69,7 +69,7 @@ struct Prevention {
     std::optional<glm::vec3> pole{};  ///< where the pole target then is, in the flip's frame
     bool adds_pole = false;           ///< the trace has none
 
-    const char* title() const;  ///< of a button: "Move the pole"
+    std::string title() const;  ///< "Pole moved by 42.0 mm"
     /// "moving the pole target by 42 mm, to (30.0, -50.0, 140.0)": the place as the file has it.
     std::string text(const Conventions& space) const;
 };

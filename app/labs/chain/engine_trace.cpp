@@ -76,21 +76,27 @@ void hold_finite(std::vector<TracedFrame>& frames) {
     }
 }
 
-/// Finds the incidents of the whole trace, and keeps the frames from `from` on or, without it, around the
-/// first incident.
-void read_frames(ShownTrace& trace, const std::string& chain, std::optional<std::uint64_t> from) {
-    {
-        const auto in = open_source(trace);
-        TraceReader reader(*in, trace.choice);
-        TraceFindings findings = find_incidents(reader);
-        const TraceFindings::Chain& chosen = chosen_chain(findings, chain);
-        trace.chain = chosen.name;
-        trace.all = chosen.frames;
-        trace.incidents = chosen.incidents;
-        trace.conventions = reader.conventions();
-        trace.bones = reader.header().bones;
-        trace.notes = reader.notes();
-    }
+/// Finds the incidents of the whole trace.
+void find_all(ShownTrace& trace, const std::string& chain) {
+    const auto in = open_source(trace);
+    TraceReader reader(*in, trace.choice);
+    const TraceFindings findings = find_incidents(reader);
+    const TraceFindings::Chain& chosen = chosen_chain(findings, chain);
+    trace.chain = chosen.name;
+    trace.all = chosen.frames;
+    trace.incidents = chosen.incidents;
+    trace.conventions = reader.conventions();
+    trace.bones = reader.header().bones;
+    trace.notes = reader.notes();
+    TraceView& view = trace.view;
+    view.up = trace.conventions.up.value;
+    view.handed = trace.conventions.handed.value;
+    view.unit = trace.conventions.unit.value;
+    view.rotations = trace.conventions.rotations.value;
+}
+
+/// Keeps the frames from `from` on or, without it, around the first incident: as many as the strip holds.
+void load_frames(ShownTrace& trace, std::optional<std::uint64_t> from) {
     const std::uint64_t half = Rewind::max_ticks / 2;
     const std::uint64_t first = trace.incidents.empty() ? 0 : trace.incidents.front().frame;
     const std::uint64_t around = trace.all <= Rewind::max_ticks || first < half ? 0 : first - half;
@@ -104,36 +110,20 @@ void read_frames(ShownTrace& trace, const std::string& chain, std::optional<std:
         if (number++ >= begin) trace.frames.push_back(frame);
     }
     hold_finite(trace.frames);
-    TraceView& view = trace.view;
-    view.up = trace.conventions.up.value;
-    view.handed = trace.conventions.handed.value;
-    view.unit = trace.conventions.unit.value;
-    view.rotations = trace.conventions.rotations.value;
-    view.from = static_cast<int>(begin);
-}
-
-Chain chain_of_frame(const TracedFrame& frame) {
-    std::vector<Segment> segments;
-    // As in presets, the root has the length of the first bone.
-    for (std::size_t i = 0; i < frame.joints.size(); ++i) {
-        const std::size_t bone = std::max<std::size_t>(i, 1);
-        segments.push_back({frame.joints[i], glm::distance(frame.joints[bone - 1], frame.joints[bone])});
-    }
-    return require_value(Chain::from_segments(std::move(segments)));
+    trace.view.from = static_cast<int>(begin);
 }
 
 /// A click that shows Tendril's solve with that change.
 Cure cure_of(const Prevention& prevention, const Conventions& space) {
     const TraceSolve& solve = prevention.solve;
-    const std::string text = prevention.text(space);
-    return {prevention.title(),
-            "Runs chain.trace: solves with " + text + ". The ghost then does not flip.",
+    return {"Show",
+            "Runs chain.trace: the ghost is solved with " + prevention.text(space) + ", and does not flip.",
             {{"chain.trace",
               {{"solver", ik::name(solve.method)},
                {"soft_zone", solve.soft_zone},
                {"pole_by", solve.pole_by},
                {"hinge", solve.hinge}}}},
-            capitalised(text)};
+            prevention.title()};
 }
 
 /// For the strip: between the moment before its frame and that one.
@@ -172,7 +162,7 @@ class Moments {
         for (const TracedFrame& frame : trace->frames) {
             auto part = std::make_shared<ChainPart>(first_chain());
             part->mode = ChainMode::Reach;
-            part->chain = chain_of_frame(frame);
+            part->chain = chain_through(frame.joints);
             part->target = frame.goal();
             part->reach.method = solve.method;
             part->reach.soft_zone = solve.soft_zone;
@@ -209,11 +199,26 @@ std::string shown_text(const ShownTrace& trace, std::size_t shown) {
     return found == trace.incidents.end() ? said : said + ". " + capitalised(found->text(trace.bones));
 }
 
-/// Puts the trace on the strip. The same frames stay at the moment that is shown.
+/// The first flip of the frames that are shown or, without one, the first incident.
+const TracedIncident* first_shown(const ShownTrace& trace) {
+    const TracedIncident* first = nullptr;
+    const auto from = static_cast<std::uint64_t>(trace.view.from);
+    for (const TracedIncident& each : trace.incidents) {
+        if (each.frame < from || each.frame >= from + trace.frames.size()) continue;
+        if (each.kind == ik::IncidentKind::Flip) return &each;
+        if (first == nullptr) first = &each;
+    }
+    return first;
+}
+
+/// Puts the trace on the strip, and shows where it first goes wrong. The same frames stay where they are.
 void show_trace(Workspace& workspace, const std::shared_ptr<const ShownTrace>& trace, bool same_frames) {
     Moments moments(trace);
     const std::uint64_t last = moments.all.size() - 1;
-    const std::uint64_t at = same_frames ? std::min<std::uint64_t>(workspace.moment, last) : last;
+    const TracedIncident* const wrong = first_shown(*trace);
+    const std::uint64_t at = same_frames ? std::min<std::uint64_t>(workspace.moment, last)
+                             : wrong     ? wrong->frame - static_cast<std::uint64_t>(trace->view.from)
+                                         : last;
     workspace.open_lab(chain_lab);
     ++workspace.beginnings;  // the strip holds the trace, not what was before it
     workspace.rewind.clear();
@@ -236,6 +241,10 @@ void show_trace(Workspace& workspace, const std::shared_ptr<const ShownTrace>& t
                                .tick = *moments.parted > 0 ? *moments.parted - 1 : 0,
                                .joint = moments.all.front()->chain.size() - 1,
                                .cause = "Tendril's solve goes another way"});
+    if (!same_frames) {
+        workspace.ui.incident.reset();
+        if (wrong != nullptr) workspace.ui.incident = incident_of(*wrong, *trace, moments.all);
+    }
     if (same_frames) {
         const std::string solve = std::string("Tendril's solve, ") + solver_title(trace->view.solver) + ": ";
         workspace.toast(
@@ -279,12 +288,14 @@ void open_trace(Workspace& workspace, const Arguments& given) {
         trace->name = path.empty() ? "Pasted" : std::filesystem::path(path).filename().string();
     }
     set_fields(given, trace->view);
-    const bool reads = take_choice(trace->choice, given) || opens || given.has("chain") || given.has("from");
+    const bool reads = take_choice(trace->choice, given) || opens || given.has("chain");
+    const bool loads = reads || given.has("from");
     try {
         std::optional<std::uint64_t> from;
         if (!opens || given.has("from")) from = static_cast<std::uint64_t>(trace->view.from);
-        if (reads) read_frames(*trace, given.has("chain") ? given.text("chain") : trace->chain, from);
-        show_trace(workspace, trace, !reads);
+        if (reads) find_all(*trace, given.has("chain") ? given.text("chain") : trace->chain);
+        if (loads) load_frames(*trace, from);
+        show_trace(workspace, trace, !loads);
     } catch (const Refused&) {
         throw;
     } catch (const std::exception& error) {
@@ -390,7 +401,15 @@ void trace_rows(const TracedPose& pose, MoreRows& more, Emit& emit) {
     rows.under(more).rows("up", "handed", "unit");
     if (trace.conventions.has_rotations) rows.row("rotations");
     rows.rows("solver", "soft_zone", "pole_by", "hinge");
-    if (trace.all > trace.frames.size()) rows.row("from");
+    if (trace.all <= trace.frames.size()) return;
+    rows.row("from");
+    const auto from = static_cast<std::uint64_t>(trace.view.from);
+    const std::uint64_t page = Rewind::max_ticks / 2, end = from + trace.frames.size();
+    if (row_button("Earlier", 2, from > 0, "Shows the frames before these"))
+        emit("chain.trace", {{"from", from - std::min(from, page)}});
+    if (row_button("Later", 2, end < trace.all, "Shows the frames after these"))
+        emit("chain.trace", {{"from", from + page}});
+    end_row();
 }
 
 void add_trace_commands(CommandTable& table) {
