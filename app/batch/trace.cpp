@@ -19,58 +19,23 @@ namespace tendril::app {
 namespace {
 
 namespace fs = std::filesystem;
-using ik::ChainIncident;
 using ik::IncidentKind;
 
-std::string place_of(const ChainIncident& incident, const TraceHeader& header) {
-    if (incident.joint == ik::no_joint) return {};
-    std::string place = "joint " + std::to_string(incident.joint);
-    if (incident.joint < header.bones.size()) place += " (" + printable(header.bones[incident.joint]) + ")";
-    return place + ", ";
-}
-
-std::string frames_of(const ChainIncident& incident) {
-    std::string text = "frame " + std::to_string(incident.frame);
-    if (incident.last_frame > incident.frame) text += " to " + std::to_string(incident.last_frame);
-    return text;
-}
-
-std::string amount_of(const ChainIncident& incident) {
-    char text[80];
-    const double amount = incident.amount;
-    switch (incident.kind) {
-        case IncidentKind::Flip:
-            std::snprintf(text, sizeof text, "turned %.0f degrees", amount);
-            return text;
-        case IncidentKind::Limit:
-            std::snprintf(text, sizeof text, "%.1f degrees beyond its limit", amount);
-            return text;
-        case IncidentKind::Length:
-            std::snprintf(text, sizeof text, "%.3g mm %s", 1000.0 * std::abs(amount),
-                          amount < 0.0 ? "shorter" : "longer");
-            return text;
-        case IncidentKind::Jitter:
-            std::snprintf(text, sizeof text, "%.3g mm to either side, %.3g Hz", 1000.0 * amount,
-                          incident.hertz);
-            return text;
-        case IncidentKind::Lag:
-            std::snprintf(text, sizeof text, "%.0f frame%s late", amount, amount == 1.0 ? "" : "s");
-            return text;
-        case IncidentKind::Missed:
-            std::snprintf(text, sizeof text, "%.3g mm short", 1000.0 * amount);
-            return text;
-        case IncidentKind::TargetJump:
-            std::snprintf(text, sizeof text, "%.3g m", amount);
-            return text;
-        case IncidentKind::Repeated:
-            return "drawn twice";
-        case IncidentKind::Nan:
-            break;
+/// What would have prevented a flip; places as the file has them.
+Json prevention_json(const Prevention& prevention, const Conventions& space) {
+    const TraceSolve& solve = prevention.solve;
+    Json json{{"change", prevention_names[static_cast<std::size_t>(prevention.kind)]},
+              {"solver", ik::name(solve.method)}};
+    if (prevention.pole) {
+        const glm::dvec3 to = space.written(*prevention.pole);
+        json["to"] = {to.x, to.y, to.z};
     }
-    return "not a number";
+    if (solve.soft_zone > 0.0f) json["soft_zone"] = number(solve.soft_zone);
+    if (solve.hinge > 0) json["joint"] = solve.hinge;
+    return json;
 }
 
-Json incident_json(const ChainIncident& incident, const std::string& chain) {
+Json incident_json(const TracedIncident& incident, const std::string& chain, const Conventions& space) {
     Json json{{"frame", incident.frame},
               {"last_frame", incident.last_frame},
               {"joint", incident.joint == ik::no_joint ? Json() : Json(incident.joint)},
@@ -79,11 +44,18 @@ Json incident_json(const ChainIncident& incident, const std::string& chain) {
               {"unit", ik::unit(incident.kind)},
               {"cause", incident.cause}};
     if (incident.kind == IncidentKind::Jitter) json["hertz"] = incident.hertz;
+    if (incident.prevented.tried) {
+        const auto& flips_in = incident.prevented.flips_in;
+        json["flips_in"] = flips_in ? Json(ik::name(*flips_in)) : Json();
+        json["prevented_by"] = Json::array();
+        for (const Prevention& each : incident.prevented.by)
+            json["prevented_by"].push_back(prevention_json(each, space));
+    }
     if (!chain.empty()) json["chain"] = chain;
     return json;
 }
 
-std::string csv_row(const ChainIncident& incident, const std::string& chain) {
+std::string csv_row(const TracedIncident& incident, const std::string& chain) {
     char amount[40] = "";
     if (incident.kind != IncidentKind::Nan) std::snprintf(amount, sizeof amount, "%.9g", incident.amount);
     const std::string joint = incident.joint == ik::no_joint ? "" : std::to_string(incident.joint);
@@ -95,9 +67,12 @@ std::string csv_row(const ChainIncident& incident, const std::string& chain) {
 void print_lines(const TraceFindings& findings, const TraceReader& reader, Output& out) {
     for (const auto& chain : findings.chains) {
         const std::string name = chain.name.empty() ? "" : printable(chain.name) + ": ";
-        for (const ChainIncident& each : chain.incidents)
-            out.write(name + frames_of(each) + ": " + ik::name(each.kind) + ", " +
-                      place_of(each, reader.header()) + amount_of(each) + ": " + each.cause + '\n');
+        for (const TracedIncident& each : chain.incidents) {
+            out.write(name + each.text(reader.header().bones) + '\n');
+            if (each.prevented.tried) out.write("  " + each.prevented.text() + '\n');
+            for (const Prevention& change : each.prevented.by)
+                out.write("  prevented by: " + change.text(reader.conventions()) + '\n');
+        }
         if (chain.left_off > 0)
             out.write(name + count_text(chain.left_off, "more incident") + " not listed\n");
     }
@@ -133,8 +108,8 @@ std::size_t run_trace(const TraceOptions& options) {
         if (options.csv) out.write("chain,frame,last_frame,joint,kind,amount,unit,cause\n");
         for (const auto& chain : findings.chains) {
             frames += chain.frames;
-            for (const ChainIncident& each : chain.incidents) {
-                if (options.json) list.push_back(incident_json(each, chain.name));
+            for (const TracedIncident& each : chain.incidents) {
+                if (options.json) list.push_back(incident_json(each, chain.name, reader.conventions()));
                 if (options.csv) out.write(csv_row(each, chain.name));
             }
         }
@@ -173,6 +148,11 @@ amount and cause; with --json one array:
   [{"frame", "last_frame", "joint", "kind": "flip" | "nan" | "length" | "limit" |
     "missed" | "lag" | "jitter" | "repeated" | "target_jump", "amount", "unit",
     "cause"}]
+A flip also has what would have prevented it: the smallest changes under which
+Tendril's solve of the same input has none, each tried, and the solver that flips
+without them:
+  "flips_in": "two_bone", "prevented_by": [{"change": "pole" | "soft_zone" |
+    "hinge" | "method", "solver", "to": [x, y, z], "soft_zone", "joint"}]
 Files of any length are read as a stream. What is damaged is refused with its line,
 or, after the first frames, read up to it.
 Exit code 0: nothing was found; 1: something was; 2: the file cannot be read.

@@ -86,12 +86,14 @@ void CommandTable::run(Workspace& workspace, std::string_view name, const Json& 
     if (workspace.document == before && workspace.path == from.path) return;
     if (command->effect == Effect::Replace) return;
     if (command->effect == Effect::Edit) {
-        workspace.discard_later(before.parts().at(workspace.lab));
-        if (const auto& part = before.parts().at(workspace.lab);
-            beginnings == workspace.beginnings && part != workspace.document.parts().at(workspace.lab))
-            workspace.rewind.begin_change(workspace.edition, part);
+        if (beginnings == workspace.beginnings) {  // else the command has made the past itself
+            const auto& part = before.parts().at(workspace.lab);
+            workspace.discard_later(part);
+            if (part != workspace.document.parts().at(workspace.lab))
+                workspace.rewind.begin_change(workspace.edition, part);
+            workspace.ui.incident.reset();
+        }
         workspace.begin_edition();
-        workspace.ui.incident.reset();
         workspace.clock.replaying = false;
         remember(workspace, before.without(workspace.document), *command, gesture, from);
     } else if (!modified) {

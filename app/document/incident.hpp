@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +18,7 @@ struct Cure {
     std::string title;               ///< of the button
     std::string help;                ///< its tooltip
     std::vector<CommandCall> calls;  ///< one step to undo
+    std::string text{};              ///< stands before the button, cut where room ends; may be empty
 };
 
 struct Incident {
@@ -35,7 +35,7 @@ struct Incident {
     float degrees = 0.0f;          ///< a flip: how far a bone at the joint turned; a limit: its angle; else 0
     std::string cause;             ///< for display: "the chain was straight (collinear)"
     std::string cure{};            ///< for display, a sentence; empty if there is none
-    std::optional<Cure> button{};  ///< applies it, where commands can
+    std::vector<Cure> buttons{};   ///< apply it, where commands can
 };
 
 /// As written by --state.

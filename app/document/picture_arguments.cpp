@@ -35,13 +35,13 @@ void set_look(const Arguments& given, PictureLook& look) {
     if (given.has("labels")) look.labels = given.boolean("labels");
 }
 
-std::filesystem::path new_picture(const Workspace& workspace, const std::string& what) {
+std::filesystem::path new_file(const Workspace& workspace, const std::string& what, const char* extension) {
     if (!workspace.names_pictures) throw Refused("path is missing");
     std::string stem = workspace.path.empty() ? "tendril" : workspace.path.stem().string();
     if (!what.empty()) stem += "-" + what;
     for (int i = 1;; ++i) {
         const std::filesystem::path path =
-            workspace.path.parent_path() / (stem + "-" + std::to_string(i) + ".png");
+            workspace.path.parent_path() / (stem + "-" + std::to_string(i) + extension);
         std::error_code ignored;
         if (!std::filesystem::exists(path, ignored)) return path;
     }

@@ -17,6 +17,7 @@ void set_look(const Arguments& given, PictureLook& look);
 /// An unused name beside the scene's file, or in the working directory: "arm-1.png"; of something else than
 /// the view, with `what`: "arm-race-1.png". Throws Refused outside a window, where a script has to give the
 /// path.
-std::filesystem::path new_picture(const Workspace& workspace, const std::string& what = {});
+std::filesystem::path new_file(const Workspace& workspace, const std::string& what = {},
+                               const char* extension = ".png");
 
 }  // namespace tendril::app

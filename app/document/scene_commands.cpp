@@ -144,7 +144,7 @@ void add_picture_command(CommandTable& table) {
                .effect = Effect::Look,
                .apply = [](Workspace& w, const Arguments& a) {
                    PictureRequest wanted;
-                   wanted.path = a.has("path") ? std::filesystem::path(a.text("path")) : new_picture(w);
+                   wanted.path = a.has("path") ? std::filesystem::path(a.text("path")) : new_file(w);
                    if (wanted.path.extension() != ".png")
                        throw Refused("path must end in .png, got " + wanted.path.string());
                    set_look(a, wanted);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
@@ -10,6 +9,7 @@
 #include <utility>
 
 #include "app/document/text.hpp"
+#include "app/io/trace/raw.hpp"
 
 namespace tendril::app {
 namespace {
@@ -125,16 +125,13 @@ class PointReader {
 
     void take_number() {
         std::string_view rest = text_.substr(at_);
-        if (rest.starts_with('+')) rest.remove_prefix(1);
-        double value = 0.0;
-        const auto [stop, error] = std::from_chars(rest.data(), rest.data() + rest.size(), value);
-        auto end = static_cast<std::size_t>(stop - text_.data());
-        if (end < text_.size() && (text_[end] == 'f' || text_[end] == 'F')) ++end;
+        const auto value = app::take_number(rest);
+        const std::size_t end = text_.size() - rest.size();
         const bool whole = end >= text_.size() || text_[end] == '\n' || separates(text_[end]) ||
                            text_[end] == ')' || text_[end] == ']' || text_[end] == '}';
-        if (error != std::errc() || !whole || !(std::abs(value) <= farthest_point))
+        if (!value || !whole || !(std::abs(*value) <= farthest_point))
             fail("expected a number from -1e9 to 1e9, found " + found());
-        add(value);
+        add(*value);
         at_ = end;
     }
 

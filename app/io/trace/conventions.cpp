@@ -168,6 +168,30 @@ glm::vec3 Conventions::point(const glm::dvec3& p) const {
     return glm::vec3(turned);
 }
 
+glm::dvec3 Conventions::written(glm::vec3 p) const {
+    glm::dvec3 turned(p);
+    const bool left = handed.value == TraceHand::Left;
+    if (up.value == TraceUp::Z)
+        turned = {turned.x, left ? turned.z : -turned.z, turned.y};
+    else if (left)
+        turned.z = -turned.z;
+    return turned / metres();
+}
+
+glm::quat Conventions::rotation(const glm::dvec4& r) const {
+    const bool first = rotations.value == QuaternionOrder::Wxyz;
+    glm::dvec3 axis = first ? glm::dvec3(r.y, r.z, r.w) : glm::dvec3(r.x, r.y, r.z);
+    const bool left = handed.value == TraceHand::Left;
+    // As points are turned; a mirror also turns the other way round.
+    if (up.value == TraceUp::Z)
+        axis = {axis.x, axis.z, left ? axis.y : -axis.y};
+    else if (left)
+        axis.z = -axis.z;
+    if (left) axis = -axis;
+    const glm::dquat turned(first ? r.x : r.w, axis);
+    return glm::quat(turned / glm::length(turned));
+}
+
 std::string Conventions::text() const {
     std::string result, reason;
     const auto add = [&](const char* title, bool sure, const std::string& why) {

@@ -2,6 +2,7 @@
 // Y up, in metres.
 #pragma once
 
+#include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 #include <span>
 #include <string>
@@ -41,6 +42,10 @@ struct Conventions {
 
     /// Metres, right-handed, Y up. NaN stays NaN; what no float holds becomes infinite.
     glm::vec3 point(const glm::dvec3& p) const;
+    /// The inverse: as the file would have it.
+    glm::dvec3 written(glm::vec3 p) const;
+    /// A quaternion as it is written. Not a number stays so.
+    glm::quat rotation(const glm::dvec4& r) const;
     double metres() const;  ///< that one unit is
     /// "Z up, left-handed, centimetres (as Unreal has it)", with "not sure" where that is so.
     std::string text() const;

@@ -2,17 +2,72 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <stdexcept>
 #include <utility>
 
 #include "app/document/text.hpp"
+#include "app/document/units.hpp"
 
 namespace tendril::app {
 namespace {
 
 constexpr std::size_t frames_to_guess_from = 64;
 
+std::string place_of(const ik::ChainIncident& incident, const std::vector<std::string>& bones) {
+    if (incident.joint == ik::no_joint) return {};
+    std::string place = "joint " + std::to_string(incident.joint);
+    if (incident.joint < bones.size()) place += " (" + printable(bones[incident.joint]) + ")";
+    return place + ", ";
+}
+
+std::string frames_of(const ik::ChainIncident& incident) {
+    std::string text = "frame " + std::to_string(incident.frame);
+    if (incident.last_frame > incident.frame) text += " to " + std::to_string(incident.last_frame);
+    return text;
+}
+
+std::string amount_of(const ik::ChainIncident& incident) {
+    char text[80];
+    const double amount = incident.amount;
+    switch (incident.kind) {
+        case ik::IncidentKind::Flip:
+            std::snprintf(text, sizeof text, "turned %.0f degrees", amount);
+            return text;
+        case ik::IncidentKind::Limit:
+            std::snprintf(text, sizeof text, "%.1f degrees beyond its limit", amount);
+            return text;
+        case ik::IncidentKind::Length:
+            std::snprintf(text, sizeof text, "%.3g mm %s", 1000.0 * std::abs(amount),
+                          amount < 0.0 ? "shorter" : "longer");
+            return text;
+        case ik::IncidentKind::Jitter:
+            std::snprintf(text, sizeof text, "%.3g mm to either side, %.3g Hz", 1000.0 * amount,
+                          incident.hertz);
+            return text;
+        case ik::IncidentKind::Lag:
+            std::snprintf(text, sizeof text, "%.0f frame%s late", amount, amount == 1.0 ? "" : "s");
+            return text;
+        case ik::IncidentKind::Missed:
+            std::snprintf(text, sizeof text, "%.3g mm short", 1000.0 * amount);
+            return text;
+        case ik::IncidentKind::TargetJump:
+            std::snprintf(text, sizeof text, "%.3g m", amount);
+            return text;
+        case ik::IncidentKind::Repeated:
+            return "drawn twice";
+        case ik::IncidentKind::Nan:
+            break;
+    }
+    return "not a number";
+}
+
 }  // namespace
+
+std::string TracedIncident::text(const std::vector<std::string>& bones) const {
+    return frames_of(*this) + ": " + ik::name(kind) + ", " + place_of(*this, bones) + amount_of(*this) +
+           ": " + cause;
+}
 
 TraceReader::TraceReader(std::istream& in, const ConventionChoice& choice, std::optional<double> fps)
     : raw_(open_raw_trace(in)) {
@@ -98,6 +153,8 @@ bool TraceReader::next(TracedFrame& frame) {
     };
     frame.target = point(raw.target);
     frame.pole = point(raw.pole);
+    frame.rotations.clear();
+    for (const glm::dvec4& each : raw.rotations) frame.rotations.push_back(conventions_.rotation(each));
     frame.dt = raw.dt ? std::optional(static_cast<float>(*raw.dt)) : std::nullopt;
     return true;
 }
@@ -108,31 +165,87 @@ std::size_t TraceFindings::count() const {
     return total;
 }
 
+namespace {
+
+/// Finds the incidents of one chain, and tries what would have prevented its flips as soon as the frames
+/// after one are there.
+class ChainTrial {
+  public:
+    ChainTrial(std::string name, ik::IncidentOptions options)
+        : name_(std::move(name)), finder_(std::move(options)) {}
+
+    const std::string& name() const { return name_; }
+
+    void add(const TracedFrame& frame, std::size_t& joints_of_tries) {
+        finder_.add({.joints = frame.joints,
+                     .target = frame.target,
+                     .pole = frame.pole,
+                     .rotations = frame.rotations,
+                     .dt = frame.dt});
+        latest_.push_back(frame);
+        if (latest_.size() > frames_before_flip + frames_after_flip + 1) latest_.pop_front();
+        for (; seen_ < finder_.incidents().size(); ++seen_)
+            if (const ik::ChainIncident& each = finder_.incidents()[seen_];
+                each.kind == ik::IncidentKind::Flip && each.flip != ik::FlipCause::Rolled)
+                waiting_.push_back(each);
+        if (!waiting_.empty() && waiting_.front().frame + frames_after_flip < finder_.frames())
+            try_next(joints_of_tries);
+    }
+
+    TraceFindings::Chain finish(std::size_t& joints_of_tries) {
+        while (!waiting_.empty()) try_next(joints_of_tries);
+        finder_.finish();
+        TraceFindings::Chain chain{name_, {}, finder_.frames(), finder_.left_off()};
+        for (const ik::ChainIncident& each : finder_.incidents()) {
+            chain.incidents.push_back({each, {}});
+            const auto tried = tried_.find(each.frame);
+            if (each.kind == ik::IncidentKind::Flip && tried != tried_.end())
+                chain.incidents.back().prevented = std::move(tried->second);
+        }
+        return chain;
+    }
+
+  private:
+    void try_next(std::size_t& joints_of_tries) {
+        const ik::ChainIncident flip = waiting_.front();
+        waiting_.pop_front();
+        const std::uint64_t oldest = finder_.frames() - latest_.size();
+        const std::uint64_t first =
+            std::max(oldest, flip.frame < frames_before_flip ? 0 : flip.frame - frames_before_flip);
+        const std::vector<TracedFrame> frames(latest_.begin() + static_cast<std::ptrdiff_t>(first - oldest),
+                                              latest_.end());
+        if (joints_of_tries + frames.front().joints.size() > max_joints_of_tries) return;
+        joints_of_tries += frames.front().joints.size();
+        tried_[flip.frame] = prevent_flip(frames, static_cast<std::size_t>(flip.frame - first), flip.joint);
+    }
+
+    std::string name_;
+    ik::IncidentFinder finder_;
+    std::deque<TracedFrame> latest_;
+    std::deque<ik::ChainIncident> waiting_;  ///< flips whose later frames are still to come
+    std::size_t seen_ = 0;
+    std::map<std::uint64_t, PreventedFlip> tried_;  ///< by frame
+};
+
+}  // namespace
+
 TraceFindings find_incidents(TraceReader& reader, const std::function<void()>& progress) {
-    struct Running {
-        std::string name;
-        ik::IncidentFinder finder;
-    };
-    std::vector<Running> running;
+    std::vector<ChainTrial> running;
+    std::size_t joints_of_tries = 0;
     TracedFrame frame;
     while (reader.next(frame)) {
-        auto chain = std::ranges::find(running, frame.chain, &Running::name);
+        auto chain = std::ranges::find(running, frame.chain, &ChainTrial::name);
         if (chain == running.end()) {
-            running.push_back({frame.chain, ik::IncidentFinder({.resolution = reader.resolution(),
-                                                                .fps = static_cast<float>(reader.fps()),
-                                                                .limits = reader.header().limits})});
+            running.emplace_back(frame.chain, ik::IncidentOptions{.resolution = reader.resolution(),
+                                                                  .fps = static_cast<float>(reader.fps()),
+                                                                  .limits = reader.header().limits});
             chain = running.end() - 1;
         }
-        chain->finder.add(
-            {.joints = frame.joints, .target = frame.target, .pole = frame.pole, .dt = frame.dt});
+        chain->add(frame, joints_of_tries);
         if (progress) progress();
     }
     TraceFindings findings;
-    for (Running& each : running) {
-        each.finder.finish();
-        findings.chains.push_back(
-            {each.name, each.finder.incidents(), each.finder.frames(), each.finder.left_off()});
-    }
+    for (ChainTrial& each : running) findings.chains.push_back(each.finish(joints_of_tries));
     return findings;
 }
 

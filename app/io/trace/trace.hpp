@@ -21,17 +21,9 @@
 
 #include "app/io/trace/conventions.hpp"
 #include "app/io/trace/raw.hpp"
+#include "app/io/trace/retrace.hpp"
 
 namespace tendril::app {
-
-/// A frame of one chain in metres, right-handed, Y up.
-struct TracedFrame {
-    std::string chain;  ///< empty if it has no name
-    std::vector<glm::vec3> joints;
-    std::optional<glm::vec3> target, pole;
-    std::optional<float> dt;
-    std::size_t line = 0;
-};
 
 class TraceReader {
   public:
@@ -66,11 +58,19 @@ class TraceReader {
     bool fps_known_ = false, damaged_ = false;
 };
 
+struct TracedIncident : ik::ChainIncident {
+    PreventedFlip prevented{};  ///< of a flip
+
+    /// "frame 60: flip, joint 1 (elbow), turned 128 degrees: the target's line passed the pole". Bones as in
+    /// the header; may be empty.
+    std::string text(const std::vector<std::string>& bones) const;
+};
+
 /// What was found in a trace, chain by chain.
 struct TraceFindings {
     struct Chain {
         std::string name;  ///< empty if it has none
-        std::vector<ik::ChainIncident> incidents;
+        std::vector<TracedIncident> incidents;
         std::uint64_t frames = 0, left_off = 0;
     };
     std::vector<Chain> chains;

@@ -205,8 +205,8 @@ std::vector<LegendRow> ChainLab::legend(const Workspace& workspace) const {
             {"selection", colours.selection, true}};
     if (shown.trace) rows.push_back({"this step", colours.accent, true});
     if (shown.trace) rows.push_back({"start, earlier iterations", colours.ghost});
-    if (traced_ghost(part) != nullptr)
-        rows.push_back({"Tendril's solve", solver_colour(colours, part.reach.method)});
+    if (const TracedPose* const pose = traced_pose(part))
+        rows.push_back({"Tendril's solve", solver_colour(colours, traced_method(*pose))});
     if (workspace.ui.incident) rows.push_back({"before it happened", colours.ghost});
     if (!part.study.open() && chain_past().shows_ghosts(workspace.settings))
         rows.push_back({ghost_legend, colours.ghost});

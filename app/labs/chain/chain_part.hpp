@@ -34,9 +34,11 @@ inline constexpr EnumNames<ChainPoint, 2> chain_points{
 inline constexpr FlipWords chain_flip_words{"chain.flips", "target", "the target, as the root sees it,",
                                             "reach", "the chain's reach"};
 
-/// A frame of an engine's trace, and what the lab's solver makes of the same input. As many joints in both.
+struct ShownTrace;
+/// A frame of an engine's trace, and what Tendril's solver makes of the same input. As many joints in both.
 struct TracedPose {
     std::vector<glm::vec3> joints, ghost;
+    std::shared_ptr<const ShownTrace> trace{};
 };
 
 struct ChainPart final : Part {

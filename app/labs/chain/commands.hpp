@@ -39,6 +39,8 @@ std::vector<std::size_t> joints_to_set(const Arguments& given, const ChainPart& 
 
 /// Pulls joints, ascending and without duplicates, as chain.pull does.
 void pull_joints(ChainPart& part, const std::vector<JointPull>& pulls, ChainRuntime& runtime);
+/// A chain with its joints there.
+Chain chain_through(const std::vector<glm::vec3>& points);
 /// Replaces the chain, with the target on its tail or, in a trailing mode, on the joint that the mode leads.
 /// Removes limits and the pole target.
 void take_chain(ChainPart& part, Chain chain);

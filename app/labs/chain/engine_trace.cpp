@@ -1,24 +1,31 @@
 #include "app/labs/chain/engine_trace.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <glm/geometric.hpp>
 #include <memory>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
+#include "app/document/atomic_file.hpp"
+#include "app/document/json_complete.hpp"
+#include "app/document/picture_arguments.hpp"
 #include "app/document/text.hpp"
 #include "app/document/units.hpp"
-#include "app/io/trace/trace.hpp"
+#include "app/fields/field_rows.hpp"
+#include "app/io/solver_text.hpp"
 #include "app/labs/chain/chain_lab.hpp"
-#include "app/labs/chain/chain_runtime.hpp"
 #include "app/labs/chain/commands.hpp"
-#include "app/labs/chain/cures.hpp"
 #include "app/labs/chain/draw.hpp"
+#include "app/labs/kit/flips.hpp"
+#include "app/widgets/fields.hpp"
 
 namespace tendril::app {
 namespace {
@@ -26,27 +33,14 @@ namespace {
 /// The ghost and the chain have parted company: of the reach.
 constexpr float parted_share = 0.05f;
 
-/// The frames that the strip can hold, in metres, and what was found in them.
-struct TracedWindow {
-    std::vector<TracedFrame> frames;
-    std::uint64_t first = 0;  ///< number of frames.front()
-    std::uint64_t all = 0;    ///< frames of this chain in the file
-    std::vector<ik::ChainIncident> incidents;
-    std::string chain, understood;
-    std::vector<std::string> notes;
-};
+constexpr std::uint64_t max_from = 2'000'000'000;
 
-struct TraceSource {
-    std::string path, text;  ///< a file, or pasted text
-    ConventionChoice choice;
-
-    std::unique_ptr<std::istream> open() const {
-        if (path.empty()) return std::make_unique<std::istringstream>(text);
-        auto file = std::make_unique<std::ifstream>(path, std::ios::binary);
-        if (!*file) throw Refused(path + ": cannot be read");
-        return file;
-    }
-};
+std::unique_ptr<std::istream> open_source(const ShownTrace& trace) {
+    if (trace.path.empty()) return std::make_unique<std::istringstream>(trace.text);
+    auto file = std::make_unique<std::ifstream>(trace.path, std::ios::binary);
+    if (!*file) throw Refused(trace.path + ": cannot be read");
+    return file;
+}
 
 /// The chain with that name or, without one, the first in which something was found.
 const TraceFindings::Chain& chosen_chain(const TraceFindings& findings, const std::string& name) {
@@ -61,35 +55,6 @@ const TraceFindings::Chain& chosen_chain(const TraceFindings& findings, const st
         names += (names.empty() ? "" : ", ") + each.name;
     }
     throw Refused("chain: the trace has no \"" + name + "\"; it has " + names);
-}
-
-TracedWindow read_window(const TraceSource& source, const std::string& chain,
-                         std::optional<std::uint64_t> from) {
-    TracedWindow window;
-    {
-        const auto in = source.open();
-        TraceReader reader(*in, source.choice);
-        const TraceFindings findings = find_incidents(reader);
-        const TraceFindings::Chain& chosen = chosen_chain(findings, chain);
-        window.chain = chosen.name;
-        window.all = chosen.frames;
-        window.incidents = chosen.incidents;
-        window.understood = reader.conventions().text();
-        window.notes = reader.notes();
-    }
-    // A long trace is shown around the first incident.
-    const std::uint64_t half = Rewind::max_ticks / 2;
-    const std::uint64_t first = window.incidents.empty() ? 0 : window.incidents.front().frame;
-    const std::uint64_t around = window.all <= Rewind::max_ticks || first < half ? 0 : first - half;
-    window.first = std::min(from.value_or(around), window.all - 1);
-    const auto in = source.open();
-    TraceReader reader(*in, source.choice);
-    TracedFrame frame;
-    for (std::uint64_t number = 0; window.frames.size() < Rewind::max_ticks && reader.next(frame);) {
-        if (frame.chain != window.chain) continue;
-        if (number++ >= window.first) window.frames.push_back(frame);
-    }
-    return window;
 }
 
 bool all_finite(const std::vector<glm::vec3>& points) {
@@ -111,58 +76,61 @@ void hold_finite(std::vector<TracedFrame>& frames) {
     }
 }
 
-Chain chain_of_frame(const TracedFrame& frame) {
-    std::vector<Segment> segments;
-    // As in presets, the root has the length of the first bone.
-    for (std::size_t i = 0; i < frame.joints.size(); ++i) {
-        const std::size_t bone = std::max<std::size_t>(i, 1);
-        segments.push_back({frame.joints[i], glm::distance(frame.joints[bone - 1], frame.joints[bone])});
-    }
-    return require_value(Chain::from_segments(std::move(segments)));
+/// Finds the incidents of the whole trace.
+void find_all(ShownTrace& trace, const std::string& chain) {
+    const auto in = open_source(trace);
+    TraceReader reader(*in, trace.choice);
+    const TraceFindings findings = find_incidents(reader);
+    const TraceFindings::Chain& chosen = chosen_chain(findings, chain);
+    trace.chain = chosen.name;
+    trace.all = chosen.frames;
+    trace.incidents = chosen.incidents;
+    trace.conventions = reader.conventions();
+    trace.bones = reader.header().bones;
+    trace.notes = reader.notes();
+    TraceView& view = trace.view;
+    view.up = trace.conventions.up.value;
+    view.handed = trace.conventions.handed.value;
+    view.unit = trace.conventions.unit.value;
+    view.rotations = trace.conventions.rotations.value;
 }
 
-/// The lab's solver, led through the frames from the first one's pose.
-class Ghost {
-  public:
-    Ghost(const ChainPart& like, ChainRuntime& runtime) : part_(like), runtime_(runtime) {}
-
-    std::vector<glm::vec3> follow(const TracedFrame& frame) {
-        if (!begun_) part_.chain = chain_of_frame(frame);
-        begun_ = true;
-        const glm::vec3 by = frame.joints.front() - part_.chain.position(0);
-        if (by != glm::vec3(0.0f)) {
-            std::vector<glm::vec3> moved = positions(part_.chain);
-            for (glm::vec3& joint : moved) joint += by;
-            require_ok(part_.chain.set_positions(moved));
-        }
-        part_.reach.pole = frame.pole;
-        reach_for(part_, frame.target.value_or(frame.joints.back()), runtime_);
-        return positions(part_.chain);
+/// Keeps the frames from `from` on or, without it, around the first incident: as many as the strip holds.
+void load_frames(ShownTrace& trace, std::optional<std::uint64_t> from) {
+    const std::uint64_t half = Rewind::max_ticks / 2;
+    const std::uint64_t first = trace.incidents.empty() ? 0 : trace.incidents.front().frame;
+    const std::uint64_t around = trace.all <= Rewind::max_ticks || first < half ? 0 : first - half;
+    const std::uint64_t begin = std::min({from.value_or(around), trace.all - 1, max_from});
+    const auto in = open_source(trace);
+    TraceReader reader(*in, trace.choice);
+    TracedFrame frame;
+    trace.frames.clear();
+    for (std::uint64_t number = 0; trace.frames.size() < Rewind::max_ticks && reader.next(frame);) {
+        if (frame.chain != trace.chain) continue;
+        if (number++ >= begin) trace.frames.push_back(frame);
     }
+    hold_finite(trace.frames);
+    trace.view.from = static_cast<int>(begin);
+}
 
-  private:
-    ChainPart part_;
-    ChainRuntime& runtime_;
-    bool begun_ = false;
-};
-
-/// "frame 60: flip, turned 128 degrees: the target's line passed the pole"
-std::string told(const ik::ChainIncident& incident) {
-    std::string text = "frame " + std::to_string(incident.frame) + ": ";
-    text += incident.kind == ik::IncidentKind::TargetJump ? "target jump" : ik::name(incident.kind);
-    const std::string unit = ik::unit(incident.kind);
-    if (unit == "metres") text += ", " + fixed_text(1000.0 * incident.amount, 1) + " mm";
-    if (unit == "degrees") text += ", " + fixed_text(incident.amount, 0) + " degrees";
-    if (unit == "frames") text += ", " + count_text(static_cast<std::size_t>(incident.amount), "frame");
-    return text + ": " + incident.cause;
+/// A click that shows Tendril's solve with that change.
+Cure cure_of(const Prevention& prevention, const Conventions& space) {
+    const TraceSolve& solve = prevention.solve;
+    return {"Show",
+            "Runs chain.trace: the ghost is solved with " + prevention.text(space) + ", and does not flip.",
+            {{"chain.trace",
+              {{"solver", ik::name(solve.method)},
+               {"soft_zone", solve.soft_zone},
+               {"pole_by", solve.pole_by},
+               {"hinge", solve.hinge}}}},
+            prevention.title()};
 }
 
 /// For the strip: between the moment before its frame and that one.
-Incident incident_of(const ik::ChainIncident& found, std::uint64_t first,
+Incident incident_of(const TracedIncident& found, const ShownTrace& trace,
                      const std::vector<std::shared_ptr<const ChainPart>>& moments) {
-    const std::uint64_t at = found.frame - first;
+    const std::uint64_t at = found.frame - static_cast<std::uint64_t>(trace.view.from);
     const ChainPart& after = *moments[at];
-    const ChainPart& before = *moments[at > 0 ? at - 1 : 0];
     Incident incident{.kind = found.kind == ik::IncidentKind::Flip    ? Incident::Kind::Flip
                               : found.kind == ik::IncidentKind::Limit ? Incident::Kind::Limit
                                                                       : Incident::Kind::Status,
@@ -171,98 +139,210 @@ Incident incident_of(const ik::ChainIncident& found, std::uint64_t first,
                       .degrees = static_cast<float>(std::abs(found.amount)),
                       .cause = found.cause};
     if (found.kind != ik::IncidentKind::Flip) {
-        incident.cause = told(found);
+        incident.cause = found.text(trace.bones);
         if (found.kind != ik::IncidentKind::Limit) incident.degrees = 0.0f;
         return incident;
     }
-    const FlipAdvice advice = flip_advice(found.flip, after.reach.pole.has_value());
-    incident.cure = advice.cure;
-    incident.button = flip_cure(advice.button, before, after);
+    incident.cure = flip_advice(found.flip, after.reach.pole.has_value()).cure;
+    if (!found.prevented.tried) return incident;
+    incident.cure = capitalised(found.prevented.text()) +
+                    (found.prevented.by.empty() ? "." : ". What prevents it there:");
+    for (const Prevention& each : found.prevented.by)
+        incident.buttons.push_back(cure_of(each, trace.conventions));
     return incident;
 }
 
-void show_trace(Workspace& workspace, TracedWindow window, const std::string& name) {
-    hold_finite(window.frames);
-    ChainRuntime& runtime = workspace.runtimes.of<ChainRuntime>(chain_lab);
-    ChainPart base = first_chain();
-    base.reach.method =
-        dynamic_cast<const ChainPart&>(*workspace.document.parts().at(chain_lab)).reach.method;
-    base.mode = ChainMode::Reach;
-    Ghost ghost(base, runtime);
-    std::vector<std::shared_ptr<const ChainPart>> moments;
-    std::optional<std::uint64_t> parted;
-    for (const TracedFrame& frame : window.frames) {
-        auto part = std::make_shared<ChainPart>(base);
-        part->chain = chain_of_frame(frame);
-        part->target = frame.target.value_or(frame.joints.back());
-        part->reach.pole = frame.pole;
-        auto traced = std::make_shared<TracedPose>(TracedPose{positions(part->chain), ghost.follow(frame)});
-        float apart = 0.0f;
-        for (std::size_t i = 0; i < traced->joints.size(); ++i)
-            apart = std::max(apart, glm::distance(traced->joints[i], traced->ghost[i]));
-        if (!parted && apart > parted_share * part->chain.reach()) parted = moments.size();
-        part->traced = std::move(traced);
-        check_range(*part);
-        moments.push_back(std::move(part));
+/// The frames as moments, each with Tendril's solve beside it.
+class Moments {
+  public:
+    explicit Moments(std::shared_ptr<const ShownTrace> trace) {
+        const TraceSolve solve = trace->view.solve();
+        Retrace ghost(solve);
+        ik::IncidentFinder flips;
+        for (const TracedFrame& frame : trace->frames) {
+            auto part = std::make_shared<ChainPart>(first_chain());
+            part->mode = ChainMode::Reach;
+            part->chain = chain_through(frame.joints);
+            part->target = frame.goal();
+            part->reach.method = solve.method;
+            part->reach.soft_zone = solve.soft_zone;
+            part->reach.pole = solve.pole(frame);
+            auto traced =
+                std::make_shared<TracedPose>(TracedPose{positions(part->chain), ghost.follow(frame), trace});
+            flips.add({.joints = traced->ghost, .target = part->target, .pole = part->reach.pole});
+            float apart = 0.0f;
+            for (std::size_t i = 0; i < traced->joints.size(); ++i)
+                apart = std::max(apart, glm::distance(traced->joints[i], traced->ghost[i]));
+            if (!parted && apart > parted_share * part->chain.reach()) parted = all.size();
+            part->traced = std::move(traced);
+            check_range(*part);
+            all.push_back(std::move(part));
+        }
+        for (const ik::ChainIncident& each : flips.incidents())
+            if (each.kind == ik::IncidentKind::Flip && !flip) flip = each.frame;
     }
+
+    std::vector<std::shared_ptr<const ChainPart>> all;
+    std::optional<std::uint64_t> parted;  ///< where Tendril's solve goes another way
+    std::optional<std::uint64_t> flip;    ///< where it flips first
+};
+
+std::string shown_text(const ShownTrace& trace, std::size_t shown) {
+    const auto first = static_cast<std::uint64_t>(trace.view.from);
+    std::string said = trace.name + ": " + count_text(trace.all, "frame") + ", " + trace.conventions.text() +
+                       ", " + count_text(trace.incidents.size(), "incident");
+    if (trace.all > trace.frames.size())
+        said += "; shown: frames " + std::to_string(first) + " to " +
+                std::to_string(first + trace.frames.size() - 1) + " with " + std::to_string(shown);
+    const auto found = std::ranges::find_if(trace.incidents,
+                                            [&](const TracedIncident& each) { return each.frame >= first; });
+    return found == trace.incidents.end() ? said : said + ". " + capitalised(found->text(trace.bones));
+}
+
+/// The first flip of the frames that are shown or, without one, the first incident.
+const TracedIncident* first_shown(const ShownTrace& trace) {
+    const TracedIncident* first = nullptr;
+    const auto from = static_cast<std::uint64_t>(trace.view.from);
+    for (const TracedIncident& each : trace.incidents) {
+        if (each.frame < from || each.frame >= from + trace.frames.size()) continue;
+        if (each.kind == ik::IncidentKind::Flip) return &each;
+        if (first == nullptr) first = &each;
+    }
+    return first;
+}
+
+/// Puts the trace on the strip, and shows where it first goes wrong. The same frames stay where they are.
+void show_trace(Workspace& workspace, const std::shared_ptr<const ShownTrace>& trace, bool same_frames) {
+    Moments moments(trace);
+    const std::uint64_t last = moments.all.size() - 1;
+    const TracedIncident* const wrong = first_shown(*trace);
+    const std::uint64_t at = same_frames ? std::min<std::uint64_t>(workspace.moment, last)
+                             : wrong     ? wrong->frame - static_cast<std::uint64_t>(trace->view.from)
+                                         : last;
     workspace.open_lab(chain_lab);
     ++workspace.beginnings;  // the strip holds the trace, not what was before it
     workspace.rewind.clear();
     workspace.discarded.reset();
     workspace.clock.playing = false;
-    workspace.moment = 0;
-    for (std::size_t i = 0; i + 1 < moments.size(); ++i)
-        workspace.rewind.remember(i, workspace.edition, moments[i], i);
-    workspace.moment = moments.size() - 1;
-    workspace.clock.tick = moments.size() - 1;
-    workspace.document.set(chain_lab, moments.back());
+    for (std::size_t i = 0; i < moments.all.size(); ++i)
+        if (i < last || at < last) workspace.rewind.remember(i, workspace.edition, moments.all[i], i);
+    workspace.moment = at;
+    workspace.clock.tick = at;
+    workspace.document.set(chain_lab, moments.all[at]);
+    const auto first = static_cast<std::uint64_t>(trace->view.from);
     std::size_t shown = 0;
-    for (const ik::ChainIncident& each : window.incidents) {
-        if (each.frame < window.first || each.frame >= window.first + moments.size()) continue;
-        workspace.rewind.note(incident_of(each, window.first, moments));
+    for (const TracedIncident& each : trace->incidents) {
+        if (each.frame < first || each.frame > first + last) continue;
+        workspace.rewind.note(incident_of(each, *trace, moments.all));
         ++shown;
     }
-    if (parted)
+    if (moments.parted)
         workspace.rewind.note({.kind = Incident::Kind::Status,
-                               .tick = *parted > 0 ? *parted - 1 : 0,
-                               .joint = moments.front()->chain.size() - 1,
+                               .tick = *moments.parted > 0 ? *moments.parted - 1 : 0,
+                               .joint = moments.all.front()->chain.size() - 1,
                                .cause = "Tendril's solve goes another way"});
+    if (!same_frames) {
+        workspace.ui.incident.reset();
+        if (wrong != nullptr) workspace.ui.incident = incident_of(*wrong, *trace, moments.all);
+    }
+    if (same_frames) {
+        const std::string solve = std::string("Tendril's solve, ") + solver_title(trace->view.solver) + ": ";
+        workspace.toast(
+            solve + (moments.flip ? "flips at frame " + std::to_string(first + *moments.flip) : "no flip"));
+        return;
+    }
     frame_unless_seen(workspace, ChainLab().bounds(workspace, false));
-    const auto first_found = std::ranges::find_if(
-        window.incidents, [&](const ik::ChainIncident& each) { return each.frame >= window.first; });
-    std::string said = name + ": " + count_text(window.all, "frame") + ", " + window.understood + ", " +
-                       count_text(window.incidents.size(), "incident");
-    if (window.all > moments.size())
-        said += "; shown: frames " + std::to_string(window.first) + " to " +
-                std::to_string(window.first + moments.size() - 1) + " with " + std::to_string(shown);
-    if (first_found != window.incidents.end()) said += ". " + capitalised(told(*first_found));
-    workspace.toast(said);
-    for (const std::string& note : window.notes) workspace.toast(note, ToastKind::Refusal);
+    workspace.toast(shown_text(*trace, shown));
+    for (const std::string& note : trace->notes) workspace.toast(note, ToastKind::Refusal);
 }
 
 std::string text_or_none(const Arguments& given, const char* name) {
     return given.has(name) ? given.text(name) : std::string();
 }
 
+/// What is given of how the trace is read.
+bool take_choice(ConventionChoice& choice, const Arguments& given) {
+    bool any = false;
+    const auto take = [&](const char* name, std::string& into) {
+        if (!given.has(name)) return;
+        into = given.text(name);
+        any = true;
+    };
+    take("up", choice.up);
+    take("handed", choice.handed);
+    take("unit", choice.unit);
+    take("rotations", choice.rotations);
+    return any;
+}
+
 void open_trace(Workspace& workspace, const Arguments& given) {
-    const TraceSource source{.path = text_or_none(given, "path"),
-                             .text = text_or_none(given, "text"),
-                             .choice = {.up = text_or_none(given, "up"),
-                                        .handed = text_or_none(given, "handed"),
-                                        .unit = text_or_none(given, "unit"),
-                                        .rotations = {}}};
-    if (source.path.empty() == source.text.empty()) throw Refused("expected either path or text");
-    const std::string name =
-        source.path.empty() ? "Pasted" : std::filesystem::path(source.path).filename().string();
-    std::optional<std::uint64_t> from;
-    if (given.has("from")) from = static_cast<std::uint64_t>(given.number("from"));
+    const std::string path = text_or_none(given, "path"), text = text_or_none(given, "text");
+    const bool opens = !path.empty() || !text.empty();
+    const TracedPose* const pose = traced_pose(chain_part(workspace));
+    if (!path.empty() && !text.empty()) throw Refused("expected either path or text");
+    if (!opens && pose == nullptr) throw Refused("no trace is shown: expected path or text");
+    auto trace = opens ? std::make_shared<ShownTrace>() : std::make_shared<ShownTrace>(*pose->trace);
+    if (opens) {
+        trace->path = path;
+        trace->text = text;
+        trace->name = path.empty() ? "Pasted" : std::filesystem::path(path).filename().string();
+    }
+    set_fields(given, trace->view);
+    const bool reads = take_choice(trace->choice, given) || opens || given.has("chain");
+    const bool loads = reads || given.has("from");
     try {
-        show_trace(workspace, read_window(source, text_or_none(given, "chain"), from), name);
+        std::optional<std::uint64_t> from;
+        if (!opens || given.has("from")) from = static_cast<std::uint64_t>(trace->view.from);
+        if (reads) find_all(*trace, given.has("chain") ? given.text("chain") : trace->chain);
+        if (loads) load_frames(*trace, from);
+        show_trace(workspace, trace, !loads);
     } catch (const Refused&) {
         throw;
     } catch (const std::exception& error) {
-        throw Refused(name + ": " + error.what());
+        throw Refused(trace->name + ": " + error.what());
     }
+}
+
+/// The strip's moments as a trace, for as long as the chain has had as many joints as now.
+std::string trace_of_strip(const Workspace& workspace) {
+    const ChainPart& now = chain_part(workspace);
+    if (now.chain.size() < 2) throw Refused("the chain has no bone");
+    const bool reaches = now.mode == ChainMode::Reach;
+    std::string text = Json{{"tendril", "trace"},
+                            {"up", "y"},
+                            {"handed", "right"},
+                            {"unit", "m"},
+                            {"fps", 1.0 / tick_seconds}}
+                           .dump() +
+                       '\n';
+    const auto write = [&](const ChainPart& part, std::uint64_t tick) {
+        if (part.chain.size() != now.chain.size()) return;
+        Json frame{{"t", static_cast<double>(tick) * tick_seconds}};
+        for (const Segment& each : part.chain.segments()) frame["joints"].push_back(point(each.position));
+        if (reaches) frame["target"] = point(part.target);
+        if (reaches && part.reach.pole) frame["pole"] = point(*part.reach.pole);
+        text += frame.dump() + '\n';
+    };
+    for (const Rewind::Moment& each : workspace.rewind.moments())
+        write(dynamic_cast<const ChainPart&>(*each.part), each.tick);
+    if (workspace.later_ticks() == 0 &&
+        (workspace.rewind.empty() || workspace.rewind.newest() < workspace.moment))
+        write(now, workspace.moment);
+    return text;
+}
+
+Command save_trace() {
+    return {.name = "chain.save_trace",
+            .title = "Save the strip as a trace",
+            .arguments = {text_argument("path", false, "a JSON Lines file; default: beside the scene")},
+            .help = "Writes the last ten seconds of the chain, frame by frame, as tendril trace reads them",
+            .effect = Effect::Look,
+            .apply = [](Workspace& workspace, const Arguments& given) {
+                const std::string path =
+                    given.has("path") ? given.text("path") : new_file(workspace, "trace", ".jsonl").string();
+                write_file_atomically(path, trace_of_strip(workspace));
+                workspace.toast(written_text(path));
+            }};
 }
 
 }  // namespace
@@ -293,36 +373,142 @@ bool holds_trace(const std::string& text) {
     }
 }
 
-const std::vector<glm::vec3>* traced_ghost(const ChainPart& part) {
+const TracedPose* traced_pose(const ChainPart& part) {
     if (!part.traced || part.study.open() || part.traced->joints.size() != part.chain.size()) return nullptr;
     for (std::size_t i = 0; i < part.chain.size(); ++i)
         if (part.chain.position(i) != part.traced->joints[i]) return nullptr;
-    return &part.traced->ghost;
+    return part.traced.get();
+}
+
+ik::Method traced_method(const TracedPose& pose) {
+    return pose.trace->view.solver;
 }
 
 void draw_traced_ghost(const View& view, const ChainPart& part, DrawList& list) {
-    const auto* const ghost = traced_ghost(part);
-    if (ghost == nullptr) return;
-    const glm::vec4 colour(solver_colour(view.palette, part.reach.method), 0.6f);
-    for (std::size_t i = 1; i < ghost->size(); ++i)
-        list.line((*ghost)[i - 1], (*ghost)[i], 3.0f * view.scale, colour);
-    for (const glm::vec3 joint : *ghost) list.sphere(joint, 4.5f * view.scale, Unit::Pixels, colour);
+    const TracedPose* const pose = traced_pose(part);
+    if (pose == nullptr) return;
+    const std::vector<glm::vec3>& ghost = pose->ghost;
+    const glm::vec4 colour(solver_colour(view.palette, traced_method(*pose)), 0.6f);
+    for (std::size_t i = 1; i < ghost.size(); ++i)
+        list.line(ghost[i - 1], ghost[i], 3.0f * view.scale, colour);
+    for (const glm::vec3 joint : ghost) list.sphere(joint, 4.5f * view.scale, Unit::Pixels, colour);
+}
+
+void trace_rows(const TracedPose& pose, MoreRows& more, Emit& emit) {
+    const ShownTrace& trace = *pose.trace;
+    note(trace.conventions.text());
+    FieldRows rows(trace.view, "chain.trace", emit);
+    rows.under(more).rows("up", "handed", "unit");
+    if (trace.conventions.has_rotations) rows.row("rotations");
+    rows.rows("solver", "soft_zone", "pole_by", "hinge");
+    if (trace.all <= trace.frames.size()) return;
+    rows.row("from");
+    const auto from = static_cast<std::uint64_t>(trace.view.from);
+    const std::uint64_t page = Rewind::max_ticks / 2, end = from + trace.frames.size();
+    if (row_button("Earlier", 2, from > 0, "Shows the frames before these"))
+        emit("chain.trace", {{"from", from - std::min(from, page)}});
+    if (row_button("Later", 2, end < trace.all, "Shows the frames after these"))
+        emit("chain.trace", {{"from", from + page}});
+    end_row();
 }
 
 void add_trace_commands(CommandTable& table) {
-    Command command = chain_command(
-        "chain.trace", "Open an engine's trace",
+    std::vector<Argument> arguments = field_arguments<TraceView>();
+    arguments.insert(
+        arguments.begin(),
         {text_argument("path", false, "JSON Lines, CSV or a log with positions in it"),
-         text_argument("text", false, "the same, as pasted text"),
-         text_argument("chain", false, "one of several; default: the first in which something was found"),
-         integer_argument("from", "the first frame shown; default: around the first incident", 0, 1e15),
-         choice_argument("up", false, "the up axis; default: as the file says, or guessed",
-                         trace_ups.names()),
-         choice_argument("handed", false, "the handedness", trace_hands.names()),
-         choice_argument("unit", false, "the unit", trace_units.names())},
+         text_argument("text", false,
+                       "the same, as pasted text; without path and text, the trace that is shown"),
+         text_argument("chain", false, "one of several; default: the first in which something was found")});
+    Command command = chain_command(
+        "chain.trace", "Show an engine's trace", std::move(arguments),
         "Shows what an engine's chain did, frame by frame, with what went wrong and why", ChainChange());
     command.apply = open_trace;
     table.add(std::move(command));
+    table.add(save_trace());
+}
+
+template <>
+std::span<const FieldText> field_texts<TraceView>() {
+    static const auto methods = [] {
+        std::array<EnumRow, ik::all_methods.size()> rows{};
+        for (std::size_t i = 0; i < rows.size(); ++i)
+            rows[i] = {ik::name(ik::all_methods[i]), solver_title(ik::all_methods[i]),
+                       solver_help(ik::all_methods[i])};
+        return rows;
+    }();
+    static const FieldText texts[] = {
+        {.name = "up",
+         .label = "up",
+         .help = "The axis that is up in the file. Why it was taken stands above.",
+         .listed = true,
+         .choices = trace_ups.rows},
+        {.name = "handed",
+         .label = "hand",
+         .help = "Whether the file's axes are right-handed or left-handed. Why it was taken stands above.",
+         .listed = true,
+         .choices = trace_hands.rows},
+        {.name = "unit",
+         .label = "unit",
+         .help = "What a length of 1 in the file is. Why it was taken stands above.",
+         .listed = true,
+         .choices = trace_units.rows},
+        {.name = "rotations",
+         .label = "quaternions",
+         .help = "The order of a quaternion's numbers in the file. Why it was taken stands above.",
+         .listed = true,
+         .choices = quaternion_orders.rows},
+        {.name = "from",
+         .label = "first frame",
+         .help = "The first of the 600 frames that the strip shows. Default: around the first incident.",
+         .step = 5.0f},
+        {.name = "solver",
+         .label = "ghost",
+         .help = "The method with which Tendril solves the same input, from the same first pose.",
+         .listed = true,
+         .choices = methods},
+        {.name = "soft_zone",
+         .label = "soft zone",
+         .help = "The zone before full reach, as a fraction of it, in which the ghost eases off instead of "
+                 "snapping straight.",
+         .step = 0.002f,
+         .decimals = 3,
+         .unit = "of reach",
+         .more = true},
+        {.name = "pole_by",
+         .label = "pole moved by",
+         .help = "How far the ghost's pole target is from the trace's. If that has none: from the root.",
+         .more = true},
+        {.name = "hinge",
+         .label = "hinge at joint",
+         .help = "This joint of the ghost bends one way only, as in the first frame.",
+         .at_zero = "none",
+         .more = true}};
+    return texts;
 }
 
 }  // namespace tendril::app
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::app::TraceView>() noexcept {
+    using namespace app;
+    static constexpr auto ups = trace_ups.name_array();
+    static constexpr auto hands = trace_hands.name_array();
+    static constexpr auto units = trace_units.name_array();
+    static constexpr auto orders = quaternion_orders.name_array();
+    static const auto methods = [] {
+        std::array<const char*, ik::all_methods.size()> names{};
+        std::ranges::transform(ik::all_methods, names.begin(), [](ik::Method m) { return ik::name(m); });
+        return names;
+    }();
+    static const Field rows[] = {field<&TraceView::up>("up", ups),
+                                 field<&TraceView::handed>("handed", hands),
+                                 field<&TraceView::unit>("unit", units),
+                                 field<&TraceView::rotations>("rotations", orders),
+                                 field<&TraceView::from>("from", {0.0, max_from}),
+                                 field<&TraceView::solver>("solver", methods),
+                                 field<&TraceView::soft_zone>("soft_zone"),
+                                 field<&TraceView::pole_by>("pole_by", {-max_magnitude, max_magnitude}, "m"),
+                                 field<&TraceView::hinge>("hinge", {0.0, max_trace_joints})};
+    return rows;
+}

@@ -13,6 +13,7 @@
 #include "app/fields/field_rows.hpp"
 #include "app/labs/chain/cures.hpp"
 #include "app/labs/chain/draw.hpp"
+#include "app/labs/chain/engine_trace.hpp"
 #include "app/labs/chain/past.hpp"
 #include "app/labs/chain/presets.hpp"
 #include "app/labs/kit/panel_rows.hpp"
@@ -138,6 +139,8 @@ void ChainLab::panel(const Workspace& workspace, Emit& emit) const {
         folding_section(workspace, title, emit, at_first, rows);
     };
     section("Presets", true, [&](MoreRows&) { preset_rows(emit); });
+    if (const TracedPose* const pose = traced_pose(part))
+        section("Trace", true, [&](MoreRows& more) { trace_rows(*pose, more, emit); });
     section("Mode and solver", true, [&](MoreRows& more) {
         mode_rows(part, palette(workspace.settings.theme), more, emit);
         if (part.mode == ChainMode::Reach) solver_rows(part, more, emit);

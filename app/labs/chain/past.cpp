@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <limits>
+#include <utility>
 
 #include "app/document/units.hpp"
 #include "app/labs/chain/chain_lab.hpp"
@@ -176,12 +177,14 @@ std::optional<Incident> flip(const ChainPart& before, const ChainPart& after) {
     const auto turn = ik::find_flip(was, is, after.flips);
     if (!turn) return std::nullopt;
     const FlipReason reason = reason_of(before, after, was, is);
-    return Incident{.kind = Incident::Kind::Flip,
-                    .joint = turn->joint,
-                    .degrees = glm::degrees(turn->radians),
-                    .cause = reason.cause,
-                    .cure = reason.advice.cure,
-                    .button = flip_cure(reason.advice.button, before, after)};
+    Incident incident{.kind = Incident::Kind::Flip,
+                      .joint = turn->joint,
+                      .degrees = glm::degrees(turn->radians),
+                      .cause = reason.cause,
+                      .cure = reason.advice.cure};
+    if (auto cure = flip_cure(reason.advice.button, before, after))
+        incident.buttons.push_back(std::move(*cure));
+    return incident;
 }
 
 /// "Out of reach: the target is out of reach, ...": the verdict and the meaning of its status.

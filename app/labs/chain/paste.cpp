@@ -13,7 +13,6 @@
 #include "app/labs/chain/engine_trace.hpp"
 
 namespace tendril::app {
-namespace {
 
 Chain chain_through(const std::vector<glm::vec3>& points) {
     std::vector<Segment> segments;
@@ -24,6 +23,8 @@ Chain chain_through(const std::vector<glm::vec3>& points) {
     }
     return require_value(Chain::from_segments(std::move(segments)));
 }
+
+namespace {
 
 /// Moves the active joint there; the other selected joints keep their offsets from it.
 void place_selection(ChainPart& part, glm::vec3 to, ChainRuntime& runtime) {

@@ -132,6 +132,10 @@ void export_rows(Emit& emit) {
         emit("chain.copy", {{"as", "cpp"}});
     if (row_button("Copy as JSON", 2, true, "The scene as text")) emit("chain.copy", {{"as", "json"}});
     end_row();
+    if (row_button("Save a trace", 1, true,
+                   "Writes the last ten seconds beside the scene, for tendril trace and other programs"))
+        emit("chain.save_trace");
+    end_row();
 }
 
 void microscope_rows(const ShownChain& shown, const Palette& palette, Emit& emit) {

@@ -27,7 +27,7 @@ VideoRequest film_request(const Workspace& workspace, const Arguments& given, co
     if (filming) throw Refused(filming->name + " is still being written; view.end_video cancels it");
     VideoRequest wanted;
     wanted.path =
-        given.has("path") ? std::filesystem::path(given.text("path")) : new_picture(workspace, what);
+        given.has("path") ? std::filesystem::path(given.text("path")) : new_file(workspace, what);
     if (const std::string why = why_no_video(wanted.path); !why.empty()) throw Refused(why);
     set_look(given, wanted);
     const bool mp4 = wanted.path.extension() == ".mp4";

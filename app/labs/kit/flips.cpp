@@ -98,6 +98,8 @@ FlipAdvice flip_advice(ik::FlipCause cause, bool poled) {
         case Folded:
             if (poled) return {"Keep the target within reach, where the chain stays bent."};
             return {"Add a pole target on the side to which it should bend.", FlipCure::AddPole};
+        case Rolled:
+            return {"Look at how the bone's up axis is chosen: positions leave its roll open."};
         case Unexplained:
             break;
     }

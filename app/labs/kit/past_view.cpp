@@ -320,7 +320,7 @@ void incident_rows(const Workspace& workspace, const Palette& palette, Emit& emi
     ImGui::TextUnformatted((shown->cause + ".").c_str());
     if (!shown->cure.empty()) ImGui::TextUnformatted(shown->cure.c_str());
     ImGui::PopTextWrapPos();
-    if (shown->button) cure_line("", shown->button, emit);
+    for (const Cure& cure : shown->buttons) cure_line(cure.text, cure, emit);
     if (const std::string lost = discards_text(workspace); !lost.empty()) note(lost);
     // The mark that was clicked is on the strip, which does not scroll.
     if (appears && !ImGui::IsWindowHovered()) ImGui::SetScrollHereY(1.0f);

@@ -43,7 +43,26 @@ TEST_F(TraceProgram, NamesTheFrameTheJointAndTheCauseOfAFlip) {
     EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
     EXPECT_TRUE(says(outcome.out, "arm.jsonl: 120 frames, 60 fps, Z up, left-handed, centimetres (given)"));
     EXPECT_TRUE(says(outcome.out, "frame 60: flip, joint 1, turned"));
+    EXPECT_TRUE(says(outcome.out, "Two-bone flips on the same input"));
+    EXPECT_TRUE(says(outcome.out, "prevented by: pole target"));
     EXPECT_TRUE(says(outcome.out, "1 incident"));
+}
+
+TEST_F(TraceProgram, JsonSaysWhatWouldHavePreventedAFlip) {
+    const Outcome outcome =
+        run_here({"trace", file("arm.jsonl", Plant::FlipAtPole, Format::JsonLines), "--json"});
+    const app::Json flip = app::parse_json(outcome.out)[0];
+    EXPECT_EQ(flip["flips_in"], "two_bone");
+    ASSERT_FALSE(flip["prevented_by"].empty());
+    EXPECT_EQ(flip["prevented_by"][0]["change"], "pole");
+    // As the file has it: within centimetres of the trace's pole target, not within metres.
+    const app::Json to = flip["prevented_by"][0]["to"];
+    ASSERT_EQ(to.size(), 3u);
+    const auto made = made::TraceMaker(5).make(Plant::FlipAtPole);
+    const glm::dvec3 was = made::spaces[0].of(*made.frames[made.frame].pole);
+    const double away = glm::distance(was, glm::dvec3(to[0], to[1], to[2]));
+    EXPECT_GT(away, 0.01);
+    EXPECT_LT(away, 30.0);
 }
 
 TEST_F(TraceProgram, ACleanTraceExitsWithZero) {
@@ -117,6 +136,25 @@ TEST_F(TraceProgram, ThePythonWriterIsRead) {
     ASSERT_EQ(frames.size(), 2u);
     EXPECT_LT(glm::distance(frames[0].pole.value(), glm::vec3(0.0f, 1.0f, 1.0f)), 1e-6f);
     EXPECT_TRUE(std::isnan(frames[1].joints[1].x));
+}
+
+// Its own solver flips where the target's line passes the pole.
+TEST_F(TraceProgram, AChainInBlenderIsExplained) {
+    const auto blender = app::find_program("blender");
+    std::string trace = source_path("tests/app/io/traces/blender_arm.jsonl");
+    if (!blender.empty()) {
+        trace = path("blender.jsonl");
+        app::ChildProcess run({blender.string(), "-b", "--factory-startup", "-P",
+                               source_path("tests/app/io/traces/blender_arm.py"), "--",
+                               source_path("app/writers/tendril_trace.py"), trace});
+        run.finish(120.0);
+    }
+    const Outcome outcome = run_here({"trace", trace});
+    EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+    EXPECT_TRUE(says(outcome.out, "60 frames, 60 fps, Z up, right-handed, metres (given)"));
+    EXPECT_TRUE(says(outcome.out, "frame 30: flip, joint 1 (lower_arm), turned"));
+    EXPECT_TRUE(says(outcome.out, "the target's line passed the pole"));
+    EXPECT_TRUE(says(outcome.out, "1 incident"));
 }
 
 // The other writers' languages are not here: the line that each says it writes is read.

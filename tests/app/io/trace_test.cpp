@@ -41,7 +41,7 @@ struct ReadTrace {
     TraceFindings findings;
     Conventions conventions;
     std::vector<std::string> notes;
-    const std::vector<ik::ChainIncident>& incidents() const { return findings.chains.front().incidents; }
+    const std::vector<TracedIncident>& incidents() const { return findings.chains.front().incidents; }
     std::string text() const {
         std::string all;
         for (const auto& each : incidents())
@@ -76,7 +76,7 @@ TEST(Trace, EveryPlantedFaultIsFoundAtItsFrameWithItsCause) {
         if (plant == Plant::Limit) format = seed % 2 == 0 ? Format::JsonLines : Format::JsonList;
         const MadeTrace made = TraceMaker(seed).make(plant);
         const ReadTrace found = read_trace(test::made::written(made, space_for(format, seed), format));
-        const auto same = [&](const ik::ChainIncident& each) {
+        const auto same = [&](const TracedIncident& each) {
             const int joint = each.joint == ik::no_joint ? -1 : static_cast<int>(each.joint);
             const std::string cause = each.cause;
             return ik::name(each.kind) == made.kind && joint == made.joint &&
@@ -96,6 +96,89 @@ TEST(Trace, EveryPlantedFaultIsFoundAtItsFrameWithItsCause) {
         EXPECT_LE(found.incidents().size(), 1 + others) << "seed " << seed << ", " << made.kind << ":\n"
                                                         << found.text();
     }
+}
+
+/// The most degrees that the upper arm turns in a frame of Tendril's solve.
+float fastest_turn(const std::vector<TracedFrame>& frames, const TraceSolve& how) {
+    Retrace chain(how);
+    glm::vec3 before(0.0f);
+    float fastest = 0.0f;
+    for (const TracedFrame& frame : frames) {
+        const std::vector<glm::vec3>& joints = chain.follow(frame);
+        const glm::vec3 bone = joints[1] - joints[0];
+        if (before != glm::vec3(0.0f))
+            fastest = std::max(fastest, glm::degrees(ik::angle_between(before, bone)));
+        before = bone;
+    }
+    return fastest;
+}
+
+TEST(Trace, WhatPreventsAFlipPreventsItInASolve) {
+    std::size_t poles = 0, methods = 0;
+    for (unsigned seed = 0; seed < 40; ++seed) {
+        const Plant plant = seed % 2 == 0 ? Plant::FlipAtPole : Plant::FlipForNothing;
+        const MadeTrace made = TraceMaker(seed).make(plant);
+        const std::string text = test::made::written(made, test::made::spaces[0], Format::JsonLines);
+        std::istringstream in(text);
+        TraceReader reader(in);
+        std::vector<TracedFrame> frames;
+        for (TracedFrame frame; reader.next(frame);) frames.push_back(frame);
+        const ReadTrace found = read_trace(text);
+        ASSERT_EQ(found.incidents().size(), 1u) << found.text();
+        const PreventedFlip& prevented = found.incidents()[0].prevented;
+        ASSERT_TRUE(prevented.tried);
+        EXPECT_EQ(prevented.flips_in.has_value(), plant == Plant::FlipAtPole) << "seed " << seed;
+        EXPECT_FALSE(prevented.by.empty()) << "seed " << seed;
+        const std::vector<TracedFrame> around(frames.begin() + 36, frames.begin() + 77);
+        for (const Prevention& each : prevented.by) {
+            const float turn = fastest_turn(around, each.solve);
+            EXPECT_LT(turn, 30.0f) << "seed " << seed << ": " << each.text(found.conventions);
+            methods += each.kind == Prevention::Kind::Method;
+            if (each.kind != Prevention::Kind::Pole) continue;
+            ++poles;
+            TraceSolve less = each.solve;
+            less.pole_by *= 0.5f;
+            EXPECT_GT(fastest_turn(around, less), turn) << "seed " << seed << ": it is the smallest";
+            EXPECT_GT(fastest_turn(around, {.method = *prevented.flips_in}), 1.2f * turn) << "seed " << seed;
+        }
+    }
+    EXPECT_EQ(poles, 20u);
+    EXPECT_GE(methods, 20u);
+}
+
+TEST(Trace, ABoneThatRollsWhileItsEndsStayFlips) {
+    for (const bool rolls : {false, true})
+        for (const Space& space : test::made::spaces) {
+            const MadeTrace made = TraceMaker(3).make(Plant::None);
+            std::string text = std::string("{\"tendril\": \"trace\", \"up\": \"") + space.up +
+                               "\", \"handed\": \"" + space.handed + "\", \"unit\": \"" + space.unit +
+                               "\", \"rotations\": \"xyzw\"}\n";
+            for (std::size_t i = 0; i < made.frames.size(); ++i) {
+                std::string joints, rotations;
+                for (std::size_t j = 0; j < 3; ++j) {
+                    const glm::dvec3 p = space.of(made.frames[i].joints[j]);
+                    joints += (j > 0 ? ", [" : "[") + test::made::number_text(p.x, 5) + ", " +
+                              test::made::number_text(p.y, 5) + ", " + test::made::number_text(p.z, 5) + "]";
+                    if (j == 2) break;
+                    const glm::dvec3 bone = glm::normalize(space.of(made.frames[i].joints[j + 1]) - p);
+                    // From +X; the lower arm rolls about itself from frame 60 on.
+                    glm::dquat q(glm::dvec3(1, 0, 0), bone);
+                    if (rolls && j == 1 && i >= 60) q = glm::angleAxis(2.9, bone) * q;
+                    rotations += (j > 0 ? ", [" : "[") + test::made::number_text(q.x, 6) + ", " +
+                                 test::made::number_text(q.y, 6) + ", " + test::made::number_text(q.z, 6) +
+                                 ", " + test::made::number_text(q.w, 6) + "]";
+                }
+                text += "{\"joints\": [" + joints + "], \"rotations\": [" + rotations + "]}\n";
+            }
+            const ReadTrace found = read_trace(text);
+            ASSERT_EQ(found.incidents().size(), rolls ? 1u : 0u) << found.text();
+            if (!rolls) continue;
+            const TracedIncident& roll = found.incidents()[0];
+            EXPECT_EQ(roll.frame, 60u);
+            EXPECT_EQ(roll.joint, 1u);
+            EXPECT_NEAR(roll.amount, glm::degrees(2.9), 1.0);
+            EXPECT_EQ(roll.flip, ik::FlipCause::Rolled);
+        }
 }
 
 TEST(Trace, NothingIsFoundInCleanOnes) {

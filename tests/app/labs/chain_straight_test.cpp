@@ -119,9 +119,9 @@ TEST_F(StraightChain, AFlipOverThePoleIsPreventedByItsButton) {
     for (const Incident& each : drag(over, to)) flips.push_back(each);
     ASSERT_FALSE(flips.empty());
     EXPECT_TRUE(test::says(flips.back().cause, "line the pole")) << flips.back().cause;
-    ASSERT_TRUE(flips.back().button);
-    EXPECT_EQ(flips.back().button->title, "Move the pole");
-    apply(flips.back().button);
+    ASSERT_EQ(flips.back().buttons.size(), 1u);
+    EXPECT_EQ(flips.back().buttons[0].title, "Move the pole");
+    apply(flips.back().buttons[0]);
     EXPECT_TRUE(drag(to, over).empty());
     EXPECT_TRUE(drag(over, from).empty());
 }

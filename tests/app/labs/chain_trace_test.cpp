@@ -1,5 +1,9 @@
 // A trace from an engine, opened in the Chain lab: the strip is the trace, with its marks.
 #include "app/labs/chain/engine_trace.hpp"
+
+#include <fstream>
+
+#include "app/document/json_complete.hpp"
 #include "tests/app/io/trace_support.hpp"
 #include "tests/app/labs/chain_support.hpp"
 #include "tests/app/support/temp_folder.hpp"
@@ -33,8 +37,10 @@ TEST_F(ChainTrace, EachFrameIsAMomentAndAFlipIsMarkedWithItsCauseAndCure) {
     const MadeTrace made = test::made::TraceMaker(5).make(Plant::FlipAtPole);
     run("file.open", {{"path", file("arm.jsonl", made, Format::JsonLines)}});
     EXPECT_EQ(workspace.lab, chain_lab);
-    ASSERT_EQ(workspace.rewind.size(), made.frames.size() - 1);  // and the present
-    for (std::size_t i = 0; i + 1 < made.frames.size(); ++i) {
+    ASSERT_EQ(workspace.rewind.size(), made.frames.size());
+    EXPECT_EQ(workspace.moment, made.frame) << "it opens where it goes wrong";
+    EXPECT_TRUE(workspace.ui.incident);
+    for (std::size_t i = 0; i < made.frames.size(); ++i) {
         const auto& then = dynamic_cast<const ChainPart&>(*workspace.rewind.moments()[i].part);
         for (std::size_t j = 0; j < 3; ++j)
             EXPECT_LT(glm::distance(then.chain.position(j), glm::vec3(made.frames[i].joints[j])), 1e-4f);
@@ -44,8 +50,8 @@ TEST_F(ChainTrace, EachFrameIsAMomentAndAFlipIsMarkedWithItsCauseAndCure) {
     EXPECT_EQ(flips()[0].tick + 1, made.frame);
     EXPECT_EQ(flips()[0].joint, 1u);
     EXPECT_NE(flips()[0].cause.find("pole"), std::string::npos);
-    ASSERT_TRUE(flips()[0].button);
-    EXPECT_EQ(flips()[0].button->title, "Move the pole");
+    ASSERT_FALSE(flips()[0].buttons.empty());
+    EXPECT_NE(flips()[0].buttons[0].text.find("Pole moved by"), std::string::npos);
     run("time.incident", {{"number", 0}});
     EXPECT_TRUE(workspace.ui.incident);
     EXPECT_EQ(workspace.moment, made.frame);
@@ -54,20 +60,81 @@ TEST_F(ChainTrace, EachFrameIsAMomentAndAFlipIsMarkedWithItsCauseAndCure) {
 TEST_F(ChainTrace, TheGhostIsTendrilsSolveUntilTheChainIsChanged) {
     run("chain.trace", {{"path", file("arm.jsonl", Plant::FlipForNothing)}});
     run("time.seek", {{"ticks_back", 100}});
-    const auto* ghost = traced_ghost(part());
+    const auto* ghost = traced_pose(part());
     ASSERT_NE(ghost, nullptr);
     for (std::size_t j = 0; j < 3; ++j)
-        EXPECT_LT(glm::distance((*ghost)[j], part().chain.position(j)), 0.01f * part().chain.reach())
+        EXPECT_LT(glm::distance(ghost->ghost[j], part().chain.position(j)), 0.01f * part().chain.reach())
             << "the same pose, until the engine's chain flips";
     run("time.seek", {{"ticks_back", 0}});
-    ghost = traced_ghost(part());
+    ghost = traced_pose(part());
     ASSERT_NE(ghost, nullptr);
-    EXPECT_GT(glm::distance((*ghost)[1], part().chain.position(1)), 0.2f * part().chain.reach());
+    EXPECT_GT(glm::distance(ghost->ghost[1], part().chain.position(1)), 0.2f * part().chain.reach());
     run("time.seek", {{"ticks_back", 90}});
     const std::size_t moments = workspace.rewind.size();
     run("chain.target", {{"to", point(part().target + glm::vec3(0.0f, 0.05f, 0.0f))}});
-    EXPECT_EQ(traced_ghost(part()), nullptr);
+    EXPECT_EQ(traced_pose(part()), nullptr);
     EXPECT_LT(workspace.rewind.size(), moments) << "it goes on from there";
+}
+
+TEST_F(ChainTrace, WhatPreventsAFlipIsTriedAndAClickShowsIt) {
+    run("chain.trace", {{"path", file("arm.jsonl", Plant::FlipAtPole)}, {"solver", "two_bone"}});
+    ASSERT_EQ(flips().size(), 1u);
+    const Incident flip = flips()[0];
+    EXPECT_NE(flip.cure.find("Two-bone flips on the same input"), std::string::npos) << flip.cure;
+    run("time.incident", {{"number", 0}});
+    const std::uint64_t moment = workspace.moment;
+    const auto bends = [&](int back) {
+        run("time.seek",
+            {{"ticks_back", static_cast<int>(workspace.rewind.newest() - flip.tick) + back - 1}});
+        const TracedPose* const pose = traced_pose(part());
+        EXPECT_NE(pose, nullptr);
+        return glm::cross(pose->ghost[1] - pose->ghost[0], pose->ghost[2] - pose->ghost[0]);
+    };
+    EXPECT_LT(glm::dot(bends(-3), bends(1)), 0.0f) << "the ghost flips, too, in three frames";
+    run("time.incident", {{"number", 0}});
+    for (const Cure& cure : flip.buttons) {
+        for (const CommandCall& call : cure.calls) run(call.name.c_str(), to_json(call.arguments));
+        EXPECT_EQ(workspace.moment, moment) << "the frame stays";
+        EXPECT_EQ(workspace.rewind.size(), 120u) << "and those after it";
+        EXPECT_TRUE(workspace.ui.incident) << "and the list of what prevents it";
+        EXPECT_NE(workspace.ui.toasts.back().text.find("no flip"), std::string::npos) << cure.text;
+    }
+}
+
+TEST_F(ChainTrace, ConventionsCanBeChangedWhileItIsShown) {
+    run("chain.trace", {{"path", file("arm.csv", Plant::None, Format::Csv)}});
+    ASSERT_NE(traced_pose(part()), nullptr);
+    const Conventions guessed = traced_pose(part())->trace->conventions;
+    EXPECT_NE(guessed.text().find("not sure"), std::string::npos) << guessed.text();
+    const glm::vec3 before = part().chain.position(2);
+    run("chain.trace", {{"unit", "mm"}, {"up", guessed.up.value == TraceUp::Y ? "z" : "y"}});
+    const Conventions given = traced_pose(part())->trace->conventions;
+    EXPECT_EQ(given.unit.reason, "given");
+    EXPECT_NE(given.up.value, guessed.up.value);
+    const float ratio = glm::length(before) / glm::length(part().chain.position(2));
+    EXPECT_NEAR(ratio, static_cast<float>(guessed.metres() / given.metres()), 1e-2f * ratio);
+    run("chain.trace", {{"up", trace_ups.name(guessed.up.value)}});
+    EXPECT_EQ(traced_pose(part())->trace->conventions.unit.value, TraceUnit::Millimetres) << "it stays";
+    run("chain.preset", {{"name", "start"}});
+    EXPECT_NE(refused("chain.trace", {{"up", "z"}}).find("no trace is shown"), std::string::npos);
+}
+
+TEST_F(ChainTrace, TheStripIsSavedAsATraceThatIsReadBack) {
+    const MadeTrace made = test::made::TraceMaker(5).make(Plant::FlipAtPole);
+    run("chain.trace", {{"path", file("arm.jsonl", made, Format::JsonLines)}});
+    const std::string saved = (folder_ / "saved.jsonl").string();
+    run("chain.save_trace", {{"path", saved}});
+    std::ifstream in(saved);
+    TraceReader reader(in);
+    EXPECT_TRUE(reader.conventions().up.sure && reader.conventions().unit.sure);
+    const TraceFindings findings = find_incidents(reader);
+    ASSERT_EQ(findings.chains.size(), 1u);
+    EXPECT_EQ(findings.chains[0].frames, made.frames.size());
+    ASSERT_EQ(findings.chains[0].incidents.size(), 1u);
+    EXPECT_EQ(findings.chains[0].incidents[0].frame, made.frame);
+    EXPECT_EQ(findings.chains[0].incidents[0].flip, ik::FlipCause::PassedPole);
+    run("chain.clear", {});
+    EXPECT_NE(refused("chain.save_trace", {{"path", saved}}).find("no bone"), std::string::npos);
 }
 
 TEST_F(ChainTrace, UndoBringsBackTheChainFromBefore) {
@@ -99,6 +166,14 @@ TEST_F(ChainTrace, ALongOneIsShownAroundItsFirstIncidentOrFromAFrame) {
     run("chain.trace", {{"path", path}, {"from", 10}});
     EXPECT_TRUE(flips().empty());
     EXPECT_EQ(workspace.rewind.size() + 1, Rewind::max_ticks);
+    // A page further; what is shown is not searched again.
+    run("chain.trace", {{"from", 1700}});
+    ASSERT_EQ(flips().size(), 1u);
+    EXPECT_EQ(flips()[0].tick, 2060u - 1700u - 1u);
+    const ShownTrace& trace = *traced_pose(part())->trace;
+    EXPECT_EQ(trace.all, made.frames.size());
+    EXPECT_EQ(trace.view.from, 1700);
+    EXPECT_LT(glm::distance(trace.frames[0].joints[1], glm::vec3(made.frames[1700].joints[1])), 1e-4f);
 }
 
 TEST_F(ChainTrace, PastedTextIsTakenAsATraceIfItIsOne) {

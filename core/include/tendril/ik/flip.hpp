@@ -42,6 +42,7 @@ enum class FlipCause : std::uint8_t {
     Straight,     ///< the chain was straight, so every bend was equally near
     Folded,       ///< likewise, folded onto one line
     ClosePole,    ///< the line came close to the pole target
+    Rolled,       ///< the bone turned about itself, which positions do not show
     Unexplained   ///< nothing in the input explains it
 };
 /// For display, a clause: "the target's line passed the pole".

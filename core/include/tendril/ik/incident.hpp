@@ -18,12 +18,15 @@
 
 #include "tendril/ik/flip.hpp"
 #include "tendril/ik/observer.hpp"
+#include "tendril/quat.hpp"
 #include "tendril/vec3.hpp"
 
 namespace tendril::ik {
 
 enum class IncidentKind : std::uint8_t {
-    Flip,       ///< a bone jumped, or the chain bends to the other side; amount: degrees that the bone turned
+    /// A bone jumped, the chain bends to the other side, or a bone rolled about itself while its ends hardly
+    /// moved; amount: degrees that the bone turned.
+    Flip,
     Nan,        ///< a joint, the target or the pole target is not finite; amount: 0
     Length,     ///< a bone's length differs from its first; amount: metres, negative if shorter
     Limit,      ///< a joint is beyond its limit; amount: degrees beyond it
@@ -68,7 +71,8 @@ struct IncidentOptions {
 struct TraceFrame {
     std::span<const glm::vec3> joints;  ///< from the root on, metres
     std::optional<glm::vec3> target{}, pole{};
-    std::optional<float> dt{};  ///< seconds since the frame before
+    std::span<const glm::quat> rotations{};  ///< unit; empty, or at least one a bone
+    std::optional<float> dt{};               ///< seconds since the frame before
 };
 
 class IncidentFinder {
@@ -102,6 +106,7 @@ class IncidentFinder {
     void find_lengths(const ReachPose& pose);
     void find_limits(const ReachPose& pose);
     void find_flips(const ReachPose& pose, bool jumped);
+    void find_rolls(const ReachPose& pose, std::span<const glm::quat> rotations);
     bool changed_sides(const ReachPose& pose, bool jumped);
     bool find_jump(const ReachPose& pose);
     void find_repeated(const ReachPose& pose);
@@ -125,6 +130,7 @@ class IncidentFinder {
 
     // The latest consecutive finite frames, newest last.
     std::vector<ReachPose> recent_;
+    std::vector<glm::quat> rotations_;  ///< of the latest of them
     std::uint64_t flipped_at_ = 0;
     bool flipped_ = false;
     /// The side to which a chain of two bones last bent.

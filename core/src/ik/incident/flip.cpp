@@ -49,6 +49,7 @@ const char* text(FlipCause cause) noexcept {
                                       "the chain was straight (collinear)",
                                       "the chain was folded onto one line (collinear)",
                                       "the target's line came close to the pole",
+                                      "the bone rolled about itself, while its ends hardly moved",
                                       "nothing in the input explains it: look at the solver's own state"};
     return texts[static_cast<std::size_t>(cause)];
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <glm/trigonometric.hpp>
 #include <utility>
 
@@ -92,6 +93,7 @@ void IncidentFinder::add(const TraceFrame& frame) {
     find_limits(pose);
     const bool jumped = find_jump(pose);
     find_flips(pose, jumped);
+    find_rolls(pose, frame.rotations);
     find_repeated(pose);
     if (frame.target) {
         find_missed(pose);
@@ -105,6 +107,7 @@ void IncidentFinder::add(const TraceFrame& frame) {
 
 void IncidentFinder::forget_motion() noexcept {
     recent_.clear();
+    rotations_.clear();
     targets_.clear();
     tips_.clear();
     side_.reset();
@@ -218,6 +221,37 @@ void IncidentFinder::find_flips(const ReachPose& pose, bool jumped) {
     if (const auto turn = swung(before)) return flip(*turn, cause(before));
     if (recent_.size() <= swing_frames || (flipped_ && frames_ - flipped_at_ <= swing_frames)) return;
     if (const auto turn = swung(recent_.front())) flip(*turn, cause(recent_.front()));
+}
+
+/// A rotation turns the bone from where it pointed to where it points, and rolls it about itself by the rest.
+void IncidentFinder::find_rolls(const ReachPose& pose, std::span<const glm::quat> rotations) {
+    const std::vector<glm::quat> before = std::exchange(rotations_, {rotations.begin(), rotations.end()});
+    const bool flips = flipped_ && flipped_at_ == frames_;
+    if (recent_.empty() || flips || before.size() != rotations.size()) return;
+    const std::vector<glm::vec3>& was = recent_.back().joints;
+    BoneTurn furthest;
+    for (std::size_t i = 0; i < std::min(rotations.size(), was.size() - 1); ++i) {
+        const glm::vec3 from = was[i + 1] - was[i], to = pose.joints[i + 1] - pose.joints[i];
+        if (!(glm::length(from) > 0.0f && glm::length(to) > 0.0f)) continue;
+        const glm::vec3 bone = glm::normalize(to);
+        // Swing-twist: the part about the bone, after the swing that takes it there.
+        const glm::quat turn = rotations[i] * glm::conjugate(before[i]);
+        const glm::quat roll = turn * glm::conjugate(glm::quat(glm::normalize(from), bone));
+        const float radians =
+            2.0f * std::atan2(std::abs(glm::dot(glm::vec3(roll.x, roll.y, roll.z), bone)), std::abs(roll.w));
+        if (radians > furthest.radians) furthest = {i, radians};  // not if it is not finite
+    }
+    const float degrees = glm::degrees(furthest.radians);
+    if (!(degrees > std::max(options_.flip.degrees, roll_degrees)) ||
+        glm::degrees(furthest_turn(recent_.back(), pose).radians) > options_.flip.degrees)
+        return;
+    note({.kind = IncidentKind::Flip,
+          .frame = frames_,
+          .last_frame = frames_,
+          .joint = furthest.joint,
+          .amount = static_cast<double>(degrees),
+          .cause = text(FlipCause::Rolled),
+          .flip = FlipCause::Rolled});
 }
 
 bool IncidentFinder::leads(const ReachPose& before, const ReachPose& after, std::size_t joint,

@@ -14,6 +14,8 @@ inline constexpr float side_turn = 1.0472f;     ///< radians, 60 degrees: furthe
 inline constexpr std::size_t swing_frames = 3;  ///< a flip may take so many
 inline constexpr float swing_degrees = 60.0f, swing_lead = 3.0f;
 
+inline constexpr float roll_degrees = 90.0f;  ///< of a bone about itself, in a frame
+
 inline constexpr float jump_share = 0.15f;    ///< a target's step
 inline constexpr float jump_factor = 4.0f;    ///< times the steps before and after it
 inline constexpr float moving_share = 1e-3f;  ///< a step of less is still

@@ -1,0 +1,278 @@
+#include "app/io/trace/retrace.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <stdexcept>
+#include <tendril/ik/incident.hpp>
+#include <utility>
+
+#include "app/document/units.hpp"
+#include "app/io/solver_text.hpp"
+
+namespace tendril::app {
+namespace {
+
+bool is_finite_point(glm::vec3 p) {
+    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
+
+/// Any direction across this one.
+glm::vec3 across(glm::vec3 way) {
+    const glm::vec3 other =
+        std::abs(way.x) < 0.9f * glm::length(way) ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
+    return glm::normalize(glm::cross(way, other));
+}
+
+}  // namespace
+
+bool TracedFrame::finite() const {
+    return std::ranges::all_of(joints, is_finite_point) && (!target || is_finite_point(*target)) &&
+           (!pole || is_finite_point(*pole));
+}
+
+std::optional<glm::vec3> TraceSolve::pole(const TracedFrame& frame) const {
+    if (frame.pole) return *frame.pole + pole_by;
+    if (pole_by == glm::vec3(0.0f)) return std::nullopt;
+    return frame.joints.front() + pole_by;
+}
+
+void Retrace::begin(const TracedFrame& frame) {
+    joints_ = frame.joints;
+    std::vector<float> lengths;
+    std::vector<glm::vec3> rest;
+    for (std::size_t i = 1; i < joints_.size(); ++i) {
+        const glm::vec3 bone = joints_[i] - joints_[i - 1];
+        lengths.push_back(glm::length(bone));
+        rest.push_back(lengths.back() > 0.0f ? bone / lengths.back() : glm::vec3(1, 0, 0));
+    }
+    auto made = ik::Solver::make(lengths, rest);
+    if (!made) throw std::invalid_argument(made.message());
+    if (const Result taken = ik::check_takes(how_.method, lengths.size()); !taken)
+        throw std::invalid_argument(taken.message());
+    solver_.emplace(std::move(made).value());
+    state_ = solver_->initial_state();
+    limits_.clear();
+    if (how_.hinge == 0) return;
+    const auto joint = static_cast<std::size_t>(how_.hinge);
+    if (joint >= lengths.size()) throw std::invalid_argument("a hinge must be between root and tip");
+    // Angles count from the pose in the first frame, where the bend is that far from straight.
+    const glm::vec3 axis = glm::cross(rest[joint - 1], rest[joint]);
+    const float bend = ik::angle_between(rest[joint - 1], rest[joint]);
+    limits_.resize(lengths.size());
+    limits_[joint] = ik::Limit::hinge(glm::length(axis) > 1e-4f ? glm::normalize(axis) : across(rest[joint]),
+                                      -bend, glm::pi<float>() - bend);
+}
+
+const std::vector<glm::vec3>& Retrace::follow(const TracedFrame& frame) {
+    if (!frame.finite()) {
+        if (joints_.empty()) return frame.joints;
+        return joints_;
+    }
+    if (!solver_) begin(frame);
+    const glm::vec3 by = frame.joints.front() - joints_.front();
+    for (glm::vec3& joint : joints_) joint += by;
+    ik::Options options;
+    options.limits = limits_;
+    options.pole = how_.pole(frame);
+    options.soft_zone = how_.soft_zone;
+    solver_->solve(how_.method, joints_, state_, frame.goal(), options);
+    return joints_;
+}
+
+namespace {
+
+/// What a solve of the frames around a flip came to.
+class Attempts {
+  public:
+    Attempts(std::span<const TracedFrame> frames, std::size_t at) : frames_(frames), at_(at), allowed_(0.0f) {
+        const TracedFrame& first = frames.front();
+        for (std::size_t i = 1; i < first.joints.size(); ++i)
+            reach_ += glm::distance(first.joints[i - 1], first.joints[i]);
+        for (const TracedFrame& frame : frames)
+            if (frame.finite()) allowed_ = std::max(allowed_, shortfall(frame, frame.joints));
+        allowed_ += 0.02f * reach_;
+    }
+
+    float reach() const { return reach_; }
+    /// No flip in any frame, and the tip arrives as well as the engine's did.
+    bool prevents(const TraceSolve& how) const {
+        return run(how, [](std::size_t) { return true; }) == Outcome::Clean;
+    }
+    /// A flip where the engine's is.
+    bool flips(const TraceSolve& how) const {
+        return run(how, [&](std::size_t frame) { return frame + 3 > at_ && frame < at_ + 4; }) ==
+               Outcome::Flips;
+    }
+
+  private:
+    enum class Outcome { Clean, Flips, Fails };
+
+    float shortfall(const TracedFrame& frame, const std::vector<glm::vec3>& joints) const {
+        const float beyond = glm::distance(frame.goal(), joints.front()) - reach_;
+        return glm::distance(frame.goal(), joints.back()) - std::max(0.0f, beyond);
+    }
+
+    template <class Counts>
+    Outcome run(const TraceSolve& how, Counts counts) const {
+        Retrace chain(how);
+        ik::IncidentFinder finder;
+        bool fails = false;
+        try {
+            for (const TracedFrame& frame : frames_) {
+                const std::vector<glm::vec3>& joints = chain.follow(frame);
+                finder.add({.joints = joints, .target = frame.goal(), .pole = how.pole(frame)});
+                if (frame.finite()) fails = fails || !(shortfall(frame, joints) <= allowed_);
+            }
+        } catch (const std::invalid_argument&) {
+            return Outcome::Fails;
+        }
+        const bool flips = std::ranges::any_of(finder.incidents(), [&](const ik::ChainIncident& each) {
+            return each.kind == ik::IncidentKind::Flip && counts(static_cast<std::size_t>(each.frame));
+        });
+        return flips ? Outcome::Flips : fails ? Outcome::Fails : Outcome::Clean;
+    }
+
+    std::span<const TracedFrame> frames_;
+    std::size_t at_;
+    float reach_ = 0.0f, allowed_;
+};
+
+/// The nearest place for the pole target, in directions around the target's line.
+std::optional<Prevention> try_poles(const Attempts& attempts, const TracedFrame& at, const TraceSolve& base) {
+    constexpr std::array shares{0.02f, 0.05f, 0.1f, 0.2f, 0.4f, 0.8f};
+    constexpr int ways = 8, halvings = 4;
+    const glm::vec3 root = at.joints.front(), line = at.goal() - root;
+    if (!(glm::length(line) > 1e-6f * attempts.reach())) return std::nullopt;
+    const glm::vec3 u = across(line), v = glm::normalize(glm::cross(line, u));
+    const auto with = [&](glm::vec3 by) {
+        TraceSolve how = base;
+        how.pole_by = by;
+        return how;
+    };
+    const auto found = [&](glm::vec3 by) {
+        const TraceSolve how = with(by);
+        return Prevention{Prevention::Kind::Pole, how, how.pole(at), !at.pole};
+    };
+    if (!at.pole) {  // on a side, as far away as the chain reaches
+        for (int i = 0; i < ways; ++i) {
+            const float angle = glm::two_pi<float>() * static_cast<float>(i) / ways;
+            const glm::vec3 by =
+                0.5f * line + 0.5f * attempts.reach() * (std::cos(angle) * u + std::sin(angle) * v);
+            if (attempts.prevents(with(by))) return found(by);
+        }
+        return std::nullopt;
+    }
+    float below = 0.0f;
+    for (const float share : shares) {
+        for (int i = 0; i < ways; ++i) {
+            const float angle = glm::two_pi<float>() * static_cast<float>(i) / ways;
+            const glm::vec3 way = std::cos(angle) * u + std::sin(angle) * v;
+            if (!attempts.prevents(with(share * attempts.reach() * way))) continue;
+            float low = below, high = share;
+            for (int half = 0; half < halvings; ++half) {
+                const float middle = 0.5f * (low + high);
+                (attempts.prevents(with(middle * attempts.reach() * way)) ? high : low) = middle;
+            }
+            return found(high * attempts.reach() * way);
+        }
+        below = share;
+    }
+    return std::nullopt;
+}
+
+std::optional<Prevention> try_soft_zones(const Attempts& attempts, const TraceSolve& base) {
+    for (const float zone : {0.01f, 0.02f, 0.05f, 0.1f, 0.2f}) {
+        TraceSolve how = base;
+        how.soft_zone = zone;
+        if (attempts.prevents(how)) return Prevention{Prevention::Kind::SoftZone, how};
+    }
+    return std::nullopt;
+}
+
+std::optional<Prevention> try_hinge(const Attempts& attempts, std::size_t joint, const TraceSolve& base) {
+    TraceSolve how = base;
+    how.hinge = static_cast<int>(joint);
+    if (!attempts.prevents(how)) return std::nullopt;
+    return Prevention{Prevention::Kind::Hinge, how};
+}
+
+}  // namespace
+
+PreventedFlip prevent_flip(std::span<const TracedFrame> frames, std::size_t at, std::size_t joint) {
+    PreventedFlip result;
+    if (frames.front().joints.size() > max_tried_joints || !frames.front().finite() || !frames[at].finite())
+        return result;
+    result.tried = true;
+    const Attempts attempts(frames, at);
+    using enum ik::Method;
+    std::optional<ik::Method> stays;
+    for (const ik::Method method : {TwoBone, Fabrik, Dls, SvdDls, Ccd, JacobianTranspose, FabrikPlain}) {
+        const TraceSolve plain{.method = method};
+        if (!result.flips_in && attempts.flips(plain)) result.flips_in = method;
+        if (!stays && attempts.prevents(plain)) stays = method;
+    }
+    const TraceSolve base{.method = result.flips_in.value_or(Fabrik)};
+    const auto add = [&](std::optional<Prevention> tried) {
+        if (tried) result.by.push_back(std::move(*tried));
+    };
+    if (result.flips_in) {
+        add(try_poles(attempts, frames[at], base));
+        add(try_soft_zones(attempts, base));
+        add(try_hinge(attempts, joint, base));
+    }
+    if (stays) add(Prevention{Prevention::Kind::Method, {.method = *stays}});
+    return result;
+}
+
+std::string Prevention::title() const {
+    switch (kind) {
+        case Kind::Method:
+            return solver_title(solve.method);
+        case Kind::Pole:
+            if (adds_pole) return "Pole target added";
+            return "Pole moved by " + length_text(static_cast<double>(glm::length(solve.pole_by)));
+        case Kind::SoftZone:
+            return "Soft zone of " + fixed_text(static_cast<double>(solve.soft_zone), 2);
+        case Kind::Hinge:
+            break;
+    }
+    return "Hinge at joint " + std::to_string(solve.hinge);
+}
+
+std::string Prevention::text(const Conventions& space) const {
+    const auto place = [&](glm::vec3 p) {
+        const glm::dvec3 written = space.written(p);
+        const int decimals = space.unit.value == TraceUnit::Metres ? 3 : 1;
+        return "(" + fixed_text(written.x, decimals) + ", " + fixed_text(written.y, decimals) + ", " +
+               fixed_text(written.z, decimals) + ")";
+    };
+    switch (kind) {
+        case Kind::Method:
+            return std::string("solver ") + solver_title(solve.method);
+        case Kind::Pole:
+            if (adds_pole) return "pole target at " + place(*pole);
+            return "pole target " + length_text(static_cast<double>(glm::length(solve.pole_by))) +
+                   " away, at " + place(*pole);
+        case Kind::SoftZone:
+            return "soft zone of " + fixed_text(static_cast<double>(solve.soft_zone), 2) + " of the reach";
+        case Kind::Hinge:
+            break;
+    }
+    return "joint " + std::to_string(solve.hinge) + " as a hinge";
+}
+
+std::string PreventedFlip::text() const {
+    if (!tried) return {};
+    std::string said =
+        flips_in ? std::string("Tendril's ") + solver_title(*flips_in) + " flips on the same input, too"
+                 : "no solver of Tendril flips on the same input";
+    if (by.empty()) said += "; no change of pole target, soft zone, limit or solver prevents it";
+    return said;
+}
+
+}  // namespace tendril::app

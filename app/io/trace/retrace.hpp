@@ -1,0 +1,95 @@
+// Tendril's own solve of a trace's input, and what would have prevented a flip: the smallest changes under
+// which that solve has none. Each was tried by solving the frames around the flip.
+#pragma once
+
+#include <cstddef>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <tendril/ik/limit.hpp>
+#include <tendril/ik/method.hpp>
+#include <tendril/ik/solver.hpp>
+#include <vector>
+
+#include "app/io/trace/conventions.hpp"
+
+namespace tendril::app {
+
+/// A frame of one chain in metres, right-handed, Y up.
+struct TracedFrame {
+    std::string chain;  ///< empty if it has no name
+    std::vector<glm::vec3> joints;
+    std::optional<glm::vec3> target, pole;
+    std::vector<glm::quat> rotations;  ///< empty, or one a bone or a joint
+    std::optional<float> dt;
+    std::size_t line = 0;
+
+    /// The tip stands in where there is no target.
+    glm::vec3 goal() const { return target.value_or(joints.back()); }
+    /// Whether joints, target and pole target are finite.
+    bool finite() const;
+};
+
+/// How the input is solved.
+struct TraceSolve {
+    ik::Method method = ik::Method::Fabrik;
+    float soft_zone = 0.0f;   ///< fraction of the reach, 0 to 1
+    glm::vec3 pole_by{0.0f};  ///< metres: moves the pole target or, without one, adds it, from the root
+    int hinge = 0;            ///< this joint bends one way only, as in the first frame; 0: none
+
+    bool operator==(const TraceSolve&) const = default;
+    /// The pole target of a frame after the change.
+    std::optional<glm::vec3> pole(const TracedFrame& frame) const;
+};
+
+/// A chain that is led through frames, from the pose of the first.
+class Retrace {
+  public:
+    explicit Retrace(const TraceSolve& how) : how_(how) {}
+    /// The pose in that frame; where the frame is not finite, the one before. Throws std::invalid_argument
+    /// for bones or a method that the solver does not take.
+    const std::vector<glm::vec3>& follow(const TracedFrame& frame);
+
+  private:
+    void begin(const TracedFrame& frame);
+
+    TraceSolve how_;
+    std::optional<ik::Solver> solver_;
+    ik::State state_;
+    std::vector<ik::Limit> limits_;
+    std::vector<glm::vec3> joints_;
+};
+
+/// A change to how the input is solved.
+struct Prevention {
+    enum class Kind { Method, Pole, SoftZone, Hinge };
+    Kind kind = Kind::Method;
+    TraceSolve solve;
+    std::optional<glm::vec3> pole{};  ///< where the pole target then is, in the flip's frame
+    bool adds_pole = false;           ///< the trace has none
+
+    std::string title() const;  ///< "Pole moved by 42.0 mm"
+    /// "moving the pole target by 42 mm, to (30.0, -50.0, 140.0)": the place as the file has it.
+    std::string text(const Conventions& space) const;
+};
+inline constexpr const char* prevention_names[]{"method", "pole", "soft_zone", "hinge"};
+
+struct PreventedFlip {
+    bool tried = false;
+    std::optional<ik::Method> flips_in;  ///< the method of Tendril that flips on the same input, if one does
+    std::vector<Prevention> by;          ///< at most one of each kind
+    /// For display, a clause about `flips_in`.
+    std::string text() const;
+};
+
+inline constexpr std::size_t frames_before_flip = 24, frames_after_flip = 16;
+/// Longer chains are not tried, nor are flips once the chains of those before have so many joints together:
+/// it would take seconds.
+inline constexpr std::size_t max_tried_joints = 64, max_joints_of_tries = 400;
+
+/// `frames` are consecutive and of one chain; the flip is between `at` and the frame before it, and most of
+/// it at `joint`. Some milliseconds.
+PreventedFlip prevent_flip(std::span<const TracedFrame> frames, std::size_t at, std::size_t joint);
+
+}  // namespace tendril::app
