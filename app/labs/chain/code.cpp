@@ -319,17 +319,6 @@ void add_copy_commands(CommandTable& table) {
                    workspace.toast(code ? "The chain is on the clipboard, as C++."
                                         : "The scene is on the clipboard, as JSON.");
                }});
-    table.add({.name = "race.copy",
-               .title = "Copy the race as CSV",
-               .arguments = {},
-               .help = "Puts every solver's residual at each iteration on the clipboard, as CSV",
-               .effect = Effect::Look,
-               .apply = [](Workspace& workspace, const Arguments&) {
-                   const ShownChain shown = shown_chain(workspace);
-                   if (!shown.race) throw Refused("no race is open");
-                   workspace.ui.copied = race_csv(*shown.race);
-                   workspace.toast("The race is on the clipboard, as CSV.");
-               }});
 }
 
 }  // namespace tendril::app

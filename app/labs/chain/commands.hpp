@@ -54,7 +54,7 @@ void add_shape_commands(CommandTable& table);
 void add_mode_commands(CommandTable& table);
 void add_reach_commands(CommandTable& table);
 void add_study_commands(CommandTable& table);
-/// race.save and race.record.
+/// race.copy, race.save and race.record.
 void add_race_file_commands(CommandTable& table);
 void add_copy_commands(CommandTable& table);
 void add_paste_command(CommandTable& table);

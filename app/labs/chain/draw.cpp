@@ -3,7 +3,6 @@
 
 #include <imgui.h>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
@@ -19,6 +18,7 @@
 #include "app/labs/chain/past.hpp"
 #include "app/labs/kit/limit_shape.hpp"
 #include "app/labs/kit/past_view.hpp"
+#include "app/labs/kit/race.hpp"
 #include "app/widgets/icons.hpp"
 
 namespace tendril::app {
@@ -231,23 +231,13 @@ void ChainLab::draw(const View& view, DrawList& list) const {
     Drawing(view, list).run();
 }
 
-namespace {
-
-using Colours = std::array<glm::vec3, ik::all_methods.size()>;  // in the order of ik::Method
-
-constexpr Colours on_dark{rgb(0xF2F5F8), rgb(0x3F8FE0), rgb(0xCC79A7), rgb(0xA9792B),
-                          rgb(0x35C3A5), rgb(0xB9A6F2), rgb(0x8FA33B)};
-constexpr Colours on_light{rgb(0x1E252E), rgb(0x1D6FC4), rgb(0xB2558A), rgb(0x8A5D10),
-                           rgb(0x00886C), rgb(0x7A5FD0), rgb(0x66791A)};
-
-}  // namespace
-
 glm::vec3 pole_colour(const Palette& palette) {
     return palette.theme == Theme::Light ? rgb(0xB2558A) : rgb(0xCC79A7);
 }
 
 glm::vec3 solver_colour(const Palette& palette, ik::Method method) {
-    return (palette.theme == Theme::Light ? on_light : on_dark)[static_cast<std::size_t>(method)];
+    static_assert(ik::all_methods.size() <= max_racers);
+    return racer_colour(palette, static_cast<std::size_t>(method));
 }
 
 ShownChain shown_chain(const Workspace& workspace) {

@@ -5,27 +5,19 @@
 #include <string>
 #include <utility>
 
-#include "app/document/atomic_file.hpp"
 #include "app/document/units.hpp"
 #include "app/labs/chain/commands.hpp"
 #include "app/labs/chain/draw.hpp"
 #include "app/labs/kit/film.hpp"
+#include "app/labs/kit/race.hpp"
 
 namespace tendril::app {
 namespace {
 
-Command race_save() {
-    return {.name = "race.save",
-            .title = "Save the race as CSV",
-            .arguments = {{.name = "path", .type = ArgumentType::Text, .help = "a CSV file to write"}},
-            .help = "Writes every solver's residual at each iteration as CSV",
-            .effect = Effect::Look,
-            .apply = [](Workspace& workspace, const Arguments& given) {
-                const ShownChain shown = shown_chain(workspace);
-                check_race(shown.part);
-                write_file_atomically(given.text("path"), race_csv(*shown.race));
-                workspace.toast(written_text(given.text("path")));
-            }};
+std::string open_race_csv(const Workspace& workspace) {
+    const ShownChain shown = shown_chain(workspace);
+    check_race(shown.part);
+    return race_csv(*shown.race);
 }
 
 constexpr double frames_per_second = 30.0;
@@ -70,7 +62,10 @@ void record_race(Workspace& workspace, const Arguments& given) {
 }  // namespace
 
 void add_race_file_commands(CommandTable& table) {
-    table.add(race_save());
+    add_race_csv_commands(table, {.race = "race",
+                                  .title = "the race as CSV",
+                                  .holds = "every solver's residual at each iteration",
+                                  .text = open_race_csv});
     table.add(
         {.name = "race.record",
          .title = "Record the race",

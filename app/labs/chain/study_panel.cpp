@@ -7,8 +7,8 @@
 #include "app/document/units.hpp"
 #include "app/labs/chain/draw.hpp"
 #include "app/labs/chain/panel.hpp"
+#include "app/labs/kit/race.hpp"
 #include "app/widgets/fields.hpp"
-#include "app/widgets/fonts.hpp"
 #include "app/widgets/plot.hpp"
 #include "app/widgets/text.hpp"
 #include "app/widgets/tooltip.hpp"
@@ -38,12 +38,6 @@ void start_buttons(const char* command, Emit& emit) {
 
 /// Whether the x axis is time: state of the panel, not of the document.
 constexpr const char* against_time = "against time";
-
-void small_right(const std::string& text) {
-    ImGui::PushFont(small_font());
-    text_flush_right(elided(text, ImGui::GetContentRegionAvail().x), true);
-    ImGui::PopFont();
-}
 
 void racer_row(const ShownChain& shown, ik::Method method, bool time, const Palette& palette, Emit& emit) {
     const auto index = static_cast<std::size_t>(method);

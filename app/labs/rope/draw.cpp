@@ -3,9 +3,11 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <span>
 
 #include "app/labs/kit/world_drawing.hpp"
 #include "app/labs/rope/past.hpp"
+#include "app/labs/rope/race.hpp"
 #include "app/labs/rope/rope_lab.hpp"
 #include "app/view/surfaces.hpp"
 
@@ -20,9 +22,17 @@ constexpr glm::vec4 unseen{0.0f};          ///< for invisible strokes that only 
 class Drawing {
   public:
     Drawing(const View& view, DrawList& list)
-        : view_(view), list_(list), part_(rope_part(view.workspace)), world_(*part_.world) {}
+        : view_(view), list_(list), part_(rope_part(view.workspace)), world_(world_in(part_, view.pane)) {
+        const PickId first = pick_in(view.pane, 0);
+        const auto here = [&](PickId pick) {
+            return pick >= first && pick < first + picks_in_pane ? pick - first : no_pick;
+        };
+        hovered_ = here(view.hovered);
+        dragged_ = here(view.dragged);
+    }
 
     void run() {
+        const std::size_t before = list_.strokes.size();
         for (std::size_t i = 0; i < world_.state().colliders.size(); ++i) collider(i);
         positions_ = world_.positions();
         colours_ = particle_colours(world_, view_.palette, part_.view.strain);
@@ -41,11 +51,13 @@ class Drawing {
         for (std::size_t i = 0; i < world_.state().ties.size(); ++i) tie(i);
         particles();
         labels();
+        for (Stroke& stroke : std::span(list_.strokes).subspan(before))
+            if (stroke.pick != no_pick) stroke.pick = pick_in(view_.pane, stroke.pick);
     }
 
   private:
     float px(float pixels) const { return pixels * view_.scale; }
-    bool lit(PickId pick) const { return view_.hovered == pick || view_.dragged == pick; }
+    bool lit(PickId pick) const { return hovered_ == pick || dragged_ == pick; }
     bool chosen(const rope::Body& body) const {
         return part_.selection && part_.selection->of_particles() &&
                part_.selection->body == world_.name(body);
@@ -140,8 +152,8 @@ class Drawing {
             const glm::vec3 from = positions_[link.a], to = positions_[link.b], middle = 0.5f * (from + to);
             catchable(from, cuts ? to : middle, body.radius, link.a);
             if (!cuts) catchable(middle, to, body.radius, link.b);
-            const bool last = link.b + 1 == body.first + body.count && view_.hovered == particle_pick(link.b);
-            const bool hit = view_.hovered == particle_pick(link.a) || last;
+            const bool last = link.b + 1 == body.first + body.count && hovered_ == particle_pick(link.b);
+            const bool hit = hovered_ == particle_pick(link.a) || last;
             if (cuts && hit && body.kind == rope::Body::Kind::Rope) {
                 const float thick = 1.15f * body.radius;
                 list_.bone(from, to, thick, thick, glm::vec4(view_.palette.limit, 1.0f));
@@ -208,7 +220,7 @@ class Drawing {
 
     void labels() {
         const bool always = view_.workspace.settings.labels == LabelMode::Always;
-        const PickId shown = view_.dragged != no_pick ? view_.dragged : view_.hovered;
+        const PickId shown = dragged_ != no_pick ? dragged_ : hovered_;
         const auto add = [&](glm::vec3 at, const std::string& text, bool under_mouse) {
             list_.labels.push_back({.at = at,
                                     .clearance = px(12.0f),
@@ -238,6 +250,7 @@ class Drawing {
     DrawList& list_;
     const RopePart& part_;
     const NamedWorld& world_;
+    PickId hovered_ = no_pick, dragged_ = no_pick;  ///< in this pane
     std::vector<glm::vec3> positions_, colours_;
 };
 

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <span>
+
+#include "app/document/units.hpp"
 
 namespace tendril::app {
 
@@ -33,30 +36,57 @@ float highest_speed(const NamedWorld& world, const Particles& particles) {
     return highest;
 }
 
-RopeSample sample_of(const RopePart& part, const RopeReport& report) {
-    const NamedWorld& world = *part.world;
+RopeSample sample_of(const NamedWorld& world) {
     RopeSample sample;
     for (const rope::Body& body : world.state().bodies)
         sample.stretch = std::max(sample.stretch, body.stretch);
     sample.error = static_cast<float>(world.length_error());
     sample.energy = static_cast<float>(world.energy());
+    return sample;
+}
+
+RopeSample sample_of(const RopePart& part, const RopeReport& report) {
+    RopeSample sample = sample_of(*part.world);
     const double frame = part.jitter.dial > 0.0f ? part.jitter.frame : tick_seconds;
     sample.frame = static_cast<float>(1e3 * frame);
     sample.report = report;
     return sample;
 }
 
-RopeReport last_second(const std::vector<RopeSample>& samples) {
+namespace {
+
+std::span<const RopeSample> of_last_second(const std::vector<RopeSample>& samples) {
     constexpr auto ticks = static_cast<std::size_t>(1.0 / tick_seconds + 0.5);
+    return std::span(samples).last(std::min(samples.size(), ticks));
+}
+
+}  // namespace
+
+RopeReport last_second(const std::vector<RopeSample>& samples) {
     RopeReport sum;
-    for (std::size_t i = samples.size() - std::min(samples.size(), ticks); i < samples.size(); ++i) {
-        const RopeReport& tick = samples[i].report;
+    for (const RopeSample& each : of_last_second(samples)) {
+        const RopeReport& tick = each.report;
         sum.inside = tick.inside;
         sum.unconverged += tick.unconverged;
         sum.suspended += tick.suspended;
         sum.contact_loss += tick.contact_loss;
     }
     return sum;
+}
+
+std::string cost_text(const std::vector<RopeSample>& samples) {
+    double sum = 0.0, measured = 0.0;
+    for (const RopeSample& each : of_last_second(samples)) {
+        if (each.cost <= 0.0f) continue;
+        sum += static_cast<double>(each.cost);
+        ++measured;
+    }
+    return measured > 0.0 ? fixed_text(sum / measured, 0) + " \xc2\xb5s" : "";
+}
+
+std::string share_text(float share) {
+    const double percent = 100.0 * static_cast<double>(share);
+    return percent < 0.01 ? "< 0.01 %" : fixed_text(percent, 2) + " %";
 }
 
 }  // namespace tendril::app

@@ -20,10 +20,16 @@ float strongest_tension(const NamedWorld& world, const Particles& particles);
 /// The highest speed of the particles, m/s.
 float highest_speed(const NamedWorld& world, const Particles& particles);
 
-/// A sample of the whole world, after a tick.
+/// A sample of the whole world; after a tick, with its report and the length of its frame.
+RopeSample sample_of(const NamedWorld& world);
 RopeSample sample_of(const RopePart& part, const RopeReport& report);
 /// Sums over the last second, except for `inside`, which is that of the last tick.
 RopeReport last_second(const std::vector<RopeSample>& samples);
+
+/// Of the last second: "310 µs"; "" where nothing was measured.
+std::string cost_text(const std::vector<RopeSample>& samples);
+/// "< 0.01 %", "1.25 %"
+std::string share_text(float share);
 
 /// Two pins farther apart than what is between them is long: rope, cloth along its threads, and ties.
 struct OverPulled {

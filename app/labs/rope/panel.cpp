@@ -15,16 +15,20 @@
 #include "app/fields/field_rows.hpp"
 #include "app/labs/kit/panel_rows.hpp"
 #include "app/labs/kit/past_strip.hpp"
+#include "app/labs/kit/race.hpp"
 #include "app/labs/kit/world_file.hpp"
 #include "app/labs/rope/numbers.hpp"
 #include "app/labs/rope/past.hpp"
+#include "app/labs/rope/race.hpp"
 #include "app/labs/rope/rope_edit.hpp"
 #include "app/labs/rope/rope_fields.hpp"
 #include "app/labs/rope/rope_lab.hpp"
 #include "app/labs/rope/rope_part.hpp"
 #include "app/labs/rope/scenes.hpp"
 #include "app/widgets/fields.hpp"
+#include "app/widgets/lists.hpp"
 #include "app/widgets/plot.hpp"
+#include "app/widgets/text.hpp"
 
 namespace tendril::app {
 
@@ -36,9 +40,9 @@ void scene_rows(Emit& emit) {
     std::vector<PresetButton> buttons;
     for (const RopeSceneEntry& scene : rope_scenes())
         buttons.push_back({scene.name, scene.title, scene.help});
-    const std::size_t last = buttons.size() % 3;  // longer titles fit a row that is not full
-    for (std::size_t i = buttons.size() - last; i < buttons.size(); ++i)
-        buttons[i].of = static_cast<int>(last);
+    // Two that are left get a row to themselves; one shares the row of Empty and Reset.
+    if (buttons.size() % 3 == 2)
+        for (std::size_t i = buttons.size() - 2; i < buttons.size(); ++i) buttons[i].of = 2;
     preset_rows(rope_lab, buttons, "Removes every rope and collider", emit);
 }
 
@@ -65,6 +69,38 @@ void tool_rows(const RopePart& part, Emit& emit) {
     end_row();
 }
 
+/// A character whose capsules collide.
+void character_rows(const Walker& walker, Emit& emit) {
+    const std::string now = walker.figure ? walker.figure->file : "";
+    std::string file = now;
+    const auto change = [&](const std::string& path, const std::string& clip, glm::vec3 at) {
+        ArgumentList given{{"clip", clip}, {"at", at}};
+        if (!path.empty()) given.push_back({"path", path});
+        emit.continuously("rope.character", given);
+    };
+    if (text_field("character", file, "type its path") && file != now && !file.empty())
+        emit("rope.character", {{"path", file}, {"at", walker.at}});
+    explain("A character with its clips: .gltf, .glb, .vrm, .vrma, .fbx or .bvh. Enter reads it.");
+    if (row_button("Stick figure", 2, !walker.figure || !now.empty(), "The built-in figure walks in"))
+        emit("rope.character", {{"at", walker.at}});
+    if (row_button("Remove", 2, walker.figure != nullptr, "Removes the character and its colliders"))
+        emit("rope.character.remove");
+    end_row();
+    if (!walker.figure) return;
+    constexpr const char* standing = "none (rest pose)";
+    const std::string shown = walker.clip.empty() ? standing : walker.clip;
+    if (begin_list("clip", &shown)) {
+        if (list_row(standing, walker.clip.empty())) change(now, "", walker.at);
+        for (const humanoid::Clip& clip : walker.figure->character.clips)
+            if (list_row(clip.name, clip.name == walker.clip)) change(now, clip.name, walker.at);
+        end_list();
+    }
+    explain("The motion that plays over and over. Type part of a name to find one.");
+    glm::vec3 at = walker.at;
+    if (point_field("at", at, 0.01f)) change(now, walker.clip, at);
+    explain("Where the origin of its file is.");
+}
+
 FieldRows settings_rows(const RopePart& part, Emit& emit) {
     FieldRows rows(part.world->settings(), "rope.settings", emit);
     return rows.compared_with(part.usual);
@@ -85,6 +121,13 @@ void solver_rows(const RopePart& part, MoreRows& more, Emit& emit) {
             "and cost more.");
     });
     if (now.solver != rope::Solver::Relaxation) settings.row("compliance");
+    const bool races = !part.rivals.empty();
+    if (row_button(races ? "End the race" : "Race the solvers", 1, true,
+                   races ? "Goes on with this solver alone"
+                         : "Runs the scene by each solver, side by side with one camera: drags and commands "
+                           "change all of them"))
+        emit("rope.race", {{"on", !races}});
+    end_row();
 }
 
 void time_rows(const Workspace& workspace, MoreRows& more, Emit& emit) {
@@ -118,12 +161,16 @@ void RopeLab::panel(const Workspace& workspace, Emit& emit) const {
     };
     section("Presets", true, [&](MoreRows&) { scene_rows(emit); });
     section("Click action", true, [&](MoreRows&) { tool_rows(part, emit); });
-    section("Add", false, [&](MoreRows&) { adding_rows(workspace, emit); });
+    section("Add", false, [&](MoreRows&) {
+        adding_rows(workspace, emit);
+        character_rows(part.walker, emit);
+    });
     section("World", true, [&](MoreRows& more) {
-        settings_rows(part, emit)
-            .under(more)
-            .rows("wind", "gusts", "still_air", "damping", "friction", "gravity", "gravity_scale",
-                  "external");
+        const FieldRows rows = settings_rows(part, emit), folded = settings_rows(part, emit).under(more);
+        folded.row("wind");
+        const bool windy = part.world->settings().wind != glm::vec3(0.0f);
+        (windy ? rows : folded).rows("gusts", "still_air");
+        folded.rows("damping", "friction", "gravity", "gravity_scale", "external");
     });
     section("Solver", false, [&](MoreRows& more) { solver_rows(part, more, emit); });
     section("Time", false, [&](MoreRows& more) { time_rows(workspace, more, emit); });
@@ -329,6 +376,38 @@ void length_plot(const std::vector<RopeSample>& samples, const Palette& palette)
     plot("length error", errors, {.x = "time", .x_unit = "s", .y = "", .y_unit = "%", .min_y = 1e-4f}, 9.0f);
 }
 
+/// The numbers of each racer now, and their curves; `timed`: with the cost too.
+void race_rows(const RopePart& part, bool timed, const Palette& palette, Emit& emit) {
+    section("Race");
+    const std::vector<RopeRacer> racers = rope_racers(part);
+    for (const RopeRacer& racer : racers) {
+        colour_mark(rope_solver_colour(palette, racer.solver()));
+        ImGui::AlignTextToFramePadding();
+        ImGui::TextUnformatted(rope_solvers.title(racer.solver()));
+        ImGui::SameLine();
+        text_flush_right(timed ? cost_text(racer.samples) : "");
+        small_right(racer_text(racer.last()));
+    }
+    const auto curves = [&](const char* name, const char* unit, float RopeSample::*value, float scale,
+                            float min_y) {
+        std::vector<Curve> drawn;
+        for (const RopeRacer& racer : racers)
+            drawn.push_back(curve(rope_solvers.title(racer.solver()),
+                                  rope_solver_colour(palette, racer.solver()), racer.samples, value, scale));
+        plot(name, drawn, {.x = "time", .x_unit = "s", .y = name, .y_unit = unit, .min_y = min_y}, 9.0f);
+    };
+    curves("length error", "%", &RopeSample::error, 100.0f, 1e-4f);
+    curves("energy", "J", &RopeSample::energy, 1.0f, 0.0f);
+    if (timed) curves("time per frame", "ms", &RopeSample::cost, 1e-3f, 1e-3f);
+    if (!(part.world->settings().compliance > 0.0f)) note("Without compliance, XPBD is relaxation.");
+    if (row_button("Start again", 2, true, "Starts the race from where the first view is now"))
+        emit("rope.race");
+    if (row_button("Copy as CSV", 2, true,
+                   "Each solver's length error, energy and microseconds per tick in the last ten seconds"))
+        emit("rope.race.copy");
+    end_row();
+}
+
 }  // namespace
 
 void selection_rows(const Workspace& workspace, Emit& emit) {
@@ -354,17 +433,13 @@ void number_rows(const Workspace& workspace, const Palette& palette, Emit& emit)
     section("Numbers");
     reading("particles", "%zu", state.position.size());
     const RopeSample last = part.samples.empty() ? sample_of(part, {}) : part.samples.back();
-    const auto percent = [](float share) {
-        const double value = 100.0 * static_cast<double>(share);
-        return value < 0.01 ? std::string("< 0.01 %") : fixed_text(value, 2) + " %";
-    };
-    reading("length error", "%s", percent(last.error).c_str());
+    reading("length error", "%s", share_text(last.error).c_str());
     explain("How far off the worst segment's length is, as you see it: after contact.");
     reading("energy", "%.3f J%s", static_cast<double>(last.energy), part.quiet_ticks > 0 ? ", at rest" : "");
     const double lost = static_cast<double>(last_second(part.samples).contact_loss);
     MoreRows more;
     more.add("as solved", {}, false, [&] {
-        reading("as solved", "%s", percent(last.stretch).c_str());
+        reading("as solved", "%s", share_text(last.stretch).c_str());
         explain("The length error that the solver left: for hair, before colliders displaced anything.");
     });
     more.add("lost to contact", {}, false, [&] {
@@ -377,10 +452,10 @@ void number_rows(const Workspace& workspace, const Palette& palette, Emit& emit)
             "Substeps skipped so as not to fall behind: from frames over the longest frame, and where the "
             "work exceeds what a tick allows.");
     });
-    if (workspace.clock.measured && part.cost > 0.0f)
-        more.add("time per frame", {}, false,
-                 [&] { reading("time per frame", "%.0f \xc2\xb5s", static_cast<double>(part.cost)); });
+    if (const std::string cost = cost_text(part.samples); workspace.clock.measured && !cost.empty())
+        more.add("time per frame", {}, false, [&] { reading("time per frame", "%s", cost.c_str()); });
     more_rows(workspace, "Numbers", more, emit);
+    if (!part.rivals.empty()) return race_rows(part, workspace.clock.measured, palette, emit);
     if (part.samples.size() < 2) return;
     section("Last ten seconds");
     MoreRows plots;

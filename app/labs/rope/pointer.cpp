@@ -4,6 +4,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "app/document/json_complete.hpp"
+#include "app/labs/rope/race.hpp"
 #include "app/labs/rope/rope_edit.hpp"
 #include "app/labs/rope/rope_lab.hpp"
 
@@ -72,11 +73,10 @@ const rope::Body* whole_body(const RopePart& part) {
     return whole ? body : nullptr;
 }
 
-Handle particle_handle(const NamedWorld& world, const ParticlePlace& place) {
-    const std::size_t particle = place.body->first + place.index;
+Handle particle_handle(const NamedWorld& world, const ParticlePlace& place, PickId pick) {
     return {world.name(*place.body) + "." + std::to_string(place.index),
-            particle_pick(particle),
-            {world.position(particle)}};
+            pick,
+            {world.position(place.body->first + place.index)}};
 }
 
 }  // namespace
@@ -100,8 +100,13 @@ bool is_attached(const NamedWorld& world, const rope::Body& body) {
     });
 }
 
+const NamedWorld& picked_world(const RopePart& part, PickId pick) {
+    return world_in(part, static_cast<std::size_t>(std::max(pick, 0) / picks_in_pane));
+}
+
 const rope::Collider* picked_collider(const NamedWorld& world, PickId pick) {
     const auto& colliders = world.state().colliders;
+    pick %= picks_in_pane;
     if (pick < collider_pick(0)) return nullptr;
     const auto index = static_cast<std::size_t>(pick - collider_pick(0));
     return index < colliders.size() ? &colliders[index] : nullptr;
@@ -109,6 +114,7 @@ const rope::Collider* picked_collider(const NamedWorld& world, PickId pick) {
 
 const rope::Tie* picked_tie(const NamedWorld& world, PickId pick) {
     const auto& ties = world.state().ties;
+    pick %= picks_in_pane;
     if (pick < tie_pick(0)) return nullptr;
     const auto index = static_cast<std::size_t>(pick - tie_pick(0));
     return index < ties.size() ? &ties[index] : nullptr;
@@ -116,12 +122,14 @@ const rope::Tie* picked_tie(const NamedWorld& world, PickId pick) {
 
 const rope::Body* picked_body(const NamedWorld& world, PickId pick) {
     const auto& bodies = world.state().bodies;
+    pick %= picks_in_pane;
     if (pick < body_pick(0)) return nullptr;
     const auto index = static_cast<std::size_t>(pick - body_pick(0));
     return index < bodies.size() ? &bodies[index] : nullptr;
 }
 
 std::optional<ParticlePlace> picked_particle(const NamedWorld& world, PickId pick) {
+    pick %= picks_in_pane;
     if (pick < 0 || pick >= collider_pick(0)) return std::nullopt;
     const auto particle = static_cast<std::size_t>(pick);
     for (const rope::Body& body : world.state().bodies)
@@ -145,7 +153,7 @@ std::vector<Handle> RopeLab::handles(const Workspace& workspace) const {
         for (std::size_t i = 0; i < body.count; ++i) {
             const bool end = body.kind == rope::Body::Kind::Rope && (i == 0 || i + 1 == body.count);
             if (i % stride == 0 || end || shown[body.first + i])
-                handles.push_back(particle_handle(world, {&body, i}));
+                handles.push_back(particle_handle(world, {&body, i}, particle_pick(body.first + i)));
         }
     }
     for (std::size_t i = 0; i < world.state().colliders.size(); ++i)
@@ -154,19 +162,20 @@ std::vector<Handle> RopeLab::handles(const Workspace& workspace) const {
 }
 
 std::optional<Handle> RopeLab::handle(const Workspace& workspace, PickId pick) const {
-    const NamedWorld& world = *rope_part(workspace).world;
+    const NamedWorld& world = picked_world(rope_part(workspace), pick);
     if (const auto* collider = picked_collider(world, pick)) return collider_handle(world, *collider, pick);
     if (const auto* body = picked_body(world, pick)) return body_handle(world, *body, pick);
-    if (const auto place = picked_particle(world, pick)) return particle_handle(world, *place);
+    if (const auto place = picked_particle(world, pick)) return particle_handle(world, *place, pick);
     return std::nullopt;
 }
 
 void RopeLab::drag(const Workspace& workspace, PickId pick, const Handle::Frame& frame, Emit& emit) const {
     const glm::vec3 to = frame.position;
     const RopePart& part = rope_part(workspace);
-    if (const auto* collider = picked_collider(*part.world, pick)) {
-        const Handle::Frame now = collider_handle(*part.world, *collider, pick).frame;
-        const std::string& name = part.world->name(*collider);
+    const NamedWorld& world = picked_world(part, pick);
+    if (const auto* collider = picked_collider(world, pick)) {
+        const Handle::Frame now = collider_handle(world, *collider, pick).frame;
+        const std::string& name = world.name(*collider);
         // Rotation about the axis of a capsule or the normal of a plane has no effect.
         const glm::quat by = frame.rotation * glm::inverse(now.rotation);
         const bool box = std::holds_alternative<rope::Box>(collider->shape);
@@ -174,7 +183,7 @@ void RopeLab::drag(const Workspace& workspace, PickId pick, const Handle::Frame&
             now.rotation * (std::holds_alternative<rope::Plane>(collider->shape) ? upright : along_x);
         const bool turns = frame.rotation != now.rotation && (box || glm::distance(by * axis, axis) > 1e-6f);
         if (turns) {
-            ArgumentList arguments = turned(part.world->shape(*collider), frame.rotation);
+            ArgumentList arguments = turned(world.shape(*collider), frame.rotation);
             arguments.push_back({"name", name});
             emit.continuously("rope.collider.set", arguments);
         }
@@ -182,24 +191,23 @@ void RopeLab::drag(const Workspace& workspace, PickId pick, const Handle::Frame&
             emit.continuously("rope.collider.move", {{"name", name}, {"to", to}});
         return;
     }
-    if (const auto* body = picked_body(*part.world, pick)) {
-        emit.continuously(
-            "rope.move",
-            {{"rope", part.world->name(*body)}, {"by", to - grip_of(*part.world, *body)}, {"hold", true}});
+    if (const auto* body = picked_body(world, pick)) {
+        emit.continuously("rope.move",
+                          {{"rope", world.name(*body)}, {"by", to - grip_of(world, *body)}, {"hold", true}});
         return;
     }
-    const auto place = picked_particle(*part.world, pick);
+    const auto place = picked_particle(world, pick);
     if (!place) return;
-    if (const rope::Collider* holder = holder_of(*part.world, place->body->first + place->index)) {
+    if (const rope::Collider* holder = holder_of(world, place->body->first + place->index)) {
         // An attached particle moves with its collider.
-        const glm::vec3 by = to - part.world->position(place->body->first + place->index);
-        emit.continuously("rope.collider.move", {{"name", part.world->name(*holder)},
-                                                 {"to", rope::centre(part.world->shape(*holder)) + by}});
+        const glm::vec3 by = to - world.position(place->body->first + place->index);
+        emit.continuously("rope.collider.move",
+                          {{"name", world.name(*holder)}, {"to", rope::centre(world.shape(*holder)) + by}});
         return;
     }
     const std::size_t particle = place->body->first + place->index;
-    const bool pinned = part.world->pinned(particle) && !is_held(part, particle);
-    ArgumentList arguments = of_particle(*part.world, *place);
+    const bool pinned = world.pinned(particle) && !is_held(world, part.hold, particle);
+    ArgumentList arguments = of_particle(world, *place);
     arguments.push_back({"at", to});
     emit.continuously(pinned ? "rope.pin" : "rope.hold", arguments);
 }
@@ -211,19 +219,21 @@ void RopeLab::drop(const Workspace& workspace, PickId, Emit& emit) const {
 namespace {
 
 /// With the Tie action, a click on a second particle ties it to the selected one.
-std::optional<ParticlePlace> tied_from(const RopePart& part, const ParticlePlace& to) {
+std::optional<ParticlePlace> tied_from(const RopePart& part, const NamedWorld& world,
+                                       const ParticlePlace& to) {
     if (part.tool != RopeTool::Tie || !part.selection || !part.selection->of_particles()) return std::nullopt;
-    const ParticlePlace from{part.world->find(part.selection->body), part.selection->particle()};
+    const ParticlePlace from{world.find(part.selection->body), part.selection->particle()};
     if (from.body == nullptr || (from.body == to.body && from.index == to.index)) return std::nullopt;
     return from;
 }
 
 /// With the Cut action, a click on a second particle of a cloth cuts it from the selected one to there.
-std::optional<ParticlePlace> cut_from(const RopePart& part, const ParticlePlace& to) {
+std::optional<ParticlePlace> cut_from(const RopePart& part, const NamedWorld& world,
+                                      const ParticlePlace& to) {
     if (part.tool != RopeTool::Cut || to.body->kind != rope::Body::Kind::Cloth) return std::nullopt;
     if (!part.selection || !part.selection->of_particles() || part.selection->particles.several())
         return std::nullopt;
-    const ParticlePlace from{part.world->find(part.selection->body), part.selection->particle()};
+    const ParticlePlace from{world.find(part.selection->body), part.selection->particle()};
     if (from.body != to.body || from.index == to.index) return std::nullopt;
     return from;
 }
@@ -250,7 +260,7 @@ void tie_places(const NamedWorld& world, const ParticlePlace& a, const ParticleP
 
 void RopeLab::click(const Workspace& workspace, PickId pick, Emit& emit) const {
     const RopePart& part = rope_part(workspace);
-    const NamedWorld& world = *part.world;
+    const NamedWorld& world = picked_world(part, pick);
     if (const auto* collider = picked_collider(world, pick)) {
         emit("rope.select", {{"collider", world.name(*collider)}});
         return;
@@ -266,8 +276,8 @@ void RopeLab::click(const Workspace& workspace, PickId pick, Emit& emit) const {
         if (part.selection && !tying) emit("rope.select");
         return;
     }
-    if (const auto from = tied_from(part, *place)) return tie_places(world, *from, *place, emit);
-    if (const auto from = cut_from(part, *place)) cut_between(world, *from, *place, emit);
+    if (const auto from = tied_from(part, world, *place)) return tie_places(world, *from, *place, emit);
+    if (const auto from = cut_from(part, world, *place)) cut_between(world, *from, *place, emit);
     emit("rope.select", of_particle(world, *place));
     if (part.tool == RopeTool::Pin) {
         const bool pinned = world.pinned(place->body->first + place->index);
@@ -282,13 +292,14 @@ void RopeLab::click(const Workspace& workspace, PickId pick, Emit& emit) const {
 /// Selects the whole body: its gizmo then moves it.
 void RopeLab::double_click(const Workspace& workspace, PickId pick, Emit& emit) const {
     const RopePart& part = rope_part(workspace);
-    const auto place = picked_particle(*part.world, pick);
+    const NamedWorld& world = picked_world(part, pick);
+    const auto place = picked_particle(world, pick);
     if (!place || part.tool != RopeTool::Move) return click(workspace, pick, emit);
-    emit("rope.select", {{"rope", part.world->name(*place->body)}});
+    emit("rope.select", {{"rope", world.name(*place->body)}});
 }
 
 void RopeLab::click_more(const Workspace& workspace, PickId pick, Emit& emit) const {
-    const NamedWorld& world = *rope_part(workspace).world;
+    const NamedWorld& world = picked_world(rope_part(workspace), pick);
     const auto place = picked_particle(world, pick);
     if (!place) {
         if (pick != no_pick) click(workspace, pick, emit);
@@ -343,39 +354,40 @@ void RopeLab::deselect(const Workspace& workspace, Emit& emit) const {
 
 std::string RopeLab::hint(const Workspace& workspace, PickId pick) const {
     const RopePart& part = rope_part(workspace);
-    if (const auto* collider = picked_collider(*part.world, pick)) {
-        return part.world->name(*collider) + " (" + rope::kind(collider->shape) +
+    const NamedWorld& world = picked_world(part, pick);
+    if (const auto* collider = picked_collider(world, pick)) {
+        return world.name(*collider) + " (" + rope::kind(collider->shape) +
                "): drag moves it, and it pushes what it meets. Click selects it.";
     }
-    if (const auto* tie = picked_tie(*part.world, pick))
-        return part.world->name(*tie) + ": click selects it.";
-    const auto place = picked_particle(*part.world, pick);
+    if (const auto* tie = picked_tie(world, pick)) return world.name(*tie) + ": click selects it.";
+    const auto place = picked_particle(world, pick);
     if (!place) {
         if (part.tool != RopeTool::Tie || !part.selection || !part.selection->of_particles()) return {};
         return part.selection->body + ", particle " + std::to_string(part.selection->particle()) +
                ": click what to tie it to. Escape forgets it.";
     }
-    const std::string name = part.world->name(*place->body) + ", particle " + std::to_string(place->index);
+    const std::string name = world.name(*place->body) + ", particle " + std::to_string(place->index);
     switch (part.tool) {
         case RopeTool::Move:
             break;
         case RopeTool::Pin:
             return name + ": click pins or unpins it.";
         case RopeTool::Cut:
-            if (cut_from(part, *place)) return name + ": click cuts from the selected particle to here.";
+            if (cut_from(part, world, *place))
+                return name + ": click cuts from the selected particle to here.";
             if (place->body->kind == rope::Body::Kind::Cloth)
                 return name + ": click it, then where to cut to.";
             if (place->body->kind == rope::Body::Kind::Hair) return name + ": hair cannot be cut.";
             if (place->body->count > 1) return name + ": click cuts here.";
             break;
         case RopeTool::Tie:
-            if (tied_from(part, *place)) return name + ": click ties it to the selected particle.";
+            if (tied_from(part, world, *place)) return name + ": click ties it to the selected particle.";
             return name + ": click it, then what to tie it to.";
     }
-    if (const rope::Collider* holder = holder_of(*part.world, place->body->first + place->index))
-        return name + " (attached to " + part.world->name(*holder) + "): drag moves both.";
+    if (const rope::Collider* holder = holder_of(world, place->body->first + place->index))
+        return name + " (attached to " + world.name(*holder) + "): drag moves both.";
     const std::size_t particle = place->body->first + place->index;
-    const bool pinned = part.world->pinned(particle) && !is_held(part, particle);
+    const bool pinned = world.pinned(particle) && !is_held(world, part.hold, particle);
     return name + (pinned ? " (pinned): drag moves its pin."
                           : ": drag pulls it. Click selects it, double-click the whole.");
 }

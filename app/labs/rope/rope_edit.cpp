@@ -6,6 +6,7 @@
 
 #include "app/labs/kit/arguments.hpp"
 #include "app/labs/rope/numbers.hpp"
+#include "app/labs/rope/race.hpp"
 #include "app/labs/rope/rope_time.hpp"
 
 namespace tendril::app {
@@ -48,7 +49,11 @@ void RopeEdit::set_collider(const std::string& name, const rope::Shape& shape) {
 
 /// Updates the last point of the curves to the current world.
 void RopeEdit::dragged() {
-    if (!part.samples.empty()) part.samples.back() = sample_of(part, part.samples.back().report);
+    if (part.samples.empty()) return;
+    RopeSample& last = part.samples.back();
+    const float cost = last.cost;
+    last = sample_of(part, last.report);
+    last.cost = cost;
 }
 
 Command rope_command(const char* name, const char* title, std::vector<Argument> arguments, const char* help,
@@ -63,7 +68,13 @@ Command rope_command(const char* name, const char* title, std::vector<Argument> 
                     auto& runtime = workspace.runtimes.of<RopeRuntime>(rope_lab);
                     RopeEdit edit(part, workspace.clock, runtime.workspace);
                     change(edit, given);
-                    if (part.world != old.world) check_work(*part.world);
+                    if (part.world != old.world) {
+                        check_work(*part.world);
+                        change_rivals(part, old, [&](RopePart& rival) {
+                            RopeEdit same(rival, workspace.clock, runtime.workspace);
+                            change(same, given);
+                        });
+                    }
                     if (part.world != old.world || part.swings != old.swings || part.walker != old.walker)
                         part.quiet_ticks = 0;
                 });
@@ -73,7 +84,7 @@ Command rope_command(const char* name, const char* title, std::vector<Argument> 
 bool operator==(const RopePart& a, const RopePart& b) {
     return a.world == b.world && a.swings == b.swings && a.walker == b.walker && a.time == b.time &&
            a.tool == b.tool && a.selection == b.selection && a.hold == b.hold && a.jitter == b.jitter &&
-           a.view == b.view;
+           a.view == b.view && std::ranges::equal(a.rivals, b.rivals, {}, &Rival::world, &Rival::world);
 }
 
 void check_particle_count(const NamedWorld& world, std::size_t more) {
@@ -161,18 +172,25 @@ std::vector<rope::PinPlace> pin_places(const Arguments& given, const std::vector
     return places;
 }
 
-std::vector<std::size_t> held_particles(const RopePart& part) {
+std::vector<std::size_t> held_particles(const NamedWorld& world, const std::optional<Hold>& hold) {
     std::vector<std::size_t> held;
-    const rope::Body* body = part.hold ? part.world->find(part.hold->body) : nullptr;
+    const rope::Body* body = hold ? world.find(hold->body) : nullptr;
     if (body == nullptr) return held;
-    for (const std::size_t each : part.hold->particles)
-        if (each < body->count && part.world->pinned(body->first + each)) held.push_back(body->first + each);
+    for (const std::size_t each : hold->particles)
+        if (each < body->count && world.pinned(body->first + each)) held.push_back(body->first + each);
     return held;
 }
 
+std::vector<std::size_t> held_particles(const RopePart& part) {
+    return held_particles(*part.world, part.hold);
+}
+
+bool is_held(const NamedWorld& world, const std::optional<Hold>& hold, std::size_t particle) {
+    return std::ranges::binary_search(held_particles(world, hold), particle);
+}
+
 bool is_held(const RopePart& part, std::size_t particle) {
-    const std::vector<std::size_t> held = held_particles(part);
-    return std::binary_search(held.begin(), held.end(), particle);
+    return is_held(*part.world, part.hold, particle);
 }
 
 void forget_held(RopePart& part, const NamedParticle& named) {
@@ -182,14 +200,18 @@ void forget_held(RopePart& part, const NamedParticle& named) {
 }
 
 void let_go(RopePart& part) {
-    if (!held_particles(part).empty()) part.world = std::make_shared<const NamedWorld>(released_world(part));
+    part.world = released(part.world, part.hold);
+    for (Rival& rival : part.rivals) rival.world = released(rival.world, part.hold);
     part.hold.reset();
 }
 
-NamedWorld released_world(const RopePart& part) {
-    NamedWorld world = *part.world;
-    for (const std::size_t each : held_particles(part)) world.unpin(each);
-    return world;
+std::shared_ptr<const NamedWorld> released(std::shared_ptr<const NamedWorld> world,
+                                           const std::optional<Hold>& hold) {
+    const std::vector<std::size_t> held = held_particles(*world, hold);
+    if (held.empty()) return world;
+    auto free = std::make_shared<NamedWorld>(*world);
+    for (const std::size_t each : held) free->unpin(each);
+    return free;
 }
 
 namespace {

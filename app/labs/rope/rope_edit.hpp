@@ -36,7 +36,7 @@ class RopeEdit {
     double seconds_;  ///< until the end of the next tick, from the last substep on; 0 while paused
 };
 
-/// Compares worlds by identity and the rest by value. Ignores quiet_ticks, samples and cost.
+/// Compares worlds by identity and the rest by value. Ignores quiet_ticks and samples.
 bool operator==(const RopePart& a, const RopePart& b);
 
 /// Throw Refused if there would be too many.
@@ -72,15 +72,18 @@ std::string free_name(const std::string& kind, Taken taken) {
     return name;
 }
 
-/// The particles that a drag still holds, as indices in the world.
+/// The particles that a drag still holds, as indices in the world, or in that of a rival.
 std::vector<std::size_t> held_particles(const RopePart& part);
+std::vector<std::size_t> held_particles(const NamedWorld& world, const std::optional<Hold>& hold);
 bool is_held(const RopePart& part, std::size_t particle);
+bool is_held(const NamedWorld& world, const std::optional<Hold>& hold, std::size_t particle);
 /// Stops holding the particle, because it was pinned or released.
 void forget_held(RopePart& part, const NamedParticle& named);
 /// Ends the drag.
 void let_go(RopePart& part);
-/// The world with the drag released.
-NamedWorld released_world(const RopePart& part);
+/// The world, or that of a rival, with the drag released.
+std::shared_ptr<const NamedWorld> released(std::shared_ptr<const NamedWorld> world,
+                                           const std::optional<Hold>& hold);
 /// Divides a body more or less finely; ends a drag that holds it. The selection stays on its particles, or
 /// the nearest to them. Throws Refused if there would be too many.
 void resample_body(RopeEdit& edit, const std::string& body, const rope::Resolution& to);

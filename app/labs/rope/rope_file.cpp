@@ -9,6 +9,7 @@
 #include "app/labs/rope/numbers.hpp"
 #include "app/labs/rope/panel.hpp"
 #include "app/labs/rope/past.hpp"
+#include "app/labs/rope/race.hpp"
 #include "app/labs/rope/rope_edit.hpp"
 #include "app/labs/rope/rope_lab.hpp"
 #include "app/labs/rope/rope_part.hpp"
@@ -113,14 +114,14 @@ RopeView load_view(const JsonPlace& place) {
 Json RopePart::save() const {
     Json moving = Json::array();
     for (const Swing& swing : swings) moving.push_back(save_swing(swing));
-    Json json{
-        {"time", time},
-        {"tool", rope_tools.name(tool)},
-        {"selected", save_selection(selection)},
-        {"view", save_fields(view)},
-        {"jitter", save_jitter(jitter)},
-        {"swings", std::move(moving)},
-        {"world", held_particles(*this).empty() ? save_world(*world) : save_world(released_world(*this))}};
+    Json json{{"time", time},
+              {"tool", rope_tools.name(tool)},
+              {"selected", save_selection(selection)},
+              {"view", save_fields(view)},
+              {"jitter", save_jitter(jitter)},
+              {"swings", std::move(moving)},
+              {"world", save_world(*released(world, hold))}};
+    for (const Rival& rival : rivals) json["rivals"].push_back(save_world(*released(rival.world, hold)));
     if (walker.figure) json["character"] = save_walker(walker);
     return json;
 }
@@ -142,6 +143,19 @@ std::shared_ptr<Part> RopePart::load(const Json& json, const std::string& where)
     } catch (const std::logic_error& error) {  // the library's message, with the JSON path
         reading->fail(error.what());
     }
+    if (const auto rivals = place.optional("rivals"))
+        rivals->for_each("rivals", 2, [&](const JsonPlace& each) {
+            Rival rival;
+            try {
+                rival.world = std::make_shared<const NamedWorld>(load_world(each));
+                check_work(*rival.world);
+            } catch (const std::logic_error& error) {
+                each.fail(error.what());
+            }
+            for (const RopeRacer& racer : rope_racers(*part))
+                if (racer.solver() == rival.world->settings().solver) each.fail("its solver races already");
+            part->rivals.push_back(std::move(rival));
+        });
     part->swings = load_swings(place["swings"], *part->world);
     if (const auto character = place.optional("character")) part->walker = load_walker(*character);
     part->selection = load_selection(place["selected"], *part->world);
@@ -250,6 +264,15 @@ Json RopeLab::state(const Workspace& workspace) const {
         held = {{"rope", part.hold->body},
                 {"particle", part.hold->particles.front()},
                 {"particles", part.hold->particles}};
+    Json race = nullptr;
+    if (!part.rivals.empty())
+        for (const RopeRacer& racer : rope_racers(part)) {
+            const RopeSample last = racer.last();
+            race.push_back({{"solver", rope_solvers.name(racer.solver())},
+                            {"length_error", number(last.error)},
+                            {"as_solved", number(last.stretch)},
+                            {"energy", number(last.energy)}});
+        }
     const Verdict verdict = rope_verdict(part);
     return Json{{"lab", rope_lab},
                 {"verdict", verdict.text},
@@ -273,6 +296,7 @@ Json RopeLab::state(const Workspace& workspace) const {
                 {"held", std::move(held)},
                 {"jitter", number(part.jitter.dial)},
                 {"frame_ms", part.samples.empty() ? Json(nullptr) : number(part.samples.back().frame)},
+                {"race", std::move(race)},
                 {"moving", moving(workspace)},
                 {"past", past_view_state(workspace, rope_past(), rope_past_curve(workspace))}};
 }

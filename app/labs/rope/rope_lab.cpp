@@ -13,6 +13,7 @@
 #include "app/labs/rope/numbers.hpp"
 #include "app/labs/rope/panel.hpp"
 #include "app/labs/rope/past.hpp"
+#include "app/labs/rope/race.hpp"
 #include "app/labs/rope/rope_time.hpp"
 #include "app/labs/rope/scenes.hpp"
 
@@ -21,28 +22,17 @@ namespace {
 
 constexpr int resting_ticks = 60;  ///< after so many ticks at rest the lab stops
 
-/// Measures in live windows only: off-screen images and states contain no timings.
-class Stopwatch {
-  public:
-    Stopwatch(bool on, float& smoothed) : on_(on), smoothed_(smoothed) {
-        if (on_) start_ = Time::now();
-    }
-    void stop() {
-        if (!on_) return;
-        const std::chrono::duration<float, std::micro> taken = Time::now() - start_;
-        smoothed_ = smoothed_ == 0.0f ? taken.count() : glm::mix(smoothed_, taken.count(), 0.1f);
-    }
-
-  private:
+/// A tick of a world, and its sample. Off-screen images and states contain no timings: they are measured in
+/// live windows, and in a race for its CSV.
+void pass_tick(RopePart& part, const Clock& clock, bool measured, rope::Workspace& workspace) {
     using Time = std::chrono::steady_clock;
-    bool on_;
-    float& smoothed_;
-    Time::time_point start_;
-};
-
-void take_sample(RopePart& part, const RopeReport& report) {
+    const Time::time_point start = measured ? Time::now() : Time::time_point();
+    const RopeReport report = pass_time(part, tick_seconds * static_cast<double>(clock.speed), workspace);
+    if (!in_range(*part.world)) throw std::out_of_range("something would move farther than 1e9 m");
+    RopeSample sample = sample_of(part, report);
+    if (measured) sample.cost = std::chrono::duration<float, std::micro>(Time::now() - start).count();
     if (part.samples.size() >= max_rope_samples) part.samples.erase(part.samples.begin());
-    part.samples.push_back(sample_of(part, report));
+    part.samples.push_back(sample);
 }
 
 std::optional<Bounds> selection_bounds(const RopePart& part) {
@@ -97,6 +87,7 @@ void RopeLab::add_commands(CommandTable& table) const {
     add_collision_commands(table);
     add_look_commands(table);
     add_walker_commands(table);
+    add_rope_race_commands(table);
 }
 
 bool RopeLab::moving(const Workspace& workspace) const {
@@ -109,15 +100,18 @@ void RopeLab::step(Workspace& workspace) const {
     auto& runtime = workspace.runtimes.of<RopeRuntime>(rope_lab);
     const auto stopped = guarded_step<RopePart>(workspace, rope_lab, [&](RopePart& part) {
         const std::uint64_t substeps = part.world->state().substeps;
-        Stopwatch stopwatch(clock.measured, part.cost);
-        const RopeReport report =
-            pass_time(part, tick_seconds * static_cast<double>(clock.speed), runtime.workspace);
-        stopwatch.stop();
-        if (!in_range(*part.world)) throw std::out_of_range("something would move farther than 1e9 m");
-        take_sample(part, report);
+        const bool measured = clock.measured || !part.rivals.empty();
+        bool rests = true;
+        for (std::size_t i = 0; i < part.rivals.size(); ++i) {
+            RopePart same = part_of_rival(part, part.rivals[i]);
+            pass_tick(same, clock, measured, runtime.of_rivals[i]);
+            rests = rests && at_rest(same);
+            part.rivals[i] = {std::move(same.world), std::move(same.samples)};
+        }
+        pass_tick(part, clock, measured, runtime.workspace);
         // A tick without a substep says nothing about rest.
         const bool moved_on = part.world->state().substeps != substeps;
-        part.quiet_ticks = !at_rest(part) ? 0 : part.quiet_ticks + (moved_on ? 1 : 0);
+        part.quiet_ticks = !rests || !at_rest(part) ? 0 : part.quiet_ticks + (moved_on ? 1 : 0);
     });
     if (stopped) {
         workspace.clock.playing = false;
@@ -128,10 +122,15 @@ void RopeLab::step(Workspace& workspace) const {
 }
 
 std::uint64_t RopeLab::tick_work(const Workspace& workspace) const {
-    const NamedWorld& world = *rope_part(workspace).world;
+    const RopePart& part = rope_part(workspace);
     const double substeps =
-        tick_seconds * static_cast<double>(workspace.clock.speed) / world.settings().substep;
-    return work_of_substep(world) * static_cast<std::uint64_t>(std::ceil(substeps));
+        tick_seconds * static_cast<double>(workspace.clock.speed) / part.world->settings().substep;
+    return work_of_substep(*part.world) * (1 + part.rivals.size()) *
+           static_cast<std::uint64_t>(std::ceil(substeps));
+}
+
+std::vector<PaneTitle> RopeLab::panes(const Workspace& workspace) const {
+    return rope_panes(rope_part(workspace), palette(workspace.settings.theme), workspace.clock.measured);
 }
 
 std::vector<LabSetting> RopeLab::settings() const {
@@ -189,9 +188,11 @@ Bounds RopeLab::bounds(const Workspace& workspace, bool selection_only) const {
     }
     constexpr float none = 1e30f;
     glm::vec3 low(none), high(-none);
-    for (const glm::vec3& at : part.world->positions()) {
-        low = glm::min(low, at);
-        high = glm::max(high, at);
+    for (const RopeRacer& racer : rope_racers(part)) {
+        for (const glm::vec3& at : racer.world.positions()) {
+            low = glm::min(low, at);
+            high = glm::max(high, at);
+        }
     }
     for (const rope::Collider& collider : part.world->state().colliders)
         include_shape(collider.shape, low, high);

@@ -10,7 +10,7 @@
 namespace tendril::app {
 
 /// Pick ids: particles by their index in the world; colliders, ties and whole bodies by their index in its
-/// lists. Valid per frame.
+/// lists. Valid per frame. In a race those of a rival's pane are of its world.
 inline PickId particle_pick(std::size_t particle) {
     return static_cast<PickId>(particle);
 }
@@ -23,6 +23,12 @@ inline PickId tie_pick(std::size_t index) {
 inline PickId body_pick(std::size_t index) {
     return static_cast<PickId>(max_lab_particles + max_lab_colliders + max_lab_ties + index);
 }
+inline constexpr PickId picks_in_pane = 2 * max_lab_particles + max_lab_colliders + max_lab_ties;
+inline PickId pick_in(std::size_t pane, PickId pick) {
+    return static_cast<PickId>(pane) * picks_in_pane + pick;
+}
+/// The world of the pane that was picked in.
+const NamedWorld& picked_world(const RopePart& part, PickId pick);
 /// What was picked; null if it is something else, or the world has changed since.
 const rope::Collider* picked_collider(const NamedWorld& world, PickId pick);
 const rope::Tie* picked_tie(const NamedWorld& world, PickId pick);
@@ -61,6 +67,7 @@ class RopeLab final : public Lab {
 
     void draw(const View& view, DrawList& list) const override;
     std::vector<LegendRow> legend(const Workspace& workspace) const override;
+    std::vector<PaneTitle> panes(const Workspace& workspace) const override;
 
     std::vector<Handle> handles(const Workspace& workspace) const override;
     std::optional<Handle> handle(const Workspace& workspace, PickId pick) const override;

@@ -1,5 +1,6 @@
 #include "app/labs/rope/rope_part.hpp"
 
+#include "app/labs/rope/race.hpp"
 #include "app/labs/rope/rope_edit.hpp"
 #include "app/labs/rope/scenes.hpp"
 
@@ -44,20 +45,21 @@ std::shared_ptr<const Part> RopePart::at_moment(std::shared_ptr<const Part> then
     part->view = view;
     part->selection = selection;
     part->jitter.dial = jitter.dial;
-    if (part->world->settings() != world->settings()) {
-        NamedWorld with = *part->world;
-        with.set_settings(world->settings());
-        part->world = std::make_shared<const NamedWorld>(std::move(with));
-    }
-    part->cost = cost;
+    take_settings(*part, world->settings());
+    if (rivals.empty())
+        part->rivals.clear();
+    else if (part->rivals.empty())
+        begin_race(*part);
     forget_missing(*part);
     return part;
 }
 
 std::size_t RopePart::bytes() const {
     const std::size_t selected = selection ? selection->particles.all().size() * sizeof(std::size_t) : 0;
-    return sizeof(*this) + sizeof(NamedWorld) + bytes_of(world->state()) + swings.size() * sizeof(Swing) +
-           selected + (hold ? hold->particles.size() * sizeof(std::size_t) : 0);
+    std::size_t worlds = sizeof(NamedWorld) + bytes_of(world->state());
+    for (const Rival& rival : rivals) worlds += sizeof(NamedWorld) + bytes_of(rival.world->state());
+    return sizeof(*this) + worlds + swings.size() * sizeof(Swing) + selected +
+           (hold ? hold->particles.size() * sizeof(std::size_t) : 0);
 }
 
 }  // namespace tendril::app

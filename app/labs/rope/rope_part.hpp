@@ -85,10 +85,17 @@ struct RopeSample {
     float error = 0.0f;    ///< the same after contact, with what depenetration added
     float energy = 0.0f;   ///< joules, of all bodies
     float frame = 0.0f;    ///< length of the frame that the tick ends in, milliseconds
+    float cost = 0.0f;  ///< time to simulate it, microseconds; measured in a live window and in a race only
     RopeReport report;
     bool operator==(const RopeSample&) const = default;
 };
 inline constexpr std::size_t max_rope_samples = 600;  ///< ten seconds
+
+/// The scene as another solver runs it in a race.
+struct Rival {
+    std::shared_ptr<const NamedWorld> world;
+    std::vector<RopeSample> samples;
+};
 
 struct RopePart final : Part {
     std::shared_ptr<const NamedWorld> world = std::make_shared<const NamedWorld>();
@@ -104,8 +111,7 @@ struct RopePart final : Part {
     RopeView view;
     int quiet_ticks = 0;              ///< consecutive ticks without noticeable motion
     std::vector<RopeSample> samples;  ///< of the last ticks. Not saved.
-    /// Simulation time of a tick, microseconds; measured in a live window only. Not saved.
-    float cost = 0.0f;
+    std::vector<Rival> rivals;        ///< in a race (race.hpp)
 
     std::shared_ptr<Part> clone() const override { return std::make_shared<RopePart>(*this); }
     Json save() const override;

@@ -80,7 +80,8 @@ void pass_frame(RopePart& part, NamedWorld& world, double seconds, rope::Workspa
 
 RopeRuntime::RopeRuntime() {
     const unsigned cores = std::thread::hardware_concurrency();
-    (void)workspace.use_threads(static_cast<int>(std::clamp(cores, 1u, 4u)));  // in range
+    for (rope::Workspace* each : {&workspace, &of_rivals[0], &of_rivals[1]})
+        (void)each->use_threads(static_cast<int>(std::clamp(cores, 1u, 4u)));  // in range
 }
 
 RopeReport pass_time(RopePart& part, double seconds, rope::Workspace& workspace) {

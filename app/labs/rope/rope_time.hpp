@@ -1,6 +1,7 @@
 // Advances time in the Rope lab: whole ticks, or uneven frames by frame-time jitter; and swinging colliders.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "app/document/runtime.hpp"
@@ -12,6 +13,8 @@ namespace tendril::app {
 struct RopeRuntime final : Runtime {
     RopeRuntime();
     rope::Workspace workspace;  ///< multi-threaded if the machine has several cores
+    /// The same for each rival of a race, so that each finds what it prepared.
+    std::array<rope::Workspace, 2> of_rivals;
 };
 
 /// Advances the lab by `seconds`. The result does not depend on how the time is divided into calls, unless

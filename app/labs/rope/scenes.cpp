@@ -5,11 +5,9 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 #include <glm/trigonometric.hpp>
-#include <tendril/rope/hair_roots.hpp>
 #include <utility>
 
 #include "app/document/names.hpp"
-#include "app/labs/kit/arguments.hpp"
 
 namespace tendril::app {
 namespace {
@@ -58,10 +56,18 @@ const std::vector<RopeSceneEntry>& rope_scenes() {
          view({0.0f, 1.1f, 0.0f}, -32.0f, 14.0f, 4.6f)},
         {"line", "Cloth line", "A cloth tied to a rope, which bends under it, in a light wind", line_scene,
          view({0.0f, 1.15f, 0.0f}, -26.0f, 12.0f, 4.4f)},
-        {"hangers", "Hangers", "A deck hangs by ropes from two main ropes, every end tied",
-         hanger_scene, view({0.0f, 0.95f, 0.0f}, -30.0f, 14.0f, 6.2f)},
+        {"hangers", "Hangers", "A deck hangs by ropes from two main ropes, every end tied", hanger_scene,
+         view({0.0f, 0.95f, 0.0f}, -30.0f, 14.0f, 6.2f)},
         {"knot", "Knot", "A weight pulls a loose knot tight, in a rope that collides with itself", knot_scene,
-         view({0.0f, 1.35f, 0.0f}, -24.0f, 8.0f, 3.6f)}};
+         view({0.0f, 1.35f, 0.0f}, -24.0f, 8.0f, 3.6f)},
+        {"net", "Net", "A ball sinks into a net of ropes that are tied wherever they cross", net_scene,
+         view({0.0f, 0.95f, 0.0f}, -30.0f, 20.0f, 4.8f)},
+        {"rings", "Rings", "A hand draws a curtain to and fro, on rings that slide along a rail", rings_scene,
+         view({0.0f, 1.1f, 0.0f}, -24.0f, 10.0f, 4.2f)},
+        {"crane", "Crane", "A trolley carries a load along a jib; a rope in a hand steers it", crane_scene,
+         view({0.0f, 1.15f, 0.2f}, -28.0f, 12.0f, 5.2f)},
+        {"mail", "Mail", "Rings of rope, tied each to the next, fall over a ball", mail_scene,
+         view({0.0f, 0.65f, 0.0f}, -28.0f, 26.0f, 4.4f)}};
     return list;
 }
 
@@ -282,6 +288,7 @@ RopeScene knot_scene() {
     world.set_collides("rope", "rope", true);
     rope::Settings settings = world.settings();
     settings.damping = 0.6f;
+    settings.substep = 1.0 / 480.0;  // the blow when the knot closes
     settings.friction = 0.15f;
     world.set_settings(settings);
     return scene;
@@ -399,133 +406,133 @@ RopeScene well_scene() {
     return scene;
 }
 
-// Scenes with cloth and hair, which use the same particles and links as ropes.
-
-/// A cloth falls over a ball.
-RopeScene cloth_scene() {
+/// Ropes tied wherever they cross, slung between four posts. A ball sinks into them and comes up again.
+RopeScene net_scene() {
     RopeScene scene;
     NamedWorld& world = scene.world;
     add_ground(world);
-    world.add_collider("ball", rope::Sphere{{0.0f, 0.62f, 0.0f}, 0.45f});
-    world.add_cloth("cloth", {.corner = {-0.85f, 1.25f, -0.85f},
-                              .along = {1.7f, 0, 0},
-                              .down = {0, 0, 1.7f},
-                              .columns = 32,
-                              .rows = 32,
-                              .radius = 0.012f,
-                              .density = 0.3f,
-                              .tear = 0.3f});
-    rope::Settings settings = world.settings();
-    settings.damping = 0.6f;
-    world.set_settings(settings);
-    return scene;
-}
-
-/// A ball swings into a curtain that hangs by two corners. Dragged by any point and released, it hangs again.
-RopeScene curtain_scene() {
-    RopeScene scene;
-    NamedWorld& world = scene.world;
-    add_ground(world);
-    constexpr int side = 28;
-    constexpr float rail = 1.85f, half = 0.65f, length = 1.3f;
-    for (const float x : {-half, half})
-        world.add_collider(x < 0 ? "left hook" : "right hook", rope::Sphere{{x, rail + 0.03f, 0}, 0.03f});
-    world.add_cloth("curtain", {.corner = {-half, rail - 0.02f, 0},
-                                .along = {2.0f * half, 0, 0},
-                                .down = {0, -length, 0},
-                                .columns = side,
-                                .rows = side,
-                                .density = 0.3f,
-                                .pins = rope::ClothShape::Pins::Corners});
-    const glm::vec3 middle(0.1f, 1.0f, 0.6f);
+    constexpr int cells = 6, between = 4, segments = cells * between;
+    constexpr float half = 0.85f, height = 1.5f, sag = 0.25f, post = 0.045f;
+    // Begins close to where it comes to rest.
+    const auto at = [&](float x, float z) {
+        return glm::vec3(half * x, height - sag * (2.0f - x * x - z * z), half * z);
+    };
+    const auto part = [](int i, int of) {
+        return 2.0f * static_cast<float>(i) / static_cast<float>(of) - 1.0f;
+    };
+    const auto name = [](bool along, int i) {
+        return std::string(along ? "along " : "across ") + std::to_string(i + 1);
+    };
+    for (const bool along : {true, false}) {
+        for (int i = 0; i <= cells; ++i) {
+            std::vector<glm::vec3> line;
+            for (int k = 0; k <= segments; ++k) {
+                const float x = part(k, segments), z = part(i, cells);
+                line.push_back(along ? at(x, z) : at(z, x));
+            }
+            world.add_rope(name(along, i), {.from = line.front(),
+                                            .to = line.back(),
+                                            .segments = segments,
+                                            .radius = 0.012f,
+                                            .density = 0.2f});
+            lay(world, name(along, i), line);
+        }
+    }
+    for (int i = 0; i <= cells; ++i)
+        for (int j = 0; j <= cells; ++j)
+            world.tie({}, world.particle(name(true, i), static_cast<std::size_t>(j * between)),
+                      world.particle(name(false, j), static_cast<std::size_t>(i * between)));
+    for (const int i : {0, cells}) {
+        for (const int j : {0, cells}) {
+            const glm::vec3 corner = at(part(j, cells), part(i, cells));
+            const glm::vec3 foot = corner * glm::vec3(1.08f, 0.0f, 1.08f);
+            world.add_collider(std::string(j == 0 ? "left" : "right") + (i == 0 ? " far" : " near") + " post",
+                               rope::Capsule{foot, foot + glm::vec3(0, height + 0.05f, 0), post});
+            world.pin(world.particle(name(true, i), static_cast<std::size_t>(j * between)), corner);
+        }
+    }
+    const glm::vec3 middle(0.05f, 1.65f, -0.05f);
     world.add_collider("ball", rope::Sphere{middle, 0.22f});
-    scene.swings.push_back({"ball", middle, {-0.15f, 0.0f, -0.75f}, 4.0f});
+    scene.swings.push_back({"ball", middle, {0.0f, -0.65f, 0.0f}, 6.0f});
     rope::Settings settings = world.settings();
     settings.damping = 0.6f;
     world.set_settings(settings);
     return scene;
 }
 
-/// A flag on a pole.
-RopeScene flag_scene() {
+/// A load on a rope from a trolley that runs along a jib, and a rope to steer it by, held by a hand.
+RopeScene crane_scene() {
     RopeScene scene;
     NamedWorld& world = scene.world;
     add_ground(world);
-    constexpr float top = 2.0f, pole = 0.025f, at = -0.8f, length = 1.5f, height = 0.9f;
-    world.add_collider("pole", rope::Capsule{{at, 0, 0}, {at, top, 0}, pole});
-    world.add_cloth("flag", {.corner = {at + pole + 0.015f, top - 0.05f, 0},
-                             .along = {0, -height, 0},
-                             .down = {length, 0, 0},
-                             .columns = 18,
-                             .rows = 30,
-                             .density = 0.2f,
-                             .shear = 0.03f,
-                             .bend = 0.002f,  // canvas: softer cloth crumples at its free edge
-                             .pins = rope::ClothShape::Pins::Row});
+    constexpr float top = 2.3f, mast = -1.2f, jib = 0.05f;
+    world.add_collider("mast", rope::Capsule{{mast, 0, 0}, {mast, top, 0}, 0.07f});
+    world.add_collider("jib", rope::Capsule{{mast - 0.4f, top, 0}, {1.3f, top, 0}, jib});
+    const glm::vec3 trolley(0.15f, top - jib - 0.05f, 0.0f);
+    world.add_collider("trolley", rope::Box{trolley, {0.11f, 0.05f, 0.08f}});
+    scene.swings.push_back({"trolley", trolley, {0.7f, 0.0f, 0.0f}, 9.0f});
+    constexpr int hoist_segments = 32;
+    const glm::vec3 hook = trolley - glm::vec3(0, 0.07f, 0), load = hook - glm::vec3(0, 1.3f, 0);
+    world.add_rope("hoist",
+                   {.from = hook, .to = load, .segments = hoist_segments, .radius = 0.012f, .density = 0.2f});
+    weigh_down(world, "hoist", 1, 25.0);
+    world.attach(world.particle("hoist", 0), "trolley");
+    const glm::vec3 hand(0.75f, 0.25f, 0.8f);
+    world.add_collider("hand", rope::Sphere{hand, 0.06f});
+    constexpr int tag_segments = 32;
+    world.add_rope("tag line", {.from = load,
+                                .to = hand + glm::vec3(-0.04f, 0.07f, -0.04f),
+                                .segments = tag_segments,
+                                .length = 1.5f,
+                                .radius = 0.01f,
+                                .density = 0.1f});
+    world.attach(world.particle("tag line", tag_segments), "hand");
+    world.tie("shackle", world.particle("hoist", hoist_segments), world.particle("tag line", 0));
     rope::Settings settings = world.settings();
-    settings.wind = {7.0f, 0, 0.5f};
-    settings.gusts = 0.5f;
+    settings.damping = 0.3f;
     world.set_settings(settings);
     return scene;
 }
 
-/// A washing line: a cloth hangs by ties on a slack rope between two posts.
-RopeScene line_scene() {
+/// Rings, each a rope whose ends are tied, and each tied to its four neighbours, fall over a ball.
+RopeScene mail_scene() {
     RopeScene scene;
     NamedWorld& world = scene.world;
     add_ground(world);
-    constexpr float end = 1.1f, height = 1.8f, post = 0.05f, half = 0.5f, tie = 0.04f;
-    constexpr int columns = 13, segments = 48, apart = 2;
-    for (const float x : {-end, end})
-        world.add_collider(x < 0 ? "left post" : "right post",
-                           rope::Capsule{{x, 0, 0}, {x, height + 0.05f, 0}, post});
-    const float from = end - post - 0.02f;
-    world.add_rope("line", {.from = {-from, height, 0},
-                            .to = {from, height, 0},
-                            .segments = segments,
-                            .length = 2.0f * from * 1.04f,
-                            .radius = 0.015f,
-                            .density = 0.3f,
-                            .pin_start = true,
-                            .pin_end = true});
-    world.add_cloth("cloth", {.corner = {-half, height - 0.34f, 0},
-                              .along = {2.0f * half, 0, 0},
-                              .down = {0, -0.8f, 0},
-                              .columns = columns,
-                              .rows = 11});
-    // Each to the particle of the rope above it.
-    for (int column = 0; column < columns; column += apart) {
-        const float part =
-            0.5f + half * (2.0f * static_cast<float>(column) / (columns - 1) - 1.0f) / (2.0f * from);
-        world.tie({}, world.particle("line", static_cast<std::size_t>(std::lround(part * segments))),
-                  world.particle("cloth", static_cast<std::size_t>(column)), {.length = tie});
+    world.add_collider("ball", rope::Sphere{{0.0f, 0.62f, 0.0f}, 0.42f});
+    constexpr int side = 8, segments = 8, quarter = segments / 4;
+    constexpr float apart = 0.2f, radius = 0.085f, height = 1.2f;
+    const auto name = [](int i, int j) {
+        return "ring " + std::to_string(i + 1) + "." + std::to_string(j + 1);
+    };
+    for (int i = 0; i < side; ++i) {
+        for (int j = 0; j < side; ++j) {
+            const glm::vec3 middle(apart * (static_cast<float>(j) - 0.5f * (side - 1)), height,
+                                   apart * (static_cast<float>(i) - 0.5f * (side - 1)));
+            std::vector<glm::vec3> line;
+            for (int k = 0; k <= segments; ++k) {
+                const float angle = glm::two_pi<float>() * static_cast<float>(k) / segments;
+                line.push_back(middle + radius * glm::vec3(std::cos(angle), 0.0f, std::sin(angle)));
+            }
+            const std::string ring = name(i, j);
+            world.add_rope(ring, {.from = line.front(),
+                                  .to = middle,
+                                  .segments = segments,
+                                  .radius = 0.012f,
+                                  .density = 0.4f});
+            lay(world, ring, line);
+            world.tie({}, world.particle(ring, 0), world.particle(ring, segments));
+            constexpr rope::TieShape link{.length = apart - 2.0f * radius};
+            if (j > 0)
+                world.tie({}, world.particle(name(i, j - 1), 0), world.particle(ring, 2 * quarter), link);
+            if (i > 0)
+                world.tie({}, world.particle(name(i - 1, j), quarter), world.particle(ring, 3 * quarter),
+                          link);
+        }
     }
     rope::Settings settings = world.settings();
-    settings.wind = {0.4f, 0, 2.2f};
-    settings.damping = 0.4f;
-    world.set_settings(settings);
-    return scene;
-}
-
-/// Hair on a head that turns to and fro, over shoulders that do not.
-RopeScene hair_scene() {
-    RopeScene scene;
-    NamedWorld& world = scene.world;
-    add_ground(world);
-    const glm::vec3 centre(0.0f, 1.45f, 0.0f);
-    const rope::Sphere head{centre, 0.2f};
-    world.add_collider("head", head);
-    world.add_collider("neck", rope::Capsule{{0, 1.05f, 0}, {0, 1.3f, 0}, 0.07f});
-    world.add_collider("shoulders", rope::Capsule{{-0.26f, 0.98f, 0}, {0.26f, 0.98f, 0}, 0.11f});
-    rope::HairShape hair{.length = 0.48f, .segments = 14, .radius = 0.004f, .density = 0.02f, .bend = 0.5f};
-    // Up and back, to leave the face free.
-    const rope::HairPatch patch{.direction = glm::vec3(0, 0.8f, -0.6f), .strands = 140, .spread = 0.3f};
-    hair.roots = require_value(roots_on(head, patch, hair.radius));
-    world.add_hair("hair", std::move(hair), "head");
-    scene.swings.push_back({"head", centre, {0.16f, 0.0f, 0.0f}, 2.6f});
-    rope::Settings settings = world.settings();
-    settings.damping = 1.0f;
-    settings.friction = 0.3f;
+    settings.damping = 0.8f;
+    settings.friction = 0.4f;
     world.set_settings(settings);
     return scene;
 }

@@ -41,6 +41,10 @@ RopeScene flag_scene();
 RopeScene line_scene();
 RopeScene hanger_scene();
 RopeScene knot_scene();
+RopeScene net_scene();
+RopeScene rings_scene();
+RopeScene crane_scene();
+RopeScene mail_scene();
 
 /// Adds the ground that every scene has.
 void add_ground(NamedWorld& world);

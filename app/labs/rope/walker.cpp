@@ -140,7 +140,11 @@ void leave(RopeEdit& edit) {
 
 void enter(RopeEdit& edit, const Arguments& given) {
     Walker walker;
-    walker.figure = read_walker(given.has("path") ? given.text("path") : std::string());
+    const std::string file = given.has("path") ? given.text("path") : std::string();
+    // One that goes on elsewhere or with another clip is not read again.
+    const auto& now = edit.part.walker.figure;
+    const bool same = now && now->file == file && (given.has("clip") || given.has("at"));
+    walker.figure = same ? now : read_walker(file);
     const auto& clips = walker.figure->character.clips;
     if (given.has("clip"))
         walker.clip = given.text("clip");

@@ -6,6 +6,7 @@
 #include "app/labs/kit/world_file.hpp"
 #include "app/labs/rope/body_commands.hpp"
 #include "app/labs/rope/code.hpp"
+#include "app/labs/rope/race.hpp"
 #include "app/labs/rope/rope_fields.hpp"
 #include "app/labs/rope/rope_part.hpp"
 #include "app/labs/rope/rope_time.hpp"
@@ -40,6 +41,7 @@ void take_scene(Workspace& workspace, const Arguments& given) {
     part.hold.reset();
     part.quiet_ticks = 0;
     part.samples.clear();
+    if (!part.rivals.empty()) begin_race(part);
     (workspace.lab == rope_lab ? workspace.camera : workspace.cameras[rope_lab]) = entry.view;
 }
 

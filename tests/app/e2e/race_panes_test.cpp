@@ -62,6 +62,26 @@ TEST(RacePanes, ADragStaysInThePaneWhereItBegan) {
     EXPECT_LT(glm::distance(handle(after, "target"), handle(before, "target") + by), 0.2f);
 }
 
+TEST(RacePanes, ARopeIsDraggedInAnyOfThemAndFollowsInAll) {
+    ScriptText script;
+    script.command("lab.open", {{"name", "rope"}})
+        .command("rope.preset", {{"name", "line"}})
+        .command("rope.race")
+        .command("camera.frame", {{"what", "all"}})
+        .wait(30);
+    const Json before = state_after(script);
+    ASSERT_EQ(before.at("panes").size(), 3u);
+    for (std::size_t pane = 0; pane < 3; ++pane) {
+        ScriptText drags = script;
+        const glm::vec2 at = handle(before, "line.8") + across(before, pane);
+        const Json after = state_after(drags.move(at).down().move(at - glm::vec2(0, 20)).wait(5));
+        EXPECT_EQ(after["held"]["rope"], "line") << pane;
+        EXPECT_GT(point_of(after["ropes"][0]["particles"][8]["position"]).y,
+                  point_of(before["ropes"][0]["particles"][8]["position"]).y + 0.02f)
+            << pane;
+    }
+}
+
 TEST(RacePanes, TheyShareACameraThatAnyOfThemTurnsAndZooms) {
     const Json before = state_after(race());
     for (const std::size_t pane : {0u, 3u}) {

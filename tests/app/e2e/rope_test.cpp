@@ -167,7 +167,7 @@ TEST(RopeInTheWindow, ButtonsAddWhatTheySay) {
                             .command("rope.clear")
                             .command("view.fold", {{"section", "rope: Add"}, {"folded", false}})
                             .wait(2);
-    for (const glm::vec2 button : {glm::vec2(126, 380), glm::vec2(205, 380), glm::vec2(48, 380)})
+    for (const glm::vec2 button : {glm::vec2(126, 412), glm::vec2(205, 412), glm::vec2(48, 412)})
         script.move(button).wait(2).down().up().wait(2);
     const Json added = state_after(script);
     EXPECT_EQ(added["cloths"].size(), 1u);

@@ -292,8 +292,7 @@ TEST_F(RowsUnderMore, UnfoldForAStepOfACard) {
     EXPECT_FALSE(shows("substeps")) << "it can be folded again";
 }
 
-/// A character whose file's unit makes it a giant.
-class UnitButton : public RowsUnderMore {
+class Buttons : public RowsUnderMore {
   protected:
     void click(const std::string& button) {
         app_.settle();
@@ -307,6 +306,11 @@ class UnitButton : public RowsUnderMore {
         }
         ADD_FAILURE() << "there is no " << button;
     }
+};
+
+/// A character whose file's unit makes it a giant.
+class UnitButton : public Buttons {
+  protected:
     double scale() { return app_.state().at("character").at("scale").get<double>(); }
 };
 
@@ -321,6 +325,31 @@ TEST_F(UnitButton, CorrectsAGiantsUnitByOneClick) {
     EXPECT_FALSE(shows("Use metres"));
     run("undo");
     EXPECT_EQ(scale(), 100.0);
+}
+
+/// Gusts are seen where there is wind.
+TEST_F(RowsUnderMore, ShowGustsWhileTheWindBlows) {
+    open("rope");
+    EXPECT_FALSE(shows("gusts"));
+    run("rope.preset", {{"name", "flag"}});
+    EXPECT_TRUE(shows("gusts"));
+    EXPECT_TRUE(shows("still air resists"));
+}
+
+TEST_F(Buttons, LetACharacterIntoTheRopeLabAndOut) {
+    const auto character = [&] { return app_.state().at("character"); };
+    open("rope");
+    run("view.fold", {{"section", "rope: Add"}, {"folded", false}});
+    EXPECT_FALSE(shows("clip"));
+    click("Stick figure");
+    EXPECT_EQ(character().at("clip"), "walk");
+    EXPECT_TRUE(shows("clip"));
+    run("rope.character", {{"clip", ""}, {"at", {0.5, 0, 0}}});
+    EXPECT_TRUE(shows("none (rest pose)"));
+    click("Remove");
+    EXPECT_EQ(character(), nullptr);
+    run("undo");
+    EXPECT_EQ(character().at("at").at(0), 0.5);
 }
 
 }  // namespace

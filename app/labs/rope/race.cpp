@@ -1,0 +1,157 @@
+#include "app/labs/rope/race.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <stdexcept>
+#include <utility>
+
+#include "app/document/units.hpp"
+#include "app/labs/kit/arguments.hpp"
+#include "app/labs/kit/race.hpp"
+#include "app/labs/rope/numbers.hpp"
+#include "app/labs/rope/rope_edit.hpp"
+
+namespace tendril::app {
+namespace {
+
+rope::Solver solver_of(const std::shared_ptr<const NamedWorld>& world) {
+    return world->settings().solver;
+}
+
+std::shared_ptr<const NamedWorld> with_settings(std::shared_ptr<const NamedWorld> world,
+                                                rope::Settings settings, rope::Solver solver) {
+    settings.solver = solver;
+    if (world->settings() == settings) return world;
+    auto changed = std::make_shared<NamedWorld>(*world);
+    changed->set_settings(settings);
+    return changed;
+}
+
+/// The rival of the own world's new solver takes its place, and gets the solver that it `had`.
+void change_places(RopePart& part, rope::Solver had) {
+    const rope::Solver now = solver_of(part.world);
+    for (Rival& rival : part.rivals) {
+        if (now == had || solver_of(rival.world) != now) continue;
+        std::swap(part.world, rival.world);
+        std::swap(part.samples, rival.samples);
+        rival.world = with_settings(rival.world, rival.world->settings(), had);
+    }
+}
+
+}  // namespace
+
+RopeSample RopeRacer::last() const {
+    return samples.empty() ? sample_of(world) : samples.back();
+}
+
+std::vector<RopeRacer> rope_racers(const RopePart& part) {
+    std::vector<RopeRacer> racers{{*part.world, part.samples}};
+    for (const Rival& rival : part.rivals) racers.push_back({*rival.world, rival.samples});
+    return racers;
+}
+
+const NamedWorld& world_in(const RopePart& part, std::size_t pane) {
+    return pane == 0 || pane > part.rivals.size() ? *part.world : *part.rivals[pane - 1].world;
+}
+
+void begin_race(RopePart& part) {
+    part.samples.clear();
+    part.rivals.clear();
+    for (const rope::Solver solver : {rope::Solver::Direct, rope::Solver::Xpbd, rope::Solver::Relaxation})
+        if (solver != solver_of(part.world))
+            part.rivals.push_back({with_settings(part.world, part.world->settings(), solver), {}});
+}
+
+RopePart part_of_rival(const RopePart& part, const Rival& rival) {
+    RopePart same = part;
+    same.world = rival.world;
+    same.samples = rival.samples;
+    same.rivals.clear();
+    return same;
+}
+
+void change_rivals(RopePart& part, const RopePart& old, const std::function<void(RopePart&)>& change) {
+    for (Rival& rival : part.rivals) {
+        RopePart same = part_of_rival(old, rival);
+        try {
+            change(same);
+        } catch (const Refused&) {
+            continue;
+        } catch (const std::logic_error&) {
+            continue;
+        }
+        rival.world = with_settings(same.world, same.world->settings(), solver_of(rival.world));
+        rival.samples = std::move(same.samples);
+    }
+    change_places(part, solver_of(old.world));
+}
+
+void take_settings(RopePart& part, const rope::Settings& settings) {
+    const rope::Solver had = solver_of(part.world);
+    part.world = with_settings(part.world, settings, settings.solver);
+    for (Rival& rival : part.rivals)
+        rival.world = with_settings(rival.world, settings, solver_of(rival.world));
+    change_places(part, had);
+}
+
+glm::vec3 rope_solver_colour(const Palette& palette, rope::Solver solver) {
+    return racer_colour(palette, static_cast<std::size_t>(solver));
+}
+
+std::string racer_text(const RopeSample& last) {
+    return "length error " + share_text(last.error) + ", " + fixed_text(static_cast<double>(last.energy), 2) +
+           " J";
+}
+
+std::vector<PaneTitle> rope_panes(const RopePart& part, const Palette& palette, bool cost) {
+    std::vector<PaneTitle> titles;
+    if (part.rivals.empty()) return titles;
+    for (const RopeRacer& racer : rope_racers(part)) {
+        const std::string measured = cost ? cost_text(racer.samples) : "";
+        const std::string time = measured.empty() ? "" : ", " + measured;
+        titles.push_back({rope_solvers.title(racer.solver()), racer_text(racer.last()) + time,
+                          rope_solver_colour(palette, racer.solver())});
+    }
+    return titles;
+}
+
+std::string rope_race_csv(const Workspace& workspace) {
+    const RopePart& part = rope_part(workspace);
+    if (part.rivals.empty()) throw Refused("no race is open");
+    std::string csv = "solver,seconds,length_error,as_solved,energy,microseconds\n";
+    for (const RopeRacer& racer : rope_racers(part)) {
+        for (std::size_t i = 0; i < racer.samples.size(); ++i) {
+            const RopeSample& at = racer.samples[i];
+            char line[160];
+            std::snprintf(line, sizeof line, "%s,%.4f,%.9g,%.9g,%.9g,%.1f\n",
+                          rope_solvers.name(racer.solver()), static_cast<double>(i) * tick_seconds,
+                          static_cast<double>(at.error), static_cast<double>(at.stretch),
+                          static_cast<double>(at.energy), static_cast<double>(at.cost));
+            csv += line;
+        }
+    }
+    return csv;
+}
+
+void add_rope_race_commands(CommandTable& table) {
+    table.add(part_command<RopePart>(
+        rope_lab, "rope.race", "Race the rope solvers",
+        {switch_argument("on", "false: ends the race; default: true, again: starts it from here")},
+        "Runs the scene by each solver, side by side; drags and commands change all of them",
+        [](RopePart& part, const Arguments& given) {
+            if (!given.has("on") || given.boolean("on")) {
+                begin_race(part);
+                part.quiet_ticks = 0;
+            } else {
+                if (part.rivals.empty()) throw Refused("no race is open");
+                part.rivals.clear();
+            }
+        }));
+    add_race_csv_commands(table,
+                          {.race = "rope.race",
+                           .title = "the rope race as CSV",
+                           .holds = "each solver's length error, energy and cost in the last ten seconds",
+                           .text = rope_race_csv});
+}
+
+}  // namespace tendril::app

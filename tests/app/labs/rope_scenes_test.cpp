@@ -1,0 +1,44 @@
+// Every scene of the Rope lab for a minute at its own settings: it keeps its lengths and its place.
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "app/labs/rope/rope_time.hpp"
+#include "app/labs/rope/scenes.hpp"
+#include "tests/app/labs/rope_support.hpp"
+
+namespace tendril::app {
+namespace {
+
+class RopeMinute : public RopeTest, public testing::WithParamInterface<std::string> {};
+
+TEST_P(RopeMinute, KeepsLengthsWithinAPercent) {
+    run("rope.preset", {{"name", GetParam()}});
+    const std::size_t links = world().state().links.size(), ties = world().state().ties.size();
+    constexpr int second = 60;
+    double falling = 0.0, worst = 0.0;
+    for (int tick = 0; tick < 60 * second; ++tick) {
+        wait(1);
+        double& most = tick < second ? falling : worst;
+        most = std::max(most, world().length_error());
+        ASSERT_TRUE(in_range(world())) << tick;
+    }
+    EXPECT_LT(worst, 0.01);
+    EXPECT_LT(falling, 0.025) << "hair and mail, for 2 to 4 ticks, as they land";
+    EXPECT_EQ(world().state().links.size(), links);
+    EXPECT_EQ(world().state().ties.size(), ties);
+    EXPECT_EQ(world().state().dropped, 0u);
+    EXPECT_LT(lab().bounds(workspace, false).radius, 4.0f);
+}
+
+std::vector<std::string> all_rope_scenes() {
+    std::vector<std::string> names;
+    for (const RopeSceneEntry& entry : rope_scenes()) names.push_back(entry.name);
+    return names;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, RopeMinute, testing::ValuesIn(all_rope_scenes()),
+                         [](const auto& scene) { return scene.param; });
+
+}  // namespace
+}  // namespace tendril::app
