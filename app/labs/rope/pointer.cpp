@@ -230,7 +230,8 @@ std::optional<ParticlePlace> cut_from(const RopePart& part, const ParticlePlace&
 
 void cut_between(const NamedWorld& world, const ParticlePlace& from, const ParticlePlace& to, Emit& emit) {
     const auto at = [](const ParticlePlace& place) {
-        return Json{place.index % place.body->row, place.index / place.body->row};
+        const std::size_t cell = place.body->cell(place.index);
+        return Json{cell % place.body->row, cell / place.body->row};
     };
     emit("rope.cloth.cut", {{"rope", world.name(*to.body)}, {"points", SharedJson(Json{at(from), at(to)})}});
 }

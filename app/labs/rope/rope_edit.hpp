@@ -18,6 +18,7 @@ class RopeEdit {
     RopeEdit(RopePart& changed, const Clock& clock, rope::Workspace& workspace);
 
     RopePart& part;
+    std::string said;  ///< what was done, where the picture does not show it
     /// The world, read-only. world() copies it on first write.
     const NamedWorld& seen() const { return *part.world; }
     bool running() const { return seconds_ > 0.0; }
@@ -81,6 +82,11 @@ void forget_held(RopePart& part, const NamedParticle& named);
 void let_go(RopePart& part);
 /// The world with the drag released.
 NamedWorld released_world(const RopePart& part);
+/// Selection and drag follow their particles of a body that was edited in the world: the selection stays with
+/// the active one, on its piece, and the drag holds only what is on the piece of its first.
+void follow_particles(RopePart& part, NamedWorld& world, const std::string& body, const Became& became);
+/// Makes what has come off the cloths that tore since `before` cloths of their own.
+void part_torn(RopePart& part, NamedWorld& world, const NamedWorld& before);
 /// Divides a body more or less finely; ends a drag that holds it. The selection stays on its particles, or
 /// the nearest to them. Throws Refused if there would be too many.
 void resample_body(RopeEdit& edit, const std::string& body, const rope::Resolution& to);
