@@ -211,10 +211,12 @@ void follow_particles(RopePart& part, NamedWorld& world, const std::string& body
         const std::vector<std::size_t> was = part.hold->particles;
         std::vector<std::size_t> now = together(was.front(), was, part.hold->body);
         std::ranges::sort(now);
-        part.hold->particles = std::move(now);
-        const rope::Body& held = *world.find(part.hold->body);
-        for (const std::size_t each : was)
-            if (number_of(each) - held.first >= held.count) world.unpin(number_of(each));
+        if (now.size() < was.size()) {
+            for (const std::size_t each : was) world.unpin(number_of(each));
+            part.hold.reset();
+        } else {
+            part.hold->particles = std::move(now);
+        }
     }
     if (!part.selection || !part.selection->of_particles() || part.selection->body != body) return;
     Selection& particles = part.selection->particles;

@@ -83,7 +83,7 @@ void let_go(RopePart& part);
 /// The world with the drag released.
 NamedWorld released_world(const RopePart& part);
 /// Selection and drag follow their particles of a body that was edited in the world: the selection stays with
-/// the active one, on its piece, and the drag holds only what is on the piece of its first.
+/// the active one, on its piece, and a drag of several that are no longer on one piece ends.
 void follow_particles(RopePart& part, NamedWorld& world, const std::string& body, const Became& became);
 /// Makes what has come off the cloths that tore since `before` cloths of their own.
 void part_torn(RopePart& part, NamedWorld& world, const NamedWorld& before);
