@@ -268,8 +268,8 @@ void RopeLab::click(const Workspace& workspace, PickId pick, Emit& emit) const {
         return;
     }
     if (const auto from = tied_from(part, *place)) return tie_places(world, *from, *place, emit);
-    if (const auto from = cut_from(part, *place)) cut_between(world, *from, *place, emit);
     emit("rope.select", of_particle(world, *place));
+    if (const auto from = cut_from(part, *place)) cut_between(world, *from, *place, emit);
     if (part.tool == RopeTool::Pin) {
         const bool pinned = world.pinned(place->body->first + place->index);
         emit(pinned ? "rope.unpin" : "rope.pin", of_particle(world, *place));
