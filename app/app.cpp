@@ -219,7 +219,7 @@ void App::refuse(const std::string& why) {
 void App::take_shortcut(Emit& emit) {
     const Chord chord = input_.pressed();
     if (chord.key == Key::Unknown) return;
-    if (chord.key == Key::Escape && (pointer_.dragged() != no_pick || pointer_.box())) {
+    if (chord.key == Key::Escape && (pointer_.dragged() != no_pick || pointer_.box() || pointer_.stroke())) {
         const Pane& pane = pane_at_hand();
         const Camera camera = pane.camera(workspace_.camera);
         pointer_.release(pointed_at(pane, camera), emit);  // a cancelled drag leaves no trace

@@ -57,6 +57,8 @@ void App::draw_panes() {
         show_labels(pane.drawn, camera, colours, layout_.scale, shell_.overlays());
     }
     if (const auto box = pointer_.box()) show_selection_box(*box, colours, layout_.scale);
+    if (const auto stroke = pointer_.stroke())
+        show_stroke(stroke->first, stroke->second, colours, layout_.scale);
     show_pane_titles(panes_, lab().panes(workspace_), colours, layout_.scale, true);
 }
 

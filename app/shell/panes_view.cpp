@@ -60,4 +60,9 @@ void show_selection_box(const Rect& box, const Palette& palette, float scale) {
     list->AddRect(low, high, imgui_u32(palette.selection, 0.9f), 0.0f, 0, scale);
 }
 
+void show_stroke(glm::vec2 from, glm::vec2 to, const Palette& palette, float scale) {
+    ImGui::GetBackgroundDrawList()->AddLine({from.x, from.y}, {to.x, to.y}, imgui_u32(palette.limit, 1.0f),
+                                            2.0f * scale);
+}
+
 }  // namespace tendril::app

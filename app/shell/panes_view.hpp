@@ -15,5 +15,7 @@ void show_pane_titles(std::span<const Pane> panes, std::span<const PaneTitle> ti
 
 /// The box that the user draws to select its contents.
 void show_selection_box(const Rect& box, const Palette& palette, float scale);
+/// The stroke that is being drawn.
+void show_stroke(glm::vec2 from, glm::vec2 to, const Palette& palette, float scale);
 
 }  // namespace tendril::app

@@ -131,6 +131,7 @@ void Pointer::press(const MousePress& press, const Input& input, const Scene& sc
     draggable_ = false;
     boxing_ = caught_ == no_pick && input.ctrl() && scene.lab.selects_by_box();
     const auto part = picked_part(caught_);
+    stroking_ = !part && !input.ctrl() && scene.lab.takes_strokes(scene.workspace);
     const auto handle = part ? scene.lab.gizmo(scene.workspace) : scene.lab.handle(scene.workspace, caught_);
     if (handle) take_hold(*handle, part ? part : handle->part, scene);
 }
@@ -168,6 +169,8 @@ void Pointer::let_go(const Input& input, const Scene& scene, Emit& emit) {
         since_click_ = 0;
     }
     if (doing_ == Doing::Box) select_in_box(input.shift(), scene, emit);
+    if (doing_ == Doing::Stroke)
+        scene.lab.stroke(scene.workspace, scene.camera, caught_at_, input.mouse(), emit);
     release(scene, emit);
 }
 
@@ -177,6 +180,7 @@ void Pointer::move(const Input& input, const Scene& scene, Emit& emit) {
         case Doing::Nothing:
         case Doing::Stray:
         case Doing::Box:
+        case Doing::Stroke:
             break;
         case Doing::Orbit:
             emit_camera(emit, scene.workspace.camera, orbited(scene.workspace.camera, by));
@@ -190,10 +194,12 @@ void Pointer::move(const Input& input, const Scene& scene, Emit& emit) {
             break;
         case Doing::Press:
             if (glm::distance(input.mouse(), caught_at_) < drag_threshold * scene.scale) break;
-            doing_ = draggable_           ? Doing::Drag
+            doing_ = stroking_            ? Doing::Stroke
+                     : draggable_         ? Doing::Drag
                      : boxing_            ? Doing::Box
                      : caught_ == no_pick ? Doing::Orbit
                                           : Doing::Stray;
+            if (doing_ == Doing::Stroke) caught_ = caught_handle_ = no_pick;
             if (doing_ == Doing::Drag) drag(input, scene, emit);
             if (doing_ == Doing::Orbit)
                 emit_camera(emit, scene.workspace.camera,
@@ -208,6 +214,11 @@ void Pointer::move(const Input& input, const Scene& scene, Emit& emit) {
 std::optional<Rect> Pointer::box() const {
     if (doing_ != Doing::Box) return std::nullopt;
     return Rect{glm::min(caught_at_, last_), glm::max(caught_at_, last_)};
+}
+
+std::optional<std::pair<glm::vec2, glm::vec2>> Pointer::stroke() const {
+    if (doing_ != Doing::Stroke) return std::nullopt;
+    return std::pair(caught_at_, last_);
 }
 
 /// Includes hidden handles: a box must also select within a coil.

@@ -6,6 +6,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "app/labs/lab.hpp"
@@ -54,13 +55,15 @@ class Pointer {
     std::string constraint(const Input& input) const;
     /// The selection box being drawn, in window coordinates.
     std::optional<Rect> box() const;
+    /// The ends of the stroke being drawn, in window coordinates.
+    std::optional<std::pair<glm::vec2, glm::vec2>> stroke() const;
     /// The handle's position when it was caught.
     glm::vec3 caught_position() const { return caught_frame_.position; }
     Cursor cursor() const;
 
   private:
     /// Stray: a drag that began on something that cannot be dragged.
-    enum class Doing { Nothing, Press, Stray, Drag, Orbit, Pan, Zoom, Box };
+    enum class Doing { Nothing, Press, Stray, Drag, Orbit, Pan, Zoom, Box, Stroke };
 
     void press(const MousePress& press, const Input& input, const Scene& scene);
     void let_go(const Input& input, const Scene& scene, Emit& emit);
@@ -85,6 +88,7 @@ class Pointer {
     Handle::Frame caught_frame_;      ///< the handle's frame when caught
     bool draggable_ = false;          ///< the caught object can be dragged
     bool boxing_ = false;             ///< nothing was caught, and a drag draws a box
+    bool stroking_ = false;           ///< a drag draws a stroke
     std::optional<GizmoDrag> by_;     ///< the part it is dragged by, if any
     std::vector<Handle> together_;    ///< all handles that the gizmo moves, as they were when caught
     int since_click_ = 1000;          ///< ticks

@@ -257,46 +257,5 @@ TEST(RopeResample, LengthAndWidthAreASideEach) {
     EXPECT_FALSE(world.set_density(rope, 0.0));
 }
 
-/// Cut from edge to edge, what nothing holds falls, and lengths hold as before.
-TEST(RopeCutCloth, ACutPieceFalls) {
-    World world;
-    world.add_cloth("cloth",
-                    {.corner = {0, 2, 0}, .columns = 9, .rows = 9, .pins = rope::ClothShape::Pins::Row});
-    const rope::BodyId cloth = world.id("cloth");
-    run(world, 0.5);
-    const glm::vec2 line[] = {{0, 3}, {4, 5}, {8, 3}};
-    world.core() = allowed(rope::cut_cloth(world, cloth, line));
-    EXPECT_NO_THROW(World{world.state()});
-    for (const Link& link : world.state().links) {
-        const auto below = [](std::uint32_t particle) {
-            const double c = particle % 9, r = particle / 9;
-            return r > (c <= 4 ? 3.0 + 0.5 * c : 7.0 - 0.5 * c) - 1e-6;
-        };
-        EXPECT_EQ(below(link.a), below(link.b)) << link.a << ' ' << link.b;
-    }
-    run(world, 1.0);
-    EXPECT_LT(world.position(80).y, -2.0f);
-    EXPECT_GT(world.position(9).y, 1.5f);
-    EXPECT_LT(stretch(world, "cloth"), 0.03);
-    EXPECT_NEAR(world.length(*world.find("cloth")), 1.0, 1e-6);
-}
-
-TEST(RopeCutCloth, RefusesWhatCutsNothing) {
-    World world;
-    world.add_cloth("cloth", {.columns = 5, .rows = 5});
-    world.add_rope("rope", {});
-    const glm::vec2 beside[] = {{-1, 0}, {-1, 4}}, across[] = {{-1, 1.5f}, {5, 1.5f}},
-                    bad[] = {{0, 0}, {nan, 0}};
-    const auto refuses = [&](const char* body, std::span<const glm::vec2> line) {
-        return !rope::cut_cloth(world, world.id(body), line);
-    };
-    EXPECT_TRUE(refuses("cloth", beside));
-    EXPECT_TRUE(refuses("cloth", bad));
-    EXPECT_TRUE(refuses("cloth", std::span(across).first(1)));
-    EXPECT_TRUE(refuses("rope", across));
-    EXPECT_TRUE(refuses("none", across));
-    EXPECT_FALSE(refuses("cloth", across));
-}
-
 }  // namespace
 }  // namespace tendril::test

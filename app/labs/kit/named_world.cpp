@@ -1,6 +1,7 @@
 #include "app/labs/kit/named_world.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <stdexcept>
 
 #include "app/labs/kit/arguments.hpp"
@@ -82,13 +83,30 @@ void NamedWorld::check_free(const char* operation, std::string_view body) const 
     if (!body.empty() && find(body) != nullptr) refuse(operation, "one that no other body has", body);
 }
 
-std::string NamedWorld::name_body(rope::BodyId body, const std::string& wanted, const std::string& stem,
-                                  int first) {
+std::string NamedWorld::name_body(rope::BodyId body, const std::string& wanted, const std::string& stem) {
     set_name(bodies_, body.index, {});
     std::string name = wanted;
-    for (int i = first; name.empty() || find(name) != nullptr; ++i)
+    for (int i = 1; name.empty() || find(name) != nullptr; ++i)
         name = i == 1 ? stem : stem + " " + std::to_string(i);
     return bodies_[body.index] = name;
+}
+
+/// "cloth 2" and "cloth 3" come off "cloth", and "cloth 4" off "cloth 2".
+std::vector<std::string> NamedWorld::name_pieces(std::string_view of, std::span<const rope::BodyId> pieces) {
+    std::string stem(of);
+    const std::size_t end = stem.find_last_not_of("0123456789");
+    if (end != std::string::npos && end > 0 && end + 1 < stem.size() && stem[end] == ' ') stem.resize(end);
+    for (const rope::BodyId each : pieces) set_name(bodies_, each.index, {});
+    std::vector<std::string> names;
+    int number = 2;
+    for (const rope::BodyId each : pieces) {
+        const auto next = [&] { return stem + " " + std::to_string(number++); };
+        std::string name = next();
+        while (find(name) != nullptr) name = next();
+        bodies_[each.index] = name;
+        names.push_back(std::move(name));
+    }
+    return names;
 }
 
 void NamedWorld::set_settings(const rope::Settings& settings) {
@@ -97,25 +115,29 @@ void NamedWorld::set_settings(const rope::Settings& settings) {
 
 std::string NamedWorld::add_rope(const std::string& name, const rope::RopeShape& shape) {
     check_free("add_rope", name);
-    return name_body(require_value(world_.add_rope(shape)), name, "rope", 1);
+    return name_body(require_value(world_.add_rope(shape)), name, "rope");
 }
 std::string NamedWorld::add_cloth(const std::string& name, const rope::ClothShape& shape) {
     check_free("add_cloth", name);
-    return name_body(require_value(world_.add_cloth(shape)), name, "cloth", 1);
+    return name_body(require_value(world_.add_cloth(shape)), name, "cloth");
 }
 std::string NamedWorld::add_hair(const std::string& name, rope::HairShape shape, const std::string& attach) {
     check_free("add_hair", name);
     if (!attach.empty()) shape.attach = collider_id(attach);
-    return name_body(require_value(world_.add_hair(shape)), name, "hair", 1);
+    return name_body(require_value(world_.add_hair(shape)), name, "hair");
 }
 
 void NamedWorld::remove(std::string_view body) {
     require_ok(world_.remove(id(body)));
 }
 
-std::string NamedWorld::cut(std::string_view rope, std::size_t segment) {
-    const std::string stem(rope);
-    return name_body(require_value(world_.cut(id(rope), segment)), {}, stem, 2);
+Became NamedWorld::cut(std::string_view rope, std::size_t segment) {
+    const rope::Body* const whole = find(rope);
+    Became became{std::vector<std::size_t>(whole == nullptr ? 0 : whole->count), {}};
+    std::iota(became.particles.begin(), became.particles.end(), std::size_t{0});
+    const rope::BodyId rest = require_value(world_.cut(id(rope), segment));
+    became.pieces = name_pieces(rope, {&rest, 1});
+    return became;
 }
 
 std::size_t NamedWorld::particle(std::string_view body, std::size_t index) const {
@@ -158,19 +180,22 @@ void NamedWorld::rename(std::string_view body, const std::string& name) {
     bodies_[renamed.index] = name;
 }
 
-std::vector<std::size_t> NamedWorld::take(Expected<rope::Edited> edited) {
+Became NamedWorld::take(std::string_view body, Expected<rope::Edited> edited) {
     rope::Edited given = require_value(std::move(edited));
     world_ = std::move(given.world);
-    return std::move(given.becomes);
+    return {std::move(given.becomes), name_pieces(body, given.pieces)};
 }
-std::vector<std::size_t> NamedWorld::resample(std::string_view body, const rope::Resolution& to) {
-    return take(rope::resample(world_, id(body), to));
+Became NamedWorld::resample(std::string_view body, const rope::Resolution& to) {
+    return take(body, rope::resample(world_, id(body), to));
 }
-std::vector<std::size_t> NamedWorld::reverse(std::string_view rope) {
-    return take(rope::reverse(world_, id(rope)));
+Became NamedWorld::reverse(std::string_view rope) {
+    return take(rope, rope::reverse(world_, id(rope)));
 }
-void NamedWorld::cut_cloth(std::string_view cloth, std::span<const glm::vec2> line) {
-    world_ = require_value(rope::cut_cloth(world_, id(cloth), line));
+Became NamedWorld::cut_cloth(std::string_view cloth, std::span<const glm::vec2> line) {
+    return take(cloth, rope::cut_cloth(world_, id(cloth), line));
+}
+Became NamedWorld::part_cloth(std::string_view cloth) {
+    return take(cloth, rope::part_cloth(world_, id(cloth)));
 }
 
 void NamedWorld::pin(std::size_t particle, const glm::dvec3& at, double seconds) {

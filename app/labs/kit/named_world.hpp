@@ -25,6 +25,12 @@ inline constexpr EnumNames<rope::Solver, 3> rope_solvers{
       "As relaxation, but with compliance: enough iterations stretch it as a material stretches."},
      {"direct", "Direct", "All segments of a rope at once: it does not stretch, and keeps its energy."}}};
 
+/// What a body became that was cut, parted or divided anew.
+struct Became {
+    std::vector<std::size_t> particles;  ///< as in rope::Edited
+    std::vector<std::string> pieces;     ///< the names of what came off it, in the order of particles
+};
+
 /// A value type, like the library's world; the state that only stepping needs is in a rope::Workspace.
 class NamedWorld {
   public:
@@ -60,8 +66,12 @@ class NamedWorld {
     std::string add_hair(const std::string& name, rope::HairShape shape, const std::string& attach = {});
     void remove(std::string_view body);
     void move(std::string_view body, const glm::dvec3& by);  ///< as in rope::World
-    /// Returns the name of the part behind the cut: the rope's own name with a number.
-    std::string cut(std::string_view rope, std::size_t segment);
+    // Pieces that come off a body have its name with the next free number.
+    Became cut(std::string_view rope, std::size_t segment);
+    Became cut_cloth(std::string_view cloth, std::span<const glm::vec2> line);
+    Became part_cloth(std::string_view cloth);
+    Became resample(std::string_view body, const rope::Resolution& to);
+    Became reverse(std::string_view rope);
     // As in rope::World.
     void set_length(std::string_view body, float metres);
     void set_width(std::string_view cloth, float metres);
@@ -72,10 +82,6 @@ class NamedWorld {
     void set_friction(std::string_view body, std::optional<float> friction);
     void set_tear(std::string_view body, float tear);
     void rename(std::string_view body, const std::string& name);
-    /// Each returns the particle that each particle of the body has become.
-    std::vector<std::size_t> resample(std::string_view body, const rope::Resolution& to);
-    std::vector<std::size_t> reverse(std::string_view rope);
-    void cut_cloth(std::string_view cloth, std::span<const glm::vec2> line);
     std::size_t particle(std::string_view body, std::size_t index) const;
     void pin(std::size_t particle, const glm::dvec3& at, double seconds = 0.0);
     void attach(std::size_t particle, std::string_view collider);
@@ -115,11 +121,12 @@ class NamedWorld {
 
   private:
     void check_free(const char* operation, std::string_view body) const;
-    std::string name_body(rope::BodyId body, const std::string& wanted, const std::string& stem, int first);
+    std::string name_body(rope::BodyId body, const std::string& wanted, const std::string& stem);
+    std::vector<std::string> name_pieces(std::string_view of, std::span<const rope::BodyId> pieces);
     rope::BodyId id(std::string_view body) const;
     rope::ColliderId collider_id(std::string_view collider) const;
     rope::TieId tie_id(std::string_view tie) const;
-    std::vector<std::size_t> take(Expected<rope::Edited> edited);
+    Became take(std::string_view body, Expected<rope::Edited> edited);
 
     rope::World world_;
     std::vector<std::string> bodies_, colliders_, ties_;  ///< by slot

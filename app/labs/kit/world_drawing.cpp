@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "app/view/surfaces.hpp"
 
@@ -56,18 +57,18 @@ std::vector<glm::vec3> particle_colours(const NamedWorld& world, const Palette& 
 }
 
 GridLinks grid_links(const NamedWorld& world, const rope::Body& cloth) {
-    GridLinks links{std::vector<std::uint8_t>(cloth.count, 0), std::vector<std::uint8_t>(cloth.count, 0)};
+    const std::size_t cells = cloth.row * cloth.rows();
+    GridLinks links{std::vector<std::uint8_t>(cells, 0), std::vector<std::uint8_t>(cells, 0)};
     for (const rope::Link& link : world.state().links) {
-        if (link.kind != rope::Link::Kind::Stretch || link.a < cloth.first) continue;
-        const std::size_t from = link.a - cloth.first;
-        if (from >= cloth.count) continue;
-        (link.b == link.a + 1 ? links.along : links.down)[from] = 1;
+        if (link.kind != rope::Link::Kind::Stretch || link.a - cloth.first >= cloth.count) continue;
+        const std::size_t from = cloth.cell(link.a - cloth.first), to = cloth.cell(link.b - cloth.first);
+        (to == from + cloth.row ? links.down : links.along)[from] = 1;
     }
     return links;
 }
 
 std::vector<std::uint8_t> whole_cells(const NamedWorld& world, const rope::Body& cloth) {
-    const std::size_t columns = cloth.row, rows = cloth.count / cloth.row;
+    const std::size_t columns = cloth.row, rows = cloth.rows();
     const auto [along, down] = grid_links(world, cloth);
     std::vector<std::uint8_t> cells((columns - 1) * (rows - 1), 0);
     for (std::size_t r = 0; r + 1 < rows; ++r) {
@@ -92,14 +93,23 @@ void draw_strands(DrawList& list, const Camera& camera, const rope::Body& body,
 void draw_cloth(DrawList& list, const Camera& camera, const NamedWorld& world, const rope::Body& body,
                 std::span<const glm::vec3> positions, std::span<const glm::vec3> colours,
                 const Palette& palette) {
-    const int columns = static_cast<int>(body.row), rows = static_cast<int>(body.count / body.row);
+    const bool plain = colours.empty();
+    // A single thread has no surface.
+    if (body.count > 1 && (body.row == 1 || body.rows() == 1)) {
+        const std::vector<glm::vec3> front(body.count, cloth_front(palette));
+        return tube(list, camera, positions.subspan(body.first, body.count), body.radius, strand_sides,
+                    plain ? front : colours.subspan(body.first, body.count));
+    }
+    const std::size_t size = body.row * body.rows();
+    std::vector<glm::vec3> points(size, glm::vec3(std::numeric_limits<float>::quiet_NaN())), own;
+    if (!plain) own.assign(size, palette.head);
+    for (std::size_t i = 0; i < body.count; ++i) {
+        points[body.cell(i)] = positions[body.first + i];
+        if (!plain) own[body.cell(i)] = colours[body.first + i];
+    }
     const std::vector<std::uint8_t> cells = whole_cells(world, body);
-    const ClothGrid grid{columns, rows, positions.subspan(body.first, body.count), cells};
-    if (colours.empty())
-        cloth_surface(list, camera, grid, cloth_front(palette), palette.neutral);
-    else
-        cloth_surface(list, camera, grid, palette.head, palette.neutral,
-                      colours.subspan(body.first, body.count));
+    const ClothGrid grid{static_cast<int>(body.row), static_cast<int>(body.rows()), points, cells};
+    cloth_surface(list, camera, grid, plain ? cloth_front(palette) : palette.head, palette.neutral, own);
 }
 
 }  // namespace tendril::app

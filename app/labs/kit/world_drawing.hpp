@@ -20,7 +20,8 @@ glm::vec3 cloth_front(const Palette& palette);
 /// One for each particle: by its kind of body, or by the worst strain of its links.
 std::vector<glm::vec3> particle_colours(const NamedWorld& world, const Palette& palette, bool by_strain);
 
-/// Whether each particle of a cloth still has its link to the next in its row (`along`) and column (`down`).
+/// Whether each cell of a cloth's grid still has its link to the next in its row (`along`) and column
+/// (`down`).
 struct GridLinks {
     std::vector<std::uint8_t> along, down;
 };

@@ -93,6 +93,7 @@ Json save_body(const rope::Body& body, const std::string& name) {
     Json json{{"name", name},        {"kind", body_kind_name(body.kind)},
               {"first", body.first}, {"count", body.count},
               {"row", body.row},     {"radius", number(body.radius)}};
+    if (!body.cells.empty()) json["cells"] = body.cells;
     if (body.tear != 0.0f) json["tear"] = number(body.tear);
     if (body.friction) json["friction"] = number(*body.friction);
     if (body.stretch != 0.0f) json["stretch"] = number(body.stretch);
@@ -112,6 +113,10 @@ rope::Body load_body(const JsonPlace& place) {
     body.count = place["count"].index(max_lab_particles);
     body.row = place["row"].index(max_lab_particles);
     body.radius = place["radius"].number();
+    if (const auto cells = place.optional("cells"))
+        cells->for_each("cells", max_lab_particles, [&](const JsonPlace& each) {
+            body.cells.push_back(static_cast<std::uint32_t>(each.index(rope::max_particles - 1)));
+        });
     if (const auto tear = place.optional("tear")) body.tear = tear->number();
     if (const auto friction = place.optional("friction")) body.friction = friction->number();
     if (const auto stretch = place.optional("stretch")) body.stretch = stretch->number();

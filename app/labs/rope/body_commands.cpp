@@ -151,38 +151,6 @@ void merge(RopeEdit& edit, const Arguments& given) {
     divide_body(edit, given, [](std::size_t segments) { return (segments + 1) / 2; });
 }
 
-/// Redirects a reference beyond the cut to the same particle of the new rope.
-void follow_cut(std::string& body, std::size_t& particle, const std::string& cut_rope, std::size_t segment,
-                const std::string& rest) {
-    if (body != cut_rope || particle <= segment) return;
-    body = rest;
-    particle -= segment + 1;
-}
-
-/// The selection stays with its active particle.
-void follow_cut(RopeSelection& selection, const std::string& cut_rope, std::size_t segment,
-                const std::string& rest) {
-    if (selection.body != cut_rope) return;
-    std::size_t active = selection.particle();
-    const bool behind = active > segment;
-    follow_cut(selection.body, active, cut_rope, segment, rest);
-    std::vector<std::size_t> stay;
-    for (const std::size_t each : selection.particles.all())
-        if ((each > segment) == behind) stay.push_back(behind ? each - segment - 1 : each);
-    stay.push_back(active);
-    selection.particles.take(stay, false);
-}
-
-/// All held particles are on one side of the cut.
-void follow_cut(Hold& hold, const std::string& cut_rope, std::size_t segment, const std::string& rest) {
-    std::string body = hold.body;
-    for (std::size_t& each : hold.particles) {
-        body = hold.body;
-        follow_cut(body, each, cut_rope, segment, rest);
-    }
-    hold.body = body;
-}
-
 void cut(RopeEdit& edit, const Arguments& given) {
     const rope::Body& body = body_of(edit.seen(), given.text("rope"));
     const std::string name = given.text("rope");
@@ -191,18 +159,13 @@ void cut(RopeEdit& edit, const Arguments& given) {
         throw Refused("segment " + std::to_string(segment) + " is out of range, \"" + name + "\" has " +
                       std::to_string(body.count == 0 ? 0 : body.count - 1));
     }
-    RopePart& part = edit.part;
-    if (part.hold && part.hold->body == name && part.hold->particles.front() <= segment &&
-        part.hold->particles.back() > segment)
-        let_go(part);
-    const std::string rest = edit.world().cut(name, segment);
-    if (part.selection) follow_cut(*part.selection, name, segment, rest);
-    if (part.hold) follow_cut(*part.hold, name, segment, rest);
-    forget_missing(part);
+    const Became became = edit.world().cut(name, segment);
+    follow_particles(edit.part, edit.world(), name, became);
+    forget_missing(edit.part);
 }
 
 void cut_cloth(RopeEdit& edit, const Arguments& given) {
-    constexpr std::size_t most = 1000;
+    constexpr std::size_t most = 1000, named = 3;
     const std::string name = given.text("rope");
     body_of(edit.seen(), name);
     std::vector<glm::vec2> line;
@@ -210,7 +173,13 @@ void cut_cloth(RopeEdit& edit, const Arguments& given) {
         each.check_size(2, "numbers, a column and a row");
         line.emplace_back(each.element(0).number(), each.element(1).number());
     });
-    edit.world().cut_cloth(name, line);
+    const Became became = edit.world().cut_cloth(name, line);
+    follow_particles(edit.part, edit.world(), name, became);
+    if (became.pieces.empty()) return;
+    edit.said = "\"" + name + "\" is in " + std::to_string(became.pieces.size() + 1) + " pieces";
+    for (std::size_t i = 0; i < std::min(named, became.pieces.size()); ++i)
+        edit.said += std::string(i == 0 ? ": " : ", ") + "\"" + became.pieces[i] + "\"";
+    edit.said += became.pieces.size() > named ? ", ... came off" : " came off";
 }
 
 /// A name, followed by the fields of `Shapes`.

@@ -137,13 +137,16 @@ class RopeProgram {
         list("    state.settings = {", member_texts(state.settings, "rope::Solver::"), "};", "        ");
         for (const rope::Body& body : state.bodies) {
             name(world_.name(body));
-            std::vector<std::string> members{".id = {}",
-                                             std::string(".kind = ") + kind_text(body.kind),
+            std::vector<std::string> members{".id = {}", std::string(".kind = ") + kind_text(body.kind),
                                              ".first = " + std::to_string(body.first),
                                              ".count = " + std::to_string(body.count),
-                                             ".row = " + std::to_string(body.row),
-                                             ".radius = " + literal(body.radius),
-                                             ".tear = " + literal(body.tear)};
+                                             ".row = " + std::to_string(body.row)};
+            if (!body.cells.empty()) {
+                const auto number = [](std::uint32_t cell) { return std::to_string(cell); };
+                members.push_back(".cells = {" + joined(names(body.cells, number)) + '}');
+            }
+            members.push_back(".radius = " + literal(body.radius));
+            members.push_back(".tear = " + literal(body.tear));
             if (body.friction) members.push_back(".friction = " + literal(*body.friction));
             members.push_back(".stretch = " + literal(body.stretch));
             add("bodies", members);

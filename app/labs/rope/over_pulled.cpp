@@ -34,23 +34,28 @@ class Threads {
             if (link.kind != rope::Link::Kind::Stretch || link.compliance > 0.0f || elastic) continue;
             while (link.a < state.bodies[b].first) --b;  // links of a body are nearly always contiguous
             while (link.a - state.bodies[b].first >= state.bodies[b].count) ++b;
-            const std::size_t from = std::min(link.a, link.b), step = std::max(link.a, link.b) - from;
-            if (step == 1)
-                along_[from] = link.rest;
-            else if (step == state.bodies[b].row)
+            const rope::Body& body = state.bodies[b];
+            const std::size_t from = std::min(link.a, link.b), to = std::max(link.a, link.b);
+            const std::size_t step = body.cell(to - body.first) - body.cell(from - body.first);
+            if (step == body.row)
                 down_[from] = link.rest;
+            else if (step == 1)
+                along_[from] = link.rest;
         }
     }
     /// Of two particles of a body.
     double between(const rope::Body& body, std::size_t a, std::size_t b) const {
         const std::size_t row = body.row > 0 ? body.row : body.count;
-        const std::size_t from = a - body.first, to = b - body.first;
+        const std::size_t from = body.cell(a - body.first), to = body.cell(b - body.first);
         if (body.kind == rope::Body::Kind::Hair && from / row != to / row) return no_way;
         const std::size_t left = std::min(from % row, to % row), right = std::max(from % row, to % row);
-        const std::size_t start = body.first + from / row * row;
+        const auto at = [&](const std::vector<double>& list, std::size_t cell) {
+            const std::size_t i = body.particle_in(cell);
+            return i < body.count ? list[body.first + i] : no_way;
+        };
         double length = 0.0;
-        for (std::size_t i = left; i < right; ++i) length += along_[start + i];
-        for (std::size_t i = from; i / row < to / row; i += row) length += down_[body.first + i];
+        for (std::size_t i = left; i < right; ++i) length += at(along_, from / row * row + i);
+        for (std::size_t i = from; i / row < to / row; i += row) length += at(down_, i);
         return length;
     }
 

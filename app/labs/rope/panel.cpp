@@ -51,7 +51,9 @@ const char* tool_help(RopeTool tool) {
         case RopeTool::Pin:
             return "A click on a particle pins it where it is, or lets a pinned one move again.";
         case RopeTool::Cut:
-            return "A click on a rope cuts that segment; clicks on a cloth cut it from one to the next.";
+            return "A drag cuts across. A click on a rope cuts that segment; clicks on a cloth cut it from "
+                   "one to "
+                   "the next.";
         case RopeTool::Tie:
             return "A click on one particle and then on another ties the two.";
         default:

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <set>
 
 #include "app/labs/kit/world_drawing.hpp"
@@ -79,9 +80,9 @@ std::set<std::size_t> spread(std::size_t count, std::size_t wanted) {
     return places;
 }
 
-/// A row of particles: every `step`-th one in the world's list.
+/// A row of particles.
 struct Thread {
-    std::size_t first = 0, step = 1, count = 0;
+    std::vector<std::size_t> particles{};  ///< numbered in the world; no link leads to a gap's
     /// Which particles have a link to the next; empty: all.
     std::vector<bool> linked{};
 
@@ -94,19 +95,19 @@ struct Thread {
 
 void add_cloth(const NamedWorld& world, const rope::Body& cloth, std::vector<Thread>& threads) {
     constexpr std::size_t shown = 5;
-    const std::size_t columns = cloth.row, rows = cloth.count / cloth.row;
+    const std::size_t columns = cloth.row, rows = cloth.rows();
     const GridLinks links = grid_links(world, cloth);
-    for (const std::size_t row : spread(rows, shown)) {
-        Thread thread{cloth.first + row * columns, 1, columns};
-        for (std::size_t i = 0; i < columns; ++i)
-            thread.linked.push_back(links.along[row * columns + i] != 0);
-        threads.push_back(std::move(thread));
-    }
-    for (const std::size_t column : spread(columns, shown)) {
-        Thread thread{cloth.first + column, columns, rows};
-        for (std::size_t i = 0; i < rows; ++i) thread.linked.push_back(links.down[i * columns + column] != 0);
-        threads.push_back(std::move(thread));
-    }
+    const auto add = [&](std::size_t from, std::size_t step, std::size_t count,
+                         const std::vector<std::uint8_t>& of) {
+        Thread& thread = threads.emplace_back();
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::size_t cell = from + i * step;
+            thread.particles.push_back(cloth.first + cloth.particle_in(cell));
+            thread.linked.push_back(of[cell] != 0);
+        }
+    };
+    for (const std::size_t row : spread(rows, shown)) add(row * columns, 1, columns, links.along);
+    for (const std::size_t column : spread(columns, shown)) add(column, columns, rows, links.down);
 }
 
 std::vector<Thread> threads_of(const NamedWorld& world) {
@@ -116,8 +117,11 @@ std::vector<Thread> threads_of(const NamedWorld& world) {
             add_cloth(world, body, threads);
             continue;
         }
-        for (std::size_t i = 0; i < body.count; i += body.row)
-            threads.push_back({body.first + i, 1, body.row});
+        for (std::size_t i = 0; i < body.count; i += body.row) {
+            Thread& thread = threads.emplace_back();
+            thread.particles.resize(body.row);
+            std::iota(thread.particles.begin(), thread.particles.end(), body.first + i);
+        }
     }
     return threads;
 }
@@ -164,12 +168,11 @@ PoseLines rope_lines(const SharedPart& part) {
     const std::vector<glm::vec3> positions = world.positions();
     for (std::size_t t = 0; t < threads.size(); t += every) {
         const Thread& thread = threads[t];
-        const std::size_t links = thread.count - 1, strokes = std::min(links, each);
+        const std::size_t links = thread.particles.size() - 1, strokes = std::min(links, each);
         for (std::size_t i = 0; i < strokes; ++i) {
             const std::size_t from = i * links / strokes, to = (i + 1) * links / strokes;
             if (thread.whole(from, to))
-                lines.emplace_back(positions[thread.first + from * thread.step],
-                                   positions[thread.first + to * thread.step]);
+                lines.emplace_back(positions[thread.particles[from]], positions[thread.particles[to]]);
         }
     }
     return lines;

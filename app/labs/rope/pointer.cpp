@@ -240,7 +240,8 @@ std::optional<ParticlePlace> cut_from(const RopePart& part, const NamedWorld& wo
 
 void cut_between(const NamedWorld& world, const ParticlePlace& from, const ParticlePlace& to, Emit& emit) {
     const auto at = [](const ParticlePlace& place) {
-        return Json{place.index % place.body->row, place.index / place.body->row};
+        const std::size_t cell = place.body->cell(place.index);
+        return Json{cell % place.body->row, cell / place.body->row};
     };
     emit("rope.cloth.cut", {{"rope", world.name(*to.body)}, {"points", SharedJson(Json{at(from), at(to)})}});
 }
@@ -277,8 +278,8 @@ void RopeLab::click(const Workspace& workspace, PickId pick, Emit& emit) const {
         return;
     }
     if (const auto from = tied_from(part, world, *place)) return tie_places(world, *from, *place, emit);
-    if (const auto from = cut_from(part, world, *place)) cut_between(world, *from, *place, emit);
     emit("rope.select", of_particle(world, *place));
+    if (const auto from = cut_from(part, world, *place)) cut_between(world, *from, *place, emit);
     if (part.tool == RopeTool::Pin) {
         const bool pinned = world.pinned(place->body->first + place->index);
         emit(pinned ? "rope.unpin" : "rope.pin", of_particle(world, *place));

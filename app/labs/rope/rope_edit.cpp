@@ -68,6 +68,7 @@ Command rope_command(const char* name, const char* title, std::vector<Argument> 
                     auto& runtime = workspace.runtimes.of<RopeRuntime>(rope_lab);
                     RopeEdit edit(part, workspace.clock, runtime.workspace);
                     change(edit, given);
+                    if (!edit.said.empty()) workspace.toast(std::move(edit.said));
                     if (part.world != old.world) {
                         check_work(*part.world);
                         change_rivals(part, old, [&](RopePart& rival) {
@@ -214,36 +215,79 @@ std::shared_ptr<const NamedWorld> released(std::shared_ptr<const NamedWorld> wor
     return free;
 }
 
-namespace {
-
-/// The selection follows its particles, each of which `becomes` another; a whole body stays selected.
-void follow_particles(RopePart& part, const std::string& body, const std::vector<std::size_t>& becomes) {
+void follow_particles(RopePart& part, NamedWorld& world, const std::string& body, const Became& became) {
+    const std::size_t first = world.find(body)->first;
+    const auto number_of = [&](std::size_t was) { return first + became.particles[was]; };
+    /// The body that one of the particles is in, and those that are in it too.
+    const auto together = [&](std::size_t one, const std::vector<std::size_t>& all, std::string& name) {
+        name = body;
+        for (const std::string& each : became.pieces)
+            if (world.find(each)->first <= number_of(one)) name = each;
+        const rope::Body& of = *world.find(name);
+        std::vector<std::size_t> inside;
+        for (const std::size_t each : all)
+            if (number_of(each) - of.first < of.count) inside.push_back(number_of(each) - of.first);
+        return inside;
+    };
+    if (part.hold && part.hold->body == body) {
+        const std::vector<std::size_t> was = part.hold->particles;
+        std::vector<std::size_t> now = together(was.front(), was, part.hold->body);
+        std::ranges::sort(now);
+        if (now.size() < was.size()) {
+            for (const std::size_t each : was) world.unpin(number_of(each));
+            part.hold.reset();
+        } else {
+            part.hold->particles = std::move(now);
+        }
+    }
     if (!part.selection || !part.selection->of_particles() || part.selection->body != body) return;
     Selection& particles = part.selection->particles;
-    std::vector<std::size_t> now;
-    if (particles.all().size() == becomes.size()) {
-        now.resize(part.world->find(body)->count);
+    const std::size_t active = part.selection->particle();
+    const bool whole = particles.all().size() == became.particles.size();  // a whole body stays selected
+    std::vector<std::size_t> now = together(active, particles.all(), part.selection->body);
+    const rope::Body& of = *world.find(part.selection->body);
+    if (whole) {
+        now.resize(of.count);
         std::iota(now.begin(), now.end(), std::size_t{0});
-    } else {
-        for (const std::size_t each : particles.all()) now.push_back(becomes[each]);
     }
-    now.push_back(becomes[part.selection->particle()]);
+    now.push_back(number_of(active) - of.first);
     particles.take(now, false);
 }
 
-}  // namespace
+void part_torn(RopePart& part, NamedWorld& world, const NamedWorld& before) {
+    const rope::State& state = world.state();
+    if (state.links.size() == before.state().links.size()) return;
+    const auto links_of = [](const rope::State& of) {
+        std::vector<std::size_t> links(of.bodies.size(), 0);
+        std::size_t b = 0;
+        for (const rope::Link& link : of.links) {
+            while (link.a < of.bodies[b].first) --b;
+            while (link.a - of.bodies[b].first >= of.bodies[b].count) ++b;
+            ++links[b];
+        }
+        return links;
+    };
+    const std::vector<std::size_t> now = links_of(state), then = links_of(before.state());
+    std::vector<std::string> torn;
+    for (std::size_t b = 0; b < now.size(); ++b)
+        if (now[b] < then[b] && state.bodies[b].kind == rope::Body::Kind::Cloth)
+            torn.push_back(world.name(state.bodies[b]));
+    for (const std::string& each : torn) follow_particles(part, world, each, world.part_cloth(each));
+}
 
 void resample_body(RopeEdit& edit, const std::string& body, const rope::Resolution& to) {
     const std::size_t now = body_of(edit.seen(), body).count, then = to.columns * to.rows;
     if (then > now) check_particle_count(edit.seen(), then - now);
     if (edit.part.hold && edit.part.hold->body == body) let_go(edit.part);
-    follow_particles(edit.part, body, edit.world().resample(body, to));
+    const Became became = edit.world().resample(body, to);
+    follow_particles(edit.part, edit.world(), body, became);
 }
 
 void reverse_rope(RopeEdit& edit, const std::string& rope) {
     body_of(edit.seen(), rope);
     if (edit.part.hold && edit.part.hold->body == rope) let_go(edit.part);
-    follow_particles(edit.part, rope, edit.world().reverse(rope));
+    const Became became = edit.world().reverse(rope);
+    follow_particles(edit.part, edit.world(), rope, became);
 }
 
 void rename_body(RopeEdit& edit, const std::string& body, const std::string& name) {

@@ -18,6 +18,7 @@ class RopeEdit {
     RopeEdit(RopePart& changed, const Clock& clock, rope::Workspace& workspace);
 
     RopePart& part;
+    std::string said;  ///< what was done, where the picture does not show it
     /// The world, read-only. world() copies it on first write.
     const NamedWorld& seen() const { return *part.world; }
     bool running() const { return seconds_ > 0.0; }
@@ -84,6 +85,11 @@ void let_go(RopePart& part);
 /// The world, or that of a rival, with the drag released.
 std::shared_ptr<const NamedWorld> released(std::shared_ptr<const NamedWorld> world,
                                            const std::optional<Hold>& hold);
+/// Selection and drag follow their particles of a body that was edited in the world: the selection stays with
+/// the active one, on its piece, and a drag of several that are no longer on one piece ends.
+void follow_particles(RopePart& part, NamedWorld& world, const std::string& body, const Became& became);
+/// Makes what has come off the cloths that tore since `before` cloths of their own.
+void part_torn(RopePart& part, NamedWorld& world, const NamedWorld& before);
 /// Divides a body more or less finely; ends a drag that holds it. The selection stays on its particles, or
 /// the nearest to them. Throws Refused if there would be too many.
 void resample_body(RopeEdit& edit, const std::string& body, const rope::Resolution& to);

@@ -185,6 +185,7 @@ Json body_state(const NamedWorld& world, const rope::Body& body, const ShownPart
               {"stretch", number(body.stretch)}, {"length_error", world.length_error(body)},
               {"energy", world.energy(body)}};
     if (body.kind != rope::Body::Kind::Rope) json["row"] = body.row;
+    if (!body.cells.empty()) json["cells"] = body.cells;
     return json;
 }
 

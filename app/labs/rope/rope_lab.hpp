@@ -82,6 +82,11 @@ class RopeLab final : public Lab {
     void double_click(const Workspace& workspace, PickId pick, Emit& emit) const override;
     void click_more(const Workspace& workspace, PickId pick, Emit& emit) const override;
     bool selects_by_box() const override { return true; }
+    bool takes_strokes(const Workspace& workspace) const override {
+        return rope_part(workspace).tool == RopeTool::Cut;
+    }
+    void stroke(const Workspace& workspace, const Camera& camera, glm::vec2 from, glm::vec2 to,
+                Emit& emit) const override;
     std::vector<Handle> selectable(const Workspace& workspace) const override;
     void select(const Workspace& workspace, const std::vector<PickId>& picks, bool add,
                 Emit& emit) const override;

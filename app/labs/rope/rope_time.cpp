@@ -102,6 +102,7 @@ RopeReport pass_time(RopePart& part, double seconds, rope::Workspace& workspace)
         }
     }
     const bool torn = world->state().ties.size() != part.world->state().ties.size();
+    part_torn(part, *world, *part.world);
     part.world = std::move(world);
     if (torn) forget_missing(part);
     return tick.report;

@@ -76,6 +76,22 @@ Result check_handles(const List& list, const std::vector<std::uint32_t>& slots, 
     return {};
 }
 
+/// Of a cloth with gaps.
+Result check_cells(std::size_t number, const Body& body) {
+    const std::vector<std::uint32_t>& cells = body.cells;
+    if (cells.empty()) return {};
+    const auto bad = [&](const char* rule, std::size_t value) {
+        return refused(op, Argument("bodies", number, "cells"), rule, value);
+    };
+    if (body.kind != Body::Kind::Cloth) return bad("empty for all but cloth", cells.size());
+    if (cells.size() != body.count) return bad("one for each particle", cells.size());
+    for (std::size_t k = 1; k < cells.size(); ++k)
+        if (cells[k] <= cells[k - 1]) return bad("ascending", cells[k]);
+    // Bounds the memory that its grid takes.
+    if (body.row > max_particles || cells.back() >= max_particles) return bad("below 1000000", cells.back());
+    return {};
+}
+
 Result check_body(const State& state, std::size_t i, std::size_t next) {
     const Body& body = state.bodies[i];
     const auto bad = [&](const char* member, const char* rule, std::size_t value) {
@@ -84,9 +100,11 @@ Result check_body(const State& state, std::size_t i, std::size_t next) {
     if (body.first != next) return bad("first", "where the previous body ends", body.first);
     if (body.count == 0 || body.count > state.position.size() - next)
         return bad("count", "from 1 to the number of particles", body.count);
-    if (body.row == 0 || body.count % body.row != 0) return bad("row", "a divisor of count", body.row);
+    if (body.row == 0 || (body.cells.empty() && body.count % body.row != 0))
+        return bad("row", "a divisor of count", body.row);
     if (static_cast<int>(body.kind) > static_cast<int>(Body::Kind::Hair))
         return bad("kind", "one of the three", static_cast<std::size_t>(body.kind));
+    if (const Result r = check_cells(i, body); !r) return r;
     const std::pair<const char*, float> lengths[] = {
         {"radius", body.radius}, {"tear", body.tear}, {"stretch", body.stretch}};
     for (const auto& [member, value] : lengths)

@@ -46,6 +46,7 @@ ClothSolver::ClothSolver(const IslandStep& step)
       grid_(plan_.grids[island_.grid - 1]),
       cloth_(scratch_.cloths[island_.grid - 1]),
       level_(cloth_.system.finest()),
+      cells_(Plan::part(plan_.grid_cells, grid_.cells)),
       first_(state_.bodies[grid_.body].first) {
     const std::size_t count = state_.bodies[grid_.body].count;
     double whole = 0.0, longest = 0.0;
@@ -68,10 +69,7 @@ ClothSolver::ClothSolver(const IslandStep& step)
 /// Calls `visit` with each particle and its cell.
 template <class Visit>
 void ClothSolver::each_cell(Visit visit) const {
-    const std::size_t stride = detail::grid_stride(grid_.columns);
-    for (std::size_t row = 0; row < grid_.rows; ++row)
-        for (std::size_t column = 0; column < grid_.columns; ++column)
-            visit(first_ + row * grid_.columns + column, row * stride + column);
+    for (std::size_t i = 0; i < cells_.size(); ++i) visit(first_ + i, cells_[i]);
 }
 
 double ClothSolver::stiffness_of(const Link& link) const {

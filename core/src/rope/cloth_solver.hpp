@@ -33,16 +33,14 @@ class ClothSolver : ImplicitStep {
     double deepest() const;
 
     double stiffness_of(const Link& link) const;
-    std::size_t cell_of(std::size_t particle) const {
-        const std::size_t number = particle - first_;
-        return number / grid_.columns * detail::grid_stride(grid_.columns) + number % grid_.columns;
-    }
+    std::size_t cell_of(std::size_t particle) const { return cells_[particle - first_]; }
     template <class Visit>
     void each_cell(Visit visit) const;
 
     const Plan::Grid& grid_;
     detail::Cloth& cloth_;
     const detail::GridLevel& level_;
+    std::span<const std::uint32_t> cells_;  ///< of its particles
     std::size_t first_;
     double unit_ = 0.0;  ///< mean mass of a particle, over h^2
     float lightest_ = 1.0f;

@@ -1,16 +1,18 @@
 #include <algorithm>
-#include <cmath>
+#include <cstdio>
 #include <glm/vec2.hpp>
+#include <numeric>
 
 #include "math/checks.hpp"
-#include "rope/rest_grid.hpp"
 #include "rope/slots.hpp"
+#include "rope/taken.hpp"
 #include "tendril/rope/edit.hpp"
 
 namespace tendril::rope {
 namespace {
 
 using glm::dvec2;
+using tendril::detail::Argument;
 using tendril::detail::refused;
 
 /// Positive to the left of the line through a and b, seen with columns to the right and rows upwards.
@@ -30,25 +32,141 @@ bool crosses(dvec2 a, dvec2 b, dvec2 p, dvec2 q) {
     return reached >= -near && reached <= 1.0 + near;
 }
 
-}  // namespace
+/// A piece of a cloth.
+struct ClothPiece {
+    std::vector<std::size_t> particles{};  ///< numbered in the body, ascending
+    std::size_t pins = 0;
+};
 
-Expected<World> cut_cloth(const World& world, BodyId cloth, std::span<const glm::vec2> line) {
-    const char* const op = "cut_cloth";
+/// In the order of their first particles.
+std::vector<ClothPiece> pieces_of(const State& state, const Body& body, std::vector<std::size_t>& piece_of) {
+    std::vector<std::size_t> parent(body.count);  // union-find; each set is known by its first particle
+    std::iota(parent.begin(), parent.end(), std::size_t{0});
+    const auto first_of = [&](std::size_t i) {
+        while (parent[i] != i) i = parent[i] = parent[parent[i]];
+        return i;
+    };
+    for (const Link& link : state.links) {
+        if (!detail::owns(body, link)) continue;
+        const std::size_t a = first_of(link.a - body.first), b = first_of(link.b - body.first);
+        parent[std::max(a, b)] = std::min(a, b);
+    }
+    std::vector<ClothPiece> pieces;
+    piece_of.assign(body.count, 0);
+    for (std::size_t i = 0; i < body.count; ++i) {
+        const std::size_t first = first_of(i);
+        if (first == i) piece_of[i] = pieces.size(), pieces.emplace_back();
+        piece_of[i] = piece_of[first];
+        pieces[piece_of[i]].particles.push_back(i);
+    }
+    for (const Pin& pin : state.pins)
+        if (pin.particle - body.first < body.count) ++pieces[piece_of[pin.particle - body.first]].pins;
+    return pieces;
+}
+
+/// The body with its particles in the order of the pieces.
+detail::Taken sorted_by_piece(const State& state, const Body& body, const std::vector<ClothPiece>& pieces,
+                              const std::vector<std::size_t>& piece_of, std::vector<std::size_t>& becomes) {
+    detail::Taken taken{.row = body.row};
+    becomes.resize(body.count);
+    for (const ClothPiece& piece : pieces)
+        for (const std::size_t i : piece.particles) {
+            becomes[i] = taken.position.size();
+            taken.position.push_back(state.position[body.first + i]);
+            taken.displacement.push_back(state.displacement[body.first + i]);
+            taken.mass.push_back(state.mass[body.first + i]);
+        }
+    std::vector<std::vector<Link>> links(pieces.size());
+    for (Link link : state.links) {
+        if (!detail::owns(body, link)) continue;
+        std::vector<Link>& its = links[piece_of[link.a - body.first]];
+        link.a = static_cast<std::uint32_t>(becomes[link.a - body.first]);
+        link.b = static_cast<std::uint32_t>(becomes[link.b - body.first]);
+        its.push_back(link);
+    }
+    for (const std::vector<Link>& its : links) taken.links.insert(taken.links.end(), its.begin(), its.end());
+    for (Pin pin : state.pins) {
+        if (pin.particle - body.first >= body.count) continue;
+        pin.particle = becomes[pin.particle - body.first];
+        taken.pins.push_back(pin);
+    }
+    return taken;
+}
+
+Edited taken_apart(State state, BodyId cloth) {
+    const Body whole = *detail::find_in(state.bodies, cloth);
+    std::vector<std::size_t> piece_of;
+    std::vector<ClothPiece> pieces = pieces_of(state, whole, piece_of);
+    const auto stays =
+        std::max_element(pieces.begin(), pieces.end(), [](const ClothPiece& a, const ClothPiece& b) {
+            return a.pins != b.pins ? a.pins < b.pins : a.particles.size() < b.particles.size();
+        });
+    const auto number = static_cast<std::size_t>(stays - pieces.begin());
+    std::rotate(pieces.begin(), stays, stays + 1);
+    for (std::size_t& each : piece_of) each = each == number ? 0 : each < number ? each + 1 : each;
+    Edited edited;
+    const detail::Taken taken = sorted_by_piece(state, whole, pieces, piece_of, edited.becomes);
+    detail::put_back(state, cloth, taken, edited.becomes);
+
+    auto at = detail::find_in(state.bodies, cloth) - state.bodies.data();
+    std::size_t first = whole.first;
+    for (const ClothPiece& piece : pieces) {
+        Body body = whole;
+        body.first = first, body.count = piece.particles.size();
+        first += body.count;
+        body.cells.clear();
+        for (const std::size_t i : piece.particles)
+            body.cells.push_back(static_cast<std::uint32_t>(whole.cell(i)));
+        detail::crop(body);
+        if (&piece == &pieces.front()) {
+            state.bodies[static_cast<std::size_t>(at)] = std::move(body);
+        } else {
+            body.id = detail::take_slot<BodyId>(state.body_slots, state.bodies.size());
+            edited.pieces.push_back(body.id);
+            state.bodies.insert(state.bodies.begin() + ++at, std::move(body));
+            detail::collide_alike(state, cloth, edited.pieces.back());
+        }
+        detail::measure_stretch(state, state.bodies[static_cast<std::size_t>(at)]);
+    }
+    edited.world = *World::from_state(std::move(state));
+    return edited;
+}
+
+/// Refuses what is no cloth.
+Result require_cloth(const char* op, const World& world, BodyId cloth) {
     const Body* const body = world.find(cloth);
     if (body == nullptr) return detail::missing(op, "cloth", "body", cloth.index);
-    if (body->kind != Body::Kind::Cloth)
-        return Result(ErrorCode::InvalidArgument, "only cloth is cut along a line, not a rope or hair");
+    if (body->kind == Body::Kind::Cloth) return {};
+    return {ErrorCode::InvalidArgument, "only cloth is cut along a line, not a rope or hair"};
+}
+
+}  // namespace
+
+Expected<Edited> part_cloth(const World& world, BodyId cloth) {
+    if (const Result bad = require_cloth("part_cloth", world, cloth); !bad) return bad;
+    return taken_apart(world.state(), cloth);
+}
+
+Expected<Edited> cut_cloth(const World& world, BodyId cloth, std::span<const glm::vec2> line) {
+    const char* const op = "cut_cloth";
+    if (const Result bad = require_cloth(op, world, cloth); !bad) return bad;
+    const Body& body = *world.find(cloth);
     if (line.size() < 2) return refused(op, "line", "2 points or more", line.size());
+    const float most[] = {static_cast<float>(body.row), static_cast<float>(body.rows())};
     for (std::size_t i = 0; i < line.size(); ++i)
-        for (const float each : {line[i].x, line[i].y})
-            if (!(std::abs(each) <= static_cast<float>(max_particles)))
-                return refused(op, tendril::detail::Argument("line", i), "finite", each);
+        for (int axis = 0; axis < 2; ++axis) {
+            const float each = line[i][axis], end = most[axis];
+            if (each >= -1.0f && each <= end) continue;
+            char rule[64];
+            std::snprintf(rule, sizeof rule, "-1 to %g", static_cast<double>(end));
+            return refused(op, Argument("line", i, axis == 0 ? "column" : "row"), rule, each);
+        }
     State state = world.state();
     const auto crossed = [&](const Link& link) {
-        if (!detail::owns(*body, link)) return false;
+        if (!detail::owns(body, link)) return false;
         const auto at = [&](std::size_t particle) {
-            const std::size_t i = particle - body->first;
-            return dvec2(i % body->row, i / body->row);
+            const std::size_t cell = body.cell(particle - body.first);
+            return dvec2(cell % body.row, cell / body.row);
         };
         for (std::size_t i = 0; i + 1 < line.size(); ++i)
             if (crosses(dvec2(line[i]), dvec2(line[i + 1]), at(link.a), at(link.b))) return true;
@@ -56,7 +174,7 @@ Expected<World> cut_cloth(const World& world, BodyId cloth, std::span<const glm:
     };
     if (std::erase_if(state.links, crossed) == 0)
         return refused(op, "line", "across links of the cloth", "one that crosses none");
-    return World::from_state(std::move(state));
+    return taken_apart(std::move(state), cloth);
 }
 
 }  // namespace tendril::rope

@@ -11,6 +11,7 @@
 #include "rope/build.hpp"
 #include "rope/rest_grid.hpp"
 #include "rope/slots.hpp"
+#include "rope/taken.hpp"
 
 namespace tendril::rope {
 namespace {
@@ -18,77 +19,13 @@ namespace {
 using glm::dvec3;
 using tendril::detail::refused;
 
-/// A body taken out of its world: its particles are numbered from 0.
-struct Taken {
-    std::size_t row = 1;
-    std::vector<dvec3> position{}, displacement{};
-    std::vector<double> mass{};
-    std::vector<Link> links{};
-    std::vector<Pin> pins{};  ///< sorted by particle
-};
+using detail::Taken;
 
 template <class T>
 void replace_range(std::vector<T>& list, std::size_t first, std::size_t count, const std::vector<T>& by) {
     const auto from = list.begin() + static_cast<std::ptrdiff_t>(first);
     const auto at = list.erase(from, from + static_cast<std::ptrdiff_t>(count));
     list.insert(at, by.begin(), by.end());
-}
-
-/// Puts a body in the place of the one that it was, of which each particle `becomes` another.
-void put_back(State& state, BodyId id, const Taken& taken, const std::vector<std::size_t>& becomes) {
-    Body& body = *detail::find_in(state.bodies, id);
-    const std::size_t first = body.first, was = body.count, end = first + was, now = taken.position.size();
-    replace_range(state.position, first, was, taken.position);
-    replace_range(state.displacement, first, was, taken.displacement);
-    replace_range(state.mass, first, was, taken.mass);
-    const auto number = [&](std::size_t particle) {
-        return static_cast<std::uint32_t>(particle < end ? particle : particle - was + now);
-    };
-
-    std::vector<Link> links;
-    bool placed = false;
-    const auto place = [&] {
-        for (Link link : taken.links) {
-            link.a += static_cast<std::uint32_t>(first), link.b += static_cast<std::uint32_t>(first);
-            links.push_back(link);
-        }
-        placed = true;
-    };
-    for (Link link : state.links) {
-        const bool own = detail::owns(body, link);
-        if (!placed && (own || link.a >= end)) place();
-        if (own) continue;
-        link.a = number(link.a), link.b = number(link.b);
-        links.push_back(link);
-    }
-    if (!placed) place();
-    state.links = std::move(links);
-
-    std::erase_if(state.pins, [&](const Pin& pin) { return pin.particle - first < was; });
-    for (Pin& pin : state.pins) pin.particle = number(pin.particle);
-    for (Pin pin : taken.pins) {
-        pin.particle += first;
-        state.pins.push_back(pin);
-    }
-    std::sort(state.pins.begin(), state.pins.end(),
-              [](const Pin& a, const Pin& b) { return a.particle < b.particle; });
-    for (Tie& tie : state.ties)
-        for (std::uint32_t* each : {&tie.a, &tie.b})
-            *each = *each - first < was ? static_cast<std::uint32_t>(first + becomes[*each - first])
-                                        : number(*each);
-    const auto changed = [&](std::uint32_t particle) { return particle - first < was; };
-    std::erase_if(state.contacts,
-                  [&](const BodyContact& each) { return changed(each.a) || changed(each.b); });
-    for (BodyContact& each : state.contacts) each.a = number(each.a), each.b = number(each.b);
-    for (Body& each : state.bodies)
-        if (each.first >= end) each.first = each.first - was + now;
-    body.count = now;
-    body.row = taken.row;
-
-    double worst = 0.0;
-    for (const Link& link : state.links)
-        if (detail::owns(body, link)) worst = std::max(worst, detail::length_error(state, link));
-    body.stretch = static_cast<float>(std::min(worst, static_cast<double>(max_magnitude)));
 }
 
 Expected<Edited> edited(State state, std::vector<std::size_t> becomes) {
@@ -176,9 +113,11 @@ class Resampling {
           was_(resolution(body)),
           to_(to),
           grid_(detail::rest_grid(state, body)),
-          pin_(body.count, nullptr) {
+          particle_(was_.columns * was_.rows, body.count),
+          pin_(particle_.size(), nullptr) {
+        for (std::size_t i = 0; i < body.count; ++i) particle_[body.cell(i)] = i;
         for (const Pin& pin : state.pins)
-            if (pin.particle - body.first < body.count) pin_[pin.particle - body.first] = &pin;
+            if (pin.particle - body.first < body.count) pin_[body.cell(pin.particle - body.first)] = &pin;
         find_threads();
     }
 
@@ -204,27 +143,42 @@ class Resampling {
         return axis(true, row_);
     }
 
-    Taken taken() const {
+    /// `becomes`: the new particle of each old one, or the nearest to it.
+    Taken taken(std::vector<std::size_t>& becomes) const {
         Taken made{.row = to_.columns};
-        add_particles(made);
-        add_links(made);
+        std::vector<std::size_t> number(to_.columns * to_.rows, none);
+        add_particles(made, number);
+        add_links(made, number);
         keep_momentum(made);
+        follow(number, becomes);
         return made;
     }
 
-    std::vector<std::size_t> becomes() const {
+  private:
+    static constexpr std::size_t none = ~std::size_t{0};
+
+    void follow(const std::vector<std::size_t>& number, std::vector<std::size_t>& becomes) const {
         const std::vector<std::size_t> columns = nearest_of(column_, was_.columns),
                                        rows = nearest_of(row_, was_.rows);
-        std::vector<std::size_t> list;
-        for (std::size_t i = 0; i < body_.count; ++i)
-            list.push_back(rows[i / was_.columns] * to_.columns + columns[i % was_.columns]);
-        return list;
+        const auto off = [](std::size_t a, std::size_t b) { return a < b ? b - a : a - b; };
+        for (std::size_t i = 0; i < body_.count; ++i) {
+            const std::size_t cell = body_.cell(i), c = columns[cell % was_.columns],
+                              r = rows[cell / was_.columns];
+            std::size_t at = r * to_.columns + c;
+            if (number[at] == none) {  // a gap: the nearest particle around it
+                std::size_t least = none;
+                for (std::size_t k = 0; k < number.size(); ++k) {
+                    const std::size_t far = off(k % to_.columns, c) + off(k / to_.columns, r);
+                    if (number[k] != none && far < least) least = far, at = k;
+                }
+            }
+            becomes.push_back(number[at]);
+        }
     }
 
-  private:
     /// Which stretch links there are. Only cloth lacks some.
     void find_threads() {
-        along_.assign(body_.count, nullptr), down_.assign(body_.count, nullptr);
+        along_.assign(pin_.size(), nullptr), down_.assign(pin_.size(), nullptr);
         for (const Link& link : state_.links) {
             if (!detail::owns(body_, link)) continue;
             has_[static_cast<std::size_t>(link.kind)] = &link;
@@ -247,14 +201,14 @@ class Resampling {
         std::vector<bool> kept(count, false);
         kept.front() = kept.back() = true;
         const auto number = [&](std::size_t i) { return across ? i / was_.columns : i % was_.columns; };
-        for (std::size_t i = 0; i < body_.count; ++i) {
+        for (std::size_t i = 0; i < pin_.size(); ++i) {
             const std::size_t at = number(i);
             if (pin_[i] == nullptr || at == 0 || at + 1 == count) continue;
             if (!same_pin(i, i - step) || !same_pin(i, i + step)) kept[at] = true;
         }
         for (const Tie& tie : state_.ties)
             for (const std::uint32_t each : {tie.a, tie.b})
-                if (each - body_.first < body_.count) kept[number(each - body_.first)] = true;
+                if (each - body_.first < body_.count) kept[number(body_.cell(each - body_.first))] = true;
         std::vector<std::size_t> list;
         for (std::size_t i = 0; i < count; ++i)
             if (kept[i]) list.push_back(i);
@@ -262,6 +216,15 @@ class Resampling {
     }
 
     std::size_t old(std::size_t column, std::size_t row) const { return row * was_.columns + column; }
+
+    /// Whether there is a new particle: where the nearest of the old cells is no gap, and threads lead to it.
+    bool filled(std::size_t c, std::size_t r) const {
+        if (body_.cells.empty()) return true;
+        return particle_[old(column_[c].nearest(), row_[r].nearest())] < body_.count &&
+               ((c > 0 && whole(c - 1, r, c, r)) || (r > 0 && whole(c, r - 1, c, r)) ||
+                (c + 1 < to_.columns && whole(c, r, c + 1, r)) ||
+                (r + 1 < to_.rows && whole(c, r, c, r + 1)));
+    }
 
     /// Whether the cloth is whole between two of the new particles, which may be one.
     bool whole(std::size_t c0, std::size_t r0, std::size_t c1, std::size_t r1) const {
@@ -279,7 +242,9 @@ class Resampling {
 
     dvec3 blend(const std::vector<dvec3>& list, std::size_t c, std::size_t r) const {
         const Between &column = column_[c], &row = row_[r];
-        const auto at = [&](std::size_t i, std::size_t k) { return list[body_.first + old(i, k)]; };
+        const auto at = [&](std::size_t i, std::size_t k) {
+            return list[body_.first + particle_[old(i, k)]];
+        };
         if (!whole(c, r, c, r)) return at(column.nearest(), row.nearest());
         const auto in_row = [&](std::size_t k) {
             const dvec3 before = at(column.before, k);
@@ -298,7 +263,6 @@ class Resampling {
                                 (1.0 - column.part) * row.part, column.part * row.part};
         if (pin_[corners[0]] == nullptr) return false;
         pin = *pin_[corners[0]];
-        pin.particle = r * to_.columns + c;
         if (corners[0] == corners[3]) return true;
         pin.goal = dvec3(0.0);
         for (std::size_t i = 0; i < 4; ++i) {
@@ -317,36 +281,45 @@ class Resampling {
         return all;
     }
 
-    void add_particles(Taken& made) const {
+    /// Sets the number of the particle in each cell.
+    void add_particles(Taken& made, std::vector<std::size_t>& number) const {
         const bool cloth = body_.kind == Body::Kind::Cloth;
         const std::vector<double> columns = detail::shares(coordinates(grid_.along, column_)),
                                   rows = detail::shares(coordinates(grid_.down, row_));
-        const auto sum = [](const std::vector<double>& list) {
-            double all = 0.0;
-            for (const double each : list) all += each;
-            return all;
-        };
         const std::vector<double> was = detail::shares(grid_.along);
+        double all = 0.0;  // of the cells that are filled, or of a strand
+        for (std::size_t r = 0; r < to_.rows && cloth; ++r)
+            for (std::size_t c = 0; c < to_.columns; ++c)
+                if (filled(c, r)) all += columns[c] * rows[r];
+        if (!cloth)
+            for (const double each : was) all += each;
         for (std::size_t r = 0; r < to_.rows; ++r) {
             double mass = 0.0;  // of all rows of a cloth, or of this strand
             for (std::size_t i = 0; i < body_.count; ++i)
                 if (cloth || i / was_.columns == r) mass += state_.mass[body_.first + i];
-            const double unit = cloth ? mass / (sum(columns) * sum(rows)) : mass / sum(was);
+            const double unit = mass / all;
             for (std::size_t c = 0; c < to_.columns; ++c) {
+                if (!filled(c, r)) continue;
+                const std::size_t cell = r * to_.columns + c;
+                number[cell] = made.position.size();
+                if (!body_.cells.empty()) made.cells.push_back(static_cast<std::uint32_t>(cell));
                 made.position.push_back(blend(state_.position, c, r));
                 made.displacement.push_back(blend(state_.displacement, c, r));
                 made.mass.push_back(std::clamp(unit * columns[c] * (cloth ? rows[r] : 1.0), 1e-30, 1e30));
-                if (Pin pin; pin_at(c, r, pin)) made.pins.push_back(pin);
+                Pin pin;
+                if (!pin_at(c, r, pin)) continue;
+                pin.particle = number[cell];
+                made.pins.push_back(pin);
             }
         }
     }
 
-    void add_links(Taken& made) const {
+    void add_links(Taken& made, const std::vector<std::size_t>& number) const {
         detail::RestGrid grid{.along = coordinates(grid_.along, column_),
                               .down = coordinates(grid_.down, row_),
                               .cosine = grid_.cosine};
         Body body = body_;
-        body.first = 0, body.count = made.position.size(), body.row = to_.columns;
+        body.first = 0, body.count = number.size(), body.row = to_.columns, body.cells.clear();
         const auto columns = static_cast<std::uint32_t>(to_.columns),
                    rows = static_cast<std::uint32_t>(to_.rows);
         const Link* const stretch = has_[static_cast<std::size_t>(Link::Kind::Stretch)];
@@ -371,6 +344,7 @@ class Resampling {
                 link.tension = static_cast<float>(
                     under.tension * (in_row ? share(was_.rows, to_.rows) : share(was_.columns, to_.columns)));
             }
+            link.a = static_cast<std::uint32_t>(number[a]), link.b = static_cast<std::uint32_t>(number[b]);
             made.links.push_back(link);
         };
         detail::each_link(body_.kind, columns, rows, add);
@@ -380,7 +354,7 @@ class Resampling {
     void keep_momentum(Taken& made) const {
         dvec3 missing(0.0);
         for (std::size_t i = 0; i < body_.count; ++i)
-            if (pin_[i] == nullptr)
+            if (pin_[body_.cell(i)] == nullptr)
                 missing += state_.mass[body_.first + i] * state_.displacement[body_.first + i];
         std::vector<bool> pinned(made.position.size(), false);
         for (const Pin& pin : made.pins) pinned[pin.particle] = true;
@@ -399,16 +373,96 @@ class Resampling {
     const Body& body_;
     Resolution was_, to_;
     detail::RestGrid grid_;
-    std::vector<const Pin*> pin_;            ///< of each particle; null: none
-    std::vector<const Link*> along_, down_;  ///< the stretch links that begin at each particle
+    // Of each cell of its grid.
+    std::vector<std::size_t> particle_;      ///< numbered in the body; its count: none
+    std::vector<const Pin*> pin_;            ///< null: none
+    std::vector<const Link*> along_, down_;  ///< the stretch links that begin there
     const Link* has_[3] = {};                ///< a link of each kind
     std::vector<Between> column_, row_;
 };
 
 }  // namespace
 
+std::size_t Body::particle_in(std::size_t cell) const noexcept {
+    if (cells.empty()) return std::min(cell, count);
+    const auto found = std::lower_bound(cells.begin(), cells.end(), cell);
+    return found == cells.end() || *found != cell ? count : static_cast<std::size_t>(found - cells.begin());
+}
+
+void detail::put_back(State& state, BodyId id, const Taken& taken, const std::vector<std::size_t>& becomes) {
+    Body& body = *detail::find_in(state.bodies, id);
+    const std::size_t first = body.first, was = body.count, end = first + was, now = taken.position.size();
+    replace_range(state.position, first, was, taken.position);
+    replace_range(state.displacement, first, was, taken.displacement);
+    replace_range(state.mass, first, was, taken.mass);
+    const auto number = [&](std::size_t particle) {
+        return static_cast<std::uint32_t>(particle < end ? particle : particle - was + now);
+    };
+
+    std::vector<Link> links;
+    bool placed = false;
+    const auto place = [&] {
+        for (Link link : taken.links) {
+            link.a += static_cast<std::uint32_t>(first), link.b += static_cast<std::uint32_t>(first);
+            links.push_back(link);
+        }
+        placed = true;
+    };
+    for (Link link : state.links) {
+        const bool own = detail::owns(body, link);
+        if (!placed && (own || link.a >= end)) place();
+        if (own) continue;
+        link.a = number(link.a), link.b = number(link.b);
+        links.push_back(link);
+    }
+    if (!placed) place();
+    state.links = std::move(links);
+
+    std::erase_if(state.pins, [&](const Pin& pin) { return pin.particle - first < was; });
+    for (Pin& pin : state.pins) pin.particle = number(pin.particle);
+    for (Pin pin : taken.pins) {
+        pin.particle += first;
+        state.pins.push_back(pin);
+    }
+    std::sort(state.pins.begin(), state.pins.end(),
+              [](const Pin& a, const Pin& b) { return a.particle < b.particle; });
+    for (Tie& tie : state.ties)
+        for (std::uint32_t* each : {&tie.a, &tie.b})
+            *each = *each - first < was ? static_cast<std::uint32_t>(first + becomes[*each - first])
+                                        : number(*each);
+    const auto changed = [&](std::uint32_t particle) { return particle - first < was; };
+    std::erase_if(state.contacts,
+                  [&](const BodyContact& each) { return changed(each.a) || changed(each.b); });
+    for (BodyContact& each : state.contacts) each.a = number(each.a), each.b = number(each.b);
+    for (Body& each : state.bodies)
+        if (each.first >= end) each.first = each.first - was + now;
+    body.count = now;
+    body.row = taken.row;
+    body.cells = taken.cells;
+    measure_stretch(state, body);
+}
+
+void detail::measure_stretch(const State& state, Body& body) noexcept {
+    double worst = 0.0;
+    for (const Link& link : state.links)
+        if (owns(body, link)) worst = std::max(worst, length_error(state, link));
+    body.stretch = static_cast<float>(std::min(worst, static_cast<double>(max_magnitude)));
+}
+
+void detail::crop(Body& body) {
+    if (body.cells.empty()) return;
+    const auto row = static_cast<std::uint32_t>(body.row), top = body.cells.front() / row;
+    std::uint32_t left = row, right = 0;
+    for (const std::uint32_t cell : body.cells)
+        left = std::min(left, cell % row), right = std::max(right, cell % row);
+    body.row = right - left + 1;
+    const auto now = static_cast<std::uint32_t>(body.row);
+    for (std::uint32_t& cell : body.cells) cell = (cell / row - top) * now + cell % row - left;
+    if (body.cells.back() + 1 == body.count && body.count % body.row == 0) body.cells.clear();
+}
+
 Resolution resolution(const Body& body) noexcept {
-    return {.columns = body.row, .rows = body.count / body.row};
+    return {.columns = body.row, .rows = body.rows()};
 }
 
 Expected<Edited> resample(const World& world, BodyId id, const Resolution& to) {
@@ -432,9 +486,20 @@ Expected<Edited> resample(const World& world, BodyId id, const Resolution& to) {
     Resampling resampling(world.state(), *body, to);
     if (const Result bad = resampling.divide_rows(); !bad) return bad;
     State state = world.state();
-    std::vector<std::size_t> becomes = resampling.becomes();
-    put_back(state, id, resampling.taken(), becomes);
-    return edited(std::move(state), std::move(becomes));
+    std::vector<std::size_t> becomes;
+    const Taken taken = resampling.taken(becomes);
+    if (taken.position.empty())
+        return refused(op, "columns", "more: nothing of it would be left", to.columns);
+    detail::put_back(state, id, taken, becomes);
+    Body& now = *detail::find_in(state.bodies, id);
+    const bool gaps = !now.cells.empty();
+    detail::crop(now);
+    Expected<Edited> made = edited(std::move(state), std::move(becomes));
+    if (!made || !gaps) return made;
+    Expected<Edited> apart = part_cloth(made->world, id);
+    for (std::size_t& each : made->becomes) each = apart->becomes[each];
+    apart->becomes = std::move(made->becomes);
+    return apart;
 }
 
 Expected<Edited> reverse(const World& world, BodyId rope) {
@@ -465,7 +530,7 @@ Expected<Edited> reverse(const World& world, BodyId rope) {
         pin.particle = becomes[pin.particle - first];
         taken.pins.push_back(pin);
     }
-    put_back(state, rope, taken, becomes);
+    detail::put_back(state, rope, taken, becomes);
     return edited(std::move(state), std::move(becomes));
 }
 

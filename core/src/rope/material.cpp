@@ -60,7 +60,8 @@ Result World::set_mass(BodyId body, double kilograms) noexcept {
 
 double World::density(const Body& body) const noexcept {
     const detail::RestGrid grid = detail::rest_grid(state_, body);
-    double extent = grid.length() * grid.width() * std::sqrt(1.0 - grid.cosine * grid.cosine);
+    const double filled = static_cast<double>(body.count) / static_cast<double>(body.row * body.rows());
+    double extent = filled * grid.length() * grid.width() * std::sqrt(1.0 - grid.cosine * grid.cosine);
     if (body.kind != Body::Kind::Cloth) {
         const std::vector<double> each = detail::shares(grid.along);
         const double whole = std::accumulate(each.begin(), each.end(), 0.0);

@@ -4,6 +4,7 @@
 
 #include "rope/cloth_plan.hpp"
 #include "rope/islands.hpp"
+#include "rope/rest_grid.hpp"
 #include "rope/slots.hpp"
 
 namespace tendril::rope {
@@ -44,7 +45,7 @@ Plan::Plan(const State& state) {
     for (const Link& link : state.links) joined_.push_back({link.a, link.b, link.rest, link.kind});
     for (const Tie& tie : state.ties) tied_.emplace_back(tie.a, tie.b);
     for (const Body& body : state.bodies)
-        ranges_.push_back({body.first, body.count, row_of(body), body.tear > 0.0f});
+        ranges_.push_back({body.first, body.count, row_of(body), body.cells, body.tear > 0.0f});
     tears =
         std::any_of(state.bodies.begin(), state.bodies.end(), [](const Body& b) { return b.tear > 0.0f; });
 }
@@ -83,30 +84,30 @@ void Plan::find_chains(const State& state) {
 /// The surface of all bodies, for the wind. Torn cells have none.
 void Plan::find_faces(const State& state) {
     const std::size_t particles = state.position.size();
-    whole.assign(particles, 0), faces.assign(particles, 0);
-    constexpr unsigned right = 1, down = 2;
-    std::vector<std::uint8_t> linked(particles, 0);
+    below.assign(particles, 0), faces.assign(particles, 0);
+    std::vector<std::uint8_t> linked(particles, 0);  // to the next in its row
+    std::vector<std::uint32_t> under(particles, 0);  // the one that it is linked to in the next row
     const std::vector<std::uint32_t> body_of = detail::bodies_of_particles(state);
     for (const Link& link : state.links) {
         if (link.kind != Link::Kind::Stretch) continue;
-        if (link.b == link.a + 1) linked[link.a] |= right;
-        if (link.b == link.a + state.bodies[body_of[link.a]].row) linked[link.a] |= down;
+        const detail::LinkWay way = detail::way_of(state.bodies[body_of[link.a]], link);
+        const std::uint32_t low = std::min(link.a, link.b), high = std::max(link.a, link.b);
+        if (way.columns == 1 && way.rows == 0) linked[low] = 1;
+        if (way.columns == 0 && way.rows == 1) under[low] = high;
     }
     for (const Body& body : state.bodies) {
-        if (row_of(body) == 0) {
-            for (std::size_t i = body.first; i + 1 < body.first + body.count; ++i) {
-                if ((linked[i] & right) == 0) continue;
-                whole[i] = 1;
+        const bool cloth = body.kind == Body::Kind::Cloth;
+        for (std::size_t i = body.first; i + 1 < body.first + body.count; ++i) {
+            if (linked[i] == 0) continue;
+            if (!cloth) {
+                below[i] = static_cast<std::uint32_t>(i + 1);
                 faces[i] += 1, faces[i + 1] += 1;
-            }
-            continue;
-        }
-        for (std::size_t i = body.first; i + body.row + 1 < body.first + body.count; ++i) {
-            const std::size_t below = i + body.row;
-            if (linked[i] != (right | down) || (linked[i + 1] & down) == 0 || (linked[below] & right) == 0)
                 continue;
-            whole[i] = 1;
-            faces[i] += 1, faces[i + 1] += 2, faces[below] += 2, faces[below + 1] += 1;
+            }
+            const std::uint32_t down = under[i];
+            if (down == 0 || under[i + 1] != down + 1 || linked[down] == 0) continue;
+            below[i] = down;
+            faces[i] += 1, faces[i + 1] += 2, faces[down] += 2, faces[down + 1] += 1;
         }
     }
 }
@@ -125,7 +126,8 @@ bool Plan::fits(const State& state) const noexcept {
            std::equal(state.bodies.begin(), state.bodies.end(), ranges_.begin(), ranges_.end(),
                       [](const Body& body, const Particles& range) {
                           return body.first == range.first && body.count == range.count &&
-                                 row_of(body) == range.row && (body.tear > 0.0f) == range.tears;
+                                 row_of(body) == range.row && body.cells == range.cells &&
+                                 (body.tear > 0.0f) == range.tears;
                       });
 }
 

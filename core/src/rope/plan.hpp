@@ -16,9 +16,9 @@ struct Plan {
     struct Range {
         std::uint32_t first = 0, count = 0;
     };
-    /// Bodies that no link, tie or collision joins to any other. Nothing in a substep reaches from one island to
-    /// another, so islands can be solved in any order and in parallel. Bodies whose chains are all alone are
-    /// merged to fill registers.
+    /// Bodies that no link, tie or collision joins to any other. Nothing in a substep reaches from one island
+    /// to another, so islands can be solved in any order and in parallel. Bodies whose chains are all alone
+    /// are merged to fill registers.
     struct Island {
         Range bodies{}, links{}, soft{}, chains{}, groups{}, chunks{}, ties{};
         std::uint32_t particles = 0;
@@ -55,6 +55,7 @@ struct Plan {
     struct Grid {
         std::uint32_t body = 0, columns = 0, rows = 0;
         Range links{};  ///< in `grid_links`
+        Range cells{};  ///< in `grid_cells`
     };
     /// The position of a link in the arrays of its grid's system.
     struct GridLink {
@@ -79,6 +80,7 @@ struct Plan {
     std::vector<Chunk> chunks;
     std::vector<Grid> grids;
     std::vector<GridLink> grid_links;
+    std::vector<std::uint32_t> grid_cells;  ///< of each particle, in the arrays of its grid's system
 
     std::vector<std::uint32_t> ties;
     std::vector<Tied> tied;
@@ -95,10 +97,11 @@ struct Plan {
 
     std::vector<std::uint32_t> nodes;
     std::vector<std::uint32_t> chunk_links;
-    /// What the air meets. Of each particle: whether the cell of a cloth, of two triangles, or the segment of
-    /// a rope or hair that begins there has all its stretch links, and in how many such triangles or segments
-    /// the particle is.
-    std::vector<std::uint8_t> whole, faces;
+    /// What the air meets. Of each particle: where a cell of a cloth, of two triangles, or a segment of a
+    /// rope or hair that has all its stretch links begins, the particle below it or the next, else 0; and in
+    /// how many such triangles or segments the particle is.
+    std::vector<std::uint32_t> below;
+    std::vector<std::uint8_t> faces;
     std::uint32_t longest = 0;  ///< links in the longest chain
     bool tears = false;
 
@@ -118,6 +121,7 @@ struct Plan {
     };
     struct Particles {
         std::size_t first, count, row;
+        std::vector<std::uint32_t> cells;
         bool tears;
     };
     std::vector<Joined> joined_;  ///< links

@@ -24,8 +24,8 @@ std::vector<double> sums(std::vector<double> steps) {
 }  // namespace
 
 LinkWay way_of(const Body& body, const Link& link) noexcept {
-    const std::size_t low = std::min(link.a, link.b) - body.first,
-                      high = std::max(link.a, link.b) - body.first;
+    const std::size_t low = body.cell(std::min(link.a, link.b) - body.first),
+                      high = body.cell(std::max(link.a, link.b) - body.first);
     LinkWay way{.column = low % body.row, .row = low / body.row};
     way.columns = static_cast<std::ptrdiff_t>(high % body.row) - static_cast<std::ptrdiff_t>(way.column);
     way.rows = static_cast<std::ptrdiff_t>(high / body.row) - static_cast<std::ptrdiff_t>(way.row);
@@ -33,7 +33,7 @@ LinkWay way_of(const Body& body, const Link& link) noexcept {
 }
 
 RestGrid rest_grid(const State& state, const Body& body) {
-    std::vector<double> along(body.row - 1, unknown), down(body.count / body.row - 1, unknown);
+    std::vector<double> along(body.row - 1, unknown), down(body.rows() - 1, unknown);
     const Link* shear = nullptr;
     for (const Link& link : state.links) {
         if (!owns(body, link)) continue;

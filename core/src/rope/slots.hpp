@@ -57,6 +57,17 @@ inline void insert_collision(std::vector<Collision>& list, const Collision& each
     if (at == list.end() || !(*at == each)) list.insert(at, each);
 }
 
+/// A new body collides with what the one that it came off does.
+inline void collide_alike(State& state, BodyId whole, BodyId rest) {
+    std::vector<Collision> more;
+    for (const Collision& each : state.collisions) {
+        if (each.a != whole && each.b != whole) continue;
+        more.push_back(ordered(each.a == whole ? rest : each.a, each.b == whole ? rest : each.b));
+        if (each.a == each.b) more.push_back(ordered(whole, rest));
+    }
+    for (const Collision& each : more) insert_collision(state.collisions, each);
+}
+
 inline bool owns(const Body& body, const Link& link) noexcept {
     return link.a >= body.first && link.a - body.first < body.count;
 }

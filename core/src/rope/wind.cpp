@@ -100,17 +100,17 @@ void Substep::blow() {
 }
 
 void Substep::blow_on_cloth(const Body& body, const Air& air) {
-    for (std::size_t i = body.first; i + body.row + 1 < body.first + body.count; ++i) {
-        if (plan_.whole[i] == 0) continue;
-        const std::size_t below = i + body.row;
+    for (std::size_t i = body.first; i < body.first + body.count; ++i) {
+        const std::size_t below = plan_.below[i];
+        if (below == 0) continue;
         blow_on_triangle({i, i + 1, below}, air);
         blow_on_triangle({i + 1, below + 1, below}, air);
     }
 }
 
 void Substep::blow_on_strands(const Body& body, const Air& air) {
-    for (std::size_t i = body.first; i + 1 < body.first + body.count; ++i)
-        if (plan_.whole[i] != 0) blow_on_segment({i, i + 1}, 2.0 * static_cast<double>(body.radius), air);
+    for (std::size_t i = body.first; i < body.first + body.count; ++i)
+        if (plan_.below[i] != 0) blow_on_segment({i, i + 1}, 2.0 * static_cast<double>(body.radius), air);
 }
 
 /// A particle shares its mass and motion among its faces.

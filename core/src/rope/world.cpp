@@ -215,14 +215,7 @@ Expected<BodyId> World::cut(BodyId rope, std::size_t segment) {
     state_.bodies.insert(state_.bodies.begin() + (whole - state_.bodies.data()) + 1, rest);
     std::erase_if(state_.links, [&](const Link& link) { return link.a == at && link.b == at + 1; });
     std::erase_if(state_.contacts, [&](const BodyContact& each) { return each.a == at || each.b == at; });
-    // It collides with what the whole collided with.
-    std::vector<Collision> more;
-    for (const Collision& each : state_.collisions) {
-        if (each.a != rope && each.b != rope) continue;
-        more.push_back(detail::ordered(each.a == rope ? rest.id : each.a, each.b == rope ? rest.id : each.b));
-        if (each.a == each.b) more.push_back(detail::ordered(rope, rest.id));
-    }
-    for (const Collision& each : more) detail::insert_collision(state_.collisions, each);
+    detail::collide_alike(state_, rope, rest.id);
     return rest.id;
 }
 

@@ -179,36 +179,5 @@ TEST_F(RopeSet, RefusesWhatABodyDoesNotHave) {
     EXPECT_TRUE(test::says(refused("rope.set", {{"rope", "rope"}, {"segments", 1}}), "rope.set 2 segments"));
 }
 
-/// By the command, and by a line of clicks.
-TEST_F(RopeSet, ACutClothComesApart) {
-    const auto links = [&] { return world().state().links.size(); };
-    const std::size_t whole = links();
-    run("rope.cloth.cut", {{"rope", "cloth"}, {"points", {{-0.5, 3.5}, {7.5, 3.5}}}});
-    EXPECT_LT(links(), whole);
-    tick(60);
-    const rope::Body cloth = *world().find("cloth");
-    EXPECT_LT(world().position(cloth.first + 63).y, world().position(cloth.first + 7).y - 2.0f);
-    run("undo");
-    EXPECT_EQ(links(), whole);
-
-    run("rope.tool", {{"name", "cut"}});
-    Emit emit;
-    for (const std::size_t at : {24u, 27u, 39u}) {
-        lab().click(workspace, particle_pick(cloth.first + at), emit);
-        for (const Emitted& each : emit.take()) run(each.name.c_str(), *each.arguments);
-    }
-    EXPECT_LT(links(), whole);
-    EXPECT_EQ(rope_part(workspace).selection->particle(), 39u);
-    EXPECT_TRUE(test::says(lab().hint(workspace, particle_pick(cloth.first + 40)), "cuts from the selected"));
-    EXPECT_TRUE(test::says(refused("rope.cloth.cut", {{"rope", "rope"}, {"points", {{0, 0}, {1, 1}}}}),
-                           "rope.cloth.cut only cloth"));
-    EXPECT_TRUE(test::says(refused("rope.cloth.cut", {{"rope", "cloth"}, {"points", {{0, 0}}}}),
-                           "rope.cloth.cut 2 points"));
-    EXPECT_TRUE(test::says(refused("rope.cloth.cut", {{"rope", "cloth"}, {"points", {{0, 0, 1}, {1, 1, 1}}}}),
-                           "rope.cloth.cut points column"));
-    EXPECT_TRUE(
-        test::says(refused("rope.cloth.cut", {{"rope", "line"}, {"points", {{0, 0}, {1, 1}}}}), "line"));
-}
-
 }  // namespace
 }  // namespace tendril::app

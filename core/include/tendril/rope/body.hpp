@@ -26,6 +26,9 @@ struct Body {
     std::size_t first = 0, count = 0;  ///< particles
     /// Particles per row of a cloth or per strand of hair; `count` for a rope.
     std::size_t row = 0;
+    /// Of a piece of a cloth whose grid has gaps: the cell of each particle, row * `row` + column, ascending.
+    /// Empty: the grid is full.
+    std::vector<std::uint32_t> cells{};
     float radius = 0.02f;  ///< metres: half of its thickness, the distance of its particles from colliders
     /// Strain at which a stretch link of a cloth tears, 0.1 for 10 % over its rest; 0: never. Shear and bend
     /// links tear at 0.5 more.
@@ -35,6 +38,14 @@ struct Body {
     /// Maximum relative length error of its stretch links, |length / rest - 1| (or the length if rest is 0),
     /// as the solver last left it; for hair before contact. World::length_error() includes contact.
     float stretch = 0.0f;
+
+    /// The cell of a particle; both numbered in the body.
+    std::size_t cell(std::size_t particle) const noexcept {
+        return cells.empty() ? particle : cells[particle];
+    }
+    /// The particle in a cell; `count`: it is a gap.
+    std::size_t particle_in(std::size_t cell) const noexcept;
+    std::size_t rows() const noexcept { return count == 0 ? 0 : cell(count - 1) / row + 1; }
     bool operator==(const Body&) const = default;
 };
 

@@ -25,9 +25,10 @@ struct Resolution {
 
 struct Edited {
     World world;
-    /// The particle that each particle of the body has become, or the nearest to it; both numbered in the
-    /// body.
+    /// The particle that each particle of the body has become, or the nearest to it; both numbered from the
+    /// body's first, on into what came off it.
     std::vector<std::size_t> becomes;
+    std::vector<BodyId> pieces{};  ///< bodies that came off it, in the order of particles
 };
 
 Resolution resolution(const Body& body) noexcept;
@@ -42,9 +43,14 @@ Expected<Edited> resample(const World& world, BodyId body, const Resolution& to)
 /// Swaps the ends of a rope. Pins, ties and motion stay where they are.
 Expected<Edited> reverse(const World& world, BodyId rope);
 
-/// Cuts a cloth along a line through points of its own grid, each {column, row}: removes the links that cross
-/// it. What is on the line belongs to its left. A piece that comes apart stays a part of the same body, as if
-/// torn off. Refuses a line that crosses no link.
-Expected<World> cut_cloth(const World& world, BodyId cloth, std::span<const glm::vec2> line);
+/// Makes each piece of a cloth that no link joins to the others a cloth of its own, with its particles and
+/// what belongs to them: velocities, pins and ties. The one with most pins, or else most particles, stays the
+/// body that it was. Costs as much as a copy of the world, also if nothing has come apart.
+Expected<Edited> part_cloth(const World& world, BodyId cloth);
+
+/// Cuts a cloth along a line through points of its own grid, each {column, row}, up to one beyond its edge:
+/// removes the links that cross it, and parts what comes apart. What is on the line belongs to its left.
+/// Refuses a line that crosses no link.
+Expected<Edited> cut_cloth(const World& world, BodyId cloth, std::span<const glm::vec2> line);
 
 }  // namespace tendril::rope

@@ -1,0 +1,183 @@
+// Cutting cloth: by the command, by clicks and by a stroke, and what the pieces are then.
+#include "app/labs/rope/rope_edit.hpp"
+#include "app/labs/rope/rope_fields.hpp"
+#include "app/view/camera.hpp"
+#include "app/widgets/emit.hpp"
+#include "tests/app/labs/rope_support.hpp"
+#include "tests/says.hpp"
+
+namespace tendril::app {
+namespace {
+
+class RopeCutCloth : public RopeTest {
+  protected:
+    RopeCutCloth() {
+        run("rope.clear");
+        run("rope.cloth.add", {{"corner", {3, 2, 0}},
+                               {"along", {1, 0, 0}},
+                               {"down", {0, -1, 0}},
+                               {"columns", 8},
+                               {"rows", 8},
+                               {"pins", "corners"}});
+        wait(60);
+    }
+    void cut(const char* name, const Json& points) {
+        run("rope.cloth.cut", {{"rope", name}, {"points", points}});
+    }
+    /// A stroke between two points of the plane of the cloth, seen from the front.
+    void stroke(glm::vec2 from, glm::vec2 to) {
+        const Camera camera({.target = {3.5f, 1.5f, 0.0f}, .yaw = 0.0f, .pitch = 0.0f, .distance = 4.0f},
+                            {{0, 0}, {800, 600}});
+        Emit emit;
+        lab().stroke(workspace, camera, *camera.project(glm::vec3(from, 0.0f)),
+                     *camera.project(glm::vec3(to, 0.0f)), emit);
+        for (const Emitted& each : emit.take()) {
+            EXPECT_TRUE(each.continuous);
+            run(each.name.c_str(), *each.arguments, 7);
+        }
+    }
+    const rope::Body& body(const char* name) const { return *world().find(name); }
+    std::size_t links() const { return world().state().links.size(); }
+};
+
+/// A piece has a name, a message, and is edited, saved and undone like any cloth.
+TEST_F(RopeCutCloth, APieceIsAClothOfItsOwn) {
+    const std::size_t whole = links();
+    run("rope.select", {{"rope", "cloth"}, {"particle", 60}});
+    const glm::vec3 at = world().position(body("cloth").first + 60);
+    cut("cloth", {{-0.5, 3.5}, {7.5, 3.5}});
+    ASSERT_NE(world().find("cloth 2"), nullptr);
+    EXPECT_TRUE(test::says(workspace.ui.toasts.back().text, "cloth 2 pieces cloth 2"));
+    EXPECT_EQ(body("cloth").count, 32u);
+    EXPECT_EQ(body("cloth 2").count, 32u);
+    EXPECT_EQ(part().selection->body, "cloth 2");
+    EXPECT_EQ(world().position(body("cloth 2").first + part().selection->particle()), at);
+    EXPECT_EQ(state()["cloths"].size(), 2u);
+    wait(60);
+    EXPECT_LT(world().position(body("cloth 2").first).y, world().position(body("cloth").first).y - 2.0f);
+    run("rope.set", {{"rope", "cloth 2"}, {"mass", 3}, {"bend", 0.1}});
+    EXPECT_NEAR(world().world().mass(body("cloth 2")), 3.0, 1e-6);
+    run("rope.subdivide", {{"rope", "cloth 2"}});
+    cut("cloth 2", {{7.5, -1}, {7.5, 7}});
+    EXPECT_NE(world().find("cloth 3"), nullptr);
+    run("rope.remove", {{"name", "cloth 2"}});
+    EXPECT_EQ(world().state().bodies.size(), 2u);
+    for (int i = 0; i < 5; ++i) run("undo");
+    EXPECT_EQ(links(), whole);
+    EXPECT_EQ(part().selection->body, "cloth");
+    run("redo");
+    EXPECT_NE(world().find("cloth 2"), nullptr);
+}
+
+/// A piece with gaps in its grid comes back from a file as it was, and goes on the same.
+TEST_F(RopeCutCloth, APieceIsSaved) {
+    cut("cloth", {{-1, 2.5}, {3.5, 5.5}, {8, 2.5}});
+    ASSERT_FALSE(body("cloth").cells.empty());
+    const Json saved = part().save();
+    const auto loaded = std::dynamic_pointer_cast<RopePart>(part().load(saved, "file"));
+    EXPECT_EQ(loaded->world->state().bodies[1].cells, world().state().bodies[1].cells);
+    EXPECT_EQ(loaded->save(), saved);
+    EXPECT_TRUE(test::says(lab().code(workspace), ".cells"));
+    EXPECT_EQ(state()["cloths"][0]["cells"].size(), body("cloth").count);
+    Json bad = saved;
+    for (Json& each : bad["world"]["bodies"])
+        if (each.contains("cells")) each["cells"][1] = 0;
+    EXPECT_ANY_THROW(part().load(bad, "file"));
+}
+
+TEST_F(RopeCutCloth, ClicksCutFromOneToTheNext) {
+    run("rope.tool", {{"name", "cut"}});
+    const std::size_t whole = links();
+    const glm::vec3 last = world().position(body("cloth").first + 39);
+    Emit emit;
+    for (const std::size_t at : {24u, 27u, 39u}) {
+        lab().click(workspace, particle_pick(body("cloth").first + at), emit);
+        for (const Emitted& each : emit.take()) run(each.name.c_str(), *each.arguments);
+    }
+    EXPECT_LT(links(), whole);
+    const RopeSelection& selection = *part().selection;
+    EXPECT_EQ(world().position(world().find(selection.body)->first + selection.particle()), last);
+    EXPECT_TRUE(test::says(lab().hint(workspace, particle_pick(40)), "cuts from the selected"));
+}
+
+/// Along the line on the screen, all that it crosses, as one step to undo.
+TEST_F(RopeCutCloth, AStrokeCutsAcross) {
+    run("rope.add",
+        {{"name", "line"}, {"from", {3.5, 2.2, 0.2}}, {"to", {3.5, 0, 0.2}}, {"pin_start", true}});
+    const std::size_t whole = links();
+    stroke({2.8f, 1.75f}, {4.2f, 1.25f});
+    ASSERT_NE(world().find("cloth 2"), nullptr);
+    EXPECT_NE(world().find("line 2"), nullptr);
+    EXPECT_EQ(world().state().bodies.size(), 4u);
+    const auto mean = [&](const char* name) {
+        double y = 0.0;
+        for (std::size_t i = 0; i < body(name).count; ++i)
+            y += world().state().position[body(name).first + i].y;
+        return y / static_cast<double>(body(name).count);
+    };
+    EXPECT_GT(mean("cloth"), mean("cloth 2") + 0.3);
+    for (const rope::Link& link : world().state().links) EXPECT_NE(link.a, link.b);
+    run("undo");
+    EXPECT_EQ(links(), whole);
+    // One that ends inside is a slit, and one beside it cuts nothing.
+    stroke({2.8f, 1.5f}, {3.5f, 1.5f});
+    EXPECT_LT(links(), whole);
+    EXPECT_EQ(world().find("cloth 2"), nullptr);
+    const std::size_t slit = links();
+    stroke({2.8f, 2.5f}, {4.2f, 2.6f});
+    EXPECT_EQ(links(), slit);
+    // The rest of the way parts it.
+    stroke({3.3f, 1.5f}, {4.2f, 1.5f});
+    EXPECT_NE(world().find("cloth 2"), nullptr);
+}
+
+/// Over a bar, a stroke below it cuts what hangs in front and behind, and not what lies on the bar.
+TEST_F(RopeCutCloth, AStrokeCutsAllLayers) {
+    run("rope.clear");
+    run("rope.collider.add",
+        {{"name", "bar"}, {"kind", "capsule"}, {"a", {2.7, 1.8, 0}}, {"b", {4.3, 1.8, 0}}, {"radius", 0.1}});
+    run("rope.cloth.add", {{"corner", {3, 1.95, -0.8}},
+                           {"along", {1, 0, 0}},
+                           {"down", {0, 0, 1.6}},
+                           {"columns", 11},
+                           {"rows", 17}});
+    wait(90);
+    stroke({2.8f, 1.5f}, {4.2f, 1.5f});
+    EXPECT_EQ(world().state().bodies.size(), 3u);
+}
+
+/// Torn cloth comes apart by itself, and what is selected and held stays with its particles.
+TEST_F(RopeCutCloth, TornClothComesApart) {
+    run("rope.set", {{"rope", "cloth"}, {"tear", 0.05}});
+    run("rope.select", {{"rope", "cloth"}, {"particle", 60}});
+    for (int c = 0; c < 8; ++c)
+        for (const int r : {0, 7})
+            run("rope.pin", {{"rope", "cloth"},
+                             {"particle", r * 8 + c},
+                             {"at", {3.0 + c / 7.0, r == 0 ? 2.0 : -1.0, 0}}});
+    for (int i = 0; i < 120; ++i) {
+        wait(1);
+        const rope::State& now = world().state();
+        ASSERT_LT(part().selection->particle(), world().find(part().selection->body)->count);
+        for (const rope::Body& each : now.bodies) EXPECT_FALSE(world().name(each).empty());
+    }
+    EXPECT_GT(world().state().bodies.size(), 1u);
+}
+
+TEST_F(RopeCutCloth, RefusalsSayWhatAndWhere) {
+    run("rope.add", {{"from", {0, 2, 0}}, {"to", {1, 2, 0}}});
+    const auto says = [&](const Json& arguments, const char* words) {
+        EXPECT_TRUE(test::says(refused("rope.cloth.cut", arguments), words));
+    };
+    says({{"rope", "rope"}, {"points", {{0, 0}, {1, 1}}}}, "rope.cloth.cut only cloth");
+    says({{"rope", "cloth"}, {"points", {{0, 0}}}}, "rope.cloth.cut 2 points got 1");
+    says({{"rope", "cloth"}, {"points", {{0, 0}, {9, 1}}}}, "rope.cloth.cut line[1].column 8 got 9");
+    says({{"rope", "cloth"}, {"points", {{0, -2}, {7, 1}}}}, "rope.cloth.cut line[0].row -1 8 got -2");
+    says({{"rope", "cloth"}, {"points", {{0, "x"}, {7, 1}}}}, "rope.cloth.cut points.0.1 x");
+    says({{"rope", "cloth"}, {"points", {{0, nullptr}, {7, 1}}}}, "rope.cloth.cut points.0.1 null");
+    says({{"rope", "cloth"}, {"points", {{0, 0, 1}, {1, 1, 1}}}}, "rope.cloth.cut points column");
+    says({{"rope", "line"}, {"points", {{0, 0}, {1, 1}}}}, "line");
+}
+
+}  // namespace
+}  // namespace tendril::app
