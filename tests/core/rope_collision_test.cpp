@@ -327,8 +327,9 @@ TEST(RopeCollision, EditsKeepThePairs) {
 TEST(RopeCollision, RefusesWhatCannotCollide) {
     World world = crossed(4);
     const rope::BodyId lower = world.id(below);
-    world.add_cloth("cloth", {.columns = 3, .rows = 3});
-    EXPECT_EQ(world.set_collides(lower, world.id("cloth"), true).code(), ErrorCode::InvalidArgument);
+    const auto hair = world.core().add_hair({.roots = {{}}});
+    ASSERT_TRUE(hair);
+    EXPECT_EQ(world.set_collides(lower, *hair, true).code(), ErrorCode::InvalidArgument);
     EXPECT_EQ(world.set_collides(lower, {}, true).code(), ErrorCode::OutOfRange);
     rope::State state = world.state();
     state.collisions.push_back(state.collisions.front());

@@ -19,6 +19,9 @@ constexpr double enough_apart = 1e-3;
 /// Of a contact, relative to what its two chains offer.
 constexpr double stiffer_than_offered = 50.0;
 
+/// Metres that projections move something in a substep.
+constexpr double nearby = 1e-3;
+
 }  // namespace
 
 /// The force of a contact whose segments are there.
@@ -196,6 +199,13 @@ void BodyContacts::solve() {
         }
         newton.finish();
     }
+}
+
+/// Leaves out what projections in this substep will not bring together.
+void BodyContacts::drop_distant() {
+    std::erase_if(s_.projected, [&](const Contact& contact) {
+        return respond(contact, points_of(contact, scratch_.place)).gap > contact.target + nearby;
+    });
 }
 
 double BodyContacts::project(bool all) {

@@ -32,6 +32,7 @@ class BodyContacts : IslandStep {
     /// Once through the contacts left to it; `all`: through all, for solvers that take one link after the
     /// other. Returns the largest correction, relative to the thickness.
     double project(bool all);
+    void drop_distant();
     void keep_apart();
 
   private:

@@ -21,7 +21,7 @@ using glm::dvec3;
 constexpr double off_path = 1e-3;
 /// Until candidates are listed again a particle may roam that many of its ways, and parts of its radius; and
 /// its way may grow likewise.
-constexpr double roamed_ways = 4.0, roamed_radii = 0.2, grown_way = 2.0, grown_radii = 0.1;
+constexpr double roamed_ways = 4.0, roamed_radii = 0.3, grown_way = 2.0, grown_radii = 0.2;
 /// Parts of a body nearer along it, in thicknesses, cannot touch: pi times the radius.
 constexpr double min_arc = 1.5707963267948966;
 /// Metres above a surface that count as touching.

@@ -143,11 +143,16 @@ int Substep::direct() {
     return passes;
 }
 
-/// The contacts that were not solved with lengths, among colliders.
+/// The contacts that were not solved with lengths, in turns with colliders and lengths.
 void Substep::project_contacts() {
+    BodyContacts(*this).drop_distant();
     for (int pass = 0; pass < contact_passes; ++pass) {
         if (BodyContacts(*this).project(false) <= projected_enough) break;
         resolve_contacts(false);
+        if (pass + 1 == contact_passes) break;
+        for (const std::uint32_t i : Plan::part(plan_.links, island_.links))
+            if (state_.links[i].kind == Link::Kind::Stretch)
+                satisfy(i, detail::compliance(state_.settings, state_.links[i]));
     }
 }
 
