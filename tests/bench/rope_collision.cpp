@@ -3,10 +3,9 @@
 //     tendril_bench_rope_collision            the table and one line per claim
 //     tendril_bench_rope_collision --check    the same, and exit code 1 if a claim does not hold
 //
-// Claims: ropes that collide but are apart take at most two and a half times as long, with 256 and 4 096
-// particles; twice is the goal. Ropes in contact take longer, for without collisions they would fall freely
-// or hang alone, solved several at once in vector registers; the table says how much. Times are processor
-// time.
+// Claims: ropes that collide but are apart take at most twice as long, with 256 and 4 096 particles. Ropes in
+// contact take longer, for without collisions they would fall freely or hang alone, solved several at once in
+// vector registers; the table says how much. Times are processor time.
 #include <algorithm>
 #include <vector>
 
@@ -35,19 +34,21 @@ struct Stage {
     }
 };
 
-/// Ropes side by side, pinned at both ends.
+/// A rope that hangs between two pins a metre apart.
+void hang(Stage& stage, float z) {
+    static_cast<void>(stage.world.add_rope({.from = {0, 1, z},
+                                            .to = {1, 1, z},
+                                            .segments = segments,
+                                            .length = 1.1f,
+                                            .radius = 0.01f,
+                                            .pin_start = true,
+                                            .pin_end = true}));
+}
+
+/// Ropes side by side.
 Stage apart(int particles) {
     Stage stage;
-    for (int i = 0; i < particles / (segments + 1); ++i) {
-        const float z = 0.1f * static_cast<float>(i);
-        static_cast<void>(stage.world.add_rope({.from = {0, 1, z},
-                                                .to = {1, 1, z},
-                                                .segments = segments,
-                                                .length = 1.1f,
-                                                .radius = 0.01f,
-                                                .pin_start = true,
-                                                .pin_end = true}));
-    }
+    for (int i = 0; i < particles / (segments + 1); ++i) hang(stage, 0.1f * static_cast<float>(i));
     return stage;
 }
 
@@ -56,13 +57,7 @@ Stage crossed(int particles) {
     Stage stage;
     for (int i = 0; i < particles / (2 * segments + 2); ++i) {
         const float z = 2.0f * static_cast<float>(i);
-        static_cast<void>(stage.world.add_rope({.from = {0, 1, z},
-                                                .to = {1, 1, z},
-                                                .segments = segments,
-                                                .length = 1.1f,
-                                                .radius = 0.01f,
-                                                .pin_start = true,
-                                                .pin_end = true}));
+        hang(stage, z);
         static_cast<void>(stage.world.add_rope(
             {.from = {0.5f, 1, z - 0.5f}, .to = {0.5f, 1, z + 0.5f}, .segments = segments, .radius = 0.01f}));
     }
@@ -103,6 +98,6 @@ int main(int count, char** arguments) {
     for (const int particles : {256, 4096})
         row("crossed, in contact", particles, cost(crossed, particles, 60000 / particles));
     std::printf("\n");
-    const bool all = claim("ropes apart, off over on", ratio, 0.4);
+    const bool all = claim("ropes apart, off over on", ratio, 0.5);
     return all || !has_flag(count, arguments, "--check") ? 0 : 1;
 }

@@ -268,6 +268,22 @@ TEST(RopeCollision, ACopyContinuesTheSame) {
     EXPECT_TRUE(same_bits(world.state(), copy.state()));
 }
 
+TEST(RopeCollision, WhatIsNearIsFoundWhateverTheWorkspaceRemembers) {
+    World world = crossed(48, 0.3);
+    collide(world, on_top, on_top);
+    rope::World afresh = world.core();
+    for (int substep = 0; substep < 480; ++substep) {
+        if (substep == 200)
+            for (rope::World* each : {&world.core(), &afresh})
+                allow(each->set_radius(world.id(on_top), 2.5f * radius));
+        rope::Workspace fresh;
+        afresh.advance(afresh.settings().substep, fresh);
+        world.advance(world.settings().substep);
+        ASSERT_TRUE(same_bits(world.state(), afresh.state())) << "substep " << substep;
+    }
+    EXPECT_FALSE(world.state().contacts.empty());
+}
+
 TEST(RopeCollision, OtherSolversAndTiedRopesDoNotPassEither) {
     for (const rope::Solver solver : all_solvers) {
         World world = crossed(32, 0.2);
@@ -311,8 +327,9 @@ TEST(RopeCollision, EditsKeepThePairs) {
 TEST(RopeCollision, RefusesWhatCannotCollide) {
     World world = crossed(4);
     const rope::BodyId lower = world.id(below);
-    world.add_cloth("cloth", {.columns = 3, .rows = 3});
-    EXPECT_EQ(world.set_collides(lower, world.id("cloth"), true).code(), ErrorCode::InvalidArgument);
+    const auto hair = world.core().add_hair({.roots = {{}}});
+    ASSERT_TRUE(hair);
+    EXPECT_EQ(world.set_collides(lower, *hair, true).code(), ErrorCode::InvalidArgument);
     EXPECT_EQ(world.set_collides(lower, {}, true).code(), ErrorCode::OutOfRange);
     rope::State state = world.state();
     state.collisions.push_back(state.collisions.front());

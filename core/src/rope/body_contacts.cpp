@@ -19,25 +19,18 @@ constexpr double enough_apart = 1e-3;
 /// Of a contact, relative to what its two chains offer.
 constexpr double stiffer_than_offered = 50.0;
 
-dvec3 at(const dvec3& from, const dvec3& to, double part) {
-    return from + part * (to - from);
-}
+/// Metres that projections move something in a substep.
+constexpr double nearby = 1e-3;
 
 }  // namespace
 
-BodyContacts::Ends BodyContacts::ends_of(std::uint32_t a, std::uint32_t b,
-                                         const std::vector<dvec3>& at) const {
-    const Link &first = state_.links[a], &second = state_.links[b];
-    return {at[first.a], at[first.b], at[second.a], at[second.b]};
-}
-
 /// The force of a contact whose segments are there.
-BodyContacts::Response BodyContacts::respond(const Contact& contact, const Ends& to) const {
-    const auto nearest = detail::nearest_of_segments(to.a0, to.a1, to.b0, to.b1);
-    Response response{.at_a = nearest.at_a, .at_b = nearest.at_b};
+BodyContacts::Response BodyContacts::respond(const Contact& contact, const Points& to) const {
+    const Nearest nearest = nearest_of(contact, to);
+    Response response{.shares = nearest.shares};
     double apart = detail::length(nearest.between);
-    response.normal = apart > 1e-9 * contact.thickness ? (1.0 / apart) * nearest.between : contact.start;
-    if (detail::dot(response.normal, contact.start) < 0.0) {  // they have crossed
+    response.normal = apart > 1e-9 * contact.thickness ? (1.0 / apart) * nearest.between : contact.normal;
+    if (detail::dot(response.normal, contact.normal) < 0.0) {  // they have crossed
         response.normal = -response.normal;
         apart = -apart;
     }
@@ -46,10 +39,9 @@ BodyContacts::Response BodyContacts::respond(const Contact& contact, const Ends&
     const double before = detail::dot(contact.force, n), k = contact.stiffness;
     const double pressed = std::max(0.0, before - k * (response.gap - contact.target));
     if (!(pressed > 0.0)) return response;
-    const Ends from = ends_of(contact.a, contact.b, state_.position);
-    const dvec3 by_a = at(to.a0 - from.a0, to.a1 - from.a1, response.at_a);
-    const dvec3 by_b = at(to.b0 - from.b0, to.b1 - from.b1, response.at_b);
-    dvec3 slip = by_b - by_a;
+    dvec3 slip(0.0);
+    for (std::size_t k = 0; k < 4; ++k)
+        slip += nearest.shares[k] * (to[k] - state_.position[contact.points[k]]);
     slip -= detail::dot(slip, n) * n;
     const dvec3 friction = contact.force - before * n - k * slip;
     const double size = detail::length(friction),
@@ -144,7 +136,7 @@ void BodyContacts::press(std::uint32_t number, std::span<const Side> sides) {
         // If both segments are of this chain, both move in its step, as if they would not.
         const bool own = plan_.chain_of[contact.a] == plan_.chain_of[contact.b];
         const double sign = side.is_b ? 1.0 : -1.0, times = own ? 2.0 : 1.0;
-        const double t = side.is_b ? response.at_b : response.at_a;
+        const double t = std::abs(response.shares[side.is_b ? 3 : 1]);
         for (std::uint32_t end = 0; end < 2; ++end) {
             const detail::ChainNode& node = chain.nodes[side.bond + end];
             detail::NodePush& push = chain.pushes[static_cast<std::size_t>(node.push)];
@@ -209,31 +201,43 @@ void BodyContacts::solve() {
     }
 }
 
-void BodyContacts::project() {
+/// Leaves out what projections in this substep will not bring together.
+void BodyContacts::drop_distant() {
+    std::erase_if(s_.projected, [&](const Contact& contact) {
+        return respond(contact, points_of(contact, scratch_.place)).gap > contact.target + nearby;
+    });
+}
+
+double BodyContacts::project(bool all) {
     std::vector<dvec3>& place = scratch_.place;
-    local_.done.work += s_.contacts.size();
-    for (Contact& contact : s_.contacts) {
+    double worst = 0.0;
+    const auto correct = [&](Contact& contact) {
         contact.force = dvec3(0.0);
-        const Response found = respond(contact, ends_of(contact.a, contact.b, place));
+        const Response found = respond(contact, points_of(contact, place));
         const double depth = contact.target - found.gap;
-        if (!(depth > 0.0)) continue;
-        const Link &a = state_.links[contact.a], &b = state_.links[contact.b];
-        const std::uint32_t particles[] = {a.a, a.b, b.a, b.b};
-        const double shares[] = {found.at_a - 1.0, -found.at_a, 1.0 - found.at_b, found.at_b};
+        if (!(depth > 0.0)) return;
         double freedom = 0.0;
         dvec3 slip(0.0);
-        for (int k = 0; k < 4; ++k) {
-            freedom += shares[k] * shares[k] * scratch_.weight[particles[k]];
-            slip += shares[k] * (place[particles[k]] - state_.position[particles[k]]);
+        for (std::size_t k = 0; k < 4; ++k) {
+            const std::uint32_t i = contact.points[k];
+            freedom += found.shares[k] * found.shares[k] * scratch_.weight[i];
+            slip += found.shares[k] * (place[i] - state_.position[i]);
         }
-        if (!(freedom > 0.0)) continue;
+        if (!(freedom > 0.0)) return;
+        worst = std::max(worst, depth / contact.thickness);
         slip -= detail::dot(slip, found.normal) * found.normal;
         const double slipped = detail::length(slip),
                      most = depth * static_cast<double>(state_.settings.friction);
         const dvec3 by = depth * found.normal - (slipped > most ? most / slipped : 1.0) * slip;
-        for (int k = 0; k < 4; ++k)
-            place[particles[k]] += (shares[k] * scratch_.weight[particles[k]] / freedom) * by;
-    }
+        for (std::size_t k = 0; k < 4; ++k) {
+            const std::uint32_t i = contact.points[k];
+            place[i] += (found.shares[k] * scratch_.weight[i] / freedom) * by;
+        }
+    };
+    local_.done.work += (all ? s_.contacts.size() : 0) + s_.projected.size();
+    if (all) std::for_each(s_.contacts.begin(), s_.contacts.end(), correct);
+    std::for_each(s_.projected.begin(), s_.projected.end(), correct);
+    return worst;
 }
 
 }  // namespace tendril::rope

@@ -1,16 +1,19 @@
 // Contacts between the bodies of an island, and of a body with itself (tendril/rope/collision.hpp). Not
 // installed.
 //
-// 1. find() lists pairs of segments that may come near each other in the substep: chunks by sweeping along
-//    an axis, then segments by balls around them. A pair is a contact if it is nearer than its neighbours,
-//    and presses or would.
+// 1. find() finds pairs that may come near each other in the substep: two segments, or a particle and a
+//    triangle of a cloth. A pair of segments is a contact if it is nearer than its neighbours, and presses or
+//    would.
 // 2. solve(): every chain with a contact takes a step of Newton's method (chain_newton.hpp) in turn, with the
 //    others where they are now, or will be if nothing presses; then each contact adds what is left of its
 //    gap, times a stiffness, to its multiplier. With the stiffness of about what the chains themselves offer
 //    sideways both converge within a few rounds.
-// 3. keep_apart() makes sure that no two segments cross on the straight way from the start of the substep to
-//    the solver's result.
+// 3. project() goes through the contacts of cloth and tied bodies, once these are solved.
+// 4. keep_apart() makes sure that nothing crosses on the straight way from the start of the substep to the
+//    solver's result.
 #pragma once
+
+#include <array>
 
 #include "rope/chain_newton.hpp"
 #include "rope/scratch.hpp"
@@ -26,44 +29,53 @@ class BodyContacts : IslandStep {
     void find();  ///< once particles have moved freely
     /// Solves chains in contact; Scratch::chain_solved says which.
     void solve();
-    void project();  ///< for solvers that take one link after the other: once through all contacts
+    /// Once through the contacts left to it; `all`: through all, for solvers that take one link after the
+    /// other. Returns the largest correction, relative to the thickness.
+    double project(bool all);
+    void drop_distant();
     void keep_apart();
 
   private:
+    using Candidate = BodyContactScratch::Candidate;
     using Contact = BodyContactScratch::Contact;
     using Pair = BodyContactScratch::Pair;
     using Side = BodyContactScratch::Side;
-    /// Of a contact, with its segments somewhere.
+    using Points = std::array<glm::dvec3, 4>;
+    using Shares = std::array<double, 4>;
+    /// Of a contact, with its features somewhere.
     struct Response {
         glm::dvec3 force{0.0};                        ///< on b
         glm::dvec3 normal{0.0};                       ///< from a to b
         double gap = 0.0, along = 0.0, across = 0.0;  ///< stiffness along the normal, and along the surface
-        double at_a = 0.0, at_b = 0.0;
+        Shares shares{};
     };
-    struct Ends {
-        glm::dvec3 a0, a1, b0, b1;
-    };
-    struct Crossing {
-        double at_a = 0.0, at_b = 0.0;
+    struct Nearest {
+        Shares shares{};
+        glm::dvec3 between{0.0};
     };
 
     // body_search.cpp
     void search(const std::vector<glm::dvec3>& ends);
-    void bound_chunks(const std::vector<glm::dvec3>& ends);
-    void search_chunks(std::uint32_t c, std::uint32_t d);
-    void consider(const BodyContactScratch::Ball& a, const BodyContactScratch::Ball& b);
-    bool may_meet(std::uint32_t c, std::uint32_t d) const;
+    bool stay_listed(const std::vector<glm::dvec3>& ends);
+    bool outran() const;
+    void list_candidates();
+    void add_features(const Plan::Chunk& chunk);
+    void search_chunks(const BodyContactScratch::Chunk& c, const BodyContactScratch::Chunk& d);
+    void consider(const BodyContactScratch::Feature& a, const BodyContactScratch::Feature& b);
     bool lowest(const Pair& pair) const;
     void choose_contacts();
     void continue_forces();
+    static Nearest nearest_of(const Candidate& pair, const Points& at);
+    static Points points_of(const Candidate& pair, const std::vector<glm::dvec3>& at) {
+        return {at[pair.points[0]], at[pair.points[1]], at[pair.points[2]], at[pair.points[3]]};
+    }
 
     // body_contacts.cpp
-    Ends ends_of(std::uint32_t a, std::uint32_t b, const std::vector<glm::dvec3>& at) const;
     void order_sides();
     void choose_stiffness();
     double offered(std::size_t side) const;
     glm::dvec3 expected(std::uint32_t chain, std::uint32_t node) const;
-    Response respond(const Contact& contact, const Ends& at) const;
+    Response respond(const Contact& contact, const Points& at) const;
     Response respond(const Contact& contact) const;
     void press(std::uint32_t chain, std::span<const Side> sides);
     double update_forces();
@@ -71,11 +83,10 @@ class BodyContacts : IslandStep {
     ContactScratch& memory(std::uint32_t chain) const { return scratch_.chain_contacts[chain]; }
 
     // body_passing.cpp
-    bool outran() const;
-    bool crosses(const Ends& from, const Ends& to, const glm::dvec3& normal, int depth,
-                 Crossing& where) const;
-    bool crosses(const Pair& pair, Crossing& where) const;
-    void part(const Pair& pair, const Crossing& where);
+    bool crosses(const Candidate& pair, const Points& from, const Points& to, const glm::dvec3& normal,
+                 int depth, Shares& where) const;
+    bool crosses(const Pair& pair, Shares& where) const;
+    void part(const Pair& pair, const Shares& where);
 
     BodyContactScratch& s_;
 };

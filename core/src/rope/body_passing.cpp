@@ -1,6 +1,7 @@
-// The last check: no two segments cross in a substep.
+// The last check: nothing crosses in a substep.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "rope/body_contacts.hpp"
 #include "rope/segments.hpp"
@@ -15,71 +16,60 @@ constexpr int max_partings = 8;         ///< rounds
 constexpr double parted = 0.1;          ///< how far, relative to the thickness
 constexpr int max_shortenings = 12;
 
+/// Whether a plane with this normal has a pair's features on its two sides.
+bool separates(const BodyContactScratch::Candidate& pair, const dvec3& n, const std::array<dvec3, 4>& at) {
+    double a = -std::numeric_limits<double>::infinity(), b = -a;
+    for (std::uint32_t k = 0; k < 4; ++k) {
+        const double height = detail::dot(n, at[k]);
+        if (k < pair.split)
+            a = std::max(a, height);
+        else
+            b = std::min(b, height);
+    }
+    return b > a;
+}
+
 }  // namespace
 
-/// Whether a segment went farther than the search expected.
-bool BodyContacts::outran() const {
-    for (const std::uint32_t c : s_.chunks) {
-        const Plan::Chunk& chunk = plan_.chunks[c];
-        const double radius = state_.bodies[chunk.body].radius;
-        for (std::uint32_t l = chunk.first_link; l < chunk.first_link + chunk.links; ++l) {
-            const Link& link = state_.links[s_.balls[l].link];
-            for (const std::uint32_t i : {link.a, link.b}) {
-                const dvec3 way = scratch_.place[i] - state_.position[i] - s_.mean;
-                const double most = s_.balls[l].reach - radius;
-                if (!(detail::dot(way, way) <= most * most)) return true;
-            }
-        }
-    }
-    return false;
-}
-
-/// Whether two segments cross on a straight way. They do not if one plane has each on its own side at both
-/// ends of it; if one has not, its halves are checked.
-bool BodyContacts::crosses(const Ends& from, const Ends& to, const dvec3& n, int depth,
-                           Crossing& where) const {
-    const double a = std::max(detail::dot(n, to.a0), detail::dot(n, to.a1));
-    const double b = std::min(detail::dot(n, to.b0), detail::dot(n, to.b1));
-    if (b > a) return false;
-    const Ends halfway{0.5 * (from.a0 + to.a0), 0.5 * (from.a1 + to.a1), 0.5 * (from.b0 + to.b0),
-                       0.5 * (from.b1 + to.b1)};
-    const auto nearest = detail::nearest_of_segments(halfway.a0, halfway.a1, halfway.b0, halfway.b1);
-    where = {nearest.at_a, nearest.at_b};
+/// Whether a pair crosses on a straight way. It does not if one plane has each feature on its own side at
+/// both ends of it; if one has not, its halves are checked.
+bool BodyContacts::crosses(const Candidate& pair, const Points& from, const Points& to, const dvec3& n,
+                           int depth, Shares& where) const {
+    if (separates(pair, n, to)) return false;
+    Points halfway;
+    for (std::size_t k = 0; k < 4; ++k) halfway[k] = 0.5 * (from[k] + to[k]);
+    const Nearest nearest = nearest_of(pair, halfway);
+    where = nearest.shares;
     const double apart = detail::length(nearest.between);
     if (depth == 0 || !(apart > 1e-12)) return true;
-    return crosses(from, halfway, n, depth - 1, where) ||
-           crosses(halfway, to, (1.0 / apart) * nearest.between, depth - 1, where);
+    return crosses(pair, from, halfway, n, depth - 1, where) ||
+           crosses(pair, halfway, to, (1.0 / apart) * nearest.between, depth - 1, where);
 }
 
-bool BodyContacts::crosses(const Pair& pair, Crossing& where) const {
+bool BodyContacts::crosses(const Pair& pair, Shares& where) const {
     if (!(pair.apart > 1e-9 * pair.thickness)) return false;  // it began like that: either side will do
-    const Ends to = ends_of(pair.a, pair.b, scratch_.place);
-    const double a = std::max(detail::dot(pair.normal, to.a0), detail::dot(pair.normal, to.a1));
-    const double b = std::min(detail::dot(pair.normal, to.b0), detail::dot(pair.normal, to.b1));
-    if (b > a) return false;
-    return crosses(ends_of(pair.a, pair.b, state_.position), to, pair.normal, max_halvings_of_way, where);
+    const Points to = points_of(pair, scratch_.place);
+    return !separates(pair, pair.normal, to) &&
+           crosses(pair, points_of(pair, state_.position), to, pair.normal, max_halvings_of_way, where);
 }
 
 /// Moves the points that would cross back to their own sides.
-void BodyContacts::part(const Pair& pair, const Crossing& where) {
-    const Link &a = state_.links[pair.a], &b = state_.links[pair.b];
-    const std::uint32_t particles[] = {a.a, a.b, b.a, b.b};
-    const double shares[] = {where.at_a - 1.0, -where.at_a, 1.0 - where.at_b, where.at_b};
+void BodyContacts::part(const Pair& pair, const Shares& where) {
     double freedom = 0.0, apart = 0.0;
-    for (int k = 0; k < 4; ++k) {
-        freedom += shares[k] * shares[k] * scratch_.weight[particles[k]];
-        apart += shares[k] * detail::dot(pair.normal, scratch_.place[particles[k]]);
+    for (std::size_t k = 0; k < 4; ++k) {
+        freedom += where[k] * where[k] * scratch_.weight[pair.points[k]];
+        apart += where[k] * detail::dot(pair.normal, scratch_.place[pair.points[k]]);
     }
     const double wanted = std::min(pair.apart, parted * pair.thickness);
     if (!(freedom > 0.0)) return;
     const double by = std::max(wanted - apart, 0.1 * wanted) / freedom;
-    for (int k = 0; k < 4; ++k)
-        scratch_.place[particles[k]] += (by * shares[k] * scratch_.weight[particles[k]]) * pair.normal;
+    for (std::size_t k = 0; k < 4; ++k)
+        scratch_.place[pair.points[k]] += (by * where[k] * scratch_.weight[pair.points[k]]) * pair.normal;
 }
 
 void BodyContacts::keep_apart() {
     if (outran()) search(scratch_.place);
-    Crossing where;
+    Shares where{};
     bool any = true;
     for (int round = 0; any && round < max_partings; ++round) {
         any = false;

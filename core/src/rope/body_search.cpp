@@ -1,7 +1,12 @@
-// Finds segments that may come near each other, and which of them are contacts.
+// Finds what may come near each other, and what of it is a contact.
+//
+// Candidates are listed with a margin, and stay listed until a particle has roamed from where it was then (L.
+// Verlet, 1967). In a substep only they are looked at, so the pairs found are the same whenever the list was
+// made.
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <glm/common.hpp>
+#include <limits>
 #include <tuple>
 
 #include "rope/body_contacts.hpp"
@@ -14,7 +19,10 @@ using glm::dvec3;
 
 /// How far a particle may be pulled off its free path, metres: the collider's search allows the same.
 constexpr double off_path = 1e-3;
-/// Parts of a rope nearer along it, in thicknesses, cannot touch: pi times the radius.
+/// Until candidates are listed again a particle may roam that many of its ways, and parts of its radius; and
+/// its way may grow likewise.
+constexpr double roamed_ways = 4.0, roamed_radii = 0.3, grown_way = 2.0, grown_radii = 0.2;
+/// Parts of a body nearer along it, in thicknesses, cannot touch: pi times the radius.
 constexpr double min_arc = 1.5707963267948966;
 /// Metres above a surface that count as touching.
 constexpr double nearly = 1e-5;
@@ -23,15 +31,21 @@ constexpr double recovered = 0.2, recovery_speed = 0.5;
 /// Particles that a contact may slide along in a substep and still continue.
 constexpr std::uint32_t max_slide = 3;
 
-double thickness_of(const State& state, const Plan& plan, std::uint32_t a, std::uint32_t b) {
-    const auto radius = [&](std::uint32_t link) {
-        return static_cast<double>(state.bodies[plan.chains[plan.chain_of[link]].body].radius);
-    };
-    const double rests = static_cast<double>(state.links[a].rest) + state.links[b].rest;
-    return std::max({radius(a) + radius(b), 1e-4 * rests, 1e-6});
+double square(const dvec3& v) {
+    return detail::dot(v, v);
 }
 
 }  // namespace
+
+/// Where two features are nearest: what its particles contribute.
+BodyContacts::Nearest BodyContacts::nearest_of(const Candidate& pair, const std::array<dvec3, 4>& at) {
+    if (pair.split == 2) {
+        const auto found = detail::nearest_of_segments(at[0], at[1], at[2], at[3]);
+        return {{found.at_a - 1.0, -found.at_a, 1.0 - found.at_b, found.at_b}, found.between};
+    }
+    const auto [a, b, c] = detail::nearest_of_triangle(at[0], at[1], at[2], at[3]);
+    return {{-1.0, a, b, c}, (a * at[1] + b * at[2] + c * at[3]) - at[0]};
+}
 
 void BodyContacts::find() {
     search(scratch_.base);
@@ -40,122 +54,219 @@ void BodyContacts::find() {
     // What neither presses nor would needs no contact.
     std::erase_if(s_.contacts, [&](const Contact& contact) {
         return contact.force == dvec3(0.0) &&
-               respond(contact, ends_of(contact.a, contact.b, scratch_.base)).gap > nearly;
+               respond(contact, points_of(contact, scratch_.base)).gap > nearly;
     });
 }
 
 /// Finds pairs that may come near each other on the way to `ends`.
 void BodyContacts::search(const std::vector<dvec3>& ends) {
+    if (!stay_listed(ends)) list_candidates();
+    local_.done.work += s_.candidates.size();
     s_.pairs.clear();
-    bound_chunks(ends);
-    for (std::size_t i = 0; i < s_.chunks.size(); ++i) {
-        const std::uint32_t c = s_.chunks[i];
-        search_chunks(c, c);
-        for (std::size_t j = i + 1; j < s_.chunks.size(); ++j) {
-            const std::uint32_t d = s_.chunks[j];
-            if (s_.low[d].x > s_.high[c].x) break;
-            const bool overlap = s_.low[c].y <= s_.high[d].y && s_.low[d].y <= s_.high[c].y &&
-                                 s_.low[c].z <= s_.high[d].z && s_.low[d].z <= s_.high[c].z;
-            if (overlap) search_chunks(std::min(c, d), std::max(c, d));
+    for (const Candidate& each : s_.candidates) {
+        double way_a = 0.0, way_b = 0.0;
+        for (std::uint32_t k = 0; k < 4; ++k) {
+            double& way = k < each.split ? way_a : way_b;
+            way = std::max(way, scratch_.listed[each.points[k]].way_squared);
         }
+        const double radii = static_cast<double>(state_.bodies[each.body_a].radius) +
+                             static_cast<double>(state_.bodies[each.body_b].radius);
+        const std::array<dvec3, 4> at = points_of(each, state_.position);
+        const Nearest nearest = nearest_of(each, at);
+        const double apart = detail::length(nearest.between);
+        if (apart > std::sqrt(way_a) + std::sqrt(way_b) + 2.0 * off_path + radii) continue;
+        Pair& pair = s_.pairs.emplace_back(Pair{each});
+        pair.thickness = std::max(radii, each.least);
+        pair.apart = apart, pair.shares = nearest.shares;
+        if (apart > 1e-9 * pair.thickness) {
+            pair.normal = (1.0 / apart) * nearest.between;
+            continue;
+        }
+        const dvec3 across = each.split == 2 ? detail::cross(at[1] - at[0], at[3] - at[2])
+                                             : detail::cross(at[2] - at[1], at[3] - at[1]);
+        pair.normal =
+            detail::length(across) > 0.0 ? detail::unit(across) : detail::perpendicular(at[1] - at[0]);
     }
-    std::sort(s_.pairs.begin(), s_.pairs.end(),
-              [](const Pair& p, const Pair& q) { return std::tie(p.a, p.b) < std::tie(q.a, q.b); });
 }
 
-void BodyContacts::bound_chunks(const std::vector<dvec3>& ends) {
+/// Notes how far particles go in the substep; false if candidates must be listed again.
+bool BodyContacts::stay_listed(const std::vector<dvec3>& ends) {
+    dvec3 mean(0.0), drift(0.0);
+    each_particle([&](std::size_t i) {
+        mean += ends[i] - state_.position[i];
+        drift += state_.position[i] - scratch_.listed[i].at;
+    });
     // What all do together brings nothing nearer.
-    dvec3 mean(0.0);
-    each_particle([&](std::size_t i) { mean += ends[i] - state_.position[i]; });
     s_.mean = (1.0 / island_.particles) * mean;
-    const std::uint32_t first = island_.chunks.first, count = island_.chunks.count;
-    s_.low.resize(plan_.chunks.size()), s_.high.resize(plan_.chunks.size());
-    s_.reach.resize(plan_.chunks.size()), s_.length.resize(plan_.chunks.size());
-    s_.balls.resize(plan_.chunk_links.size());
-    s_.chunks.clear();
-    for (std::uint32_t c = first; c < first + count; ++c) {
-        const Plan::Chunk& chunk = plan_.chunks[c];
-        if (plan_.collides[chunk.body] == 0 || chunk.links == 0) continue;
-        s_.chunks.push_back(c);
-        s_.reach[c] = s_.length[c] = 0.0;
-        for (std::uint32_t l = chunk.first_link; l < chunk.first_link + chunk.links; ++l) {
-            const Link& link = state_.links[plan_.chunk_links[l]];
-            const dvec3 a = state_.position[link.a], b = state_.position[link.b];
-            const double way = std::max(detail::length(ends[link.a] - a - s_.mean),
-                                        detail::length(ends[link.b] - b - s_.mean));
-            BodyContactScratch::Ball& ball = s_.balls[l];
-            ball.link = plan_.chunk_links[l];
-            ball.middle = 0.5 * (a + b);
-            const double length = detail::length(b - a);
-            ball.reach = way + off_path + static_cast<double>(state_.bodies[chunk.body].radius);
-            ball.radius = 0.5 * length + ball.reach;
-            s_.length[c] += length;
-            s_.reach[c] = std::max(s_.reach[c], ball.reach);
-            const dvec3 low = ball.middle - dvec3(ball.radius), high = ball.middle + dvec3(ball.radius);
-            const bool begins = l == chunk.first_link;
-            for (int k = 0; k < 3; ++k) {
-                s_.low[c][k] = begins ? low[k] : std::min(s_.low[c][k], low[k]);
-                s_.high[c][k] = begins ? high[k] : std::max(s_.high[c][k], high[k]);
-            }
+    drift = (1.0 / island_.particles) * drift;
+    const std::span<const std::uint32_t> bodies = Plan::part(plan_.bodies, island_.bodies);
+    bool stay = s_.listed;
+    s_.radii.resize(bodies.size());
+    for (std::size_t k = 0; k < bodies.size(); ++k) {
+        const Body& body = state_.bodies[bodies[k]];
+        stay = stay && body.radius == s_.radii[k];
+        s_.radii[k] = body.radius;
+        if (plan_.collides[bodies[k]] == Plan::Collides::None) continue;
+        for (std::size_t i = body.first; i < body.first + body.count; ++i) {
+            Scratch::Listed& it = scratch_.listed[i];
+            it.way_squared = square(ends[i] - state_.position[i] - s_.mean);
+            const double most = it.reach - off_path;
+            stay = stay && it.way_squared <= most * most &&
+                   square(state_.position[i] - it.at - drift) <= it.roam * it.roam;
         }
     }
-    std::sort(s_.chunks.begin(), s_.chunks.end(), [&](std::uint32_t c, std::uint32_t d) {
-        return s_.low[c].x != s_.low[d].x ? s_.low[c].x < s_.low[d].x : c < d;
+    return stay;
+}
+
+/// Whether a segment went farther than the search expected.
+bool BodyContacts::outran() const {
+    for (const std::uint32_t b : Plan::part(plan_.bodies, island_.bodies)) {
+        if (plan_.collides[b] == Plan::Collides::None) continue;
+        for (std::size_t i = state_.bodies[b].first; i < state_.bodies[b].first + state_.bodies[b].count;
+             ++i) {
+            const double way = square(scratch_.place[i] - state_.position[i] - s_.mean),
+                         expected = scratch_.listed[i].way_squared;
+            if (way <= expected + off_path * off_path) continue;
+            const double most = std::sqrt(expected) + off_path;
+            if (!(way <= most * most)) return true;
+        }
+    }
+    return false;
+}
+
+void BodyContacts::list_candidates() {
+    s_.listed = true;
+    s_.candidates.clear();
+    s_.features.clear();
+    s_.chunks.clear();
+    for (const std::uint32_t b : Plan::part(plan_.bodies, island_.bodies)) {
+        if (plan_.collides[b] == Plan::Collides::None) continue;
+        const Body& body = state_.bodies[b];
+        for (std::size_t i = body.first; i < body.first + body.count; ++i) {
+            Scratch::Listed& it = scratch_.listed[i];
+            const double way = std::sqrt(it.way_squared), radius = body.radius;
+            it.at = state_.position[i];
+            it.roam = roamed_ways * way + roamed_radii * radius;
+            it.reach = off_path + grown_way * way + grown_radii * radius;
+        }
+    }
+    for (std::uint32_t c = island_.chunks.first; c < island_.chunks.first + island_.chunks.count; ++c)
+        if (plan_.collides[plan_.chunks[c].body] != Plan::Collides::None) add_features(plan_.chunks[c]);
+    std::sort(s_.chunks.begin(), s_.chunks.end(), [](const auto& c, const auto& d) {
+        return std::tie(c.low.x, c.first[0]) < std::tie(d.low.x, d.first[0]);
+    });
+    for (std::size_t i = 0; i < s_.chunks.size(); ++i) {
+        const BodyContactScratch::Chunk& c = s_.chunks[i];
+        for (std::size_t j = i; j < s_.chunks.size() && s_.chunks[j].low.x <= c.high.x; ++j) {
+            const BodyContactScratch::Chunk& d = s_.chunks[j];
+            const bool overlap =
+                c.low.y <= d.high.y && d.low.y <= c.high.y && c.low.z <= d.high.z && d.low.z <= c.high.z;
+            if (overlap && plan_.collide(c.body, d.body)) search_chunks(c, d);
+        }
+    }
+    std::sort(s_.candidates.begin(), s_.candidates.end(), [](const Candidate& p, const Candidate& q) {
+        return std::tie(q.split, p.a, p.b, p.points) < std::tie(p.split, q.a, q.b, q.points);
     });
 }
 
-/// False if two successive chunks of a rope, or one with itself, are too straight for that.
-bool BodyContacts::may_meet(std::uint32_t c, std::uint32_t d) const {
-    const Plan::Chunk &first = plan_.chunks[c], &last = plan_.chunks[d];
-    if (!plan_.collide(first.body, last.body)) return false;
-    if (first.body != last.body || d - c > 1) return true;
-    const std::uint32_t from = plan_.chunk_links[first.first_link];
-    const std::uint32_t to = plan_.chunk_links[last.first_link + last.links - 1];
-    if (plan_.chain_of[from] != plan_.chain_of[to]) return true;
-    const double chord =
-        detail::length(state_.position[state_.links[to].b] - state_.position[state_.links[from].a]);
-    const double length = s_.length[c] + (c == d ? 0.0 : s_.length[d]);
-    // Two points that far apart along it are at least that far apart.
-    const double arc = min_arc * thickness_of(state_, plan_, from, to);
-    return chord - length + arc <= s_.reach[c] + s_.reach[d];
-}
-
-void BodyContacts::search_chunks(std::uint32_t c, std::uint32_t d) {
-    if (!may_meet(c, d)) return;
-    const Plan::Chunk &first = plan_.chunks[c], &last = plan_.chunks[d];
-    local_.done.work += first.links;
-    for (std::uint32_t k = 0; k < first.links; ++k) {
-        const BodyContactScratch::Ball& a = s_.balls[first.first_link + k];
-        for (std::uint32_t l = c == d ? k + 1 : 0; l < last.links; ++l) {
-            const BodyContactScratch::Ball& b = s_.balls[last.first_link + l];
-            const dvec3 between = b.middle - a.middle;
-            const double reach = a.radius + b.radius;
-            if (detail::dot(between, between) <= reach * reach) consider(a, b);
+/// The segments that begin in a chunk; if it meets cloth its particles, and if it is cloth its triangles.
+void BodyContacts::add_features(const Plan::Chunk& chunk) {
+    const Body& body = state_.bodies[chunk.body];
+    BodyContactScratch::Chunk box{.low = dvec3(std::numeric_limits<double>::infinity()),
+                                  .high = dvec3(-std::numeric_limits<double>::infinity()),
+                                  .body = chunk.body};
+    const auto add = [&](std::uint32_t link, std::initializer_list<std::uint32_t> points) {
+        BodyContactScratch::Feature it{.body = chunk.body, .link = link};
+        double reach = 0.0, roam = 0.0;
+        for (const std::uint32_t i : points) {
+            it.points[it.count++] = i;
+            it.middle += (1.0 / static_cast<double>(points.size())) * state_.position[i];
+            reach = std::max(reach, scratch_.listed[i].reach);
+            roam = std::max(roam, scratch_.listed[i].roam);
         }
+        double size = 0.0;
+        for (const std::uint32_t i : points) size = std::max(size, square(state_.position[i] - it.middle));
+        it.reach = reach + roam + static_cast<double>(body.radius);
+        it.radius = std::sqrt(size) + it.reach;
+        box.low = glm::min(box.low, it.middle - dvec3(it.radius));
+        box.high = glm::max(box.high, it.middle + dvec3(it.radius));
+        s_.features.push_back(it);
+    };
+    const auto end = [&] { return static_cast<std::uint32_t>(s_.features.size()); };
+    box.first[0] = end();
+    for (std::uint32_t i = chunk.first; plan_.meets_cloth[chunk.body] != 0 && i < chunk.first + chunk.count;
+         ++i)
+        add(0, {i});
+    box.first[1] = end();
+    for (std::uint32_t l = chunk.first_link; l < chunk.first_link + chunk.links; ++l) {
+        const Link& link = state_.links[plan_.chunk_links[l]];
+        add(plan_.chunk_links[l], {link.a, link.b});
     }
+    box.first[2] = end();
+    const auto row = static_cast<std::uint32_t>(body.row);
+    for (std::uint32_t i = chunk.first; body.kind == Body::Kind::Cloth && i < chunk.first + chunk.count;
+         ++i) {
+        if (plan_.whole[i] == 0) continue;
+        add(0, {i, i + 1, i + row});
+        add(0, {i + row + 1, i + row, i + 1});
+    }
+    box.first[3] = end();
+    s_.chunks.push_back(box);
 }
 
-void BodyContacts::consider(const BodyContactScratch::Ball& a, const BodyContactScratch::Ball& b) {
-    const double thickness = thickness_of(state_, plan_, a.link, b.link);
-    if (plan_.chain_of[a.link] == plan_.chain_of[b.link]) {
-        const std::uint32_t first = std::min(a.link, b.link), last = std::max(a.link, b.link);
-        const double arc = plan_.arc[last] - plan_.arc[first] - state_.links[first].rest;
-        if (last == first + 1 || arc < min_arc * thickness) return;
+void BodyContacts::search_chunks(const BodyContactScratch::Chunk& c, const BodyContactScratch::Chunk& d) {
+    const auto few = [&](std::vector<std::uint32_t>& list, const auto& from, std::size_t kind,
+                         const auto& other) {
+        list.clear();
+        for (std::uint32_t f = from.first[kind]; f < from.first[kind + 1]; ++f) {
+            const BodyContactScratch::Feature& it = s_.features[f];
+            const dvec3 low = it.middle - dvec3(it.radius), high = it.middle + dvec3(it.radius);
+            if (low.x <= other.high.x && high.x >= other.low.x && low.y <= other.high.y &&
+                high.y >= other.low.y && low.z <= other.high.z && high.z >= other.low.z)
+                list.push_back(f);
+        }
+    };
+    const auto search = [&](const auto& first, std::size_t kind_a, const auto& last, std::size_t kind_b) {
+        few(s_.few_a, first, kind_a, last);
+        if (s_.few_a.empty()) return;
+        few(s_.few_b, last, kind_b, first);
+        for (const std::uint32_t k : s_.few_a) {
+            const BodyContactScratch::Feature& a = s_.features[k];
+            for (const std::uint32_t l : s_.few_b) {
+                const BodyContactScratch::Feature& b = s_.features[l];
+                const double reach = a.radius + b.radius;
+                if (square(b.middle - a.middle) > reach * reach ||
+                    (kind_a == kind_b && &first == &last && l <= k))
+                    continue;
+                consider(a, b);
+            }
+        }
+    };
+    search(c, 1, d, 1);
+    search(c, 0, d, 2);
+    if (&c != &d) search(d, 0, c, 2);
+}
+
+void BodyContacts::consider(const BodyContactScratch::Feature& a, const BodyContactScratch::Feature& b) {
+    if (a.count == 2 && a.link > b.link) return consider(b, a);
+    Candidate it{
+        .a = a.link, .b = b.link, .split = a.count, .body_a = a.body, .body_b = b.body, .least = 1e-6};
+    std::copy_n(a.points.begin(), a.count, it.points.begin());
+    std::copy_n(b.points.begin(), b.count, it.points.begin() + a.count);
+    if (a.count == 2)
+        it.least = std::max(it.least, 1e-4 * (static_cast<double>(state_.links[a.link].rest) +
+                                              static_cast<double>(state_.links[b.link].rest)));
+    if (a.body == b.body) {
+        const double radius = state_.bodies[a.body].radius;
+        const double arc = min_arc * std::max(2.0 * radius, it.least);
+        for (std::uint32_t k = 0; k < a.count; ++k)
+            for (std::uint32_t l = 0; l < b.count; ++l)
+                if (a.points[k] == b.points[l] ||
+                    square(plan_.rest_at[a.points[k]] - plan_.rest_at[b.points[l]]) < arc * arc)
+                    return;
     }
-    if (a.link > b.link) return consider(b, a);
-    const Ends at = ends_of(a.link, b.link, state_.position);
-    const auto nearest = detail::nearest_of_segments(at.a0, at.a1, at.b0, at.b1);
-    Pair pair{.a = a.link, .b = b.link, .apart = detail::length(nearest.between), .thickness = thickness};
-    if (pair.apart > a.reach + b.reach) return;
-    pair.at_a = nearest.at_a, pair.at_b = nearest.at_b;
-    if (pair.apart > 1e-9 * thickness) {
-        pair.normal = (1.0 / pair.apart) * nearest.between;
-    } else {
-        const dvec3 across = detail::cross(at.a1 - at.a0, at.b1 - at.b0);
-        pair.normal =
-            detail::length(across) > 0.0 ? detail::unit(across) : detail::perpendicular(at.a1 - at.a0);
-    }
-    s_.pairs.push_back(pair);
+    if (detail::length(nearest_of(it, points_of(it, state_.position)).between) <= a.reach + b.reach)
+        s_.candidates.push_back(it);
 }
 
 /// Whether no neighbour of one of its segments is nearer to the other.
@@ -168,19 +279,30 @@ bool BodyContacts::lowest(const Pair& pair) const {
         const Link& before = state_.links[number - 1];
         return detail::dot(to_other, state_.position[before.a] - state_.position[before.b]) <= 0.0;
     };
-    return lowest_at(pair.a, pair.at_a, pair.normal) && lowest_at(pair.b, pair.at_b, -pair.normal);
+    return lowest_at(pair.a, -pair.shares[1], pair.normal) && lowest_at(pair.b, pair.shares[3], -pair.normal);
 }
 
+/// Segments of two ropes touch where they are nearest. At cloth the ends of segments are left to particles
+/// and triangles.
 void BodyContacts::choose_contacts() {
     s_.contacts.clear();
-    for (std::uint32_t p = 0; p < s_.pairs.size(); ++p) {
-        const Pair& pair = s_.pairs[p];
-        if (!lowest(pair)) continue;
+    s_.projected.clear();
+    for (const Pair& pair : s_.pairs) {
+        const auto is_cloth = [&](std::uint32_t body) {
+            return state_.bodies[body].kind == Body::Kind::Cloth;
+        };
+        const bool inside =
+            std::none_of(pair.shares.begin(), pair.shares.end(), [](double share) { return share == 0.0; });
+        const bool cloth = is_cloth(pair.body_a) || is_cloth(pair.body_b);
+        if (pair.split == 2 && !(cloth ? inside : lowest(pair))) continue;
+        const bool solved = !cloth && plan_.collides[pair.body_a] == Plan::Collides::Solved &&
+                            plan_.collides[pair.body_b] == Plan::Collides::Solved;
+        Contact& contact = (solved ? s_.contacts : s_.projected).emplace_back(Contact{pair});
         const double gap = pair.apart - pair.thickness;
-        const double target = gap < 0.0 ? gap + std::min(-recovered * gap, recovery_speed * h_) : 0.0;
-        s_.contacts.push_back(
-            {.a = pair.a, .b = pair.b, .start = pair.normal, .thickness = pair.thickness, .target = target});
+        contact.target = gap < 0.0 ? gap + std::min(-recovered * gap, recovery_speed * h_) : 0.0;
     }
+    std::stable_sort(s_.projected.begin(), s_.projected.end(),
+                     [](const Contact& p, const Contact& q) { return p.apart < q.apart; });
 }
 
 /// Takes over the forces of the previous substep: of the same two segments, or of neighbours if it has slid.

@@ -202,8 +202,8 @@ Result check_collisions(const State& state) {
         for (const BodyId id : {each.a, each.b}) {
             const Body* const body = find_in(state.bodies, id);
             if (body == nullptr) return missing(op, "a body of a collision", "body", id.index);
-            if (body->kind != Body::Kind::Rope)
-                return refused(op, Argument("collisions", i), "between ropes",
+            if (body->kind == Body::Kind::Hair)
+                return refused(op, Argument("collisions", i), "between ropes and cloth",
                                static_cast<std::size_t>(id.index));
         }
         const bool ascends = i == 0 || before(state.collisions[i - 1], each);

@@ -56,9 +56,10 @@ bool fill_grid(const State& state, const Plan::Island& island, Plan& plan) {
 }  // namespace
 
 void find_grids(const State& state, Plan& plan) {
-    for (Plan::Island& island : plan.islands)
+    plan.each_part([&](Plan::Island& island) {
         if (!island.alone && fill_grid(state, island, plan))
             island.grid = static_cast<std::uint32_t>(plan.grids.size());
+    });
 }
 
 }  // namespace tendril::rope::detail

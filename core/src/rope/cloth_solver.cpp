@@ -99,7 +99,8 @@ void ClothSolver::load() {
         elastic += 0.5 * tension * tension / (stiffness * unit_);
         rests += link.rest;
     }
-    local_.cloth_energy = {.length = rests / (grid_.columns + grid_.rows), .gained = -elastic};
+    local_.cloth_energy.length += rests / (grid_.columns + grid_.rows);
+    local_.cloth_energy.gained -= elastic;
 }
 
 /// Computes the blocks of links at the current positions, and their maximum strain.
@@ -201,8 +202,8 @@ void ClothSolver::finish() {
         scratch_.multiplier[i] = mass_ * pull;
         elastic += pull * longer;
     }
-    local_.cloth_energy.elastic = 0.5 * unit_ * elastic;
-    local_.cloth_energy.gained += local_.cloth_energy.elastic;
+    local_.cloth_energy.elastic += 0.5 * unit_ * elastic;
+    local_.cloth_energy.gained += 0.5 * unit_ * elastic;
 }
 
 /// Starts as if nothing had changed since the previous substep: links and contacts then push as they did.

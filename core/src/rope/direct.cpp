@@ -38,8 +38,9 @@ constexpr double accepted_gain = 1e-3;          ///< of energy; a result that ga
 constexpr int max_restarts = 6, fallback_passes = 16;
 /// Minimum passes of chains that share particles, while near a collider.
 constexpr int min_contact_passes = 4;
-/// In which contacts between tied bodies are projected.
+/// In which contacts are projected, and what they may be off then, relative to the thickness.
 constexpr int contact_passes = 8;
+constexpr double projected_enough = 1e-3;
 /// A chain that shares particles may be asked for impossible lengths, straight between two pins: its system
 /// is damped (Levenberg, Marquardt), or it would fling its particles about.
 constexpr double shared_damping = 2e-2;
@@ -67,8 +68,6 @@ int Substep::direct_alone() {
         const bool falls = acceleration_ != dvec3(0.0);
         if (falls && ledger_of(plan_.chains[r]).gains(accepted_gain)) slow_correction(plan_.chains[r]);
     };
-    std::fill(scratch_.chain_solved.begin() + first, scratch_.chain_solved.begin() + end, std::uint8_t{0});
-    if (island_.contacts != 0) BodyContacts(*this).solve();
     for (std::uint32_t r = first; r < end; ++r) {
         if (scratch_.chain_solved[r] != 0 || !near(r) || !newton.find(r) || !newton.touches()) continue;
         scratch_.chain_solved[r] = 1;
@@ -125,14 +124,42 @@ int Substep::direct_tied() {
 }
 
 int Substep::direct() {
+    const auto solved = scratch_.chain_solved.begin() + island_.chains.first;
+    std::fill(solved, solved + island_.chains.count, std::uint8_t{0});
+    if (island_.contacts != 0) BodyContacts(*this).solve();
+    if (island_.parts.count == 0) {
+        const int passes = direct_part();
+        if (island_.contacts != 0) project_contacts();
+        return passes;
+    }
+    int passes = 0;
+    for (const Plan::Island& part : Plan::part(plan_.parts, island_.parts)) {
+        Substep alone(*this, part);
+        alone.find_near();
+        passes = std::max(passes, alone.direct_part());
+    }
+    find_near();
+    project_contacts();
+    return passes;
+}
+
+/// The contacts that were not solved with lengths, in turns with colliders and lengths.
+void Substep::project_contacts() {
+    BodyContacts(*this).drop_distant();
+    for (int pass = 0; pass < contact_passes; ++pass) {
+        if (BodyContacts(*this).project(false) <= projected_enough) break;
+        resolve_contacts(false);
+        if (pass + 1 == contact_passes) break;
+        for (const std::uint32_t i : Plan::part(plan_.links, island_.links))
+            if (state_.links[i].kind == Link::Kind::Stretch)
+                satisfy(i, detail::compliance(state_.settings, state_.links[i]));
+    }
+}
+
+int Substep::direct_part() {
     if (island_.alone) return direct_alone();
     if (island_.grid != 0) return direct_grid();
-    if (island_.tied != 0) {
-        const int steps = direct_tied();
-        for (int pass = 0; island_.contacts != 0 && pass < contact_passes; ++pass)
-            BodyContacts(*this).project();
-        return steps;
-    }
+    if (island_.tied != 0) return direct_tied();
     for (const std::uint32_t i : Plan::part(plan_.soft, island_.soft)) scratch_.multiplier[i] = 0.0;
     for (const Plan::Chain& chain : Plan::part(plan_.chains, island_.chains)) {
         if (!chain.alone) std::fill_n(scratch_.multiplier.begin() + chain.first_link, chain.links, 0.0);

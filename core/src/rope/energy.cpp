@@ -91,7 +91,7 @@ void Substep::Ledger::add_link(std::uint32_t number) {
 void Substep::Ledger::add_cloth() {
     length_ += it_.local_.cloth_energy.length;
     gained_ += it_.local_.cloth_energy.gained;
-    elastic_ = it_.local_.cloth_energy.elastic;
+    elastic_ += it_.local_.cloth_energy.elastic;
 }
 
 bool Substep::Ledger::gains(double part) const {
@@ -150,10 +150,11 @@ Substep::Ledger Substep::ledger_of_all() const {
         near = std::max(near, scratch_.body_near[body]);
     Ledger ledger(*this, near);
     each_particle([&](std::size_t i) { ledger.add_particle(i); });
-    if (island_.grid != 0 && state_.settings.solver == Solver::Direct)
-        ledger.add_cloth();
-    else
-        for (const std::uint32_t link : Plan::part(plan_.links, island_.links)) ledger.add_link(link);
+    ledger.add_cloth();
+    for (const Plan::Island& part : plan_.parts_of(island_)) {
+        if (part.grid != 0 && state_.settings.solver == Solver::Direct) continue;
+        for (const std::uint32_t link : Plan::part(plan_.links, part.links)) ledger.add_link(link);
+    }
     return ledger;
 }
 
@@ -195,21 +196,23 @@ void Substep::slow_down() {
         dvec3& by = state_.displacement[i];
         by = slowed.whole * slowed.mean + slowed.apart * (by - slowed.mean);
     };
-    const auto slacken = [&](Link& link, const Slowed& slowed) {
-        if (island_.grid != 0 || detail::compliance(state_.settings, link) > 0.0)
+    const auto slacken = [&](Link& link, const Slowed& slowed, bool grid) {
+        if (grid || detail::compliance(state_.settings, link) > 0.0)
             link.tension *= static_cast<float>(slowed.tension);
     };
     if (slowed_.any()) {
         each_particle([&](std::size_t i) { slow(i, slowed_); });
-        for (const std::uint32_t i : Plan::part(plan_.links, island_.links))
-            slacken(state_.links[i], slowed_);
+        for (const Plan::Island& part : plan_.parts_of(island_))
+            for (const std::uint32_t i : Plan::part(plan_.links, part.links))
+                slacken(state_.links[i], slowed_, part.grid != 0);
     }
     for (std::uint32_t r = island_.chains.first; r < island_.chains.first + island_.chains.count; ++r) {
         const Slowed slowed = std::exchange(scratch_.chain_slowed[r], {});
         if (!slowed.any()) continue;
         const Plan::Chain& chain = plan_.chains[r];
         for (std::uint32_t k = 0; k <= chain.links; ++k) slow(plan_.nodes[chain.first_node + k], slowed);
-        for (std::uint32_t k = 0; k < chain.links; ++k) slacken(state_.links[chain.first_link + k], slowed);
+        for (std::uint32_t k = 0; k < chain.links; ++k)
+            slacken(state_.links[chain.first_link + k], slowed, false);
     }
 }
 

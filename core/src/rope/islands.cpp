@@ -49,7 +49,13 @@ void sort_by_island(std::vector<Plan::Island>& islands, Plan::Range Plan::Island
     list = std::move(sorted);
 }
 
-/// Makes the islands; returns the island of each body.
+template <class Visit>
+void each_collision(const Plan& plan, Visit visit) {
+    for (std::uint32_t b = 0; b + 1 < plan.meets_first.size(); ++b)
+        for (std::uint32_t m = plan.meets_first[b]; m < plan.meets_first[b + 1]; ++m) visit(b, plan.meets[m]);
+}
+
+/// Makes the islands, as if nothing collided with cloth; returns the island of each body.
 std::vector<std::uint32_t> make_islands(const State& state, const std::vector<std::uint32_t>& body_of,
                                         Plan& plan) {
     const std::size_t bodies = state.bodies.size();
@@ -60,12 +66,10 @@ std::vector<std::uint32_t> make_islands(const State& state, const std::vector<st
         ++links[body_of[link.a]];
     }
     for (const Tie& tie : state.ties) joined.join(body_of[tie.a], body_of[tie.b]);
-    const auto each_collision = [&](auto visit) {
-        for (std::uint32_t b = 0; b + 1 < plan.meets_first.size(); ++b)
-            for (std::uint32_t m = plan.meets_first[b]; m < plan.meets_first[b + 1]; ++m)
-                visit(b, plan.meets[m]);
-    };
-    each_collision([&](std::uint32_t a, std::uint32_t b) { joined.join(a, b); });
+    const auto is_cloth = [&](std::uint32_t body) { return state.bodies[body].kind == Body::Kind::Cloth; };
+    each_collision(plan, [&](std::uint32_t a, std::uint32_t b) {
+        if (!is_cloth(a) && !is_cloth(b)) joined.join(a, b);
+    });
     std::vector<std::uint8_t> shares(bodies, 0);
     for (const Plan::Chain& chain : plan.chains)
         if (!chain.alone) shares[joined.first_of(chain.body)] = 1;
@@ -73,7 +77,9 @@ std::vector<std::uint32_t> make_islands(const State& state, const std::vector<st
     for (const std::uint32_t i : plan.soft) shares[joined.first_of(body_of[state.links[i].a])] = 1;
 
     std::vector<std::uint8_t> collides(bodies, 0);
-    each_collision([&](std::uint32_t a, std::uint32_t) { collides[joined.first_of(a)] = 1; });
+    each_collision(plan, [&](std::uint32_t a, std::uint32_t b) {
+        collides[joined.first_of(a)] = collides[joined.first_of(b)] = 1;
+    });
 
     std::vector<std::uint32_t> island_of(bodies, 0);
     std::uint32_t open = 0, open_links = island_links;  // the island that lone bodies go to
@@ -91,11 +97,64 @@ std::vector<std::uint32_t> make_islands(const State& state, const std::vector<st
         if (shares[first] == 0 && collides[first] == 0) open_links += links[b];
         plan.islands[island_of[b]].particles += static_cast<std::uint32_t>(state.bodies[b].count);
     }
-    each_collision([&](std::uint32_t a, std::uint32_t) {
-        std::uint32_t& number = plan.islands[island_of[a]].contacts;
+    return island_of;
+}
+
+/// Numbers islands anew, so that those that collisions with cloth join follow each other. Returns for each
+/// the first that it is joined to.
+std::vector<std::uint32_t> put_side_by_side(Plan& plan, std::vector<std::uint32_t>& island_of) {
+    const std::size_t count = plan.islands.size();
+    JoinedBodies joined(count);
+    each_collision(plan, [&](std::uint32_t a, std::uint32_t b) { joined.join(island_of[a], island_of[b]); });
+    std::vector<std::uint32_t> order(count), now(count), first(count);
+    std::iota(order.begin(), order.end(), std::uint32_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) {
+        return joined.first_of(i) < joined.first_of(j);
+    });
+    std::vector<Plan::Island> islands;
+    for (std::uint32_t k = 0; k < count; ++k) {
+        now[order[k]] = k;
+        first[k] = now[joined.first_of(order[k])];
+        islands.push_back(plan.islands[order[k]]);
+    }
+    plan.islands = std::move(islands);
+    for (std::uint32_t& each : island_of) each = now[each];
+    return first;
+}
+
+/// Makes one island of those that are joined, which become its parts.
+void join_parts(Plan& plan, const std::vector<std::uint32_t>& first,
+                const std::vector<std::uint32_t>& island_of) {
+    const std::vector<Plan::Island> all = std::move(plan.islands);
+    plan.islands.clear();
+    std::vector<std::uint32_t> whole(all.size());
+    for (std::uint32_t i = 0; i < all.size(); ++i) {
+        const bool goes_on = i + 1 < all.size() && first[i + 1] == first[i];
+        if (first[i] == i) {
+            plan.islands.push_back(all[i]);
+            if (goes_on) plan.islands.back().parts = {static_cast<std::uint32_t>(plan.parts.size()), 0};
+        } else {
+            Plan::Island& island = plan.islands.back();
+            for (const auto range : {&Plan::Island::bodies, &Plan::Island::links, &Plan::Island::soft,
+                                     &Plan::Island::chains, &Plan::Island::chunks, &Plan::Island::ties})
+                (island.*range).count += (all[i].*range).count;
+            island.particles += all[i].particles;
+            island.alone = false;
+        }
+        whole[i] = static_cast<std::uint32_t>(plan.islands.size()) - 1;
+        if (first[i] == i && !goes_on) continue;
+        plan.parts.push_back(all[i]);
+        ++plan.islands.back().parts.count;
+    }
+    each_collision(plan, [&](std::uint32_t a, std::uint32_t) {
+        std::uint32_t& number = plan.islands[whole[island_of[a]]].contacts;
         if (number == 0) number = ++plan.colliding;
     });
-    return island_of;
+    plan.each_part([&](const Plan::Island& island) {
+        for (const std::uint32_t body : Plan::part(plan.bodies, island.bodies))
+            if (!island.alone && !plan.collides.empty() && plan.collides[body] == Plan::Collides::Solved)
+                plan.collides[body] = Plan::Collides::Projected;
+    });
 }
 
 }  // namespace
@@ -110,7 +169,8 @@ std::vector<std::uint32_t> bodies_of_particles(const State& state) {
 
 void divide_into_islands(const State& state, Plan& plan) {
     const std::vector<std::uint32_t> body_of = bodies_of_particles(state);
-    const std::vector<std::uint32_t> island_of = make_islands(state, body_of, plan);
+    std::vector<std::uint32_t> island_of = make_islands(state, body_of, plan);
+    const std::vector<std::uint32_t> first = put_side_by_side(plan, island_of);
     const auto of_body = [&](std::uint32_t body) { return island_of[body]; };
     const auto of_link = [&](std::uint32_t i) { return island_of[body_of[state.links[i].a]]; };
     plan.bodies.resize(state.bodies.size());
@@ -128,6 +188,7 @@ void divide_into_islands(const State& state, Plan& plan) {
     const auto of_part = [&](const auto& part) { return island_of[part.body]; };
     sort_by_island(islands, &Plan::Island::chains, plan.chains, of_part);
     sort_by_island(islands, &Plan::Island::chunks, plan.chunks, of_part);
+    join_parts(plan, first, island_of);
 }
 
 }  // namespace tendril::rope::detail

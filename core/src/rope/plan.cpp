@@ -133,7 +133,7 @@ bool Plan::fits(const State& state) const noexcept {
 
 void Plan::group_chains(std::size_t particles) {
     std::vector<std::uint32_t> taken(particles, 0);  // 1-based number of the last group with the particle
-    for (Island& island : islands) {
+    each_part([&](Island& island) {
         island.groups.first = static_cast<std::uint32_t>(groups.size());
         const std::uint32_t begin = island.chains.first, end = begin + island.chains.count;
         for (std::uint32_t i = begin; i < end; ++i) {
@@ -149,7 +149,7 @@ void Plan::group_chains(std::size_t particles) {
                 taken[nodes[chain.first_node + k]] = static_cast<std::uint32_t>(groups.size());
         }
         island.groups.count = static_cast<std::uint32_t>(groups.size()) - island.groups.first;
-    }
+    });
 }
 
 void Plan::note_collisions(const State& state) {
@@ -164,17 +164,24 @@ void Plan::note_collisions(const State& state) {
     meets_first.assign(state.bodies.size() + 1, 0);
     for (const auto& [a, b] : pairs) ++meets_first[a + 1], meets.push_back(b);
     for (std::size_t b = 0; b < state.bodies.size(); ++b) meets_first[b + 1] += meets_first[b];
-    collides.assign(state.bodies.size(), 0);
-    for (const auto& [a, b] : pairs) collides[a] = collides[b] = 1;
+    collides.assign(state.bodies.size(), Collides::None);
+    meets_cloth.assign(state.bodies.size(), 0);
+    const auto note = [&](std::uint32_t body, std::uint32_t other) {
+        const bool cloth = state.bodies[body].kind == Body::Kind::Cloth;
+        collides[body] = cloth ? Collides::Projected : Collides::Solved;
+        if (state.bodies[other].kind == Body::Kind::Cloth) meets_cloth[body] = 1;
+    };
+    for (const auto& [a, b] : pairs) note(a, b), note(b, a);
     chain_of.assign(state.links.size(), 0);
-    arc.assign(state.links.size(), 0.0);
-    for (std::uint32_t c = 0; c < chains.size(); ++c) {
-        double along = 0.0;
-        for (std::uint32_t i = chains[c].first_link; i < chains[c].first_link + chains[c].links; ++i) {
-            chain_of[i] = c;
-            arc[i] = along;
-            along += state.links[i].rest;
-        }
+    for (std::uint32_t c = 0; c < chains.size(); ++c)
+        std::fill_n(chain_of.begin() + chains[c].first_link, chains[c].links, c);
+    rest_at.assign(state.position.size(), glm::dvec3(0.0));
+    for (std::uint32_t b = 0; b < state.bodies.size(); ++b) {
+        if (collides[b] == Collides::None) continue;
+        const Body& body = state.bodies[b];
+        const detail::RestGrid grid = detail::rest_grid(state, body);
+        for (std::size_t i = 0; i < body.count; ++i)
+            rest_at[body.first + i] = grid.at(i % body.row, i / body.row);
     }
 }
 
@@ -187,8 +194,8 @@ bool Plan::collide(std::uint32_t body_a, std::uint32_t body_b) const noexcept {
 void Plan::order_tied(const State& state) {
     if (state.ties.empty()) return;
     places.resize(state.position.size());
-    for (Island& island : islands) {
-        if (island.ties.count == 0) continue;
+    each_part([&](Island& island) {
+        if (island.ties.count == 0) return;
         std::uint32_t nodes_of_it = 0;
         for (const std::uint32_t body : part(bodies, island.bodies))
             for (std::size_t i = 0; i < state.bodies[body].count; ++i)
@@ -209,7 +216,7 @@ void Plan::order_tied(const State& state) {
             made.link_blocks.push_back(made.order.block(places[state.links[i].a], places[state.links[i].b]));
         for (const std::uint32_t i : part(ties, island.ties))
             made.tie_blocks.push_back(made.order.block(places[state.ties[i].a], places[state.ties[i].b]));
-    }
+    });
 }
 
 void Plan::cut_into_chunks(const State& state) {

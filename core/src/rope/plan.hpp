@@ -21,6 +21,9 @@ struct Plan {
     /// are merged to fill registers.
     struct Island {
         Range bodies{}, links{}, soft{}, chains{}, groups{}, chunks{}, ties{};
+        /// In `parts`: what only collisions with cloth join is solved one after the other. Empty: all at
+        /// once.
+        Range parts{};
         std::uint32_t particles = 0;
         bool alone = false;      ///< every chain is alone, and there are no soft links
         std::uint32_t grid = 0;  ///< 1-based index in `grids` of the one with all its links; 0: none
@@ -70,8 +73,19 @@ struct Plan {
     static std::span<const T> part(const std::vector<T>& list, const Range& range) {
         return std::span<const T>(list).subspan(range.first, range.count);
     }
+    /// The parts of an island, or itself.
+    std::span<const Island> parts_of(const Island& island) const {
+        return island.parts.count == 0 ? std::span(&island, 1) : part(parts, island.parts);
+    }
+    /// Calls `visit` with all that is solved at once.
+    template <class Visit>
+    void each_part(Visit visit) {
+        for (Island& island : islands)
+            if (island.parts.count == 0) visit(island);
+        for (Island& each : parts) visit(each);
+    }
 
-    std::vector<Island> islands;
+    std::vector<Island> islands, parts;
     // The elements of an island are contiguous in each list, in the state's order.
     std::vector<std::uint32_t> bodies, links;
     std::vector<std::uint32_t> soft;  ///< links other than stretch links
@@ -89,10 +103,13 @@ struct Plan {
     /// Of each body the ones, from itself on, that it collides with: ascending, `meets` from meets_first on.
     /// Empty, as the next two, if nothing collides.
     std::vector<std::uint32_t> meets_first, meets;
-    std::vector<std::uint8_t> collides;   ///< of each body: with any
-    std::vector<std::uint32_t> chain_of;  ///< of each link; that of a soft link means nothing
-    std::vector<double> arc;              ///< of each link: where it begins along its chain, metres
-    std::uint32_t colliding = 0;          ///< islands with collisions
+    /// Of each body: whether its contacts are solved with its lengths, or projected afterwards.
+    enum class Collides : std::uint8_t { None, Solved, Projected };
+    std::vector<Collides> collides;
+    std::vector<std::uint8_t> meets_cloth;  ///< of each body: whether it collides with a cloth
+    std::vector<std::uint32_t> chain_of;    ///< of each link; that of a soft link means nothing
+    std::vector<glm::dvec3> rest_at;        ///< of each particle: its place in its body, unstrained
+    std::uint32_t colliding = 0;            ///< islands with collisions
     bool collide(std::uint32_t body_a, std::uint32_t body_b) const noexcept;
 
     std::vector<std::uint32_t> nodes;

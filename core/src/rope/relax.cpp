@@ -68,7 +68,7 @@ int Substep::relax() {
     for (int pass = 0; pass < passes; ++pass) {
         report_.work += links.size() + island_.ties.count;
         resolve_contacts(pass == 0);
-        if (island_.contacts != 0) BodyContacts(*this).project();
+        if (island_.contacts != 0) BodyContacts(*this).project(true);
         for (const std::uint32_t i : links) {
             const Link& link = state_.links[i];
             if (link.kind != Link::Kind::Stretch) continue;

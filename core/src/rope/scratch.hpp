@@ -1,6 +1,7 @@
 // The contents of a workspace; nothing persists from one substep to the next. Not installed.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/gtc/quaternion.hpp>
 #include <span>
@@ -70,26 +71,33 @@ struct ContactScratch {
 
 /// Contacts between the bodies of an island.
 struct BodyContactScratch {
-    /// Where a segment may be in the substep: in a ball.
-    struct Ball {
+    /// A particle, a segment or a triangle, somewhere in a ball until the candidates are listed again.
+    struct Feature {
         glm::dvec3 middle{0.0};
         double radius = 0.0;
-        double reach = 0.0;  ///< the part of it beyond the segment at the start
-        std::uint32_t link = 0;
+        double reach = 0.0;  ///< the part of it beyond the feature as listed
+        std::uint32_t body = 0;
+        std::uint32_t link = 0;  ///< of a segment
+        std::uint32_t count = 0;
+        std::array<std::uint32_t, 3> points{};
     };
-    /// Segments that may come near each other.
-    struct Pair {
-        std::uint32_t a = 0, b = 0;  ///< links, a < b
-        glm::dvec3 normal{0.0};      ///< from a to b where they are nearest, at the start of the substep
-        double apart = 0.0;          ///< then, between centre lines, metres
+    /// What may meet: two segments, or a particle and a triangle.
+    struct Candidate {
+        std::uint32_t a = 0, b = 0;             ///< links of segments, a < b
+        std::array<std::uint32_t, 4> points{};  ///< particles: two of a and two of b, or one and three
+        std::uint32_t split = 2;                ///< how many are of a
+        std::uint32_t body_a = 0, body_b = 0;
+        double least = 0.0;  ///< thickness, metres
+    };
+    /// Candidates that may come near each other in the substep.
+    struct Pair : Candidate {
+        glm::dvec3 normal{0.0};  ///< from a to b where they are nearest, at the start of the substep
+        double apart = 0.0;      ///< then, between centre lines, metres
         double thickness = 0.0;
-        double at_a = 0.0, at_b = 0.0;  ///< where on each they are nearest, 0 to 1
+        std::array<double, 4> shares{};  ///< of the points, where they are nearest; those of a negative
     };
     /// A pair that is nearer than its neighbours are.
-    struct Contact {
-        std::uint32_t a = 0, b = 0;  ///< links, a < b
-        glm::dvec3 start{0.0};       ///< the normal at the start of the substep
-        double thickness = 0.0;
+    struct Contact : Pair {
         glm::dvec3 force{0.0};  ///< on b, times h^2
         double target = 0.0;    ///< the gap to reach, metres; below 0 while pressed into each other
         double stiffness = 0.0;
@@ -99,13 +107,23 @@ struct BodyContactScratch {
         std::uint32_t chain = 0, bond = 0, contact = 0;
         bool is_b = false;
     };
-    std::vector<glm::dvec3> low, high;  ///< of chunks
-    std::vector<double> reach, length;  ///< of chunks: of their balls, of their segments together
-    glm::dvec3 mean{0.0};               ///< of all particles' ways
-    std::vector<std::uint32_t> chunks;  ///< with collisions, sorted by `low.x`
-    std::vector<Ball> balls;            ///< of the chunks' segments, as in Plan::chunk_links
+    glm::dvec3 mean{0.0};  ///< of all particles' ways
+    // What is listed stays until a particle leaves its place in the list (Scratch::Listed).
+    bool listed = false;
+    std::vector<float> radii;  ///< of the island's bodies
+    std::vector<Candidate> candidates;
+    std::vector<Feature> features;
+    struct Chunk {
+        glm::dvec3 low{0.0}, high{0.0};
+        std::uint32_t body = 0;
+        std::array<std::uint32_t, 4>
+            first{};  ///< of its particles, segments, triangles in `features`; the end
+    };
+    std::vector<Chunk> chunks;                ///< of bodies that collide, by `low.x`
+    std::vector<std::uint32_t> few_a, few_b;  ///< features of two chunks that are in both boxes
     std::vector<Pair> pairs;
-    std::vector<Contact> contacts;
+    std::vector<Contact> contacts;      ///< solved with the chains
+    std::vector<Contact> projected;     ///< by depth
     std::vector<Side> sides;            ///< sorted by chain and bond
     std::vector<std::uint32_t> chains;  ///< that are solved together
     std::vector<std::uint8_t> taken;    ///< of State::contacts: continued by a contact
@@ -160,11 +178,18 @@ struct Scratch {
     };
     std::vector<Slowed> chain_slowed;
     std::vector<BodyContactScratch> body_contacts;  ///< of the plan's islands with collisions
-    std::vector<ContactScratch> chain_contacts;     ///< of each chain; empty if nothing collides
-    std::vector<std::uint32_t> collider_at;         ///< list index by slot
-    std::vector<detail::Cloth> cloths;              ///< of the plan's grids
-    std::vector<detail::EliminationSystem> tied;    ///< of the plan's tied bodies
-    std::vector<double> tie_multiplier;             ///< of each tie: tension times h^2
+    /// A particle that may collide: where it was when candidates were listed, how far it may roam from there
+    /// until they are listed again, and how far it may go in a substep; squared, how far it goes in this one.
+    struct Listed {
+        glm::dvec3 at{0.0};
+        double roam = 0.0, reach = 0.0, way_squared = 0.0;
+    };
+    std::vector<Listed> listed;                   ///< of each particle; empty if nothing collides
+    std::vector<ContactScratch> chain_contacts;   ///< of each chain; empty if nothing collides
+    std::vector<std::uint32_t> collider_at;       ///< list index by slot
+    std::vector<detail::Cloth> cloths;            ///< of the plan's grids
+    std::vector<detail::EliminationSystem> tied;  ///< of the plan's tied bodies
+    std::vector<double> tie_multiplier;           ///< of each tie: tension times h^2
     detail::VectorUnit unit;
     detail::GridUnit grid_unit;
     detail::ClothUnit cloth_unit;
@@ -198,8 +223,8 @@ struct IslandScratch {
     std::size_t block_offset = 0;
     ContactScratch contact;
     std::vector<ClothContact> cloth_contacts, earlier_contacts;
-    /// Of the cloth solved last: its approximate length, metres, the energy in its links and its gain,
-    /// joules.
+    /// Of the cloths of the island: their approximate length, metres, the energy in their links and its
+    /// gain, joules.
     struct {
         double length = 0.0, elastic = 0.0, gained = 0.0;
     } cloth_energy;
@@ -219,6 +244,8 @@ class IslandStep {
           scratch_(scratch),
           local_(local),
           h_(state.settings.substep) {}
+    IslandStep(const IslandStep& whole, const Plan::Island& part)
+        : IslandStep(whole.state_, whole.plan_, part, whole.scratch_, whole.local_) {}
 
     template <class Visit>
     void each_particle(Visit visit) const {

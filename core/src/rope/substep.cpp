@@ -46,8 +46,18 @@ Substep::Substep(State& state, const Plan& plan, const Plan::Island& island, Scr
       acceleration_(detail::acceleration(state.settings)),
       blows_(detail::has_air(state.settings)) {}
 
+Substep::Substep(const Substep& whole, const Plan::Island& part)
+    : IslandStep(whole, part),
+      report_(whole.report_),
+      measures_(whole.measures_),
+      before_(whole.before_),
+      damping_(whole.damping_),
+      acceleration_(whole.acceleration_),
+      blows_(whole.blows_) {}
+
 void Substep::run(bool measures) {
     measures_ = measures;
+    local_.cloth_energy = {};
     move_particles();
     find_near();
     if (island_.contacts != 0) BodyContacts(*this).find();

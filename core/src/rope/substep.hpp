@@ -30,6 +30,8 @@ class Substep : IslandStep {
     void run(bool measures);
 
   private:
+    Substep(const Substep& whole, const Plan::Island& part);
+
     /// A contact that displaces a body faster than this, m/s, would throw it.
     static constexpr double correction_speed = 2.0;
 
@@ -80,6 +82,8 @@ class Substep : IslandStep {
     // direct.cpp: whole chains at once
     struct Batch;
     int direct();
+    int direct_part();
+    void project_contacts();
     int direct_alone();
     int direct_grid();
     int direct_tied();

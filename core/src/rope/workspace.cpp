@@ -25,6 +25,8 @@ void size(Scratch& scratch, const State& state, const Plan& plan) {
     scratch.chain_error.assign(plan.chains.size(), 0.0);
     scratch.chain_slowed.assign(plan.chains.size(), {});
     scratch.body_contacts.resize(plan.colliding);
+    for (BodyContactScratch& each : scratch.body_contacts) each.listed = false;
+    scratch.listed.resize(plan.colliding > 0 ? state.position.size() : 0);
     scratch.chain_contacts.resize(plan.colliding > 0 ? plan.chains.size() : 0);
     scratch.cloths.resize(plan.grids.size());
     for (std::size_t i = 0; i < plan.grids.size(); ++i)

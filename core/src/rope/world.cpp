@@ -283,9 +283,9 @@ Result World::set_collides(BodyId a, BodyId b, bool on) {
     for (const BodyId each : {a, b}) {
         const Body* const body = find(each);
         if (body == nullptr) return missing("set_collides", each == a ? "a" : "b", "body", each.index);
-        if (body->kind != Body::Kind::Rope)
+        if (body->kind == Body::Kind::Hair)
             return Result(ErrorCode::InvalidArgument,
-                          "set_collides: only ropes can collide, not cloth or hair");
+                          "set_collides: hair cannot collide, only ropes and cloth");
     }
     const Collision wanted = detail::ordered(a, b);
     if (on) {

@@ -30,9 +30,9 @@
 // allocates nothing once the workspace has seen the world in its shape, unless more colliders are near than
 // ever before.
 //
-// Bodies that no link, tie or collision joins do not affect each other. Threads can share them, and a cloth of 8 192
-// particles or more: Workspace::use_threads. A rope is solved on one thread. Two limits are shared by such
-// bodies in proportion to size: max_pass_work, and that on searches for a way out of colliders.
+// Bodies that no link, tie or collision joins do not affect each other. Threads can share them, and a cloth
+// of 8 192 particles or more: Workspace::use_threads. A rope is solved on one thread. Two limits are shared
+// by such bodies in proportion to size: max_pass_work, and that on searches for a way out of colliders.
 #pragma once
 
 #include <span>
@@ -138,8 +138,8 @@ class World {
     Result untie(TieId tie) noexcept;
     const Tie* find(TieId tie) const noexcept;
 
-    /// Whether two ropes pass through each other, or one through itself. Initially they do. See
-    /// collision.hpp.
+    /// Whether two bodies, ropes or cloth, pass through each other, or one through itself. Initially they do.
+    /// See collision.hpp.
     Result set_collides(BodyId a, BodyId b, bool on);
     bool collides(BodyId a, BodyId b) const noexcept;
 
