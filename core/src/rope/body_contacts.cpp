@@ -6,8 +6,6 @@
 #include <limits>
 #include <tuple>
 
-#include "rope/segments.hpp"
-
 namespace tendril::rope {
 namespace {
 

@@ -1,23 +1,22 @@
-// The last check: no two segments cross in a substep.
+// The last check of a substep: no two segments may pass through each other.
 #include <algorithm>
 #include <cmath>
 
 #include "rope/body_contacts.hpp"
-#include "rope/segments.hpp"
 
 namespace tendril::rope {
 namespace {
 
 using glm::dvec3;
 
-constexpr int max_halvings_of_way = 6;  ///< of the way of a pair, in which it is checked
-constexpr int max_partings = 8;         ///< rounds
-constexpr double parted = 0.1;          ///< how far, relative to the thickness
-constexpr int max_shortenings = 12;
+constexpr int max_halvings_of_way = 6;  ///< how finely a pair's way is divided to check it
+constexpr int max_partings = 8;         ///< rounds of moving pairs back apart
+constexpr double parted = 0.1;          ///< the gap that this leaves, relative to the thickness
+constexpr int max_shortenings = 12;     ///< halvings, when they do not part
 
 }  // namespace
 
-/// Whether a segment went farther than the search expected.
+/// Whether a segment moved farther than the search allowed for.
 bool BodyContacts::outran() const {
     for (const std::uint32_t c : s_.chunks) {
         const Plan::Chunk& chunk = plan_.chunks[c];
@@ -34,8 +33,8 @@ bool BodyContacts::outran() const {
     return false;
 }
 
-/// Whether two segments cross on a straight way. They do not if one plane has each on its own side at both
-/// ends of it; if one has not, its halves are checked.
+/// Whether two segments cross while their ends move straight. They do not if a plane separates them at both
+/// ends of the way; if this one does not, both halves of the way are checked.
 bool BodyContacts::crosses(const Ends& from, const Ends& to, const dvec3& n, int depth,
                            Crossing& where) const {
     const double a = std::max(detail::dot(n, to.a0), detail::dot(n, to.a1));
@@ -52,7 +51,7 @@ bool BodyContacts::crosses(const Ends& from, const Ends& to, const dvec3& n, int
 }
 
 bool BodyContacts::crosses(const Pair& pair, Crossing& where) const {
-    if (!(pair.apart > 1e-9 * pair.thickness)) return false;  // it began like that: either side will do
+    if (!(pair.apart > 1e-9 * pair.thickness)) return false;  // they began in contact: either side will do
     const Ends to = ends_of(pair.a, pair.b, scratch_.place);
     const double a = std::max(detail::dot(pair.normal, to.a0), detail::dot(pair.normal, to.a1));
     const double b = std::min(detail::dot(pair.normal, to.b0), detail::dot(pair.normal, to.b1));
@@ -60,7 +59,7 @@ bool BodyContacts::crosses(const Pair& pair, Crossing& where) const {
     return crosses(ends_of(pair.a, pair.b, state_.position), to, pair.normal, max_halvings_of_way, where);
 }
 
-/// Moves the points that would cross back to their own sides.
+/// Moves two segments that would cross back to their own sides.
 void BodyContacts::part(const Pair& pair, const Crossing& where) {
     const Link &a = state_.links[pair.a], &b = state_.links[pair.b];
     const std::uint32_t particles[] = {a.a, a.b, b.a, b.b};
@@ -92,7 +91,8 @@ void BodyContacts::keep_apart() {
         if (any && outran()) search(scratch_.place);
     }
     if (!any) return;
-    // All together go only a part of the way: what did not cross on the whole of it does not on a part.
+    // Shortens the way of all particles alike: pairs that did not cross on the whole way do not on a part of
+    // it.
     for (int i = 0; i <= max_shortenings; ++i) {
         const double left = i < max_shortenings ? 0.5 : 0.0;
         each_particle([&](std::size_t k) {

@@ -5,7 +5,6 @@
 #include <tuple>
 
 #include "rope/body_contacts.hpp"
-#include "rope/segments.hpp"
 
 namespace tendril::rope {
 namespace {
