@@ -21,7 +21,7 @@ class HumanoidRuntime final : public Runtime {
     /// For the part's skin; kept until character or map change.
     const TwistSpread& twist(const HumanoidPart& part);
 
-    Loading loading;  ///< a file that is being read
+    Loading loading;  ///< what works in the background
     Solvers solvers;
     ClipLint lint;
     KeptMaps kept_maps;

@@ -92,12 +92,7 @@ void loaded_rows(const HumanoidPanel& panel, MoreRows& more) {
             panel.emit("humanoid.load", {{"path", file}});
     }
     explain("A character with its clips: .gltf, .glb, .vrm, .vrma, .fbx or .bvh. Enter reads it.");
-    if (const Loading& loading = panel.runtime.loading; loading.running()) {
-        note("Loading " + std::filesystem::path(loading.file()).filename().string() + " ...");
-        ImGui::ProgressBar(loading.part(), {-1.0f, 0.0f}, "");
-        if (row_button("Cancel", 1, true, "The current character stays")) panel.emit("humanoid.load.cancel");
-        end_row();
-    }
+    progress_row(panel, "humanoid.load");
     if (!loaded.file.empty()) {
         if (row_button("Stick figure", 1, true, "Goes back to the built-in figure"))
             panel.emit("humanoid.load");

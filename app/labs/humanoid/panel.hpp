@@ -51,6 +51,8 @@ void ground_rows(const HumanoidPanel& panel);
 /// Hand IK, and look-at.
 void hand_rows(const HumanoidPanel& panel);
 void look_rows(const HumanoidPanel& panel);
+/// How far the command is that works in the background; nothing if it does not.
+void progress_row(const HumanoidPanel& panel, const char* command);
 /// The findings of the motion lint, with their cures.
 void lint_rows(const HumanoidPanel& panel);
 /// Where to write the clip.

@@ -1,4 +1,4 @@
-// The first and last stages of a step: where the character is, how high the root is, where the feet go; the
+// The first and last stages of a step: placing the legs, raising the root, finding the feet's goals, and the
 // report.
 #include <algorithm>
 #include <cmath>
@@ -13,12 +13,12 @@ using namespace rig::detail;
 
 namespace {
 
-/// Metres and m/s. A clip whose hips move farther and faster than this in a step has jumped.
+/// Metres and m/s. If the hips move farther and faster than this in a step, the clip has jumped.
 constexpr double jump = 1.0, jump_speed = 20.0;
-/// A leg that could not reach is used again once what it is short of is within this part of pelvis_drop.
+/// A leg that could not reach is used again once it falls short by less than this part of pelvis_drop.
 constexpr double reach_again = 0.9;
 
-/// The transforms that a step may change, for blending and restoring.
+/// Keeps the transforms that a step may change, to blend or restore them.
 class Saved {
   public:
     Saved(Pose pose, std::size_t hips, const std::array<Limb, 2>& legs) noexcept : pose_(pose) {
@@ -76,7 +76,7 @@ bool FeetStep::place() noexcept {
     return true;
 }
 
-/// Along the character's forward, turned with the hips and with the leg.
+/// Poles point along the character's forward, turned with the hips and with the leg.
 void FeetStep::point_knees() noexcept {
     const glm::dquat turned = math::compose(hips_.rotation(), conjugate(plan_.hips_at_rest));
     for (std::size_t i = 0; i < 2; ++i) {
@@ -101,7 +101,8 @@ bool FeetStep::is_ground(const std::optional<GroundHit>& hit, double around) con
     return hit && hit->normal.y >= steepest_ && std::abs(hit->height - around) <= options_.max_step;
 }
 
-/// The ground below the hips, or else the highest, if above the clip's floor: nobody starts underground.
+/// The ground below the hips; failing that, the highest ground, if it is above the clip's floor: nobody
+/// starts underground.
 double FeetStep::first_base() const noexcept {
     const glm::dvec3& at = hips_.position;
     const auto near = ground_.below({at.x, at.y + options_.ray_start, at.z});
@@ -111,7 +112,7 @@ double FeetStep::first_base() const noexcept {
     return top && top->normal.y >= steepest_ && top->height >= floor_ ? top->height - floor_ : 0.0;
 }
 
-/// Mean height over the clip's floor; unchanged if there is nothing around to stand on.
+/// Mean height of the ground over the clip's floor; state_.base if there is nothing around to stand on.
 double FeetStep::ground_around() const noexcept {
     if (ground_.kind() == GroundKind::None) return 0.0;
     const double around = floor_ + state_.base, from = around + options_.max_step;

@@ -8,7 +8,7 @@
 
 namespace tendril::humanoid::detail {
 
-/// Metres: how near to the ground a foot must be to stand, including what its leg falls short by.
+/// A foot this near to the ground stands, metres; what its leg falls short by counts.
 inline constexpr double touching = 0.003;
 
 /// Advances a critically damped spring.
@@ -17,7 +17,7 @@ inline double step_spring(signal::SpringState<double>& spring, double half_life,
     const double strength = math::ln2 / (math::pi * half_life);
     return signal::step({.strength = strength, .critical_damping = 1.0}, spring, target, dt);
 }
-/// Overrides a spring's value; its velocity becomes that of the actual change, or stays if dt is 0.
+/// Overrides a spring's value. Its velocity follows from the change, or stays if dt is 0.
 inline void set(signal::SpringState<double>& spring, double before, double value, double dt) noexcept {
     spring.value = value;
     if (dt > 0.0) spring.velocity = (value - before) / dt;
@@ -39,7 +39,7 @@ class FeetStep {
 
     /// False if the pose is not finite.
     bool place() noexcept;
-    /// Then, in this order:
+    // Then, in this order:
     void ride() noexcept;
     void find_feet() noexcept;
     void lower_pelvis() noexcept;
@@ -76,10 +76,10 @@ class FeetStep {
     std::array<LimbPlacement, 2> legs_;
     std::array<FootClip, 2> clips_;
     std::array<FootGoal, 2> goals_;
-    std::array<glm::dvec3, 2> knees_, poles_;  // of the clip; where knees point
+    std::array<glm::dvec3, 2> knees_, poles_;  // of the clip; directions in which knees point
     double along_ = 0.0;                       // how far the hips were raised before the step
     std::array<double, 2> lifts_{};            // before the step
-    std::array<double, 2> short_of_{};         // distance of the leg's end from its target
+    std::array<double, 2> short_of_{};         // how far the leg's end is from its target
 };
 
 }  // namespace tendril::humanoid::detail

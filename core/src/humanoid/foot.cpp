@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "humanoid/foothold.hpp"
-#include "humanoid/swing.hpp"
-
 namespace tendril::humanoid::detail {
 namespace {
 

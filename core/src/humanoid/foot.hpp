@@ -1,6 +1,9 @@
 // One foot's part of a step: its lock, the ground below it, and its goal. Not installed.
 #pragma once
 
+#include <array>
+#include <optional>
+
 #include "rig/math.hpp"
 #include "tendril/humanoid/feet.hpp"
 
@@ -39,5 +42,45 @@ glm::dvec3 update_lock(FootState& foot, const FootClip& clip, const FootContext&
 /// Queries the ground and turns the foot by it; sets foot.alone if there is no ground to stand on.
 FootGoal find_goal(FootState& foot, const FootClip& clip, const glm::dvec3& eased,
                    const FootContext& context) noexcept;
+
+// Where it can stand with its whole sole on the ground (foothold.cpp).
+
+/// Height differences up to this are no step, metres.
+inline constexpr double step_over_plane = 0.02;
+
+inline double height_of_plane(const GroundHit& hit, double x, double z) noexcept {
+    return hit.height - (hit.normal.x * x + hit.normal.z * z) / hit.normal.y;
+}
+
+/// Why no foot can stand on what a ray found; No if one can.
+FootAlone judge(const std::optional<GroundHit>& hit, const FootContext& context) noexcept;
+
+/// The shift, horizontal, that takes a sole from where the clip puts it down to where it stands: whole on
+/// ground without a step in it, or, where treads are too short for that, with one end over the edge of the
+/// highest. 0 if it stands so already, or nowhere within reach. The shortest shift wins, but one near to
+/// `before` is preferred.
+glm::dvec3 find_foothold(const glm::dvec3& heel, const glm::dvec3& toe, double from, const glm::dvec3& before,
+                         const FootContext& context) noexcept;
+
+// How high it must be in the air to pass over the ground along its way (swing.cpp).
+
+/// A sole in the air, in the ground's space, and its way in this step.
+struct SoleInAir {
+    std::array<glm::dvec3, 3> points;  // heel, ball, toe, as high as they are now
+    glm::dvec3 moved;                  // horizontal, in this step, to where the points are now
+    glm::dvec3 velocity, before;       // of the clip, in this step and the one before, m/s
+    double left = 1e9;                 // how far it still goes, if it is about to land
+};
+
+struct OverWay {
+    /// How far the sole must be raised now so that each of its points is above the ground when it gets there,
+    /// rising at a steady speed: the upper envelope of the ground ahead. Negative if it is high enough.
+    double raise = -1e300;
+    /// The part of `moved` that takes it no nearer to an edge than it can rise.
+    double part = 1.0;
+};
+
+/// Both change continuously as the foot moves.
+OverWay over_way(const SoleInAir& sole, double from, const FootContext& context) noexcept;
 
 }  // namespace tendril::humanoid::detail

@@ -1,4 +1,5 @@
-#include "humanoid/foothold.hpp"
+// Where a foot can stand with its whole sole on the ground.
+#include "humanoid/foot.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,17 +9,17 @@ namespace {
 
 using namespace rig::detail;
 
-/// Parts of the sole's length where the ground below it is looked at. Between the two in the middle it must
-/// have ground below it.
+/// Where the ground below the sole is sampled, as parts of its length. It must have ground below the two in
+/// the middle.
 constexpr std::array<double, 4> looks_along{0.0, 0.4, 0.75, 1.0};
-/// A foothold is no farther than this part of break_distance.
+/// The distance of the farthest foothold, as a part of break_distance.
 constexpr double farthest_foothold = 0.75;
-/// How much a foothold's distance from the one before counts beside its own.
+/// How much the distance from the previous foothold counts, relative to that from where the clip stands.
 constexpr double staying = 0.5;
-/// Steps to the side that are tried, metres: for a sole that lies along an edge.
+/// Shifts to the side to try, metres, for a sole that lies along an edge.
 constexpr double aside[]{0.02, -0.02, 0.05, -0.05};
 
-/// A sole over the ground, lying flat.
+/// A flat sole over the ground.
 class SoleOver {
   public:
     SoleOver(const glm::dvec3& heel, const glm::dvec3& toe, double from, const FootContext& context) noexcept
@@ -33,7 +34,7 @@ class SoleOver {
     double size() const noexcept { return size_; }
 
     enum class Stand { Nowhere, Hanging, Whole };
-    /// How it stands when shifted, with `margin` to the next step before and behind it.
+    /// How it stands when shifted; a margin is ground to spare before the toe and behind the heel.
     Stand stand(const glm::dvec3& shift, double margin) const noexcept {
         std::array<double, looks_along.size()> heights;
         std::optional<GroundHit> first;
@@ -52,7 +53,7 @@ class SoleOver {
         if (!first || !holds(1) || !holds(2)) return Stand::Nowhere;
         return holds(0) && holds(3) ? Stand::Whole : Stand::Hanging;
     }
-    /// Calls `visit` with the distance from the heel of every step below the sole.
+    /// Calls `visit` with the distance from the heel to each step in the ground below the sole.
     void for_steps(auto visit) const noexcept {
         std::optional<GroundHit> before = below(times(along_, place(0, margin_)));
         double last = place(0, margin_);
@@ -116,7 +117,8 @@ glm::dvec3 find_foothold(const glm::dvec3& heel, const glm::dvec3& toe, double f
         const double size = length(shift);
         if (size > most) return;
         const double cost = size + staying * length(minus(shift, before));
-        // The whole sole with its margin is better than without, and that better than an end in the air.
+        // From best to worst: the whole sole with its margin; without it; one end in the air, with and
+        // without.
         if (best_rank == best_stand && cost >= least) return;
         const Stand wide = sole.stand(shift, margin),
                     close = wide == Stand::Whole ? wide : sole.stand(shift, 0.0);

@@ -1,25 +1,24 @@
-#include "humanoid/swing.hpp"
+// How high a foot in the air must be to clear the ground ahead.
+#include "humanoid/foot.hpp"
 
 #include <algorithm>
 #include <cmath>
-
-#include "humanoid/foothold.hpp"
 
 namespace tendril::humanoid::detail {
 namespace {
 
 using namespace rig::detail;
 
-/// The ground ahead of the foot is looked at this far, in so many looks; metres.
+/// How far ahead of the foot the ground is sampled, metres, and in how many samples.
 constexpr double farthest = 0.8;
 constexpr int looks = 8;
-/// The part of max_speed at which a foot rises for what is ahead, and how long before the edge it is up,
-/// seconds: its lift comes that much later than its goal.
+/// A foot rises for what is ahead at this part of max_speed, and aims to be up this many seconds before the
+/// edge, because its lift lags behind its goal by as much.
 constexpr double rising = 0.6, early = 0.04;
-/// A foot goes on gaining speed for this long, seconds.
+/// Seconds for which a foot that speeds up is taken to go on doing so.
 constexpr double gaining = 0.1;
 
-/// When a foot gets somewhere along its way, from its speed and how that changes.
+/// Predicts when a foot gets to a point along its way, from its speed and acceleration.
 class Pace {
   public:
     Pace(const SoleInAir& sole, double dt) noexcept : speed_(length(sole.velocity)) {
@@ -29,7 +28,7 @@ class Pace {
     }
     const glm::dvec3& along() const noexcept { return along_; }
     bool moves() const noexcept { return speed_ > 1e-9; }
-    /// Seconds; huge if it stops before.
+    /// Seconds; 1e9 if it stops short of it.
     double until(double way) const noexcept {
         if (!(way > 0.0)) return 0.0;
         if (!(speed_ > 1e-9)) return 1e9;
@@ -66,13 +65,13 @@ OverWay over_way(const SoleInAir& sole, double from, const FootContext& context)
     const auto plane = [&](const glm::dvec3& point) {
         return height_of_plane(*base, point.x - points[first].x, point.z - points[first].z);
     };
-    // Over the plane below the foremost point, which a foot follows at any speed.
+    // Height over the plane below the foremost point: a foot follows a slope at any speed.
     const auto height = [&](const glm::dvec3& point) {
         const auto hit = below(point);
         return judge(hit, context) == FootAlone::No ? hit->height - plane(point) : 0.0;
     };
     OverWay way;
-    // For all points that will be there.
+    // Raises every point that will come to `where`.
     const auto pass = [&](double where, double high) {
         for (std::size_t i = 0; i < 3; ++i) {
             if (at[i] > where + 1e-9) continue;

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "math/checks.hpp"
-#include "rope/body_links.hpp"
 #include "rope/geometry.hpp"
 #include "rope/hang.hpp"
 #include "rope/slots.hpp"

@@ -67,4 +67,30 @@ double kinetic_energy(double mass, const glm::dvec3& by, double h) noexcept;
 /// halfway, so theirs is the energy at the end.
 double elastic_energy(const Link& link, double compliance, double tension, const glm::dvec3& now,
                       const glm::dvec3& by) noexcept;
+/// Calls link(a, b, kind) for every link of a body of `rows` rows of `columns` particles, numbered from 0, in
+/// the order in which links are built and solved. A rope is a single row, hair a row for each strand.
+template <class Visit>
+void each_link(Body::Kind of, std::uint32_t columns, std::uint32_t rows, Visit link) {
+    const auto at = [&](std::uint32_t c, std::uint32_t r) { return r * columns + c; };
+    const auto along = [&](std::uint32_t step, Link::Kind kind) {
+        for (std::uint32_t r = 0; r < rows; ++r)
+            for (std::uint32_t c = 0; c + step < columns; ++c) link(at(c, r), at(c + step, r), kind);
+    };
+    const auto down = [&](std::uint32_t step, Link::Kind kind) {
+        for (std::uint32_t c = 0; c < columns; ++c)
+            for (std::uint32_t r = 0; r + step < rows; ++r) link(at(c, r), at(c, r + step), kind);
+    };
+    along(1, Link::Kind::Stretch);
+    if (of == Body::Kind::Cloth) {
+        down(1, Link::Kind::Stretch);
+        for (std::uint32_t r = 0; r + 1 < rows; ++r)
+            for (std::uint32_t c = 0; c + 1 < columns; ++c) {
+                link(at(c, r), at(c + 1, r + 1), Link::Kind::Shear);
+                link(at(c + 1, r), at(c, r + 1), Link::Kind::Shear);
+            }
+    }
+    if (of != Body::Kind::Rope) along(2, Link::Kind::Bend);
+    if (of == Body::Kind::Cloth) down(2, Link::Kind::Bend);
+}
+
 }  // namespace tendril::rope::detail

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "math/checks.hpp"
-#include "rope/body_links.hpp"
 #include "rope/build.hpp"
 #include "rope/rest_grid.hpp"
 #include "rope/slots.hpp"

@@ -1,6 +1,7 @@
 #include "app/labs/humanoid/character/character_commands.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <glm/common.hpp>
 #include <stdexcept>
 
@@ -240,7 +241,15 @@ void load(Workspace& workspace, const Arguments& given) {
     const std::string file = given.has("path") ? given.text("path") : std::string();
     if (given.has("path") && file.empty()) throw std::invalid_argument("path is empty");
     Loading& loading = humanoid_runtime(workspace).loading;
-    if (loads_beside(workspace, file)) return loading.begin(file, workspace.lab);
+    if (loads_beside(workspace, file))
+        return loading.begin({.command = "humanoid.load",
+                              .what = "Loading " + std::filesystem::path(file).filename().string(),
+                              .from = workspace.lab,
+                              .run = [file](LoadProgress& progress) -> Loading::Change {
+                                  return [character = load_character(file, &progress)](Workspace& now) {
+                                      show(now, character);
+                                  };
+                              }});
     SharedCharacter character = load_character(file);
     loading.cancel();
     show(workspace, std::move(character));
@@ -329,25 +338,26 @@ void set_t_pose(HumanoidPart& part, const Arguments& given) {
 void finish_loading(Workspace& workspace) {
     Loading& loading = humanoid_runtime(workspace).loading;
     if (!loading.running()) return;
-    SharedCharacter character;
+    const Loading::Work work = loading.work();
+    Loading::Change change;
     try {
-        character = loading.take();
+        change = loading.take();
     } catch (const std::exception& error) {
-        throw Refused(std::string("humanoid.load: ") + error.what());
+        throw Refused(work.command + ": " + error.what());
     }
     // A single undo step, as if the command had done all of it now.
     const Document before = workspace.document;
     Place from = workspace.place();
     // The file may have been opened in another lab, which closed then.
-    if (const auto camera = workspace.cameras.find(loading.from());
-        loading.from() != workspace.lab && camera != workspace.cameras.end()) {
-        from.lab = loading.from();
+    if (const auto camera = workspace.cameras.find(work.from);
+        work.from != workspace.lab && camera != workspace.cameras.end()) {
+        from.lab = work.from;
         from.camera = camera->second;
     }
-    show(workspace, std::move(character));
+    change(workspace);
     workspace.rewind.forget_from(workspace.moment);
     ++workspace.edition;
-    workspace.history.push(before.without(workspace.document), "humanoid.load", 0, from, workspace.place());
+    workspace.history.push(before.without(workspace.document), work.command, 0, from, workspace.place());
 }
 
 std::vector<std::string> bone_names() {
@@ -395,9 +405,9 @@ void add_character_commands(CommandTable& table) {
          .apply = load,
          .finish = finish_loading});
     table.add({.name = "humanoid.load.cancel",
-               .title = "Stop loading the character",
+               .title = "Stop loading or fixing",
                .arguments = {},
-               .help = "Stops loading a large file; the current character stays",
+               .help = "Stops loading a large file or fixing a long clip; the current character stays",
                .effect = Effect::Look,
                .apply = [](Workspace& workspace, const Arguments&) {
                    humanoid_runtime(workspace).loading.cancel();
@@ -504,11 +514,24 @@ void cure_clip(Workspace& workspace, const Arguments& given) {
     cure.node = given_text(given, "node");
     if (!cure.node.empty()) node_named(part, cure.node);
     if (given.has("frame")) cure.frame = static_cast<std::size_t>(given.integer("frame"));
-    CuredClip result = cured(part, cure);
-    HumanoidPart& now = workspace.document.edit<HumanoidPart>(humanoid_lab);
-    now.loaded = std::move(result.loaded);
-    measure_pace(now);
-    workspace.toast(result.text);
+    const auto put = [](Workspace& now, CuredClip result) {
+        HumanoidPart& changed = now.document.edit<HumanoidPart>(humanoid_lab);
+        changed.loaded = std::move(result.loaded);
+        measure_pace(changed);
+        now.toast(result.text);
+    };
+    if (!workspace.clock.measured || judged_soon(part)) return put(workspace, cured(part, cure));
+    humanoid_runtime(workspace).loading.begin(
+        {.command = "humanoid.cure",
+         .what = "Fixing " + cure.clip,
+         .from = workspace.lab,
+         .run = [was = part, cure, put](LoadProgress& progress) -> Loading::Change {
+             return [loaded = was.loaded, result = cured(was, cure, &progress), put](Workspace& now) {
+                 if (humanoid_part(now).loaded != loaded)
+                     throw Refused("humanoid.cure: the character has changed");
+                 put(now, result);
+             };
+         }});
 }
 
 }  // namespace
@@ -552,7 +575,8 @@ void add_humanoid_file_commands(CommandTable& table) {
                        clip_argument("clip", "which one; default: the chosen one, or the first")},
          .help = "Fixes what Motion lint has found in a clip, without a new fault; says what is left and why",
          .effect = Effect::Edit,
-         .apply = cure_clip});
+         .apply = cure_clip,
+         .finish = finish_loading});
 }
 
 }  // namespace tendril::app

@@ -42,34 +42,42 @@ SharedCharacter read_as(const LoadedCharacter& character, double metres, const F
     return loaded;
 }
 
-void Loading::begin(const std::string& file, const std::string& from) {
+Loading::~Loading() {
     cancel();
-    file_ = file;
-    from_ = from;
-    progress_ = std::make_unique<LoadProgress>();
-    done_ = false;
-    thread_ = std::thread([this] {
+    for (const auto& each : cancelled_) each->thread.join();
+}
+
+void Loading::begin(Work work) {
+    cancel();
+    job_ = std::make_unique<Job>();
+    job_->work = std::move(work);
+    job_->thread = std::thread([&job = *job_] {
         try {
-            read_ = load_character(file_, progress_.get());
+            job.change = job.work.run(job.progress);
         } catch (...) {
-            refused_ = std::current_exception();
+            job.refused = std::current_exception();
         }
-        done_ = true;
+        job.done = true;
     });
 }
 
 void Loading::cancel() {
-    if (!running()) return;
-    progress_->cancel();
-    thread_.join();
-    read_.reset();
-    refused_ = nullptr;
+    if (job_) {
+        job_->progress.cancel();
+        cancelled_.push_back(std::move(job_));
+    }
+    std::erase_if(cancelled_, [](const auto& each) {
+        if (!each->done) return false;
+        each->thread.join();
+        return true;
+    });
 }
 
-SharedCharacter Loading::take() {
-    thread_.join();
-    if (const std::exception_ptr refused = std::exchange(refused_, nullptr)) std::rethrow_exception(refused);
-    return std::exchange(read_, nullptr);
+Loading::Change Loading::take() {
+    const std::unique_ptr<Job> job = std::move(job_);
+    job->thread.join();
+    if (job->refused) std::rethrow_exception(job->refused);
+    return std::move(job->change);
 }
 
 bool loads_beside(const Workspace& workspace, const std::string& file) {

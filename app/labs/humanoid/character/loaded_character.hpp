@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdint>
 #include <exception>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -58,38 +59,52 @@ SharedCharacter load_character(const std::string& file, LoadProgress* progress =
 /// The same character with a unit of `metres` and other axes. Throws std::runtime_error.
 SharedCharacter read_as(const LoadedCharacter& character, double metres, const FileSpace& space);
 
-// Loads a large character file in the background. The current figure stays until loading succeeds.
+// Reads a large file, or fixes a long clip, in the background. The document stays until that succeeds.
 
 class Loading {
   public:
     /// Smaller files load fast enough to wait for.
     static constexpr std::uintmax_t large_file = 1u << 20;
 
+    /// Puts the result into the workspace.
+    using Change = std::function<void(Workspace&)>;
+    struct Work {
+        std::string command;                       ///< the undo step's
+        std::string what;                          ///< "Loading walk.bvh"
+        std::string from;                          ///< the open lab, to which undo goes back
+        std::function<Change(LoadProgress&)> run;  ///< in another thread
+    };
+
     Loading() = default;
-    /// Cancels, and waits for the reader.
-    ~Loading() { cancel(); }
+    /// Cancels, and waits.
+    ~Loading();
     Loading(const Loading&) = delete;
     Loading& operator=(const Loading&) = delete;
 
-    /// Starts reading; cancels a read in progress. `from`: the open lab, to which undo goes back.
-    void begin(const std::string& file, const std::string& from);
+    /// Cancels what is running.
+    void begin(Work work);
+    /// Does not wait for the thread, which stops when it next reports its progress.
     void cancel();
-    bool running() const { return thread_.joinable(); }
-    const std::string& file() const { return file_; }
-    const std::string& from() const { return from_; }
-    float part() const { return progress_->part(); }
+    bool running() const { return job_ != nullptr; }
+    /// While it runs.
+    const Work& work() const { return job_->work; }
+    float part() const { return job_->progress.part(); }
     /// Whether take() would return without waiting.
-    bool done() const { return running() && done_; }
-    /// Waits for the character and returns it. Throws what reading it threw. Nothing runs afterwards.
-    SharedCharacter take();
+    bool done() const { return running() && job_->done; }
+    /// Waits for the change and returns it. Throws what the work threw. Nothing runs afterwards.
+    Change take();
 
   private:
-    std::string file_, from_;
-    std::unique_ptr<LoadProgress> progress_ = std::make_unique<LoadProgress>();
-    std::atomic<bool> done_{false};
-    SharedCharacter read_;
-    std::exception_ptr refused_;
-    std::thread thread_;
+    struct Job {
+        Work work{};
+        LoadProgress progress{};
+        std::atomic<bool> done{false};
+        Change change{};
+        std::exception_ptr refused{};
+        std::thread thread{};
+    };
+    std::unique_ptr<Job> job_;
+    std::vector<std::unique_ptr<Job>> cancelled_;
 };
 
 /// Whether to load in the background: a large file, and a window whose user waits.

@@ -111,14 +111,18 @@ ClipLint::Judged ClipLint::wanted(const HumanoidPart& part) {
     return judged;
 }
 
+bool judged_soon(const HumanoidPart& part) {
+    const Clip* const clip = part.clip();
+    const double frames = clip ? clip->duration * humanoid::frame_rate(*clip) : 0.0,
+                 each = part.view.judged == JudgedClip::Result ? result_times : 1.0;
+    return each * frames * static_cast<double>(part.skeleton().size()) <= soon_judged;
+}
+
 const LintReport* ClipLint::report(const HumanoidPart& part, Solvers& solvers) {
     const Clip* const clip = part.clip();
     if (!clip) return nullptr;
     if (report_ && judged_ == wanted(part)) return &*report_;
-    const double frames = clip->duration * humanoid::frame_rate(*clip),
-                 each = part.view.judged == JudgedClip::Result ? result_times : 1.0;
-    if (each * frames * static_cast<double>(part.skeleton().size()) > soon_judged) return nullptr;
-    return judge(part, solvers);
+    return judged_soon(part) ? judge(part, solvers) : nullptr;
 }
 
 const LintReport* ClipLint::judge(const HumanoidPart& part, Solvers& solvers) {
@@ -153,28 +157,40 @@ std::string cured_text(const std::string& clip, std::size_t done, std::size_t le
 
 }  // namespace
 
-CuredClip cured(const HumanoidPart& part, const ClipCure& cure) {
+CuredClip cured(const HumanoidPart& part, const ClipCure& cure, LoadProgress* progress) {
     const std::vector<Clip>& clips = part.loaded->clips();
     const auto place = std::ranges::find(clips, cure.clip, &Clip::name);
     if (place == clips.end()) throw std::invalid_argument("the character has no clip \"" + cure.clip + "\"");
     Clip clip = *place;
     const std::optional<BodyLimits> limits = limits_for(part);
     const humanoid::LintSettings settings{.limits = limits ? &*limits : nullptr};
-    // Each cure leaves fewer findings, so that this ends. What could not be cured may be after another cure.
+    // Each cure leaves fewer findings, so that this ends. What could not be cured is tried once more after
+    // all others: each try takes as long as several lints of the whole clip.
     std::vector<Finding> left;
+    std::vector<std::string> refused;
     std::size_t before = 0;
-    for (bool goes_on = true; goes_on;) {
+    for (bool goes_on = true, any = false; goes_on;) {
         goes_on = false;
         left = lint(part.skeleton(), *part.map, clip, settings).findings;
         before = std::max(before, left.size());
         for (const Finding& each : left) {
             if (!each.has_cure || !is_meant(each, cure, part.skeleton())) continue;
+            if (std::ranges::find(refused, each.text) != refused.end()) continue;
+            report(progress, static_cast<double>(before - left.size() + refused.size()) /
+                                 static_cast<double>(before + 1));
             Expected<Clip> mended = humanoid::cure(part.skeleton(), *part.map, clip, each, settings);
-            if (!mended) continue;
+            if (!mended) {
+                refused.push_back(each.text);
+                continue;
+            }
             clip = std::move(mended).value();
-            goes_on = true;
+            goes_on = any = true;
             break;
         }
+        if (goes_on || !any || refused.empty()) continue;
+        refused.clear();
+        any = false;
+        goes_on = true;
     }
     const std::size_t now = left.size();
     std::erase_if(left, [&](const Finding& each) { return !is_meant(each, cure, part.skeleton()); });
@@ -262,6 +278,15 @@ void finding_row(const HumanoidPanel& panel, const Finding& finding, int id) {
 
 }  // namespace
 
+void progress_row(const HumanoidPanel& panel, const char* command) {
+    const Loading& loading = panel.runtime.loading;
+    if (!loading.running() || loading.work().command != command) return;
+    note(loading.work().what + " ...");
+    ImGui::ProgressBar(loading.part(), {-1.0f, 0.0f}, "");
+    if (row_button("Cancel", 1, true, "The current character stays")) panel.emit("humanoid.load.cancel");
+    end_row();
+}
+
 static void findings_rows(const HumanoidPanel& panel) {
     if (!panel.part.clip()) return note("Choose a clip to see what is wrong with it.");
     FieldRows(panel.part.view, "humanoid.view", panel.emit).rows("judged");
@@ -280,6 +305,7 @@ static void findings_rows(const HumanoidPanel& panel) {
     if (row_button("Fix all", 1, any, "Fixes all that can be fixed, as one step to undo"))
         panel.emit("humanoid.cure", {});
     end_row();
+    progress_row(panel, "humanoid.cure");
     for (std::size_t i = 0; i < std::min(findings.size(), max_rows); ++i)
         finding_row(panel, findings[i], static_cast<int>(i));
     if (findings.size() > max_rows) note("and " + std::to_string(findings.size() - max_rows) + " more");

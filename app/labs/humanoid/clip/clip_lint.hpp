@@ -46,6 +46,8 @@ struct CuredClip {
 };
 /// Cures the faults of a clip that match `cure`, until no more can be. Throws std::invalid_argument if none
 /// can.
-CuredClip cured(const HumanoidPart& part, const ClipCure& cure);
+CuredClip cured(const HumanoidPart& part, const ClipCure& cure, LoadProgress* progress = nullptr);
+/// Whether a frame can wait for the lint of the chosen clip, as it is judged.
+bool judged_soon(const HumanoidPart& part);
 
 }  // namespace tendril::app

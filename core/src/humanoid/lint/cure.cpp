@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "humanoid/input.hpp"
-#include "humanoid/lint/cure_foot.hpp"
+#include "humanoid/lint/lint.hpp"
 #include "humanoid/lint/tracks.hpp"
 #include "math/checks.hpp"
 

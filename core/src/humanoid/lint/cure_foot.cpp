@@ -7,7 +7,7 @@
 // length, the way of the foot that it follows decays exponentially. That is so for every leg that is solved
 // here, from the first frame in which it is that long to the last: a leg that is soft in one frame and
 // straight in the next would snap there.
-#include "humanoid/lint/cure_foot.hpp"
+#include "humanoid/lint/lint.hpp"
 
 #include <algorithm>
 #include <cmath>

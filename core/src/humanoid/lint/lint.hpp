@@ -48,8 +48,8 @@ struct Outlier {
     std::size_t until;  ///< the first that is back; the number of frames if none is
     double amount;      ///< how far it departs
 };
-/// Finds departures over `minimum` and over three times the change of the motion around them. `moves[i]` is
-/// the motion from frame i - 1 to frame i; moves[0] is not read.
+/// Finds departures over `minimum` that stand out from the motion around them. `moves[i]` is the motion from
+/// frame i - 1 to frame i; moves[0] is not read.
 std::vector<Outlier> outliers(const std::vector<glm::dvec3>& moves, double minimum);
 
 /// A factor for thresholds that are given for 60 frames per second: at fewer, more happens in each frame.
@@ -66,5 +66,14 @@ glm::dvec3 step_between(const glm::dquat& from, const glm::dquat& to) noexcept;
 std::optional<double> size_of_clip(const Skeleton& skeleton, const Clip& clip);
 /// The rotation that turns a clip upright, if its figure walks lying on its side; otherwise nullopt.
 std::optional<glm::dquat> upright_turn(const Skeleton& skeleton, const BoneMap& map, const Clip& clip);
+
+struct FootCure {
+    double ease = 0.15;     ///< seconds of blending into the clip before and after
+    double nearer = 0.005;  ///< metres that soft IK brings a foot nearer to the hip at a leg's full length
+};
+
+/// The clip without the fault: the foot stands, or its leg no longer snaps. Refuses a finding that is not one
+/// of the clip's.
+Expected<Clip> cure_foot(const Check& check, const Finding& finding, const FootCure& how);
 
 }  // namespace tendril::humanoid::lint_detail

@@ -112,6 +112,36 @@ TEST_F(HumanoidLoading, one_that_is_cancelled_or_refused_leaves_what_is_there) {
     EXPECT_FALSE(workspace_.history.can_undo());
 }
 
+/// 120 000 joints to judge: more than a frame has time for.
+TEST_F(HumanoidLoading, a_long_clip_is_fixed_beside_the_frames) {
+    std::string text = large_bvh(20);
+    std::size_t row = text.find("MOTION");
+    for (int i = 0; i < 3000; ++i) row = text.find('\n', row) + 1;
+    text.replace(text.find(" 0\n", row), 3, " 60\n");
+    load(text);
+    wait();
+    const SharedCharacter before = humanoid_part(workspace_).loaded;
+    table_.run(workspace_, "humanoid.cure", Json::object());
+    EXPECT_TRUE(lab_.working(workspace_)) << "the command does not wait";
+    EXPECT_EQ(humanoid_part(workspace_).loaded, before);
+    table_.run(workspace_, "humanoid.load.cancel", Json::object());
+    EXPECT_FALSE(lab_.working(workspace_));
+    table_.run(workspace_, "humanoid.cure", Json::object());
+    wait();
+    EXPECT_EQ(humanoid_part(workspace_).loaded->cures.size(), 1u);
+    EXPECT_EQ(workspace_.history.undo_label(), "humanoid.cure");
+    ASSERT_FALSE(workspace_.ui.toasts.empty());
+    EXPECT_TRUE(test::says(workspace_.ui.toasts.back().text, "1 fault fixed none left"));
+    // A character that comes meanwhile stays.
+    const auto other = std::make_shared<const LoadedCharacter>(*before);
+    workspace_.document.edit<HumanoidPart>(humanoid_lab).loaded = before;
+    table_.run(workspace_, "humanoid.cure", Json::object());
+    workspace_.document.edit<HumanoidPart>(humanoid_lab).loaded = other;
+    wait();
+    EXPECT_EQ(humanoid_part(workspace_).loaded, other);
+    EXPECT_TRUE(test::says(workspace_.ui.toasts.back().text, "character has changed"));
+}
+
 TEST_F(HumanoidLoading, the_last_of_several_is_the_one_that_comes) {
     load(large_bvh(20));
     load(large_bvh(14));
