@@ -376,6 +376,30 @@ TEST(HumanoidRetarget, feet_stand_level_on_legs_of_unequal_length) {
     EXPECT_NEAR(sum[0] / count[0], sum[1] / count[1], 0.003);
 }
 
+TEST(HumanoidRetarget, toes_that_point_up_in_a_zero_pose_lie_flat_on_the_ground) {
+    const RetargetFigure from{make_figure({}), match_bones(make_figure({}))};
+    RetargetFigure to = from;
+    std::vector<Node> nodes = to.skeleton.nodes();
+    for (const char* name : {"LeftToes", "RightToes"})
+        nodes[*to.skeleton.find(name)].rest.rotation =
+            glm::angleAxis(glm::radians(-60.0), glm::dvec3(1, 0, 0));
+    to.skeleton = *Skeleton::make(std::move(nodes));
+    const Clip walk = long_walk(from);
+    const auto made = retarget({from.skeleton, from.map}, walk, {to.skeleton, to.map});
+    ASSERT_TRUE(made) << made.message();
+    const auto pitch = [](const RetargetFigure& body, const std::vector<Placement>& all) {
+        const glm::dvec3 way =
+            all[*body.skeleton.find("LeftToes end")].position - all[*body.skeleton.find("LeftToes")].position;
+        return way.y / glm::length(way);
+    };
+    const double level = pitch(from, from.placed(rest_pose(from.skeleton)));
+    for (const double time : {0.0, 0.4, 0.8, 1.2}) {
+        const double before = pitch(from, from.at(walk, time)) - level,
+                     after = pitch(to, to.at(made->clip, time));
+        EXPECT_NEAR(before, after, 0.1) << "at " << time;
+    }
+}
+
 TEST(HumanoidRetarget, bones_of_the_palm_beside_the_hand_turn_with_it) {
     RetargetDice random(13);
     const RetargetFigure from{make_figure({}), match_bones(make_figure({}))};

@@ -20,7 +20,8 @@ struct LegBones {
 constexpr LegBones leg_bones[2]{{Bone::LeftUpperLeg, Bone::LeftLowerLeg, Bone::LeftFoot, Bone::LeftToes},
                                 {Bone::RightUpperLeg, Bone::RightLowerLeg, Bone::RightFoot, Bone::RightToes}};
 
-constexpr double level_feet = 0.01;  // of a leg's length between the heights of both feet at rest
+constexpr double upright_toes = 0.7;  // of their length that they rise or fall: over 45 degrees
+constexpr double level_feet = 0.01;   // of a leg's length between the heights of both feet at rest
 
 }  // namespace
 
@@ -33,7 +34,7 @@ RetargetBody::RetargetBody(const MappedSkeleton& given) : body(given), at(facing
     for (const Placement& each : placed) rotations.push_back(each.rotation());
     // Forward may be reversed (Facing): the frame stays right-handed.
     frame = Placement{{cross(at.up, at.forward), at.up, at.forward}, glm::dvec3(0.0)}.rotation();
-    find_feet();
+    find_feet(point_toes());
     for (const bool left : {true, false}) {
         find_fingers(left);
         straighten_hand(left);
@@ -159,7 +160,21 @@ std::optional<glm::dquat> RetargetBody::palm_down(bool left) const {
 
 // -------------------------------------------------------------------------------------------------- feet
 
-void RetargetBody::find_feet() {
+/// In the zero pose of some files the toes point up or down.
+bool RetargetBody::point_toes() {
+    bool turned = false;
+    for (const LegBones& bones : leg_bones) {
+        if (!has(bones.toes)) continue;
+        const std::size_t toes = node(bones.toes);
+        const auto along = direction_of(way(toes, farthest_below(body.skeleton, placed, toes)), 1e-9);
+        if (!along || std::abs(dot(*along, at.up)) < upright_toes) continue;
+        turn(toes, minimal_rotation(*along, at.forward));
+        turned = true;
+    }
+    return turned;
+}
+
+void RetargetBody::find_feet(bool toes_are_turned) {
     double height = 0.0, length_of_both = 0.0;
     has_legs = true;
     for (const LegBones& bones : leg_bones) {
@@ -178,10 +193,13 @@ void RetargetBody::find_feet() {
         return half_angle_between(rest[node(bones.foot)].rotation(), rotations[node(bones.foot)]) < 1e-3;
     };
     std::vector<Node> nodes = body.skeleton.nodes();
-    const bool as_it_rests = stands(leg_bones[0]) && stands(leg_bones[1]);
+    const bool as_it_rests = !toes_are_turned && stands(leg_bones[0]) && stands(leg_bones[1]);
     if (!as_it_rests) {
-        const std::vector<rig::Transform> pose = t_pose(body.skeleton, body.map);
-        for (std::size_t i = 0; i < nodes.size(); ++i) nodes[i].rest = pose[i];
+        for (Node& each : nodes) {
+            const auto i = static_cast<std::size_t>(&each - nodes.data());
+            each.rest = relative(
+                each.parent < 0 ? Placement() : placed[static_cast<std::size_t>(each.parent)], placed[i]);
+        }
         rest = placed;
     }
     for (Node& each : nodes) each.keys.reset();

