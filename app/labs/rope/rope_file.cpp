@@ -143,8 +143,8 @@ std::shared_ptr<Part> RopePart::load(const Json& json, const std::string& where)
     } catch (const std::logic_error& error) {  // the library's message, with the JSON path
         reading->fail(error.what());
     }
-    if (const auto rivals = place.optional("rivals"))
-        rivals->for_each("rivals", 2, [&](const JsonPlace& each) {
+    if (const auto racing = place.optional("rivals"))
+        racing->for_each("rivals", 2, [&](const JsonPlace& each) {
             Rival rival;
             try {
                 rival.world = std::make_shared<const NamedWorld>(load_world(each));
