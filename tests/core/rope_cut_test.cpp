@@ -174,14 +174,14 @@ TEST(RopeCut, TornClothIsParted) {
     }
     for (int i = 0; i < 60; ++i) world.advance(1.0 / 60.0, workspace);
     ASSERT_EQ(world.state().bodies.size(), 1u);
-    rope::Edited edited = allowed(rope::part_cloth(world, cloth));
+    rope::Edited edited = allowed(rope::part_body(world, cloth));
     EXPECT_FALSE(edited.pieces.empty());
     expect_parted(edited.world.state());
     EXPECT_EQ(total_mass(edited.world), total_mass(world));
     for (std::size_t i = 0; i < world.size(); ++i)
         EXPECT_EQ(edited.world.position(edited.becomes[i]), world.position(i));
     // Nothing is left to part.
-    EXPECT_TRUE(allowed(rope::part_cloth(edited.world, cloth)).pieces.empty());
+    EXPECT_TRUE(allowed(rope::part_body(edited.world, cloth)).pieces.empty());
 }
 
 /// A piece costs what it is, and moves as a whole cloth of its shape.
@@ -280,7 +280,7 @@ TEST(RopeCut, RandomCutsKeepParticlesMassAndMomentum) {
             for (std::size_t b = 0; b < world.state().bodies.size(); ++b) {
                 const Body& each = world.state().bodies[b];
                 if (each.kind == Body::Kind::Cloth && each.tear > 0.0f)
-                    world = std::move(allowed(rope::part_cloth(world, each.id)).world);
+                    world = std::move(allowed(rope::part_body(world, each.id)).world);
             }
             ASSERT_TRUE(all_finite(World(world.state())));
             expect_parted(world.state());

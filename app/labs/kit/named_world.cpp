@@ -194,8 +194,8 @@ Became NamedWorld::reverse(std::string_view rope) {
 Became NamedWorld::cut_cloth(std::string_view cloth, std::span<const glm::vec2> line) {
     return take(cloth, rope::cut_cloth(world_, id(cloth), line));
 }
-Became NamedWorld::part_cloth(std::string_view cloth) {
-    return take(cloth, rope::part_cloth(world_, id(cloth)));
+Became NamedWorld::part_body(std::string_view body) {
+    return take(body, rope::part_body(world_, id(body)));
 }
 
 void NamedWorld::pin(std::size_t particle, const glm::dvec3& at, double seconds) {

@@ -69,7 +69,7 @@ class NamedWorld {
     // Pieces that come off a body have its name with the next free number.
     Became cut(std::string_view rope, std::size_t segment);
     Became cut_cloth(std::string_view cloth, std::span<const glm::vec2> line);
-    Became part_cloth(std::string_view cloth);
+    Became part_body(std::string_view body);
     Became resample(std::string_view body, const rope::Resolution& to);
     Became reverse(std::string_view rope);
     // As in rope::World.

@@ -270,9 +270,9 @@ void part_torn(RopePart& part, NamedWorld& world, const NamedWorld& before) {
     const std::vector<std::size_t> now = links_of(state), then = links_of(before.state());
     std::vector<std::string> torn;
     for (std::size_t b = 0; b < now.size(); ++b)
-        if (now[b] < then[b] && state.bodies[b].kind == rope::Body::Kind::Cloth)
+        if (now[b] < then[b] && state.bodies[b].kind != rope::Body::Kind::Hair)
             torn.push_back(world.name(state.bodies[b]));
-    for (const std::string& each : torn) follow_particles(part, world, each, world.part_cloth(each));
+    for (const std::string& each : torn) follow_particles(part, world, each, world.part_body(each));
 }
 
 void resample_body(RopeEdit& edit, const std::string& body, const rope::Resolution& to) {

@@ -88,7 +88,7 @@ std::shared_ptr<const NamedWorld> released(std::shared_ptr<const NamedWorld> wor
 /// Selection and drag follow their particles of a body that was edited in the world: the selection stays with
 /// the active one, on its piece, and a drag of several that are no longer on one piece ends.
 void follow_particles(RopePart& part, NamedWorld& world, const std::string& body, const Became& became);
-/// Makes what has come off the cloths that tore since `before` cloths of their own.
+/// Makes what has come off the bodies that tore since `before` bodies of their own.
 void part_torn(RopePart& part, NamedWorld& world, const NamedWorld& before);
 /// Divides a body more or less finely; ends a drag that holds it. The selection stays on its particles, or
 /// the nearest to them. Throws Refused if there would be too many.

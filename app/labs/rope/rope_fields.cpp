@@ -119,9 +119,9 @@ std::span<const FieldText> field_texts<BodySettings>() {
         compliance_row("bend", 1,
                        "How easily a cloth or a hair bends. Higher values are limper: a limp cloth crumples "
                        "at its free edge, as it does not collide with itself yet."),
-        tears_row(
-            "tear", true,
-            "The strain at which a cloth tears: at 10 %, in commands 0.1, it is a tenth longer. 0: never.")};
+        tears_row("tear", true,
+                  "The strain at which a cloth or rope tears: at 10 %, in commands 0.1, it is a tenth "
+                  "longer. 0: never.")};
     return texts;
 }
 
@@ -339,6 +339,7 @@ BodySettings settings_of(const NamedWorld& world, const rope::Body& body) {
                           .stretch = compliance(Kind::Stretch)};
     if (const double density = world.world().density(body); density > 0.0) settings.density = density;
     if (body.kind != rope::Body::Kind::Rope) settings.bend = compliance(Kind::Bend);
+    if (body.kind != rope::Body::Kind::Hair) settings.tear = body.tear;
     if (body.kind != rope::Body::Kind::Cloth) {
         settings.segments = static_cast<int>(now.columns) - 1;
         return settings;
@@ -347,7 +348,6 @@ BodySettings settings_of(const NamedWorld& world, const rope::Body& body) {
     settings.columns = static_cast<int>(now.columns);
     settings.rows = static_cast<int>(now.rows);
     settings.shear = compliance(Kind::Shear);
-    settings.tear = body.tear;
     return settings;
 }
 

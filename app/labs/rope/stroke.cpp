@@ -160,10 +160,10 @@ class KnifeStroke {
 
     /// Whether a line turns at `at`, by more than a threshold of a cell.
     static bool bends(glm::vec2 before, glm::vec2 at, glm::vec2 after) {
-        constexpr float least = 0.01f;
+        constexpr float threshold = 0.01f;
         const glm::vec2 whole = after - before;
         const float length = glm::length(whole);
-        return length == 0.0f || std::abs(cross_of(whole, at - before)) > least * length;
+        return length == 0.0f || std::abs(cross_of(whole, at - before)) > threshold * length;
     }
 
     /// One line through all: from an edge to the next it runs beyond the cloth, or in a gap.

@@ -32,14 +32,14 @@ bool crosses(dvec2 a, dvec2 b, dvec2 p, dvec2 q) {
     return reached >= -near && reached <= 1.0 + near;
 }
 
-/// A piece of a cloth.
-struct ClothPiece {
+/// A piece of a body.
+struct BodyPiece {
     std::vector<std::size_t> particles{};  ///< numbered in the body, ascending
     std::size_t pins = 0;
 };
 
 /// In the order of their first particles.
-std::vector<ClothPiece> pieces_of(const State& state, const Body& body, std::vector<std::size_t>& piece_of) {
+std::vector<BodyPiece> pieces_of(const State& state, const Body& body, std::vector<std::size_t>& piece_of) {
     std::vector<std::size_t> parent(body.count);  // union-find; each set is known by its first particle
     std::iota(parent.begin(), parent.end(), std::size_t{0});
     const auto first_of = [&](std::size_t i) {
@@ -51,7 +51,7 @@ std::vector<ClothPiece> pieces_of(const State& state, const Body& body, std::vec
         const std::size_t a = first_of(link.a - body.first), b = first_of(link.b - body.first);
         parent[std::max(a, b)] = std::min(a, b);
     }
-    std::vector<ClothPiece> pieces;
+    std::vector<BodyPiece> pieces;
     piece_of.assign(body.count, 0);
     for (std::size_t i = 0; i < body.count; ++i) {
         const std::size_t first = first_of(i);
@@ -65,11 +65,11 @@ std::vector<ClothPiece> pieces_of(const State& state, const Body& body, std::vec
 }
 
 /// The body with its particles in the order of the pieces.
-detail::Taken sorted_by_piece(const State& state, const Body& body, const std::vector<ClothPiece>& pieces,
+detail::Taken sorted_by_piece(const State& state, const Body& body, const std::vector<BodyPiece>& pieces,
                               const std::vector<std::size_t>& piece_of, std::vector<std::size_t>& becomes) {
     detail::Taken taken{.row = body.row};
     becomes.resize(body.count);
-    for (const ClothPiece& piece : pieces)
+    for (const BodyPiece& piece : pieces)
         for (const std::size_t i : piece.particles) {
             becomes[i] = taken.position.size();
             taken.position.push_back(state.position[body.first + i]);
@@ -93,12 +93,12 @@ detail::Taken sorted_by_piece(const State& state, const Body& body, const std::v
     return taken;
 }
 
-Edited taken_apart(State state, BodyId cloth) {
-    const Body whole = *detail::find_in(state.bodies, cloth);
+Edited taken_apart(State state, BodyId id) {
+    const Body whole = *detail::find_in(state.bodies, id);
     std::vector<std::size_t> piece_of;
-    std::vector<ClothPiece> pieces = pieces_of(state, whole, piece_of);
+    std::vector<BodyPiece> pieces = pieces_of(state, whole, piece_of);
     const auto stays =
-        std::max_element(pieces.begin(), pieces.end(), [](const ClothPiece& a, const ClothPiece& b) {
+        std::max_element(pieces.begin(), pieces.end(), [](const BodyPiece& a, const BodyPiece& b) {
             return a.pins != b.pins ? a.pins < b.pins : a.particles.size() < b.particles.size();
         });
     const auto number = static_cast<std::size_t>(stays - pieces.begin());
@@ -106,17 +106,20 @@ Edited taken_apart(State state, BodyId cloth) {
     for (std::size_t& each : piece_of) each = each == number ? 0 : each < number ? each + 1 : each;
     Edited edited;
     const detail::Taken taken = sorted_by_piece(state, whole, pieces, piece_of, edited.becomes);
-    detail::put_back(state, cloth, taken, edited.becomes);
+    detail::put_back(state, id, taken, edited.becomes);
 
-    auto at = detail::find_in(state.bodies, cloth) - state.bodies.data();
+    auto at = detail::find_in(state.bodies, id) - state.bodies.data();
     std::size_t first = whole.first;
-    for (const ClothPiece& piece : pieces) {
+    for (const BodyPiece& piece : pieces) {
         Body body = whole;
         body.first = first, body.count = piece.particles.size();
         first += body.count;
         body.cells.clear();
-        for (const std::size_t i : piece.particles)
-            body.cells.push_back(static_cast<std::uint32_t>(whole.cell(i)));
+        if (whole.kind == Body::Kind::Rope)
+            body.row = body.count;
+        else
+            for (const std::size_t i : piece.particles)
+                body.cells.push_back(static_cast<std::uint32_t>(whole.cell(i)));
         detail::crop(body);
         if (&piece == &pieces.front()) {
             state.bodies[static_cast<std::size_t>(at)] = std::move(body);
@@ -124,7 +127,7 @@ Edited taken_apart(State state, BodyId cloth) {
             body.id = detail::take_slot<BodyId>(state.body_slots, state.bodies.size());
             edited.pieces.push_back(body.id);
             state.bodies.insert(state.bodies.begin() + ++at, std::move(body));
-            detail::collide_alike(state, cloth, edited.pieces.back());
+            detail::collide_alike(state, id, edited.pieces.back());
         }
         detail::measure_stretch(state, state.bodies[static_cast<std::size_t>(at)]);
     }
@@ -132,25 +135,23 @@ Edited taken_apart(State state, BodyId cloth) {
     return edited;
 }
 
-/// Refuses what is no cloth.
-Result require_cloth(const char* op, const World& world, BodyId cloth) {
-    const Body* const body = world.find(cloth);
-    if (body == nullptr) return detail::missing(op, "cloth", "body", cloth.index);
-    if (body->kind == Body::Kind::Cloth) return {};
-    return {ErrorCode::InvalidArgument, "only cloth is cut along a line, not a rope or hair"};
-}
-
 }  // namespace
 
-Expected<Edited> part_cloth(const World& world, BodyId cloth) {
-    if (const Result bad = require_cloth("part_cloth", world, cloth); !bad) return bad;
-    return taken_apart(world.state(), cloth);
+Expected<Edited> part_body(const World& world, BodyId id) {
+    const Body* const body = world.find(id);
+    if (body == nullptr) return detail::missing("part_body", "body", "body", id.index);
+    if (body->kind == Body::Kind::Hair)
+        return Result(ErrorCode::InvalidArgument, "only ropes and cloth come apart, not hair");
+    return taken_apart(world.state(), id);
 }
 
 Expected<Edited> cut_cloth(const World& world, BodyId cloth, std::span<const glm::vec2> line) {
     const char* const op = "cut_cloth";
-    if (const Result bad = require_cloth(op, world, cloth); !bad) return bad;
-    const Body& body = *world.find(cloth);
+    const Body* const found = world.find(cloth);
+    if (found == nullptr) return detail::missing(op, "cloth", "body", cloth.index);
+    if (found->kind != Body::Kind::Cloth)
+        return Result(ErrorCode::InvalidArgument, "only cloth is cut along a line, not a rope or hair");
+    const Body& body = *found;
     if (line.size() < 2) return refused(op, "line", "2 points or more", line.size());
     const float most[] = {static_cast<float>(body.row), static_cast<float>(body.rows())};
     for (std::size_t i = 0; i < line.size(); ++i)

@@ -495,7 +495,7 @@ Expected<Edited> resample(const World& world, BodyId id, const Resolution& to) {
     detail::crop(now);
     Expected<Edited> made = edited(std::move(state), std::move(becomes));
     if (!made || !gaps) return made;
-    Expected<Edited> apart = part_cloth(made->world, id);
+    Expected<Edited> apart = part_body(made->world, id);
     for (std::size_t& each : made->becomes) each = apart->becomes[each];
     apart->becomes = std::move(made->becomes);
     return apart;

@@ -164,6 +164,23 @@ TEST_F(RopeCutCloth, TornClothComesApart) {
     EXPECT_GT(world().state().bodies.size(), 1u);
 }
 
+/// A rope tears where it is pulled apart, and both ends go on as ropes.
+TEST_F(RopeCutCloth, ARopeTears) {
+    single_rope(8);
+    run("rope.set", {{"rope", "rope"}, {"tear", 0.1}});
+    run("rope.pin", {{"rope", "rope"}, {"particle", 0}});
+    run("rope.pin", {{"rope", "rope"}, {"particle", 8}, {"at", {2.5, 2, 0}}});
+    wait(60);
+    ASSERT_GT(world().state().bodies.size(), 1u);
+    std::size_t particles = 0;
+    for (const rope::Body& each : world().state().bodies) {
+        EXPECT_EQ(each.row, each.count);
+        particles += each.count;
+    }
+    EXPECT_EQ(particles, 9u);
+    EXPECT_LT(world().length_error(), 0.01);
+}
+
 TEST_F(RopeCutCloth, RefusalsSayWhatAndWhere) {
     run("rope.add", {{"from", {0, 2, 0}}, {"to", {1, 2, 0}}});
     const auto says = [&](const Json& arguments, const char* words) {

@@ -30,8 +30,8 @@ struct Body {
     /// Empty: the grid is full.
     std::vector<std::uint32_t> cells{};
     float radius = 0.02f;  ///< metres: half of its thickness, the distance of its particles from colliders
-    /// Strain at which a stretch link of a cloth tears, 0.1 for 10 % over its rest; 0: never. Shear and bend
-    /// links tear at 0.5 more.
+    /// Strain at which a stretch link tears, 0.1 for 10 % over its rest; 0: never. Shear and bend links tear
+    /// at 0.5 more. A torn body is one until part_body().
     float tear = 0.0f;
     /// Coulomb's coefficient between it and colliders, 0 to max_friction; empty: the settings'.
     std::optional<float> friction{};

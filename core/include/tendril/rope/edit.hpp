@@ -43,10 +43,10 @@ Expected<Edited> resample(const World& world, BodyId body, const Resolution& to)
 /// Swaps the ends of a rope. Pins, ties and motion stay where they are.
 Expected<Edited> reverse(const World& world, BodyId rope);
 
-/// Makes each piece of a cloth that no link joins to the others a cloth of its own, with its particles and
-/// what belongs to them: velocities, pins and ties. The one with most pins, or else most particles, stays the
-/// body that it was. Costs as much as a copy of the world, also if nothing has come apart.
-Expected<Edited> part_cloth(const World& world, BodyId cloth);
+/// Makes each piece of a cloth or rope that no link joins to the others a body of its own, with its particles
+/// and what belongs to them: velocities, pins and ties. The one with most pins, or else most particles, stays
+/// the body that it was. Costs as much as a copy of the world, also if nothing has come apart.
+Expected<Edited> part_body(const World& world, BodyId body);
 
 /// Cuts a cloth along a line through points of its own grid, each {column, row}, up to one beyond its edge:
 /// removes the links that cross it, and parts what comes apart. What is on the line belongs to its left.
