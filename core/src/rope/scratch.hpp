@@ -77,13 +77,13 @@ struct BodyContactScratch {
         double radius = 0.0;
         double reach = 0.0;  ///< the part of it beyond the feature as listed
         std::uint32_t body = 0;
-        std::uint32_t link = 0;  ///< of a segment
+        std::uint32_t link = 0;  ///< of a segment; of a diagonal, a number beyond all links
         std::uint32_t count = 0;
         std::array<std::uint32_t, 3> points{};
     };
     /// What may meet: two segments, or a particle and a triangle.
     struct Candidate {
-        std::uint32_t a = 0, b = 0;             ///< links of segments, a < b
+        std::uint32_t a = 0, b = 0;             ///< of segments: links, a < b
         std::array<std::uint32_t, 4> points{};  ///< particles: two of a and two of b, or one and three
         std::uint32_t split = 2;                ///< how many are of a
         std::uint32_t body_a = 0, body_b = 0;
