@@ -404,8 +404,9 @@ void play_thrown(int seed) {
         if (substep % 4 == 3) {
             ASSERT_EQ(pierced(world), 0) << "substep " << substep;
         }
-        if (world.settings().solver != rope::Solver::Direct) continue;
-        ASSERT_LT(world.energy() - energy, 0.3 * all) << "substep " << substep;
+        // Ties that close do work.
+        if (world.settings().solver != rope::Solver::Direct || !world.state().ties.empty()) continue;
+        ASSERT_LT(world.energy() - energy, 0.1 * all) << "substep " << substep;
     }
 }
 

@@ -223,13 +223,9 @@ struct IslandScratch {
     std::size_t block_offset = 0;
     ContactScratch contact;
     std::vector<ClothContact> cloth_contacts, earlier_contacts;
-    /// Of the cloths of the island: their approximate length, metres, the energy in their links and its
-    /// gain, joules.
-    struct {
-        double length = 0.0, elastic = 0.0, gained = 0.0;
-    } cloth_energy;
-    tendril::detail::ForkJoin loops;  ///< of a cloth; idle threads help
-    Advance done;                     ///< in this substep; `passes`: maximum over the islands
+    std::vector<Scratch::Slowed> part_slowed;  ///< of the island's parts
+    tendril::detail::ForkJoin loops;           ///< of a cloth; idle threads help
+    Advance done;                              ///< in this substep; `passes`: maximum over the islands
 };
 
 /// What the solvers of an island share in one fixed substep. They write only what belongs to the island, so
@@ -249,7 +245,11 @@ class IslandStep {
 
     template <class Visit>
     void each_particle(Visit visit) const {
-        for (const std::uint32_t body : Plan::part(plan_.bodies, island_.bodies)) {
+        each_particle_of(island_, visit);
+    }
+    template <class Visit>
+    void each_particle_of(const Plan::Island& island, Visit visit) const {
+        for (const std::uint32_t body : Plan::part(plan_.bodies, island.bodies)) {
             const std::size_t first = state_.bodies[body].first, end = first + state_.bodies[body].count;
             for (std::size_t i = first; i < end; ++i) visit(i);
         }
