@@ -169,7 +169,8 @@ void BodyContacts::list_candidates() {
     });
 }
 
-/// The segments that begin in a chunk; if it meets cloth its particles, and if it is cloth its triangles.
+/// The segments that begin in a chunk, if it meets cloth its particles, and of a cloth the triangles and
+/// their diagonals.
 void BodyContacts::add_features(const Plan::Chunk& chunk) {
     const Body& body = state_.bodies[chunk.body];
     BodyContactScratch::Chunk box{.low = dvec3(std::numeric_limits<double>::infinity()),
@@ -202,10 +203,13 @@ void BodyContacts::add_features(const Plan::Chunk& chunk) {
         const Link& link = state_.links[plan_.chunk_links[l]];
         add(plan_.chunk_links[l], {link.a, link.b});
     }
+    const auto row = static_cast<std::uint32_t>(body.row), last = chunk.first + chunk.count;
+    const bool cloth = body.kind == Body::Kind::Cloth;
+    const auto diagonal = static_cast<std::uint32_t>(state_.links.size());  // a cell bends along it
+    for (std::uint32_t i = chunk.first; cloth && i < last; ++i)
+        if (plan_.whole[i] != 0) add(diagonal + i, {i + 1, i + row});
     box.first[2] = end();
-    const auto row = static_cast<std::uint32_t>(body.row);
-    for (std::uint32_t i = chunk.first; body.kind == Body::Kind::Cloth && i < chunk.first + chunk.count;
-         ++i) {
+    for (std::uint32_t i = chunk.first; cloth && i < last; ++i) {
         if (plan_.whole[i] == 0) continue;
         add(0, {i, i + 1, i + row});
         add(0, {i + row + 1, i + row, i + 1});
@@ -254,8 +258,9 @@ void BodyContacts::consider(const BodyContactScratch::Feature& a, const BodyCont
     std::copy_n(a.points.begin(), a.count, it.points.begin());
     std::copy_n(b.points.begin(), b.count, it.points.begin() + a.count);
     if (a.count == 2)
-        it.least = std::max(it.least, 1e-4 * (static_cast<double>(state_.links[a.link].rest) +
-                                              static_cast<double>(state_.links[b.link].rest)));
+        for (const BodyContactScratch::Feature* each : {&a, &b})
+            it.least +=
+                1e-4 * detail::length(plan_.rest_at[each->points[0]] - plan_.rest_at[each->points[1]]);
     if (a.body == b.body) {
         const double radius = state_.bodies[a.body].radius;
         const double arc = min_arc * std::max(2.0 * radius, it.least);
@@ -283,7 +288,7 @@ bool BodyContacts::lowest(const Pair& pair) const {
 }
 
 /// Segments of two ropes touch where they are nearest. At cloth the ends of segments are left to particles
-/// and triangles.
+/// and triangles, which also keep diagonals apart.
 void BodyContacts::choose_contacts() {
     s_.contacts.clear();
     s_.projected.clear();
@@ -294,6 +299,7 @@ void BodyContacts::choose_contacts() {
         const bool inside =
             std::none_of(pair.shares.begin(), pair.shares.end(), [](double share) { return share == 0.0; });
         const bool cloth = is_cloth(pair.body_a) || is_cloth(pair.body_b);
+        if (std::max(pair.a, pair.b) >= state_.links.size()) continue;  // a diagonal only must not be crossed
         if (pair.split == 2 && !(cloth ? inside : lowest(pair))) continue;
         const bool solved = !cloth && plan_.collides[pair.body_a] == Plan::Collides::Solved &&
                             plan_.collides[pair.body_b] == Plan::Collides::Solved;

@@ -36,6 +36,10 @@ struct ClothArrays {
 struct Cloth {
     GridSystem system;
     ClothArrays arrays;
+    /// Of the last solve: the approximate length, metres, the energy in links and its gain, joules.
+    struct {
+        double length = 0.0, elastic = 0.0, gained = 0.0;
+    } energy;
 
     void resize(std::size_t columns, std::size_t rows);
 };

@@ -99,8 +99,7 @@ void ClothSolver::load() {
         elastic += 0.5 * tension * tension / (stiffness * unit_);
         rests += link.rest;
     }
-    local_.cloth_energy.length += rests / (grid_.columns + grid_.rows);
-    local_.cloth_energy.gained -= elastic;
+    cloth_.energy = {.length = rests / (grid_.columns + grid_.rows), .gained = -elastic};
 }
 
 /// Computes the blocks of links at the current positions, and their maximum strain.
@@ -202,8 +201,8 @@ void ClothSolver::finish() {
         scratch_.multiplier[i] = mass_ * pull;
         elastic += pull * longer;
     }
-    local_.cloth_energy.elastic += 0.5 * unit_ * elastic;
-    local_.cloth_energy.gained += 0.5 * unit_ * elastic;
+    cloth_.energy.elastic = 0.5 * unit_ * elastic;
+    cloth_.energy.gained += cloth_.energy.elastic;
 }
 
 /// Starts as if nothing had changed since the previous substep: links and contacts then push as they did.

@@ -88,10 +88,10 @@ void Substep::Ledger::add_link(std::uint32_t number) {
 }
 
 /// The links of a cloth are too stiff for lengths halfway; its solver has summed their energy at the end.
-void Substep::Ledger::add_cloth() {
-    length_ += it_.local_.cloth_energy.length;
-    gained_ += it_.local_.cloth_energy.gained;
-    elastic_ += it_.local_.cloth_energy.elastic;
+void Substep::Ledger::add_cloth(const detail::Cloth& cloth) {
+    length_ += cloth.energy.length;
+    gained_ += cloth.energy.gained;
+    elastic_ = cloth.energy.elastic;
 }
 
 bool Substep::Ledger::gains(double part) const {
@@ -144,17 +144,16 @@ void Substep::add_chain(Ledger& ledger, const Plan::Chain& chain) const {
     for (std::uint32_t k = 0; k < chain.links; ++k) ledger.add_link(chain.first_link + k);
 }
 
-Substep::Ledger Substep::ledger_of_all() const {
+Substep::Ledger Substep::ledger_of(const Plan::Island& part) const {
     Scratch::Nearest near = Scratch::Nearest::None;
-    for (const std::uint32_t body : Plan::part(plan_.bodies, island_.bodies))
-        near = std::max(near, scratch_.body_near[body]);
+    const std::span<const std::uint32_t> bodies = Plan::part(plan_.bodies, part.bodies);
+    for (const std::uint32_t body : bodies) near = std::max(near, scratch_.body_near[body]);
     Ledger ledger(*this, near);
-    each_particle([&](std::size_t i) { ledger.add_particle(i); });
-    ledger.add_cloth();
-    for (const Plan::Island& part : plan_.parts_of(island_)) {
-        if (part.grid != 0 && state_.settings.solver == Solver::Direct) continue;
+    each_particle_of(part, [&](std::size_t i) { ledger.add_particle(i); });
+    if (part.grid != 0 && state_.settings.solver == Solver::Direct)
+        ledger.add_cloth(scratch_.cloths[part.grid - 1]);
+    else
         for (const std::uint32_t link : Plan::part(plan_.links, part.links)) ledger.add_link(link);
-    }
     return ledger;
 }
 
@@ -166,11 +165,17 @@ Substep::Slowed Substep::balance(const Ledger& ledger) {
                                                                                   : Slowed{};
 }
 
+/// Parts of an island are balanced one by one: if one is slowed, the others still fall. What a cloth gains
+/// from a rope that falls on it is then lost.
 void Substep::balance_energy() {
-    if (!island_.alone) {
-        slowed_ = balance(ledger_of_all());
-        return;
+    const std::span<const Plan::Island> parts = plan_.parts_of(island_);
+    local_.part_slowed.assign(parts.size(), {});
+    bool alone = false;
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+        if (!parts[k].alone) local_.part_slowed[k] = balance(ledger_of(parts[k]));
+        alone |= parts[k].alone;
     }
+    if (!alone) return;
     // What one chain gains from another through a contact, the other loses.
     std::span<const std::uint32_t> together;
     if (island_.contacts != 0) together = scratch_.body_contacts[island_.contacts - 1].chains;
@@ -183,10 +188,12 @@ void Substep::balance_energy() {
         const Slowed slowed = balance(ledger);
         for (const std::uint32_t r : together) scratch_.chain_slowed[r] = slowed;
     }
-    for (std::uint32_t r = island_.chains.first; r < island_.chains.first + island_.chains.count; ++r) {
-        if (std::binary_search(together.begin(), together.end(), r)) continue;
-        scratch_.chain_slowed[r] = balance(ledger_of(plan_.chains[r]));
-    }
+    for (const Plan::Island& part : parts)
+        for (std::uint32_t r = part.chains.first; part.alone && r < part.chains.first + part.chains.count;
+             ++r) {
+            if (std::binary_search(together.begin(), together.end(), r)) continue;
+            scratch_.chain_slowed[r] = balance(ledger_of(plan_.chains[r]));
+        }
 }
 
 /// Scales velocities and the tension of elastic links; positions stay.
@@ -200,11 +207,13 @@ void Substep::slow_down() {
         if (grid || detail::compliance(state_.settings, link) > 0.0)
             link.tension *= static_cast<float>(slowed.tension);
     };
-    if (slowed_.any()) {
-        each_particle([&](std::size_t i) { slow(i, slowed_); });
-        for (const Plan::Island& part : plan_.parts_of(island_))
-            for (const std::uint32_t i : Plan::part(plan_.links, part.links))
-                slacken(state_.links[i], slowed_, part.grid != 0);
+    const std::span<const Plan::Island> parts = plan_.parts_of(island_);
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+        const Slowed& slowed = local_.part_slowed[k];
+        if (!slowed.any()) continue;
+        each_particle_of(parts[k], [&](std::size_t i) { slow(i, slowed); });
+        for (const std::uint32_t i : Plan::part(plan_.links, parts[k].links))
+            slacken(state_.links[i], slowed, parts[k].grid != 0);
     }
     for (std::uint32_t r = island_.chains.first; r < island_.chains.first + island_.chains.count; ++r) {
         const Slowed slowed = std::exchange(scratch_.chain_slowed[r], {});

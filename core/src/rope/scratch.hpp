@@ -77,13 +77,13 @@ struct BodyContactScratch {
         double radius = 0.0;
         double reach = 0.0;  ///< the part of it beyond the feature as listed
         std::uint32_t body = 0;
-        std::uint32_t link = 0;  ///< of a segment
+        std::uint32_t link = 0;  ///< of a segment; of a diagonal, a number beyond all links
         std::uint32_t count = 0;
         std::array<std::uint32_t, 3> points{};
     };
     /// What may meet: two segments, or a particle and a triangle.
     struct Candidate {
-        std::uint32_t a = 0, b = 0;             ///< links of segments, a < b
+        std::uint32_t a = 0, b = 0;             ///< of segments: links, a < b
         std::array<std::uint32_t, 4> points{};  ///< particles: two of a and two of b, or one and three
         std::uint32_t split = 2;                ///< how many are of a
         std::uint32_t body_a = 0, body_b = 0;
@@ -223,13 +223,9 @@ struct IslandScratch {
     std::size_t block_offset = 0;
     ContactScratch contact;
     std::vector<ClothContact> cloth_contacts, earlier_contacts;
-    /// Of the cloths of the island: their approximate length, metres, the energy in their links and its
-    /// gain, joules.
-    struct {
-        double length = 0.0, elastic = 0.0, gained = 0.0;
-    } cloth_energy;
-    tendril::detail::ForkJoin loops;  ///< of a cloth; idle threads help
-    Advance done;                     ///< in this substep; `passes`: maximum over the islands
+    std::vector<Scratch::Slowed> part_slowed;  ///< of the island's parts
+    tendril::detail::ForkJoin loops;           ///< of a cloth; idle threads help
+    Advance done;                              ///< in this substep; `passes`: maximum over the islands
 };
 
 /// What the solvers of an island share in one fixed substep. They write only what belongs to the island, so
@@ -249,7 +245,11 @@ class IslandStep {
 
     template <class Visit>
     void each_particle(Visit visit) const {
-        for (const std::uint32_t body : Plan::part(plan_.bodies, island_.bodies)) {
+        each_particle_of(island_, visit);
+    }
+    template <class Visit>
+    void each_particle_of(const Plan::Island& island, Visit visit) const {
+        for (const std::uint32_t body : Plan::part(plan_.bodies, island.bodies)) {
             const std::size_t first = state_.bodies[body].first, end = first + state_.bodies[body].count;
             for (std::size_t i = first; i < end; ++i) visit(i);
         }

@@ -57,7 +57,6 @@ Substep::Substep(const Substep& whole, const Plan::Island& part)
 
 void Substep::run(bool measures) {
     measures_ = measures;
-    local_.cloth_energy = {};
     move_particles();
     find_near();
     if (island_.contacts != 0) BodyContacts(*this).find();

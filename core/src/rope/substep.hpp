@@ -102,7 +102,7 @@ class Substep : IslandStep {
     class Ledger;
     using Slowed = Scratch::Slowed;
     Ledger ledger_of(const Plan::Chain& chain) const;
-    Ledger ledger_of_all() const;
+    Ledger ledger_of(const Plan::Island& part) const;
     void add_chain(Ledger& ledger, const Plan::Chain& chain) const;
     void balance_energy();
     Slowed balance(const Ledger& ledger);
@@ -112,7 +112,6 @@ class Substep : IslandStep {
     bool measures_ = false;
     double before_ = 1.0;   ///< length of the previous substep relative to this one
     double damping_ = 1.0;  ///< of velocity, in the substep
-    Slowed slowed_;
     glm::dvec3 acceleration_;
     bool blows_;  ///< whether there is air
 };
@@ -125,7 +124,7 @@ class Substep::Ledger {
 
     void add_particle(std::size_t i);
     void add_link(std::uint32_t link);
-    void add_cloth();
+    void add_cloth(const detail::Cloth& cloth);
     /// Zero if a moving collider or pin may have done work.
     double gained() const { return worked_on_ ? 0.0 : gained_; }
     /// Whether the gain exceeds this part of their weight times their length.
