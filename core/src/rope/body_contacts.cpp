@@ -1,11 +1,12 @@
 // Solves chains together with their contacts.
 #include "rope/body_contacts.hpp"
-#include "rope/segments.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <tuple>
+
+#include "rope/segments.hpp"
 
 namespace tendril::rope {
 namespace {

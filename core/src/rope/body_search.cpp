@@ -203,16 +203,17 @@ void BodyContacts::add_features(const Plan::Chunk& chunk) {
         const Link& link = state_.links[plan_.chunk_links[l]];
         add(plan_.chunk_links[l], {link.a, link.b});
     }
-    const auto row = static_cast<std::uint32_t>(body.row), last = chunk.first + chunk.count;
+    const std::uint32_t last = chunk.first + chunk.count;
     const bool cloth = body.kind == Body::Kind::Cloth;
     const auto diagonal = static_cast<std::uint32_t>(state_.links.size());  // a cell bends along it
     for (std::uint32_t i = chunk.first; cloth && i < last; ++i)
-        if (plan_.whole[i] != 0) add(diagonal + i, {i + 1, i + row});
+        if (const std::uint32_t below = plan_.below[i]) add(diagonal + i, {i + 1, below});
     box.first[2] = end();
     for (std::uint32_t i = chunk.first; cloth && i < last; ++i) {
-        if (plan_.whole[i] == 0) continue;
-        add(0, {i, i + 1, i + row});
-        add(0, {i + row + 1, i + row, i + 1});
+        const std::uint32_t below = plan_.below[i];
+        if (below == 0) continue;
+        add(0, {i, i + 1, below});
+        add(0, {below + 1, below, i + 1});
     }
     box.first[3] = end();
     s_.chunks.push_back(box);
