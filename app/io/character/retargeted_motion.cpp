@@ -43,7 +43,7 @@ std::string what_stays(const humanoid::Retargeted& made, const humanoid::Skeleto
             names += (names.empty() ? "" : ", ") + skeleton[each].name;
         parts.push_back((made.helpers.size() == 1 ? "Left as it is: " : "Left as they are: ") + names + '.');
     }
-    return parts.empty() ? "Every bone was carried over." : joined(parts);
+    return parts.empty() ? "Every bone was retargeted." : joined(parts);
 }
 
 std::runtime_error refusal_of(const std::filesystem::path& file, const std::string& why) {

@@ -12,7 +12,7 @@ namespace tendril::app {
 
 struct RetargetedMotion {
     humanoid::Clip clip{};  ///< of the character; has the name that it has in its file
-    /// The first is a line on what was not carried over; then what was scaled, and what was guessed.
+    /// The first is a line on what was not retargeted; then what was scaled, and what was guessed.
     std::vector<std::string> notes{};
 };
 

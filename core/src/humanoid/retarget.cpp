@@ -19,8 +19,8 @@ using namespace rig::detail;
 
 constexpr std::size_t max_retargeted_keys = 100'000;
 
-/// The thigh and shin of a person, to whose size a source is brought before its steps are looked for: files
-/// in a wrong unit are frequent.
+/// Thigh plus shin of a person. The source is brought to that size before its steps are looked for: files in
+/// a wrong unit are frequent.
 constexpr double person_leg = 0.85;  // metres
 
 constexpr double on_the_bone = 0.1;  // of a leg's length from a node at rest: helpers that near follow it
@@ -65,7 +65,7 @@ std::vector<double> moments_of(const Clip& clip) {
     return times;
 }
 
-/// First the limbs, then the feet.
+/// Poses the limbs first, then the feet, then what follows them.
 class Retargeter {
   public:
     Retargeter(const MappedSkeleton& from, const Clip& clip, const MappedSkeleton& to)
@@ -231,7 +231,7 @@ class Retargeter {
              .ground = was_.ground,
              .turn = turn_});
     }
-    /// How feet and toes stand, from the frames in which they do.
+    /// Learns how feet and toes lie on the ground, from the frames in which they stand.
     void learn_level_feet(const lint_detail::FeetMotion& motion) {
         for (const bool left : {true, false}) {
             const lint_detail::Foot& foot = motion.feet[left ? 0 : 1];
@@ -277,7 +277,7 @@ class Retargeter {
                          plus(ball.position, rotated(ball.rotation(), sole[1])).y,
                          plus(ball.position, rotated(ball.rotation(), sole[2])).y});
     }
-    /// Moves hips and feet as planned.
+    /// Displaces hips and feet as planned.
     void put_down(double time) {
         if (footing_.empty()) return;
         const double frame = std::clamp(time * rate_, 0.0, static_cast<double>(footing_.size() - 1));

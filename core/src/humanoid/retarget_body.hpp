@@ -28,12 +28,12 @@ struct RetargetBody {
     Facing at;
     glm::dquat frame{1.0, 0.0, 0.0, 0.0};  // takes x, y, z to left, up, forward
     glm::dvec3 hips{0.0};                  // at rest
-    double leg = 0.0;                      // thigh and shin, or the hips over the feet; 0: has no legs
+    double leg = 0.0;                      // thigh plus shin, or the hips' height over the feet; 0: no legs
     bool has_legs = false;                 // thighs, shins and feet
     std::vector<Placement> placed{};       // all nodes, in the T-pose
     std::vector<glm::dquat> rotations{};   // the same, straightened
     std::optional<Soles> soles{};          // if it has legs; their floor is below its hips at rest
-    double ground = 0.0;  // what it stands on: its floor at rest, or 0 if that is far from there
+    double ground = 0.0;  // height of what it stands on: its floor at rest, or 0 if it rests far from there
     std::array<std::optional<glm::dvec3>, 2> tips{};  // below the tip of the toes, in the toes' space
     /// What turns the fingers, left and right: the hand, or the last node at the wrist (CMU's
     /// LeftFingerBase).
@@ -44,7 +44,7 @@ struct RetargetBody {
     bool has(Bone bone) const noexcept { return body.map[bone].node >= 0; }
     /// The sole of a foot whose ankle is `above` the ground.
     SoleTriple sole(bool left, double above) const;
-    /// The node stands level where `up`, a direction of its own, is up.
+    /// Turns the node so that `up`, a direction of its own, points up.
     void level(std::size_t node, const glm::dvec3& up);
     /// Points the foot forward: at rest many stand with their toes turned out.
     void straighten_foot(bool left);
@@ -54,7 +54,7 @@ struct RetargetBody {
     void turn(std::size_t node, const glm::dquat& by);
 
   private:
-    /// Nodes so near to each other are in one place, metres.
+    /// Metres: nodes closer to each other than that share a place.
     double shortest() const noexcept { return 1e-4 * leg + 1e-9; }
     std::optional<glm::dvec3> hand_axis(bool left) const;
     void find_fingers(bool left);

@@ -11,16 +11,16 @@ using namespace rig::detail;
 
 namespace {
 
-constexpr double blend = 0.4;         // seconds from a stance into the motion of the swing
+constexpr double blend = 0.4;         // seconds over which a stance's displacement fades out
 constexpr double hips_ease = 0.15;    // seconds within which the hips are lowered
 constexpr double lift_ease = 0.1;     // seconds within which a swinging foot is lifted
-constexpr double short_swing = 0.05;  // seconds: no step is that short
-constexpr double short_hold = 0.1;    // seconds that a foot must be still to be held over the floor
-constexpr double step_speed = 0.3;    // m/s of a foot that has landed, or does not leave yet
+constexpr double short_swing = 0.05;  // seconds: no step is shorter
+constexpr double short_hold = 0.1;    // seconds for which a foot must be still to be held above the floor
+constexpr double step_speed = 0.3;    // m/s: a slower foot has landed, or has not left yet
 constexpr double near_floor = 0.03;   // metres of the source
-constexpr double no_slide = 0.04;     // metres of the source: a standing foot that slides no farther stands
-constexpr double no_height = 0.006;   // metres of the source: a lower foot has landed
-constexpr double no_sinking = 0.05;   // metres of the source that a foot may be in the ground by mistake
+constexpr double no_slide = 0.04;     // metres of the source: shorter slides of a standing foot are removed
+constexpr double no_height = 0.006;   // metres of the source: a foot below that has landed
+constexpr double no_sinking = 0.05;   // metres of the source: feet deeper in the ground are meant to be
 constexpr double straight = 0.995;    // of a leg's length, unless the source's is straighter
 constexpr double sole_part = 0.006;  // of a leg's length: points of the sole that near to the ground touch it
 constexpr double clear_part = 0.012;  // of a leg's length over the ground, at which a swinging foot may stay
@@ -39,8 +39,8 @@ double median(std::vector<double> values) {
     return *middle;
 }
 
-/// The frames of a clip, or three rounds of one that ends as it begins: what is planned for the second of
-/// them goes over into the next round.
+/// The frames of a clip, or three rounds of one that ends as it begins: the second round, which is the one
+/// that is used, then leads into the next.
 class Rounds {
   public:
     explicit Rounds(const FootingTask& task) : frames_(task.frames.size()), loops_(loops(task)) {}
@@ -73,7 +73,7 @@ class Rounds {
 
 struct Stand {
     std::size_t first, last;              // of the rounds
-    std::size_t still_first, still_last;  // without landing and leaving
+    std::size_t still_first, still_last;  // without landing and lifting off
     double height = 0.0;                  // of the target's sole over its floor, metres
 };
 
@@ -130,7 +130,7 @@ class Planner {
             if (end - i >= seconds(short_hold)) mark(i, end - 1);
             i = std::max(end, i + 1);
         }
-        // The first and last frames, too, whose speed is that of the swing beside them.
+        // Include the frame at either end, whose speed is affected by the swing next to it.
         const std::vector<bool> surely = stands;
         for (std::size_t i = 1; i < stands.size(); ++i) {
             const double limit = step_speed / task_.rate;
@@ -167,7 +167,7 @@ class Planner {
         }
     }
 
-    /// Raises the whole motion so that feet which stand on the floor are there, without a leg being bent.
+    /// Raises or lowers the whole motion so that standing feet are on the floor without bending a leg.
     void find_shift() {
         std::vector<double> gaps;
         for (std::size_t foot = 0; foot < 2; ++foot)
@@ -197,15 +197,15 @@ class Planner {
             moves[i] = {moves[i].x - mean.x, up, moves[i].z - mean.z};
         }
     }
-    /// Over the target's floor. As a foot lands or leaves it is as high over the ground as the source's.
+    /// Above the target's floor. A foot that lands or lifts off is as high as the source's, in proportion.
     double height_of(std::size_t foot, const Stand& stand, std::size_t i) const {
         if (stand.height != 0.0 || (i >= stand.still_first && i <= stand.still_last)) return stand.height;
         const std::size_t level = i < stand.still_first ? stand.still_first : stand.still_last;
         return task_.scale *
                std::max(0.0, pointed(foot, i).source_low - pointed(foot, level).source_low - no_height);
     }
-    /// Of the sole during a stance, horizontally. A small slide is a fault of the source; what exceeds that
-    /// is meant.
+    /// Horizontal path of the sole during a stance. A small slide is a fault of the source; anything beyond
+    /// it is meant.
     std::vector<glm::dvec3> wanted_way(std::size_t foot, const Stand& stand) const {
         const glm::dvec3 ground = times(task_.motion.treadmill, 1.0 / task_.rate);
         std::vector<glm::dvec3> way{glm::dvec3(0.0)};
@@ -242,7 +242,7 @@ class Planner {
         return plus(minus(now.ankle, was.ankle), times(sum, 1.0 / weights));
     }
 
-    /// Between stances what was added to the one fades into what is added to the next.
+    /// Between stances the displacement of the one fades out while that of the next fades in.
     void swing(std::size_t foot) {
         std::vector<glm::dvec3>& moves = moves_[foot];
         const std::vector<Stand>& stands = stands_[foot];
@@ -264,7 +264,7 @@ class Planner {
         }
     }
 
-    /// A foot whose sole is over the ground in the source does not go through it here. It is lifted in time.
+    /// Keeps a foot that is above the ground in the source above it here. The lift begins early.
     void clear_ground(std::size_t foot) {
         std::vector<glm::dvec3>& moves = moves_[foot];
         std::vector<double> lifts(moves.size()), from_stand(moves.size(), 1e9);
@@ -292,8 +292,8 @@ class Planner {
         return low > 0.0 ? low * low / (low + most) : 0.0;
     }
 
-    /// How far the hips must be lowered for the foot to be within reach. No leg becomes straighter than
-    /// `straight`, unless the source's is.
+    /// How far to lower the hips to bring the foot within reach. No leg becomes straighter than `straight`,
+    /// unless the source's is.
     double missing(std::size_t foot, std::size_t i) const {
         const PointedFoot& its = pointed(foot, i);
         const glm::dvec3 pointed_way = minus(its.ankle, its.hip), way = plus(pointed_way, moves_[foot][i]);

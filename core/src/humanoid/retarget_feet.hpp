@@ -1,7 +1,7 @@
 // Where the feet of a retargeted motion go, and how far the hips are moved for that. Not installed.
 //
-// At first each leg points where the source's does. While the source's foot stands, the ankle is moved so
-// that the sole stays on the ground; that displacement blends from one stance to the next.
+// Each leg starts out pointing where the source's does. While the source's foot stands, the ankle is
+// displaced so that the sole stays on the ground; between stances one displacement blends into the next.
 #pragma once
 
 #include <array>
@@ -13,19 +13,19 @@
 
 namespace tendril::humanoid::detail {
 
-/// A foot of the target at a frame, whose legs point where those of the source do.
+/// A foot of the target in one frame, before it is displaced.
 struct PointedFoot {
     glm::dvec3 hip{0.0}, ankle{0.0};
     double leg = 0.0;                  ///< length of thigh and shin
     std::array<glm::dvec3, 3> sole{};  ///< from the ankle to heel, ball and tip of the toes
-    double source_low = 0.0;           ///< height of the lowest point of the source's sole, its metres
+    double source_low = 0.0;           ///< height of the lowest point of the source's sole, source metres
 };
 struct PointedFrame {
     glm::dvec3 hips{0.0};
     std::array<PointedFoot, 2> feet{};  ///< left, right
 };
 
-/// What the plan needs to know of both figures.
+/// Both figures, as far as the plan needs them.
 struct FootingTask {
     const lint_detail::FeetMotion& motion;  ///< of the source
     const std::vector<PointedFrame>& frames;
@@ -33,8 +33,8 @@ struct FootingTask {
     double scale = 1.0;                   ///< from the source's metres to the target's
     double leg = 1.0;                     ///< of the target
     double floor = 0.0;                   ///< of the target
-    double shift = 0.0;                   ///< how far the hips must be raised, from both rest poses
-    std::optional<double> stood_on{};     ///< the floor in the source's clip; none: it hardly stands
+    double shift = 0.0;                   ///< how far to raise the hips, judging by both rest poses
+    std::optional<double> stood_on{};     ///< the floor in the source's clip; none: feet hardly stand
     double ground = 0.0;                  ///< the source's floor at rest
     glm::dquat turn{1.0, 0.0, 0.0, 0.0};  ///< from the source's space to the target's
 };
