@@ -35,7 +35,7 @@ class Moves {
 /// after meets each frame. So a fast motion, which turns by tens of degrees within a frame and changes as
 /// fast, is no departure, and hides none.
 double spike(const Moves& moves, std::ptrdiff_t i, std::ptrdiff_t held, double minimum) {
-    constexpr double times_the_roughness = 7.0;
+    constexpr double times_the_roughness = 8.0;
     const auto frames = static_cast<double>(held);
     const glm::dvec3 trend = times(minus(moves[i - 1], moves[i + held + 1]), frames / (frames + 2.0));
     const glm::dvec3 departure = times(minus(minus(moves[i], moves[i + held]), trend), 0.5);
