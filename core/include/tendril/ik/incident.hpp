@@ -60,7 +60,7 @@ struct BendLimit {
 };
 
 struct IncidentOptions {
-    FlipRule flip{};
+    float flip_degrees = 30.0f;  ///< a bone that turns by more in a frame, ahead of its inputs, flips
     /// How far a coordinate may be off by rounding, metres: half the last digit that was written.
     float resolution = 0.0f;
     float fps = 60.0f;  ///< for frequencies

@@ -203,24 +203,23 @@ void IncidentFinder::find_flips(const ReachPose& pose, bool jumped) {
     const auto cause = [&](const ReachPose& was) {
         return jumped ? FlipCause::TargetJump : flip_cause(was, pose);
     };
-    if (const auto turn = find_flip(before, pose, options_.flip);
-        turn && leads(before, pose, turn->joint, 1.0f))
-        return flip(*turn, cause(before));
+    // What turns far, and moves so much further than what drives it, flips whatever angle the target
+    // describes: close to the root that is any. A damped solver takes some frames for it.
+    const auto swung = [&](const ReachPose& was, float degrees) -> std::optional<BoneTurn> {
+        const BoneTurn turn = furthest_turn(was, pose);
+        const bool far = glm::degrees(turn.radians) > degrees;
+        return far && leads(was, pose, turn.joint, swing_lead) ? std::optional(turn) : std::nullopt;
+    };
+    if (const auto turn = swung(before, options_.flip_degrees)) return flip(*turn, cause(before));
     if (other_side) {
         const FlipCause why = cause(before);
         return flip(furthest_turn(before, pose),
                     straight_since && why == FlipCause::Unexplained ? FlipCause::Straight : why);
     }
-    // What turns so far, and moves so much further than what drives it, flips whatever angle the target
-    // describes: close to the root that is any. A damped solver takes some frames for it.
-    const auto swung = [&](const ReachPose& was) -> std::optional<BoneTurn> {
-        const BoneTurn turn = furthest_turn(was, pose);
-        const bool far = glm::degrees(turn.radians) > std::max(options_.flip.degrees, swing_degrees);
-        return far && leads(was, pose, turn.joint, swing_lead) ? std::optional(turn) : std::nullopt;
-    };
-    if (const auto turn = swung(before)) return flip(*turn, cause(before));
     if (recent_.size() <= swing_frames || (flipped_ && frames_ - flipped_at_ <= swing_frames)) return;
-    if (const auto turn = swung(recent_.front())) flip(*turn, cause(recent_.front()));
+    const ReachPose& first = recent_.front();
+    if (const auto turn = swung(first, std::max(options_.flip_degrees, swing_degrees)))
+        flip(*turn, cause(first));
 }
 
 /// A rotation turns the bone from where it pointed to where it points, and rolls it about itself by the rest.
@@ -242,8 +241,8 @@ void IncidentFinder::find_rolls(const ReachPose& pose, std::span<const glm::quat
         if (radians > furthest.radians) furthest = {i, radians};  // not if it is not finite
     }
     const float degrees = glm::degrees(furthest.radians);
-    if (!(degrees > std::max(options_.flip.degrees, roll_degrees)) ||
-        glm::degrees(furthest_turn(recent_.back(), pose).radians) > options_.flip.degrees)
+    if (!(degrees > std::max(options_.flip_degrees, roll_degrees)) ||
+        glm::degrees(furthest_turn(recent_.back(), pose).radians) > options_.flip_degrees)
         return;
     note({.kind = IncidentKind::Flip,
           .frame = frames_,
