@@ -37,8 +37,16 @@ class ClothSolver : ImplicitStep {
         const std::size_t number = particle - first_;
         return number / grid_.columns * detail::grid_stride(grid_.columns) + number % grid_.columns;
     }
+    template <class Work>
+    void in_parts(std::size_t count, std::size_t size, Work work) const;
+    template <class Work>
+    void in_cells(Work work) const {
+        in_parts(level_.cells(), detail::part_cells, work);
+    }
     template <class Visit>
     void each_cell(Visit visit) const;
+    template <class Visit>
+    double sum_of_links(Visit visit) const;
 
     const Plan::Grid& grid_;
     detail::Cloth& cloth_;
@@ -49,6 +57,7 @@ class ClothSolver : ImplicitStep {
     double taken_ = 1.0;
     double shortest_ = 1e30;  ///< rest length of a stretch link
     double strain_ = 0.0;     ///< maximum of a stretch link
+    double potential_ = 0.0;  ///< of inertia and links
     bool converged_ = true;
 };
 
