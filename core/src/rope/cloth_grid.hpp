@@ -15,6 +15,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "rope/grid_system.hpp"
 
@@ -32,10 +33,18 @@ struct ClothArrays {
     float* mass = nullptr;
 };
 
+/// Of dot_cells cells.
+struct ClothPart {
+    float strain = 0.0f;     ///< maximum of their stretch links
+    double potential = 0.0;  ///< twice that of inertia and links
+};
+
 /// The data of one cloth's solve.
 struct Cloth {
     GridSystem system;
     ClothArrays arrays;
+    std::vector<ClothPart> parts;
+    std::vector<double> sums;  ///< partial sums over links
     /// Of the last solve: the approximate length, metres, the energy in links and its gain, joules.
     struct {
         double length = 0.0, elastic = 0.0, gained = 0.0;
@@ -46,11 +55,12 @@ struct Cloth {
 
 /// Compiled for each vector unit.
 struct ClothUnit {
-    /// Computes the blocks of links, without contacts, and their pull. Returns the maximum strain of stretch
+    /// Computes the blocks of links, without contacts, and their pull; and the parts, whose strain is that of
     /// links of a stiffness.
-    float (*links)(const GridLevel&, const ClothArrays&, float stiffness) = nullptr;
+    void (*links)(const GridLevel&, const ClothArrays&, float stiffness, ClothPart*,
+                  GridRange cells) = nullptr;
     /// Computes the diagonal and the right side.
-    void (*cells)(const GridLevel&, const ClothArrays&) = nullptr;
+    void (*cells)(const GridLevel&, const ClothArrays&, GridRange cells) = nullptr;
 };
 /// Selected by name like vector_unit().
 ClothUnit cloth_unit(std::string_view name) noexcept;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <span>
 
 #include "rope/build.hpp"
 #include "rope/geometry.hpp"
@@ -19,14 +21,14 @@ constexpr double min_stiffness = 1e4, max_stiffness = 1e6;
 /// colliders, is accepted. None needs to be solved well: its system is linear, and lengths are not.
 constexpr int min_newton_steps = 2, max_newton_steps = 8;
 constexpr double accepted_strain = 0.007;
-constexpr double accepted_depth = 0.02;  ///< relative to the shortest stretch link
+constexpr double accepted_depth = 0.01;  ///< relative to the shortest stretch link
 /// The residual at which a step is solved: relative to its initial value; or, in later ones, to the forces
-/// that act on free particles, but less than it takes to strain a single link. In the first step with
-/// contacts it is small: at 0.1 friction turned a cloth at twice the speed of the box that it lay on.
-constexpr double usual_residual = 0.1, touching_residual = 0.01, driven_residual = 0.1;
+/// that act on free particles, but less than it takes to strain a single link.
+constexpr double usual_residual = 0.1, driven_residual = 0.1;
 constexpr double residual_strain = 1e-3;
 constexpr double far_driven = 0.05;  ///< by forces in a substep, relative to a link
 constexpr int max_halvings = 6;
+constexpr std::size_t links_summed = 4096;  ///< by a thread at a time
 
 }  // namespace
 
@@ -39,6 +41,7 @@ void detail::Cloth::resize(std::size_t columns, std::size_t rows) {
     for (GridVector* vector : {&arrays.place, &arrays.lag})
         for (float*& each : *vector) each = *next++;
     arrays.mass = *next;
+    parts.resize((system.finest().cells() + dot_cells - 1) / dot_cells);
 }
 
 ClothSolver::ClothSolver(const IslandStep& step)
@@ -49,8 +52,11 @@ ClothSolver::ClothSolver(const IslandStep& step)
       cells_(Plan::part(plan_.grid_cells, grid_.cells)),
       first_(state_.bodies[grid_.body].first) {
     const std::size_t count = state_.bodies[grid_.body].count;
-    double whole = 0.0, longest = 0.0;
-    for (std::size_t i = first_; i < first_ + count; ++i) whole += state_.mass[i];
+    double whole = 0.0, longest = 0.0, lightest = state_.mass[first_];
+    for (std::size_t i = first_; i < first_ + count; ++i) {
+        whole += state_.mass[i];
+        lightest = std::min(lightest, state_.mass[i]);
+    }
     for (const std::uint32_t i : Plan::part(plan_.links, island_.links)) {
         const Link& link = state_.links[i];
         if (link.kind == Link::Kind::Stretch && link.rest > 0.0f) {
@@ -60,16 +66,40 @@ ClothSolver::ClothSolver(const IslandStep& step)
     }
     mass_ = whole / static_cast<double>(count);
     unit_ = mass_ / (h_ * h_);
+    lightest_ = std::max(static_cast<float>(lightest / mass_), 1e-12f);
     const double area = (grid_.columns - 1.0) * (grid_.rows - 1.0) * shortest_ * longest;
     const double weight = whole * detail::length(detail::acceleration(state_.settings)) +
                           area * detail::wind_pressure(state_.settings);
     stiffness_ = std::clamp(weight / (strain_by_weight * shortest_ * unit_), min_stiffness, max_stiffness);
 }
 
+/// Calls `work` with ranges of up to `size`, in parallel if the cloth is large and threads help.
+template <class Work>
+void ClothSolver::in_parts(std::size_t count, std::size_t size, Work work) const {
+    detail::in_parts(local_.loops, count, size, level_.cells() >= detail::min_shared_cells, work);
+}
+
 /// Calls `visit` with each particle and its cell.
 template <class Visit>
 void ClothSolver::each_cell(Visit visit) const {
-    for (std::size_t i = 0; i < cells_.size(); ++i) visit(first_ + i, cells_[i]);
+    in_parts(cells_.size(), detail::part_cells, [&](detail::GridRange part) {
+        for (std::size_t i = part.first; i < part.end; ++i) visit(first_ + i, cells_[i]);
+    });
+}
+
+/// The sum of `visit` over the links, by their number in the grid.
+template <class Visit>
+double ClothSolver::sum_of_links(Visit visit) const {
+    std::vector<double>& sums = cloth_.sums;
+    sums.assign((grid_.links.count + links_summed - 1) / links_summed, 0.0);
+    in_parts(sums.size(), 1, [&](detail::GridRange parts) {
+        for (std::size_t part = parts.first; part < parts.end; ++part) {
+            const std::size_t first = part * links_summed;
+            const std::size_t end = std::min<std::size_t>(first + links_summed, grid_.links.count);
+            for (std::size_t i = first; i < end; ++i) sums[part] += visit(i);
+        }
+    });
+    return std::accumulate(sums.begin(), sums.end(), 0.0);
 }
 
 double ClothSolver::stiffness_of(const Link& link) const {
@@ -83,26 +113,27 @@ void ClothSolver::load() {
     const std::size_t cells = level_.cells();
     std::fill_n(to.mass, cells, 1.0f);
     std::fill_n(level_.free, cells, 0.0f);
-    lightest_ = 1.0f;
     each_cell([&](std::size_t i, std::size_t cell) {
         to.mass[cell] = static_cast<float>(state_.mass[i] / mass_);
-        lightest_ = std::clamp(to.mass[cell], 1e-12f, lightest_);
         level_.free[cell] = scratch_.weight[i] == 0.0 ? 0.0f : 1.0f;
     });
     for (float* each : to.stiffness) std::fill_n(each, cells, 0.0f);
-    double elastic = 0.0, rests = 0.0;
-    for (const Plan::GridLink& each : Plan::part(plan_.grid_links, grid_.links)) {
+    const std::span<const Plan::GridLink> links = Plan::part(plan_.grid_links, grid_.links);
+    const double elastic = sum_of_links([&](std::size_t i) {
+        const Plan::GridLink& each = links[i];
         const Link& link = state_.links[each.link];
         const double stiffness = stiffness_of(link), tension = link.tension;
         to.rest[each.step][each.cell] = link.rest;
         to.stiffness[each.step][each.cell] = static_cast<float>(stiffness);
-        elastic += 0.5 * tension * tension / (stiffness * unit_);
-        rests += link.rest;
-    }
+        return 0.5 * tension * tension / (stiffness * unit_);
+    });
+    double rests = 0.0;
+    for (const Plan::GridLink& each : links) rests += static_cast<double>(state_.links[each.link].rest);
     cloth_.energy = {.length = rests / (grid_.columns + grid_.rows), .gained = -elastic};
 }
 
-/// Computes the blocks of links at the current positions, and their maximum strain.
+/// Computes the blocks of links at the current positions, their maximum strain, and twice the potential of
+/// inertia and links, over the mean mass and times h^2.
 void ClothSolver::evaluate() {
     detail::ClothArrays& to = cloth_.arrays;
     const dvec3 origin = scratch_.place[first_];
@@ -112,13 +143,21 @@ void ClothSolver::evaluate() {
         to.place[1][cell] = static_cast<float>(place.y), to.lag[1][cell] = static_cast<float>(lag.y);
         to.place[2][cell] = static_cast<float>(place.z), to.lag[2][cell] = static_cast<float>(lag.z);
     });
-    strain_ = scratch_.cloth_unit.links(level_, to, static_cast<float>(stiffness_));
+    in_cells([&](detail::GridRange cells) {
+        scratch_.cloth_unit.links(level_, to, static_cast<float>(stiffness_), cloth_.parts.data(), cells);
+    });
+    strain_ = potential_ = 0.0;
+    for (const detail::ClothPart& part : cloth_.parts) {
+        strain_ = std::max(strain_, static_cast<double>(part.strain));
+        potential_ += part.potential;
+    }
 }
 
 /// Takes pinned particles out of the system.
 void ClothSolver::pin() {
-    each_cell([&](std::size_t, std::size_t cell) {
-        if (level_.free[cell] != 0.0f) return;
+    for (std::size_t i = first_; i < first_ + state_.bodies[grid_.body].count; ++i) {
+        if (scratch_.weight[i] != 0.0) continue;
+        const std::size_t cell = cell_of(i);
         for (std::size_t k = 0; k < 6; ++k)
             level_.diagonal[k][cell] = k == 0 || k == 3 || k == 5 ? 1.0f : 0.0f;
         for (float* each : level_.right) each[cell] = 0.0f;
@@ -127,20 +166,20 @@ void ClothSolver::pin() {
                 each[cell] = 0.0f;
                 *(each + cell - level_.step(s)) = 0.0f;  // memory extends before the first cell
             }
-    });
+    }
 }
 
 /// A step of Newton's method. If it strains links, it is halved until the potential does not rise. What is
 /// left of the first one is free motion.
 int ClothSolver::step(int iterations, bool first, double enough) {
-    const bool touches = first && !local_.cloth_contacts.empty();
-    const detail::GridSystem::Tolerance tolerance{first ? 0.0 : enough,
-                                                  touches ? touching_residual : usual_residual};
-    scratch_.cloth_unit.cells(level_, cloth_.arrays);
+    const detail::GridSystem::Tolerance tolerance{first ? 0.0 : enough, usual_residual};
+    in_cells([&](detail::GridRange cells) { scratch_.cloth_unit.cells(level_, cloth_.arrays, cells); });
     add_contacts();
     pin();
+    // Never the last, the first one need not keep angular momentum.
+    const detail::GridVector* place = first ? nullptr : &cloth_.arrays.place;
     const auto solved =
-        cloth_.system.solve(scratch_.grid_unit, lightest_, tolerance, iterations, local_.loops);
+        cloth_.system.solve(scratch_.grid_unit, lightest_, tolerance, iterations, place, local_.loops);
     converged_ = solved.converged;
     const detail::GridVector& by = cloth_.system.solution();
     if (first)
@@ -155,52 +194,51 @@ int ClothSolver::step(int iterations, bool first, double enough) {
             scratch_.place[i] += dvec3(part * by[0][cell], part * by[1][cell], part * by[2][cell]);
         });
     };
+    double before = potential();
     go(1.0f);
     evaluate();
     taken_ = 1.0;
     if (strain_ <= accepted_strain) return solved.iterations;
-    double after = potential();
-    go(-1.0f);
-    const double before = potential();
-    go(1.0f);
+    if (first) {
+        go(-1.0f);
+        evaluate();
+        before = potential();
+        go(1.0f);
+        evaluate();
+    }
     float part = 1.0f;
-    for (int i = 0; i < max_halvings && !(after <= before); ++i) {
+    for (int i = 0; i < max_halvings && !(potential() <= before); ++i) {
         part *= 0.5f;
         go(-part);
-        after = potential();
+        evaluate();
     }
-    if (!(after <= before)) go(-part), part = 0.0f;
+    if (!(potential() <= before)) {
+        go(-part);
+        evaluate();
+        part = 0.0f;
+    }
     taken_ = part;
-    if (part < 1.0f) evaluate();
     return solved.iterations;
 }
 
-/// Twice the incremental potential at `place`, over the mean mass and times h^2: inertia, links and contacts.
+/// Twice the incremental potential at `place`.
 double ClothSolver::potential() const {
-    double sum = 0.0;
-    for (std::size_t i = first_; i < first_ + state_.bodies[grid_.body].count; ++i) {
-        const dvec3 beside = scratch_.place[i] - scratch_.base[i];
-        sum += state_.mass[i] / mass_ * detail::dot(beside, beside);
-    }
-    for (const std::uint32_t i : Plan::part(plan_.links, island_.links)) {
-        const Link& link = state_.links[i];
-        const double longer = detail::length(scratch_.place[link.b] - scratch_.place[link.a]) - link.rest;
-        sum += stiffness_of(link) * longer * longer;
-    }
+    double sum = potential_;
     for (const ClothContact& each : local_.cloth_contacts) sum += potential_of(each);
     return sum;
 }
 
 /// Stores the multipliers of links, and their energy.
 void ClothSolver::finish() {
-    double elastic = 0.0;
-    for (const std::uint32_t i : Plan::part(plan_.links, island_.links)) {
-        const Link& link = state_.links[i];
+    const std::span<const Plan::GridLink> links = Plan::part(plan_.grid_links, grid_.links);
+    const double elastic = sum_of_links([&](std::size_t i) {
+        const Plan::GridLink& each = links[i];
+        const Link& link = state_.links[each.link];
         const double longer = detail::length(scratch_.place[link.b] - scratch_.place[link.a]) - link.rest;
-        const double pull = stiffness_of(link) * longer;
-        scratch_.multiplier[i] = mass_ * pull;
-        elastic += pull * longer;
-    }
+        const double pull = static_cast<double>(cloth_.arrays.stiffness[each.step][each.cell]) * longer;
+        scratch_.multiplier[each.link] = mass_ * pull;
+        return pull * longer;
+    });
     cloth_.energy.elastic = 0.5 * unit_ * elastic;
     cloth_.energy.gained += cloth_.energy.elastic;
 }
@@ -212,16 +250,16 @@ int ClothSolver::solve(int iterations) {
     const double far = far_driven * shortest_;
     double driven = 0.0, farthest = 0.0;
     const auto unchanged = [&](std::size_t i) { return state_.position[i] + state_.displacement[i]; };
-    each_cell([&](std::size_t i, std::size_t) {
-        if (scratch_.weight[i] == 0.0) return;
+    const std::size_t end = first_ + state_.bodies[grid_.body].count;
+    for (std::size_t i = first_; i < end; ++i) {
+        if (scratch_.weight[i] == 0.0) continue;
         const dvec3 by = scratch_.base[i] - unchanged(i);
         const double square = detail::dot(by, by);
         driven += state_.mass[i] / mass_ * square;
         farthest = std::max(farthest, square);
-    });
-    each_cell([&](std::size_t i, std::size_t) {
-        if (scratch_.weight[i] > 0.0 && farthest < far * far) scratch_.place[i] = unchanged(i);
-    });
+    }
+    for (std::size_t i = first_; i < end && farthest < far * far; ++i)
+        if (scratch_.weight[i] > 0.0) scratch_.place[i] = unchanged(i);
     evaluate();
     const double small = residual_strain * shortest_;
     const double enough = std::min(driven_residual * driven_residual * driven, small * small * stiffness_);

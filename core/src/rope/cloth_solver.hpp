@@ -34,8 +34,16 @@ class ClothSolver : ImplicitStep {
 
     double stiffness_of(const Link& link) const;
     std::size_t cell_of(std::size_t particle) const { return cells_[particle - first_]; }
+    template <class Work>
+    void in_parts(std::size_t count, std::size_t size, Work work) const;
+    template <class Work>
+    void in_cells(Work work) const {
+        in_parts(level_.cells(), detail::part_cells, work);
+    }
     template <class Visit>
     void each_cell(Visit visit) const;
+    template <class Visit>
+    double sum_of_links(Visit visit) const;
 
     const Plan::Grid& grid_;
     detail::Cloth& cloth_;
@@ -47,6 +55,7 @@ class ClothSolver : ImplicitStep {
     double taken_ = 1.0;
     double shortest_ = 1e30;  ///< rest length of a stretch link
     double strain_ = 0.0;     ///< maximum of a stretch link
+    double potential_ = 0.0;  ///< of inertia and links
     bool converged_ = true;
 };
 

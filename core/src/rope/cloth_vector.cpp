@@ -1,4 +1,5 @@
 // The system of a cloth, for each vector unit.
+#include <algorithm>
 #include <cstdint>
 #include <string_view>
 
@@ -13,46 +14,69 @@ HWY_BEFORE_NAMESPACE();
 namespace tendril::rope::detail {
 namespace HWY_NAMESPACE {
 
-float links(const GridLevel& level, const ClothArrays& cloth, float hard) {
-    V strain = hn::Zero(Tag());
+/// The links of one step.
+template <std::size_t s>
+void links_of(const GridLevel& level, const ClothArrays& cloth, float hard, ClothPart& part,
+              GridRange cells) {
     const V zero = hn::Zero(Tag()), one = hn::Set(Tag(), 1.0f), shortest = hn::Set(Tag(), 1e-18f);
-    for (std::size_t s = 0; s < fine_steps; ++s) {
-        const std::ptrdiff_t step = level.step(s);
-        const GridBlocks& blocks = level.links[s];
-        each_register({0, level.cells()}, [&](std::ptrdiff_t i) {
-            const V stiffness = load(cloth.stiffness[s] + i), rest = load(cloth.rest[s] + i);
-            V3 by = load(cloth.place, i + step) - load(cloth.place, i);
-            const V length =
-                hn::Sqrt(hn::Add(hn::Add(hn::Mul(by.x, by.x), hn::Mul(by.y, by.y)), hn::Mul(by.z, by.z)));
-            // Coincident particles: any direction will do.
-            const auto some = hn::Gt(length, shortest);
-            const V inverse = hn::Div(one, hn::IfThenElse(some, length, one));
-            const V3 n = {hn::IfThenElse(some, hn::Mul(by.x, inverse), one), hn::Mul(by.y, inverse),
-                          hn::Mul(by.z, inverse)};
-            if (s < stretch_steps) {
-                const V by_rest = hn::Div(hn::Abs(hn::Sub(length, rest)), hn::Max(rest, shortest));
-                const auto counts = hn::Eq(stiffness, hn::Set(Tag(), hard));
-                strain = hn::Max(strain, hn::IfThenElseZero(counts, by_rest));
-            }
-            const V pull = hn::Mul(hn::Mul(stiffness, hn::Sub(length, rest)), inverse);
-            const V sideways = hn::Max(pull, zero), along = hn::Sub(stiffness, sideways);
-            const V3 a = along * n;
-            hn::StoreU(pull, Tag(), cloth.pull[s] + i);
-            hn::StoreU(hn::Add(hn::Mul(a.x, n.x), sideways), Tag(), blocks[0] + i);
-            hn::StoreU(hn::Mul(a.x, n.y), Tag(), blocks[1] + i);
-            hn::StoreU(hn::Mul(a.x, n.z), Tag(), blocks[2] + i);
-            hn::StoreU(hn::Add(hn::Mul(a.y, n.y), sideways), Tag(), blocks[3] + i);
-            hn::StoreU(hn::Mul(a.y, n.z), Tag(), blocks[4] + i);
-            hn::StoreU(hn::Add(hn::Mul(a.z, n.z), sideways), Tag(), blocks[5] + i);
-        });
-    }
-    return hn::GetLane(hn::MaxOfLanes(Tag(), strain));
+    const std::ptrdiff_t step = level.step(s);
+    const GridBlocks& blocks = level.links[s];
+    V strain = zero;
+    part.potential += sum_of(cells, [&](std::ptrdiff_t i) {
+        const V stiffness = load(cloth.stiffness[s] + i), rest = load(cloth.rest[s] + i);
+        const V3 by = load(cloth.place, i + step) - load(cloth.place, i);
+        const V length =
+            hn::Sqrt(hn::Add(hn::Add(hn::Mul(by.x, by.x), hn::Mul(by.y, by.y)), hn::Mul(by.z, by.z)));
+        // Coincident particles: any direction will do.
+        const auto some = hn::Gt(length, shortest);
+        const V inverse = hn::Div(one, hn::IfThenElse(some, length, one));
+        const V3 n = {hn::IfThenElse(some, hn::Mul(by.x, inverse), one), hn::Mul(by.y, inverse),
+                      hn::Mul(by.z, inverse)};
+        const V longer = hn::Sub(length, rest), force = hn::Mul(stiffness, longer);
+        if (s < stretch_steps) {
+            const V by_rest = hn::Div(hn::Abs(longer), hn::Max(rest, shortest));
+            const auto counts = hn::Eq(stiffness, hn::Set(Tag(), hard));
+            strain = hn::Max(strain, hn::IfThenElseZero(counts, by_rest));
+        }
+        const V pull = hn::Mul(force, inverse);
+        const V sideways = hn::Max(pull, zero), along = hn::Sub(stiffness, sideways);
+        const V3 a = along * n;
+        hn::StoreU(pull, Tag(), cloth.pull[s] + i);
+        hn::StoreU(hn::Add(hn::Mul(a.x, n.x), sideways), Tag(), blocks[0] + i);
+        hn::StoreU(hn::Mul(a.x, n.y), Tag(), blocks[1] + i);
+        hn::StoreU(hn::Mul(a.x, n.z), Tag(), blocks[2] + i);
+        hn::StoreU(hn::Add(hn::Mul(a.y, n.y), sideways), Tag(), blocks[3] + i);
+        hn::StoreU(hn::Mul(a.y, n.z), Tag(), blocks[4] + i);
+        hn::StoreU(hn::Add(hn::Mul(a.z, n.z), sideways), Tag(), blocks[5] + i);
+        return hn::Mul(force, longer);
+    });
+    part.strain = std::max(part.strain, hn::GetLane(hn::MaxOfLanes(Tag(), strain)));
 }
 
-void cells(const GridLevel& level, const ClothArrays& cloth) {
+void links(const GridLevel& level, const ClothArrays& cloth, float hard, ClothPart* parts, GridRange range) {
+    static_assert(fine_steps == 6);
+    each_dot(range, [&](GridRange cells) {
+        ClothPart& part = parts[cells.first / dot_cells];
+        part.strain = 0.0f;
+        part.potential = sum_of(cells, [&](std::ptrdiff_t i) {
+            const V3 lag = load(cloth.lag, i);
+            const V square =
+                hn::Add(hn::Add(hn::Mul(lag.x, lag.x), hn::Mul(lag.y, lag.y)), hn::Mul(lag.z, lag.z));
+            return hn::Mul(load(cloth.mass + i), square);
+        });
+        links_of<0>(level, cloth, hard, part, cells);
+        links_of<1>(level, cloth, hard, part, cells);
+        links_of<2>(level, cloth, hard, part, cells);
+        links_of<3>(level, cloth, hard, part, cells);
+        links_of<4>(level, cloth, hard, part, cells);
+        links_of<5>(level, cloth, hard, part, cells);
+    });
+}
+
+void cells(const GridLevel& level, const ClothArrays& cloth, GridRange range) {
     std::ptrdiff_t step[fine_steps];
     for (std::size_t s = 0; s < fine_steps; ++s) step[s] = level.step(s);
-    each_register({0, level.cells()}, [&](std::ptrdiff_t i) {
+    each_register(range, [&](std::ptrdiff_t i) {
         const V3 at = load(cloth.place, i);
         V3 right = load(cloth.mass + i) * load(cloth.lag, i);
         for (std::size_t s = 0; s < fine_steps; ++s) {
@@ -64,7 +88,7 @@ void cells(const GridLevel& level, const ClothArrays& cloth) {
     });
     for (std::size_t k = 0; k < 6; ++k) {
         const bool diagonal = k == 0 || k == 3 || k == 5;
-        each_register({0, level.cells()}, [&](std::ptrdiff_t i) {
+        each_register(range, [&](std::ptrdiff_t i) {
             V sum = diagonal ? load(cloth.mass + i) : hn::Zero(Tag());
             for (std::size_t s = 0; s < fine_steps; ++s) {
                 const float* block = level.links[s][k] + i;

@@ -56,6 +56,27 @@ inline V3 operator*(V s, const V3& v) {
     return {hn::Mul(s, v.x), hn::Mul(s, v.y), hn::Mul(s, v.z)};
 }
 
+/// The sum of `value(i)` over the cells, in single precision and an order that does not depend on the unit.
+template <class Value>
+double sum_of(GridRange cells, Value value) {
+    alignas(64) float lanes[grid_lanes];
+    for (std::size_t k = 0; k < grid_lanes; k += hn::Lanes(Tag())) {
+        V sum = hn::Zero(Tag());
+        for (std::size_t i = cells.first + k; i < cells.end; i += grid_lanes)
+            sum = hn::Add(sum, value(static_cast<std::ptrdiff_t>(i)));
+        hn::StoreU(sum, Tag(), lanes + k);
+    }
+    double all = 0.0;
+    for (const float lane : lanes) all += static_cast<double>(lane);
+    return all;
+}
+/// Calls `visit` with ranges of dot_cells; `cells` begins at a multiple of it.
+template <class Visit>
+void each_dot(GridRange cells, Visit visit) {
+    for (std::size_t first = cells.first; first < cells.end; first += dot_cells)
+        visit(GridRange{first, first + dot_cells < cells.end ? first + dot_cells : cells.end});
+}
+
 template <class Visit>
 void each_register(GridRange cells, Visit visit) {
     for (std::size_t i = cells.first; i < cells.end; i += hn::Lanes(Tag()))

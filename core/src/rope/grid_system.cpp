@@ -9,8 +9,8 @@ namespace {
 
 /// Size of the coarsest level, which is solved exactly.
 constexpr std::size_t coarsest = 4;
-/// The unit of work that threads share in a loop.
-constexpr std::size_t part_cells = 16 * dot_cells;
+/// Of a rotation: relative to its diagonal.
+constexpr double min_pivot = 1e-3;
 
 /// Distributes one block of memory over the arrays of levels; with null it only counts.
 class Arrays {
@@ -75,13 +75,13 @@ class GridSystem::Loops {
 
     template <class Work>
     void cells(const GridLevel& level, Work work) const {
-        run(level.cells(), part_cells, level.cells() >= min_shared_cells, work);
+        in_parts(loops_, level.cells(), part_cells, level.cells() >= min_shared_cells, work);
     }
     /// Over rows of the next level; each of its cells is four of this level's.
     template <class Work>
     void rows(const GridLevel& next, Work work) const {
-        run(next.rows, std::max<std::size_t>(1, part_cells / 4 / next.stride),
-            4 * next.cells() >= min_shared_cells, work);
+        in_parts(loops_, next.rows, std::max<std::size_t>(1, part_cells / 4 / next.stride),
+                 4 * next.cells() >= min_shared_cells, work);
     }
     void multiply(const GridLevel& level, const GridVector& x, const GridVector& product) const {
         cells(level, [&](GridRange part) { unit.multiply(level, x, product, part); });
@@ -90,31 +90,21 @@ class GridSystem::Loops {
     const GridUnit& unit;
 
   private:
-    template <class Work>
-    void run(std::size_t count, std::size_t size, bool large, Work work) const {
-        constexpr std::size_t most = tendril::detail::ForkJoin::max_parts;
-        if (!large || !loops_.shared() || count > most * size) return work(GridRange{0, count});
-        const auto parts = static_cast<std::uint32_t>((count + size - 1) / size);
-        loops_.run(parts, [&](std::uint32_t part) {
-            const std::size_t first = part * size;
-            work(GridRange{first, std::min(count, first + size)});
-        });
-    }
-
     tendril::detail::ForkJoin& loops_;
 };
 
+/// Its rows continue with those of the rotations, which balance() fills.
 void GridSystem::factorize_coarsest() {
     const GridLevel& level = levels_.back();
-    const std::size_t columns = level.columns, n = 3 * columns * level.rows;
+    const std::size_t columns = level.columns, cells = columns * level.rows, n = 3 * cells + rotations;
     constexpr std::size_t part[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
-    std::vector<double>& a = coarsest_;
-    a.assign(n * n, 0.0);
+    coarsest_.assign(n * n, 0.0);
+    coarsest_x_.assign(n, 0.0);
     const auto put = [&](std::size_t i, std::size_t j, const GridBlocks& blocks, std::size_t cell,
                          double by) {
         for (std::size_t r = 0; r < 3; ++r)
             for (std::size_t c = 0; c < 3; ++c)
-                a[(3 * i + r) * n + 3 * j + c] += by * static_cast<double>(blocks[part[r][c]][cell]);
+                coarsest_[(3 * i + r) * n + 3 * j + c] += by * static_cast<double>(blocks[part[r][c]][cell]);
     };
     for (std::size_t row = 0; row < level.rows; ++row)
         for (std::size_t column = 0; column < columns; ++column) {
@@ -128,58 +118,123 @@ void GridSystem::factorize_coarsest() {
                 put(std::max(i, j), std::min(i, j), level.links[s], cell, -1.0);
             }
         }
-    for (std::size_t j = 0; j < n; ++j) {
-        for (std::size_t k = 0; k < j; ++k) a[j * n + j] -= a[j * n + k] * a[j * n + k] * a[k * n + k];
-        const double inverse = 1.0 / a[j * n + j];
-        for (std::size_t i = j + 1; i < n; ++i) {
-            for (std::size_t k = 0; k < j; ++k) a[i * n + j] -= a[i * n + k] * a[j * n + k] * a[k * n + k];
-            a[i * n + j] *= inverse;
+    for (std::size_t i = 0; i < 3 * cells; ++i) factorize_row(i);
+}
+
+/// L in place of the lower triangle, d of the diagonal; returns d over the diagonal.
+double GridSystem::factorize_row(std::size_t i) {
+    const std::size_t n = coarsest_x_.size();
+    double* const row = coarsest_.data() + i * n;
+    const double diagonal = row[i];
+    for (std::size_t j = 0; j < i; ++j) {
+        const double* const other = coarsest_.data() + j * n;
+        // `row` is L d up to here, and L afterwards.
+        for (std::size_t k = 0; k < j; ++k) row[j] -= row[k] * other[k];
+    }
+    for (std::size_t j = 0; j < i; ++j) {
+        const double scaled = row[j];
+        row[j] /= coarsest_[j * n + j];
+        row[i] -= scaled * row[j];
+    }
+    return row[i] / diagonal;
+}
+
+/// Calls `visit` with the component and the cell of each unknown of the coarsest level.
+template <class Visit>
+void GridSystem::each_coarsest(Visit visit) {
+    const GridLevel& level = levels_.back();
+    for (std::size_t i = 0; i < coarsest_x_.size() - rotations; ++i)
+        visit(i, i % 3, i / 3 / level.columns * level.stride + i / 3 % level.columns);
+}
+
+/// Solves for the first `n` unknowns.
+void GridSystem::solve_coarsest(std::size_t n) {
+    const GridLevel& level = levels_.back();
+    const std::size_t stride = coarsest_x_.size();
+    std::vector<double>&x = coarsest_x_, &a = coarsest_;
+    each_coarsest([&](std::size_t i, std::size_t c, std::size_t cell) {
+        x[i] = static_cast<double>(level.right[c][cell]);
+    });
+    for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t k = 0; k < i; ++k) x[i] -= a[i * stride + k] * x[k];
+    for (std::size_t i = n; i-- > 0;) {
+        x[i] /= a[i * stride + i];
+        for (std::size_t k = i + 1; k < n; ++k) x[i] -= a[k * stride + i] * x[k];
+    }
+    each_coarsest(
+        [&](std::size_t i, std::size_t c, std::size_t cell) { level.x[c][cell] = static_cast<float>(x[i]); });
+}
+
+/// Sums of a vector over each cell of the coarsest level, to its right side.
+void GridSystem::project(const Loops& loops, const GridVector& vector) {
+    GridLevel level = finest();
+    level.right = vector;
+    for (std::size_t i = 1; i < levels_.size(); ++i) {
+        loops.rows(levels_[i], [&](GridRange part) { loops.unit.restrict_to(level, levels_[i], part); });
+        level = levels_[i];
+    }
+}
+
+/// Makes the residual orthogonal to translations of each cell of the coarsest level and, if positions are
+/// given, to rotations of the whole: however early the iteration ended, large parts keep their momentum, and
+/// the whole its angular momentum.
+void GridSystem::balance(const Loops& loops, const GridVector* place) {
+    if (levels_.size() == 1) return;  // solved exactly
+    const GridLevel &fine = finest(), &coarse = levels_.back();
+    const std::size_t n = coarsest_x_.size(), first = n - rotations;
+    for (const GridLevel& level : levels_)
+        for (float* each : level.product) std::fill_n(each, level.cells(), 0.0f);
+    // From the middle of the grid, and the opposite.
+    const GridVector &from = direction_, &opposite = fine.x;
+    float* const none = fine.product[0];
+    const GridVector about[rotations] = {
+        {none, opposite[2], from[1]}, {from[2], none, opposite[0]}, {opposite[1], from[0], none}};
+    const std::size_t middle = fine.rows / 2 * fine.stride + fine.columns / 2;
+    for (std::size_t c = 0; c < 3 && place != nullptr; ++c) {
+        const float* const all = (*place)[c];
+        for (std::size_t i = 0; i < fine.cells(); ++i) {
+            from[c][i] = fine.free[i] * (all[i] - all[middle]);
+            opposite[c][i] = -from[c][i];
         }
     }
-}
-
-void GridSystem::solve_coarsest() {
-    const GridLevel& level = levels_.back();
-    const std::size_t columns = level.columns, n = 3 * columns * level.rows;
-    const auto each = [&](auto visit) {
-        for (std::size_t i = 0; i < n; ++i)
-            visit(coarsest_x_[i], i % 3, i / 3 / columns * level.stride + i / 3 % columns);
-    };
-    coarsest_x_.resize(n);
-    std::vector<double>&x = coarsest_x_, &a = coarsest_;
-    each(
-        [&](double& to, std::size_t c, std::size_t cell) { to = static_cast<double>(level.right[c][cell]); });
-    for (std::size_t i = 0; i < n; ++i)
-        for (std::size_t k = 0; k < i; ++k) x[i] -= a[i * n + k] * x[k];
-    for (std::size_t i = n; i-- > 0;) {
-        x[i] /= a[i * n + i];
-        for (std::size_t k = i + 1; k < n; ++k) x[i] -= a[k * n + i] * x[k];
+    for (std::size_t k = 0; k < rotations && place != nullptr; ++k) {
+        double* const row = coarsest_.data() + (first + k) * n;
+        loops.multiply(fine, about[k], product_);
+        project(loops, product_);
+        each_coarsest([&](std::size_t i, std::size_t c, std::size_t cell) {
+            row[i] = static_cast<double>(coarse.right[c][cell]);
+        });
+        for (std::size_t j = 0; j <= k; ++j) row[first + j] = dot(loops, about[j], product_);
+        coarsest_x_[first + k] = dot(loops, about[k], fine.right);
+        // None, if free particles lie on its axis.
+        if (!(factorize_row(first + k) > min_pivot)) std::fill_n(row, first + k, 0.0), row[first + k] = 1e30;
     }
-    each([&](double& from, std::size_t c, std::size_t cell) { level.x[c][cell] = static_cast<float>(from); });
-}
-
-/// Makes the residual add up to zero in each cell of the coarsest level: however early the iteration ended,
-/// large parts keep their momentum.
-void GridSystem::balance(const Loops& loops) {
-    for (std::size_t i = 0; i + 1 < levels_.size(); ++i) {
-        const GridLevel &level = levels_[i], &next = levels_[i + 1];
-        for (float* each : level.product) std::fill_n(each, level.cells(), 0.0f);
-        for (float* each : level.x) std::fill_n(each, level.cells(), 0.0f);
-        loops.rows(next, [&](GridRange part) { loops.unit.restrict_to(level, next, part); });
+    project(loops, fine.right);
+    solve_coarsest(place != nullptr ? n : first);
+    for (std::size_t k = 0; k < rotations && place != nullptr; ++k) {
+        const auto angle = static_cast<float>(coarsest_x_[first + k]);
+        loops.cells(fine, [&](GridRange part) { loops.unit.add(angle, about[k], solution_, part); });
     }
-    solve_coarsest();
     for (std::size_t i = levels_.size() - 1; i-- > 0;) {
         const GridLevel &level = levels_[i], &next = levels_[i + 1];
+        for (float* each : level.x) std::fill_n(each, level.cells(), 0.0f);
         loops.rows(next, [&](GridRange part) { loops.unit.prolong(level, next, part); });
     }
-    loops.cells(finest(), [&](GridRange part) { loops.unit.add(1.0f, finest().x, solution_, part); });
+    loops.cells(fine, [&](GridRange part) { loops.unit.add(1.0f, fine.x, solution_, part); });
+}
+
+double GridSystem::dot(const Loops& loops, const GridVector& a, const GridVector& b) {
+    loops.cells(finest(), [&](GridRange part) { loops.unit.dot(a, b, sums_.data(), part); });
+    double all = 0.0;
+    for (const double sum : sums_) all += sum;
+    return all;
 }
 
 /// One cycle: computes x from the right side.
 void GridSystem::precondition(const Loops& loops, std::size_t index) {
     const GridUnit& unit = loops.unit;
     const GridLevel& level = levels_[index];
-    if (index + 1 == levels_.size()) return solve_coarsest();
+    if (index + 1 == levels_.size()) return solve_coarsest(coarsest_x_.size() - rotations);
     loops.cells(level, [&](GridRange part) { unit.smooth_first(level, part); });
     const GridLevel& next = levels_[index + 1];
     loops.multiply(level, level.x, level.product);
@@ -191,7 +246,8 @@ void GridSystem::precondition(const Loops& loops, std::size_t index) {
 }
 
 GridSystem::Solved GridSystem::solve(const GridUnit& unit, float floor, const Tolerance& tolerance,
-                                     int iterations, tendril::detail::ForkJoin& with) {
+                                     int iterations, const GridVector* place,
+                                     tendril::detail::ForkJoin& with) {
     const Loops loops(unit, with);
     const GridLevel& fine = finest();
     for (std::size_t i = 0; i < levels_.size(); ++i) {
@@ -202,30 +258,24 @@ GridSystem::Solved GridSystem::solve(const GridUnit& unit, float floor, const To
     factorize_coarsest();
     for (float* array : solution_) std::fill_n(array, fine.cells(), 0.0f);
     for (float* array : direction_) std::fill_n(array, fine.cells(), 0.0f);
-    const auto dot = [&](const GridVector& a, const GridVector& b) {
-        loops.cells(fine, [&](GridRange part) { unit.dot(a, b, sums_.data(), part); });
-        double all = 0.0;
-        for (const double sum : sums_) all += sum;
-        return all;
-    };
     Solved solved;
     double enough = 0.0, before = 0.0;
     for (;; ++solved.iterations) {
         precondition(loops, 0);
-        const double now = dot(fine.right, fine.x);
+        const double now = dot(loops, fine.right, fine.x);
         if (solved.iterations == 0)
             enough = std::max(tolerance.square, tolerance.relative * tolerance.relative * now);
         if (!std::isfinite(now)) return solved;
         solved.converged = now <= enough;
         if (solved.converged || solved.iterations >= iterations) {
-            balance(loops);
+            balance(loops, place);
             return solved;
         }
         const float kept = solved.iterations == 0 ? 0.0f : static_cast<float>(now / before);
         loops.cells(fine, [&](GridRange part) { unit.scale_and_add(kept, fine.x, direction_, part); });
         before = now;
         loops.multiply(fine, direction_, product_);
-        const double curvature = dot(direction_, product_);
+        const double curvature = dot(loops, direction_, product_);
         if (!(curvature > 0.0)) return solved;
         const auto length = static_cast<float>(now / curvature);
         loops.cells(fine, [&](GridRange part) {

@@ -9,6 +9,11 @@
 // the grid (W. Briggs, V. Henson, S. McCormick, "A Multigrid Tutorial", 2000; Y. Notay, "An aggregation-based
 // algebraic multigrid method", 2010).
 //
+// What an early end leaves is balanced: its residual is made orthogonal to the translations of large parts
+// and to the rotations of the whole (deflation by rigid modes: T. Jonsthovel, M. van Gijzen, S. MacLachlan,
+// C. Vuik, A. Scarpas, "Comparison of the deflated preconditioned conjugate gradient method and algebraic
+// multigrid for composite materials", 2012). Otherwise small errors of the same sign add up to a turn.
+//
 // Numbers are in single precision, each component of a block in an array of its own. Every vector unit gives
 // the same bits: nothing is fused, and the order of sums does not depend on the unit's width.
 #pragma once
@@ -69,6 +74,22 @@ inline constexpr std::size_t dot_cells = 8 * grid_lanes;
 /// Minimum size of a level that threads share: on smaller ones waiting costs more than sharing gains.
 inline constexpr std::size_t min_shared_cells = 8192;
 
+/// The unit of work that threads share in a loop.
+inline constexpr std::size_t part_cells = 16 * dot_cells;
+
+/// Calls `work` with ranges of up to `size` out of `count`, in parallel if they are of a large level and
+/// threads help.
+template <class Work>
+void in_parts(tendril::detail::ForkJoin& loops, std::size_t count, std::size_t size, bool large, Work work) {
+    constexpr std::size_t most = tendril::detail::ForkJoin::max_parts;
+    if (!large || !loops.shared() || count > most * size) return work(GridRange{0, count});
+    const auto parts = static_cast<std::uint32_t>((count + size - 1) / size);
+    loops.run(parts, [&](std::uint32_t part) {
+        const std::size_t first = part * size;
+        work(GridRange{first, first + size < count ? first + size : count});
+    });
+}
+
 /// Operations on part of a level, compiled for each vector unit. Parts can be processed in parallel.
 struct GridUnit {
     /// Factorizes the diagonal; no pivot is below `floor`.
@@ -115,22 +136,31 @@ class GridSystem {
         double square = 0.0, relative = 0.0;
     };
     /// Iterates until the residual is within either tolerance. `floor`: lower bound of the eigenvalues of the
-    /// diagonal's blocks. `loops`: threads that may help; changes no bit.
+    /// diagonal's blocks. `place`: the cells' positions; null leaves rotations out of the balance.
+    /// `loops`: threads that may help; changes no bit.
     Solved solve(const GridUnit& unit, float floor, const Tolerance& tolerance, int iterations,
-                 tendril::detail::ForkJoin& loops);
+                 const GridVector* place, tendril::detail::ForkJoin& loops);
     const GridVector& solution() const { return solution_; }
 
   private:
     class Loops;
+    static constexpr std::size_t rotations = 3;
+
     void precondition(const Loops& loops, std::size_t level);
     void factorize_coarsest();
-    void solve_coarsest();
-    void balance(const Loops& loops);
+    double factorize_row(std::size_t row);
+    void solve_coarsest(std::size_t n);
+    void project(const Loops& loops, const GridVector& vector);
+    void balance(const Loops& loops, const GridVector* place);
+    double dot(const Loops& loops, const GridVector& a, const GridVector& b);
+    template <class Visit>
+    void each_coarsest(Visit visit);
 
     std::vector<float> memory_;
     std::vector<double> sums_;  ///< partial sums of a dot product
     std::vector<GridLevel> levels_;
-    std::vector<double> coarsest_, coarsest_x_;  ///< its factor L D L^T, by rows; its solution
+    /// Of the coarsest level, then of the rotations: the factor L D L^T, by rows, and the solution.
+    std::vector<double> coarsest_, coarsest_x_;
     GridVector solution_{}, direction_{}, product_{};
 };
 

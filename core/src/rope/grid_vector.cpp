@@ -181,20 +181,12 @@ void coarsen(const GridLevel& fine, const GridLevel& coarse, GridRange rows) {
 }
 
 void dot(const GridVector& a, const GridVector& b, double* sums, GridRange cells) {
-    alignas(64) float lanes[grid_lanes];
-    for (std::size_t first = cells.first; first < cells.end; first += dot_cells) {
-        const std::size_t end = std::min(cells.end, first + dot_cells);
-        for (std::size_t k = 0; k < grid_lanes; k += hn::Lanes(Tag())) {
-            V sum = hn::Zero(Tag());
-            for (std::size_t i = first + k; i < end; i += grid_lanes)
-                for (std::size_t c = 0; c < 3; ++c)
-                    sum = hn::Add(sum, hn::Mul(load(a[c] + i), load(b[c] + i)));
-            hn::StoreU(sum, Tag(), lanes + k);
-        }
-        double& all = sums[first / dot_cells];
-        all = 0.0;
-        for (const float lane : lanes) all += static_cast<double>(lane);
-    }
+    each_dot(cells, [&](GridRange part) {
+        sums[part.first / dot_cells] = sum_of(part, [&](std::ptrdiff_t i) {
+            const V3 x = load(a, i), y = load(b, i);
+            return hn::Add(hn::Add(hn::Mul(x.x, y.x), hn::Mul(x.y, y.y)), hn::Mul(x.z, y.z));
+        });
+    });
 }
 
 void add(float factor, const GridVector& from, const GridVector& to, GridRange cells) {
@@ -231,10 +223,10 @@ GridUnit grid_unit(std::string_view name) noexcept {
     const std::int64_t target = tendril::detail::target_named(name);
     if (target == 0) return {};
     return {TENDRIL_COMPILED_FOR(factorize, target), TENDRIL_COMPILED_FOR(coarsen, target),
-                TENDRIL_COMPILED_FOR(multiply, target),  TENDRIL_COMPILED_FOR(smooth_first, target),
-                TENDRIL_COMPILED_FOR(smooth, target),    TENDRIL_COMPILED_FOR(restrict_to, target),
-                TENDRIL_COMPILED_FOR(prolong, target),   TENDRIL_COMPILED_FOR(dot, target),
-                TENDRIL_COMPILED_FOR(add, target),       TENDRIL_COMPILED_FOR(scale_and_add, target)};
+            TENDRIL_COMPILED_FOR(multiply, target),  TENDRIL_COMPILED_FOR(smooth_first, target),
+            TENDRIL_COMPILED_FOR(smooth, target),    TENDRIL_COMPILED_FOR(restrict_to, target),
+            TENDRIL_COMPILED_FOR(prolong, target),   TENDRIL_COMPILED_FOR(dot, target),
+            TENDRIL_COMPILED_FOR(add, target),       TENDRIL_COMPILED_FOR(scale_and_add, target)};
 }
 
 }  // namespace tendril::rope::detail
