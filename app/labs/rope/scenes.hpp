@@ -41,6 +41,7 @@ RopeScene flag_scene();
 RopeScene line_scene();
 RopeScene hanger_scene();
 RopeScene knot_scene();
+RopeScene folded_scene();
 
 /// Adds the ground that every scene has.
 void add_ground(NamedWorld& world);
