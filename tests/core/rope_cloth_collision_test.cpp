@@ -11,7 +11,7 @@ namespace {
 
 using glm::dvec3;
 
-/// One fold of a sheet along 0: layers `gap` apart, and half a circle between them. `at` becomes the place
+/// One fold of a cloth along 0: layers `gap` apart, and half a circle between them. `at` becomes the place
 /// along the layers, and the result the height above the lower one.
 double fold(double& at, double gap) {
     const double quarter = 0.25 * pi * gap;

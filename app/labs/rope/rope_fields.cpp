@@ -118,7 +118,7 @@ std::span<const FieldText> field_texts<BodySettings>() {
                        "How easily a cloth shears across its threads. Higher values drape more softly."),
         compliance_row("bend", 1,
                        "How easily a cloth or a hair bends. Higher values are limper: a limp cloth crumples "
-                       "at its free edge, as it does not collide with itself yet."),
+                       "at its free edge unless it collides with itself."),
         tears_row("tear", true,
                   "The strain at which a cloth or rope tears: at 10 %, in commands 0.1, it is a tenth "
                   "longer. 0: never.")};

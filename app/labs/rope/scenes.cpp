@@ -67,7 +67,9 @@ const std::vector<RopeSceneEntry>& rope_scenes() {
         {"crane", "Crane", "A trolley carries a load along a jib; a rope in a hand steers it", crane_scene,
          view({0.0f, 1.15f, 0.2f}, -28.0f, 12.0f, 5.2f)},
         {"mail", "Mail", "Rings of rope, tied each to the next, fall over a ball", mail_scene,
-         view({0.0f, 0.65f, 0.0f}, -28.0f, 26.0f, 4.4f)}};
+         view({0.0f, 0.65f, 0.0f}, -28.0f, 26.0f, 4.4f)},
+        {"folded", "Folded cloth", "A cloth lies folded in four: its layers rest on each other", folded_scene,
+         view({-0.1f, 0.05f, -0.1f}, -30.0f, 22.0f, 1.1f)}};
     return list;
 }
 
@@ -291,6 +293,42 @@ RopeScene knot_scene() {
     settings.substep = 1.0 / 480.0;  // the blow when the knot closes
     settings.friction = 0.15f;
     world.set_settings(settings);
+    return scene;
+}
+
+/// Folds a cloth along 0: layers `gap` apart, and half a circle between them. `at` becomes the place along
+/// the layers, and the result the height above the lower one.
+double fold(double& at, double gap) {
+    const double quarter = 0.25 * glm::pi<double>() * gap;
+    if (std::abs(at) >= quarter) {
+        const bool upper = at > 0.0;
+        at = quarter - std::abs(at);
+        return upper ? gap : 0.0;
+    }
+    const double turned = 2.0 * at / gap;
+    at = 0.5 * gap * std::cos(turned);
+    return 0.5 * gap * (1.0 + std::sin(turned));
+}
+
+RopeScene folded_scene() {
+    RopeScene scene;
+    NamedWorld& world = scene.world;
+    add_ground(world);
+    constexpr float side = 0.45f, radius = 0.006f;
+    world.add_cloth("cloth", {.corner = {-0.5f * side, 0, -0.5f * side},
+                              .along = {side, 0, 0},
+                              .down = {0, 0, side},
+                              .columns = 16,
+                              .rows = 16,
+                              .radius = radius});
+    rope::State state = world.state();
+    const double apart = 2.1 * static_cast<double>(radius);
+    for (glm::dvec3& p : state.position) {
+        const double inner = fold(p.x, apart), outer = fold(p.z, 3.0 * apart - 2.0 * inner);
+        p.y = 0.5 * apart + inner + outer;
+    }
+    world.put(std::move(state));
+    world.set_collides("cloth", "cloth", true);
     return scene;
 }
 

@@ -45,6 +45,7 @@ RopeScene net_scene();
 RopeScene rings_scene();
 RopeScene crane_scene();
 RopeScene mail_scene();
+RopeScene folded_scene();
 
 /// Adds the ground that every scene has.
 void add_ground(NamedWorld& world);

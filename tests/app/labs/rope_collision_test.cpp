@@ -21,6 +21,14 @@ class RopeCollisionTest : public RopeTest {
                          {"pin_end", true}});
         run("rope.add", {{"name", "other"}, {"from", {0, 2.1, -0.4}}, {"to", {0, 2.1, 0.4}}});
     }
+    void add_sail() {
+        run("rope.cloth.add", {{"name", "sail"},
+                               {"corner", {2, 1, 0}},
+                               {"along", {1, 0, 0}},
+                               {"down", {0, -1, 0}},
+                               {"columns", 3},
+                               {"rows", 3}});
+    }
     void collide(const char* a, const char* b, bool on = true) {
         run("rope.collide", {{"a", a}, {"b", b}, {"on", on}});
     }
@@ -46,30 +54,29 @@ TEST_F(RopeCollisionTest, OneRopeStaysOnAnotherUntilSwitchedOff) {
     EXPECT_LT(lowest("other"), 0.0) << "it has fallen";
 }
 
-TEST_F(RopeCollisionTest, AllIsEveryRopeAndUndoneInOneStep) {
+TEST_F(RopeCollisionTest, AllIsEveryRopeAndClothAndUndoneInOneStep) {
     crossed();
-    run("rope.cloth.add",
-        {{"corner", {2, 1, 0}}, {"along", {1, 0, 0}}, {"down", {0, -1, 0}}, {"columns", 3}, {"rows", 3}});
+    add_sail();
     collide("all", "all");
-    EXPECT_EQ(state()["collisions"], Json::array({{"line", "line"}, {"line", "other"}, {"other", "other"}}));
+    EXPECT_EQ(state()["collisions"], Json::array({{"line", "line"},
+                                                  {"line", "other"},
+                                                  {"line", "sail"},
+                                                  {"other", "other"},
+                                                  {"other", "sail"},
+                                                  {"sail", "sail"}}));
     run("undo");
     EXPECT_EQ(state()["collisions"], Json::array());
     collide("other", "all");
-    EXPECT_EQ(state()["collisions"], Json::array({{"line", "other"}, {"other", "other"}}));
+    EXPECT_EQ(state()["collisions"], Json::array({{"line", "other"}, {"other", "other"}, {"other", "sail"}}));
 }
 
 TEST_F(RopeCollisionTest, TheInspectorHasAButtonForItselfAndOneForAll) {
     crossed();
-    run("rope.select", {{"rope", "line"}, {"particle", 3}});
-    EXPECT_TRUE(test::says(test::PanelReader().inspector(lab(), workspace), "Hits itself Hits all ropes"));
-    run("rope.cloth.add", {{"name", "sail"},
-                           {"corner", {2, 1, 0}},
-                           {"along", {1, 0, 0}},
-                           {"down", {0, -1, 0}},
-                           {"columns", 3},
-                           {"rows", 3}});
-    run("rope.select", {{"rope", "sail"}, {"particle", 3}});
-    EXPECT_FALSE(test::says(test::PanelReader().inspector(lab(), workspace), "Hits itself"));
+    add_sail();
+    for (const char* body : {"line", "sail"}) {
+        run("rope.select", {{"rope", body}, {"particle", 3}});
+        EXPECT_TRUE(test::says(test::PanelReader().inspector(lab(), workspace), "Hits itself Hits all"));
+    }
 }
 
 TEST_F(RopeCollisionTest, SavedOpenedAndRewoundItContinuesTheSame) {
@@ -95,15 +102,27 @@ TEST_F(RopeCollisionTest, SavedOpenedAndRewoundItContinuesTheSame) {
 
 TEST_F(RopeCollisionTest, Refusals) {
     crossed();
-    run("rope.cloth.add", {{"name", "sail"},
-                           {"corner", {2, 1, 0}},
-                           {"along", {1, 0, 0}},
-                           {"down", {0, -1, 0}},
-                           {"columns", 3},
-                           {"rows", 3}});
-    expect_refused("rope.collide", {{"a", "line"}, {"b", "sail"}, {"on", true}}, {"only ropes"});
+    run("rope.hair.add", {{"name", "beard"}, {"centre", {0, 1, 0}}, {"radius", 0.1}});
+    expect_refused("rope.collide", {{"a", "line"}, {"b", "beard"}, {"on", true}}, {"hair"});
     expect_refused("rope.collide", {{"a", "line"}, {"b", "none"}, {"on", true}}, {"none"});
     expect_refused("rope.collide", {{"a", "line"}, {"b", "other"}}, {"on"});
+}
+
+TEST_F(RopeCollisionTest, AFoldedClothLiesInLayersUntilSwitchedOff) {
+    run("rope.preset", {{"name", "folded"}});
+    const rope::Body cloth = *world().find("cloth");
+    // Four particles that lie above each other, far from the creases.
+    const auto height = [&](std::size_t column, std::size_t row) {
+        return world().position(cloth.first + row * cloth.row + column).y / (2.0f * cloth.radius);
+    };
+    wait(180);
+    EXPECT_NEAR(height(3, 3), 0.5, 0.1);
+    EXPECT_GT(height(12, 3) - height(3, 3), 0.8);
+    EXPECT_GT(height(12, 12) - height(12, 3), 0.8);
+    EXPECT_GT(height(3, 12) - height(12, 12), 0.8);
+    run("rope.collide", {{"a", "cloth"}, {"b", "cloth"}, {"on", false}});
+    wait(180);
+    EXPECT_LT(height(12, 12), 1.5) << "the layers have sunk into each other";
 }
 
 TEST_F(RopeCollisionTest, AKnotIsPulledTightByItsWeight) {
