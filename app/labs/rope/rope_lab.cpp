@@ -177,6 +177,7 @@ std::vector<TestScene> RopeLab::test_scenes() const {
            {{"name", "ball"}, {"kind", "sphere"}, {"centre", glm::vec3(0.5f, 0.8f, 0)}, {"radius", 0.1f}}},
           {"rope.collider.swing", {{"name", "ball"}, {"by", glm::vec3(0.2f, 0, 0)}}}},
          words}};
+    scenes.push_back({"race", {{"rope.preset", {{"name", "line"}}}, {"rope.race", {}}}, words});
     for (const RopeSceneEntry& scene : rope_scenes())
         scenes.push_back({scene.name, {{"rope.preset", {{"name", scene.name}}}}, words});
     return scenes;
