@@ -25,7 +25,7 @@ bool fill_grid(const State& state, const Plan::Island& island, Plan& plan) {
     const std::uint32_t number = Plan::part(plan.bodies, island.bodies).front();
     const Body& body = state.bodies[number];
     if (island.bodies.count != 1 || body.kind != Body::Kind::Cloth || body.row < 2) return false;
-    if (body.rows() < 2) return false;
+    if (body.rows() < 2 || body.row * body.rows() > 16 * body.count + 64) return false;  // mostly gaps
     Plan::Grid grid{.body = number,
                     .columns = static_cast<std::uint32_t>(body.row),
                     .rows = static_cast<std::uint32_t>(body.rows()),
