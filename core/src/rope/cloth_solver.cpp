@@ -41,12 +41,14 @@ void detail::Cloth::resize(std::size_t columns, std::size_t rows) {
     arrays.mass = *next;
 }
 
-ClothSolver::ClothSolver(const IslandStep& step)
+ClothSolver::ClothSolver(const IslandStep& step, std::uint32_t grid)
     : ImplicitStep(step),
-      grid_(plan_.grids[island_.grid - 1]),
-      cloth_(scratch_.cloths[island_.grid - 1]),
+      grid_(plan_.grids[(grid == 0 ? island_.grid : grid) - 1]),
+      cloth_(scratch_.cloths[(grid == 0 ? island_.grid : grid) - 1]),
       level_(cloth_.system.finest()),
-      first_(state_.bodies[grid_.body].first) {
+      first_(state_.bodies[grid_.body].first) {}
+
+ClothSolver::ClothSolver(const IslandStep& step) : ClothSolver(step, 0) {
     const std::size_t count = state_.bodies[grid_.body].count;
     double whole = 0.0, longest = 0.0;
     for (std::size_t i = first_; i < first_ + count; ++i) whole += state_.mass[i];
@@ -62,7 +64,11 @@ ClothSolver::ClothSolver(const IslandStep& step)
     const double area = (grid_.columns - 1.0) * (grid_.rows - 1.0) * shortest_ * longest;
     const double weight = whole * detail::length(detail::acceleration(state_.settings)) +
                           area * detail::wind_pressure(state_.settings);
-    stiffness_ = std::clamp(weight / (strain_by_weight * shortest_ * unit_), min_stiffness, max_stiffness);
+    stiffness_ = link_stiffness(weight, shortest_, unit_);
+}
+
+double ClothSolver::link_stiffness(double weight, double shortest, double unit) {
+    return std::clamp(weight / (strain_by_weight * shortest * unit), min_stiffness, max_stiffness);
 }
 
 /// Calls `visit` with each particle and its cell.
@@ -101,7 +107,8 @@ void ClothSolver::load() {
         elastic += 0.5 * tension * tension / (stiffness * unit_);
         rests += link.rest;
     }
-    local_.cloth_energy = {.length = rests / (grid_.columns + grid_.rows), .gained = -elastic};
+    local_.cloth_energy.length += rests / (grid_.columns + grid_.rows);
+    local_.cloth_energy.gained -= elastic;
 }
 
 /// Computes the blocks of links at the current positions, and their maximum strain.
@@ -184,33 +191,35 @@ double ClothSolver::potential() const {
         const dvec3 beside = scratch_.place[i] - scratch_.base[i];
         sum += state_.mass[i] / mass_ * detail::dot(beside, beside);
     }
-    for (const std::uint32_t i : Plan::part(plan_.links, island_.links)) {
-        const Link& link = state_.links[i];
+    sum = add_links(sum);
+    for (const ClothContact& each : local_.cloth_contacts) sum += potential_of(each);
+    return sum;
+}
+
+double ClothSolver::add_links(double sum) const {
+    for (const Plan::GridLink& each : Plan::part(plan_.grid_links, grid_.links)) {
+        const Link& link = state_.links[each.link];
         const double longer = detail::length(scratch_.place[link.b] - scratch_.place[link.a]) - link.rest;
         sum += stiffness_of(link) * longer * longer;
     }
-    for (const ClothContact& each : local_.cloth_contacts) sum += potential_of(each);
     return sum;
 }
 
 /// Stores the multipliers of links, and their energy.
 void ClothSolver::finish() {
     double elastic = 0.0;
-    for (const std::uint32_t i : Plan::part(plan_.links, island_.links)) {
-        const Link& link = state_.links[i];
+    for (const Plan::GridLink& each : Plan::part(plan_.grid_links, grid_.links)) {
+        const Link& link = state_.links[each.link];
         const double longer = detail::length(scratch_.place[link.b] - scratch_.place[link.a]) - link.rest;
         const double pull = stiffness_of(link) * longer;
-        scratch_.multiplier[i] = mass_ * pull;
+        scratch_.multiplier[each.link] = mass_ * pull;
         elastic += pull * longer;
     }
-    local_.cloth_energy.elastic = 0.5 * unit_ * elastic;
-    local_.cloth_energy.gained += local_.cloth_energy.elastic;
+    local_.cloth_energy.elastic += 0.5 * unit_ * elastic;
+    local_.cloth_energy.gained += 0.5 * unit_ * elastic;
 }
 
-/// Starts as if nothing had changed since the previous substep: links and contacts then push as they did.
-/// Where forces move particles by as much as a link that is no guide, and it starts from free motion.
-int ClothSolver::solve(int iterations) {
-    load();
+double ClothSolver::start() {
     const double far = far_driven * shortest_;
     double driven = 0.0, farthest = 0.0;
     const auto unchanged = [&](std::size_t i) { return state_.position[i] + state_.displacement[i]; };
@@ -226,7 +235,13 @@ int ClothSolver::solve(int iterations) {
     });
     evaluate();
     const double small = residual_strain * shortest_;
-    const double enough = std::min(driven_residual * driven_residual * driven, small * small * stiffness_);
+    return std::min(driven_residual * driven_residual * driven, small * small * stiffness_);
+}
+
+int ClothSolver::solve(int iterations) {
+    local_.cloth_energy = {};
+    load();
+    const double enough = start();
     int most = 0;
     for (int taken = 0;; ++taken) {
         find_contacts(taken == 0);

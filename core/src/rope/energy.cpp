@@ -91,7 +91,7 @@ void Substep::Ledger::add_link(std::uint32_t number) {
 void Substep::Ledger::add_cloth() {
     length_ += it_.local_.cloth_energy.length;
     gained_ += it_.local_.cloth_energy.gained;
-    elastic_ = it_.local_.cloth_energy.elastic;
+    elastic_ += it_.local_.cloth_energy.elastic;
 }
 
 bool Substep::Ledger::gains(double part) const {
@@ -150,10 +150,13 @@ Substep::Ledger Substep::ledger_of_all() const {
         near = std::max(near, scratch_.body_near[body]);
     Ledger ledger(*this, near);
     each_particle([&](std::size_t i) { ledger.add_particle(i); });
-    if (island_.grid != 0 && state_.settings.solver == Solver::Direct)
-        ledger.add_cloth();
-    else
-        for (const std::uint32_t link : Plan::part(plan_.links, island_.links)) ledger.add_link(link);
+    const bool direct = state_.settings.solver == Solver::Direct;
+    if (direct && (island_.grid != 0 || island_.tied != 0)) ledger.add_cloth();
+    if (direct && island_.grid != 0) return ledger;
+    const std::span<const std::uint32_t> links = Plan::part(plan_.links, island_.links);
+    for (std::size_t k = 0; k < links.size(); ++k)
+        if (!direct || island_.tied == 0 || plan_.tied[island_.tied - 1].link_blocks[k] != Plan::no_block)
+            ledger.add_link(links[k]);
     return ledger;
 }
 

@@ -108,7 +108,8 @@ void GridSystem::factorize_coarsest() {
     const GridLevel& level = levels_.back();
     const std::size_t columns = level.columns, n = 3 * columns * level.rows;
     constexpr std::size_t part[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
-    std::vector<double>& a = coarsest_;
+    coarsest_.resize(n);
+    std::vector<double>& a = coarsest_.matrix;
     a.assign(n * n, 0.0);
     const auto put = [&](std::size_t i, std::size_t j, const GridBlocks& blocks, std::size_t cell,
                          double by) {
@@ -128,34 +129,25 @@ void GridSystem::factorize_coarsest() {
                 put(std::max(i, j), std::min(i, j), level.links[s], cell, -1.0);
             }
         }
-    for (std::size_t j = 0; j < n; ++j) {
-        for (std::size_t k = 0; k < j; ++k) a[j * n + j] -= a[j * n + k] * a[j * n + k] * a[k * n + k];
-        const double inverse = 1.0 / a[j * n + j];
-        for (std::size_t i = j + 1; i < n; ++i) {
-            for (std::size_t k = 0; k < j; ++k) a[i * n + j] -= a[i * n + k] * a[j * n + k] * a[k * n + k];
-            a[i * n + j] *= inverse;
-        }
-    }
+    coarsest_.factorize();
 }
 
 void GridSystem::solve_coarsest() {
     const GridLevel& level = levels_.back();
     const std::size_t columns = level.columns, n = 3 * columns * level.rows;
-    const auto each = [&](auto visit) {
-        for (std::size_t i = 0; i < n; ++i)
-            visit(coarsest_x_[i], i % 3, i / 3 / columns * level.stride + i / 3 % columns);
-    };
     coarsest_x_.resize(n);
-    std::vector<double>&x = coarsest_x_, &a = coarsest_;
-    each(
-        [&](double& to, std::size_t c, std::size_t cell) { to = static_cast<double>(level.right[c][cell]); });
     for (std::size_t i = 0; i < n; ++i)
-        for (std::size_t k = 0; k < i; ++k) x[i] -= a[i * n + k] * x[k];
-    for (std::size_t i = n; i-- > 0;) {
-        x[i] /= a[i * n + i];
-        for (std::size_t k = i + 1; k < n; ++k) x[i] -= a[k * n + i] * x[k];
-    }
-    each([&](double& from, std::size_t c, std::size_t cell) { level.x[c][cell] = static_cast<float>(from); });
+        coarsest_x_[i] =
+            static_cast<double>(level.right[i % 3][i / 3 / columns * level.stride + i / 3 % columns]);
+    coarsest_.solve(coarsest_x_.data());
+    store_coarsest();
+}
+
+void GridSystem::store_coarsest() {
+    const GridLevel& level = levels_.back();
+    const std::size_t columns = level.columns;
+    for (std::size_t i = 0; i < coarsest_x_.size(); ++i)
+        level.x[i % 3][i / 3 / columns * level.stride + i / 3 % columns] = static_cast<float>(coarsest_x_[i]);
 }
 
 /// Makes the residual add up to zero in each cell of the coarsest level: however early the iteration ended,

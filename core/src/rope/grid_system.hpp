@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "math/fork_join.hpp"
+#include "rope/elimination.hpp"
 
 namespace tendril::rope::detail {
 
@@ -30,6 +31,7 @@ struct GridStep {
 };
 inline constexpr std::array<GridStep, 6> grid_steps{{{1, 0}, {0, 1}, {1, 1}, {-1, 1}, {2, 0}, {0, 2}}};
 inline constexpr std::size_t fine_steps = grid_steps.size(), coarse_steps = 4;
+inline constexpr float grid_damping = 0.6f;  ///< of the smoother
 
 /// Rows and arrays are padded to a multiple of this.
 inline constexpr std::size_t grid_lanes = 8;
@@ -38,7 +40,15 @@ inline std::size_t grid_stride(std::size_t columns) {
     return (columns + grid_lanes - 1) / grid_lanes * grid_lanes;
 }
 
+/// The cell of a particle, by its number in the cloth.
+inline std::size_t cell_of(std::size_t number, std::size_t columns) {
+    return number / columns * grid_stride(columns) + number % columns;
+}
+
 using GridVector = std::array<float*, 3>;
+inline dvec3 value_at(const GridVector& vector, std::size_t cell) {
+    return {vector[0][cell], vector[1][cell], vector[2][cell]};
+}
 /// xx, xy, xz, yy, yz, zz
 using GridBlocks = std::array<float*, 6>;
 
@@ -120,7 +130,26 @@ class GridSystem {
                  tendril::detail::ForkJoin& loops);
     const GridVector& solution() const { return solution_; }
 
+    // For what solves several grids, and what ties join them to, together (tie_forces.cpp). Its
+    // preconditioner is the sum of the inverse blocks of all levels (J. Bramble, J. Pasciak, J. Xu, "Parallel
+    // Multilevel Preconditioners", 1990), of which the part between two cells is known.
+    void factorize(const GridUnit& unit, float floor);
+    void spread(const GridUnit& unit);                ///< computes x of each level from the residual, `right`
+    dvec3 spread_at(std::size_t cell) const;          ///< the sum over the levels, after spread()
+    void push(std::size_t cell, const dvec3& force);  ///< adds to the residual, after spread()
+    void gather(const GridUnit& unit);                ///< sums x over the levels
+    std::array<dvec3, 3> between(std::size_t a, std::size_t b);  ///< the preconditioner's block
+    /// direction = x + by direction; then product = A direction.
+    void turn(const GridUnit& unit, float by);
+    void add_to_product(std::size_t cell, const dvec3& force);
+    double residual_dot_x(const GridUnit& unit) { return dot(unit, finest().right, finest().x); }
+    double direction_dot_product(const GridUnit& unit) { return dot(unit, direction_, product_); }
+    /// Adds a part of the direction to the solution and subtracts that of the product from the residual.
+    void advance(const GridUnit& unit, float part);
+    void add_x(const GridUnit& unit);  ///< to the solution
+
   private:
+    double dot(const GridUnit& unit, const GridVector& a, const GridVector& b);
     class Loops;
     void precondition(const Loops& loops, std::size_t level);
     void factorize_coarsest();
@@ -130,7 +159,14 @@ class GridSystem {
     std::vector<float> memory_;
     std::vector<double> sums_;  ///< partial sums of a dot product
     std::vector<GridLevel> levels_;
-    std::vector<double> coarsest_, coarsest_x_;  ///< its factor L D L^T, by rows; its solution
+    DenseSystem coarsest_;
+    std::vector<double> coarsest_x_;  ///< its solution
+    // The inverse of the coarsest level: columns, and by cell, whether they are known.
+    std::vector<double> inverse_;
+    std::vector<std::uint8_t> known_;
+    const double* inverse_column(std::size_t cell, std::size_t component);
+    std::size_t number_of_coarsest(std::size_t cell) const;
+    void store_coarsest();
     GridVector solution_{}, direction_{}, product_{};
 };
 

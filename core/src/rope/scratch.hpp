@@ -68,6 +68,24 @@ struct ContactScratch {
     } progress;
 };
 
+/// The forces of ties that join grids to anything, as unknowns of a small dense system.
+struct TieForces {
+    struct End {
+        enum class Of : std::uint8_t { Nothing, Grid, Rest } of = Of::Nothing;  ///< nothing: pinned
+        std::uint32_t grid = 0;  ///< index in the island's grids
+        std::uint32_t at = 0;    ///< a cell, or a place in the order of elimination
+        double sign = 1.0;       ///< of the way of this end in the tie's
+    };
+    std::vector<std::array<End, 2>> ends;                ///< of each tie
+    std::vector<glm::dvec3> gap, now, direction, total;  ///< of each tie: metres; the others are forces
+    detail::DenseSystem system;                          ///< how far forces move the ends
+    std::vector<double> flat;                            ///< its right side
+    std::vector<glm::dvec3> local;                       ///< of each place in the order of elimination
+
+    void resize(std::size_t ties, std::size_t nodes);
+    void solve();  ///< turns `now` from ways into forces
+};
+
 /// Contacts between the bodies of an island.
 struct BodyContactScratch {
     /// Where a segment may be in the substep: in a ball.
@@ -164,7 +182,9 @@ struct Scratch {
     std::vector<std::uint32_t> collider_at;         ///< list index by slot
     std::vector<detail::Cloth> cloths;              ///< of the plan's grids
     std::vector<detail::EliminationSystem> tied;    ///< of the plan's tied bodies
-    std::vector<double> tie_multiplier;             ///< of each tie: tension times h^2
+    std::vector<TieForces> tie_forces;              ///< of the plan's tied bodies
+    std::vector<glm::dvec3> tied_by;     ///< of each particle: a step of the tied solver; else empty
+    std::vector<double> tie_multiplier;  ///< of each tie: tension times h^2
     detail::VectorUnit unit;
     detail::GridUnit grid_unit;
     detail::ClothUnit cloth_unit;
@@ -198,7 +218,7 @@ struct IslandScratch {
     std::size_t block_offset = 0;
     ContactScratch contact;
     std::vector<ClothContact> cloth_contacts, earlier_contacts;
-    /// Of the cloth solved last: its approximate length, metres, the energy in its links and its gain,
+    /// Of the island's grids: their approximate length, metres, the energy in their links and its gain,
     /// joules.
     struct {
         double length = 0.0, elastic = 0.0, gained = 0.0;
