@@ -58,6 +58,60 @@ TEST(RopeTie, KeepsMomentumOfFreeBodies) {
     EXPECT_LT(stretch(moving, "rope"), 1e-3);
 }
 
+/// Cloth of every size takes part in the solve: at rest its ties carry its weight, and keep their lengths.
+TEST(RopeTie, TiesCarryTheWeightOfACloth) {
+    for (const int side : {6, 17, 28}) {
+        World world = world_with({.damping = 6.0f});
+        world.add_rope("line", {.from = {0, 2, 0},
+                                .to = {1, 2, 0},
+                                .segments = side - 1,
+                                .length = 1.05f,
+                                .pin_start = true,
+                                .pin_end = true});
+        world.add_cloth(
+            "sheet",
+            {.corner = {0, 1.95f, 0}, .along = {1, 0, 0}, .down = {0, -1, 0}, .columns = side, .rows = side});
+        std::vector<rope::TieId> ties;
+        for (int i = 0; i < side; i += 2)
+            ties.push_back(tie(world, "line", i, "sheet", i, {.length = 0.05f}));
+        run(world, 6.0);
+        double carried = 0.0;
+        for (const rope::TieId each : ties) {
+            const rope::Tie& it = *world.core().find(each);
+            const glm::dvec3 along = world.core().position(it.a) - world.core().position(it.b);
+            carried += it.tension * along.y / glm::length(along);
+            EXPECT_LT(gap(world, each), 1e-6) << side;
+        }
+        const double weight = 9.81 * world.core().mass(*world.find("sheet"));
+        EXPECT_NEAR(carried / weight, 1.0, 0.01) << side;
+        EXPECT_LT(stretch(world, "sheet"), 0.01) << side;
+        EXPECT_LT(stretch(world, "line"), 1e-4) << side;
+    }
+}
+
+/// Two cloths, one of them tied to itself, and a rope between them, thrown without gravity.
+TEST(RopeTie, KeepsMomentumOfCloths) {
+    World world = world_with({.damping = 0.0f, .gravity = {0, 0, 0}});
+    world.add_cloth("first", {.columns = 9, .rows = 12});
+    world.add_cloth("second", {.corner = {1.2f, 0, 0}, .columns = 14, .rows = 8});
+    world.add_rope("rope", {.from = {0, 0, 0.3f}, .to = {1.2f, 0, 0.3f}, .segments = 20});
+    tie(world, "first", 0, "rope", 0);
+    tie(world, "rope", -1, "second", 3, {.length = 0.1f});
+    tie(world, "first", 5, "first", 40);
+    tie(world, "first", 17, "second", 0);
+    run(world, 0.5);
+    rope::State state = world.state();
+    for (std::size_t i = 0; i < state.position.size(); ++i)
+        state.displacement[i] = glm::dvec3(0.002, -0.001, 0.001 * std::sin(static_cast<double>(i)));
+    state.displaced_in = state.settings.substep;
+    World moving(std::move(state));
+    const glm::dvec3 before = momentum(moving);
+    run_substeps(moving, 600, [&] {
+        ASSERT_LT(glm::distance(momentum(moving), before), 1e-9 * glm::length(before));
+        for (const rope::Tie& each : moving.state().ties) ASSERT_LT(gap(moving, each.id), 1e-3);
+    });
+}
+
 TEST(RopeTie, TearsAtItsStrength) {
     for (const double part : {0.98, 1.02}) {
         World world = world_with({.damping = 5.0f});

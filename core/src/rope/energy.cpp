@@ -91,7 +91,7 @@ void Substep::Ledger::add_link(std::uint32_t number) {
 void Substep::Ledger::add_cloth(const detail::Cloth& cloth) {
     length_ += cloth.energy.length;
     gained_ += cloth.energy.gained;
-    elastic_ = cloth.energy.elastic;
+    elastic_ += cloth.energy.elastic;
 }
 
 bool Substep::Ledger::gains(double part) const {
@@ -150,10 +150,17 @@ Substep::Ledger Substep::ledger_of(const Plan::Island& part) const {
     for (const std::uint32_t body : bodies) near = std::max(near, scratch_.body_near[body]);
     Ledger ledger(*this, near);
     each_particle_of(part, [&](std::size_t i) { ledger.add_particle(i); });
-    if (part.grid != 0 && state_.settings.solver == Solver::Direct)
+    const bool direct = state_.settings.solver == Solver::Direct;
+    const Plan::Tied* const tied = direct && part.tied != 0 ? &plan_.tied[part.tied - 1] : nullptr;
+    if (direct && part.grid != 0) {
         ledger.add_cloth(scratch_.cloths[part.grid - 1]);
-    else
-        for (const std::uint32_t link : Plan::part(plan_.links, part.links)) ledger.add_link(link);
+        return ledger;
+    }
+    for (std::uint32_t g = 0; tied != nullptr && g < tied->grids.count; ++g)
+        ledger.add_cloth(scratch_.cloths[tied->grids.first + g]);
+    const std::span<const std::uint32_t> links = Plan::part(plan_.links, part.links);
+    for (std::size_t k = 0; k < links.size(); ++k)
+        if (tied == nullptr || tied->link_blocks[k] != Plan::no_block) ledger.add_link(links[k]);
     return ledger;
 }
 
