@@ -1,5 +1,6 @@
 // Ties between particles of any bodies.
 #include "rope_support.hpp"
+#include "tendril/rope/edit.hpp"
 #include "tests/says.hpp"
 
 namespace tendril::test {
@@ -110,6 +111,70 @@ TEST(RopeTie, KeepsMomentumOfCloths) {
         ASSERT_LT(glm::distance(momentum(moving), before), 1e-9 * glm::length(before));
         for (const rope::Tie& each : moving.state().ties) ASSERT_LT(gap(moving, each.id), 1e-3);
     });
+}
+
+/// A cloth with a rope at a corner, thrown without gravity.
+TEST(RopeTie, KeepsTheSpinOfACloth) {
+    World world = world_with({.damping = 0.0f, .gravity = {0, 0, 0}});
+    world.add_cloth(
+        "cloth",
+        {.corner = {-0.5f, 0, -0.5f}, .along = {1, 0, 0}, .down = {0, 0, 1}, .columns = 20, .rows = 20});
+    world.add_rope("rope", {.from = {0.5f, 0, 0.5f}, .to = {0.8f, 0, 0.8f}, .segments = 8});
+    tie(world, "cloth", -1, "rope", 0);
+    rope::State state = world.state();
+    state.displaced_in = state.settings.substep;
+    for (std::size_t i = 0; i < state.position.size(); ++i)
+        state.displacement[i] = state.displaced_in * glm::cross(glm::dvec3(0.3, 2.0, 0.1), state.position[i]);
+    World moving(std::move(state));
+    const auto spin = [&] {
+        glm::dvec3 sum(0.0);
+        for (std::size_t i = 0; i < moving.size(); ++i)
+            sum += moving.state().mass[i] * glm::cross(moving.core().position(i), moving.core().velocity(i));
+        return sum;
+    };
+    const glm::dvec3 before = spin();
+    run_substeps(moving, 600, [] {});
+    EXPECT_LT(glm::distance(spin(), before), 0.08 * glm::length(before));
+    EXPECT_LT(moving.length_error(), 2e-3);
+}
+
+/// A cloth on a line, cut in two across: each piece keeps its ties, which hold its weight.
+TEST(RopeTie, PiecesOfACutClothKeepTheirTies) {
+    World whole = world_with({.damping = 3.0f});
+    whole.add_rope("line", {.from = {0, 2, 0},
+                            .to = {1, 2, 0},
+                            .segments = 12,
+                            .length = 1.05f,
+                            .pin_start = true,
+                            .pin_end = true});
+    whole.add_rope("weight", {.from = {0.5f, 1, 0}, .to = {0.5f, 0.5f, 0}, .segments = 6});
+    whole.add_cloth(
+        "cloth",
+        {.corner = {0, 1.95f, 0}, .along = {1, 0, 0}, .down = {0, -1, 0}, .columns = 13, .rows = 13});
+    for (const int i : {0, 4, 8, 12}) tie(whole, "line", i, "cloth", i, {.length = 0.05f});
+    tie(whole, "cloth", 12 * 13 + 6, "weight", 0, {.length = 0.05f});
+    const glm::vec2 across[] = {{-0.5f, 4.5f}, {6, 7.5f}, {12.5f, 4.5f}};
+    rope::Edited edited = allowed(rope::cut_cloth(whole.core(), whole.id("cloth"), across));
+    ASSERT_EQ(edited.pieces.size(), 1u);
+    ASSERT_FALSE(edited.world.find(edited.pieces[0])->cells.empty());
+    rope::World four = edited.world;
+    rope::Workspace one_thread, four_threads;
+    allow(four_threads.use_threads(4));
+    for (int i = 0; i < 240; ++i) {
+        edited.world.advance(1.0 / 60.0, one_thread);
+        four.advance(1.0 / 60.0, four_threads);
+    }
+    EXPECT_TRUE(same_bits(four.state(), edited.world.state()));
+    const rope::World& world = edited.world;
+    double carried = 0.0;
+    for (const rope::Tie& each : world.state().ties) {
+        const glm::dvec3 along = world.position(each.a) - world.position(each.b);
+        EXPECT_NEAR(glm::length(along), 0.05, 1e-5);
+        if (each.a < world.find(whole.id("line"))->count) carried += each.tension * along.y / 0.05;
+    }
+    for (const rope::Body& body : world.state().bodies) EXPECT_LT(world.length_error(body), 0.01);
+    const rope::Body& upper = *world.find(whole.id("cloth"));
+    EXPECT_NEAR(carried / (9.81 * world.mass(upper)), 1.0, 0.01);
 }
 
 TEST(RopeTie, TearsAtItsStrength) {

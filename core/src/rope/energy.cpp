@@ -144,6 +144,11 @@ void Substep::add_chain(Ledger& ledger, const Plan::Chain& chain) const {
     for (std::uint32_t k = 0; k < chain.links; ++k) ledger.add_link(chain.first_link + k);
 }
 
+/// Whether a link of tied bodies, by its number in the part, is a grid's.
+bool Substep::tied_in_grid(const Plan::Island& part, std::size_t link) const {
+    return part.tied != 0 && plan_.tied[part.tied - 1].link_blocks[link] == Plan::no_block;
+}
+
 Substep::Ledger Substep::ledger_of(const Plan::Island& part) const {
     Scratch::Nearest near = Scratch::Nearest::None;
     const std::span<const std::uint32_t> bodies = Plan::part(plan_.bodies, part.bodies);
@@ -151,16 +156,15 @@ Substep::Ledger Substep::ledger_of(const Plan::Island& part) const {
     Ledger ledger(*this, near);
     each_particle_of(part, [&](std::size_t i) { ledger.add_particle(i); });
     const bool direct = state_.settings.solver == Solver::Direct;
-    const Plan::Tied* const tied = direct && part.tied != 0 ? &plan_.tied[part.tied - 1] : nullptr;
     if (direct && part.grid != 0) {
         ledger.add_cloth(scratch_.cloths[part.grid - 1]);
         return ledger;
     }
-    for (std::uint32_t g = 0; tied != nullptr && g < tied->grids.count; ++g)
-        ledger.add_cloth(scratch_.cloths[tied->grids.first + g]);
+    const Plan::Range grids = direct && part.tied != 0 ? plan_.tied[part.tied - 1].grids : Plan::Range{};
+    for (std::uint32_t g = 0; g < grids.count; ++g) ledger.add_cloth(scratch_.cloths[grids.first + g]);
     const std::span<const std::uint32_t> links = Plan::part(plan_.links, part.links);
     for (std::size_t k = 0; k < links.size(); ++k)
-        if (tied == nullptr || tied->link_blocks[k] != Plan::no_block) ledger.add_link(links[k]);
+        if (!direct || !tied_in_grid(part, k)) ledger.add_link(links[k]);
     return ledger;
 }
 
@@ -219,8 +223,9 @@ void Substep::slow_down() {
         const Slowed& slowed = local_.part_slowed[k];
         if (!slowed.any()) continue;
         each_particle_of(parts[k], [&](std::size_t i) { slow(i, slowed); });
-        for (const std::uint32_t i : Plan::part(plan_.links, parts[k].links))
-            slacken(state_.links[i], slowed, parts[k].grid != 0);
+        const std::span<const std::uint32_t> links = Plan::part(plan_.links, parts[k].links);
+        for (std::size_t i = 0; i < links.size(); ++i)
+            slacken(state_.links[links[i]], slowed, parts[k].grid != 0 || tied_in_grid(parts[k], i));
     }
     for (std::uint32_t r = island_.chains.first; r < island_.chains.first + island_.chains.count; ++r) {
         const Slowed slowed = std::exchange(scratch_.chain_slowed[r], {});

@@ -27,6 +27,8 @@ constexpr int max_halvings = 8;
 /// Of cloth that is a grid, as in cloth_solver.cpp.
 constexpr double accepted_strain = 0.007, usual_residual = 0.1;
 constexpr int min_grid_steps = 2, max_grid_steps = 8;
+/// What nothing holds goes on turning, and each step's error with it.
+constexpr int min_free_steps = 4;
 constexpr double single_rounding = 1e-6;  ///< of a potential: grids are in single precision
 
 /// along n n^T + across (I - n n^T)
@@ -299,19 +301,55 @@ void TiedSolver::step(bool first, int iterations, double enough) {
     turned_ = turned;
 }
 
+/// Without pins and contacts.
+bool TiedSolver::is_free() const {
+    bool free = local_.cloth_contacts.empty();
+    each_particle([&](std::size_t i) { free = free && scratch_.weight[i] > 0.0; });
+    return free;
+}
+
 /// Without pins and contacts nothing moves the centre of mass; what the solve did to it is rounding, of a
 /// system in which links are ten million times as stiff as particles are heavy.
 void TiedSolver::keep_centre() {
-    bool free = local_.cloth_contacts.empty();
+    if (!is_free()) return;
     double mass = 0.0;
     dvec3 moved(0.0);
     each_particle([&](std::size_t i) {
-        free = free && scratch_.weight[i] > 0.0;
         mass += state_.mass[i];
         moved += state_.mass[i] * (scratch_.place[i] - scratch_.base[i]);
     });
-    if (!free) return;
     each_particle([&](std::size_t i) { scratch_.place[i] -= (1.0 / mass) * moved; });
+    if (tied_.grids.count > 0) keep_spin();
+}
+
+/// Nor does anything turn the whole then: forces between particles act along the lines that join them. Grids
+/// are not solved so well, so what is left of a turn is taken back.
+void TiedSolver::keep_spin() {
+    double mass = 0.0;
+    dvec3 centre(0.0), turn(0.0);
+    each_particle([&](std::size_t i) {
+        mass += state_.mass[i];
+        centre += state_.mass[i] * scratch_.place[i];
+    });
+    centre *= 1.0 / mass;
+    double trace = 0.0;
+    Symmetric3 inertia;
+    each_particle([&](std::size_t i) {
+        const dvec3 from = scratch_.place[i] - centre;
+        turn -= state_.mass[i] * detail::cross(from, scratch_.place[i] - scratch_.base[i]);
+        trace += state_.mass[i] * detail::dot(from, from);
+        inertia.add(-state_.mass[i], from, from);
+    });
+    constexpr double thin = 1e-9;  // of what lies on one line
+    const double all = (1.0 + thin) * trace;
+    const dvec3 a(inertia.xx + all, inertia.xy, inertia.xz), b(inertia.xy, inertia.yy + all, inertia.yz),
+        c(inertia.xz, inertia.yz, inertia.zz + all);
+    const double volume = detail::dot(a, detail::cross(b, c));
+    if (!(volume > 0.0)) return;
+    const dvec3 by =
+        (1.0 / volume) * dvec3(detail::dot(turn, detail::cross(b, c)), detail::dot(a, detail::cross(turn, c)),
+                               detail::dot(a, detail::cross(b, turn)));
+    each_particle([&](std::size_t i) { scratch_.place[i] += detail::cross(by, scratch_.place[i] - centre); });
 }
 
 /// Starts as if nothing had changed since the previous substep: at rest a single step is then enough.
@@ -327,7 +365,10 @@ void TiedSolver::start() {
 int TiedSolver::solve(int iterations) {
     const bool has_grids = tied_.grids.count > 0;
     const int most = std::min(max_steps, iterations);
-    const int least = !local_.near.empty() ? steps_near_colliders : has_grids ? min_grid_steps : 1;
+    const int least = !local_.near.empty() ? steps_near_colliders
+                      : !has_grids         ? 1
+                      : is_free()          ? min_free_steps
+                                           : min_grid_steps;
     double enough = 0.0;
     start();
     each_grid([&](std::uint32_t number) {

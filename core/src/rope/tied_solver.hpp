@@ -57,7 +57,9 @@ class TiedSolver : ImplicitStep {
     void go(double part);
     void note_tensions(bool exact);
     double potential();
+    bool is_free() const;
     void keep_centre();
+    void keep_spin();
 
     double tie_stiffness(const Tie& tie) const;  ///< times h^2 over the mean mass
 
