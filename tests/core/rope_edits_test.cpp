@@ -195,17 +195,24 @@ void change_at_random(int edits, std::uint32_t seed) {
         rope::World replayed = before;
         edit(replayed, again);
         ASSERT_TRUE(same_bits(replayed.state(), world.state())) << i;
+        const rope::World edited = world;
         world.advance(frame, one);
         replayed.advance(frame, four);
         ASSERT_TRUE(same_bits(replayed.state(), world.state())) << i;
         ASSERT_TRUE(rope::World::from_state(world.state())) << i;
         expect_finite(world, i);
         if (testing::Test::HasFatalFailure()) return;
-        // A stiffer material straightens what it was folded to: that may be fast.
+        // Nothing goes further in a substep than was asked, but for what would have gone there anyway. A
+        // stiffer material straightens what it was folded to, and what tears is let go: that may be fast.
         const double way =
             asked.metres + (asked.renumbers ? longest_link(before, *before.find(asked.body)) : 0.0);
-        if (!asked.stiffens) {
-            ASSERT_LT(top_speed_of(world), top_speed_of(before) + 2.0 + way / frame) << i;
+        rope::World unedited = before;
+        unedited.advance(frame, one);
+        const bool tears = world.state().links.size() < edited.state().links.size();
+        if (!asked.stiffens && !tears) {
+            ASSERT_LT(top_speed_of(world), std::max(top_speed_of(before), top_speed_of(unedited)) + 2.0 +
+                                               way / before.settings().substep)
+                << i;
         }
         for (std::size_t k = random.below(4); k > 0; --k) world.advance(frame, one);
     }

@@ -1,5 +1,6 @@
 // Ties between particles of any bodies.
 #include "rope_support.hpp"
+#include "tendril/rope/edit.hpp"
 #include "tests/says.hpp"
 
 namespace tendril::test {
@@ -56,6 +57,124 @@ TEST(RopeTie, KeepsMomentumOfFreeBodies) {
     EXPECT_LT(worst, 1e-9 * glm::length(before));
     for (const rope::Tie& each : moving.state().ties) EXPECT_LT(gap(moving, each.id), 1e-5);
     EXPECT_LT(stretch(moving, "rope"), 1e-3);
+}
+
+/// Cloth of every size takes part in the solve: at rest its ties carry its weight, and keep their lengths.
+TEST(RopeTie, TiesCarryTheWeightOfACloth) {
+    for (const int side : {6, 17, 28}) {
+        World world = world_with({.damping = 6.0f});
+        world.add_rope("line", {.from = {0, 2, 0},
+                                .to = {1, 2, 0},
+                                .segments = side - 1,
+                                .length = 1.05f,
+                                .pin_start = true,
+                                .pin_end = true});
+        world.add_cloth(
+            "sheet",
+            {.corner = {0, 1.95f, 0}, .along = {1, 0, 0}, .down = {0, -1, 0}, .columns = side, .rows = side});
+        std::vector<rope::TieId> ties;
+        for (int i = 0; i < side; i += 2)
+            ties.push_back(tie(world, "line", i, "sheet", i, {.length = 0.05f}));
+        run(world, 6.0);
+        double carried = 0.0;
+        for (const rope::TieId each : ties) {
+            const rope::Tie& it = *world.core().find(each);
+            const glm::dvec3 along = world.core().position(it.a) - world.core().position(it.b);
+            carried += it.tension * along.y / glm::length(along);
+            EXPECT_LT(gap(world, each), 1e-6) << side;
+        }
+        const double weight = 9.81 * world.core().mass(*world.find("sheet"));
+        EXPECT_NEAR(carried / weight, 1.0, 0.01) << side;
+        EXPECT_LT(stretch(world, "sheet"), 0.01) << side;
+        EXPECT_LT(stretch(world, "line"), 1e-4) << side;
+    }
+}
+
+/// Two cloths, one of them tied to itself, and a rope between them, thrown without gravity.
+TEST(RopeTie, KeepsMomentumOfCloths) {
+    World world = world_with({.damping = 0.0f, .gravity = {0, 0, 0}});
+    world.add_cloth("first", {.columns = 9, .rows = 12});
+    world.add_cloth("second", {.corner = {1.2f, 0, 0}, .columns = 14, .rows = 8});
+    world.add_rope("rope", {.from = {0, 0, 0.3f}, .to = {1.2f, 0, 0.3f}, .segments = 20});
+    tie(world, "first", 0, "rope", 0);
+    tie(world, "rope", -1, "second", 3, {.length = 0.1f});
+    tie(world, "first", 5, "first", 40);
+    tie(world, "first", 17, "second", 0);
+    run(world, 0.5);
+    rope::State state = world.state();
+    for (std::size_t i = 0; i < state.position.size(); ++i)
+        state.displacement[i] = glm::dvec3(0.002, -0.001, 0.001 * std::sin(static_cast<double>(i)));
+    state.displaced_in = state.settings.substep;
+    World moving(std::move(state));
+    const glm::dvec3 before = momentum(moving);
+    run_substeps(moving, 600, [&] {
+        ASSERT_LT(glm::distance(momentum(moving), before), 1e-9 * glm::length(before));
+        for (const rope::Tie& each : moving.state().ties) ASSERT_LT(gap(moving, each.id), 1e-3);
+    });
+}
+
+/// A cloth with a rope at a corner, thrown without gravity.
+TEST(RopeTie, KeepsTheSpinOfACloth) {
+    World world = world_with({.damping = 0.0f, .gravity = {0, 0, 0}});
+    world.add_cloth(
+        "cloth",
+        {.corner = {-0.5f, 0, -0.5f}, .along = {1, 0, 0}, .down = {0, 0, 1}, .columns = 20, .rows = 20});
+    world.add_rope("rope", {.from = {0.5f, 0, 0.5f}, .to = {0.8f, 0, 0.8f}, .segments = 8});
+    tie(world, "cloth", -1, "rope", 0);
+    rope::State state = world.state();
+    state.displaced_in = state.settings.substep;
+    for (std::size_t i = 0; i < state.position.size(); ++i)
+        state.displacement[i] = state.displaced_in * glm::cross(glm::dvec3(0.3, 2.0, 0.1), state.position[i]);
+    World moving(std::move(state));
+    const auto spin = [&] {
+        glm::dvec3 sum(0.0);
+        for (std::size_t i = 0; i < moving.size(); ++i)
+            sum += moving.state().mass[i] * glm::cross(moving.core().position(i), moving.core().velocity(i));
+        return sum;
+    };
+    const glm::dvec3 before = spin();
+    run_substeps(moving, 600, [] {});
+    EXPECT_LT(glm::distance(spin(), before), 0.08 * glm::length(before));
+    EXPECT_LT(moving.length_error(), 2e-3);
+}
+
+/// A cloth on a line, cut in two across: each piece keeps its ties, which hold its weight.
+TEST(RopeTie, PiecesOfACutClothKeepTheirTies) {
+    World whole = world_with({.damping = 3.0f});
+    whole.add_rope("line", {.from = {0, 2, 0},
+                            .to = {1, 2, 0},
+                            .segments = 12,
+                            .length = 1.05f,
+                            .pin_start = true,
+                            .pin_end = true});
+    whole.add_rope("weight", {.from = {0.5f, 1, 0}, .to = {0.5f, 0.5f, 0}, .segments = 6});
+    whole.add_cloth(
+        "cloth",
+        {.corner = {0, 1.95f, 0}, .along = {1, 0, 0}, .down = {0, -1, 0}, .columns = 13, .rows = 13});
+    for (const int i : {0, 4, 8, 12}) tie(whole, "line", i, "cloth", i, {.length = 0.05f});
+    tie(whole, "cloth", 12 * 13 + 6, "weight", 0, {.length = 0.05f});
+    const glm::vec2 across[] = {{-0.5f, 4.5f}, {6, 7.5f}, {12.5f, 4.5f}};
+    rope::Edited edited = allowed(rope::cut_cloth(whole.core(), whole.id("cloth"), across));
+    ASSERT_EQ(edited.pieces.size(), 1u);
+    ASSERT_FALSE(edited.world.find(edited.pieces[0])->cells.empty());
+    rope::World four = edited.world;
+    rope::Workspace one_thread, four_threads;
+    allow(four_threads.use_threads(4));
+    for (int i = 0; i < 240; ++i) {
+        edited.world.advance(1.0 / 60.0, one_thread);
+        four.advance(1.0 / 60.0, four_threads);
+    }
+    EXPECT_TRUE(same_bits(four.state(), edited.world.state()));
+    const rope::World& world = edited.world;
+    double carried = 0.0;
+    for (const rope::Tie& each : world.state().ties) {
+        const glm::dvec3 along = world.position(each.a) - world.position(each.b);
+        EXPECT_NEAR(glm::length(along), 0.05, 1e-5);
+        if (each.a < world.find(whole.id("line"))->count) carried += each.tension * along.y / 0.05;
+    }
+    for (const rope::Body& body : world.state().bodies) EXPECT_LT(world.length_error(body), 0.01);
+    const rope::Body& upper = *world.find(whole.id("cloth"));
+    EXPECT_NEAR(carried / (9.81 * world.mass(upper)), 1.0, 0.01);
 }
 
 TEST(RopeTie, TearsAtItsStrength) {

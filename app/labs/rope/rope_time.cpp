@@ -110,15 +110,18 @@ RopeReport pass_time(RopePart& part, double seconds, rope::Workspace& workspace)
 
 namespace {
 
-/// Cloth that is tied is solved by elimination, whose work grows with the cube of its side.
+/// Cloth with more than some ties a side may be solved by elimination, whose work grows with the cube of its
+/// side.
 std::uint64_t work_of_tied_cloth(const rope::State& state) {
     double work = 0.0;
     for (const rope::Body& body : state.bodies) {
         const auto holds = [&](const rope::Tie& tie) {
             return tie.a - body.first < body.count || tie.b - body.first < body.count;
         };
-        if (body.kind == rope::Body::Kind::Cloth && std::any_of(state.ties.begin(), state.ties.end(), holds))
-            work += 100.0 * std::pow(static_cast<double>(body.count), 1.5);
+        if (body.kind != rope::Body::Kind::Cloth) continue;
+        const auto ties =
+            static_cast<std::size_t>(std::count_if(state.ties.begin(), state.ties.end(), holds));
+        if (ties * ties > 4 * body.count) work += 100.0 * std::pow(static_cast<double>(body.count), 1.5);
     }
     return static_cast<std::uint64_t>(work);
 }

@@ -47,9 +47,8 @@ void ClothSolver::add_contact(const ClothContact& contact) {
     const std::size_t cell_b = cell_of(contact.b);
     add(level_.diagonal, cell_b, to_b * to_b, stiff);
     add(level_.right, cell_b, to_b * force);
-    const std::span<const std::uint32_t> links = Plan::part(plan_.links, island_.links);
-    const auto found = std::lower_bound(links.begin(), links.end(), contact.link) - links.begin();
-    const Plan::GridLink& link = plan_.grid_links[grid_.links.first + static_cast<std::size_t>(found)];
+    const std::span<const Plan::GridLink> links = Plan::part(plan_.grid_links, grid_.links);
+    const Plan::GridLink& link = *std::ranges::lower_bound(links, contact.link, {}, &Plan::GridLink::link);
     add(level_.links[link.step], link.cell, -to_a * to_b, stiff);
 }
 

@@ -5,7 +5,7 @@
 
 namespace tendril::rope::detail {
 
-/// Fills `plan.grids` and `plan.grid_links`; requires islands.
+/// Fills `plan.grids`, `plan.grid_links`, `plan.grid_of` and the grids of `plan.tied`; requires islands.
 void find_grids(const State& state, Plan& plan);
 
 }  // namespace tendril::rope::detail

@@ -44,13 +44,15 @@ void detail::Cloth::resize(std::size_t columns, std::size_t rows) {
     parts.resize((system.finest().cells() + dot_cells - 1) / dot_cells);
 }
 
-ClothSolver::ClothSolver(const IslandStep& step)
+ClothSolver::ClothSolver(const IslandStep& step, std::uint32_t grid)
     : ImplicitStep(step),
-      grid_(plan_.grids[island_.grid - 1]),
-      cloth_(scratch_.cloths[island_.grid - 1]),
+      grid_(plan_.grids[(grid == 0 ? island_.grid : grid) - 1]),
+      cloth_(scratch_.cloths[(grid == 0 ? island_.grid : grid) - 1]),
       level_(cloth_.system.finest()),
       cells_(Plan::part(plan_.grid_cells, grid_.cells)),
-      first_(state_.bodies[grid_.body].first) {
+      first_(state_.bodies[grid_.body].first) {}
+
+ClothSolver::ClothSolver(const IslandStep& step) : ClothSolver(step, 0) {
     const std::size_t count = state_.bodies[grid_.body].count;
     double whole = 0.0, longest = 0.0, lightest = state_.mass[first_];
     for (std::size_t i = first_; i < first_ + count; ++i) {
@@ -70,13 +72,11 @@ ClothSolver::ClothSolver(const IslandStep& step)
     const double area = (grid_.columns - 1.0) * (grid_.rows - 1.0) * shortest_ * longest;
     const double weight = whole * detail::length(detail::acceleration(state_.settings)) +
                           area * detail::wind_pressure(state_.settings);
-    stiffness_ = std::clamp(weight / (strain_by_weight * shortest_ * unit_), min_stiffness, max_stiffness);
+    stiffness_ = link_stiffness(weight, shortest_, unit_);
 }
 
-/// Calls `work` with ranges of up to `size`, in parallel if the cloth is large and threads help.
-template <class Work>
-void ClothSolver::in_parts(std::size_t count, std::size_t size, Work work) const {
-    detail::in_parts(local_.loops, count, size, level_.cells() >= detail::min_shared_cells, work);
+double ClothSolver::link_stiffness(double weight, double shortest, double unit) {
+    return std::clamp(weight / (strain_by_weight * shortest * unit), min_stiffness, max_stiffness);
 }
 
 /// Calls `visit` with each particle and its cell.
@@ -228,6 +228,15 @@ double ClothSolver::potential() const {
     return sum;
 }
 
+double ClothSolver::add_links(double sum) const {
+    for (const Plan::GridLink& each : Plan::part(plan_.grid_links, grid_.links)) {
+        const Link& link = state_.links[each.link];
+        const double longer = detail::length(scratch_.place[link.b] - scratch_.place[link.a]) - link.rest;
+        sum += stiffness_of(link) * longer * longer;
+    }
+    return sum;
+}
+
 /// Stores the multipliers of links, and their energy.
 void ClothSolver::finish() {
     const std::span<const Plan::GridLink> links = Plan::part(plan_.grid_links, grid_.links);
@@ -243,10 +252,7 @@ void ClothSolver::finish() {
     cloth_.energy.gained += cloth_.energy.elastic;
 }
 
-/// Starts as if nothing had changed since the previous substep: links and contacts then push as they did.
-/// Where forces move particles by as much as a link that is no guide, and it starts from free motion.
-int ClothSolver::solve(int iterations) {
-    load();
+double ClothSolver::start() {
     const double far = far_driven * shortest_;
     double driven = 0.0, farthest = 0.0;
     const auto unchanged = [&](std::size_t i) { return state_.position[i] + state_.displacement[i]; };
@@ -262,7 +268,12 @@ int ClothSolver::solve(int iterations) {
         if (scratch_.weight[i] > 0.0) scratch_.place[i] = unchanged(i);
     evaluate();
     const double small = residual_strain * shortest_;
-    const double enough = std::min(driven_residual * driven_residual * driven, small * small * stiffness_);
+    return std::min(driven_residual * driven_residual * driven, small * small * stiffness_);
+}
+
+int ClothSolver::solve(int iterations) {
+    load();
+    const double enough = start();
     int most = 0;
     for (int taken = 0;; ++taken) {
         find_contacts(taken == 0);

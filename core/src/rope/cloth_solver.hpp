@@ -7,7 +7,7 @@
 
 namespace tendril::rope {
 
-class ClothSolver : ImplicitStep {
+class ClothSolver : protected ImplicitStep {
   public:
     explicit ClothSolver(const IslandStep& step);
 
@@ -17,13 +17,17 @@ class ClothSolver : ImplicitStep {
     bool converged() const { return converged_; }
     double taken() const { return taken_; }  ///< the part of the last step that was taken
 
-  private:
+  protected:
+    /// Of any grid of the plan, 1-based, or the island's; measures nothing.
+    ClothSolver(const IslandStep& step, std::uint32_t grid);
+
     // cloth_solver.cpp
     void load();
     void evaluate();
     void pin();
     int step(int iterations, bool first, double enough);
     double potential() const;
+    double add_links(double sum) const;  ///< their share of the potential
     void finish();
 
     // cloth_contact.cpp
@@ -34,12 +38,20 @@ class ClothSolver : ImplicitStep {
 
     double stiffness_of(const Link& link) const;
     std::size_t cell_of(std::size_t particle) const { return cells_[particle - first_]; }
+    /// Calls `work` with ranges of up to `size`, in parallel if the cloth is large and threads help.
     template <class Work>
-    void in_parts(std::size_t count, std::size_t size, Work work) const;
+    void in_parts(std::size_t count, std::size_t size, Work work) const {
+        detail::in_parts(local_.loops, count, size, level_.cells() >= detail::min_shared_cells, work);
+    }
     template <class Work>
     void in_cells(Work work) const {
         in_parts(level_.cells(), detail::part_cells, work);
     }
+    static double link_stiffness(double weight, double shortest, double unit);
+    /// Starts as if nothing had changed since the previous substep: links and contacts then push as they did.
+    /// Where forces move particles by as much as a link that is no guide, and it starts from free motion.
+    /// Returns the residual at which a later step is solved.
+    double start();
     template <class Visit>
     void each_cell(Visit visit) const;
     template <class Visit>

@@ -1,6 +1,7 @@
 #include "rope/elimination.hpp"
 
 #include <algorithm>
+#include <array>
 #include <set>
 
 namespace tendril::rope::detail {
@@ -39,29 +40,35 @@ double row_dot(const Matrix3& a, int i, const Matrix3& b, int j) noexcept {
 
 }  // namespace
 
-Elimination::Elimination(std::uint32_t nodes, std::span<const Edge> edges) : place(nodes, 0) {
+Elimination::Elimination(std::span<const std::uint8_t> is_late, std::span<const Edge> edges)
+    : place(is_late.size(), 0) {
+    const auto nodes = static_cast<std::uint32_t>(is_late.size());
     std::vector<std::vector<std::uint32_t>> beside(nodes);  // ascending
     const auto join = [&](std::uint32_t a, std::uint32_t b) {
         const auto at = std::lower_bound(beside[a].begin(), beside[a].end(), b);
         if (at == beside[a].end() || *at != b) beside[a].insert(at, b);
     };
     for (const Edge& edge : edges) join(edge.first, edge.second), join(edge.second, edge.first);
-    std::set<Edge> left;  // neighbours, node
-    const auto degree = [&](std::uint32_t node) { return static_cast<std::uint32_t>(beside[node].size()); };
-    for (std::uint32_t node = 0; node < nodes; ++node) left.insert({degree(node), node});
+    std::set<std::array<std::uint32_t, 3>> left;  // late, neighbours, node
+    const auto key = [&](std::uint32_t node) {
+        return std::array{std::uint32_t{is_late[node]}, static_cast<std::uint32_t>(beside[node].size()),
+                          node};
+    };
+    for (std::uint32_t node = 0; node < nodes; ++node) left.insert(key(node));
     std::vector<std::vector<std::uint32_t>> columns;
     columns.reserve(nodes);
     while (!left.empty()) {
-        const std::uint32_t node = left.begin()->second;
+        const std::uint32_t node = left.begin()->back();
         left.erase(left.begin());
         place[node] = static_cast<std::uint32_t>(columns.size());
         columns.push_back(std::move(beside[node]));
+        late += is_late[node] == 0 ? 1u : 0u;
         for (const std::uint32_t a : columns.back()) {
-            left.erase({degree(a), a});
+            left.erase(key(a));
             std::erase(beside[a], node);
             for (const std::uint32_t b : columns.back())
                 if (a != b) join(a, b);
-            left.insert({degree(a), a});
+            left.insert(key(a));
         }
     }
     first.reserve(nodes + 1);
@@ -95,7 +102,7 @@ void EliminationSystem::clear() {
     std::fill(x.begin(), x.end(), dvec3(0.0));
 }
 
-void EliminationSystem::solve(const Elimination& order) noexcept {
+void EliminationSystem::factorize(const Elimination& order) noexcept {
     const std::uint32_t* changed = order.fill.data();
     const std::size_t count = diagonal.size();
     for (std::size_t j = 0; j < count; ++j) {
@@ -116,11 +123,64 @@ void EliminationSystem::solve(const Elimination& order) noexcept {
             blocks[i] = part;
         }
     }
-    for (std::size_t j = count; j-- > 0;) {
-        dvec3 at = diagonal[j] * x[j];
+}
+
+void EliminationSystem::eliminate(const Elimination& order, std::vector<dvec3>& right,
+                                  std::uint32_t from) const noexcept {
+    for (std::size_t j = from; j < right.size(); ++j)
         for (std::uint32_t i = order.first[j]; i < order.first[j + 1]; ++i)
-            at -= blocks[i].transposed_by(x[order.row[i]]);
-        x[j] = at;
+            right[order.row[i]] -= blocks[i] * right[j];
+}
+
+void EliminationSystem::substitute(const Elimination& order, std::vector<dvec3>& right,
+                                   std::uint32_t to) const noexcept {
+    for (std::size_t j = right.size(); j-- > to;) {
+        dvec3 at = diagonal[j] * right[j];
+        for (std::uint32_t i = order.first[j]; i < order.first[j + 1]; ++i)
+            at -= blocks[i].transposed_by(right[order.row[i]]);
+        right[j] = at;
+    }
+}
+
+void DenseSystem::resize(std::size_t numbers) {
+    size = numbers;
+    matrix.resize(size * size);
+}
+
+/// L by rows below the diagonal, and above it L^T.
+void DenseSystem::factorize(std::size_t n) noexcept {
+    for (std::size_t i = 0; i < n; ++i) factorize_row(i);
+}
+
+double DenseSystem::factorize_row(std::size_t i) noexcept {
+    double* const row = matrix.data() + i * size;
+    const double diagonal = row[i];
+    for (std::size_t k = 0; k < i; ++k) {  // first what L has, times D
+        const double by = row[k], *const above = matrix.data() + k * size;
+        for (std::size_t j = k + 1; j < i; ++j) row[j] -= by * above[j];
+    }
+    for (std::size_t k = 0; k < i; ++k) {
+        const double part = row[k] / matrix[k * size + k];
+        row[i] -= part * row[k];
+        row[k] = matrix[k * size + i] = part;
+    }
+    return row[i] / diagonal;
+}
+
+void DenseSystem::drop_row(std::size_t i) noexcept {
+    for (std::size_t k = 0; k < i; ++k) matrix[i * size + k] = matrix[k * size + i] = 0.0;
+    matrix[i * size + i] = 1e30;
+}
+
+void DenseSystem::solve(double* x, std::size_t n) const noexcept {
+    for (std::size_t k = 0; k < n; ++k) {
+        const double by = x[k], *const above = matrix.data() + k * size;
+        for (std::size_t i = k + 1; i < n; ++i) x[i] -= above[i] * by;
+    }
+    for (std::size_t i = 0; i < n; ++i) x[i] /= matrix[i * size + i];
+    for (std::size_t k = n; k-- > 0;) {
+        const double by = x[k], *const row = matrix.data() + k * size;
+        for (std::size_t i = 0; i < k; ++i) x[i] -= row[i] * by;
     }
 }
 

@@ -91,7 +91,7 @@ void Substep::Ledger::add_link(std::uint32_t number) {
 void Substep::Ledger::add_cloth(const detail::Cloth& cloth) {
     length_ += cloth.energy.length;
     gained_ += cloth.energy.gained;
-    elastic_ = cloth.energy.elastic;
+    elastic_ += cloth.energy.elastic;
 }
 
 bool Substep::Ledger::gains(double part) const {
@@ -144,16 +144,27 @@ void Substep::add_chain(Ledger& ledger, const Plan::Chain& chain) const {
     for (std::uint32_t k = 0; k < chain.links; ++k) ledger.add_link(chain.first_link + k);
 }
 
+/// Whether a link of tied bodies, by its number in the part, is a grid's.
+bool Substep::tied_in_grid(const Plan::Island& part, std::size_t link) const {
+    return part.tied != 0 && plan_.tied[part.tied - 1].link_blocks[link] == Plan::no_block;
+}
+
 Substep::Ledger Substep::ledger_of(const Plan::Island& part) const {
     Scratch::Nearest near = Scratch::Nearest::None;
     const std::span<const std::uint32_t> bodies = Plan::part(plan_.bodies, part.bodies);
     for (const std::uint32_t body : bodies) near = std::max(near, scratch_.body_near[body]);
     Ledger ledger(*this, near);
     each_particle_of(part, [&](std::size_t i) { ledger.add_particle(i); });
-    if (part.grid != 0 && state_.settings.solver == Solver::Direct)
+    const bool direct = state_.settings.solver == Solver::Direct;
+    if (direct && part.grid != 0) {
         ledger.add_cloth(scratch_.cloths[part.grid - 1]);
-    else
-        for (const std::uint32_t link : Plan::part(plan_.links, part.links)) ledger.add_link(link);
+        return ledger;
+    }
+    const Plan::Range grids = direct && part.tied != 0 ? plan_.tied[part.tied - 1].grids : Plan::Range{};
+    for (std::uint32_t g = 0; g < grids.count; ++g) ledger.add_cloth(scratch_.cloths[grids.first + g]);
+    const std::span<const std::uint32_t> links = Plan::part(plan_.links, part.links);
+    for (std::size_t k = 0; k < links.size(); ++k)
+        if (!direct || !tied_in_grid(part, k)) ledger.add_link(links[k]);
     return ledger;
 }
 
@@ -212,8 +223,9 @@ void Substep::slow_down() {
         const Slowed& slowed = local_.part_slowed[k];
         if (!slowed.any()) continue;
         each_particle_of(parts[k], [&](std::size_t i) { slow(i, slowed); });
-        for (const std::uint32_t i : Plan::part(plan_.links, parts[k].links))
-            slacken(state_.links[i], slowed, parts[k].grid != 0);
+        const std::span<const std::uint32_t> links = Plan::part(plan_.links, parts[k].links);
+        for (std::size_t i = 0; i < links.size(); ++i)
+            slacken(state_.links[links[i]], slowed, parts[k].grid != 0 || tied_in_grid(parts[k], i));
     }
     for (std::uint32_t r = island_.chains.first; r < island_.chains.first + island_.chains.count; ++r) {
         const Slowed slowed = std::exchange(scratch_.chain_slowed[r], {});

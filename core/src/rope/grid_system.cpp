@@ -98,13 +98,15 @@ void GridSystem::factorize_coarsest() {
     const GridLevel& level = levels_.back();
     const std::size_t columns = level.columns, cells = columns * level.rows, n = 3 * cells + rotations;
     constexpr std::size_t part[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
-    coarsest_.assign(n * n, 0.0);
+    coarsest_.resize(n);
+    std::vector<double>& a = coarsest_.matrix;
+    a.assign(n * n, 0.0);
     coarsest_x_.assign(n, 0.0);
     const auto put = [&](std::size_t i, std::size_t j, const GridBlocks& blocks, std::size_t cell,
                          double by) {
         for (std::size_t r = 0; r < 3; ++r)
             for (std::size_t c = 0; c < 3; ++c)
-                coarsest_[(3 * i + r) * n + 3 * j + c] += by * static_cast<double>(blocks[part[r][c]][cell]);
+                a[(3 * i + r) * n + 3 * j + c] += by * static_cast<double>(blocks[part[r][c]][cell]);
     };
     for (std::size_t row = 0; row < level.rows; ++row)
         for (std::size_t column = 0; column < columns; ++column) {
@@ -118,51 +120,32 @@ void GridSystem::factorize_coarsest() {
                 put(std::max(i, j), std::min(i, j), level.links[s], cell, -1.0);
             }
         }
-    for (std::size_t i = 0; i < 3 * cells; ++i) factorize_row(i);
-}
-
-/// L in place of the lower triangle, d of the diagonal; returns d over the diagonal.
-double GridSystem::factorize_row(std::size_t i) {
-    const std::size_t n = coarsest_x_.size();
-    double* const row = coarsest_.data() + i * n;
-    const double diagonal = row[i];
-    for (std::size_t j = 0; j < i; ++j) {
-        const double* const other = coarsest_.data() + j * n;
-        // `row` is L d up to here, and L afterwards.
-        for (std::size_t k = 0; k < j; ++k) row[j] -= row[k] * other[k];
-    }
-    for (std::size_t j = 0; j < i; ++j) {
-        const double scaled = row[j];
-        row[j] /= coarsest_[j * n + j];
-        row[i] -= scaled * row[j];
-    }
-    return row[i] / diagonal;
+    coarsest_.factorize(3 * cells);
 }
 
 /// Calls `visit` with the component and the cell of each unknown of the coarsest level.
 template <class Visit>
 void GridSystem::each_coarsest(Visit visit) {
     const GridLevel& level = levels_.back();
-    for (std::size_t i = 0; i < coarsest_x_.size() - rotations; ++i)
+    for (std::size_t i = 0; i < translations(); ++i)
         visit(i, i % 3, i / 3 / level.columns * level.stride + i / 3 % level.columns);
 }
 
 /// Solves for the first `n` unknowns.
 void GridSystem::solve_coarsest(std::size_t n) {
     const GridLevel& level = levels_.back();
-    const std::size_t stride = coarsest_x_.size();
-    std::vector<double>&x = coarsest_x_, &a = coarsest_;
     each_coarsest([&](std::size_t i, std::size_t c, std::size_t cell) {
-        x[i] = static_cast<double>(level.right[c][cell]);
+        coarsest_x_[i] = static_cast<double>(level.right[c][cell]);
     });
-    for (std::size_t i = 0; i < n; ++i)
-        for (std::size_t k = 0; k < i; ++k) x[i] -= a[i * stride + k] * x[k];
-    for (std::size_t i = n; i-- > 0;) {
-        x[i] /= a[i * stride + i];
-        for (std::size_t k = i + 1; k < n; ++k) x[i] -= a[k * stride + i] * x[k];
-    }
-    each_coarsest(
-        [&](std::size_t i, std::size_t c, std::size_t cell) { level.x[c][cell] = static_cast<float>(x[i]); });
+    coarsest_.solve(coarsest_x_.data(), n);
+    store_coarsest();
+}
+
+void GridSystem::store_coarsest() {
+    const GridLevel& level = levels_.back();
+    each_coarsest([&](std::size_t i, std::size_t c, std::size_t cell) {
+        level.x[c][cell] = static_cast<float>(coarsest_x_[i]);
+    });
 }
 
 /// Sums of a vector over each cell of the coarsest level, to its right side.
@@ -181,7 +164,7 @@ void GridSystem::project(const Loops& loops, const GridVector& vector) {
 void GridSystem::balance(const Loops& loops, const GridVector* place) {
     if (levels_.size() == 1) return;  // solved exactly
     const GridLevel &fine = finest(), &coarse = levels_.back();
-    const std::size_t n = coarsest_x_.size(), first = n - rotations;
+    const std::size_t n = coarsest_.size, first = translations();
     for (const GridLevel& level : levels_)
         for (float* each : level.product) std::fill_n(each, level.cells(), 0.0f);
     // From the middle of the grid, and the opposite.
@@ -198,7 +181,7 @@ void GridSystem::balance(const Loops& loops, const GridVector* place) {
         }
     }
     for (std::size_t k = 0; k < rotations && place != nullptr; ++k) {
-        double* const row = coarsest_.data() + (first + k) * n;
+        double* const row = coarsest_.matrix.data() + (first + k) * n;
         loops.multiply(fine, about[k], product_);
         project(loops, product_);
         each_coarsest([&](std::size_t i, std::size_t c, std::size_t cell) {
@@ -207,7 +190,7 @@ void GridSystem::balance(const Loops& loops, const GridVector* place) {
         for (std::size_t j = 0; j <= k; ++j) row[first + j] = dot(loops, about[j], product_);
         coarsest_x_[first + k] = dot(loops, about[k], fine.right);
         // None, if free particles lie on its axis.
-        if (!(factorize_row(first + k) > min_pivot)) std::fill_n(row, first + k, 0.0), row[first + k] = 1e30;
+        if (!(coarsest_.factorize_row(first + k) > min_pivot)) coarsest_.drop_row(first + k);
     }
     project(loops, fine.right);
     solve_coarsest(place != nullptr ? n : first);
@@ -234,7 +217,7 @@ double GridSystem::dot(const Loops& loops, const GridVector& a, const GridVector
 void GridSystem::precondition(const Loops& loops, std::size_t index) {
     const GridUnit& unit = loops.unit;
     const GridLevel& level = levels_[index];
-    if (index + 1 == levels_.size()) return solve_coarsest(coarsest_x_.size() - rotations);
+    if (index + 1 == levels_.size()) return solve_coarsest(translations());
     loops.cells(level, [&](GridRange part) { unit.smooth_first(level, part); });
     const GridLevel& next = levels_[index + 1];
     loops.multiply(level, level.x, level.product);

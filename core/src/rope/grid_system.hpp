@@ -26,6 +26,7 @@
 #include <vector>
 
 #include "math/fork_join.hpp"
+#include "rope/elimination.hpp"
 
 namespace tendril::rope::detail {
 
@@ -35,6 +36,7 @@ struct GridStep {
 };
 inline constexpr std::array<GridStep, 6> grid_steps{{{1, 0}, {0, 1}, {1, 1}, {-1, 1}, {2, 0}, {0, 2}}};
 inline constexpr std::size_t fine_steps = grid_steps.size(), coarse_steps = 4;
+inline constexpr float grid_damping = 0.6f;  ///< of the smoother
 
 /// Rows and arrays are padded to a multiple of this.
 inline constexpr std::size_t grid_lanes = 8;
@@ -44,6 +46,9 @@ inline std::size_t grid_stride(std::size_t columns) {
 }
 
 using GridVector = std::array<float*, 3>;
+inline dvec3 value_at(const GridVector& vector, std::size_t cell) {
+    return {vector[0][cell], vector[1][cell], vector[2][cell]};
+}
 /// xx, xy, xz, yy, yz, zz
 using GridBlocks = std::array<float*, 6>;
 
@@ -142,25 +147,52 @@ class GridSystem {
                  const GridVector* place, tendril::detail::ForkJoin& loops);
     const GridVector& solution() const { return solution_; }
 
+    // For what solves several grids, and what ties join them to, together (tied_grids.cpp). Its
+    // preconditioner is the sum of the inverse blocks of all levels (J. Bramble, J. Pasciak, J. Xu, "Parallel
+    // Multilevel Preconditioners", 1990), of which the part between two cells is known.
+    void factorize(const GridUnit& unit, float floor);
+    void spread(const GridUnit& unit);                ///< computes x of each level from the residual, `right`
+    dvec3 spread_at(std::size_t cell) const;          ///< the sum over the levels, after spread()
+    void push(std::size_t cell, const dvec3& force);  ///< adds to the residual, after spread()
+    void gather(const GridUnit& unit);                ///< sums x over the levels
+    std::array<dvec3, 3> between(std::size_t a, std::size_t b);  ///< the preconditioner's block
+    /// direction = x + by direction; then product = A direction.
+    void turn(const GridUnit& unit, float by);
+    void add_to_product(std::size_t cell, const dvec3& force);
+    double residual_dot_x(const GridUnit& unit) { return dot(unit, finest().right, finest().x); }
+    double direction_dot_product(const GridUnit& unit) { return dot(unit, direction_, product_); }
+    /// Adds a part of the direction to the solution and subtracts that of the product from the residual.
+    void advance(const GridUnit& unit, float part);
+    void add_x(const GridUnit& unit);  ///< to the solution
+
   private:
     class Loops;
     static constexpr std::size_t rotations = 3;
 
     void precondition(const Loops& loops, std::size_t level);
     void factorize_coarsest();
-    double factorize_row(std::size_t row);
     void solve_coarsest(std::size_t n);
     void project(const Loops& loops, const GridVector& vector);
     void balance(const Loops& loops, const GridVector* place);
     double dot(const Loops& loops, const GridVector& a, const GridVector& b);
+    double dot(const GridUnit& unit, const GridVector& a, const GridVector& b);
     template <class Visit>
     void each_coarsest(Visit visit);
+    void store_coarsest();
+    /// Unknowns of the coarsest level without rotations.
+    std::size_t translations() const { return coarsest_.size - rotations; }
+    const double* inverse_column(std::size_t cell, std::size_t component);
+    std::size_t number_of_coarsest(std::size_t cell) const;
 
     std::vector<float> memory_;
     std::vector<double> sums_;  ///< partial sums of a dot product
     std::vector<GridLevel> levels_;
-    /// Of the coarsest level, then of the rotations: the factor L D L^T, by rows, and the solution.
-    std::vector<double> coarsest_, coarsest_x_;
+    /// Of the coarsest level, then of the rotations: the factor, and the solution.
+    DenseSystem coarsest_;
+    std::vector<double> coarsest_x_;
+    // The inverse of the coarsest level: columns, and by cell, whether they are known.
+    std::vector<double> inverse_;
+    std::vector<std::uint8_t> known_;
     GridVector solution_{}, direction_{}, product_{};
 };
 

@@ -57,16 +57,14 @@ void multiply(const GridLevel& level, const GridVector& x, const GridVector& pro
                               : multiply_steps<coarse_steps>(level, x, product, cells);
 }
 
-constexpr float damping = 0.6f;
-
 void smooth_first(const GridLevel& level, GridRange cells) {
-    const V part = hn::Set(Tag(), damping);
+    const V part = hn::Set(Tag(), grid_damping);
     each_register(cells, [&](std::ptrdiff_t i) {
         store(part * solve(load(level.factor, i), load(level.right, i)), level.x, i);
     });
 }
 void smooth(const GridLevel& level, GridRange cells) {
-    const V part = hn::Set(Tag(), damping);
+    const V part = hn::Set(Tag(), grid_damping);
     each_register(cells, [&](std::ptrdiff_t i) {
         const V3 residual = load(level.right, i) - load(level.product, i);
         store(load(level.x, i) + part * solve(load(level.factor, i), residual), level.x, i);

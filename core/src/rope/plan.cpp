@@ -205,26 +205,47 @@ void Plan::order_tied(const State& state) {
     places.resize(state.position.size());
     each_part([&](Island& island) {
         if (island.ties.count == 0) return;
-        std::uint32_t nodes_of_it = 0;
-        for (const std::uint32_t body : part(bodies, island.bodies))
-            for (std::size_t i = 0; i < state.bodies[body].count; ++i)
-                places[state.bodies[body].first + i] = nodes_of_it++;
+        Tied& made = tied[island.tied - 1];
+        std::vector<std::size_t> nodes_of_it;  // particles
+        std::vector<std::uint8_t> in_grid(state.position.size(), 0);
+        for (const std::uint32_t body : part(bodies, island.bodies)) {
+            const Body& of = state.bodies[body];
+            const std::uint32_t grid = grid_of[body];
+            for (std::size_t i = 0; i < of.count; ++i) {
+                const std::size_t particle = of.first + i;
+                if (grid > 0) {
+                    in_grid[particle] = 1;
+                    places[particle] = grid_cells[grids[grid - 1].cells.first + i];
+                } else {
+                    places[particle] = static_cast<std::uint32_t>(nodes_of_it.size());
+                    nodes_of_it.push_back(particle);
+                }
+            }
+        }
         std::vector<detail::Elimination::Edge> edges;
+        const auto join = [&](std::uint32_t a, std::uint32_t b) {
+            if (in_grid[a] + in_grid[b] == 0) edges.emplace_back(places[a], places[b]);
+        };
+        for (const std::uint32_t i : part(links, island.links)) join(state.links[i].a, state.links[i].b);
+        std::vector<std::uint8_t> late(nodes_of_it.size(), 0);
+        for (const std::uint32_t i : part(ties, island.ties)) {
+            const Tie& tie = state.ties[i];
+            join(tie.a, tie.b);
+            if (in_grid[tie.a] + in_grid[tie.b] == 0) continue;
+            made.across.push_back(i);
+            for (const std::uint32_t end : {tie.a, tie.b})
+                if (in_grid[end] == 0) late[places[end]] = 1;
+        }
+        made.order = detail::Elimination(late, edges);
+        for (std::size_t node = 0; node < nodes_of_it.size(); ++node)
+            places[nodes_of_it[node]] = made.order.place[node];
+        const auto block = [&](std::uint32_t a, std::uint32_t b) {
+            return in_grid[a] + in_grid[b] > 0 ? no_block : made.order.block(places[a], places[b]);
+        };
         for (const std::uint32_t i : part(links, island.links))
-            edges.emplace_back(places[state.links[i].a], places[state.links[i].b]);
+            made.link_blocks.push_back(block(state.links[i].a, state.links[i].b));
         for (const std::uint32_t i : part(ties, island.ties))
-            edges.emplace_back(places[state.ties[i].a], places[state.ties[i].b]);
-        Tied& made = tied.emplace_back();
-        island.tied = static_cast<std::uint32_t>(tied.size());
-        made.order = detail::Elimination(nodes_of_it, edges);
-        std::uint32_t node = 0;
-        for (const std::uint32_t body : part(bodies, island.bodies))
-            for (std::size_t i = 0; i < state.bodies[body].count; ++i)
-                places[state.bodies[body].first + i] = made.order.place[node++];
-        for (const std::uint32_t i : part(links, island.links))
-            made.link_blocks.push_back(made.order.block(places[state.links[i].a], places[state.links[i].b]));
-        for (const std::uint32_t i : part(ties, island.ties))
-            made.tie_blocks.push_back(made.order.block(places[state.ties[i].a], places[state.ties[i].b]));
+            made.tie_blocks.push_back(block(state.ties[i].a, state.ties[i].b));
     });
 }
 

@@ -31,11 +31,14 @@ struct Plan {
         /// 1-based index in Scratch::body_contacts if its bodies collide with each other; 0: none
         std::uint32_t contacts = 0;
     };
-    /// Bodies that ties join: the order in which their system is solved.
+    /// Bodies that ties join: the order in which their system is solved, but for those that are grids.
     struct Tied {
+        Range grids{};
         detail::Elimination order;
-        std::vector<std::uint32_t> link_blocks, tie_blocks;  ///< of the island's links and ties
+        std::vector<std::uint32_t> link_blocks, tie_blocks;  ///< of the island's links and ties, or no_block
+        std::vector<std::uint32_t> across;                   ///< ties of a grid to anything
     };
+    static constexpr std::uint32_t no_block = 0xffffffffu;
     /// Consecutive stretch links: each begins at the particle where the previous one ends.
     struct Chain {
         std::uint32_t first_link = 0, links = 0;
@@ -98,7 +101,8 @@ struct Plan {
 
     std::vector<std::uint32_t> ties;
     std::vector<Tied> tied;
-    std::vector<std::uint32_t> places;  ///< of each tied particle, in the order of its system
+    std::vector<std::uint32_t> places;   ///< of each tied particle, in the order of its system, or its cell
+    std::vector<std::uint32_t> grid_of;  ///< of each body: 1-based index in `grids`; 0: none
 
     /// Of each body the ones, from itself on, that it collides with: ascending, `meets` from meets_first on.
     /// Empty, as the next four, if nothing collides.

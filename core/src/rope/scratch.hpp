@@ -70,6 +70,24 @@ struct ContactScratch {
     } progress;
 };
 
+/// The forces of ties that join grids to anything, as unknowns of a small dense system.
+struct TieForces {
+    struct End {
+        enum class Of : std::uint8_t { Nothing, Grid, Rest } of = Of::Nothing;  ///< nothing: pinned
+        std::uint32_t grid = 0;  ///< index in the island's grids
+        std::uint32_t at = 0;    ///< a cell, or a place in the order of elimination
+        double sign = 1.0;       ///< of the way of this end in the tie's
+    };
+    std::vector<std::array<End, 2>> ends;                ///< of each tie
+    std::vector<glm::dvec3> gap, now, direction, total;  ///< of each tie: metres; the others are forces
+    detail::DenseSystem system;                          ///< how far forces move the ends
+    std::vector<double> flat;                            ///< its right side
+    std::vector<glm::dvec3> local;                       ///< of each place in the order of elimination
+
+    void resize(std::size_t ties, std::size_t nodes);
+    void solve();  ///< turns `now` from ways into forces
+};
+
 /// Contacts between the bodies of an island.
 struct BodyContactScratch {
     /// A particle, a segment or a triangle, somewhere in a ball until the candidates are listed again.
@@ -190,6 +208,8 @@ struct Scratch {
     std::vector<std::uint32_t> collider_at;       ///< list index by slot
     std::vector<detail::Cloth> cloths;            ///< of the plan's grids
     std::vector<detail::EliminationSystem> tied;  ///< of the plan's tied bodies
+    std::vector<TieForces> tie_forces;            ///< of the plan's tied bodies
+    std::vector<glm::dvec3> tied_by;              ///< of each particle: a step of the tied solver; else empty
     std::vector<double> tie_multiplier;           ///< of each tie: tension times h^2
     detail::VectorUnit unit;
     detail::GridUnit grid_unit;

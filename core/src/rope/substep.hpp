@@ -103,6 +103,7 @@ class Substep : IslandStep {
     using Slowed = Scratch::Slowed;
     Ledger ledger_of(const Plan::Chain& chain) const;
     Ledger ledger_of(const Plan::Island& part) const;
+    bool tied_in_grid(const Plan::Island& part, std::size_t link) const;
     void add_chain(Ledger& ledger, const Plan::Chain& chain) const;
     void balance_energy();
     Slowed balance(const Ledger& ledger);

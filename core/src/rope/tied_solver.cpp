@@ -24,6 +24,12 @@ constexpr int few_steps = 3;
 constexpr double turned_little = 0.03;
 constexpr double turned_far = 0.05;  ///< then the step is checked
 constexpr int max_halvings = 8;
+/// Of cloth that is a grid, as in cloth_solver.cpp.
+constexpr double accepted_strain = 0.007, usual_residual = 0.1;
+constexpr int min_grid_steps = 2, max_grid_steps = 8;
+/// What nothing holds goes on turning, and each step's error with it.
+constexpr int min_free_steps = 4;
+constexpr double single_rounding = 1e-6;  ///< of a potential: grids are in single precision
 
 /// along n n^T + across (I - n n^T)
 Symmetric3 stiffness_along(const dvec3& n, double along, double across) {
@@ -44,20 +50,66 @@ TiedSolver::TiedSolver(const IslandStep& step)
     each_particle([&](std::size_t i) { whole += state_.mass[i]; });
     mass_ = whole / island_.particles;
     stiffness_ = contact_stiffness;
+    if (tied_.grids.count > 0) measure_grids();
 }
 
-/// Calls `visit` with the spring of each link and tie, and the multiplier that it leaves.
+TiedSolver::Cloth::Cloth(const TiedSolver& island, std::uint32_t grid) : ClothSolver(island, grid) {
+    mass_ = island.mass_;
+    unit_ = mass_ / (h_ * h_);
+    stiffness_ = island.stiffness_;
+    shortest_ = island.shortest_;
+}
+
+/// Grids, and contacts, are as stiff as one cloth with the weight of all.
+void TiedSolver::measure_grids() {
+    double weight = mass_ * island_.particles * detail::length(detail::acceleration(state_.settings));
+    for (const Plan::Grid& grid : Plan::part(plan_.grids, tied_.grids)) {
+        double shortest = 1e30, longest = 0.0;
+        for (const Plan::GridLink& each : Plan::part(plan_.grid_links, grid.links)) {
+            const Link& link = state_.links[each.link];
+            if (link.kind != Link::Kind::Stretch || !(link.rest > 0.0f)) continue;
+            shortest = std::min(shortest, static_cast<double>(link.rest));
+            longest = std::max(longest, static_cast<double>(link.rest));
+        }
+        if (longest == 0.0) continue;
+        weight += (grid.columns - 1.0) * (grid.rows - 1.0) * shortest * longest *
+                  detail::wind_pressure(state_.settings);
+        shortest_ = std::min(shortest_, shortest);
+    }
+    double lightest = mass_;
+    for (const Plan::Grid& grid : Plan::part(plan_.grids, tied_.grids)) {
+        const Body& body = state_.bodies[grid.body];
+        for (std::size_t i = body.first; i < body.first + body.count; ++i)
+            lightest = std::min(lightest, static_cast<double>(state_.mass[i]));
+    }
+    lightest_ = std::max(static_cast<float>(lightest / mass_), 1e-12f);
+    stiffness_ = Cloth::link_stiffness(weight, shortest_, mass_ / (h_ * h_));
+}
+
+std::uint32_t TiedSolver::grid_with(std::uint32_t particle) const {
+    std::uint32_t found = 0;
+    each_grid([&](std::uint32_t number) {
+        const Body& body = state_.bodies[plan_.grids[number - 1].body];
+        if (particle - body.first < body.count) found = number;
+    });
+    return found;
+}
+
+double TiedSolver::tie_stiffness(const Tie& tie) const {
+    return 0.5 * max_stiffness_between * (state_.mass[tie.a] + state_.mass[tie.b]) / mass_;
+}
+
+/// Calls `visit` with the spring of each tie, and of each link that is not a grid's, and the multiplier that
+/// it leaves.
 template <class Visit>
 void TiedSolver::each_spring(Visit visit) {
     const double per_mass = 1.0 / mass_, per_square = 1.0 / (h_ * h_);
-    const auto most = [&](std::uint32_t a, std::uint32_t b) {
-        return 0.5 * max_stiffness_between * (state_.mass[a] + state_.mass[b]);
-    };
     const std::span<const std::uint32_t> links = Plan::part(plan_.links, island_.links);
     for (std::size_t k = 0; k < links.size(); ++k) {
+        if (tied_.link_blocks[k] == Plan::no_block) continue;
         const Link& link = state_.links[links[k]];
         const double compliance = detail::compliance(state_.settings, link) * per_square;
-        const double hard = most(link.a, link.b);
+        const double hard = 0.5 * max_stiffness_between * (state_.mass[link.a] + state_.mass[link.b]);
         const bool stiff = compliance * hard <= 1.0;
         double& multiplier = scratch_.multiplier[links[k]];
         visit(Spring{link.a, link.b, tied_.link_blocks[k], link.rest,
@@ -68,8 +120,8 @@ void TiedSolver::each_spring(Visit visit) {
     for (std::size_t k = 0; k < ties.size(); ++k) {
         const Tie& tie = state_.ties[ties[k]];
         double& multiplier = scratch_.tie_multiplier[ties[k]];
-        visit(Spring{tie.a, tie.b, tied_.tie_blocks[k], detail::distance_kept(tie, h_),
-                     most(tie.a, tie.b) * per_mass, multiplier * per_mass, true},
+        visit(Spring{tie.a, tie.b, tied_.tie_blocks[k], detail::distance_kept(tie, h_), tie_stiffness(tie),
+                     multiplier * per_mass, true, tied_.tie_blocks[k] == Plan::no_block},
               multiplier);
     }
 }
@@ -87,14 +139,25 @@ void TiedSolver::add(std::uint32_t particle, const Symmetric3& matrix, const dve
 /// particles that fell together show none yet.
 void TiedSolver::assemble(bool first) {
     system_.clear();
-    each_particle([&](std::size_t i) {
-        const std::uint32_t place = plan_.places[i];
-        const bool pinned = scratch_.weight[i] == 0.0;
-        const double mass = pinned ? 1.0 : state_.mass[i] / mass_;
-        system_.diagonal[place] = {mass, 0.0, 0.0, mass, 0.0, mass};
-        if (!pinned) system_.x[place] = mass * (scratch_.base[i] - scratch_.place[i]);
+    for (const std::uint32_t number : Plan::part(plan_.bodies, island_.bodies)) {
+        const Body& body = state_.bodies[number];
+        if (plan_.grid_of[number] > 0) continue;
+        for (std::size_t i = body.first; i < body.first + body.count; ++i) {
+            const std::uint32_t place = plan_.places[i];
+            const bool pinned = scratch_.weight[i] == 0.0;
+            const double mass = pinned ? 1.0 : state_.mass[i] / mass_;
+            system_.diagonal[place] = {mass, 0.0, 0.0, mass, 0.0, mass};
+            if (!pinned) system_.x[place] = mass * (scratch_.base[i] - scratch_.place[i]);
+        }
+    }
+    each_grid([&](std::uint32_t number) {
+        Cloth cloth(*this, number);
+        cloth.in_cells([&](detail::GridRange cells) {
+            scratch_.cloth_unit.cells(cloth.level_, cloth.cloth_.arrays, cells);
+        });
     });
     each_spring([&](const Spring& spring, double&) {
+        if (spring.block == Plan::no_block) return;
         const dvec3 apart = scratch_.place[spring.b] - scratch_.place[spring.a];
         const double length = detail::length(apart);
         Symmetric3 matrix;
@@ -120,6 +183,11 @@ void TiedSolver::assemble(bool first) {
 void TiedSolver::add_contacts() {
     for (ClothContact& each : local_.cloth_contacts) {
         rub(each);
+        const std::uint32_t grid = plan_.grid_of[plan_.chunks[local_.near[each.near].chunk].body];
+        if (grid > 0) {
+            Cloth(*this, grid).add_contact(each);
+            continue;
+        }
         const dvec3& n = each.normal;
         const double to_b = each.t, to_a = 1.0 - to_b;
         const Symmetric3 stiff = stiffness_along(n, stiffness_, each.drag);
@@ -134,7 +202,7 @@ void TiedSolver::add_contacts() {
 }
 
 void TiedSolver::go(double part) {
-    each_particle([&](std::size_t i) { scratch_.place[i] += part * system_.x[plan_.places[i]]; });
+    each_particle([&](std::size_t i) { scratch_.place[i] += part * scratch_.tied_by[i]; });
 }
 
 /// The force that each link and tie contributed to the step, to first order, or has at its end.
@@ -142,18 +210,18 @@ void TiedSolver::note_tensions(bool at_end) {
     double turned = 0.0;  // squared
     each_spring([&](const Spring& spring, double& multiplier) {
         const dvec3 apart = scratch_.place[spring.b] - scratch_.place[spring.a];
-        const dvec3 by = system_.x[plan_.places[spring.b]] - system_.x[plan_.places[spring.a]];
+        const dvec3 by = scratch_.tied_by[spring.b] - scratch_.tied_by[spring.a];
         if (scratch_.weight[spring.a] + scratch_.weight[spring.b] == 0.0) {
             multiplier = 0.0;
         } else if (spring.rest > 0.0) {
             const double length = detail::length(apart);
             const dvec3 along = length > 1e-30 ? (1.0 / length) * apart : dvec3(1.0, 0.0, 0.0);
             const double longer = length - spring.rest + (at_end ? 0.0 : detail::dot(along, by));
-            multiplier = mass_ * spring.stiffness * longer;
+            if (!spring.across) multiplier = mass_ * spring.stiffness * longer;
             if (!spring.stiff) return;
             const double reach = std::max(spring.rest, length);
             if (detail::dot(by, by) > turned * reach * reach) turned = detail::dot(by, by) / (reach * reach);
-        } else {
+        } else if (!spring.across) {
             multiplier = mass_ * spring.stiffness * detail::length(at_end ? apart : apart + by);
         }
     });
@@ -172,58 +240,157 @@ double TiedSolver::potential() {
             detail::length(scratch_.place[spring.b] - scratch_.place[spring.a]) - spring.rest;
         sum += spring.stiffness * longer * longer;
     });
+    each_grid([&](std::uint32_t number) { sum = Cloth(*this, number).add_links(sum); });
     for (const ClothContact& each : local_.cloth_contacts) sum += potential_of(each);
     return sum;
 }
 
-/// A step of Newton's method. If it turns links far, it is halved until the potential does not rise.
-void TiedSolver::step(bool first) {
+void TiedSolver::evaluate_grids() {
+    strain_ = 0.0;
+    each_grid([&](std::uint32_t number) {
+        Cloth cloth(*this, number);
+        cloth.evaluate();
+        strain_ = std::max(strain_, cloth.strain_);
+    });
+}
+
+/// Solves for a step and stores it by particle.
+void TiedSolver::find_step(const detail::GridSystem::Tolerance& tolerance, int iterations) {
+    if (tied_.grids.count == 0) {
+        system_.factorize(tied_.order);
+        system_.substitute(tied_.order, system_.x, 0);
+    } else {
+        each_grid([&](std::uint32_t number) { Cloth(*this, number).pin(); });
+        solve_with_grids(tolerance, iterations);
+    }
+    for (const std::uint32_t number : Plan::part(plan_.bodies, island_.bodies)) {
+        const Body& body = state_.bodies[number];
+        const std::uint32_t grid = plan_.grid_of[number];
+        for (std::size_t i = body.first; i < body.first + body.count; ++i) {
+            const std::uint32_t place = plan_.places[i];
+            scratch_.tied_by[i] = grid == 0
+                                      ? system_.x[place]
+                                      : detail::value_at(scratch_.cloths[grid - 1].system.solution(), place);
+        }
+    }
+}
+
+/// A step of Newton's method. If it turns links far, or strains grids, it is halved until the potential does
+/// not rise.
+void TiedSolver::step(bool first, int iterations, double enough) {
     assemble(first);
     add_contacts();
-    system_.solve(tied_.order);
+    find_step({first ? 0.0 : enough, usual_residual}, iterations);
     local_.done.work += island_.links.count;
     note_tensions(false);
-    taken_ = 1.0;
-    if (turned_ <= turned_far) return go(1.0);
-    const double before = potential(), turned = turned_;
     go(1.0);
-    for (int i = 0; i < max_halvings && !(potential() <= before); ++i) {
+    evaluate_grids();
+    taken_ = 1.0;
+    if (turned_ <= turned_far && strain_ <= accepted_strain) return;
+    go(-1.0);
+    const double turned = turned_,
+                 most = potential() * (1.0 + (tied_.grids.count > 0 ? single_rounding : 0.0));
+    go(1.0);
+    for (int i = 0; i < max_halvings && !(potential() <= most); ++i) {
         taken_ *= 0.5;
         go(-taken_);
     }
+    if (taken_ == 1.0 && turned_ <= turned_far) return;
+    if (taken_ < 1.0) evaluate_grids();
     note_tensions(true);
     turned_ = turned;
+}
+
+/// Without pins and contacts.
+bool TiedSolver::is_free() const {
+    bool free = local_.cloth_contacts.empty();
+    each_particle([&](std::size_t i) { free = free && scratch_.weight[i] > 0.0; });
+    return free;
 }
 
 /// Without pins and contacts nothing moves the centre of mass; what the solve did to it is rounding, of a
 /// system in which links are ten million times as stiff as particles are heavy.
 void TiedSolver::keep_centre() {
-    bool free = local_.cloth_contacts.empty();
+    if (!is_free()) return;
     double mass = 0.0;
     dvec3 moved(0.0);
     each_particle([&](std::size_t i) {
-        free = free && scratch_.weight[i] > 0.0;
         mass += state_.mass[i];
         moved += state_.mass[i] * (scratch_.place[i] - scratch_.base[i]);
     });
-    if (!free) return;
     each_particle([&](std::size_t i) { scratch_.place[i] -= (1.0 / mass) * moved; });
+    if (tied_.grids.count > 0) keep_spin();
+}
+
+/// Nor does anything turn the whole then: forces between particles act along the lines that join them. Grids
+/// are not solved so well, so what is left of a turn is taken back.
+void TiedSolver::keep_spin() {
+    double mass = 0.0;
+    dvec3 centre(0.0), turn(0.0);
+    each_particle([&](std::size_t i) {
+        mass += state_.mass[i];
+        centre += state_.mass[i] * scratch_.place[i];
+    });
+    centre *= 1.0 / mass;
+    double trace = 0.0;
+    Symmetric3 inertia;
+    each_particle([&](std::size_t i) {
+        const dvec3 from = scratch_.place[i] - centre;
+        turn -= state_.mass[i] * detail::cross(from, scratch_.place[i] - scratch_.base[i]);
+        trace += state_.mass[i] * detail::dot(from, from);
+        inertia.add(-state_.mass[i], from, from);
+    });
+    constexpr double thin = 1e-9;  // of what lies on one line
+    const double all = (1.0 + thin) * trace;
+    const dvec3 a(inertia.xx + all, inertia.xy, inertia.xz), b(inertia.xy, inertia.yy + all, inertia.yz),
+        c(inertia.xz, inertia.yz, inertia.zz + all);
+    const double volume = detail::dot(a, detail::cross(b, c));
+    if (!(volume > 0.0)) return;
+    const dvec3 by =
+        (1.0 / volume) * dvec3(detail::dot(turn, detail::cross(b, c)), detail::dot(a, detail::cross(turn, c)),
+                               detail::dot(a, detail::cross(b, turn)));
+    each_particle([&](std::size_t i) { scratch_.place[i] += detail::cross(by, scratch_.place[i] - centre); });
+}
+
+/// Starts as if nothing had changed since the previous substep: at rest a single step is then enough.
+void TiedSolver::start() {
+    for (const std::uint32_t number : Plan::part(plan_.bodies, island_.bodies)) {
+        const Body& body = state_.bodies[number];
+        if (plan_.grid_of[number] > 0) continue;
+        for (std::size_t i = body.first; i < body.first + body.count; ++i)
+            if (scratch_.weight[i] > 0.0) scratch_.place[i] = state_.position[i] + state_.displacement[i];
+    }
 }
 
 int TiedSolver::solve(int iterations) {
-    const int most = std::min(max_steps, iterations), least = local_.near.empty() ? 1 : steps_near_colliders;
+    const bool has_grids = tied_.grids.count > 0;
+    const int most = std::min(max_steps, iterations);
+    const int least = !local_.near.empty() ? steps_near_colliders
+                      : !has_grids         ? 1
+                      : is_free()          ? min_free_steps
+                                           : min_grid_steps;
+    double enough = 0.0;
+    start();
+    each_grid([&](std::uint32_t number) {
+        Cloth cloth(*this, number);
+        cloth.load();
+        enough += cloth.start();
+        strain_ = std::max(strain_, cloth.strain_);
+    });
     int taken = 0;
     for (converged_ = false; taken < most && !converged_;) {
         find_contacts(taken == 0);
-        step(taken == 0);
+        step(taken == 0, iterations, enough);
         for (ClothContact& each : local_.cloth_contacts) {
             const dvec3 moved = between(each, scratch_.place) - each.at;
             each.force = -stiffness_ * (each.gap + detail::dot(each.normal, moved));
         }
         ++taken;
-        converged_ = taken >= least && turned_ <= (taken < few_steps ? turned_enough : turned_little);
+        converged_ = taken >= least && turned_ <= (taken < few_steps ? turned_enough : turned_little) &&
+                     (strain_ <= accepted_strain || taken >= max_grid_steps);
     }
     keep_centre();
+    each_grid([&](std::uint32_t number) { Cloth(*this, number).finish(); });
     return taken;
 }
 

@@ -4,9 +4,11 @@
 // As for a cloth (cloth_grid.hpp) the step minimises an incremental potential by Newton's method, from where
 // particles would be without forces, but each step of Newton's method is solved exactly (elimination.hpp) and
 // in double precision. Links and ties are springs so stiff that what they carry does not show; the tension of
-// the previous substep makes them stiff sideways.
+// the previous substep makes them stiff sideways. Only cloth that is a grid keeps its system, as soft and as
+// nearly solved as if it were alone; its ties are exact all the same (tied_grids.cpp).
 #pragma once
 
+#include "rope/cloth_solver.hpp"
 #include "rope/implicit_step.hpp"
 
 namespace tendril::rope {
@@ -26,23 +28,53 @@ class TiedSolver : ImplicitStep {
         std::uint32_t a, b, block;
         double rest, stiffness, multiplier;
         bool stiff;
+        bool across = false;  ///< a tie of a grid: its force is solved for
+    };
+    /// A cloth that is a grid, in the island's units.
+    struct Cloth : ClothSolver {
+        Cloth(const TiedSolver& island, std::uint32_t grid);
+        using ClothSolver::add_contact, ClothSolver::add_links, ClothSolver::evaluate, ClothSolver::finish,
+            ClothSolver::load, ClothSolver::pin, ClothSolver::start, ClothSolver::link_stiffness,
+            ClothSolver::cloth_, ClothSolver::in_cells, ClothSolver::level_, ClothSolver::strain_;
     };
     template <class Visit>
     void each_spring(Visit visit);
 
     void assemble(bool first);
     void add_contacts();
+    /// Calls `visit` with the number of each grid, from 1.
+    template <class Visit>
+    void each_grid(Visit visit) const {
+        for (std::uint32_t g = 1; g <= tied_.grids.count; ++g) visit(tied_.grids.first + g);
+    }
+    std::uint32_t grid_with(std::uint32_t particle) const;  ///< its number, or 0
+    void measure_grids();
+    void evaluate_grids();
+    void start();
     void add(std::uint32_t particle, const detail::Symmetric3& matrix, const glm::dvec3& force);
-    void step(bool first);
+    void find_step(const detail::GridSystem::Tolerance& tolerance, int iterations);
+    void step(bool first, int iterations, double enough);
     void go(double part);
     void note_tensions(bool exact);
     double potential();
+    bool is_free() const;
     void keep_centre();
+    void keep_spin();
+
+    double tie_stiffness(const Tie& tie) const;  ///< times h^2 over the mean mass
+
+    // tied_grids.cpp
+    void load_ties();
+    void add_responses();
+    void solve_with_grids(const detail::GridSystem::Tolerance& tolerance, int iterations);
 
     const Plan::Tied& tied_;
     detail::EliminationSystem& system_;
     double taken_ = 1.0;
-    double turned_ = 0.0;  ///< in the last step: of a stiff link, relative to its length
+    double turned_ = 0.0;     ///< in the last step: of a stiff link, relative to its length
+    double strain_ = 0.0;     ///< of grids: maximum of a stretch link
+    double shortest_ = 1e30;  ///< of grids: rest length of a stretch link
+    float lightest_ = 1.0f;
     bool converged_ = true;
 };
 

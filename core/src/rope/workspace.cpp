@@ -32,7 +32,12 @@ void size(Scratch& scratch, const State& state, const Plan& plan) {
     for (std::size_t i = 0; i < plan.grids.size(); ++i)
         scratch.cloths[i].resize(plan.grids[i].columns, plan.grids[i].rows);
     scratch.tied.resize(plan.tied.size());
-    for (std::size_t i = 0; i < plan.tied.size(); ++i) scratch.tied[i].resize(plan.tied[i].order);
+    scratch.tie_forces.resize(plan.tied.size());
+    for (std::size_t i = 0; i < plan.tied.size(); ++i) {
+        scratch.tied[i].resize(plan.tied[i].order);
+        scratch.tie_forces[i].resize(plan.tied[i].across.size(), plan.tied[i].order.place.size());
+    }
+    scratch.tied_by.resize(plan.tied.empty() ? 0 : particles);
     scratch.tie_multiplier.assign(state.ties.size(), 0.0);
 }
 

@@ -20,10 +20,12 @@
 //   step of Newton's method is solved by conjugate gradients with a multigrid cycle, so the iterations hardly
 //   grow with its resolution. A step that strains links is halved until the incremental potential does not
 //   rise (M. Li et al., "Incremental Potential Contact", 2020). Hair is solved strand by strand, and its
-//   contacts and bending between the passes. Bodies that ties join are one such step together, solved exactly
-//   by elimination (A. George, J. Liu, "The Evolution of the Minimum Degree Ordering Algorithm", 1989): tied
-//   ropes cost two to four times as much as untied ones, but a cloth of 24 x 24 fourteen times, and its cost
-//   grows with the cube of its side. The swing of tied bodies dies away sooner.
+//   contacts and bending between the passes. Bodies that ties join are one such step together: ropes are
+//   solved exactly by elimination (A. George, J. Liu, "The Evolution of the Minimum Degree Ordering
+//   Algorithm", 1989), cloths as before, with the forces of their ties as further unknowns. Tied bodies cost
+//   at most twice as much as untied ones; but a cloth with more than about four ties for each particle of a
+//   side is eliminated too, at a cost that grows with the cube of its side. The swing of tied bodies dies
+//   away sooner.
 //
 // Direct adds no energy: a body that gained some in a substep is slowed down until the gain is gone, in its
 // relative motion first, so that it keeps falling freely. Only moving colliders, pins and wind do work. Near
