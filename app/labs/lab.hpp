@@ -194,7 +194,8 @@ class Lab {
     virtual std::vector<Handle> selectable(const Workspace& workspace) const { return handles(workspace); }
     /// Selects the handles in the box; `add` keeps the selection there was. Some may be selected already.
     virtual void select(const Workspace&, const std::vector<PickId>&, bool /*add*/, Emit&) const {}
-    /// Whether a drag, wherever it begins, draws a straight stroke across the scene instead of its usual use.
+    /// Whether a drag, wherever it begins, draws a straight stroke across the scene instead of what a drag
+    /// usually does.
     virtual bool takes_strokes(const Workspace&) const { return false; }
     /// The stroke, in the camera's pixels; its commands are emitted continuously, as one step to undo.
     virtual void stroke(const Workspace&, const Camera&, glm::vec2 /*from*/, glm::vec2 /*to*/, Emit&) const {}

@@ -25,7 +25,7 @@ inline constexpr EnumNames<rope::Solver, 3> rope_solvers{
       "As relaxation, but with compliance: enough iterations stretch it as a material stretches."},
      {"direct", "Direct", "All segments of a rope at once: it does not stretch, and keeps its energy."}}};
 
-/// What a body became that was cut, parted or divided anew.
+/// What became of a body that was cut, parted or resampled.
 struct Became {
     std::vector<std::size_t> particles;  ///< as in rope::Edited
     std::vector<std::string> pieces;     ///< the names of what came off it, in the order of particles

@@ -40,9 +40,8 @@ void scene_rows(Emit& emit) {
     std::vector<PresetButton> buttons;
     for (const RopeSceneEntry& scene : rope_scenes())
         buttons.push_back({scene.name, scene.title, scene.help});
-    // Two that are left get a row to themselves; one shares the row of Empty and Reset.
-    if (buttons.size() % 3 == 2)
-        for (std::size_t i = buttons.size() - 2; i < buttons.size(); ++i) buttons[i].of = 2;
+    // The last preset shares the row of Empty and Reset; the four before it have short titles and share one.
+    for (std::size_t i = buttons.size() - 5; i < buttons.size() - 1; ++i) buttons[i].of = 4;
     preset_rows(rope_lab, buttons, "Removes every rope and collider", emit);
 }
 
@@ -51,9 +50,8 @@ const char* tool_help(RopeTool tool) {
         case RopeTool::Pin:
             return "A click on a particle pins it where it is, or lets a pinned one move again.";
         case RopeTool::Cut:
-            return "A drag cuts across. A click on a rope cuts that segment; clicks on a cloth cut it from "
-                   "one to "
-                   "the next.";
+            return "Drag across ropes and cloths to cut them. Or click a rope's segment, or two particles of a "
+                   "cloth.";
         case RopeTool::Tie:
             return "A click on one particle and then on another ties the two.";
         default:
@@ -97,10 +95,10 @@ void character_rows(const Walker& walker, Emit& emit) {
             if (list_row(clip.name, clip.name == walker.clip)) change(now, clip.name, walker.at);
         end_list();
     }
-    explain("The motion that plays over and over. Type part of a name to find one.");
+    explain("The clip that plays in a loop. Type part of a name to find one.");
     glm::vec3 at = walker.at;
     if (point_field("at", at, 0.01f)) change(now, walker.clip, at);
-    explain("Where the origin of its file is.");
+    explain("Where the character stands.");
 }
 
 FieldRows settings_rows(const RopePart& part, Emit& emit) {
@@ -400,12 +398,12 @@ void race_rows(const RopePart& part, bool timed, const Palette& palette, Emit& e
     };
     curves("length error", "%", &RopeSample::error, 100.0f, 1e-4f);
     curves("energy", "J", &RopeSample::energy, 1.0f, 0.0f);
-    if (timed) curves("time per frame", "ms", &RopeSample::cost, 1e-3f, 1e-3f);
-    if (!(part.world->settings().compliance > 0.0f)) note("Without compliance, XPBD is relaxation.");
+    if (timed) curves("time per tick", "ms", &RopeSample::cost, 1e-3f, 1e-3f);
+    if (!(part.world->settings().compliance > 0.0f)) note("Without compliance, XPBD gives the same result as relaxation.");
     if (row_button("Start again", 2, true, "Starts the race from where the first view is now"))
         emit("rope.race");
     if (row_button("Copy as CSV", 2, true,
-                   "Each solver's length error, energy and microseconds per tick in the last ten seconds"))
+                   "Each solver's length error, energy and time per tick in the last ten seconds"))
         emit("rope.race.copy");
     end_row();
 }
@@ -455,7 +453,7 @@ void number_rows(const Workspace& workspace, const Palette& palette, Emit& emit)
             "work exceeds what a tick allows.");
     });
     if (const std::string cost = cost_text(part.samples); workspace.clock.measured && !cost.empty())
-        more.add("time per frame", {}, false, [&] { reading("time per frame", "%s", cost.c_str()); });
+        more.add("time per tick", {}, false, [&] { reading("time per tick", "%s", cost.c_str()); });
     more_rows(workspace, "Numbers", more, emit);
     if (!part.rivals.empty()) return race_rows(part, workspace.clock.measured, palette, emit);
     if (part.samples.size() < 2) return;

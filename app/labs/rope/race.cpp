@@ -27,7 +27,7 @@ std::shared_ptr<const NamedWorld> with_settings(std::shared_ptr<const NamedWorld
     return changed;
 }
 
-/// The rival of the own world's new solver takes its place, and gets the solver that it `had`.
+/// The rival with the own world's new solver swaps places with it, and takes the solver that it `had`.
 void change_places(RopePart& part, rope::Solver had) {
     const rope::Solver now = solver_of(part.world);
     for (Rival& rival : part.rivals) {

@@ -31,7 +31,7 @@ const NamedWorld& world_in(const RopePart& part, std::size_t pane);
 void begin_race(RopePart& part);
 /// The part as it is for a rival.
 RopePart part_of_rival(const RopePart& part, const Rival& rival);
-/// Does to each rival what a command did to the own world of `part`, which was `old` before. A rival that
+/// Does to each rival what a command did to `part`'s own world, which was `old` before. A rival that
 /// lacks what it names, as a tie that tore there, stays as it is. If the command chose a rival's solver, the
 /// two change places.
 void change_rivals(RopePart& part, const RopePart& old, const std::function<void(RopePart&)>& change);
@@ -41,7 +41,7 @@ void take_settings(RopePart& part, const rope::Settings& settings);
 glm::vec3 rope_solver_colour(const Palette& palette, rope::Solver solver);
 /// "length error 0.02 %, 12.30 J"
 std::string racer_text(const RopeSample& last);
-/// Titles of the panes; none without a race. `cost`: with the time per frame.
+/// Titles of the panes; none without a race. `cost`: with the time per tick.
 std::vector<PaneTitle> rope_panes(const RopePart& part, const Palette& palette, bool cost);
 
 /// One row for each tick and solver of the last ten seconds.

@@ -144,7 +144,7 @@ std::vector<Shortcut> RopeLab::shortcuts() const {
 std::vector<MouseHelp> RopeLab::mouse_help() const {
     return {
         {"Left click", "selects, pins or unpins, cuts or ties, as the panel says"},
-        {"Left drag while cutting", "cuts the ropes and cloths that it crosses"},
+        {"Left drag with Cut", "cuts the ropes and cloths that it crosses"},
         {"Double-click on a rope", "selects all of it; its arrows then move it with its pins"},
         {"Shift+click on a rope", "adds a particle to the selection, or takes it out"},
         {"Ctrl+drag on nothing", "draws a box that selects particles of one rope; with Shift it adds them"}};
@@ -279,8 +279,7 @@ Verdict rope_verdict(const RopePart& part) {
     }
     if (last.report.suspended > 0)
         return {"Neither held nor falling", Verdict::Kind::Bad,
-                "Nothing holds or touches it, and it does not fall: it is at the edge of the world, or the "
-                "solver "
+                "Nothing holds or touches it, and it does not fall: it is at the edge of the world, or the solver "
                 "holds it."};
     if (report.unconverged > 0)
         return {"Some steps cut short", Verdict::Kind::Open,

@@ -58,6 +58,8 @@ const std::vector<RopeSceneEntry>& rope_scenes() {
          view({0.0f, 1.15f, 0.0f}, -26.0f, 12.0f, 4.4f)},
         {"hangers", "Hangers", "A deck hangs by ropes from two main ropes, every end tied", hanger_scene,
          view({0.0f, 0.95f, 0.0f}, -30.0f, 14.0f, 6.2f)},
+        {"mail", "Chain mail", "Rings of rope, tied each to the next, fall over a ball", mail_scene,
+         view({0.0f, 0.65f, 0.0f}, -28.0f, 26.0f, 4.4f)},
         {"knot", "Knot", "A weight pulls a loose knot tight, in a rope that collides with itself", knot_scene,
          view({0.0f, 1.35f, 0.0f}, -24.0f, 8.0f, 3.6f)},
         {"net", "Net", "A ball sinks into a net of ropes that are tied wherever they cross", net_scene,
@@ -66,8 +68,6 @@ const std::vector<RopeSceneEntry>& rope_scenes() {
          view({0.0f, 1.1f, 0.0f}, -24.0f, 10.0f, 4.2f)},
         {"crane", "Crane", "A trolley carries a load along a jib; a rope in a hand steers it", crane_scene,
          view({0.0f, 1.15f, 0.2f}, -28.0f, 12.0f, 5.2f)},
-        {"mail", "Mail", "Rings of rope, tied each to the next, fall over a ball", mail_scene,
-         view({0.0f, 0.65f, 0.0f}, -28.0f, 26.0f, 4.4f)},
         {"folded", "Folded cloth", "A cloth lies folded in four: its layers rest on each other", folded_scene,
          view({-0.1f, 0.05f, -0.1f}, -30.0f, 22.0f, 1.1f)}};
     return list;
@@ -296,35 +296,31 @@ RopeScene knot_scene() {
     return scene;
 }
 
-/// Folds a cloth along 0: layers `gap` apart, and half a circle between them. `at` becomes the place along
-/// the layers, and the result the height above the lower one.
-double fold(double& at, double gap) {
-    const double quarter = 0.25 * glm::pi<double>() * gap;
-    if (std::abs(at) >= quarter) {
-        const bool upper = at > 0.0;
-        at = quarter - std::abs(at);
-        return upper ? gap : 0.0;
-    }
-    const double turned = 2.0 * at / gap;
-    at = 0.5 * gap * std::cos(turned);
-    return 0.5 * gap * (1.0 + std::sin(turned));
+/// Folds a cloth along 0: layers `gap` apart, and between them a crease of two cells, as long as they were
+/// flat. `at` becomes the place along the layers, and the result the height above the lower one.
+double fold(double& at, double gap, double cell) {
+    const double bent = std::clamp(at / cell, -1.0, 1.0);
+    at = (1.0 - std::abs(bent)) * std::sqrt(cell * cell - 0.25 * gap * gap) - std::max(std::abs(at), cell);
+    return 0.5 * gap * (1.0 + bent);
 }
 
 RopeScene folded_scene() {
     RopeScene scene;
     NamedWorld& world = scene.world;
     add_ground(world);
+    constexpr int cells = 16;  // even: each crease is a line of particles
     constexpr float side = 0.45f, radius = 0.006f;
     world.add_cloth("cloth", {.corner = {-0.5f * side, 0, -0.5f * side},
                               .along = {side, 0, 0},
                               .down = {0, 0, side},
-                              .columns = 16,
-                              .rows = 16,
+                              .columns = cells + 1,
+                              .rows = cells + 1,
                               .radius = radius});
     rope::State state = world.state();
-    const double apart = 2.1 * static_cast<double>(radius);
+    const double apart = 2.1 * static_cast<double>(radius), cell = static_cast<double>(side) / cells;
     for (glm::dvec3& p : state.position) {
-        const double inner = fold(p.x, apart), outer = fold(p.z, 3.0 * apart - 2.0 * inner);
+        const double inner = fold(p.x, apart, cell);
+        const double outer = fold(p.z, 3.0 * apart - 2.0 * inner, cell);
         p.y = 0.5 * apart + inner + outer;
     }
     world.put(std::move(state));
