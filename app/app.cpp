@@ -170,7 +170,7 @@ void App::compose(const Event* event, Pass pass) {
 }
 
 Pointer::Scene App::pointed_at(const Pane& pane, const Camera& camera) const {
-    return {workspace_, lab(), camera, pane.drawn, ui_.wants_mouse(), layout_.scale};
+    return {workspace_, lab(), camera, pane.drawn, ui_.wants_mouse(), layout_.scale, pane_};
 }
 
 void App::take_event(const Event& event, Emit& emit) {

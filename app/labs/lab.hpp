@@ -197,8 +197,10 @@ class Lab {
     /// Whether a drag, wherever it begins, draws a straight stroke across the scene instead of what a drag
     /// usually does.
     virtual bool takes_strokes(const Workspace&) const { return false; }
-    /// The stroke, in the camera's pixels; its commands are emitted continuously, as one step to undo.
-    virtual void stroke(const Workspace&, const Camera&, glm::vec2 /*from*/, glm::vec2 /*to*/, Emit&) const {}
+    /// The stroke in a pane, in the camera's pixels; its commands are emitted continuously, as one step to
+    /// undo.
+    virtual void stroke(const Workspace&, std::size_t /*pane*/, const Camera&, glm::vec2 /*from*/,
+                        glm::vec2 /*to*/, Emit&) const {}
     /// The second click on a handle; the first one called click().
     virtual void double_click(const Workspace& workspace, PickId pick, Emit& emit) const {
         click(workspace, pick, emit);

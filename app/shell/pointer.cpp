@@ -170,7 +170,7 @@ void Pointer::let_go(const Input& input, const Scene& scene, Emit& emit) {
     }
     if (doing_ == Doing::Box) select_in_box(input.shift(), scene, emit);
     if (doing_ == Doing::Stroke)
-        scene.lab.stroke(scene.workspace, scene.camera, caught_at_, input.mouse(), emit);
+        scene.lab.stroke(scene.workspace, scene.pane, scene.camera, caught_at_, input.mouse(), emit);
     release(scene, emit);
 }
 

@@ -26,6 +26,7 @@ class Pointer {
         const DrawList& drawn;    ///< the last picture: the user picks what is visible
         bool over_panel = false;  ///< the mouse belongs to a panel
         float scale = 1.0f;       ///< multiplies all sizes in pixels
+        std::size_t pane = 0;     ///< that the mouse is in
     };
 
     /// Handles this tick's event. Emits camera.set and the lab's drag and click commands, which run

@@ -176,10 +176,14 @@ void cut_cloth(RopeEdit& edit, const Arguments& given) {
     const Became became = edit.world().cut_cloth(name, line);
     follow_particles(edit.part, edit.world(), name, became);
     if (became.pieces.empty()) return;
-    edit.said = "\"" + name + "\" is in " + std::to_string(became.pieces.size() + 1) + " pieces";
-    for (std::size_t i = 0; i < std::min(named, became.pieces.size()); ++i)
-        edit.said += std::string(i == 0 ? ": " : ", ") + "\"" + became.pieces[i] + "\"";
-    edit.said += became.pieces.size() > named ? ", ... came off" : " came off";
+    const std::size_t off = became.pieces.size(), shown = std::min(named, off);
+    edit.said = "\"" + name + "\" is now in " + std::to_string(off + 1) + " pieces; ";
+    for (std::size_t i = 0; i < shown; ++i)
+        edit.said += std::string(i == 0         ? ""
+                                 : i + 1 == off ? " and "
+                                                : ", ") +
+                     "\"" + became.pieces[i] + "\"";
+    edit.said += off > named ? " and " + std::to_string(off - named) + " more came off" : " came off";
 }
 
 /// A name, followed by the fields of `Shapes`.

@@ -145,8 +145,7 @@ class Drawing {
         list_.strokes.reserve(list_.strokes.size() + 2 * state.links.size());
         std::size_t b = 0;
         for (const rope::Link& link : state.links) {
-            while (link.a < state.bodies[b].first) --b;
-            while (link.a - state.bodies[b].first >= state.bodies[b].count) ++b;
+            b = body_with(state, link.a, b);
             const rope::Body& body = state.bodies[b];
             if (link.kind != rope::Link::Kind::Stretch || body.kind == rope::Body::Kind::Hair) continue;
             const glm::vec3 from = positions_[link.a], to = positions_[link.b], middle = 0.5f * (from + to);

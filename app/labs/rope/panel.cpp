@@ -50,7 +50,8 @@ const char* tool_help(RopeTool tool) {
         case RopeTool::Pin:
             return "A click on a particle pins it where it is, or lets a pinned one move again.";
         case RopeTool::Cut:
-            return "Drag across ropes and cloths to cut them. Or click a rope's segment, or two particles of a "
+            return "Drag across ropes and cloths to cut them. Or click a rope's segment, or two particles of "
+                   "a "
                    "cloth.";
         case RopeTool::Tie:
             return "A click on one particle and then on another ties the two.";
@@ -399,7 +400,8 @@ void race_rows(const RopePart& part, bool timed, const Palette& palette, Emit& e
     curves("length error", "%", &RopeSample::error, 100.0f, 1e-4f);
     curves("energy", "J", &RopeSample::energy, 1.0f, 0.0f);
     if (timed) curves("time per tick", "ms", &RopeSample::cost, 1e-3f, 1e-3f);
-    if (!(part.world->settings().compliance > 0.0f)) note("Without compliance, XPBD gives the same result as relaxation.");
+    if (!(part.world->settings().compliance > 0.0f))
+        note("Without compliance, XPBD gives the same result as relaxation.");
     if (row_button("Start again", 2, true, "Starts the race from where the first view is now"))
         emit("rope.race");
     if (row_button("Copy as CSV", 2, true,

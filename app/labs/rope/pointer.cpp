@@ -24,6 +24,12 @@ const rope::Collider* holder_of(const NamedWorld& world, std::size_t particle) {
     return nullptr;
 }
 
+/// The drag that holds particles of the picked world.
+const std::optional<Hold>& picked_hold(const RopePart& part, PickId pick) {
+    const auto pane = static_cast<std::size_t>(std::max(pick, 0) / picks_in_pane);
+    return pane == 0 || pane > part.rivals.size() ? part.hold : part.rivals[pane - 1].hold;
+}
+
 constexpr glm::vec3 along_x(1.0f, 0.0f, 0.0f), upright(0.0f, 1.0f, 0.0f);
 
 /// A shape's rotation: of a capsule from the x axis to its axis, of a plane from the y axis to its normal.
@@ -206,24 +212,29 @@ void RopeLab::drag(const Workspace& workspace, PickId pick, const Handle::Frame&
         return;
     }
     const std::size_t particle = place->body->first + place->index;
-    const bool pinned = world.pinned(particle) && !is_held(world, part.hold, particle);
+    const bool pinned = world.pinned(particle) && !is_held(world, picked_hold(part, pick), particle);
     ArgumentList arguments = of_particle(world, *place);
     arguments.push_back({"at", to});
     emit.continuously(pinned ? "rope.pin" : "rope.hold", arguments);
 }
 
 void RopeLab::drop(const Workspace& workspace, PickId, Emit& emit) const {
-    if (rope_part(workspace).hold) emit.continuously("rope.let_go");
+    if (holds(rope_part(workspace))) emit.continuously("rope.let_go");
 }
 
 namespace {
+
+/// The selection is the own world's: in that of a rival the body may lack the particle.
+bool in_body(const ParticlePlace& place) {
+    return place.body != nullptr && place.index < place.body->count;
+}
 
 /// With the Tie action, a click on a second particle ties it to the selected one.
 std::optional<ParticlePlace> tied_from(const RopePart& part, const NamedWorld& world,
                                        const ParticlePlace& to) {
     if (part.tool != RopeTool::Tie || !part.selection || !part.selection->of_particles()) return std::nullopt;
     const ParticlePlace from{world.find(part.selection->body), part.selection->particle()};
-    if (from.body == nullptr || (from.body == to.body && from.index == to.index)) return std::nullopt;
+    if (!in_body(from) || (from.body == to.body && from.index == to.index)) return std::nullopt;
     return from;
 }
 
@@ -234,7 +245,7 @@ std::optional<ParticlePlace> cut_from(const RopePart& part, const NamedWorld& wo
     if (!part.selection || !part.selection->of_particles() || part.selection->particles.several())
         return std::nullopt;
     const ParticlePlace from{world.find(part.selection->body), part.selection->particle()};
-    if (from.body != to.body || from.index == to.index) return std::nullopt;
+    if (from.body != to.body || !in_body(from) || from.index == to.index) return std::nullopt;
     return from;
 }
 
@@ -388,7 +399,7 @@ std::string RopeLab::hint(const Workspace& workspace, PickId pick) const {
     if (const rope::Collider* holder = holder_of(world, place->body->first + place->index))
         return name + " (attached to " + world.name(*holder) + "): drag moves both.";
     const std::size_t particle = place->body->first + place->index;
-    const bool pinned = world.pinned(particle) && !is_held(world, part.hold, particle);
+    const bool pinned = world.pinned(particle) && !is_held(world, picked_hold(part, pick), particle);
     return name + (pinned ? " (pinned): drag moves its pin."
                           : ": drag pulls it. Click selects it, double-click the whole.");
 }

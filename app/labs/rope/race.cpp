@@ -34,6 +34,7 @@ void change_places(RopePart& part, rope::Solver had) {
         if (now == had || solver_of(rival.world) != now) continue;
         std::swap(part.world, rival.world);
         std::swap(part.samples, rival.samples);
+        std::swap(part.hold, rival.hold);
         rival.world = with_settings(rival.world, rival.world->settings(), had);
     }
 }
@@ -59,13 +60,14 @@ void begin_race(RopePart& part) {
     part.rivals.clear();
     for (const rope::Solver solver : {rope::Solver::Direct, rope::Solver::Xpbd, rope::Solver::Relaxation})
         if (solver != solver_of(part.world))
-            part.rivals.push_back({with_settings(part.world, part.world->settings(), solver), {}});
+            part.rivals.push_back({with_settings(part.world, part.world->settings(), solver), {}, part.hold});
 }
 
 RopePart part_of_rival(const RopePart& part, const Rival& rival) {
     RopePart same = part;
     same.world = rival.world;
     same.samples = rival.samples;
+    same.hold = rival.hold;
     same.rivals.clear();
     return same;
 }
@@ -80,8 +82,8 @@ void change_rivals(RopePart& part, const RopePart& old, const std::function<void
         } catch (const std::logic_error&) {
             continue;
         }
-        rival.world = with_settings(same.world, same.world->settings(), solver_of(rival.world));
-        rival.samples = std::move(same.samples);
+        rival = {with_settings(same.world, same.world->settings(), solver_of(rival.world)),
+                 std::move(same.samples), std::move(same.hold)};
     }
     change_places(part, solver_of(old.world));
 }

@@ -173,6 +173,12 @@ std::vector<rope::PinPlace> pin_places(const Arguments& given, const std::vector
     return places;
 }
 
+std::size_t body_with(const rope::State& state, std::size_t particle, std::size_t near) {
+    while (particle < state.bodies[near].first) --near;
+    while (particle - state.bodies[near].first >= state.bodies[near].count) ++near;
+    return near;
+}
+
 std::vector<std::size_t> held_particles(const NamedWorld& world, const std::optional<Hold>& hold) {
     std::vector<std::size_t> held;
     const rope::Body* body = hold ? world.find(hold->body) : nullptr;
@@ -200,10 +206,18 @@ void forget_held(RopePart& part, const NamedParticle& named) {
     if (part.hold->particles.empty()) part.hold.reset();
 }
 
+bool holds(const RopePart& part) {
+    return part.hold ||
+           std::ranges::any_of(part.rivals, [](const Rival& each) { return each.hold.has_value(); });
+}
+
 void let_go(RopePart& part) {
     part.world = released(part.world, part.hold);
-    for (Rival& rival : part.rivals) rival.world = released(rival.world, part.hold);
     part.hold.reset();
+    for (Rival& rival : part.rivals) {
+        rival.world = released(rival.world, rival.hold);
+        rival.hold.reset();
+    }
 }
 
 std::shared_ptr<const NamedWorld> released(std::shared_ptr<const NamedWorld> world,
@@ -261,8 +275,7 @@ void part_torn(RopePart& part, NamedWorld& world, const NamedWorld& before) {
         std::vector<std::size_t> links(of.bodies.size(), 0);
         std::size_t b = 0;
         for (const rope::Link& link : of.links) {
-            while (link.a < of.bodies[b].first) --b;
-            while (link.a - of.bodies[b].first >= of.bodies[b].count) ++b;
+            b = body_with(of, link.a, b);
             ++links[b];
         }
         return links;

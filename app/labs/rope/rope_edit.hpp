@@ -49,6 +49,8 @@ void check_work(const NamedWorld& world);
 const rope::Body& body_of(const NamedWorld& world, const std::string& name);
 const rope::Collider& collider_of(const NamedWorld& world, const std::string& name);
 const rope::Tie& tie_of(const NamedWorld& world, const std::string& name);
+/// The number of the body that a particle is in, looked for from a body `near` it.
+std::size_t body_with(const rope::State& state, std::size_t particle, std::size_t near);
 /// The particle that two arguments name.
 struct NamedParticle {
     std::string body;
@@ -80,7 +82,9 @@ bool is_held(const RopePart& part, std::size_t particle);
 bool is_held(const NamedWorld& world, const std::optional<Hold>& hold, std::size_t particle);
 /// Stops holding the particle, because it was pinned or released.
 void forget_held(RopePart& part, const NamedParticle& named);
-/// Ends the drag.
+/// Whether a drag holds particles, here or in the world of a rival.
+bool holds(const RopePart& part);
+/// Ends the drag, in all worlds.
 void let_go(RopePart& part);
 /// The world, or that of a rival, with the drag released.
 std::shared_ptr<const NamedWorld> released(std::shared_ptr<const NamedWorld> world,

@@ -121,7 +121,8 @@ Json RopePart::save() const {
               {"jitter", save_jitter(jitter)},
               {"swings", std::move(moving)},
               {"world", save_world(*released(world, hold))}};
-    for (const Rival& rival : rivals) json["rivals"].push_back(save_world(*released(rival.world, hold)));
+    for (const Rival& rival : rivals)
+        json["rivals"].push_back(save_world(*released(rival.world, rival.hold)));
     if (walker.figure) json["character"] = save_walker(walker);
     return json;
 }

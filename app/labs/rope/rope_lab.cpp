@@ -106,7 +106,7 @@ void RopeLab::step(Workspace& workspace) const {
             RopePart same = part_of_rival(part, part.rivals[i]);
             pass_tick(same, clock, measured, runtime.of_rivals[i]);
             rests = rests && at_rest(same);
-            part.rivals[i] = {std::move(same.world), std::move(same.samples)};
+            part.rivals[i] = {std::move(same.world), std::move(same.samples), std::move(same.hold)};
         }
         pass_tick(part, clock, measured, runtime.workspace);
         // A tick without a substep says nothing about rest.
@@ -279,7 +279,8 @@ Verdict rope_verdict(const RopePart& part) {
     }
     if (last.report.suspended > 0)
         return {"Neither held nor falling", Verdict::Kind::Bad,
-                "Nothing holds or touches it, and it does not fall: it is at the edge of the world, or the solver "
+                "Nothing holds or touches it, and it does not fall: it is at the edge of the world, or the "
+                "solver "
                 "holds it."};
     if (report.unconverged > 0)
         return {"Some steps cut short", Verdict::Kind::Open,

@@ -85,8 +85,8 @@ class RopeLab final : public Lab {
     bool takes_strokes(const Workspace& workspace) const override {
         return rope_part(workspace).tool == RopeTool::Cut;
     }
-    void stroke(const Workspace& workspace, const Camera& camera, glm::vec2 from, glm::vec2 to,
-                Emit& emit) const override;
+    void stroke(const Workspace& workspace, std::size_t pane, const Camera& camera, glm::vec2 from,
+                glm::vec2 to, Emit& emit) const override;
     std::vector<Handle> selectable(const Workspace& workspace) const override;
     void select(const Workspace& workspace, const std::vector<PickId>& picks, bool add,
                 Emit& emit) const override;

@@ -10,7 +10,9 @@ namespace {
 /// Counts the lists of the state, not what the world caches beside it.
 std::size_t bytes_of(const rope::State& state) {
     constexpr std::size_t particle = 3 * sizeof(glm::dvec3) + sizeof(double);
-    return state.position.size() * particle + state.links.size() * sizeof(rope::Link) +
+    std::size_t cells = 0;
+    for (const rope::Body& body : state.bodies) cells += body.cells.size() * sizeof(body.cells[0]);
+    return cells + state.position.size() * particle + state.links.size() * sizeof(rope::Link) +
            state.bodies.size() * sizeof(rope::Body) + state.pins.size() * sizeof(rope::Pin) +
            state.colliders.size() * sizeof(rope::Collider) + state.ties.size() * sizeof(rope::Tie) +
            state.collisions.size() * sizeof(rope::Collision) +
@@ -29,7 +31,7 @@ RopePart first_ropes() {
 }
 
 std::shared_ptr<const Part> RopePart::after_undo() const {
-    if (!hold) return nullptr;
+    if (!holds(*this)) return nullptr;
     auto part = std::make_shared<RopePart>(*this);
     let_go(*part);
     return part;
@@ -56,10 +58,15 @@ std::shared_ptr<const Part> RopePart::at_moment(std::shared_ptr<const Part> then
 
 std::size_t RopePart::bytes() const {
     const std::size_t selected = selection ? selection->particles.all().size() * sizeof(std::size_t) : 0;
-    std::size_t worlds = sizeof(NamedWorld) + bytes_of(world->state());
-    for (const Rival& rival : rivals) worlds += sizeof(NamedWorld) + bytes_of(rival.world->state());
-    return sizeof(*this) + worlds + swings.size() * sizeof(Swing) + selected +
-           (hold ? hold->particles.size() * sizeof(std::size_t) : 0);
+    const auto bytes_in = [](const NamedWorld& in, const std::vector<RopeSample>& of,
+                             const std::optional<Hold>& held) {
+        return sizeof(NamedWorld) + bytes_of(in.state()) + of.size() * sizeof(RopeSample) +
+               (held ? held->particles.size() * sizeof(std::size_t) : 0);
+    };
+    std::size_t worlds = bytes_in(*world, samples, hold);
+    for (const Rival& rival : rivals)
+        worlds += sizeof(Rival) + bytes_in(*rival.world, rival.samples, rival.hold);
+    return sizeof(*this) + worlds + swings.size() * sizeof(Swing) + selected;
 }
 
 }  // namespace tendril::app

@@ -95,6 +95,7 @@ inline constexpr std::size_t max_rope_samples = 600;  ///< ten seconds
 struct Rival {
     std::shared_ptr<const NamedWorld> world;
     std::vector<RopeSample> samples;
+    std::optional<Hold> hold;  ///< in its own numbers and names: a body may have torn there only
 };
 
 struct RopePart final : Part {

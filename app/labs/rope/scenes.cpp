@@ -28,6 +28,13 @@ glm::dvec3 along(const std::vector<glm::vec3>& line, double distance) {
     return glm::dvec3(line.back());
 }
 
+/// Makes the distances of a body's links the ones that they rest at.
+void rest_as_it_is(rope::State& state, const rope::Body& body) {
+    for (rope::Link& link : state.links)
+        if (link.a - body.first < body.count)
+            link.rest = static_cast<float>(glm::distance(state.position[link.a], state.position[link.b]));
+}
+
 }  // namespace
 
 const std::vector<RopeSceneEntry>& rope_scenes() {
@@ -95,10 +102,7 @@ void lay(NamedWorld& world, const std::string& rope, const std::vector<glm::vec3
     const double step = length / static_cast<double>(body.count - 1);
     for (std::size_t i = 0; i < body.count; ++i)
         state.position[body.first + i] = along(line, step * static_cast<double>(i));
-    for (rope::Link& link : state.links) {
-        if (link.a < body.first || link.a >= body.first + body.count) continue;
-        link.rest = static_cast<float>(glm::distance(state.position[link.a], state.position[link.b]));
-    }
+    rest_as_it_is(state, body);
     for (rope::Pin& pin : state.pins) {
         if (pin.particle >= body.first && pin.particle < body.first + body.count && !pin.collider)
             pin.goal = state.position[pin.particle];
@@ -296,33 +300,39 @@ RopeScene knot_scene() {
     return scene;
 }
 
-/// Folds a cloth along 0: layers `gap` apart, and between them a crease of two cells, as long as they were
-/// flat. `at` becomes the place along the layers, and the result the height above the lower one.
-double fold(double& at, double gap, double cell) {
-    const double bent = std::clamp(at / cell, -1.0, 1.0);
-    at = (1.0 - std::abs(bent)) * std::sqrt(cell * cell - 0.25 * gap * gap) - std::max(std::abs(at), cell);
-    return 0.5 * gap * (1.0 + bent);
+/// Folds a cloth along 0: layers `gap` apart, and half a circle between them. `at` becomes the place along
+/// the layers, and the result the height above the lower one.
+double fold(double& at, double gap) {
+    const double quarter = 0.25 * glm::pi<double>() * gap;
+    if (std::abs(at) >= quarter) {
+        const bool upper = at > 0.0;
+        at = quarter - std::abs(at);
+        return upper ? gap : 0.0;
+    }
+    const double turned = 2.0 * at / gap;
+    at = 0.5 * gap * std::cos(turned);
+    return 0.5 * gap * (1.0 + std::sin(turned));
 }
 
+/// A cloth whose creases are pressed in: its links are at rest as it is folded.
 RopeScene folded_scene() {
     RopeScene scene;
     NamedWorld& world = scene.world;
     add_ground(world);
-    constexpr int cells = 16;  // even: each crease is a line of particles
     constexpr float side = 0.45f, radius = 0.006f;
     world.add_cloth("cloth", {.corner = {-0.5f * side, 0, -0.5f * side},
                               .along = {side, 0, 0},
                               .down = {0, 0, side},
-                              .columns = cells + 1,
-                              .rows = cells + 1,
+                              .columns = 16,
+                              .rows = 16,
                               .radius = radius});
     rope::State state = world.state();
-    const double apart = 2.1 * static_cast<double>(radius), cell = static_cast<double>(side) / cells;
+    const double apart = 2.1 * static_cast<double>(radius);
     for (glm::dvec3& p : state.position) {
-        const double inner = fold(p.x, apart, cell);
-        const double outer = fold(p.z, 3.0 * apart - 2.0 * inner, cell);
+        const double inner = fold(p.x, apart), outer = fold(p.z, 3.0 * apart - 2.0 * inner);
         p.y = 0.5 * apart + inner + outer;
     }
+    rest_as_it_is(state, *world.find("cloth"));
     world.put(std::move(state));
     world.set_collides("cloth", "cloth", true);
     return scene;

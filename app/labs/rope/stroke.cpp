@@ -7,6 +7,7 @@
 
 #include "app/document/json_complete.hpp"
 #include "app/labs/kit/world_drawing.hpp"
+#include "app/labs/rope/race.hpp"
 #include "app/labs/rope/rope_lab.hpp"
 #include "app/view/surfaces.hpp"
 
@@ -128,7 +129,8 @@ class KnifeStroke {
         const glm::vec2 side = thread.row == 1 ? glm::vec2(0.5f, 0.0f) : glm::vec2(0.0f, 0.5f);
         for (std::size_t i = 0; i + 1 < thread.count; ++i)
             if (const auto part = crossing(thread.first + i, thread.first + i + 1)) {
-                const float at = static_cast<float>(i) + *part;
+                const auto a = static_cast<float>(thread.cell(i)), b = static_cast<float>(thread.cell(i + 1));
+                const float at = a + *part * (b - a);
                 const glm::vec2 cell = thread.row == 1 ? glm::vec2(0.0f, at) : glm::vec2(at, 0.0f);
                 lines.push_back({{cell - side}, {cell + side}});
             }
@@ -197,9 +199,9 @@ class KnifeStroke {
 
 }  // namespace
 
-void RopeLab::stroke(const Workspace& workspace, const Camera& camera, glm::vec2 from, glm::vec2 to,
-                     Emit& emit) const {
-    KnifeStroke(*rope_part(workspace).world, camera, from, to).cut(emit);
+void RopeLab::stroke(const Workspace& workspace, std::size_t pane, const Camera& camera, glm::vec2 from,
+                     glm::vec2 to, Emit& emit) const {
+    KnifeStroke(world_in(rope_part(workspace), pane), camera, from, to).cut(emit);
 }
 
 }  // namespace tendril::app

@@ -23,7 +23,9 @@ void clear(RopeEdit& edit, const Arguments&) {
 }
 
 void reset(RopeEdit& edit, const Arguments&) {
+    const bool raced = !edit.part.rivals.empty();
     edit.part = first_ropes();
+    if (raced) begin_race(edit.part);
 }
 
 /// Opens a scene with its own view. The display settings and the tool stay.

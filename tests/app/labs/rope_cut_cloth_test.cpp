@@ -25,11 +25,11 @@ class RopeCutCloth : public RopeTest {
         run("rope.cloth.cut", {{"rope", name}, {"points", points}});
     }
     /// A stroke between two points of the plane of the cloth, seen from the front.
-    void stroke(glm::vec2 from, glm::vec2 to) {
+    void stroke(glm::vec2 from, glm::vec2 to, std::size_t pane = 0) {
         const Camera camera({.target = {3.5f, 1.5f, 0.0f}, .yaw = 0.0f, .pitch = 0.0f, .distance = 4.0f},
                             {{0, 0}, {800, 600}});
         Emit emit;
-        lab().stroke(workspace, camera, *camera.project(glm::vec3(from, 0.0f)),
+        lab().stroke(workspace, pane, camera, *camera.project(glm::vec3(from, 0.0f)),
                      *camera.project(glm::vec3(to, 0.0f)), emit);
         for (const Emitted& each : emit.take()) {
             EXPECT_TRUE(each.continuous);
@@ -47,7 +47,7 @@ TEST_F(RopeCutCloth, APieceIsAClothOfItsOwn) {
     const glm::vec3 at = world().position(body("cloth").first + 60);
     cut("cloth", {{-0.5, 3.5}, {7.5, 3.5}});
     ASSERT_NE(world().find("cloth 2"), nullptr);
-    EXPECT_TRUE(test::says(workspace.ui.toasts.back().text, "cloth 2 pieces cloth 2"));
+    EXPECT_TRUE(test::says(workspace.ui.toasts.back().text, "cloth is now in 2 pieces; cloth 2 came off"));
     EXPECT_EQ(body("cloth").count, 32u);
     EXPECT_EQ(body("cloth 2").count, 32u);
     EXPECT_EQ(part().selection->body, "cloth 2");
@@ -129,6 +129,36 @@ TEST_F(RopeCutCloth, AStrokeCutsAcross) {
     // The rest of the way parts it.
     stroke({3.3f, 1.5f}, {4.2f, 1.5f});
     EXPECT_NE(world().find("cloth 2"), nullptr);
+}
+
+/// In the pane of a rival, what is there is cut.
+TEST_F(RopeCutCloth, AStrokeCutsWhatItsPaneShows) {
+    run("rope.race");
+    RopePart& changed = workspace.document.edit<RopePart>(rope_lab);
+    auto elsewhere = std::make_shared<NamedWorld>(*changed.world);
+    rope::State state = elsewhere->state();
+    for (glm::dvec3& each : state.position) each.x += 2.0;
+    elsewhere->put(std::move(state));
+    changed.rivals[0].world = elsewhere;
+    stroke({4.8f, 1.5f}, {6.2f, 1.5f});
+    EXPECT_EQ(world().find("cloth 2"), nullptr);
+    stroke({4.8f, 1.5f}, {6.2f, 1.5f}, 1);
+    EXPECT_NE(world().find("cloth 2"), nullptr);
+}
+
+TEST_F(RopeCutCloth, TheMessageCountsAllPieces) {
+    cut("cloth", {{-1, 0.5},
+                  {8, 0.5},
+                  {8, 1.5},
+                  {-1, 1.5},
+                  {-1, 2.5},
+                  {8, 2.5},
+                  {8, 3.5},
+                  {-1, 3.5},
+                  {-1, 4.5},
+                  {8, 4.5}});
+    EXPECT_TRUE(test::says(workspace.ui.toasts.back().text,
+                           "is now in 6 pieces; cloth 2 cloth 3 cloth 4 and 2 more came off"));
 }
 
 /// Over a bar, a stroke below it cuts what hangs in front and behind, and not what lies on the bar.

@@ -5,6 +5,9 @@
 #include <vector>
 
 #include "app/labs/rope/race.hpp"
+#include "app/labs/rope/rope_edit.hpp"
+#include "app/labs/rope/rope_lab.hpp"
+#include "app/widgets/emit.hpp"
 #include "tests/app/labs/rope_support.hpp"
 #include "tests/app/support/temp_folder.hpp"
 #include "tests/says.hpp"
@@ -133,6 +136,48 @@ TEST_F(RopeRace, APaneIsPickedInItsOwnWorld) {
     EXPECT_EQ(handle->frame.position, rival(1).position(32));
     EXPECT_NE(handle->frame.position, world().position(32));
     EXPECT_FALSE(lab().handle(workspace, pick_in(5, tie_pick(3))));
+}
+
+TEST_F(RopeRace, ResetStartsItAgain) {
+    run("rope.reset");
+    EXPECT_EQ(solvers().size(), 3u);
+}
+
+/// Cut in one world only, as where a rope tears there only, a drag lets go in all of them.
+TEST_F(RopeRace, ADragLetsGoInEveryWorldByItsOwnNames) {
+    run("rope.hold", {{"rope", "rope"}, {"particle", 40}, {"at", {0.6, 1.9, 0.2}}});
+    RopePart& changed = workspace.document.edit<RopePart>(rope_lab);
+    RopePart same = part_of_rival(changed, changed.rivals[0]);
+    auto torn = std::make_shared<NamedWorld>(*same.world);
+    const Became became = torn->cut("rope", 20);
+    follow_particles(same, *torn, "rope", became);
+    changed.rivals[0] = {torn, {}, same.hold};
+    ASSERT_EQ(rival(0).state().pins.size(), 3u);
+    ASSERT_EQ(part().rivals[0].hold->body, "rope 2");
+    EXPECT_EQ(part().save()["rivals"][0]["pins"].size(), part().save()["world"]["pins"].size());
+    run("rope.let_go");
+    for (std::size_t pane = 0; pane < 3; ++pane)
+        EXPECT_EQ(world_in(part(), pane).state().pins.size(), 2u) << pane;
+}
+
+/// What is selected here may be missing there.
+TEST_F(RopeRace, AClickInAPaneUsesOnlyWhatIsThere) {
+    run("rope.select", {{"rope", "rope"}, {"particle", 60}});
+    run("rope.tool", {{"name", "tie"}});
+    RopePart& changed = workspace.document.edit<RopePart>(rope_lab);
+    auto torn = std::make_shared<NamedWorld>(*changed.rivals[0].world);
+    torn->cut("rope", 20);
+    changed.rivals[0].world = torn;
+    Emit emit;
+    lab().click(workspace, picks_in_pane + particle_pick(5), emit);
+    for (const Emitted& each : emit.take()) EXPECT_EQ(each.name, "rope.select");
+}
+
+/// Undo is bounded by what a part says it takes.
+TEST_F(RopeRace, ItsSizeCountsTheCurvesOfAll) {
+    const std::size_t before = part().bytes();
+    wait(100);
+    EXPECT_GE(part().bytes(), before + 3 * 99 * sizeof(RopeSample));
 }
 
 TEST_F(RopeRace, ItsNumbersAreWrittenAsCsv) {
