@@ -150,8 +150,10 @@ Incident incident_of(const TracedIncident& found, const ShownTrace& trace,
     }
     incident.cure = flip_advice(found.flip, after.reach.pole.has_value()).cure;
     if (!found.prevented.tried) return incident;
-    incident.cure = capitalised(found.prevented.text()) +
-                    (found.prevented.by.empty() ? "." : ". Each of these prevents it:");
+    const std::size_t count = found.prevented.by.size();
+    incident.cure = capitalised(found.prevented.text()) + (count == 0   ? "."
+                                                           : count == 1 ? ". This prevents it:"
+                                                                        : ". Each of these prevents it:");
     for (const Prevention& each : found.prevented.by)
         incident.buttons.push_back(cure_of(each, trace.conventions));
     return incident;
@@ -244,7 +246,7 @@ void show_trace(Workspace& workspace, const std::shared_ptr<const ShownTrace>& t
         workspace.rewind.note({.kind = Incident::Kind::Status,
                                .tick = *moments.parted > 0 ? *moments.parted - 1 : 0,
                                .joint = moments.all.front()->chain.size() - 1,
-                               .cause = "Tendril's solve departs from the trace here"});
+                               .cause = "Tendril's solve departs here"});
     if (!same_frames) {
         workspace.ui.incident.reset();
         if (wrong != nullptr) workspace.ui.incident = incident_of(*wrong, *trace, moments.all);
