@@ -246,7 +246,7 @@ void show_trace(Workspace& workspace, const std::shared_ptr<const ShownTrace>& t
         workspace.rewind.note({.kind = Incident::Kind::Status,
                                .tick = *moments.parted > 0 ? *moments.parted - 1 : 0,
                                .joint = moments.all.front()->chain.size() - 1,
-                               .cause = "Tendril's solve departs here"});
+                               .cause = "Tendril's solve departs"});
     if (!same_frames) {
         workspace.ui.incident.reset();
         if (wrong != nullptr) workspace.ui.incident = incident_of(*wrong, *trace, moments.all);
