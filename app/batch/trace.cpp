@@ -148,7 +148,7 @@ amount and cause; with --json one array:
   [{"frame", "last_frame", "joint", "kind": "flip" | "nan" | "length" | "limit" |
     "missed" | "lag" | "jitter" | "repeated" | "target_jump", "amount", "unit",
     "cause"}]
-A flip also has what would have prevented it: the smallest changes under which
+A flip also has what would have prevented it: small changes under which
 Tendril's solve of the same input has none, each tried, and the solver that flips
 without them:
   "flips_in": "two_bone", "prevented_by": [{"change": "pole" | "soft_zone" |

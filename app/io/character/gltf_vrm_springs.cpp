@@ -49,7 +49,7 @@ double radius_of(const Value* object, const char* name) {
 }
 void add_collider(const tinygltf::Model& model, const Value* node, const Value* shape, VrmSpring& spring) {
     const int at = node_or_none(node, model);
-    if (at < 0 || !shape || !shape->IsObject() || spring.colliders.size() == max_colliders) return;
+    if (at < 0 || !shape || !shape->IsObject()) return;
     const glm::dvec3 from = offset_of(part_of(shape, "offset"));
     const Value* tail = part_of(shape, "tail");
     spring.colliders.push_back(
@@ -62,11 +62,27 @@ const Value* named_by(const Value* list, const Value* index) {
                : nullptr;
 }
 
+/// Calls take(group, collider) for the first `max_colliders` of the groups that a spring names. A file may
+/// name one group again and again.
+template <class Take>
+void each_collider(const Value* named, const Value* groups, Take take) {
+    std::size_t visited = 0;
+    for (std::size_t k = 0; const Value* index = part_of(named, k); ++k) {
+        const Value* group = named_by(groups, index);
+        const Value* colliders = part_of(group, "colliders");
+        for (std::size_t j = 0; const Value* collider = part_of(colliders, j); ++j) {
+            if (visited++ == max_colliders) return;
+            take(group, collider);
+        }
+    }
+}
+
 /// VRM 0.x: groups of roots with the same settings. Its directions have Unity's z.
 void add_groups(const tinygltf::Model& model, std::vector<VrmSpring>& springs) {
     const Value* all = part_of(extension(model, "VRM"), "secondaryAnimation");
     const Value *groups = part_of(all, "boneGroups"), *shapes = part_of(all, "colliderGroups");
     for (std::size_t i = 0; const Value* group = part_of(groups, i); ++i) {
+        if (springs.size() == max_vrm_springs) return;
         VrmSpring spring;
         spring.stiffness = number_or(part_of(group, "stiffiness"), 1.0, 0.0, max_stiffness);  // sic
         spring.drag = number_or(part_of(group, "dragForce"), 0.4, 0.0, 1.0);
@@ -77,13 +93,9 @@ void add_groups(const tinygltf::Model& model, std::vector<VrmSpring>& springs) {
         };
         spring.gravity = power * glm::dvec3(along("x", 0.0), along("y", -1.0), -along("z", 0.0));
         spring.hit_radius = radius_of(group, "hitRadius");
-        const Value* named = part_of(group, "colliderGroups");
-        for (std::size_t k = 0; const Value* index = part_of(named, k); ++k) {
-            const Value* bone = named_by(shapes, index);
-            const Value* spheres = part_of(bone, "colliders");
-            for (std::size_t j = 0; const Value* sphere = part_of(spheres, j); ++j)
-                add_collider(model, part_of(bone, "node"), sphere, spring);
-        }
+        each_collider(part_of(group, "colliderGroups"), shapes, [&](const Value* bone, const Value* sphere) {
+            add_collider(model, part_of(bone, "node"), sphere, spring);
+        });
         const Value* roots = part_of(group, "bones");
         for (std::size_t k = 0; const Value* root = part_of(roots, k); ++k) {
             spring.node = node_or_none(root, model);
@@ -98,6 +110,7 @@ void add_chains(const tinygltf::Model& model, std::vector<VrmSpring>& springs) {
     const Value *chains = part_of(all, "springs"), *groups = part_of(all, "colliderGroups"),
                 *shapes = part_of(all, "colliders");
     for (std::size_t i = 0; const Value* chain = part_of(chains, i); ++i) {
+        if (springs.size() == max_vrm_springs) return;
         const Value* first = part_of(part_of(chain, "joints"), std::size_t{0});
         VrmSpring spring;
         spring.node = node_or_none(part_of(first, "node"), model);
@@ -109,17 +122,14 @@ void add_chains(const tinygltf::Model& model, std::vector<VrmSpring>& springs) {
             spring.gravity[k] = power * number_or(part_of(direction, static_cast<std::size_t>(k)),
                                                   k == 1 ? -1.0 : 0.0, -1.0, 1.0);
         spring.hit_radius = radius_of(first, "hitRadius");
-        const Value* named = part_of(chain, "colliderGroups");
-        for (std::size_t k = 0; const Value* index = part_of(named, k); ++k) {
-            const Value* members = part_of(named_by(groups, index), "colliders");
-            for (std::size_t j = 0; const Value* member = part_of(members, j); ++j) {
-                const Value* collider = named_by(shapes, member);
-                const Value* shape = part_of(collider, "shape");
-                for (const char* kind : {"sphere", "capsule"})
-                    add_collider(model, part_of(collider, "node"), part_of(shape, kind), spring);
-            }
-        }
-        if (spring.node >= 0 && springs.size() < max_vrm_springs) springs.push_back(spring);
+        each_collider(part_of(chain, "colliderGroups"), groups, [&](const Value*, const Value* member) {
+            const Value* collider = named_by(shapes, member);
+            const Value* shape = part_of(collider, "shape");
+            const Value* capsule = part_of(shape, "capsule");
+            add_collider(model, part_of(collider, "node"), capsule ? capsule : part_of(shape, "sphere"),
+                         spring);
+        });
+        if (spring.node >= 0) springs.push_back(spring);
     }
 }
 

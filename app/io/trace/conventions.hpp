@@ -44,7 +44,7 @@ struct Conventions {
     glm::vec3 point(const glm::dvec3& p) const;
     /// The inverse: as the file would have it.
     glm::dvec3 written(glm::vec3 p) const;
-    /// A quaternion as it is written. Not a number stays so.
+    /// A quaternion as it is written. NaN stays NaN.
     glm::quat rotation(const glm::dvec4& r) const;
     double metres() const;  ///< that one unit is
     /// "Z up, left-handed, centimetres (as Unreal has it)", with "not sure" where that is so.

@@ -17,10 +17,6 @@
 namespace tendril::app {
 namespace {
 
-bool is_finite_point(glm::vec3 p) {
-    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
-
 /// Any direction across this one.
 glm::vec3 across(glm::vec3 way) {
     const glm::vec3 other =
@@ -29,6 +25,10 @@ glm::vec3 across(glm::vec3 way) {
 }
 
 }  // namespace
+
+bool is_finite_point(glm::vec3 p) {
+    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
 
 bool TracedFrame::finite() const {
     return std::ranges::all_of(joints, is_finite_point) && (!target || is_finite_point(*target)) &&
@@ -87,6 +87,13 @@ const std::vector<glm::vec3>& Retrace::follow(const TracedFrame& frame) {
 namespace {
 
 /// What a solve of the frames around a flip came to.
+struct Attempt {
+    bool flips = false, flips_there = false;  ///< in any frame, and where the engine's chain does
+    bool reaches = false;                     ///< in every frame as well as the engine's
+
+    bool prevents() const { return reaches && !flips; }
+};
+
 class Attempts {
   public:
     Attempts(std::span<const TracedFrame> frames, std::size_t at) : frames_(frames), at_(at), allowed_(0.0f) {
@@ -99,42 +106,32 @@ class Attempts {
     }
 
     float reach() const { return reach_; }
-    /// No flip in any frame, and the tip arrives as well as the engine's did.
-    bool prevents(const TraceSolve& how) const {
-        return run(how, [](std::size_t) { return true; }) == Outcome::Clean;
-    }
-    /// A flip where the engine's is.
-    bool flips(const TraceSolve& how) const {
-        return run(how, [&](std::size_t frame) { return frame + 3 > at_ && frame < at_ + 4; }) ==
-               Outcome::Flips;
-    }
-
-  private:
-    enum class Outcome { Clean, Flips, Fails };
-
-    float shortfall(const TracedFrame& frame, const std::vector<glm::vec3>& joints) const {
-        const float beyond = glm::distance(frame.goal(), joints.front()) - reach_;
-        return glm::distance(frame.goal(), joints.back()) - std::max(0.0f, beyond);
-    }
-
-    template <class Counts>
-    Outcome run(const TraceSolve& how, Counts counts) const {
+    bool prevents(const TraceSolve& how) const { return run(how).prevents(); }
+    Attempt run(const TraceSolve& how) const {
         Retrace chain(how);
         ik::IncidentFinder finder;
-        bool fails = false;
+        Attempt came{.reaches = true};
         try {
             for (const TracedFrame& frame : frames_) {
                 const std::vector<glm::vec3>& joints = chain.follow(frame);
                 finder.add({.joints = joints, .target = frame.goal(), .pole = how.pole(frame)});
-                if (frame.finite()) fails = fails || !(shortfall(frame, joints) <= allowed_);
+                if (frame.finite()) came.reaches = came.reaches && shortfall(frame, joints) <= allowed_;
             }
         } catch (const std::invalid_argument&) {
-            return Outcome::Fails;
+            return {};
         }
-        const bool flips = std::ranges::any_of(finder.incidents(), [&](const ik::ChainIncident& each) {
-            return each.kind == ik::IncidentKind::Flip && counts(static_cast<std::size_t>(each.frame));
-        });
-        return flips ? Outcome::Flips : fails ? Outcome::Fails : Outcome::Clean;
+        for (const ik::ChainIncident& each : finder.incidents()) {
+            if (each.kind != ik::IncidentKind::Flip) continue;
+            came.flips = true;
+            came.flips_there = came.flips_there || (each.frame + 3 > at_ && each.frame < at_ + 4);
+        }
+        return came;
+    }
+
+  private:
+    float shortfall(const TracedFrame& frame, const std::vector<glm::vec3>& joints) const {
+        const float beyond = glm::distance(frame.goal(), joints.front()) - reach_;
+        return glm::distance(frame.goal(), joints.back()) - std::max(0.0f, beyond);
     }
 
     std::span<const TracedFrame> frames_;
@@ -142,7 +139,7 @@ class Attempts {
     float reach_ = 0.0f, allowed_;
 };
 
-/// The nearest place for the pole target, in directions around the target's line.
+/// A place for the pole target, in the first of eight directions around the target's line that helps.
 std::optional<Prevention> try_poles(const Attempts& attempts, const TracedFrame& at, const TraceSolve& base) {
     constexpr std::array shares{0.02f, 0.05f, 0.1f, 0.2f, 0.4f, 0.8f};
     constexpr int ways = 8, halvings = 4;
@@ -158,7 +155,7 @@ std::optional<Prevention> try_poles(const Attempts& attempts, const TracedFrame&
         const TraceSolve how = with(by);
         return Prevention{Prevention::Kind::Pole, how, how.pole(at), !at.pole};
     };
-    if (!at.pole) {  // on a side, as far away as the chain reaches
+    if (!at.pole) {  // to one side, half the reach from the middle of the target's line
         for (int i = 0; i < ways; ++i) {
             const float angle = glm::two_pi<float>() * static_cast<float>(i) / ways;
             const glm::vec3 by =
@@ -213,8 +210,10 @@ PreventedFlip prevent_flip(std::span<const TracedFrame> frames, std::size_t at, 
     std::optional<ik::Method> stays;
     for (const ik::Method method : {TwoBone, Fabrik, Dls, SvdDls, Ccd, JacobianTranspose, FabrikPlain}) {
         const TraceSolve plain{.method = method};
-        if (!result.flips_in && attempts.flips(plain)) result.flips_in = method;
-        if (!stays && attempts.prevents(plain)) stays = method;
+        const Attempt came = attempts.run(plain);
+        if (!result.flips_in && came.flips_there) result.flips_in = method;
+        if (!stays && came.prevents()) stays = method;
+        result.reaches = result.reaches || came.reaches;
     }
     const TraceSolve base{.method = result.flips_in.value_or(Fabrik)};
     const auto add = [&](std::optional<Prevention> tried) {
@@ -256,8 +255,8 @@ std::string Prevention::text(const Conventions& space) const {
             return std::string("solver ") + solver_title(solve.method);
         case Kind::Pole:
             if (adds_pole) return "pole target at " + place(*pole);
-            return "pole target " + length_text(static_cast<double>(glm::length(solve.pole_by))) +
-                   " away, at " + place(*pole);
+            return "pole target moved by " + length_text(static_cast<double>(glm::length(solve.pole_by))) +
+                   ", to " + place(*pole);
         case Kind::SoftZone:
             return "soft zone of " + fixed_text(static_cast<double>(solve.soft_zone), 2) + " of the reach";
         case Kind::Hinge:
@@ -268,11 +267,11 @@ std::string Prevention::text(const Conventions& space) const {
 
 std::string PreventedFlip::text() const {
     if (!tried) return {};
-    std::string said =
-        flips_in ? std::string("Tendril's ") + solver_title(*flips_in) + " flips on the same input, too"
-                 : "no solver of Tendril flips on the same input";
-    if (by.empty()) said += "; no change of pole target, soft zone, limit or solver prevents it";
-    return said;
+    if (!flips_in)
+        return std::string("no solver of Tendril flips on the same input") +
+               (reaches ? "" : ", but none reaches the target as well as yours");
+    return std::string("Tendril's ") + solver_title(*flips_in) + " flips on the same input, too" +
+           (by.empty() ? "; no change of pole target, soft zone, limit or solver prevents it" : "");
 }
 
 }  // namespace tendril::app

@@ -1,5 +1,5 @@
-// Tendril's own solve of a trace's input, and what would have prevented a flip: the smallest changes under
-// which that solve has none. Each was tried by solving the frames around the flip.
+// Tendril's own solve of a trace's input, and what would have prevented a flip: small changes
+// under which that solve has none. Each was tried by solving the frames around the flip.
 #pragma once
 
 #include <cstddef>
@@ -15,6 +15,8 @@
 #include "app/io/trace/conventions.hpp"
 
 namespace tendril::app {
+
+bool is_finite_point(glm::vec3 p);
 
 /// A frame of one chain in metres, right-handed, Y up.
 struct TracedFrame {
@@ -70,7 +72,7 @@ struct Prevention {
     bool adds_pole = false;           ///< the trace has none
 
     std::string title() const;  ///< "Pole moved by 42.0 mm"
-    /// "moving the pole target by 42 mm, to (30.0, -50.0, 140.0)": the place as the file has it.
+    /// "pole target moved by 42.0 mm, to (30.0, -50.0, 140.0)": the place as the file has it.
     std::string text(const Conventions& space) const;
 };
 inline constexpr const char* prevention_names[]{"method", "pole", "soft_zone", "hinge"};
@@ -79,6 +81,7 @@ struct PreventedFlip {
     bool tried = false;
     std::optional<ik::Method> flips_in;  ///< the method of Tendril that flips on the same input, if one does
     std::vector<Prevention> by;          ///< at most one of each kind
+    bool reaches = false;                ///< a method's tip comes as near to the target as the trace's
     /// For display, a clause about `flips_in`.
     std::string text() const;
 };

@@ -30,7 +30,7 @@
 namespace tendril::app {
 namespace {
 
-/// The ghost and the chain have parted company: of the reach.
+/// Distance, as a fraction of the reach, at which the ghost counts as departed.
 constexpr float parted_share = 0.05f;
 
 constexpr std::uint64_t max_from = 2'000'000'000;
@@ -57,21 +57,26 @@ const TraceFindings::Chain& chosen_chain(const TraceFindings& findings, const st
     throw Refused("chain: the trace has no \"" + name + "\"; it has " + names);
 }
 
-bool all_finite(const std::vector<glm::vec3>& points) {
-    return std::ranges::all_of(
-        points, [](glm::vec3 p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); });
+bool joints_are_finite(const TracedFrame& frame) {
+    return std::ranges::all_of(frame.joints, is_finite_point);
 }
 
-/// Where a frame is not finite, the last one that was goes on.
+/// Where joints, target or pole target are not finite, the last finite one is repeated. Without any before,
+/// the joints are the first finite ones, and there is no target or pole target.
 void hold_finite(std::vector<TracedFrame>& frames) {
-    const auto first =
-        std::ranges::find_if(frames, [](const TracedFrame& each) { return all_finite(each.joints); });
+    const auto first = std::ranges::find_if(frames, joints_are_finite);
     if (first == frames.end()) throw Refused("the trace has no frame whose joints are all finite");
     const TracedFrame* last = &*first;
+    std::optional<glm::vec3> target, pole;
+    const auto hold = [](std::optional<glm::vec3>& point, std::optional<glm::vec3>& before) {
+        if (!point) return;
+        if (is_finite_point(*point)) before = point;
+        point = before;
+    };
     for (TracedFrame& frame : frames) {
-        if (!all_finite(frame.joints)) frame.joints = last->joints;
-        if (frame.target && !all_finite({*frame.target})) frame.target = last->target;
-        if (frame.pole && !all_finite({*frame.pole})) frame.pole = last->pole;
+        if (!joints_are_finite(frame)) frame.joints = last->joints;
+        hold(frame.target, target);
+        hold(frame.pole, pole);
         last = &frame;
     }
 }
@@ -145,8 +150,10 @@ Incident incident_of(const TracedIncident& found, const ShownTrace& trace,
     }
     incident.cure = flip_advice(found.flip, after.reach.pole.has_value()).cure;
     if (!found.prevented.tried) return incident;
-    incident.cure = capitalised(found.prevented.text()) +
-                    (found.prevented.by.empty() ? "." : ". What prevents it there:");
+    const std::size_t count = found.prevented.by.size();
+    incident.cure = capitalised(found.prevented.text()) + (count == 0   ? "."
+                                                           : count == 1 ? ". This prevents it:"
+                                                                        : ". Each of these prevents it:");
     for (const Prevention& each : found.prevented.by)
         incident.buttons.push_back(cure_of(each, trace.conventions));
     return incident;
@@ -183,21 +190,9 @@ class Moments {
     }
 
     std::vector<std::shared_ptr<const ChainPart>> all;
-    std::optional<std::uint64_t> parted;  ///< where Tendril's solve goes another way
+    std::optional<std::uint64_t> parted;  ///< where Tendril's solve departs from the trace
     std::optional<std::uint64_t> flip;    ///< where it flips first
 };
-
-std::string shown_text(const ShownTrace& trace, std::size_t shown) {
-    const auto first = static_cast<std::uint64_t>(trace.view.from);
-    std::string said = trace.name + ": " + count_text(trace.all, "frame") + ", " + trace.conventions.text() +
-                       ", " + count_text(trace.incidents.size(), "incident");
-    if (trace.all > trace.frames.size())
-        said += "; shown: frames " + std::to_string(first) + " to " +
-                std::to_string(first + trace.frames.size() - 1) + " with " + std::to_string(shown);
-    const auto found = std::ranges::find_if(trace.incidents,
-                                            [&](const TracedIncident& each) { return each.frame >= first; });
-    return found == trace.incidents.end() ? said : said + ". " + capitalised(found->text(trace.bones));
-}
 
 /// The first flip of the frames that are shown or, without one, the first incident.
 const TracedIncident* first_shown(const ShownTrace& trace) {
@@ -209,6 +204,17 @@ const TracedIncident* first_shown(const ShownTrace& trace) {
         if (first == nullptr) first = &each;
     }
     return first;
+}
+
+std::string shown_text(const ShownTrace& trace, std::size_t shown) {
+    const auto first = static_cast<std::uint64_t>(trace.view.from);
+    std::string said = trace.name + ": " + count_text(trace.all, "frame") + ", " + trace.conventions.text() +
+                       ", " + count_text(trace.incidents.size(), "incident");
+    if (trace.all > trace.frames.size())
+        said += "; shown: frames " + std::to_string(first) + " to " +
+                std::to_string(first + trace.frames.size() - 1) + " with " + std::to_string(shown);
+    const TracedIncident* const found = first_shown(trace);
+    return found == nullptr ? said : said + ". " + capitalised(found->text(trace.bones));
 }
 
 /// Puts the trace on the strip, and shows where it first goes wrong. The same frames stay where they are.
@@ -240,7 +246,7 @@ void show_trace(Workspace& workspace, const std::shared_ptr<const ShownTrace>& t
         workspace.rewind.note({.kind = Incident::Kind::Status,
                                .tick = *moments.parted > 0 ? *moments.parted - 1 : 0,
                                .joint = moments.all.front()->chain.size() - 1,
-                               .cause = "Tendril's solve goes another way"});
+                               .cause = "Tendril's solve departs"});
     if (!same_frames) {
         workspace.ui.incident.reset();
         if (wrong != nullptr) workspace.ui.incident = incident_of(*wrong, *trace, moments.all);
@@ -440,22 +446,22 @@ std::span<const FieldText> field_texts<TraceView>() {
     static const FieldText texts[] = {
         {.name = "up",
          .label = "up",
-         .help = "The axis that is up in the file. Why it was taken stands above.",
+         .help = "The axis that is up in the file. The reason is shown above.",
          .listed = true,
          .choices = trace_ups.rows},
         {.name = "handed",
          .label = "hand",
-         .help = "Whether the file's axes are right-handed or left-handed. Why it was taken stands above.",
+         .help = "Whether the file's axes are right-handed or left-handed. The reason is shown above.",
          .listed = true,
          .choices = trace_hands.rows},
         {.name = "unit",
          .label = "unit",
-         .help = "What a length of 1 in the file is. Why it was taken stands above.",
+         .help = "What a length of 1 in the file is. The reason is shown above.",
          .listed = true,
          .choices = trace_units.rows},
         {.name = "rotations",
          .label = "quaternions",
-         .help = "The order of a quaternion's numbers in the file. Why it was taken stands above.",
+         .help = "The order of a quaternion's numbers in the file. The reason is shown above.",
          .listed = true,
          .choices = quaternion_orders.rows},
         {.name = "from",

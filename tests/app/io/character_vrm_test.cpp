@@ -196,5 +196,30 @@ TEST(VrmCharacter, colliders_of_both_versions_are_the_springs) {
     EXPECT_EQ(large.springs[0].colliders[1].to, glm::dvec3(0.0, 0.8, 0.0));
 }
 
+TEST(VrmCharacter, of_colliders_that_are_named_again_and_again_the_first_256_are_looked_at) {
+    const auto times = [](int count, const std::string& each) {
+        std::string all = each;
+        for (int i = 1; i < count; ++i) all += "," + each;
+        return all;
+    };
+    // 2000 times the same group of 2000, which are nothing until the last, in each of 60 springs: 240
+    // million.
+    const std::string groups = times(2000, "0"), old_shapes = times(1999, "7") + R"(,{"radius":1})",
+                      shapes = times(1999, "7") + ",0";
+    const Character old = with_hair(R"("VRM":{)" + hips_and_head_0 +
+                                    R"(,"secondaryAnimation":{"colliderGroups":[{"node":0,"colliders":[)" +
+                                    old_shapes + R"(]}],"boneGroups":[)" +
+                                    times(60, R"({"bones":[2],"colliderGroups":[)" + groups + "]}") + "]}}");
+    const Character fresh = with_hair(
+        R"("VRMC_springBone":{"colliders":[{"node":0,"shape":{"sphere":{"radius":1}}}],"colliderGroups":[)"
+        R"({"colliders":[)" +
+        shapes + R"(]}],"springs":[)" +
+        times(60, R"({"joints":[{"node":2}],"colliderGroups":[)" + groups + "]}") + "]}");
+    for (const Character* each : {&old, &fresh}) {
+        ASSERT_EQ(each->springs.size(), 1u);
+        EXPECT_TRUE(each->springs[0].colliders.empty());
+    }
+}
+
 }  // namespace
 }  // namespace tendril::app

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "tests/app/io/trace_support.hpp"
+#include "tests/says.hpp"
 
 namespace tendril::app {
 namespace {
@@ -144,6 +145,34 @@ TEST(Trace, WhatPreventsAFlipPreventsItInASolve) {
     }
     EXPECT_EQ(poles, 20u);
     EXPECT_GE(methods, 20u);
+}
+
+TEST(Trace, OfAFlipThatNoSolverHasItSaysWhetherOneReaches) {
+    // Bones of 1 and 0.3 m, which the engine stretches to keep its tip within the 0.7 m that they cannot
+    // reach.
+    std::vector<TracedFrame> frames;
+    for (int i = 0; i < 20; ++i) {
+        const float x = std::max(0.4f, 0.75f - 0.02f * static_cast<float>(i));
+        TracedFrame frame;
+        frame.joints = {{0, 0, 0}, {0.95f, i < 10 ? 0.25f : -0.25f, 0}, {x, 0, 0}};
+        frame.target = glm::vec3(x, 0, 0);
+        frames.push_back(frame);
+    }
+    const PreventedFlip none = prevent_flip(frames, 10, 1);
+    EXPECT_TRUE(none.tried && none.by.empty() && !none.flips_in);
+    EXPECT_EQ(none.text(),
+              "no solver of Tendril flips on the same input, but none reaches the target as well as yours");
+    PreventedFlip one;
+    one.tried = true;
+    one.flips_in = ik::Method::TwoBone;
+    EXPECT_TRUE(test::says(one.text(), "Two-bone flips no change prevents it")) << one.text();
+    one.flips_in.reset();
+    one.reaches = true;
+    EXPECT_EQ(one.text(), "no solver of Tendril flips on the same input");
+    const Conventions metres;
+    const Prevention pole{
+        .kind = Prevention::Kind::Pole, .solve = {.pole_by = {0.042f, 0, 0}}, .pole = glm::vec3(1, 2, 3)};
+    EXPECT_TRUE(test::says(pole.text(metres), "pole target moved by 42.0 mm, to (")) << pole.text(metres);
 }
 
 TEST(Trace, ABoneThatRollsWhileItsEndsStayFlips) {

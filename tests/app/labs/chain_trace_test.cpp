@@ -156,6 +156,25 @@ TEST_F(ChainTrace, AFrameThatIsNotFiniteHoldsThePoseBefore) {
     EXPECT_LT(glm::distance(part().chain.position(1), held), 1e-4f);
 }
 
+TEST_F(ChainTrace, ATargetOrPoleThatIsNotFiniteIsHeldOrLeftOut) {
+    const std::string start =
+                          R"({"joints":[[0,0,0],[1,0.2,0],[2,0,0]],"target":[null,0,0],"pole":[0,null,1]})",
+                      good = R"({"joints":[[0,0,0],[1,0.2,0],[2,0,0]],"target":[2,0,0],"pole":[0,1,0]})",
+                      none = R"({"joints":[[0,0,0],[1,0.2,0],[2,0,0]]})";
+    run("chain.trace", {{"text", start + "\n" + good + "\n" + none + "\n" + start}});
+    const std::vector<TracedFrame>& frames = traced_pose(part())->trace->frames;
+    ASSERT_EQ(frames.size(), 4u);
+    EXPECT_FALSE(frames[0].target || frames[0].pole) << "none was finite so far";
+    EXPECT_FALSE(frames[2].target || frames[2].pole);
+    EXPECT_EQ(frames[3].target, frames[1].target);
+    EXPECT_EQ(frames[3].pole, frames[1].pole);
+    for (const auto& each : workspace.rewind.moments()) {
+        const auto& then = dynamic_cast<const ChainPart&>(*each.part);
+        EXPECT_TRUE(is_finite_point(then.target));
+        EXPECT_TRUE(!then.reach.pole || is_finite_point(*then.reach.pole));
+    }
+}
+
 TEST_F(ChainTrace, ALongOneIsShownAroundItsFirstIncidentOrFromAFrame) {
     MadeTrace made = test::made::TraceMaker(7).make(Plant::FlipForNothing);
     made.frames.insert(made.frames.begin(), 2000, made.frames.front());
@@ -165,6 +184,9 @@ TEST_F(ChainTrace, ALongOneIsShownAroundItsFirstIncidentOrFromAFrame) {
     EXPECT_EQ(flips()[0].tick, Rewind::max_ticks / 2 - 1);
     run("chain.trace", {{"path", path}, {"from", 10}});
     EXPECT_TRUE(flips().empty());
+    const std::string& said = workspace.ui.toasts.back().text;
+    EXPECT_TRUE(test::says(said, "shown frames 10 to 609 with 0")) << said;
+    EXPECT_EQ(said.find("flip"), std::string::npos) << said << ": it is not among those";
     EXPECT_EQ(workspace.rewind.size() + 1, Rewind::max_ticks);
     // A page further; what is shown is not searched again.
     run("chain.trace", {{"from", 1700}});

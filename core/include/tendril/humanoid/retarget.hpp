@@ -14,7 +14,7 @@
 // does the same between T-poses.)
 //
 // Root. The topmost node above the hips travels with them over the ground; it neither rises nor turns.
-// Whatever hangs on it goes along. A helper beside the body that stands on one of its nodes at rest (within
+// Its other children travel with it. A helper beside the body that stands on one of its nodes at rest (within
 // a tenth of a leg), as IK targets do, follows that node; so do bones of the palm that hang beside the hand.
 //
 // Feet. The hips move as the source's do, scaled by the ratio of the legs' lengths. The source's stances are
