@@ -336,5 +336,18 @@ TEST(BoneMap, OfAnythingComesOutWhole) {
     }
 }
 
+// Seen in a robot whose forearm has a bone for each finger's part of the palm: any of them could be the hand.
+TEST(BoneMap, TheHandIsTheBoneOfThePalmWithTheMiddleFinger) {
+    const Skeleton plain = make_figure({{"LeftHand", "Palm3.L"}, {"LeftHand end", "Ring1.L"}});
+    std::vector<Node> nodes;
+    for (std::size_t i = 0; i < plain.size(); ++i) nodes.push_back(plain[i]);
+    const std::size_t ring = *plain.find("Palm3.L"), finger = *plain.find("Ring1.L");
+    nodes.push_back({"Palm2.L", nodes[ring].parent, nodes[ring].rest});
+    nodes.push_back({"Middle1.L", static_cast<std::int32_t>(nodes.size() - 1), nodes[finger].rest});
+    const Skeleton skeleton = Skeleton::make(std::move(nodes)).value();
+    const BoneMap map = match_bones(skeleton);
+    EXPECT_EQ(map[Bone::LeftHand].node, static_cast<std::int32_t>(*skeleton.find("Palm2.L")));
+}
+
 }  // namespace
 }  // namespace tendril::test

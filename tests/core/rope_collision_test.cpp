@@ -443,5 +443,26 @@ TEST(RopeCollision, ContactsFollowTheParticlesOfRopesThatAreDividedAnew) {
     EXPECT_TRUE(anew->world.state().contacts.empty());
 }
 
+// Chains are sorted by island after collisions are noted: a body between two that collide renumbers them.
+TEST(RopeCollision, WhatLiesBetweenTwoInTheListOfBodiesChangesNothing) {
+    const auto fallen = [](bool between) {
+        World world;
+        world.add_rope(below, {.from = {-0.5f, 1, 0},
+                               .to = {0.5f, 1, 0},
+                               .segments = 24,
+                               .radius = radius,
+                               .pin_start = true,
+                               .pin_end = true});
+        if (between) world.add_rope("between", {.from = {5, 0, 0}, .to = {6, 0, 0}, .segments = 5});
+        world.add_rope(
+            on_top,
+            {.from = {0.003f, 1.05f, -0.4f}, .to = {0, 1.05f, 0.4f}, .segments = 16, .radius = radius});
+        collide(world, below, on_top);
+        run(world, 1.0);
+        return points_of(world, on_top);
+    };
+    EXPECT_EQ(fallen(true), fallen(false));
+}
+
 }  // namespace
 }  // namespace tendril::test

@@ -60,7 +60,8 @@ GridLinks grid_links(const NamedWorld& world, const rope::Body& cloth) {
     const std::size_t cells = cloth.row * cloth.rows();
     GridLinks links{std::vector<std::uint8_t>(cells, 0), std::vector<std::uint8_t>(cells, 0)};
     for (const rope::Link& link : world.state().links) {
-        if (link.kind != rope::Link::Kind::Stretch || link.a - cloth.first >= cloth.count) continue;
+        if (link.kind != rope::Link::Kind::Stretch) continue;
+        if (link.a - cloth.first >= cloth.count || link.b - cloth.first >= cloth.count) continue;
         const std::size_t from = cloth.cell(link.a - cloth.first), to = cloth.cell(link.b - cloth.first);
         (to == from + cloth.row ? links.down : links.along)[from] = 1;
     }

@@ -35,6 +35,7 @@ class Threads {
             while (link.a < state.bodies[b].first) --b;  // links of a body are nearly always contiguous
             while (link.a - state.bodies[b].first >= state.bodies[b].count) ++b;
             const rope::Body& body = state.bodies[b];
+            if (link.b - body.first >= body.count) continue;
             const std::size_t from = std::min(link.a, link.b), to = std::max(link.a, link.b);
             const std::size_t step = body.cell(to - body.first) - body.cell(from - body.first);
             if (step == body.row)

@@ -199,6 +199,17 @@ BoneMatch weigh(const Skeleton& skeleton, std::int32_t by_name, std::int32_t by_
     return match;
 }
 
+/// Where bones of the palm begin beside each other at the wrist, the one with the middle finger is the hand.
+std::int32_t middle_of_palm(const Skeleton& skeleton, std::int32_t hand) {
+    const auto node = [&](std::int32_t i) -> const Node& { return skeleton[static_cast<std::size_t>(i)]; };
+    if (hand < 0 || node(hand).parent < 0 || !detail::is_palm_name(node(hand).name)) return hand;
+    for (const std::int32_t beside : skeleton.children(static_cast<std::size_t>(node(hand).parent)))
+        if (detail::is_palm_name(node(beside).name))
+            for (const std::int32_t finger : skeleton.children(static_cast<std::size_t>(beside)))
+                if (detail::finger_named(node(finger).name) == detail::Finger::Middle) return beside;
+    return hand;
+}
+
 /// The shape alone cannot tell left from right if the feet point nowhere; names can.
 void swap_sides(ShapeReading& shape) {
     for (std::size_t i = 0; i < bone_count; ++i) {
@@ -243,6 +254,8 @@ const char* name(RestPose pose) noexcept {
 
 BoneMap match_bones(const Skeleton& skeleton) {
     ShapeReading shape = detail::read_shape(skeleton);
+    for (const Bone hand : {Bone::LeftHand, Bone::RightHand})
+        shape.nodes[static_cast<std::size_t>(hand)] = middle_of_palm(skeleton, shape[hand]);
     const Names by_name(skeleton, shape);
     std::size_t same = 0, crossed = 0;
     for (std::size_t i = static_cast<std::size_t>(Bone::LeftShoulder); i < bone_count; ++i) {

@@ -112,11 +112,14 @@ void move_colliders(State& state, Scratch& scratch) {
 
 /// Less work than this, about 60 us on one thread, is not worth another thread.
 constexpr std::size_t links_a_thread = 1024;
-/// Whether idle threads help with this island: a large cloth.
+/// Whether idle threads help with this island: it has a large cloth.
 bool is_shared(const Plan& plan, const Plan::Island& island) {
-    if (island.grid == 0) return false;
-    const Plan::Grid& grid = plan.grids[island.grid - 1];
-    return std::size_t{grid.columns} * grid.rows >= detail::min_shared_cells;
+    const auto is_large = [&](const Plan::Island& part) {
+        if (part.grid == 0) return false;
+        const Plan::Grid& grid = plan.grids[part.grid - 1];
+        return std::size_t{grid.columns} * grid.rows >= detail::min_shared_cells;
+    };
+    return is_large(island) || std::ranges::any_of(plan.parts_of(island), is_large);
 }
 
 /// How many threads have work.

@@ -308,8 +308,9 @@ void BodyContacts::choose_contacts() {
         const double gap = pair.apart - pair.thickness;
         contact.target = gap < 0.0 ? gap + std::min(-recovered * gap, recovery_speed * h_) : 0.0;
     }
-    std::stable_sort(s_.projected.begin(), s_.projected.end(),
-                     [](const Contact& p, const Contact& q) { return p.apart < q.apart; });
+    std::stable_sort(s_.projected.begin(), s_.projected.end(), [](const Contact& p, const Contact& q) {
+        return p.apart - p.thickness < q.apart - q.thickness;
+    });
 }
 
 /// Takes over the forces of the previous substep: of the same two segments, or of neighbours if it has slid.

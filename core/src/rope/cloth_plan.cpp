@@ -24,7 +24,7 @@ bool place_in_grid(const Body& body, const Link& link, std::size_t stride, Plan:
 bool fill_grid(const State& state, const Plan::Island& island, std::uint32_t number, Plan& plan) {
     const Body& body = state.bodies[number];
     if (body.kind != Body::Kind::Cloth || body.row < 2) return false;
-    if (body.rows() < 2) return false;
+    if (body.rows() < 2 || body.row * body.rows() > 16 * body.count + 64) return false;  // mostly gaps
     Plan::Grid grid{.body = number,
                     .columns = static_cast<std::uint32_t>(body.row),
                     .rows = static_cast<std::uint32_t>(body.rows()),

@@ -47,7 +47,7 @@ std::vector<BodyPiece> pieces_of(const State& state, const Body& body, std::vect
         return i;
     };
     for (const Link& link : state.links) {
-        if (!detail::owns(body, link)) continue;
+        if (!detail::is_within(body, link)) continue;
         const std::size_t a = first_of(link.a - body.first), b = first_of(link.b - body.first);
         parent[std::max(a, b)] = std::min(a, b);
     }
@@ -78,7 +78,7 @@ detail::Taken sorted_by_piece(const State& state, const Body& body, const std::v
         }
     std::vector<std::vector<Link>> links(pieces.size());
     for (Link link : state.links) {
-        if (!detail::owns(body, link)) continue;
+        if (!detail::is_within(body, link)) continue;
         std::vector<Link>& its = links[piece_of[link.a - body.first]];
         link.a = static_cast<std::uint32_t>(becomes[link.a - body.first]);
         link.b = static_cast<std::uint32_t>(becomes[link.b - body.first]);
@@ -142,7 +142,11 @@ Expected<Edited> part_body(const World& world, BodyId id) {
     if (body == nullptr) return detail::missing("part_body", "body", "body", id.index);
     if (body->kind == Body::Kind::Hair)
         return Result(ErrorCode::InvalidArgument, "only ropes and cloth come apart, not hair");
-    return taken_apart(world.state(), id);
+    std::vector<std::size_t> piece_of;
+    if (pieces_of(world.state(), *body, piece_of).size() > 1) return taken_apart(world.state(), id);
+    Edited whole{world, std::vector<std::size_t>(body->count)};
+    std::iota(whole.becomes.begin(), whole.becomes.end(), std::size_t{0});
+    return whole;
 }
 
 Expected<Edited> cut_cloth(const World& world, BodyId cloth, std::span<const glm::vec2> line) {
@@ -164,7 +168,7 @@ Expected<Edited> cut_cloth(const World& world, BodyId cloth, std::span<const glm
         }
     State state = world.state();
     const auto crossed = [&](const Link& link) {
-        if (!detail::owns(body, link)) return false;
+        if (!detail::is_within(body, link)) return false;
         const auto at = [&](std::size_t particle) {
             const std::size_t cell = body.cell(particle - body.first);
             return dvec2(cell % body.row, cell / body.row);

@@ -179,7 +179,7 @@ class Resampling {
     void find_threads() {
         along_.assign(pin_.size(), nullptr), down_.assign(pin_.size(), nullptr);
         for (const Link& link : state_.links) {
-            if (!detail::owns(body_, link)) continue;
+            if (!detail::is_within(body_, link)) continue;
             has_[static_cast<std::size_t>(link.kind)] = &link;
             if (link.kind != Link::Kind::Stretch) continue;
             const detail::LinkWay way = detail::way_of(body_, link);

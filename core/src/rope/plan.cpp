@@ -36,6 +36,7 @@ Plan::Plan(const State& state) {
     find_faces(state);
     cut_into_chunks(state);
     detail::divide_into_islands(state, *this);
+    number_chains(state.links.size());
     detail::find_grids(state, *this);
     group_chains(state.position.size());
     order_tied(state);
@@ -89,8 +90,9 @@ void Plan::find_faces(const State& state) {
     std::vector<std::uint32_t> under(particles, 0);  // the one that it is linked to in the next row
     const std::vector<std::uint32_t> body_of = detail::bodies_of_particles(state);
     for (const Link& link : state.links) {
-        if (link.kind != Link::Kind::Stretch) continue;
-        const detail::LinkWay way = detail::way_of(state.bodies[body_of[link.a]], link);
+        const Body& of = state.bodies[body_of[link.a]];
+        if (link.kind != Link::Kind::Stretch || !detail::is_within(of, link)) continue;
+        const detail::LinkWay way = detail::way_of(of, link);
         const std::uint32_t low = std::min(link.a, link.b), high = std::max(link.a, link.b);
         if (way.columns == 1 && way.rows == 0) linked[low] = 1;
         if (way.columns == 0 && way.rows == 1) under[low] = high;
@@ -172,17 +174,24 @@ void Plan::note_collisions(const State& state) {
         if (state.bodies[other].kind == Body::Kind::Cloth) meets_cloth[body] = 1;
     };
     for (const auto& [a, b] : pairs) note(a, b), note(b, a);
-    chain_of.assign(state.links.size(), 0);
-    for (std::uint32_t c = 0; c < chains.size(); ++c)
-        std::fill_n(chain_of.begin() + chains[c].first_link, chains[c].links, c);
     rest_at.assign(state.position.size(), glm::dvec3(0.0));
     for (std::uint32_t b = 0; b < state.bodies.size(); ++b) {
         if (collides[b] == Collides::None) continue;
         const Body& body = state.bodies[b];
         const detail::RestGrid grid = detail::rest_grid(state, body);
-        for (std::size_t i = 0; i < body.count; ++i)
-            rest_at[body.first + i] = grid.at(body.cell(i) % body.row, body.cell(i) / body.row);
+        for (std::size_t i = 0; i < body.count; ++i) {
+            const std::size_t cell = body.cell(i);
+            rest_at[body.first + i] = grid.at(cell % body.row, cell / body.row);
+        }
     }
+}
+
+/// Once the chains are in the order of their islands.
+void Plan::number_chains(std::size_t links) {
+    if (meets_first.empty()) return;
+    chain_of.assign(links, 0);
+    for (std::uint32_t c = 0; c < chains.size(); ++c)
+        std::fill_n(chain_of.begin() + chains[c].first_link, chains[c].links, c);
 }
 
 bool Plan::collide(std::uint32_t body_a, std::uint32_t body_b) const noexcept {

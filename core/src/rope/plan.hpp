@@ -105,7 +105,7 @@ struct Plan {
     std::vector<std::uint32_t> grid_of;  ///< of each body: 1-based index in `grids`; 0: none
 
     /// Of each body the ones, from itself on, that it collides with: ascending, `meets` from meets_first on.
-    /// Empty, as the next two, if nothing collides.
+    /// Empty, as the next four, if nothing collides.
     std::vector<std::uint32_t> meets_first, meets;
     /// Of each body: whether its contacts are solved with its lengths, or projected afterwards.
     enum class Collides : std::uint8_t { None, Solved, Projected };
@@ -133,6 +133,7 @@ struct Plan {
     void group_chains(std::size_t particles);
     void order_tied(const State& state);
     void note_collisions(const State& state);
+    void number_chains(std::size_t links);
 
     // The inputs that it depends on.
     struct Joined {

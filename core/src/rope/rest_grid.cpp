@@ -36,7 +36,7 @@ RestGrid rest_grid(const State& state, const Body& body) {
     std::vector<double> along(body.row - 1, unknown), down(body.rows() - 1, unknown);
     const Link* shear = nullptr;
     for (const Link& link : state.links) {
-        if (!owns(body, link)) continue;
+        if (!is_within(body, link)) continue;
         const LinkWay way = way_of(body, link);
         if (link.kind == Link::Kind::Shear && shear == nullptr && std::abs(way.columns) == 1 && way.rows == 1)
             shear = &link;

@@ -1,4 +1,5 @@
-// The contents of a workspace; nothing persists from one substep to the next. Not installed.
+// The contents of a workspace. Of it only the lists of candidates outlast a substep, and no result depends on
+// them. Not installed.
 #pragma once
 
 #include <array>

@@ -38,12 +38,15 @@ inline std::array<double, 3> nearest_of_triangle(const dvec3& p, const dvec3& a,
     if (b_b >= 0.0 && b_c <= b_b) return {0.0, 1.0, 0.0};
     if (c_c >= 0.0 && c_b <= c_c) return {0.0, 0.0, 1.0};
     const double of_c = a_b * b_c - b_b * a_c, of_b = c_b * a_c - a_b * c_c, of_a = b_b * c_c - c_b * b_c;
-    if (of_c <= 0.0 && a_b >= 0.0 && b_b <= 0.0) return {1.0 - a_b / (a_b - b_b), a_b / (a_b - b_b), 0.0};
-    if (of_b <= 0.0 && a_c >= 0.0 && c_c <= 0.0) return {1.0 - a_c / (a_c - c_c), 0.0, a_c / (a_c - c_c)};
+    if (of_c <= 0.0 && a_b >= 0.0 && b_b <= 0.0 && a_b > b_b)
+        return {1.0 - a_b / (a_b - b_b), a_b / (a_b - b_b), 0.0};
+    if (of_b <= 0.0 && a_c >= 0.0 && c_c <= 0.0 && a_c > c_c)
+        return {1.0 - a_c / (a_c - c_c), 0.0, a_c / (a_c - c_c)};
     const double along = b_c - b_b, back = c_b - c_c;
-    if (of_a <= 0.0 && along >= 0.0 && back >= 0.0)
+    if (of_a <= 0.0 && along >= 0.0 && back >= 0.0 && along + back > 0.0)
         return {0.0, back / (along + back), along / (along + back)};
     const double sum = of_a + of_b + of_c;
+    if (!(sum > 0.0)) return {1.0, 0.0, 0.0};  // corners on a line: threads meet threads there
     return {of_a / sum, of_b / sum, of_c / sum};
 }
 

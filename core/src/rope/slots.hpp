@@ -71,6 +71,10 @@ inline void collide_alike(State& state, BodyId whole, BodyId rest) {
 inline bool owns(const Body& body, const Link& link) noexcept {
     return link.a >= body.first && link.a - body.first < body.count;
 }
+/// Whether both ends are in the body. A state's links may join any two particles.
+inline bool is_within(const Body& body, const Link& link) noexcept {
+    return owns(body, link) && link.b >= body.first && link.b - body.first < body.count;
+}
 
 /// `remove: body must be the handle of a body that is there, got slot 7`
 inline Result missing(const char* operation, const char* argument, const char* kind,

@@ -8,6 +8,7 @@
 #include "app/labs/rig/rig_lab.hpp"
 #include "tests/app/e2e/monkey.hpp"
 #include "tests/app/labs/spring/spring_lab.hpp"
+#include "tests/app/support/temp_folder.hpp"
 
 namespace tendril::test {
 namespace {
@@ -70,7 +71,10 @@ void expect_opens_again(const Workspace& workspace) {
     EXPECT_EQ(save_scene(opened), saved);
 }
 
-class EveryScene : public testing::TestWithParam<LabScene> {};
+class EveryScene : public testing::TestWithParam<LabScene> {
+    TempFolder folder_;
+    WorkingIn inside_{folder_};  // random commands write files
+};
 
 TEST_P(EveryScene, StandsRandomEventsAndCommandsAndReplaysThem) {
     expect_replay_ends_the_same(

@@ -27,8 +27,9 @@
 namespace tendril::ik {
 
 enum class CurveKind : std::uint8_t {
-    Hermite,  ///< through all control points, tangents half the way from the point before to the point after
-    BSpline   ///< uniform cubic, from the first control point to the last; smoother, past the others
+    Hermite,  ///< through all control points; tangents are half the vector from the point before to the next
+    BSpline   ///< uniform cubic, from the first control point to the last; smoother, but only passes near the
+              ///< others
 };
 /// "hermite", "b_spline"
 const char* name(CurveKind kind) noexcept;
@@ -52,8 +53,8 @@ struct CurveOptions {
     std::span<const float> weights{};
 };
 
-/// Where the joints were along the curve after the last call. A value, kept with the joints; only needed to report
-/// jumps.
+/// Where the joints were along the curve after the last call. A value, kept with the joints; only needed to
+/// report jumps.
 struct CurveMemory {
     std::size_t points = 0;           ///< control points; 0: no memory
     std::vector<double> at{};         ///< one per joint: piece of the curve, with the fraction along it

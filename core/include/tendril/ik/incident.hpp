@@ -24,7 +24,8 @@
 namespace tendril::ik {
 
 enum class IncidentKind : std::uint8_t {
-    /// A bone jumped, the chain bends to the other side, or a bone rolled about itself while its ends hardly
+    /// A bone jumped, the chain changed the side to which it bends, or a bone rolled about itself while its
+    /// ends hardly
     /// moved; amount: degrees that the bone turned.
     Flip,
     Nan,        ///< a joint, the target or the pole target is not finite; amount: 0
@@ -71,7 +72,8 @@ struct IncidentOptions {
 struct TraceFrame {
     std::span<const glm::vec3> joints;  ///< from the root on, metres
     std::optional<glm::vec3> target{}, pole{};
-    std::span<const glm::quat> rotations{};  ///< unit; empty, or at least one a bone
+    std::span<const glm::quat> rotations{};  ///< unit, in the space of the joints, not of the
+                                             ///< parent bone; empty, or at least one a bone
     std::optional<float> dt{};               ///< seconds since the frame before
 };
 

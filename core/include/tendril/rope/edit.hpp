@@ -45,11 +45,12 @@ Expected<Edited> reverse(const World& world, BodyId rope);
 
 /// Makes each piece of a cloth or rope that no link joins to the others a body of its own, with its particles
 /// and what belongs to them: velocities, pins and ties. The one with most pins, or else most particles, stays
-/// the body that it was. Costs as much as a copy of the world, also if nothing has come apart.
+/// the body that it was. Costs as much as a copy of the world, even if nothing has come apart.
 Expected<Edited> part_body(const World& world, BodyId body);
 
 /// Cuts a cloth along a line through points of its own grid, each {column, row}, up to one beyond its edge:
-/// removes the links that cross it, and parts what comes apart. What is on the line belongs to its left.
+/// removes the links that cross it, and parts what comes apart. What is on the line belongs to its left, with
+/// columns to the right and rows upwards.
 /// Refuses a line that crosses no link.
 Expected<Edited> cut_cloth(const World& world, BodyId cloth, std::span<const glm::vec2> line);
 

@@ -59,7 +59,8 @@ struct Advance {
     std::uint64_t fallbacks = 0;    ///< times a body used the fallback, or a step was taken only in part
     std::uint64_t suspended = 0;    ///< times a body that nothing holds or touches did not fall freely: it is
                                     ///< at the edge of the world, or the solver held it
-    std::uint64_t held_back = 0;    ///< times two segments would have crossed, and were held back
+    std::uint64_t held_back = 0;    ///< times two segments, or a particle and a triangle, would have
+                                    ///< crossed, and were held back
     double contact_loss = 0.0;      ///< joules that bodies near resting colliders lost beyond damping: to
                                     ///< contact, friction and the solver. Its rounding depends on threads
     bool refused = false;           ///< `seconds` was not a number from 0 to 1e9: nothing was done

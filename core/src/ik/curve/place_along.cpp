@@ -151,8 +151,8 @@ class Jumps {
         if (comparable_)
             for (std::size_t i = 0; i < memory.at.size(); ++i) {
                 const double at = memory.at[i];
-                const std::size_t piece =
-                    std::min(static_cast<std::size_t>(std::max(0.0, at)), path.pieces());
+                const auto piece = static_cast<std::size_t>(
+                    std::min(std::max(0.0, at), static_cast<double>(path.pieces())));
                 const glm::dvec3 now = path.point({piece, at - static_cast<double>(piece)});
                 moved_ = std::max(moved_, length(minus(now, wide(memory.joints[i]))));
             }
