@@ -40,8 +40,8 @@ BodyContacts::Response BodyContacts::respond(const Contact& contact, const Point
     const double pressed = std::max(0.0, before - k * (response.gap - contact.target));
     if (!(pressed > 0.0)) return response;
     dvec3 slip(0.0);
-    for (std::size_t k = 0; k < 4; ++k)
-        slip += nearest.shares[k] * (to[k] - state_.position[contact.points[k]]);
+    for (std::size_t p = 0; p < 4; ++p)
+        slip += nearest.shares[p] * (to[p] - state_.position[contact.points[p]]);
     slip -= detail::dot(slip, n) * n;
     const dvec3 friction = contact.force - before * n - k * slip;
     const double size = detail::length(friction),

@@ -187,9 +187,9 @@ void Plan::note_collisions(const State& state) {
 }
 
 /// Once the chains are in the order of their islands.
-void Plan::number_chains(std::size_t links) {
+void Plan::number_chains(std::size_t count) {
     if (meets_first.empty()) return;
-    chain_of.assign(links, 0);
+    chain_of.assign(count, 0);
     for (std::uint32_t c = 0; c < chains.size(); ++c)
         std::fill_n(chain_of.begin() + chains[c].first_link, chains[c].links, c);
 }

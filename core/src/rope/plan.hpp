@@ -133,7 +133,7 @@ struct Plan {
     void group_chains(std::size_t particles);
     void order_tied(const State& state);
     void note_collisions(const State& state);
-    void number_chains(std::size_t links);
+    void number_chains(std::size_t count);
 
     // The inputs that it depends on.
     struct Joined {
