@@ -69,7 +69,7 @@ const std::vector<RopeSceneEntry>& rope_scenes() {
          view({0.0f, 1.1f, 0.0f}, -24.0f, 10.0f, 4.2f)},
         {"crane", "Crane", "A trolley carries a load along a jib; a rope in a hand steers it", crane_scene,
          view({0.0f, 1.15f, 0.2f}, -28.0f, 12.0f, 5.2f)},
-        {"folded", "Folded cloth", "A cloth lies folded in four: its layers rest on each other", folded_scene,
+        {"folded", "Folded", "A cloth lies folded in four: its layers rest on each other", folded_scene,
          view({-0.1f, 0.05f, -0.1f}, -30.0f, 22.0f, 1.1f)}};
     return list;
 }
