@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 #include <glm/trigonometric.hpp>
+#include <tendril/rope/workspace.hpp>
 #include <utility>
 
 #include "app/document/names.hpp"
@@ -26,13 +27,6 @@ glm::dvec3 along(const std::vector<glm::vec3>& line, double distance) {
         distance -= length;
     }
     return glm::dvec3(line.back());
-}
-
-/// Makes the distances of a body's links the ones that they rest at.
-void rest_as_it_is(rope::State& state, const rope::Body& body) {
-    for (rope::Link& link : state.links)
-        if (link.a - body.first < body.count)
-            link.rest = static_cast<float>(glm::distance(state.position[link.a], state.position[link.b]));
 }
 
 }  // namespace
@@ -75,7 +69,7 @@ const std::vector<RopeSceneEntry>& rope_scenes() {
          view({0.0f, 1.1f, 0.0f}, -24.0f, 10.0f, 4.2f)},
         {"crane", "Crane", "A trolley carries a load along a jib; a rope in a hand steers it", crane_scene,
          view({0.0f, 1.15f, 0.2f}, -28.0f, 12.0f, 5.2f)},
-        {"folded", "Folded cloth", "A cloth lies folded in four: its layers rest on each other", folded_scene,
+        {"folded", "Folded", "A cloth lies folded in four: its layers rest on each other", folded_scene,
          view({-0.1f, 0.05f, -0.1f}, -30.0f, 22.0f, 1.1f)}};
     return list;
 }
@@ -102,7 +96,10 @@ void lay(NamedWorld& world, const std::string& rope, const std::vector<glm::vec3
     const double step = length / static_cast<double>(body.count - 1);
     for (std::size_t i = 0; i < body.count; ++i)
         state.position[body.first + i] = along(line, step * static_cast<double>(i));
-    rest_as_it_is(state, body);
+    for (rope::Link& link : state.links) {
+        if (link.a < body.first || link.a >= body.first + body.count) continue;
+        link.rest = static_cast<float>(glm::distance(state.position[link.a], state.position[link.b]));
+    }
     for (rope::Pin& pin : state.pins) {
         if (pin.particle >= body.first && pin.particle < body.first + body.count && !pin.collider)
             pin.goal = state.position[pin.particle];
@@ -314,7 +311,6 @@ double fold(double& at, double gap) {
     return 0.5 * gap * (1.0 + std::sin(turned));
 }
 
-/// A cloth whose creases are pressed in: its links are at rest as it is folded.
 RopeScene folded_scene() {
     RopeScene scene;
     NamedWorld& world = scene.world;
@@ -332,9 +328,12 @@ RopeScene folded_scene() {
         const double inner = fold(p.x, apart), outer = fold(p.z, 3.0 * apart - 2.0 * inner);
         p.y = 0.5 * apart + inner + outer;
     }
-    rest_as_it_is(state, *world.find("cloth"));
     world.put(std::move(state));
     world.set_collides("cloth", "cloth", true);
+    // A crease is narrower than a cell is long, and springs open to its length: the scene begins after that.
+    constexpr int ticks = 8;
+    rope::Workspace workspace;
+    for (int i = 0; i < ticks; ++i) world.advance(tick_seconds, workspace, 1000);
     return scene;
 }
 

@@ -122,7 +122,8 @@ TEST_F(RopeCollisionTest, AFoldedClothLiesInLayersUntilSwitchedOff) {
     EXPECT_GT(height(3, 12) - height(12, 12), 0.8);
     run("rope.collide", {{"a", "cloth"}, {"b", "cloth"}, {"on", false}});
     wait(180);
-    EXPECT_LT(height(12, 12), 1.5) << "the layers have sunk into each other";
+    // 0.9 here, and 1.5 where layers collide; the creases are springs, and hold the upper layers higher.
+    EXPECT_LT(height(12, 3), 1.2) << "a layer has sunk into the one below it";
 }
 
 TEST_F(RopeCollisionTest, AKnotIsPulledTightByItsWeight) {
