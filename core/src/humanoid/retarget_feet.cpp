@@ -293,11 +293,12 @@ class Planner {
     }
 
     /// How far to lower the hips to bring the foot within reach. No leg becomes straighter than `straight`,
-    /// unless the source's is.
+    /// unless the source's is and its foot is hardly moved: a leg that comes that near to its full length for
+    /// a frame snaps.
     double missing(std::size_t foot, std::size_t i) const {
         const PointedFoot& its = pointed(foot, i);
         const glm::dvec3 pointed_way = minus(its.ankle, its.hip), way = plus(pointed_way, moves_[foot][i]);
-        const double longest = std::max(straight * its.leg, length(pointed_way));
+        const double longest = std::max(straight * its.leg, length(pointed_way) - length(moves_[foot][i]));
         const double aside = level_length(way);
         if (dot(way, way) <= longest * longest || aside >= longest) return 0.0;
         return std::min(-way.y - std::sqrt(longest * longest - aside * aside), 0.2 * task_.leg);

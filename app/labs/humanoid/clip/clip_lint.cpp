@@ -195,10 +195,10 @@ CuredClip cured(const HumanoidPart& part, const ClipCure& cure, LoadProgress* pr
     const std::size_t now = left.size();
     std::erase_if(left, [&](const Finding& each) { return !is_meant(each, cure, part.skeleton()); });
     if (clip == *place) {
-        const auto refused = std::ranges::find_if(left, &Finding::has_cure);
-        if (refused == left.end())
+        const auto fixable = std::ranges::find_if(left, &Finding::has_cure);
+        if (fixable == left.end())
             throw std::invalid_argument("clip " + cure.clip + " has no such fault that can be fixed");
-        throw std::invalid_argument(refused->text + " cannot be fixed without a new fault");
+        throw std::invalid_argument(fixable->text + " cannot be fixed without a new fault");
     }
     auto loaded = std::make_shared<LoadedCharacter>(*part.loaded);
     loaded->character.clips[static_cast<std::size_t>(place - clips.begin())] = std::move(clip);

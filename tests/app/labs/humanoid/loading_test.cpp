@@ -8,6 +8,7 @@
 #include "app/labs/labs.hpp"
 #include "tests/app/labs/humanoid/humanoid_support.hpp"
 #include "tests/app/support/temp_folder.hpp"
+#include "tests/says.hpp"
 
 namespace tendril::app {
 namespace {
