@@ -125,10 +125,11 @@ Clip random_clip(RetargetDice& random, const RetargetFigure& body) {
             if (body.map[Bone::Hips].node != static_cast<std::int32_t>(node)) continue;
             channel.translation.times.push_back(time);
             const glm::dvec3 way(random.from(-1, 1), random.from(99, 101), random.from(-1, 1));
-            const auto parent = static_cast<std::size_t>(body.skeleton[node].parent);
-            channel.translation.values.push_back(
-                rest.translation +
-                glm::inverse(body.placed(rest_pose(body.skeleton))[parent].rotation()) * way);
+            const std::int32_t parent = body.skeleton[node].parent;
+            const auto all = body.placed(rest_pose(body.skeleton));
+            const glm::dquat above =
+                parent < 0 ? glm::dquat(1, 0, 0, 0) : all[static_cast<std::size_t>(parent)].rotation();
+            channel.translation.values.push_back(rest.translation + glm::inverse(above) * way);
         }
         clip.channels.push_back(std::move(channel));
     }
