@@ -8,6 +8,7 @@
 #include "app/labs/kit/world_drawing.hpp"
 #include "app/labs/rope/past.hpp"
 #include "app/labs/rope/race.hpp"
+#include "app/labs/rope/rope_edit.hpp"
 #include "app/labs/rope/rope_lab.hpp"
 #include "app/view/surfaces.hpp"
 
