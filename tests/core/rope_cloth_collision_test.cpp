@@ -89,7 +89,7 @@ World hammock() {
                                 .rows = 14,
                                 .radius = 0.008f,
                                 .pins = rope::ClothShape::Pins::Corners});
-    for (const std::size_t corner : {13 * 14, 14 * 14 - 1})
+    for (const std::size_t corner : {13u * 14u, 14u * 14u - 1u})
         allow(world.core().pin(corner, world.core().position(corner)));
     world.add_rope("rope",
                    {.from = {-0.15f, 1.1f, 0.05f}, .to = {0.2f, 1.1f, 0}, .segments = 12, .radius = 0.01f});
