@@ -168,7 +168,9 @@ class KnifeStroke {
         return length == 0.0f || std::abs(cross_of(whole, at - before)) > threshold * length;
     }
 
-    /// One line through all: from an edge to the next it runs beyond the cloth, or in a gap.
+    /// One line through all, as rope.cloth.cut takes only one. From one crossing to the next it runs
+    /// straight, beyond the cloth or in a gap if they are pieces of one cut; but where the stroke crosses
+    /// several layers of a cloth, it cuts between them, too.
     static std::vector<glm::vec2> joined(const rope::Body& cloth, std::vector<CutLine> lines) {
         const glm::vec2 most(static_cast<float>(cloth.row), static_cast<float>(cloth.rows()));
         const auto beyond = [&](const CutEnd& end, const CutEnd& before) {
