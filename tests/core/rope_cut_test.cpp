@@ -14,8 +14,8 @@ using rope::BodyId;
 using rope::Link;
 
 /// Its pieces: the cloth itself first, and then what came off.
-std::vector<BodyId> cut(rope::World& world, BodyId cloth, std::span<const glm::vec2> line) {
-    rope::Edited edited = allowed(rope::cut_cloth(world, cloth, line));
+std::vector<BodyId> cut(rope::World& world, BodyId cloth, std::span<const rope::ClothLine> lines) {
+    rope::Edited edited = allowed(rope::cut_cloth(world, cloth, lines));
     world = std::move(edited.world);
     edited.pieces.insert(edited.pieces.begin(), cloth);
     return edited.pieces;
@@ -72,7 +72,7 @@ TEST(RopeCut, APieceIsAClothOfItsOwn) {
         allowed(world.tie(allowed(world.particle(cloth, 76)), allowed(world.particle(line, 0))));
     for (int i = 0; i < 30; ++i) world.advance(1.0 / 60.0, workspace);
     const rope::World before = world;
-    const glm::vec2 across[] = {{-0.5f, 2.5f}, {4, 5.5f}, {8.5f, 2.5f}};
+    const rope::ClothLine across[] = {{{-0.5f, 2.5f}, {4, 5.5f}, {8.5f, 2.5f}}};
     const std::vector<BodyId> pieces = cut(world, cloth, across);
     ASSERT_EQ(pieces.size(), 2u);
     const Body &top = *world.find(pieces[0]), &bottom = *world.find(pieces[1]);
@@ -104,10 +104,10 @@ TEST(RopeCut, APieceIsAClothOfItsOwn) {
 TEST(RopeCut, ASlitPartsNothingAndARingDoes) {
     rope::World world;
     const BodyId cloth = allowed(world.add_cloth({.columns = 9, .rows = 9}));
-    const glm::vec2 slit[] = {{1.5f, 4.5f}, {6.5f, 4.5f}};
+    const rope::ClothLine slit[] = {{{1.5f, 4.5f}, {6.5f, 4.5f}}};
     EXPECT_EQ(cut(world, cloth, slit).size(), 1u);
     EXPECT_TRUE(world.find(cloth)->cells.empty());
-    const glm::vec2 ring[] = {{2.5f, 2.5f}, {5.5f, 2.5f}, {5.5f, 5.5f}, {2.5f, 5.5f}, {2.5f, 2.5f}};
+    const rope::ClothLine ring[] = {{{2.5f, 2.5f}, {5.5f, 2.5f}, {5.5f, 5.5f}, {2.5f, 5.5f}, {2.5f, 2.5f}}};
     const std::vector<BodyId> pieces = cut(world, cloth, ring);
     ASSERT_EQ(pieces.size(), 3u);  // the slit halves what was in it
     EXPECT_EQ(world.find(pieces[0])->count, 72u);
@@ -117,23 +117,41 @@ TEST(RopeCut, ASlitPartsNothingAndARingDoes) {
     expect_parted(world.state());
 }
 
+/// All at once, and nothing between them: two slits and a line across their ends leave four pieces.
+TEST(RopeCut, SeveralLinesAreOneCut) {
+    rope::World world;
+    const BodyId cloth = allowed(world.add_cloth({.columns = 9, .rows = 9}));
+    const rope::ClothLine lines[] = {
+        {{-1, 2.5f}, {5.5f, 2.5f}}, {{5.5f, 5.5f}, {-1, 5.5f}}, {{5.5f, -1}, {5.5f, 9}}};
+    rope::World apart = world;
+    for (const rope::ClothLine& line : {lines[0], lines[1]}) cut(apart, cloth, {&line, 1});
+    rope::World slits = world;
+    EXPECT_EQ(cut(slits, cloth, std::span(lines).first(2)).size(), 1u);
+    EXPECT_EQ(slits.state().links, apart.state().links);
+    const std::vector<BodyId> pieces = cut(world, cloth, lines);
+    ASSERT_EQ(pieces.size(), 4u);
+    for (const BodyId each : pieces) EXPECT_EQ(world.find(each)->count, each == cloth ? 27u : 18u);
+    expect_parted(world.state());
+}
+
 TEST(RopeCut, RefusesWhatCutsNothing) {
     rope::World world;
     const BodyId cloth = allowed(world.add_cloth({.columns = 5, .rows = 6}));
     const BodyId rope = allowed(world.add_rope({}));
-    const glm::vec2 beside[] = {{-1, 0}, {-1, 4}}, across[] = {{-1, 1.5f}, {5, 1.5f}},
-                    bad[] = {{0, 0}, {nan, 0}}, far[] = {{0, 0}, {1, 6.5f}};
-    const auto why = [&](BodyId body, std::span<const glm::vec2> line) {
-        return std::string(rope::cut_cloth(world, body, line).error().message());
+    const rope::ClothLine beside{{-1, 0}, {-1, 4}}, across{{-1, 1.5f}, {5, 1.5f}}, bad{{0, 0}, {nan, 0}},
+        far{{0, 0}, {1, 6.5f}};
+    const auto why = [&](BodyId body, const std::vector<rope::ClothLine>& lines) {
+        return std::string(rope::cut_cloth(world, body, lines).error().message());
     };
-    EXPECT_EQ(why(cloth, beside),
-              "cut_cloth: line must be across links of the cloth, got one that crosses none");
-    EXPECT_EQ(why(cloth, bad), "cut_cloth: line[1].column must be -1 to 5, got nan");
-    EXPECT_EQ(why(cloth, far), "cut_cloth: line[1].row must be -1 to 6, got 6.5");
-    EXPECT_EQ(why(cloth, std::span(across).first(1)), "cut_cloth: line must be 2 points or more, got 1");
-    EXPECT_NE(why(rope, across), "");
-    EXPECT_NE(why({}, across), "");
-    EXPECT_EQ(why(cloth, across), "");
+    const char* const none = "cut_cloth: lines must be across links of the cloth, got none that crosses one";
+    EXPECT_EQ(why(cloth, {}), none);
+    EXPECT_EQ(why(cloth, {beside, beside}), none);
+    EXPECT_EQ(why(cloth, {bad}), "cut_cloth: lines[0][1].column must be -1 to 5, got nan");
+    EXPECT_EQ(why(cloth, {across, far}), "cut_cloth: lines[1][1].row must be -1 to 6, got 6.5");
+    EXPECT_EQ(why(cloth, {across, {{0, 0}}}), "cut_cloth: lines[1] must be 2 points or more, got 1");
+    EXPECT_NE(why(rope, {across}), "");
+    EXPECT_NE(why({}, {across}), "");
+    EXPECT_EQ(why(cloth, {beside, across}), "");
 }
 
 /// Divided more finely and coarsely, a piece with gaps keeps its mass, momentum, pins and gaps.
@@ -142,7 +160,7 @@ TEST(RopeCut, APieceCanBeDivided) {
     rope::Workspace workspace;
     const BodyId cloth = allowed(world.add_cloth(
         {.corner = {0, 2, 0}, .columns = 11, .rows = 9, .pins = rope::ClothShape::Pins::Corners}));
-    const glm::vec2 across[] = {{-1, 3.5f}, {5, 6.5f}, {11, 3.5f}};
+    const rope::ClothLine across[] = {{{-1, 3.5f}, {5, 6.5f}, {11, 3.5f}}};
     ASSERT_EQ(cut(world, cloth, across).size(), 2u);
     for (int i = 0; i < 20; ++i) world.advance(1.0 / 60.0, workspace);
     const double mass = total_mass(world), error = world.length_error();
@@ -194,7 +212,7 @@ TEST(RopeCut, APieceMovesAsAClothOfItsShape) {
                                  .rows = 11,
                                  .pins = rope::ClothShape::Pins::Row};
     const BodyId cloth = allowed(cut_world.add_cloth(shape));
-    const glm::vec2 down[] = {{10.5f, -1}, {10.5f, 11}};
+    const rope::ClothLine down[] = {{{10.5f, -1}, {10.5f, 11}}};
     const std::vector<BodyId> pieces = cut(cut_world, cloth, down);
     ASSERT_EQ(pieces.size(), 2u);
     rope::ClothShape half = shape;
@@ -247,11 +265,12 @@ TEST(RopeCut, RandomCutsKeepParticlesMassAndMomentum) {
             const auto& bodies = world.state().bodies;
             const Body& body =
                 bodies[static_cast<std::size_t>(number(0.0f, static_cast<float>(bodies.size()) - 0.01f))];
-            std::vector<glm::vec2> path;
-            for (int i = 0; i < 2 + k % 3; ++i)
-                path.emplace_back(number(-1.0f, static_cast<float>(body.row)),
-                                  number(-1.0f, static_cast<float>(body.rows())));
-            const Expected<rope::Edited> edited = rope::cut_cloth(world, body.id, path);
+            std::vector<rope::ClothLine> lines(1 + static_cast<std::size_t>(k) / 3 % 2);
+            for (rope::ClothLine& path : lines)
+                for (int i = 0; i < 2 + k % 3; ++i)
+                    path.emplace_back(number(-1.0f, static_cast<float>(body.row)),
+                                      number(-1.0f, static_cast<float>(body.rows())));
+            const Expected<rope::Edited> edited = rope::cut_cloth(world, body.id, lines);
             if (edited) {
                 ++cuts;
                 const rope::World& after = edited->world;

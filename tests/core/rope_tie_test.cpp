@@ -153,7 +153,7 @@ TEST(RopeTie, PiecesOfACutClothKeepTheirTies) {
         {.corner = {0, 1.95f, 0}, .along = {1, 0, 0}, .down = {0, -1, 0}, .columns = 13, .rows = 13});
     for (const int i : {0, 4, 8, 12}) tie(whole, "line", i, "cloth", i, {.length = 0.05f});
     tie(whole, "cloth", 12 * 13 + 6, "weight", 0, {.length = 0.05f});
-    const glm::vec2 across[] = {{-0.5f, 4.5f}, {6, 7.5f}, {12.5f, 4.5f}};
+    const rope::ClothLine across[] = {{{-0.5f, 4.5f}, {6, 7.5f}, {12.5f, 4.5f}}};
     rope::Edited edited = allowed(rope::cut_cloth(whole.core(), whole.id("cloth"), across));
     ASSERT_EQ(edited.pieces.size(), 1u);
     ASSERT_FALSE(edited.world.find(edited.pieces[0])->cells.empty());

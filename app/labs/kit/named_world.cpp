@@ -191,8 +191,8 @@ Became NamedWorld::resample(std::string_view body, const rope::Resolution& to) {
 Became NamedWorld::reverse(std::string_view rope) {
     return take(rope, rope::reverse(world_, id(rope)));
 }
-Became NamedWorld::cut_cloth(std::string_view cloth, std::span<const glm::vec2> line) {
-    return take(cloth, rope::cut_cloth(world_, id(cloth), line));
+Became NamedWorld::cut_cloth(std::string_view cloth, std::span<const rope::ClothLine> lines) {
+    return take(cloth, rope::cut_cloth(world_, id(cloth), lines));
 }
 Became NamedWorld::part_body(std::string_view body) {
     return take(body, rope::part_body(world_, id(body)));

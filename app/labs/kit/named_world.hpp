@@ -68,7 +68,7 @@ class NamedWorld {
     void move(std::string_view body, const glm::dvec3& by);  ///< as in rope::World
     // Pieces that come off a body have its name with the next free number.
     Became cut(std::string_view rope, std::size_t segment);
-    Became cut_cloth(std::string_view cloth, std::span<const glm::vec2> line);
+    Became cut_cloth(std::string_view cloth, std::span<const rope::ClothLine> lines);
     Became part_body(std::string_view body);
     Became resample(std::string_view body, const rope::Resolution& to);
     Became reverse(std::string_view rope);

@@ -165,15 +165,24 @@ void cut(RopeEdit& edit, const Arguments& given) {
 }
 
 void cut_cloth(RopeEdit& edit, const Arguments& given) {
-    constexpr std::size_t most = 1000, named = 3;
+    constexpr std::size_t named = 3;
+    std::size_t left = 1000;  // points
     const std::string name = given.text("rope");
     body_of(edit.seen(), name);
-    std::vector<glm::vec2> line;
-    JsonPlace(given.json("points"), "points").for_each("points", most, [&](const JsonPlace& each) {
-        each.check_size(2, "numbers, a column and a row");
-        line.emplace_back(each.element(0).number(), each.element(1).number());
-    });
-    const Became became = edit.world().cut_cloth(name, line);
+    std::vector<rope::ClothLine> lines;
+    const auto read = [&](const JsonPlace& points) {
+        rope::ClothLine& line = lines.emplace_back();
+        points.for_each("points", left, [&](const JsonPlace& each) {
+            each.check_size(2, "numbers, a column and a row");
+            line.emplace_back(each.element(0).number(), each.element(1).number());
+        });
+        left -= line.size();
+    };
+    if (gives_one(given, "points", "lines"))
+        read({given.json("points"), "points"});
+    else
+        JsonPlace(given.json("lines"), "lines").for_each("lines", left, read);
+    const Became became = edit.world().cut_cloth(name, lines);
     follow_particles(edit.part, edit.world(), name, became);
     if (became.pieces.empty()) return;
     const std::size_t off = became.pieces.size(), shown = std::min(named, off);
@@ -269,13 +278,18 @@ void add_body_commands(CommandTable& table) {
                              .low = 0,
                              .high = max_particles - 1}},
                            "Cuts a rope in two", cut));
-    table.add(rope_command(
-        "rope.cloth.cut", "Cut a cloth along a line",
-        {rope_argument(true, "a cloth"),
-         {.name = "points",
-          .type = ArgumentType::List,
-          .help = "of the line, each [column, row] of the cloth, from 0; between particles too"}},
-        "Cuts a cloth along a line through its own columns and rows", cut_cloth));
+    table.add(
+        rope_command("rope.cloth.cut", "Cut a cloth along lines",
+                     {rope_argument(true, "a cloth"),
+                      {.name = "points",
+                       .type = ArgumentType::List,
+                       .required = false,
+                       .help = "of the line, each [column, row] of the cloth, from 0; between particles too"},
+                      {.name = "lines",
+                       .type = ArgumentType::List,
+                       .required = false,
+                       .help = "several at once, each a list of points"}},
+                     "Cuts a cloth along lines through its own columns and rows", cut_cloth));
 }
 
 // The panel's rows that add objects, at a free position, and select them.

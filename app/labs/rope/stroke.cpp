@@ -38,12 +38,11 @@ class KnifeStroke {
         for (const rope::Body& body : world_.state().bodies) {
             if (body.kind == rope::Body::Kind::Rope) cut_rope(body, emit);
             if (body.kind != rope::Body::Kind::Cloth) continue;
-            const std::vector<glm::vec2> line = joined(body, lines_across(body));
-            if (line.size() < 2) continue;
-            Json points = Json::array();
-            for (const glm::vec2 each : line) points.push_back({each.x, each.y});
-            emit.continuously("rope.cloth.cut",
-                              {{"rope", world_.name(body)}, {"points", SharedJson(std::move(points))}});
+            Json lines = Json::array();
+            for (CutLine& line : lines_across(body)) lines.push_back(points_of(body, std::move(line)));
+            if (!lines.empty())
+                emit.continuously("rope.cloth.cut",
+                                  {{"rope", world_.name(body)}, {"lines", SharedJson(std::move(lines))}});
         }
     }
 
@@ -66,13 +65,16 @@ class KnifeStroke {
                 emit.continuously("rope.cut", {{"rope", world_.name(rope)}, {"segment", i - 1}});
     }
 
+    std::size_t particle(const rope::Body& cloth, glm::vec2 cell) const {
+        return cloth.first + cloth.particle_in(static_cast<std::size_t>(cell.y) * cloth.row +
+                                               static_cast<std::size_t>(cell.x));
+    }
+
     /// The part of the stroke in a triangle of a cloth.
     std::optional<CutLine> across(const rope::Body& cloth, const glm::vec2 (&cells)[3]) const {
         glm::vec2 corners[3];
         for (int k = 0; k < 3; ++k) {
-            const auto cell =
-                static_cast<std::size_t>(cells[k].y) * cloth.row + static_cast<std::size_t>(cells[k].x);
-            const auto& pixel = pixels_[cloth.first + cloth.particle_in(cell)];
+            const auto& pixel = pixels_[particle(cloth, cells[k])];
             if (!pixel) return std::nullopt;
             corners[k] = *pixel;
         }
@@ -98,49 +100,46 @@ class KnifeStroke {
         return CutLine{end(enters), end(leaves)};
     }
 
-    /// Connected lines on the cloth, with a point on each thread.
+    /// Connected lines on the cloth, with a point on each thread: one for each layer that the stroke crosses,
+    /// and one for each thread without a surface.
     std::vector<CutLine> lines_across(const rope::Body& cloth) const {
         const std::size_t columns = cloth.row, rows = cloth.rows();
-        if (columns == 1 || rows == 1) return across_thread(cloth);
+        const GridLinks links = grid_links(world_, cloth);
         const std::vector<std::uint8_t> whole = whole_cells(world_, cloth);
-        std::vector<CutLine> pieces;
-        for (std::size_t r = 0; r + 1 < rows; ++r)
-            for (std::size_t c = 0; c + 1 < columns; ++c) {
-                const unsigned there = whole[r * (columns - 1) + c];
+        const auto has = [&](unsigned triangle, std::size_t r, std::size_t c) {  // wraps below 0
+            return r < rows - 1 && c < columns - 1 && (whole[r * (columns - 1) + c] & triangle) != 0;
+        };
+        std::vector<CutLine> pieces, lines;
+        for (std::size_t r = 0; r < rows; ++r)
+            for (std::size_t c = 0; c < columns; ++c) {
                 const glm::vec2 a(c, r), b = a + glm::vec2(1, 0), below = a + glm::vec2(0, 1), d = a + 1.0f;
                 const auto add = [&](const glm::vec2(&cells)[3]) {
                     if (const auto piece = across(cloth, cells)) pieces.push_back(*piece);
                 };
-                if ((there & ClothGrid::upper) != 0) add({a, below, b});
-                if ((there & ClothGrid::lower) != 0) add({b, below, d});
+                const bool upper = has(ClothGrid::upper, r, c);
+                if (upper) add({a, below, b});
+                if (has(ClothGrid::lower, r, c)) add({b, below, d});
+                const auto add_thread = [&](glm::vec2 way) {
+                    const auto part = crossing(particle(cloth, a), particle(cloth, a + way));
+                    const glm::vec2 side = 0.5f * glm::vec2(way.y, way.x);
+                    if (part) lines.push_back({{a + *part * way - side}, {a + *part * way + side}});
+                };
+                const std::size_t at = r * columns + c;
+                if (links.along[at] != 0 && !upper && !has(ClothGrid::lower, r - 1, c)) add_thread(b - a);
+                if (links.down[at] != 0 && !upper && !has(ClothGrid::lower, r, c - 1)) add_thread(below - a);
             }
-        std::vector<CutLine> lines;
         while (!pieces.empty()) {
             CutLine line = std::move(pieces.back());
             pieces.pop_back();
-            while (extend(line, pieces, touching)) continue;
+            while (extend(line, pieces)) continue;
             lines.push_back(std::move(line));
         }
         return lines;
     }
 
-    std::vector<CutLine> across_thread(const rope::Body& thread) const {
-        std::vector<CutLine> lines;
-        const glm::vec2 side = thread.row == 1 ? glm::vec2(0.5f, 0.0f) : glm::vec2(0.0f, 0.5f);
-        for (std::size_t i = 0; i + 1 < thread.count; ++i)
-            if (const auto part = crossing(thread.first + i, thread.first + i + 1)) {
-                const auto a = static_cast<float>(thread.cell(i)), b = static_cast<float>(thread.cell(i + 1));
-                const float at = a + *part * (b - a);
-                const glm::vec2 cell = thread.row == 1 ? glm::vec2(0.0f, at) : glm::vec2(at, 0.0f);
-                lines.push_back({{cell - side}, {cell + side}});
-            }
-        return lines;
-    }
-
-    static constexpr float touching = 1e-2f, anywhere = 1e9f;
-
-    /// Adds the nearest of the others at either end of a line, if any is that near.
-    static bool extend(CutLine& line, std::vector<CutLine>& others, float within) {
+    /// Adds the nearest of the others at either end of a line, if any touches it.
+    static bool extend(CutLine& line, std::vector<CutLine>& others) {
+        float within = 1e-2f;
         const CutLine* best = nullptr;
         bool at_front = false, turned = false;
         for (const CutLine& each : others)
@@ -168,10 +167,8 @@ class KnifeStroke {
         return length == 0.0f || std::abs(cross_of(whole, at - before)) > threshold * length;
     }
 
-    /// One line through all, as rope.cloth.cut takes only one. From one crossing to the next it runs
-    /// straight, beyond the cloth or in a gap if they are pieces of one cut; but where the stroke crosses
-    /// several layers of a cloth, it cuts between them, too.
-    static std::vector<glm::vec2> joined(const rope::Body& cloth, std::vector<CutLine> lines) {
+    /// The points at which a line turns, and its ends: beyond an edge that it reaches.
+    static Json points_of(const rope::Body& cloth, CutLine line) {
         const glm::vec2 most(static_cast<float>(cloth.row), static_cast<float>(cloth.rows()));
         const auto beyond = [&](const CutEnd& end, const CutEnd& before) {
             const glm::vec2 by = end.cell - before.cell;
@@ -179,18 +176,15 @@ class KnifeStroke {
             const glm::vec2 to = end.cell + (length > 0.0f ? beyond_edge / length : 0.0f) * by;
             return CutEnd{glm::clamp(to, glm::vec2(-1.0f), most), true};
         };
-        for (CutLine& line : lines) {
-            if (line.front().at_edge) line.push_front(beyond(line.front(), line[1]));
-            if (line.back().at_edge) line.push_back(beyond(line.back(), line[line.size() - 2]));
+        if (line.front().at_edge) line.push_front(beyond(line.front(), line[1]));
+        if (line.back().at_edge) line.push_back(beyond(line.back(), line[line.size() - 2]));
+        Json points = Json::array();
+        glm::vec2 last(0.0f);
+        for (std::size_t i = 0; i < line.size(); ++i) {
+            if (i > 0 && i + 1 < line.size() && !bends(last, line[i].cell, line[i + 1].cell)) continue;
+            last = line[i].cell;
+            points.push_back({last.x, last.y});
         }
-        std::vector<glm::vec2> points;
-        if (lines.empty()) return points;
-        CutLine all = std::move(lines.back());
-        lines.pop_back();
-        while (extend(all, lines, anywhere)) continue;
-        for (std::size_t i = 0; i < all.size(); ++i)
-            if (i == 0 || i + 1 == all.size() || bends(points.back(), all[i].cell, all[i + 1].cell))
-                points.push_back(all[i].cell);
         return points;
     }
 

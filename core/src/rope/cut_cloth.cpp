@@ -32,6 +32,21 @@ bool crosses(dvec2 a, dvec2 b, dvec2 p, dvec2 q) {
     return reached >= -near && reached <= 1.0 + near;
 }
 
+Result check_line(const char* op, const Body& cloth, const ClothLine& line, std::size_t number) {
+    char name[32], rule[64];
+    std::snprintf(name, sizeof name, "lines[%zu]", number);
+    if (line.size() < 2) return refused(op, name, "2 points or more", line.size());
+    const float most[] = {static_cast<float>(cloth.row), static_cast<float>(cloth.rows())};
+    for (std::size_t i = 0; i < line.size(); ++i)
+        for (int axis = 0; axis < 2; ++axis) {
+            const float each = line[i][axis], end = most[axis];
+            if (each >= -1.0f && each <= end) continue;
+            std::snprintf(rule, sizeof rule, "-1 to %g", static_cast<double>(end));
+            return refused(op, Argument(name, i, axis == 0 ? "column" : "row"), rule, each);
+        }
+    return {};
+}
+
 /// A piece of a body.
 struct BodyPiece {
     std::vector<std::size_t> particles{};  ///< numbered in the body, ascending
@@ -149,23 +164,15 @@ Expected<Edited> part_body(const World& world, BodyId id) {
     return whole;
 }
 
-Expected<Edited> cut_cloth(const World& world, BodyId cloth, std::span<const glm::vec2> line) {
+Expected<Edited> cut_cloth(const World& world, BodyId cloth, std::span<const ClothLine> lines) {
     const char* const op = "cut_cloth";
     const Body* const found = world.find(cloth);
     if (found == nullptr) return detail::missing(op, "cloth", "body", cloth.index);
     if (found->kind != Body::Kind::Cloth)
         return Result(ErrorCode::InvalidArgument, "only cloth is cut along a line, not a rope or hair");
     const Body& body = *found;
-    if (line.size() < 2) return refused(op, "line", "2 points or more", line.size());
-    const float most[] = {static_cast<float>(body.row), static_cast<float>(body.rows())};
-    for (std::size_t i = 0; i < line.size(); ++i)
-        for (int axis = 0; axis < 2; ++axis) {
-            const float each = line[i][axis], end = most[axis];
-            if (each >= -1.0f && each <= end) continue;
-            char rule[64];
-            std::snprintf(rule, sizeof rule, "-1 to %g", static_cast<double>(end));
-            return refused(op, Argument("line", i, axis == 0 ? "column" : "row"), rule, each);
-        }
+    for (std::size_t i = 0; i < lines.size(); ++i)
+        if (const Result bad = check_line(op, body, lines[i], i); !bad) return bad;
     State state = world.state();
     const auto crossed = [&](const Link& link) {
         if (!detail::is_within(body, link)) return false;
@@ -173,12 +180,13 @@ Expected<Edited> cut_cloth(const World& world, BodyId cloth, std::span<const glm
             const std::size_t cell = body.cell(particle - body.first);
             return dvec2(cell % body.row, cell / body.row);
         };
-        for (std::size_t i = 0; i + 1 < line.size(); ++i)
-            if (crosses(dvec2(line[i]), dvec2(line[i + 1]), at(link.a), at(link.b))) return true;
+        for (const ClothLine& line : lines)
+            for (std::size_t i = 0; i + 1 < line.size(); ++i)
+                if (crosses(dvec2(line[i]), dvec2(line[i + 1]), at(link.a), at(link.b))) return true;
         return false;
     };
     if (std::erase_if(state.links, crossed) == 0)
-        return refused(op, "line", "across links of the cloth", "one that crosses none");
+        return refused(op, "lines", "across links of the cloth", "none that crosses one");
     return taken_apart(std::move(state), cloth);
 }
 

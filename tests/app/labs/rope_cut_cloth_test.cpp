@@ -1,4 +1,7 @@
 // Cutting cloth: by the command, by clicks and by a stroke, and what the pieces are then.
+#include <algorithm>
+#include <glm/vec2.hpp>
+
 #include "app/labs/rope/rope_edit.hpp"
 #include "app/labs/rope/rope_fields.hpp"
 #include "app/view/camera.hpp"
@@ -176,6 +179,48 @@ TEST_F(RopeCutCloth, AStrokeCutsAllLayers) {
     EXPECT_EQ(world().state().bodies.size(), 3u);
 }
 
+/// Folded in two, seen from the front. Only what is under the stroke is cut, in both layers; what lies on the
+/// cloth between its two lines is not.
+TEST_F(RopeCutCloth, AStrokeCutsEachLayerWhereItCrosses) {
+    run("rope.clear");
+    run("rope.cloth.add",
+        {{"corner", {3, 2, 0}}, {"along", {1, 0, 0}}, {"down", {0, -2, 0}}, {"columns", 9}, {"rows", 17}});
+    auto folded = std::make_shared<NamedWorld>(world());
+    rope::State state = folded->state();
+    for (glm::dvec3& at : state.position)
+        if (at.y < 1.0) at = {at.x, 2.0 - at.y, -0.01};
+    folded->put(std::move(state));
+    workspace.document.edit<RopePart>(rope_lab).world = folded;
+    const rope::State before = folded->state();
+    const glm::dvec2 from(3.18, 1.55), to(3.69, 1.58);
+    stroke(from, to);
+    EXPECT_EQ(world().state().bodies.size(), 1u);
+    const auto is_under = [&](const rope::Link& link) {
+        const auto side = [](glm::dvec2 a, glm::dvec2 b, glm::dvec2 p) {
+            return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x) > 0.0;
+        };
+        const glm::dvec2 a(before.position[link.a]), b(before.position[link.b]);
+        return side(from, to, a) != side(from, to, b) && side(a, b, from) != side(a, b, to);
+    };
+    std::vector<rope::Link> rest = before.links;
+    EXPECT_EQ(std::erase_if(rest, is_under), 40u);
+    const auto ends = [](const rope::Link& link) { return std::pair(link.a, link.b); };
+    EXPECT_TRUE(std::ranges::equal(world().state().links, rest, {}, ends, ends));
+    run("undo");
+    EXPECT_EQ(links(), before.links.size());
+}
+
+/// A thread of a torn cloth without a triangle beside it shows no surface, and holds all the same.
+TEST_F(RopeCutCloth, AStrokeCutsBareThreads) {
+    run("rope.cloth.cut",
+        {{"rope", "cloth"},
+         {"lines", {{{-1, 3.5}, {2.5, 3.5}, {2.5, 4.5}}, {{3.5, 2.5}, {3.5, 3.5}, {8, 3.5}}}}});
+    ASSERT_EQ(world().find("cloth 2"), nullptr);
+    stroke({2.8f, 1.5f}, {4.2f, 1.5f});
+    ASSERT_NE(world().find("cloth 2"), nullptr);
+    EXPECT_EQ(body("cloth").count + body("cloth 2").count, 64u);
+}
+
 /// Torn cloth comes apart by itself, and what is selected and held stays with its particles.
 TEST_F(RopeCutCloth, TornClothComesApart) {
     run("rope.set", {{"rope", "cloth"}, {"tear", 0.05}});
@@ -218,11 +263,18 @@ TEST_F(RopeCutCloth, RefusalsSayWhatAndWhere) {
     };
     says({{"rope", "rope"}, {"points", {{0, 0}, {1, 1}}}}, "rope.cloth.cut only cloth");
     says({{"rope", "cloth"}, {"points", {{0, 0}}}}, "rope.cloth.cut 2 points got 1");
-    says({{"rope", "cloth"}, {"points", {{0, 0}, {9, 1}}}}, "rope.cloth.cut line[1].column 8 got 9");
-    says({{"rope", "cloth"}, {"points", {{0, -2}, {7, 1}}}}, "rope.cloth.cut line[0].row -1 8 got -2");
+    says({{"rope", "cloth"}, {"points", {{0, 0}, {9, 1}}}}, "rope.cloth.cut lines[0][1].column 8 got 9");
+    says({{"rope", "cloth"}, {"points", {{0, -2}, {7, 1}}}}, "rope.cloth.cut lines[0][0].row -1 8 got -2");
     says({{"rope", "cloth"}, {"points", {{0, "x"}, {7, 1}}}}, "rope.cloth.cut points.0.1 x");
     says({{"rope", "cloth"}, {"points", {{0, nullptr}, {7, 1}}}}, "rope.cloth.cut points.0.1 null");
     says({{"rope", "cloth"}, {"points", {{0, 0, 1}, {1, 1, 1}}}}, "rope.cloth.cut points column");
+    says({{"rope", "cloth"}}, "rope.cloth.cut needs either points or lines");
+    says({{"rope", "cloth"}, {"lines", Json::array()}}, "rope.cloth.cut lines across links of the cloth");
+    says({{"rope", "cloth"}, {"lines", {{{0, 0}, {1, 1}}, {{2, "x"}, {7, 1}}}}},
+         "rope.cloth.cut lines.1.0.1 x");
+    const Json long_line(600, {0.5, 0.5});
+    says({{"rope", "cloth"}, {"lines", {long_line, long_line}}},
+         "rope.cloth.cut lines.1 600 points maximum is 400");
     says({{"rope", "line"}, {"points", {{0, 0}, {1, 1}}}}, "line");
 }
 

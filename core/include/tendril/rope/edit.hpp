@@ -48,10 +48,12 @@ Expected<Edited> reverse(const World& world, BodyId rope);
 /// the body that it was. Costs as much as a copy of the world, even if nothing has come apart.
 Expected<Edited> part_body(const World& world, BodyId body);
 
-/// Cuts a cloth along a line through points of its own grid, each {column, row}, up to one beyond its edge:
-/// removes the links that cross it, and parts what comes apart. What is on the line belongs to its left, with
-/// columns to the right and rows upwards.
-/// Refuses a line that crosses no link.
-Expected<Edited> cut_cloth(const World& world, BodyId cloth, std::span<const glm::vec2> line);
+/// A line through points of a cloth's own grid, each {column, row}, up to one beyond its edge.
+using ClothLine = std::vector<glm::vec2>;
+
+/// Cuts a cloth along lines: removes the links that cross them, and parts what comes apart. What is on a line
+/// belongs to its left, with columns to the right and rows upwards.
+/// Refuses lines that cross no link.
+Expected<Edited> cut_cloth(const World& world, BodyId cloth, std::span<const ClothLine> lines);
 
 }  // namespace tendril::rope
