@@ -180,6 +180,35 @@ TEST(RopeCut, APieceCanBeDivided) {
     }
 }
 
+/// A single row or column is divided along itself only.
+TEST(RopeCut, AThreadCanBeDivided) {
+    rope::World world;
+    const BodyId cloth = allowed(world.add_cloth({.columns = 9, .rows = 9}));
+    const rope::ClothLine lines[] = {{{-1, 7.5f}, {9, 7.5f}}, {{7.5f, -1}, {7.5f, 7.5f}}};
+    const std::vector<BodyId> pieces = cut(world, cloth, lines);
+    ASSERT_EQ(pieces.size(), 3u);
+    const auto divide = [&](BodyId id, std::size_t columns, std::size_t rows) {
+        return rope::resample(world, id, {columns, rows});
+    };
+    const bool first_is_row = world.find(pieces[1])->row > 1;
+    const BodyId row = pieces[first_is_row ? 1 : 2], column = pieces[first_is_row ? 2 : 1];
+    EXPECT_EQ(rope::resolution(*world.find(row)), (rope::Resolution{9, 1}));
+    EXPECT_EQ(rope::resolution(*world.find(column)), (rope::Resolution{1, 8}));
+    EXPECT_STREQ(divide(row, 9, 4).message(), "resample: rows must be as many as there are, got 4");
+    EXPECT_STREQ(divide(row, 1, 1).message(), "resample: columns must be 2 or more, got 1");
+    EXPECT_STREQ(divide(column, 4, 8).message(), "resample: columns must be as many as there are, got 4");
+    const double mass = total_mass(world), length = world.length(*world.find(row)),
+                 width = world.width(*world.find(column));
+    world = std::move(allowed(divide(row, 5, 1)).world);
+    world = std::move(allowed(divide(column, 1, 20)).world);
+    EXPECT_EQ(world.find(row)->count, 5u);
+    EXPECT_EQ(world.find(column)->count, 20u);
+    EXPECT_NEAR(total_mass(world), mass, 1e-12);
+    EXPECT_NEAR(world.length(*world.find(row)), length, 1e-6);
+    EXPECT_NEAR(world.width(*world.find(column)), width, 1e-6);
+    expect_parted(world.state());
+}
+
 /// Torn cloth comes apart too, when asked.
 TEST(RopeCut, TornClothIsParted) {
     rope::World world;

@@ -471,10 +471,14 @@ Expected<Edited> resample(const World& world, BodyId id, const Resolution& to) {
     const bool cloth = body->kind == Body::Kind::Cloth;
     const Resolution was = resolution(*body);
     const std::size_t others = world.size() - body->count;
-    if (was.columns < 2) return refused(op, "body", "longer than 0", "a single particle");
-    if (to.columns < 2) return refused(op, "columns", "2 or more", to.columns);
-    if (cloth ? to.rows < 2 : to.rows != was.rows)
-        return refused(op, "rows", cloth ? "2 or more" : "as many as there are", to.rows);
+    if (body->count < 2) return refused(op, "body", "longer than 0", "a single particle");
+    const auto check = [&](const char* name, std::size_t from, std::size_t into, bool stays) -> Result {
+        if (stays ? into == from : into >= 2) return {};
+        return refused(op, name, stays ? "as many as there are" : "2 or more", into);
+    };
+    // A piece of cloth may be a single thread.
+    if (const Result bad = check("columns", was.columns, to.columns, was.columns == 1); !bad) return bad;
+    if (const Result bad = check("rows", was.rows, to.rows, !cloth || was.rows == 1); !bad) return bad;
     if (to.rows > max_particles || to.columns > (max_particles - others) / to.rows)
         return refused(op, "particles", "at most 1000000 in all", to.columns);
     if (to == was) {
