@@ -14,9 +14,10 @@ namespace {
                                 std::string(name) + "\"");
 }
 
-void set_name(std::vector<std::string>& names, std::size_t slot, const std::string& name) {
-    if (names.size() <= slot) names.resize(slot + 1);
-    names[slot] = name;
+template <class Value>
+void set_slot(std::vector<Value>& values, std::size_t slot, const Value& value) {
+    if (values.size() <= slot) values.resize(slot + 1);
+    values[slot] = value;
 }
 
 template <class List>
@@ -37,7 +38,7 @@ std::vector<std::string> by_slot(const List& list, const std::vector<std::string
         throw std::invalid_argument(std::string("there are two ") + kind + " named \"" + *twice + "\"");
     if (!sorted.empty() && sorted.front().empty())
         throw std::invalid_argument(std::string("one of the ") + kind + " has no name");
-    for (std::size_t i = 0; i < list.size(); ++i) set_name(names, list[i].id.index, given[i]);
+    for (std::size_t i = 0; i < list.size(); ++i) set_slot(names, list[i].id.index, given[i]);
     return names;
 }
 
@@ -48,6 +49,7 @@ NamedWorld::NamedWorld(rope::State state, const std::vector<std::string>& bodies
     rope::number_slots(state);
     put(std::move(state));
     bodies_ = by_slot(this->state().bodies, bodies, "bodies");
+    colours_.resize(bodies_.size());
     colliders_ = by_slot(this->state().colliders, colliders, "colliders");
     ties_ = by_slot(this->state().ties, ties, "ties");
 }
@@ -84,7 +86,8 @@ void NamedWorld::check_free(const char* operation, std::string_view body) const 
 }
 
 std::string NamedWorld::name_body(rope::BodyId body, const std::string& wanted, const std::string& stem) {
-    set_name(bodies_, body.index, {});
+    set_slot(bodies_, body.index, {});
+    set_slot(colours_, body.index, BodyColour::ByKind);
     std::string name = wanted;
     for (int i = 1; name.empty() || find(name) != nullptr; ++i)
         name = i == 1 ? stem : stem + " " + std::to_string(i);
@@ -96,7 +99,8 @@ std::vector<std::string> NamedWorld::name_pieces(std::string_view of, std::span<
     std::string stem(of);
     const std::size_t end = stem.find_last_not_of("0123456789");
     if (end != std::string::npos && end > 0 && end + 1 < stem.size() && stem[end] == ' ') stem.resize(end);
-    for (const rope::BodyId each : pieces) set_name(bodies_, each.index, {});
+    for (const rope::BodyId each : pieces) set_slot(bodies_, each.index, {});
+    const BodyColour colour = colours_[id(of).index];
     std::vector<std::string> names;
     int number = 2;
     for (const rope::BodyId each : pieces) {
@@ -104,6 +108,7 @@ std::vector<std::string> NamedWorld::name_pieces(std::string_view of, std::span<
         std::string name = next();
         while (find(name) != nullptr) name = next();
         bodies_[each.index] = name;
+        set_slot(colours_, each.index, colour);
         names.push_back(std::move(name));
     }
     return names;
@@ -179,6 +184,10 @@ void NamedWorld::rename(std::string_view body, const std::string& name) {
     require_value(world_.particle(renamed, 0));
     bodies_[renamed.index] = name;
 }
+void NamedWorld::set_colour(std::string_view body, BodyColour colour) {
+    if (find(body) == nullptr) refuse("set_colour", "that of a body", body);
+    colours_[id(body).index] = colour;
+}
 
 Became NamedWorld::take(std::string_view body, Expected<rope::Edited> edited) {
     rope::Edited given = require_value(std::move(edited));
@@ -214,7 +223,7 @@ std::string NamedWorld::tie(const std::string& name, std::size_t a, std::size_t 
     std::string unused = name;
     for (int i = 1; unused.empty() || find_tie(unused) != nullptr; ++i)
         unused = i == 1 ? "tie" : "tie " + std::to_string(i);
-    set_name(ties_, require_value(world_.tie(a, b, shape)).index, unused);
+    set_slot(ties_, require_value(world_.tie(a, b, shape)).index, unused);
     return unused;
 }
 void NamedWorld::set_tie(std::string_view name, const rope::TieShape& shape) {
@@ -231,7 +240,7 @@ void NamedWorld::set_collides(std::string_view a, std::string_view b, bool on) {
 void NamedWorld::add_collider(const std::string& name, const rope::Shape& shape) {
     if (name.empty()) refuse("add_collider", "not empty", name);
     if (find_collider(name) != nullptr) refuse("add_collider", "one that no other collider has", name);
-    set_name(colliders_, require_value(world_.add_collider(shape)).index, name);
+    set_slot(colliders_, require_value(world_.add_collider(shape)).index, name);
 }
 void NamedWorld::move_collider(std::string_view name, const glm::vec3& to, double seconds) {
     require_ok(world_.move_collider(collider_id(name), to, seconds));

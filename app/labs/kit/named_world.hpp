@@ -1,6 +1,7 @@
 // A rope world with named bodies, colliders and ties: the library uses handles, users and files use names.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -24,6 +25,18 @@ inline constexpr EnumNames<rope::Solver, 3> rope_solvers{
      {"xpbd", "XPBD",
       "As relaxation, but with compliance: enough iterations stretch it as a material stretches."},
      {"direct", "Direct", "All segments of a rope at once: it does not stretch, and keeps its energy."}}};
+
+/// Of a body in the picture: that of its kind, or one in which racers are drawn, too (racer_colour()).
+enum class BodyColour : std::uint8_t { ByKind, Blue, Pink, Brown, Teal, Violet, Olive };
+
+inline constexpr EnumNames<BodyColour, 7> body_colours{"colour",
+                                                       {{"by_kind", "By its kind"},
+                                                        {"blue", "Blue"},
+                                                        {"pink", "Pink"},
+                                                        {"brown", "Brown"},
+                                                        {"teal", "Teal"},
+                                                        {"violet", "Violet"},
+                                                        {"olive", "Olive"}}};
 
 /// What became of a body that was cut, parted or resampled.
 struct Became {
@@ -53,6 +66,7 @@ class NamedWorld {
     /// The collider that a pin moves with; null if there is none.
     const rope::Collider* holder(const rope::Pin& pin) const { return world_.find(pin.collider); }
     const std::string& name(const rope::Body& body) const { return bodies_[body.id.index]; }
+    BodyColour colour(const rope::Body& body) const { return colours_[body.id.index]; }
     const std::string& name(const rope::Collider& collider) const { return colliders_[collider.id.index]; }
     const std::string& name(const rope::Tie& tie) const { return ties_[tie.id.index]; }
 
@@ -66,7 +80,7 @@ class NamedWorld {
     std::string add_hair(const std::string& name, rope::HairShape shape, const std::string& attach = {});
     void remove(std::string_view body);
     void move(std::string_view body, const glm::dvec3& by);  ///< as in rope::World
-    // Pieces that come off a body have its name with the next free number.
+    // Pieces that come off a body have its colour, and its name with the next free number.
     Became cut(std::string_view rope, std::size_t segment);
     Became cut_cloth(std::string_view cloth, std::span<const rope::ClothLine> lines);
     Became part_body(std::string_view body);
@@ -82,6 +96,7 @@ class NamedWorld {
     void set_friction(std::string_view body, std::optional<float> friction);
     void set_tear(std::string_view body, float tear);
     void rename(std::string_view body, const std::string& name);
+    void set_colour(std::string_view body, BodyColour colour);
     std::size_t particle(std::string_view body, std::size_t index) const;
     void pin(std::size_t particle, const glm::dvec3& at, double seconds = 0.0);
     void attach(std::size_t particle, std::string_view collider);
@@ -130,6 +145,7 @@ class NamedWorld {
 
     rope::World world_;
     std::vector<std::string> bodies_, colliders_, ties_;  ///< by slot
+    std::vector<BodyColour> colours_;                     ///< of bodies, by slot
 };
 
 }  // namespace tendril::app

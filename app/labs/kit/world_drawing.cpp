@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "app/labs/kit/race.hpp"
 #include "app/view/surfaces.hpp"
 
 namespace tendril::app {
@@ -20,6 +21,14 @@ glm::vec3 cloth_front(const Palette& palette) {
     return glm::mix(palette.accent, palette.joint, 0.35f);
 }
 
+glm::vec3 body_colour(const NamedWorld& world, const rope::Body& body, const Palette& palette) {
+    if (const BodyColour own = world.colour(body); own != BodyColour::ByKind)
+        return racer_colour(palette, static_cast<std::size_t>(own));
+    return body.kind == rope::Body::Kind::Cloth  ? cloth_front(palette)
+           : body.kind == rope::Body::Kind::Hair ? glm::mix(palette.target, palette.ghost, 0.55f)
+                                                 : palette.joint;
+}
+
 glm::vec3 strain_colour(float strain, const Palette& palette) {
     const float size = std::abs(strain);
     const float share =
@@ -32,12 +41,10 @@ glm::vec3 strain_colour(float strain, const Palette& palette) {
 std::vector<glm::vec3> particle_colours(const NamedWorld& world, const Palette& palette, bool by_strain) {
     const rope::State& state = world.state();
     if (!by_strain) {
-        std::vector<glm::vec3> colours(world.size(), palette.joint);
-        for (const rope::Body& body : state.bodies) {
-            if (body.kind != rope::Body::Kind::Hair) continue;
+        std::vector<glm::vec3> colours(world.size());
+        for (const rope::Body& body : state.bodies)
             std::fill_n(colours.begin() + static_cast<std::ptrdiff_t>(body.first), body.count,
-                        glm::mix(palette.target, palette.ghost, 0.55f));
-        }
+                        body_colour(world, body, palette));
         return colours;
     }
     // The worst strain of the links at each particle.
@@ -95,11 +102,12 @@ void draw_cloth(DrawList& list, const Camera& camera, const NamedWorld& world, c
                 std::span<const glm::vec3> positions, std::span<const glm::vec3> colours,
                 const Palette& palette) {
     const bool plain = colours.empty();
+    const glm::vec3 front = body_colour(world, body, palette);
     // A single thread has no surface.
     if (body.count > 1 && (body.row == 1 || body.rows() == 1)) {
-        const std::vector<glm::vec3> front(body.count, cloth_front(palette));
+        const std::vector<glm::vec3> thread(body.count, front);
         return tube(list, camera, positions.subspan(body.first, body.count), body.radius, strand_sides,
-                    plain ? front : colours.subspan(body.first, body.count));
+                    plain ? thread : colours.subspan(body.first, body.count));
     }
     const std::size_t size = body.row * body.rows();
     std::vector<glm::vec3> points(size, glm::vec3(std::numeric_limits<float>::quiet_NaN())), own;
@@ -110,7 +118,9 @@ void draw_cloth(DrawList& list, const Camera& camera, const NamedWorld& world, c
     }
     const std::vector<std::uint8_t> cells = whole_cells(world, body);
     const ClothGrid grid{static_cast<int>(body.row), static_cast<int>(body.rows()), points, cells};
-    cloth_surface(list, camera, grid, plain ? cloth_front(palette) : palette.head, palette.neutral, own);
+    const bool by_kind = world.colour(body) == BodyColour::ByKind;
+    const glm::vec3 back = by_kind ? palette.neutral : glm::mix(front, palette.neutral, 0.5f);
+    cloth_surface(list, camera, grid, plain ? front : palette.head, back, own);
 }
 
 }  // namespace tendril::app

@@ -89,14 +89,16 @@ rope::Link load_link(const JsonPlace& place, std::size_t particles) {
 /// Names of bodies or colliders, in file order.
 using Names = std::vector<std::string>;
 
-Json save_body(const rope::Body& body, const std::string& name) {
-    Json json{{"name", name},        {"kind", body_kind_name(body.kind)},
-              {"first", body.first}, {"count", body.count},
-              {"row", body.row},     {"radius", number(body.radius)}};
+Json save_body(const NamedWorld& world, const rope::Body& body) {
+    Json json{{"name", world.name(body)}, {"kind", body_kind_name(body.kind)},
+              {"first", body.first},      {"count", body.count},
+              {"row", body.row},          {"radius", number(body.radius)}};
     if (!body.cells.empty()) json["cells"] = body.cells;
     if (body.tear != 0.0f) json["tear"] = number(body.tear);
     if (body.friction) json["friction"] = number(*body.friction);
     if (body.stretch != 0.0f) json["stretch"] = number(body.stretch);
+    if (const BodyColour colour = world.colour(body); colour != BodyColour::ByKind)
+        json["colour"] = body_colours.name(colour);
     return json;
 }
 
@@ -270,7 +272,7 @@ Json save_world(const NamedWorld& world) {
     const rope::State& state = world.state();
     Json bodies = Json::array(), links = Json::array(), particles = Json::array();
     Json pins = Json::array(), colliders = Json::array();
-    for (const rope::Body& body : state.bodies) bodies.push_back(save_body(body, world.name(body)));
+    for (const rope::Body& body : state.bodies) bodies.push_back(save_body(world, body));
     for (const rope::Link& link : state.links) links.push_back(save_link(link));
     for (std::size_t i = 0; i < state.position.size(); ++i) particles.push_back(save_particle(state, i));
     for (const rope::Pin& pin : state.pins) pins.push_back(save_pin(world, pin));
@@ -339,7 +341,12 @@ NamedWorld load_world(const JsonPlace& place) {
             state.contacts.push_back(load_contact(row, size));
         });
     }
-    return {std::move(state), body_names, collider_names, tie_names};
+    NamedWorld world(std::move(state), body_names, collider_names, tie_names);
+    place["bodies"].for_each("bodies", max_lab_particles, [&](const JsonPlace& each) {
+        if (const auto colour = each.optional("colour"))
+            world.set_colour(each["name"].text(), colour->choice(body_colours));
+    });
+    return world;
 }
 
 }  // namespace tendril::app

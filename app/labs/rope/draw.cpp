@@ -39,7 +39,7 @@ class Drawing {
         colours_ = particle_colours(world_, view_.palette, part_.view.strain);
         if (!part_.view.strain) mark_selection();
         for (const rope::Body& body : world_.state().bodies) {
-            const bool coloured = part_.view.strain || chosen(body);
+            const bool coloured = part_.view.strain || marked(body);
             if (body.kind != rope::Body::Kind::Cloth)
                 draw_strands(list_, view_.camera, body, positions_, colours_, part_.view.sides);
             else
@@ -65,6 +65,15 @@ class Drawing {
     }
     bool chosen(const rope::Body& body, std::size_t i) const {
         return chosen(body) && part_.selection->particles.has(i);
+    }
+
+    /// Whether its particles show which are selected: the colour of the body says that all of it is.
+    bool shows_selected(const rope::Body& body) const {
+        return chosen(body) && (body.count == 1 || part_.selection->particles.all().size() < body.count);
+    }
+    /// One with a colour of its own keeps it as far as its particles show the selection.
+    bool marked(const rope::Body& body) const {
+        return chosen(body) && (world_.colour(body) == BodyColour::ByKind || !shows_selected(body));
     }
 
     glm::vec3 collider_colour(std::size_t i) const {
@@ -113,7 +122,7 @@ class Drawing {
 
     void mark_selection() {
         for (const rope::Body& body : world_.state().bodies) {
-            if (!chosen(body)) continue;
+            if (!marked(body)) continue;
             for (std::size_t i = body.first; i < body.first + body.count; ++i)
                 colours_[i] = glm::mix(colours_[i], view_.palette.selection, 0.35f);
         }
@@ -191,9 +200,7 @@ class Drawing {
         for (const rope::Pin& pin : world_.state().pins) pinned[pin.particle] = !pin.collider;
         const bool cuts = part_.tool == RopeTool::Cut;
         for (const rope::Body& body : world_.state().bodies) {
-            // The colour of the body says that all of it is selected.
-            const bool some =
-                chosen(body) && (body.count == 1 || part_.selection->particles.all().size() < body.count);
+            const bool some = shows_selected(body);
             for (std::size_t i = 0; i < body.count; ++i) {
                 const std::size_t particle = body.first + i;
                 const PickId pick = particle_pick(particle);
@@ -265,7 +272,18 @@ std::vector<LegendRow> RopeLab::legend(const Workspace& workspace) const {
     const Palette& colours = palette(workspace.settings.theme);
     std::vector<LegendRow> rows{{"pinned", colours.target}, {"selection", colours.selection}};
     if (rope_past().shows_ghosts(workspace.settings)) rows.push_back({ghost_legend, colours.ghost});
-    if (rope_part(workspace).view.strain) {
+    const RopePart& part = rope_part(workspace);
+    if (!part.view.strain) {
+        for (const BodyColour colour : body_colours.values()) {
+            std::vector<const rope::Body*> bodies;
+            for (const rope::Body& body : part.world->state().bodies)
+                if (part.world->colour(body) == colour) bodies.push_back(&body);
+            if (colour == BodyColour::ByKind || bodies.empty()) continue;
+            std::string name = part.world->name(*bodies.front());
+            if (bodies.size() > 1) name += " and " + std::to_string(bodies.size() - 1) + " more";
+            rows.push_back({name, body_colour(*part.world, *bodies.front(), colours)});
+        }
+    } else {
         rows.push_back({"its length", strain_colour(0.0f, colours)});
         rows.push_back({"1 % too long", strain_colour(0.01f, colours)});
         rows.push_back({"10 % too long", strain_colour(0.1f, colours)});

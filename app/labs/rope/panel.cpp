@@ -218,10 +218,12 @@ void body_rows(const NamedWorld& world, const rope::Body& body, Emit& emit) {
     cloth ? rows.rows("width", "columns", "rows") : rows.row("segments");
     rows.row("mass");
     if (settings.density) rows.row("density", {.unit = cloth ? "kg/m^2" : "kg/m"});
-    rows.rows("radius", "friction", "stretch");
+    rows.rows("radius", "friction");
+    if (settings.stretch) rows.row("stretch");
     if (settings.shear) rows.row("shear");
     if (settings.bend) rows.row("bend");
     if (settings.tear) rows.row("tear");
+    rows.row("colour");
     const ArgumentList which{{"rope", world.name(body)}};
     if (row_button("Subdivide", 3, true, "Halves each segment; shape, motion and material stay"))
         emit("rope.subdivide", which);

@@ -1,5 +1,6 @@
 #include "app/labs/rope/rope_fields.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <tendril/magnitude.hpp>
 
@@ -13,6 +14,7 @@ std::span<const tendril::Field> tendril::fields<tendril::app::BodySettings>() no
     using app::BodySettings;
     constexpr FieldRange any{0.0, max_magnitude}, extent{1e-6, max_magnitude};
     constexpr double most = app::max_lab_particles;
+    static constexpr auto colours = app::body_colours.name_array();
     static constexpr Field rows[] = {
         field<&BodySettings::length>("length", extent, "m"),
         field<&BodySettings::width>("width", extent, "m"),
@@ -26,7 +28,8 @@ std::span<const tendril::Field> tendril::fields<tendril::app::BodySettings>() no
         field<&BodySettings::stretch>("stretch", any, "1/N"),
         field<&BodySettings::shear>("shear", any, "m/N"),
         field<&BodySettings::bend>("bend", any, "m/N"),
-        field<&BodySettings::tear>("tear", any)};
+        field<&BodySettings::tear>("tear", any),
+        field<&BodySettings::colour>("colour", colours)};
     return rows;
 }
 
@@ -121,7 +124,13 @@ std::span<const FieldText> field_texts<BodySettings>() {
                        "at its free edge unless it collides with itself."),
         tears_row("tear", true,
                   "The strain at which a cloth or rope tears: at 10 %, in commands 0.1, it is a tenth "
-                  "longer. 0: never.")};
+                  "longer. 0: never."),
+        {.name = "colour",
+         .label = "colour",
+         .help = "Its colour in the picture, and in the legend. By its kind: ropes, cloth and hair differ. "
+                 "While strain is shown as colour, strain has it.",
+         .listed = true,
+         .choices = body_colours.rows}};
     return texts;
 }
 
@@ -328,7 +337,11 @@ std::span<const FieldText> field_texts<rope::Settings>() {
 
 BodySettings settings_of(const NamedWorld& world, const rope::Body& body) {
     using Kind = rope::Link::Kind;
-    const auto compliance = [&](Kind kind) {
+    const auto compliance = [&](Kind kind) -> std::optional<float> {
+        const auto its = [&](const rope::Link& link) {
+            return link.kind == kind && link.a - body.first < body.count;
+        };
+        if (std::ranges::none_of(world.state().links, its)) return std::nullopt;
         return static_cast<float>(world.world().compliance(body, kind));
     };
     const rope::Resolution now = rope::resolution(body);
@@ -336,7 +349,8 @@ BodySettings settings_of(const NamedWorld& world, const rope::Body& body) {
                           .mass = world.world().mass(body),
                           .radius = body.radius,
                           .friction = body.friction.value_or(world.settings().friction),
-                          .stretch = compliance(Kind::Stretch)};
+                          .stretch = compliance(Kind::Stretch),
+                          .colour = world.colour(body)};
     if (const double density = world.world().density(body); density > 0.0) settings.density = density;
     if (body.kind != rope::Body::Kind::Rope) settings.bend = compliance(Kind::Bend);
     if (body.kind != rope::Body::Kind::Hair) settings.tear = body.tear;
@@ -378,10 +392,11 @@ void set_body(RopeEdit& edit, const std::string& name, const Arguments& given) {
         const bool own = wanted.friction != world.settings().friction;
         world.set_friction(name, own ? std::optional(wanted.friction) : std::nullopt);
     }
-    if (wanted.stretch != now.stretch) world.set_compliance(name, Kind::Stretch, wanted.stretch);
+    if (wanted.stretch != now.stretch) world.set_compliance(name, Kind::Stretch, *wanted.stretch);
     if (wanted.shear != now.shear) world.set_compliance(name, Kind::Shear, *wanted.shear);
     if (wanted.bend != now.bend) world.set_compliance(name, Kind::Bend, *wanted.bend);
     if (wanted.tear != now.tear) world.set_tear(name, *wanted.tear);
+    if (wanted.colour != now.colour) world.set_colour(name, wanted.colour);
     if (given.has("name")) rename_body(edit, name, given.text("name"));
 }
 

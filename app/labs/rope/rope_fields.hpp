@@ -22,10 +22,11 @@ struct BodySettings {
     float radius = 0.02f;                  ///< metres: half of its thickness
     float friction = 0.0f;                 ///< the world's, unless it has its own
     /// Strain per newton: of a rope, a strand, or a strip of cloth a metre wide.
-    float stretch = 0.0f;
+    std::optional<float> stretch{};
     /// Compliance of its links, m/N.
     std::optional<float> shear{}, bend{};
     std::optional<float> tear{};  ///< strain at which its links tear; 0: never
+    BodyColour colour{};
     bool operator==(const BodySettings&) const = default;
 };
 

@@ -181,9 +181,13 @@ Json body_state(const NamedWorld& world, const rope::Body& body, const ShownPart
     Json particles = Json::array();
     for (std::size_t i = body.first; i < body.first + body.count; ++i)
         particles.push_back({{"position", dpoint(all.pose[i])}, {"pinned", bool(all.pinned[i])}});
-    Json json{{"name", world.name(body)},        {"length", world.length(body)},
-              {"radius", number(body.radius)},   {"particles", std::move(particles)},
-              {"stretch", number(body.stretch)}, {"length_error", world.length_error(body)},
+    Json json{{"name", world.name(body)},
+              {"length", world.length(body)},
+              {"colour", body_colours.name(world.colour(body))},
+              {"radius", number(body.radius)},
+              {"particles", std::move(particles)},
+              {"stretch", number(body.stretch)},
+              {"length_error", world.length_error(body)},
               {"energy", world.energy(body)}};
     if (body.kind != rope::Body::Kind::Rope) json["row"] = body.row;
     if (!body.cells.empty()) json["cells"] = body.cells;

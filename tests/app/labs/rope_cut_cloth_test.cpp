@@ -223,7 +223,8 @@ TEST_F(RopeCutCloth, AStrokeCutsBareThreads) {
 
 /// Torn cloth comes apart by itself, and what is selected and held stays with its particles.
 TEST_F(RopeCutCloth, TornClothComesApart) {
-    run("rope.set", {{"rope", "cloth"}, {"tear", 0.05}});
+    run("rope.set",
+        {{"rope", "cloth"}, {"tear", 0.05}, {"bend", 0.25}, {"friction", 0.75}, {"colour", "teal"}});
     run("rope.select", {{"rope", "cloth"}, {"particle", 60}});
     for (int c = 0; c < 8; ++c)
         for (const int r : {0, 7})
@@ -237,6 +238,13 @@ TEST_F(RopeCutCloth, TornClothComesApart) {
         for (const rope::Body& each : now.bodies) EXPECT_FALSE(world().name(each).empty());
     }
     EXPECT_GT(world().state().bodies.size(), 1u);
+    for (const rope::Body& each : world().state().bodies) {
+        const BodySettings made_of = settings_of(world(), each);
+        EXPECT_EQ(made_of.tear, 0.05f);
+        EXPECT_EQ(made_of.bend.value_or(0.25f), 0.25f);
+        EXPECT_EQ(made_of.friction, 0.75f);
+        EXPECT_EQ(made_of.colour, BodyColour::Teal);
+    }
 }
 
 /// A rope tears where it is pulled apart, and both ends go on as ropes.
@@ -250,6 +258,7 @@ TEST_F(RopeCutCloth, ARopeTears) {
     std::size_t particles = 0;
     for (const rope::Body& each : world().state().bodies) {
         EXPECT_EQ(each.row, each.count);
+        EXPECT_EQ(each.tear, 0.1f);
         particles += each.count;
     }
     EXPECT_EQ(particles, 9u);

@@ -1,4 +1,8 @@
 // Editing the material of ropes, cloth and hair while they hang.
+#include <cmath>
+
+#include "app/labs/kit/race.hpp"
+#include "app/labs/kit/world_drawing.hpp"
 #include "app/labs/rope/rope_fields.hpp"
 #include "app/labs/rope/rope_lab.hpp"
 #include "tests/app/labs/lab_support.hpp"
@@ -39,7 +43,7 @@ TEST_F(RopeSet, ChangesWhatABodyIsMadeOf) {
     EXPECT_NEAR(rope.length, 1.5f, 1e-6f);
     EXPECT_NEAR(rope.mass, 4.0, 1e-12);
     EXPECT_EQ(rope.radius, 0.1f);
-    EXPECT_NEAR(rope.stretch, 1e-4, 1e-9);
+    EXPECT_NEAR(*rope.stretch, 1e-4, 1e-9);
     run("rope.set", {{"rope", "cloth"}, {"shear", 0.5}, {"bend", 0.25}, {"tear", 2}});
     EXPECT_EQ(made_of("cloth").shear, 0.5f);
     EXPECT_EQ(made_of("cloth").bend, 0.25f);
@@ -51,6 +55,70 @@ TEST_F(RopeSet, ChangesWhatABodyIsMadeOf) {
     EXPECT_EQ(made_of("hair").bend, rope::HairShape().bend);
 }
 
+/// Of each kind, and of what was cut off: what is set is kept, saved, undone and replayed, or refused by
+/// name.
+TEST_F(RopeSet, EveryPropertyOfEveryKind) {
+    run("rope.cut", {{"rope", "rope"}, {"segment", 9}});
+    run("rope.add", {{"name", "bit"}, {"from", {0, 4, 0}}, {"to", {1, 4, 0}}, {"segments", 1}});
+    run("rope.cut", {{"rope", "bit"}, {"segment", 0}});
+    run("rope.cloth.cut",
+        {{"rope", "cloth"}, {"lines", {{{-1, 2.5}, {3.5, 5.5}, {8, 2.5}}, {{-1, 6.5}, {8, 6.5}}}}});
+    tick(30);
+    const struct {
+        const char *body, *lacks;
+    } cases[] = {{"rope", "width columns rows shear"},
+                 {"rope 2", "width columns rows shear"},
+                 {"bit", "length width segments columns rows density stretch shear"},  // a single particle
+                 {"cloth", "segments"},
+                 {"cloth 2", "segments"},                           // with gaps
+                 {"cloth 3", "width segments rows density shear"},  // a thread
+                 {"hair", "width columns rows shear tear"}};
+    const Json start = save_scene(workspace);
+    std::vector<Json> done;
+    for (const auto& each : cases)
+        for (const Field& field : fields<BodySettings>()) {
+            SCOPED_TRACE(each.body + (" " + std::string(field.name)));
+            const BodySettings was = made_of(each.body);
+            const double now = field.get(&was)[0], more = std::isnan(now) || now == 0.0 ? 0.25 : 1.5 * now;
+            const Json value = field.type == FieldType::Choice ? Json(field.choices[2])
+                               : field.type == FieldType::Integer
+                                   ? Json(std::isnan(now) ? 5 : static_cast<int>(now) + 3)
+                                   : Json(more);
+            const Json given{{"rope", each.body}, {field.name, value}};
+            if (std::isnan(now) && field.name == std::string("bend")) continue;
+            if (test::says(each.lacks, field.name)) {
+                refused("rope.set", given);
+                continue;
+            }
+            run("rope.set", given);
+            done.push_back(given);
+            const BodySettings set = made_of(each.body);
+            const double wanted = value.is_string() ? 2.0 : value.get<double>();
+            EXPECT_NEAR(field.get(&set)[0], wanted, 1e-4 * wanted);
+            for (const char* const other :
+                 {"radius", "friction", "stretch", "shear", "bend", "tear", "colour"}) {
+                const Field& kept = *find_field(fields<BodySettings>(), other);
+                const double before = kept.get(&was)[0];
+                if (&kept == &field || std::isnan(before)) continue;
+                EXPECT_NEAR(kept.get(&set)[0], before, 1e-4 * before) << other;
+            }
+            run("undo");
+            EXPECT_EQ(made_of(each.body), was);
+            run("redo");
+            EXPECT_EQ(made_of(each.body), set);
+        }
+    Workspace opened = make_blank_workspace(labs);
+    load_scene(opened, save_scene(workspace));
+    for (const auto& each : cases) {
+        const NamedWorld& loaded = *rope_part(opened).world;
+        EXPECT_EQ(settings_of(loaded, *loaded.find(each.body)), made_of(each.body)) << each.body;
+    }
+    Workspace again = make_blank_workspace(labs);
+    load_scene(again, start);
+    for (const Json& each : done) run_in(again, "rope.set", each);
+    EXPECT_EQ(save_scene(again).at("labs"), save_scene(workspace).at("labs"));
+}
+
 /// Mass follows length at constant density, and stretch is the material's.
 TEST_F(RopeSet, TheMaterialStaysAsABodyGrows) {
     run("rope.set", {{"rope", "rope"}, {"density", 2}, {"stretch", 1e-3}});
@@ -59,7 +127,7 @@ TEST_F(RopeSet, TheMaterialStaysAsABodyGrows) {
     const BodySettings rope = made_of("rope");
     EXPECT_NEAR(*rope.density, 2.0, 1e-6);
     EXPECT_NEAR(rope.mass, 3.0 * mass, 0.15 * mass);
-    EXPECT_NEAR(rope.stretch, 1e-3, 1e-9);
+    EXPECT_NEAR(*rope.stretch, 1e-3, 1e-9);
     EXPECT_EQ(rope.segments, 24);
     EXPECT_EQ(rope.width.has_value() || rope.columns.has_value(), false);
     run("rope.set", {{"rope", "cloth"}, {"length", 2}, {"width", 0.5}, {"columns", 12}, {"rows", 5}});
@@ -127,6 +195,39 @@ TEST_F(RopeSet, ABodyHasAFrictionOfItsOwn) {
     run("rope.set", {{"rope", "rope"}, {"friction", 0.5}});
     run("rope.settings", {{"friction", 0.125}});
     EXPECT_EQ(made_of("rope").friction, 0.125f);
+}
+
+/// In the picture and the legend; pieces keep it, and a body that takes a freed slot does not.
+TEST_F(RopeSet, ABodyHasAColour) {
+    const Palette& colours = palette(workspace.settings.theme);
+    const auto legend = [&] { return lab().legend(workspace); };
+    const auto colour = [&](const char* body) { return body_colour(world(), *world().find(body), colours); };
+    const std::size_t rows = legend().size();
+    const glm::vec3 usual = colour("cloth"), pink = racer_colour(colours, 2);
+    run("rope.set", {{"rope", "cloth"}, {"colour", "pink"}});
+    EXPECT_EQ(colour("cloth"), pink);
+    EXPECT_EQ(particle_colours(world(), colours, false)[world().find("cloth")->first], pink);
+    EXPECT_EQ(colour("rope"), colours.joint);
+    ASSERT_EQ(legend().size(), rows + 1);
+    EXPECT_EQ(legend().back().name, "cloth");
+    EXPECT_EQ(legend().back().colour, pink);
+    run("rope.cloth.cut", {{"rope", "cloth"}, {"points", {{-1, 3.5}, {8, 3.5}}}});
+    EXPECT_EQ(colour("cloth 2"), pink);
+    EXPECT_TRUE(test::says(legend().back().name, "cloth and 1 more"));
+    EXPECT_EQ(lab().state(workspace)["cloths"][1]["colour"], "pink");
+    load_scene(workspace, save_scene(workspace));
+    EXPECT_EQ(colour("cloth 2"), pink);
+    run("rope.view", {{"strain", true}});
+    EXPECT_NE(legend().back().colour, pink);
+    run("rope.remove", {{"name", "cloth 2"}});
+    run("rope.cloth.add", {{"corner", {9, 2, 0}}, {"along", {1, 0, 0}}, {"down", {0, -1, 0}}});
+    EXPECT_EQ(colour("cloth 2"), usual);
+    run("rope.set", {{"rope", "cloth"}, {"colour", "by_kind"}});
+    EXPECT_EQ(colour("cloth"), usual);
+    run("undo");
+    EXPECT_EQ(colour("cloth"), pink);
+    EXPECT_TRUE(
+        test::says(refused("rope.set", {{"rope", "rope"}, {"colour", "red"}}), "rope.set colour pink red"));
 }
 
 TEST_F(RopeSet, RenamesABody) {
