@@ -37,6 +37,7 @@
 #include <string_view>
 
 #include "tendril/ik/limit.hpp"
+#include "tendril/ik/plane.hpp"
 #include "tendril/ik/report.hpp"
 #include "tendril/quat.hpp"
 #include "tendril/result.hpp"
@@ -55,6 +56,11 @@ struct ManyOptions {
     bool every_iteration = false;
     /// For the scalar solver within limits, as Options::restarts.
     std::optional<int> restarts{};
+    /// Keeps every chain in a plane of this normal through its own root, as Options::plane. No state is kept:
+    /// with Side::Free a chain stays on the side that its joints are on. The scalar solver takes every chain,
+    /// so this costs what a loop over Solver::solve does, in as many threads as given. Not in a batch with
+    /// limits: it has its own. Rotations are not maintained.
+    std::optional<Plane> plane{};
     /// Runs the work of the threads (at most as many as given to Batch::make, fewer if there is little work);
     /// by default the library's own threads.
     Tasks tasks{};

@@ -9,6 +9,7 @@
 #include <span>
 
 #include "tendril/ik/limit.hpp"
+#include "tendril/ik/plane.hpp"
 #include "tendril/ik/pole_turn.hpp"
 #include "tendril/ik/report.hpp"
 #include "tendril/quat.hpp"
@@ -27,6 +28,10 @@ struct Options {
     bool every_iteration = false;
     /// One per bone, at the joint where the bone starts; or empty.
     std::span<const Limit> limits{};
+    /// Keeps the chain in a plane, see plane.hpp. It has limits of its own: with `limits` as well the input
+    /// is invalid. `pole` chooses the side, a tip orientation gives the direction of the last bone; pole_turn
+    /// and twist have no effect, and the rest pose is straight along the base direction.
+    std::optional<Plane> plane{};
     /// Pole target, metres: the point that the elbow or knee faces.
     std::optional<glm::vec3> pole{};
     PoleTurn pole_turn = PoleTurn::WholeChain;

@@ -31,6 +31,7 @@ struct Report {
     int perturbations = 0;        ///< times the chain was perturbed to leave a stalled or collinear pose
     int least_squares_steps = 0;  ///< iterations within limits that took such a step
     int restarts = 0;             ///< restarts from other poses
+    float off_plane = 0.0f;       ///< metres from the target to the plane of the chain, if it has one
     bool operator==(const Report&) const = default;
 };
 

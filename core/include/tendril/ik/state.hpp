@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "tendril/ik/plane.hpp"
 #include "tendril/ik/pole_turn.hpp"
 #include "tendril/quat.hpp"
 #include "tendril/result.hpp"
@@ -53,6 +54,7 @@ struct State {
     std::vector<glm::quat> rotations{};
     PoleMemory pole{};
     LimitMemory limits{};
+    Side side = Side::Free;  ///< of a chain in a plane: where the last solve left it; Free before the first
 
     std::size_t bones() const noexcept { return rotations.size(); }
     /// Back to the initial state, for a chain that returns to its rest pose. Does not allocate.

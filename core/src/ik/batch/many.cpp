@@ -314,6 +314,7 @@ ManySummary Batch::Parts::solve(Parts& parts, std::span<const glm::vec3> targets
     scalar.max_iterations = options.max_iterations;
     scalar.every_iteration = options.every_iteration;
     scalar.restarts = options.restarts;
+    scalar.plane = options.plane;
     if (parts.limits) scalar.limits = parts.limits->limits;
     const bool fits = targets.size() == parts.chains && (reports.empty() || reports.size() == parts.chains);
     if (!fits || unit == nullptr || !are_valid(scalar, parts.bones)) {

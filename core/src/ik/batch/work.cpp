@@ -5,6 +5,8 @@
 #include "ik/math.hpp"
 #include "ik/solve/loop.hpp"
 #include "ik/solve/perturbation.hpp"
+#include "ik/solve/plane.hpp"
+#include "ik/solve/validate.hpp"
 #include "tendril/ik/options.hpp"
 
 namespace tendril::ik::detail {
@@ -63,6 +65,7 @@ void Work::solve_block(std::size_t index, Scratch& scratch) noexcept {
     const std::size_t first = index * block_lanes, lanes = std::min(block_lanes, in_.chains - first);
     in_.unit.set_targets(block, lanes, &in_.targets[first], in_.options.tolerance.value_or(-1.0f));
     if (in_.joints != nullptr) take_joints(block, index, lanes);
+    if (in_.options.plane) return solve_planar_block(block, index, lanes, scratch);
     if (in_.limits != nullptr) return solve_limited_block(block, index, lanes, scratch);
     const Left left = in_.unit.classify(block, lanes, in_.options.every_iteration);
     for (std::size_t lane = 0; left.perturb && lane < lanes; ++lane) {
@@ -156,6 +159,25 @@ void Work::solve_scalar(const Block& block, std::size_t lane, std::size_t chain,
     const Report answer = ik::detail::run(Method::Fabrik, problem, Unwatched());
     for (std::size_t i = 1; i <= in_.bones; ++i) block.set_point(i, lane, scratch.scalar.joints[i]);
     report_fallback(chain, answer);
+}
+
+void Work::solve_planar_block(const Block& block, std::size_t index, std::size_t lanes,
+                              Scratch& scratch) noexcept {
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+        const Problem whole = take_out(block, lane, scratch.scalar);
+        const std::size_t chain = index * block_lanes + lane;
+        if (!are_points(whole.joints) || !are_points({&whole.target, 1})) {
+            invalid_.fetch_add(1, std::memory_order_relaxed);
+            if (!in_.reports.empty()) in_.reports[chain] = {.status = Status::InvalidInput};
+            continue;
+        }
+        whole.state.side = Side::Free;
+        PlaneProblem problem(scratch.scalar, whole.joints, whole.state, whole.target, in_.options);
+        const Report answer = problem.solve(Method::Fabrik, nullptr);
+        for (std::size_t i = 1; i <= in_.bones; ++i) block.set_point(i, lane, scratch.scalar.joints[i]);
+        report_fallback(chain, answer);
+    }
+    if (in_.joints != nullptr) return_joints(block, index, lanes);
 }
 
 void Work::report_fallback(std::size_t chain, const Report& answer) noexcept {

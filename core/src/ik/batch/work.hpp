@@ -78,6 +78,8 @@ class Work {
     void solve_scalar(const Block& block, std::size_t lane, std::size_t chain, Scratch& scratch) noexcept;
     void solve_scalar_limited(const Block& block, std::size_t lane, std::size_t chain,
                               Scratch& scratch) noexcept;
+    void solve_planar_block(const Block& block, std::size_t index, std::size_t lanes,
+                            Scratch& scratch) noexcept;
     void report_fallback(std::size_t chain, const Report& answer) noexcept;
     float* rotations(std::size_t index) const noexcept {
         return in_.rotations + index * 4 * in_.bones * block_lanes;

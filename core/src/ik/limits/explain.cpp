@@ -9,6 +9,7 @@
 #include "ik/limits/pose.hpp"
 #include "ik/limits/range.hpp"
 #include "ik/solve/parts.hpp"
+#include "ik/solve/plane.hpp"
 #include "ik/solve/validate.hpp"
 #include "ik/tunables.hpp"
 #include "tendril/ik/options.hpp"
@@ -70,8 +71,9 @@ float Explanation::solve_on(std::span<const Limit> limits) noexcept {
     Options options;
     options.max_iterations = iterations;
     options.limits = limits;
+    options.plane = options_.plane;
     options.tip_orientation = options_.tip_orientation;
-    load_limits(scratch_, limits);
+    load_limits(scratch_, limits, options_.plane.has_value());
     scratch_.saved.limits = {};
     Problem problem{joints_, target_, there(), options, scratch_, scratch_.saved};
     run_limited(Method::Fabrik, problem, Unwatched());
@@ -109,15 +111,17 @@ float Explanation::stopped(std::size_t joint) const noexcept {
     const glm::quat rotation = pose.local[joint];
     if (!is_at_limit(limit, angles_of(limit, rotation))) return 0.0f;
     const glm::vec3 tip = pose.joints.back();
-    glm::vec3 torque = cross(minus(tip, pose.joints[joint]), minus(target_, tip));
-    if (options_.tip_orientation) {  // as error_of has it
+    const std::size_t end = end_of(limited_, joint, options_.limits.size());
+    glm::vec3 torque = cross(minus(pose.joints[end], pose.joints[joint]), minus(target_, tip));
+    if (options_.tip_orientation && end == options_.limits.size()) {  // as error_of has it
         const float arm = tune::limits::orientation_arm * scratch_.reach;
         const glm::quat missing = compose(unit(*options_.tip_orientation), conjugate(pose.rotations.back()));
         torque = plus(torque, times(rotation_vector(missing), arm * arm));
     }
     const float size = length(torque);
     if (!(size > 0.0f)) return 0.0f;
-    const glm::vec3 axis = rotated(conjugate(parent_of(pose.rotations, joint)), times(torque, 1.0f / size));
+    const glm::vec3 axis =
+        rotated(conjugate(parent_of(limited_, pose.rotations, joint)), times(torque, 1.0f / size));
     const glm::quat turned = compose(rotation_about(axis, small_turn), rotation);
     return size * excess_of(limit, angles_of(limit, turned)) / small_turn;
 }
@@ -188,9 +192,18 @@ std::optional<ActiveLimit> Explanation::find() noexcept {
 std::optional<ActiveLimit> Solver::explain(std::span<const glm::vec3> joints, const State& state,
                                            glm::vec3 target, const Options& options) noexcept {
     Workspace& scratch = parts_->scratch;
-    if (options.limits.empty() || bones() == 0 || joints.size() != bones() + 1) return std::nullopt;
+    const bool limited = !(options.plane ? options.plane->limits.empty() : options.limits.empty());
+    if (!limited || bones() == 0 || joints.size() != bones() + 1) return std::nullopt;
     if (!are_points(joints) || !are_points({&target, 1}) || !is_valid(state, bones())) return std::nullopt;
-    if (!are_valid(options, bones()) || !load_limits(scratch, options.limits)) return std::nullopt;
+    if (!are_valid(options, bones())) return std::nullopt;
+    if (options.plane) {
+        std::copy(joints.begin(), joints.end(), scratch.joints.begin());
+        scratch.saved = state;
+        PlaneProblem plane(scratch, scratch.joints, scratch.saved, target, options);
+        scratch.saved = plane.problem().state;
+        return Explanation(scratch, plane.problem().joints, plane.problem().target, plane.options()).find();
+    }
+    if (!load_limits(scratch, options.limits)) return std::nullopt;
     scratch.saved = state;
     std::copy(joints.begin(), joints.end(), scratch.joints.begin());
     return Explanation(scratch, scratch.joints, target, options).find();

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "ik/limits/joint.hpp"
+#include "tendril/ik/plane.hpp"
 #include "tendril/magnitude.hpp"
 
 namespace tendril::ik {
@@ -42,6 +43,16 @@ std::span<const Field> limit_fields(JointKind of) noexcept {
 }
 
 }  // namespace tendril::ik
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::AngleLimit>() noexcept {
+    using ik::AngleLimit;
+    static constexpr const char* from[] = {"bone", "base"};
+    static constexpr Field rows[] = {field<&AngleLimit::min>("min", ik::any_angle, "rad"),
+                                     field<&AngleLimit::max>("max", ik::any_angle, "rad"),
+                                     field<&AngleLimit::from>("from", from)};
+    return rows;
+}
 
 template <>
 std::span<const tendril::Field> tendril::fields<tendril::ik::Limit>() noexcept {

@@ -34,8 +34,10 @@ struct LimitedJoint {
     float up = 0, down = 0, left = 0, right = 0;
     float twist_min = 0, twist_max = 0;
     HalfAngle low, high;  ///< of the hinge's angle, or the twist
-    float mobility = 1;   ///< fraction of a full turn that the joint makes in each step
-    float round = 0;      ///< sin^2 of half the swing up to which it is certainly within
+    bool from_base =
+        false;           ///< measured in the world instead of relative to the parent bone: AngleFrom::Base
+    float mobility = 1;  ///< fraction of a full turn that the joint makes in each step
+    float round = 0;     ///< sin^2 of half the swing up to which it is certainly within
 
     bool hinge() const noexcept { return kind == JointKind::Hinge; }
     bool free() const noexcept { return kind == JointKind::Free; }

@@ -126,26 +126,29 @@ Normal release_limits(LimitedScratch& scratch) noexcept {
 Normal linearize(Problem& problem, const Wanted& wanted) noexcept {
     LimitedScratch& scratch = problem.scratch.limited;
     const LimitedPose& pose = scratch.pose;
-    const glm::vec3 tip = pose.joints[problem.bones()];
     const float unit_length = 1.0f / problem.scratch.reach;
     if (scratch.linearized) return release_limits(scratch);
     Normal normal;
     scratch.at_bounds = 0;
+    std::size_t end = 0;  // of what the joint turns
     for (std::size_t i = 0; i < problem.bones(); ++i) {
         const LimitedJoint& joint = scratch.limits[i];
         JointFreedom& freedom = scratch.freedoms[i];
-        freedom.arm = times(minus(tip, pose.joints[i]), unit_length);
+        if (i == end) end = end_of(scratch, i, problem.bones());
+        freedom.arm = times(minus(pose.joints[end], pose.joints[i]), unit_length);
+        freedom.turns_tip = end == problem.bones();
+        const float scale = freedom.turns_tip ? wanted.scale : 0.0f;
         freedom.ball = !joint.hinge();
         freedom.count = 0;
         freedom.mobility = joint.mobility;
         const auto mobility = static_cast<double>(joint.mobility);
-        const glm::quat parent = parent_of(pose.rotations, i);
+        const glm::quat parent = parent_of(scratch, pose.rotations, i);
         if (joint.hinge()) {
             freedom.axes[0] = rotated(parent, joint.axis);
             freedom.count = 1;
-            add_axis(normal, freedom.axes[0], freedom.arm, wanted.scale, mobility);
+            add_axis(normal, freedom.axes[0], freedom.arm, scale, mobility);
         } else {
-            add_ball(normal, freedom.arm, wanted.scale, mobility);
+            add_ball(normal, freedom.arm, scale, mobility);
         }
         if (is_inside(joint, pose.local[i])) continue;
         freedom.bounds = bounds_of(joint, pose.local[i]);
@@ -154,7 +157,7 @@ Normal linearize(Problem& problem, const Wanted& wanted) noexcept {
             Bounds::Bound bound = freedom.bounds.at[k];
             bound.outward = rotated(parent, bound.outward);
             if (bound.both)
-                forbid(freedom, bound.outward, wanted.scale, normal);
+                forbid(freedom, bound.outward, scale, normal);
             else
                 freedom.bounds.at[open++] = bound;
         }
@@ -176,7 +179,7 @@ bool activate(Problem& problem, const Wanted& by, Normal& normal) noexcept {
             const glm::vec3 rotation = rotation_by(freedom, by), outward = freedom.bounds.at[k].outward;
             const float push = dot(rotation, outward);
             if (push <= 0.0f || push * push <= 1e-8f * dot(rotation, rotation)) continue;
-            any = forbid(freedom, outward, by.scale, normal) || any;
+            any = forbid(freedom, outward, freedom.turns_tip ? by.scale : 0.0f, normal) || any;
         }
     }
     return any;
@@ -215,7 +218,7 @@ void rotate_joints(Problem& problem, const Wanted& by) noexcept {
     const float half = 0.5f / std::sqrt(maximum);
     scratch.trial.joints[0] = problem.root();
     for (std::size_t i = 0; i < problem.bones(); ++i) {
-        const glm::quat parent = parent_of(scratch.pose.rotations, i);
+        const glm::quat parent = parent_of(scratch, scratch.pose.rotations, i);
         const glm::vec3 v = rotated(conjugate(parent), times(scratch.freedoms[i].rotation, half));
         scratch.trial.local[i] = unit(compose({1.0f, v.x, v.y, v.z}, scratch.pose.local[i]));
         clamp(scratch.limits[i], scratch.trial.local[i]);

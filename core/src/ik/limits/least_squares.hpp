@@ -44,7 +44,7 @@ bool activate(Problem& problem, const Wanted& by, Normal& normal) noexcept;
 /// Rotation vector, in the world, of an unlimited ball joint in this step; radians.
 static inline glm::vec3 free_rotation_by(const JointFreedom& freedom, const Wanted& by) noexcept {
     const glm::vec3 rotation = cross(freedom.arm, by.move);
-    return by.scale == 0.0f ? rotation : plus(rotation, times(by.rotation, by.scale));
+    return by.scale == 0.0f || !freedom.turns_tip ? rotation : plus(rotation, times(by.rotation, by.scale));
 }
 /// The part of a rotation that the limit allows.
 static inline glm::vec3 allowed_part(const JointFreedom& freedom, const glm::vec3& whole) noexcept {

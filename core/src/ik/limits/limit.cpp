@@ -5,6 +5,7 @@
 
 #include "ik/limits/joint.hpp"
 #include "ik/math.hpp"
+#include "tendril/ik/plane.hpp"
 
 namespace tendril::ik {
 namespace {
@@ -81,6 +82,13 @@ Limit Limit::hinge(glm::vec3 axis, float min, float max) noexcept {
     limit.min = min;
     limit.max = max;
     return limit;
+}
+
+const char* fault(const AngleLimit& limit) noexcept {
+    if (!is_angle(limit.min)) return "min must be from -180 to 180 degrees";
+    if (!is_angle(limit.max)) return "max must be from -180 to 180 degrees";
+    if (limit.min > limit.max) return "min is over max";
+    return limit.from <= AngleFrom::Base ? nullptr : "from must be bone or base";
 }
 
 const char* fault(const Limit& limit) noexcept {

@@ -67,7 +67,7 @@ bool straighten_within_limits(Problem& problem, const Reachable& can, float allo
         const bool forward = can.status == Status::Stretched || longest;
         const glm::quat turned = transported(scratch.pose.rotations[i], scratch.pose.directions[i],
                                              times(ahead, forward ? 1.0f : -1.0f));
-        pose.local[i] = compose(conjugate(parent_of(pose.rotations, i)), turned);
+        pose.local[i] = compose(conjugate(parent_of(scratch, pose.rotations, i)), turned);
         clamp(scratch.limits[i], pose.local[i]);
         place_bone(problem, pose, i);
         lost += problem.lengths()[i] * (1.0f - dot(pose.directions[i], ahead));

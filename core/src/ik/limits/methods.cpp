@@ -19,6 +19,19 @@ void place(const Problem& problem, Phase phase, std::size_t joint, std::size_t n
     place = to;
 }
 
+/// In scratch.trial: turns a bone so that the next one, which is placed, is within its limit; one that is
+/// limited from the base, into its own limit. Returns whether it had to turn.
+bool clamp_against_next(Problem& problem, std::size_t bone) noexcept {
+    LimitedScratch& scratch = problem.scratch.limited;
+    std::vector<glm::quat>& rotations = scratch.trial.rotations;
+    if (scratch.limits[bone].from_base) return clamp(scratch.limits[bone], rotations[bone]);
+    if (bone + 1 == problem.bones() || scratch.limits[bone + 1].from_base) return false;
+    glm::quat local = compose(conjugate(rotations[bone]), rotations[bone + 1]);
+    if (!clamp(scratch.limits[bone + 1], local)) return false;
+    rotations[bone] = nearly_unit(compose(rotations[bone + 1], conjugate(local)));
+    return true;
+}
+
 /// From the tip, which moves to the target, to the root, which leaves its position.
 template <class Watch>
 void limited_forward_reaching(Problem& problem, Watch watch) noexcept {
@@ -40,10 +53,7 @@ void limited_forward_reaching(Problem& problem, Watch watch) noexcept {
         }
         place(problem, Phase::ForwardReaching, i, i + 1, from.joints[i], to.joints[i],
               moved(next, to.directions[i], -length), watch);
-        if (i == last) continue;
-        glm::quat local = compose(conjugate(to.rotations[i]), to.rotations[i + 1]);
-        if (!clamp(problem.scratch.limited.limits[i + 1], local)) continue;
-        to.rotations[i] = nearly_unit(compose(to.rotations[i + 1], conjugate(local)));
+        if (!clamp_against_next(problem, i)) continue;
         to.directions[i] = bone_direction(problem, to.rotations[i], i);
         place(problem, Phase::Limit, i, i + 1, to.joints[i], to.joints[i],
               moved(next, to.directions[i], -length), watch);
@@ -68,7 +78,7 @@ void limited_backward_reaching(Problem& problem, Watch watch) noexcept {
             pose.rotations[i] = transported(pose.rotations[i], old, pose.directions[i]);
         }
         const LimitedScratch& scratch = problem.scratch.limited;
-        const glm::quat parent = parent_of(pose.rotations, i);
+        const glm::quat parent = parent_of(scratch, pose.rotations, i);
         if (const LimitedJoint& joint = scratch.limits[i]; joint.mobility < 1.0f) {
             const glm::quat local = compose(conjugate(parent), pose.rotations[i]);
             pose.rotations[i] =
@@ -93,18 +103,24 @@ template <class Watch>
 void ccd_sweep(Problem& problem, Watch watch) noexcept {
     LimitedScratch& scratch = problem.scratch.limited;
     std::vector<glm::quat>& local = scratch.trial.local;
-    glm::vec3 tip = scratch.pose.joints[problem.bones()];
+    glm::vec3 target = problem.target;
+    glm::vec3 tip = scratch.pose.joints[problem.bones()];  // the end of what the joint turns
     for (std::size_t i = problem.bones(); i-- > 0;) {
         const glm::vec3 at = scratch.pose.joints[i];
-        const glm::quat parent = parent_of(scratch.pose.rotations, i), old = scratch.pose.rotations[i];
+        const glm::quat parent = parent_of(scratch, scratch.pose.rotations, i),
+                        old = scratch.pose.rotations[i];
         const bool placed = i + 1 == problem.bones() && problem.options.tip_orientation;
-        const glm::quat wanted =
-            placed ? *problem.options.tip_orientation : compose(rotation_towards(problem, at, tip), old);
+        const glm::quat wanted = placed ? *problem.options.tip_orientation
+                                        : compose(rotation_towards(problem, at, tip, target), old);
         local[i] = unit(compose(conjugate(parent), wanted));
         local[i] = mobile_part(scratch.limits[i], scratch.pose.local[i], local[i]);
         clamp(scratch.limits[i], local[i]);
         const glm::quat by = unit(compose(compose(parent, local[i]), conjugate(old)));
         tip = plus(at, rotated(by, minus(tip, at)));
+        if (i == 0 || !is_from_base(scratch, i)) continue;
+        // Beyond here nothing turns with the bones before, it only moves along.
+        target = plus(target, minus(at, tip));
+        tip = at;
     }
     forward_kinematics(problem, scratch.trial);
     accept_trial(problem, Phase::Rotate, watch);
@@ -117,7 +133,7 @@ void solve_closed_form(Problem& problem, Watch watch) noexcept {
     const std::span<glm::vec3> joints = problem.joints;
     const TwoBone limb{joints[0], joints[1], joints[2], problem.lengths()[0], problem.lengths()[1]};
     const TwoBoneResult result =
-        two_bone(limb, problem.target, {.pole = problem.options.pole, .twist = problem.options.twist});
+        two_bone(limb, problem.target, {.pole = pole_of_limb(problem), .twist = problem.options.twist});
     for (const std::size_t i : {1u, 2u}) {
         const glm::vec3 to = i == 1 ? result.mid : result.tip;
         watch.moved(problem.iteration, Phase::Analytic, i, i - 1, joints[i], to);

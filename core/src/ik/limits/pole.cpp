@@ -42,6 +42,39 @@ void swivel_as_far_as_allowed(Problem& problem, const glm::vec3& line, float ang
     swivels(problem, line, minimum * angle);
 }
 
+/// Writes the pose mirrored at a line in the plane to scratch.trial. Returns whether the limits allow it.
+bool mirrors(const Problem& problem, const glm::vec3& line) noexcept {
+    LimitedScratch& scratch = problem.scratch.limited;
+    const glm::quat half = minimal_rotation(glm::vec3(1.0f, 0.0f, 0.0f), line), twice = compose(half, half);
+    for (std::size_t i = 0; i < problem.bones(); ++i) {
+        glm::quat& local = scratch.trial.local[i];
+        local = conjugate(scratch.pose.local[i]);
+        if (is_from_base(scratch, i)) local = unit(compose(twice, local));
+        if (excess_of(scratch.limits[i], angles_of(scratch.limits[i], local)) > at_bound) return false;
+    }
+    forward_kinematics(problem, scratch.trial);
+    return true;
+}
+
+/// Forward kinematics moves the tip by rounding; a turn must not cost more than that.
+template <class Watch>
+bool take_turned(Problem& problem, Watch watch) noexcept {
+    LimitedScratch& scratch = problem.scratch.limited;
+    const float allowed = std::max(error_of(problem, scratch.pose), problem.tolerance);
+    if (error_of(problem, scratch.trial) > allowed + 1e-6f * problem.scratch.reach) return false;
+    accept_trial(problem, Phase::Pole, watch);
+    commit(problem);
+    return true;
+}
+
+template <class Watch>
+void mirror_within_limits(Problem& problem, Watch watch) noexcept {
+    const Side side = planar_side(problem);
+    if (side == Side::Free || side == problem.options.plane->bend) return;
+    const glm::vec3 line = math::direction(problem.root(), problem.joints.back(), {1.0f, 0.0f, 0.0f});
+    if (mirrors(problem, line)) take_turned(problem, watch);
+}
+
 }  // namespace
 
 void set_pole_allowance(Problem& problem) noexcept {
@@ -50,6 +83,7 @@ void set_pole_allowance(Problem& problem) noexcept {
 
 template <class Watch>
 void face_pole_within_limits(Problem& problem, Watch watch) noexcept {
+    if (problem.options.plane) return mirror_within_limits(problem, watch);
     if (!problem.options.pole) return remember_pose(problem);
     LimitedScratch& scratch = problem.scratch.limited;
     Options options = problem.options;
@@ -64,12 +98,7 @@ void face_pole_within_limits(Problem& problem, Watch watch) noexcept {
     if (std::abs(angle) <= at_bound) return;
     swivel_as_far_as_allowed(problem, line, angle);
     forward_kinematics(problem, scratch.trial);
-    // Forward kinematics moves the tip by rounding; a turn must not cost more than that.
-    const float allowed = std::max(error_of(problem, scratch.pose), problem.tolerance);
-    if (error_of(problem, scratch.trial) > allowed + 1e-6f * problem.scratch.reach) return;
-    accept_trial(problem, Phase::Pole, watch);
-    commit(problem);
-    remember_pose(problem);
+    if (take_turned(problem, watch)) remember_pose(problem);
 }
 
 template void face_pole_within_limits(Problem&, Unwatched) noexcept;

@@ -54,13 +54,18 @@ static void set_mobilities(LimitedScratch& scratch, std::span<const Limit> limit
         scratch.limits[i].mobility = (1.0f - limits[i].stiffness) / most;
 }
 
-bool load_limits(Workspace& scratch, std::span<const Limit> limits) noexcept {
+bool load_limits(Workspace& scratch, std::span<const Limit> limits, bool planar) noexcept {
     bool changed = false;
+    if (planar != scratch.limited.planar) scratch.limited.made = false;  // for other rest directions
+    scratch.limited.planar = planar;
     for (std::size_t i = 0; i < limits.size(); ++i) {
         if (scratch.limited.made && limits[i] == scratch.limited.source[i]) continue;
         if (fault(limits[i], scratch.rest_directions[i])) return false;
         scratch.limited.source[i] = limits[i];
-        scratch.limited.limits[i] = solvable_joint(limits[i], scratch.rest_directions[i]);
+        LimitedJoint& joint = scratch.limited.limits[i];
+        const bool from_base = planar && joint.from_base;
+        joint = solvable_joint(limits[i], scratch.rest_directions[i]);
+        joint.from_base = from_base;
         changed = true;
     }
     if (changed) set_mobilities(scratch.limited, limits);
@@ -86,7 +91,7 @@ bool load_pose(Problem& problem, Watch watch) noexcept {
             furthest = std::max(furthest, off);
             if (off > 1e-10f) rotation = transported(rotation, bone, along), bone = along;
         }
-        const glm::quat parent = parent_of(pose.rotations, i);
+        const glm::quat parent = parent_of(scratch.limited, pose.rotations, i);
         glm::quat local = compose(conjugate(parent), rotation);
         // The slack exceeds the error of a solve, so that the next one does not begin by moving its result.
         if (clamp(scratch.limited.limits[i], local, 5.0f * at_bound)) {

@@ -23,14 +23,30 @@ static inline glm::quat nearly_unit(const glm::quat& q) noexcept {
     return {q.w * scale, q.x * scale, q.y * scale, q.z * scale};
 }
 
-/// World rotation of the parent bone; identity for the root.
-static inline glm::quat parent_of(const std::vector<glm::quat>& rotations, std::size_t bone) noexcept {
-    return bone == 0 ? glm::quat(1.0f, 0.0f, 0.0f, 0.0f) : rotations[bone - 1];
+/// Whether a bone's rotation is measured in the world: the root's, and of a chain in a plane those whose
+/// limits are. Such a bone does not turn with the bones before it.
+static inline bool is_from_base(const LimitedScratch& scratch, std::size_t bone) noexcept {
+    return bone == 0 || scratch.limits[bone].from_base;
+}
+/// The first joint that does not move with a bone's rotation as if it were fixed to it: that of the next bone
+/// from the base, or one past the tip's bone.
+static inline std::size_t end_of(const LimitedScratch& scratch, std::size_t bone,
+                                 std::size_t bones) noexcept {
+    std::size_t end = bone + 1;
+    while (end < bones && !scratch.limits[end].from_base) ++end;
+    return end;
+}
+
+/// What a bone's rotation is measured from: the world rotation of the parent bone, or identity.
+static inline glm::quat parent_of(const LimitedScratch& scratch, const std::vector<glm::quat>& rotations,
+                                  std::size_t bone) noexcept {
+    return is_from_base(scratch, bone) ? glm::quat(1.0f, 0.0f, 0.0f, 0.0f) : rotations[bone - 1];
 }
 
 /// Rotation relative to the parent bone.
-static inline glm::quat local_rotation(const std::vector<glm::quat>& rotations, std::size_t bone) noexcept {
-    return compose(conjugate(parent_of(rotations, bone)), rotations[bone]);
+static inline glm::quat local_rotation(const LimitedScratch& scratch, const std::vector<glm::quat>& rotations,
+                                       std::size_t bone) noexcept {
+    return compose(conjugate(parent_of(scratch, rotations, bone)), rotations[bone]);
 }
 
 /// Applies the minimal rotation that takes one unit vector to another.
@@ -69,14 +85,15 @@ float furthest_moved(const Problem& problem, const LimitedPose& from, const Limi
 void forward_kinematics(const Problem& problem, LimitedPose& pose) noexcept;
 /// Places one bone; those before it are done.
 static inline void place_bone(const Problem& problem, LimitedPose& pose, std::size_t bone) noexcept {
-    pose.rotations[bone] = nearly_unit(compose(parent_of(pose.rotations, bone), pose.local[bone]));
+    pose.rotations[bone] =
+        nearly_unit(compose(parent_of(problem.scratch.limited, pose.rotations, bone), pose.local[bone]));
     pose.directions[bone] = bone_direction(problem, pose.rotations[bone], bone);
     pose.joints[bone + 1] = moved(pose.joints[bone], pose.directions[bone], problem.lengths()[bone]);
 }
 
 /// Before a solve: prepares the limits that differ from those of the last one. One per bone, or none; false
-/// if a limit is invalid for its bone.
-bool load_limits(Workspace& scratch, std::span<const Limit> limits) noexcept;
+/// if a limit is invalid for its bone. In a plane a joint keeps LimitedJoint::from_base.
+bool load_limits(Workspace& scratch, std::span<const Limit> limits, bool planar = false) noexcept;
 
 /// Loads the problem's joints and rotations into scratch.pose. If joints moved and rotations did not,
 /// transports the rotations to the joints, clamps each joint from the root on and places what follows it.

@@ -19,7 +19,7 @@ using namespace tune::limits;
 glm::quat bent_rotation(const Problem& problem, std::size_t i, const glm::vec3& by) noexcept {
     const LimitedScratch& scratch = problem.scratch.limited;
     const LimitedJoint& joint = scratch.limits[i];
-    glm::vec3 half = times(rotated(conjugate(parent_of(scratch.pose.rotations, i)), by), 0.5f);
+    glm::vec3 half = times(rotated(conjugate(parent_of(scratch, scratch.pose.rotations, i)), by), 0.5f);
     if (joint.hinge()) half = times(joint.axis, dot(half, joint.axis) < 0.0f ? -length(half) : length(half));
     glm::quat rotation = unit(compose({1.0f, half.x, half.y, half.z}, scratch.pose.local[i]));
     clamp(joint, rotation);

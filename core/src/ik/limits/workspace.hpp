@@ -30,7 +30,8 @@ struct LimitedPose {
 
 /// The world axes about which a joint may rotate.
 struct JointFreedom {
-    glm::vec3 arm{0.0f};              ///< from the joint to the tip, in reaches
+    glm::vec3 arm{0.0f};              ///< from the joint to the end of what it turns, in reaches
+    bool turns_tip = true;            ///< whether the tip's bone turns with it
     bool ball = true;                 ///< true: all axes but those listed; false: only those listed
     int count = 0;                    ///< number of axes
     float mobility = 1.0f;            ///< as LimitedJoint::mobility
@@ -55,6 +56,7 @@ struct LimitedScratch {
     std::size_t at_bounds = 0;
     Normal normal;            ///< with no one-sided bound active
     bool linearized = false;  ///< whether these four match `pose`
+    bool planar = false;      ///< whether `limits` are those of a chain in a plane
     bool made = false;        ///< whether `limits` has been filled, for these rest directions
     LimitedPose pose;         ///< the current one
     LimitedPose trial;        ///< result of a step, not accepted yet

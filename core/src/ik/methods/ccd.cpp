@@ -45,11 +45,12 @@ void show_last_rotation(Problem& problem, Watch watch) noexcept {
 
 }  // namespace
 
-glm::quat rotation_towards(const Problem& problem, const glm::vec3& at, const glm::vec3& tip) noexcept {
+glm::quat rotation_towards(const Problem& problem, const glm::vec3& at, const glm::vec3& tip,
+                           const glm::vec3& target) noexcept {
     // Differences of coordinates have an error of about 1e-7 of the reach; an arm of a tenth of this would be
     // noise.
     const float nothing = std::max(1e-6f * problem.scratch.reach, FLT_MIN);
-    const glm::vec3 to_tip = minus(tip, at), to_target = minus(problem.target, at);
+    const glm::vec3 to_tip = minus(tip, at), to_target = minus(target, at);
     const float a = length(to_tip), b = length(to_target);
     if (!(a > nothing && b > nothing)) return no_rotation;
     return minimal_rotation(times(to_tip, 1.0f / a), times(to_target, 1.0f / b));
@@ -61,7 +62,7 @@ void ccd_iteration(Problem& problem, Watch watch) noexcept {
     if constexpr (Watch::watching) std::copy(joints.begin(), joints.end(), problem.scratch.old.begin());
     glm::vec3 tip = joints.back();
     for (std::size_t i = problem.bones(); i-- > 0;) {
-        const glm::quat rotation = rotation_towards(problem, joints[i], tip);
+        const glm::quat rotation = rotation_towards(problem, joints[i], tip, problem.target);
         problem.scratch.rotations[i] = rotation;
         tip = plus(joints[i], rotated(rotation, minus(tip, joints[i])));
         if constexpr (Watch::watching) {

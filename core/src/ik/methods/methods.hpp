@@ -2,6 +2,8 @@
 // begins with its method's source, what it computes and its cost; all are O(n). Not installed.
 #pragma once
 
+#include <optional>
+
 #include "ik/solve/problem.hpp"
 
 namespace tendril::ik::detail {
@@ -28,7 +30,8 @@ template <class Watch>
 void ccd_iteration(Problem& problem, Watch watch) noexcept;
 /// CCD's rotation of one joint: the minimal one about `at` that brings the tip onto the line to the target.
 /// Identity if the tip or the target is too close to `at` to define a line.
-glm::quat rotation_towards(const Problem& problem, const glm::vec3& at, const glm::vec3& tip) noexcept;
+glm::quat rotation_towards(const Problem& problem, const glm::vec3& at, const glm::vec3& tip,
+                           const glm::vec3& target) noexcept;
 
 // jacobian.cpp
 
@@ -42,6 +45,8 @@ void svd_dls_iteration(Problem& problem, float damping, Watch watch) noexcept;
 
 // two_bone.cpp; the closed form itself is in tendril/ik/two_bone.hpp
 
+/// The pole of the closed form: that of the options, or in a plane one on the chosen side.
+std::optional<glm::vec3> pole_of_limb(const Problem& problem) noexcept;
 /// For two bones only, otherwise InvalidInput. Faces the pole itself, no faster than pole.hpp allows, and
 /// remembers the pose as face_pole does. Does not call iteration_done: the loop does.
 template <class Watch>

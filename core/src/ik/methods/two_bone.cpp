@@ -152,6 +152,15 @@ TwoBoneResult two_bone(const TwoBone& limb, glm::vec3 target, const TwoBoneOptio
 
 namespace detail {
 
+std::optional<glm::vec3> pole_of_limb(const Problem& problem) noexcept {
+    if (!problem.options.plane) return problem.options.pole;
+    const glm::dvec3 root = wide(problem.root()), to_target = minus(wide(problem.target), root);
+    const glm::dvec3 line =
+        line_of({minus(wide(problem.joints[1]), root), minus(wide(problem.joints[2]), root), to_target,
+                 static_cast<double>(problem.scratch.reach)});
+    return narrow(plus(root, times(planar_side(problem, line), static_cast<double>(problem.scratch.reach))));
+}
+
 template <class Watch>
 Report two_bone_solve(Problem& problem, Watch watch) noexcept {
     if (problem.bones() != 2) return {Status::InvalidInput, 0, 0.0f};
@@ -159,9 +168,10 @@ Report two_bone_solve(Problem& problem, Watch watch) noexcept {
     const std::span<glm::vec3> joints = problem.joints;
     const TwoBone limb{joints[0], joints[1], joints[2], problem.lengths()[0], problem.lengths()[1]};
     const double allowance = options.pole ? pole_allowance(problem) : std::numeric_limits<double>::infinity();
-    const TwoBoneResult result = solve(
-        limb, problem.target,
-        {options.pole, options.start_stretch_ratio, options.max_stretch_scale, options.twist}, allowance);
+    const TwoBoneResult result =
+        solve(limb, problem.target,
+              {pole_of_limb(problem), options.start_stretch_ratio, options.max_stretch_scale, options.twist},
+              allowance);
     watch.moved(problem.iteration, Phase::Analytic, 1, 0, joints[1], result.mid);
     watch.moved(problem.iteration, Phase::Analytic, 2, 1, joints[2], result.tip);
     watch.next_step();

@@ -17,6 +17,7 @@ using namespace tune::pole;
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
 constexpr double no_side = 1e-6;  ///< fraction of the reach: smaller offsets are rounding
+constexpr double closed = 1e-2;   ///< fraction of the reach: a planar chain's tip this near the root is at it
 
 /// Direction and size of the chain's offset from a line through its root.
 struct Bend {
@@ -73,9 +74,10 @@ double half_angle_of_arc(double span) noexcept {
 }
 
 /// Direction of the pole from `from`, perpendicular to the line; none if the pole is on the line, to
-/// precision.
+/// precision. In a plane: the chosen side of the line.
 std::optional<glm::dvec3> pole_side(const Problem& problem, const glm::dvec3& from,
                                     const glm::dvec3& line) noexcept {
+    if (problem.options.plane) return planar_side(problem, line);
     const glm::dvec3 arm = minus(wide(*problem.options.pole), from);
     const double minimum = 10.0 * no_side * static_cast<double>(problem.scratch.reach);
     return direction_of(across(arm, line), std::max(minimum, no_side * length(arm)));
@@ -129,7 +131,9 @@ void swivel(Problem& problem, const AxisAngle& rotation, Watch watch) noexcept {
 
 template <class Watch>
 void face_with_whole_chain(Problem& problem, Watch watch) noexcept {
-    const double minimum = no_side * static_cast<double>(problem.scratch.reach);
+    // With the tip at the root, the tolerance decides where a line in the plane points.
+    const double minimum =
+        (problem.options.plane ? closed : no_side) * static_cast<double>(problem.scratch.reach);
     const std::optional<glm::dvec3> line =
         direction_of(minus(wide(problem.joints.back()), wide(problem.root())), minimum);
     if (!line) return;
@@ -176,7 +180,7 @@ void face_with_each_joint(Problem& problem, Watch watch) noexcept {
 
 template <class Watch>
 bool bend_to_pole(Problem& problem, Watch watch) noexcept {
-    if (!problem.options.pole) return false;
+    if (!problem.options.pole && !problem.options.plane) return false;
     const double reach = static_cast<double>(problem.scratch.reach);
     const glm::dvec3 root = wide(problem.root()), arm = minus(wide(problem.target), root);
     const std::optional<glm::dvec3> line = direction_of(arm, no_side * reach);
@@ -199,7 +203,7 @@ bool bend_to_pole(Problem& problem, Watch watch) noexcept {
 
 double pole_allowance(const Problem& problem) noexcept {
     const PoleMemory& last = problem.state.pole;
-    if (!last.valid || last.turn != problem.options.pole_turn) return unlimited;
+    if (problem.options.plane || !last.valid || last.turn != problem.options.pole_turn) return unlimited;
     const glm::vec3 root = problem.root();
     double joints = 0.0;
     for (std::size_t i = 1; i < problem.joints.size(); ++i) {
@@ -230,12 +234,13 @@ void remember_pose(Problem& problem) noexcept {
 
 template <class Watch>
 void transport_to_pole(Problem& problem, Watch watch) noexcept {
-    if (!problem.options.pole) {
+    if (!problem.options.pole && !problem.options.plane) {
         problem.state.pole.valid = false;
         return;
     }
     problem.scratch.pole.allowance = pole_allowance(problem);
-    const double minimum = 1e-4 * static_cast<double>(problem.scratch.reach);
+    const double minimum =
+        (problem.options.plane ? closed : 1e-4) * static_cast<double>(problem.scratch.reach);
     const glm::dvec3 root = wide(problem.root());
     const std::optional<glm::dvec3> from = direction_of(minus(wide(problem.joints.back()), root), minimum);
     const std::optional<glm::dvec3> to = direction_of(minus(wide(problem.target), root), minimum);
@@ -255,13 +260,29 @@ template <class Watch>
 void face_pole(Problem& problem, Watch watch) noexcept {
     if (problem.options.pole && problem.options.pole_turn == PoleTurn::EachJoint) {
         face_with_each_joint(problem, watch);
-    } else if (problem.options.pole) {
+    } else if (problem.options.pole || problem.options.plane) {
         face_with_whole_chain(problem, watch);
     }
     remember_pose(problem);
 }
 
+glm::dvec3 planar_side(const Problem& problem, const glm::dvec3& line) noexcept {
+    const double sign = problem.options.plane->bend == Side::Right ? -1.0 : 1.0;
+    return {sign * line.z, 0.0, -sign * line.x};
+}
+
+Side planar_side(const Problem& problem) noexcept {
+    const double reach = static_cast<double>(problem.scratch.reach);
+    const std::optional<glm::dvec3> line =
+        direction_of(minus(wide(problem.joints.back()), wide(problem.root())), closed * reach);
+    if (!line) return Side::Free;
+    const glm::dvec3 side = bend_of(problem, *line).side;
+    const double left = side.x * line->z - side.z * line->x;
+    return std::abs(left) <= 1e-4 * reach ? Side::Free : left > 0.0 ? Side::Left : Side::Right;
+}
+
 glm::vec3 side_of(const Problem& problem, const glm::vec3& line) noexcept {
+    if (problem.options.plane) return narrow(planar_side(problem, wide(line)));
     if (problem.options.pole) {
         const glm::vec3 arm = minus(*problem.options.pole, problem.root());
         const glm::vec3 off = minus(arm, times(line, dot(arm, line)));

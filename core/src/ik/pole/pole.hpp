@@ -33,6 +33,9 @@
 //
 // If the pole is on the line or the chain is straight, there is no side: the chain stays as transported.
 //
+// In a plane the pole is a side, left or right of any line, and the same code mirrors what it would turn: the
+// angle about a line in the plane is 0 or half a turn, and nothing limits it.
+//
 // Cost: O(n) before the iterations and O(n) after.
 #pragma once
 
@@ -54,6 +57,11 @@ bool bend_to_pole(Problem& problem, Watch watch) noexcept;
 /// The direction in which a chain on a line is bent: perpendicular to the line, towards the pole if it is off
 /// the line.
 glm::vec3 side_of(const Problem& problem, const glm::vec3& line) noexcept;
+
+/// In a plane (plane.hpp), in its coordinates: the direction of the chosen side of a line, and the side of
+/// the line from root to tip that the chain is on; Free if it is straight or its ends meet.
+glm::dvec3 planar_side(const Problem& problem, const glm::dvec3& line) noexcept;
+Side planar_side(const Problem& problem) noexcept;
 
 /// After the last iteration: turns the middle joints to the pole and remembers the pose. The tip stays.
 template <class Watch>

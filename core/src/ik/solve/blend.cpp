@@ -18,7 +18,8 @@ JointAngles blended_angles(const JointAngles& a, const JointAngles& b, float par
 /// A limit is convex in its angles, so a blend of two poses within it is within it too.
 glm::quat blended_rotation(const LimitedJoint& joint, const glm::quat& from, const glm::quat& to,
                            float part) noexcept {
-    if (joint.free()) return math::slerp(from, to, part);
+    const bool whole = joint.hinge() && joint.max - joint.min >= 2.0f * pi - at_bound;
+    if (joint.free() || whole) return math::slerp(from, to, part);
     return rotation_of(joint,
                        within(joint, blended_angles(angles_of(joint, from), angles_of(joint, to), part)));
 }
@@ -29,7 +30,7 @@ void blend_within_limits(const Problem& problem) noexcept {
     for (std::size_t i = 0; i < problem.bones(); ++i) {
         scratch.trial.local[i] =
             blended_rotation(scratch.limits[i], problem.scratch.given.local[i],
-                             local_rotation(problem.state.rotations, i), problem.options.weight);
+                             local_rotation(scratch, problem.state.rotations, i), problem.options.weight);
     }
     forward_kinematics(problem, scratch.trial);
 }

@@ -4,6 +4,7 @@
 #include "tendril/ik/active_limit.hpp"
 #include "tendril/ik/method.hpp"
 #include "tendril/ik/observer.hpp"
+#include "tendril/ik/plane.hpp"
 #include "tendril/ik/report.hpp"
 
 namespace tendril::ik {
@@ -38,6 +39,15 @@ const char* name(Status status) noexcept {
 const char* name(Bound bound) noexcept {
     constexpr const char* names[] = {"min", "max", "up", "down", "left", "right", "twist_min", "twist_max"};
     return names[static_cast<std::size_t>(bound)];
+}
+
+const char* name(Side side) noexcept {
+    constexpr const char* names[] = {"free", "left", "right"};
+    return names[static_cast<std::size_t>(side)];
+}
+
+const char* name(AngleFrom from) noexcept {
+    return from == AngleFrom::Base ? "base" : "bone";
 }
 
 const char* name(Phase phase) noexcept {

@@ -6,6 +6,7 @@
 #include "ik/math.hpp"
 #include "ik/pole/pole.hpp"
 #include "ik/tunables.hpp"
+#include "tendril/ik/options.hpp"
 
 namespace tendril::ik::detail {
 namespace {
@@ -89,7 +90,8 @@ template <class Watch>
 void perturb(Problem& problem, int number, Watch watch) noexcept {
     const auto salt = static_cast<std::uint32_t>(number) * 3u;
     bend_bones(problem, problem.iteration, watch, [&](std::size_t i) {
-        const glm::vec3 by{scattered(i, salt + 1), scattered(i, salt + 2), scattered(i, salt + 3)};
+        glm::vec3 by{scattered(i, salt + 1), scattered(i, salt + 2), scattered(i, salt + 3)};
+        if (problem.options.plane) by.y = 0.0f;
         return times(by, bend_angle);
     });
 }

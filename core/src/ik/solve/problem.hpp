@@ -24,6 +24,21 @@ struct Options;
 
 namespace tendril::ik::detail {
 
+/// Memory of a solve in a plane: the chain in its coordinates (plane.cpp).
+struct PlaneScratch {
+    std::vector<glm::vec3> joints;           ///< n + 1
+    std::vector<glm::vec3> rest_directions;  ///< n: all along +X; or, during the solve, the chain's
+    std::vector<Limit> limits;               ///< n: hinges about the normal
+    State state;
+
+    void resize(std::size_t bones) {
+        joints.resize(bones + 1);
+        rest_directions.resize(bones, glm::vec3(1.0f, 0.0f, 0.0f));
+        limits.resize(bones);
+        state = State(bones);
+    }
+};
+
 /// Memory of a solver, allocated once, so that solves do not allocate.
 struct Workspace {
     std::vector<float> lengths;              ///< n
@@ -35,6 +50,7 @@ struct Workspace {
     LimitedScratch limited;                  ///< for solves with limits
     PoleScratch pole;                        ///< for solves with a pole
     LimitedPose given;                       ///< for solves with a weight under 1: the pose to blend from
+    PlaneScratch plane;                      ///< for solves in a plane
     State saved;                             ///< restored after a refused solve; state of explain and of a
                                              ///< batch's chain
     float reach = 0.0f;
@@ -52,6 +68,7 @@ struct Workspace {
         pole.resize(bones);
         given.resize(bones);
         saved = State(bones);
+        plane.resize(bones);
     }
 };
 

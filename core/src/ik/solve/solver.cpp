@@ -9,6 +9,7 @@
 #include "ik/math.hpp"
 #include "ik/solve/loop.hpp"
 #include "ik/solve/parts.hpp"
+#include "ik/solve/plane.hpp"
 #include "ik/solve/validate.hpp"
 #include "math/checks.hpp"
 #include "tendril/ik/options.hpp"
@@ -101,7 +102,10 @@ Report Solver::solve(Method method, std::span<glm::vec3> joints, State& state, g
     if (joints.size() != bones() + 1 || !taken) return invalid_input;
     if (!are_points(joints) || !are_points({&target, 1}) || !are_valid(options, bones()))
         return invalid_input;
-    if (!is_valid(state, bones()) || !load_limits(parts_->scratch, options.limits)) return invalid_input;
+    if (!is_valid(state, bones())) return invalid_input;
+    if (options.plane && bones() > 0)
+        return PlaneProblem(parts_->scratch, joints, state, target, options).solve(method, observer);
+    if (!load_limits(parts_->scratch, options.limits)) return invalid_input;
     Problem problem{joints,  target,          options.tolerance.value_or(1e-3f * reach()),
                     options, parts_->scratch, state};
     int order = 0;

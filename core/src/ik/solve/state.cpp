@@ -47,6 +47,7 @@ void State::reset() noexcept {
     std::fill(rotations.begin(), rotations.end(), unturned);
     pole.valid = false;
     limits = {};
+    side = Side::Free;
 }
 
 Result check(const State& state, std::size_t bones) noexcept {
@@ -61,6 +62,7 @@ Result check(const State& state, std::size_t bones) noexcept {
     if (const Result bad = check_finite("limits.target", state.limits.target); !bad) return bad;
     if (!(state.limits.damping >= 0.0f && state.limits.damping <= 100.0f))
         return refused(operation, "limits.damping", "from 0 to 100", state.limits.damping);
+    if (state.side > Side::Right) return refused(operation, "side", "0 to 2", static_cast<int>(state.side));
     return check(state.pole, bones);
 }
 

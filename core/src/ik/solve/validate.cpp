@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "math/checks.hpp"
+#include "math/vector.hpp"
 #include "tendril/ik/options.hpp"
 
 namespace tendril::ik::detail {
@@ -33,12 +34,21 @@ bool are_valid(const Options& options, std::size_t bones) noexcept {
     if (!within(options.max_stretch_scale, 1.0f, 100.0f)) return false;
     if (!within(options.weight, 0.0f, 1.0f)) return false;
     if (options.restarts && (*options.restarts < 0 || *options.restarts > 1000)) return false;
+    if (options.plane && (!options.limits.empty() || !is_valid(*options.plane, bones))) return false;
     return within(options.twist, -max_magnitude, max_magnitude);
+}
+
+bool is_valid(const Plane& plane, std::size_t bones) noexcept {
+    if (!tendril::detail::is_point(plane.normal) || !(math::length(plane.normal) > 1e-6f)) return false;
+    if (plane.bend > Side::Right || (!plane.limits.empty() && plane.limits.size() != bones)) return false;
+    return std::none_of(plane.limits.begin(), plane.limits.end(),
+                        [](const AngleLimit& limit) { return fault(limit) != nullptr; });
 }
 
 bool is_valid(const State& state, std::size_t bones) noexcept {
     if (state.rotations.size() != bones || state.pole.joints.size() != bones + 1) return false;
     if (!std::all_of(state.rotations.begin(), state.rotations.end(), is_unit)) return false;
+    if (state.side > Side::Right) return false;
     if (state.limits.valid && !within(state.limits.damping, 0.0f, 100.0f)) return false;
     return !state.pole.valid || static_cast<bool>(check(state, bones));
 }

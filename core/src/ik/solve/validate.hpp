@@ -6,6 +6,7 @@
 
 #include "tendril/ik/limit.hpp"
 #include "tendril/ik/method.hpp"
+#include "tendril/ik/plane.hpp"
 #include "tendril/ik/state.hpp"
 #include "tendril/quat.hpp"
 
@@ -30,6 +31,8 @@ inline bool is_unit(const glm::quat& q) noexcept {
 
 /// Whether every option is in the range given in options.hpp, for a chain of so many bones.
 bool are_valid(const Options& options, std::size_t bones) noexcept;
+
+bool is_valid(const Plane& plane, std::size_t bones) noexcept;
 
 /// Whether the state has the right sizes and unit quaternions. Other numbers are only checked if pole.valid.
 bool is_valid(const State& state, std::size_t bones) noexcept;
