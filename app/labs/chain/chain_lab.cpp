@@ -117,6 +117,9 @@ std::optional<Handle> ChainLab::handle(const Workspace& workspace, PickId pick) 
     if (pick == target_pick && !curved) return Handle{"target", target_pick, {part.target}};
     if (const auto control = picked_control(pick); control && curved && *control < part.curve.points.size())
         return Handle{"control." + std::to_string(*control), pick, {part.curve.points[*control]}};
+    if (const auto at = curved ? picked_on_curve(part, pick) : std::nullopt)
+        return Handle{
+            "curve", pick, {ik::curve_point(part.curve.points, part.curve.kind, *at)}, Drag::Nothing};
     if (pick == pole_pick && part.reach.pole) return Handle{"pole", pole_pick, {*part.reach.pole}};
     if (pick < segment_pick(0) || picked_segment(pick) >= part.chain.size()) return std::nullopt;
     const std::size_t index = picked_segment(pick);

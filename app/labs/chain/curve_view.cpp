@@ -43,8 +43,9 @@ class CurveDrawing {
         glm::vec3 from = place(0);
         for (std::size_t i = 0; i < all; ++i) {
             const glm::vec3 to = place(i + 1);
-            list_.line(from, to, px(hovered ? 3.0f : 2.0f), colour).pick =
-                first_curve_pick + static_cast<PickId>(i);
+            Stroke& stroke = list_.line(from, to, px(hovered ? 3.0f : 2.0f), colour);
+            stroke.pick = first_curve_pick + static_cast<PickId>(i);
+            stroke.rank = 1;  // before the bones, which lie along it
             from = to;
         }
         if (curve_.kind == ik::CurveKind::Hermite) return;
