@@ -177,7 +177,8 @@ Bounds ChainLab::bounds(const Workspace& workspace, bool selection_only) const {
         high = glm::max(high, segment.position);
     }
     if (part.mode == ChainMode::Curve)
-        for (const glm::vec3& each : part.curve.points) low = glm::min(low, each), high = glm::max(high, each);
+        for (const glm::vec3& each : part.curve.points)
+            low = glm::min(low, each), high = glm::max(high, each);
     for (const glm::vec3& joint : part.study.start) low = glm::min(low, joint), high = glm::max(high, joint);
     if (part.mode == ChainMode::Reach && part.reach.pole) {
         low = glm::min(low, *part.reach.pole);

@@ -138,7 +138,8 @@ std::size_t ChainPart::bytes() const {
     return sizeof(*this) + chain.size() * sizeof(Segment) + reach.limits.size() * sizeof(ik::Limit) +
            bytes_of(reach.state) + along.given.size() * sizeof(Segment) +
            curve.points.size() * sizeof(glm::vec3) +
-           along.memory.at.size() * (sizeof(double) + sizeof(glm::vec3)) + study.bytes() + selection.all().size() * sizeof(std::size_t);
+           along.memory.at.size() * (sizeof(double) + sizeof(glm::vec3)) + study.bytes() +
+           selection.all().size() * sizeof(std::size_t);
 }
 
 float length_error(const Chain& chain, std::size_t index) {

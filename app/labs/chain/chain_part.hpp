@@ -91,8 +91,8 @@ bool operator==(const ChainPart& a, const ChainPart& b);
 /// Throws std::invalid_argument if a point has left the range of scene files: a saved chain must open again.
 void check_range(const ChainPart& part);
 
-/// Moves the target and applies the mode once, but for Curve, where follow_curve() does. While a study is open,
-/// Reach solves from the study's start.
+/// Moves the target and applies the mode once, but for Curve, where follow_curve() does. While a study is
+/// open, Reach solves from the study's start.
 void reach_for(ChainPart& part, glm::vec3 target, ChainRuntime& runtime);
 /// The joint that a trailing mode moves to the target.
 std::size_t led_joint(const ChainPart& part);

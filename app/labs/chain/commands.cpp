@@ -185,7 +185,8 @@ void select(ChainPart& part, const Arguments& given) {
         const ChainPoint chosen = chain_points.value(given.text("point"));
         if (chosen == ChainPoint::Pole && !(part.mode == ChainMode::Reach && part.reach.pole))
             throw Refused("there is no pole target");
-        if (part.mode == ChainMode::Curve) throw Refused("in mode curve the last control point is the target");
+        if (part.mode == ChainMode::Curve)
+            throw Refused("in mode curve the last control point is the target");
         part.selection.clear();
         part.chosen_point = chosen;
         return;
@@ -255,11 +256,11 @@ void add_mode_commands(CommandTable& table) {
          switch_argument("add",
                          "true: adds to the selection, or with index removes one that is already in it"),
          choice_argument("point", false, "what is selected instead of joints", chain_points.names()),
-         offering(index_argument("control", false, "which control point, instead of joints",
-                                 max_control_points),
-                  [](const Workspace& w) {
-                      return places(w.document.get<ChainPart>(chain_lab).curve.points.size());
-                  }),
+         offering(
+             index_argument("control", false, "which control point, instead of joints", max_control_points),
+             [](const Workspace& w) {
+                 return places(w.document.get<ChainPart>(chain_lab).curve.points.size());
+             }),
          index_list_argument("controls", "control")},
         "Selects joints, the target, the pole target, or control points", select, Effect::Look));
     table.add(chain_command("chain.motion", "Move the target along a path",

@@ -81,9 +81,8 @@ std::vector<float> curve_weights(const CurveSettings& settings, std::size_t bone
     if (settings.falloff == 0.0f || bones < 2) return weights;
     for (std::size_t i = 0; i < bones; ++i) {
         const float along = static_cast<float>(i) / static_cast<float>(bones - 1);
-        weights.push_back(1.0f -
-                          (settings.falloff > 0.0f ? settings.falloff * (1.0f - along)
-                                                   : -settings.falloff * along));
+        weights.push_back(
+            1.0f - (settings.falloff > 0.0f ? settings.falloff * (1.0f - along) : -settings.falloff * along));
     }
     return weights;
 }
@@ -145,8 +144,7 @@ void follow_curve(ChainPart& part) {
         const float weight = curve.weight * (weights.empty() ? 1.0f : weights[i]);
         segments.push_back({joints[i + 1], lengths[i] * (1.0f + weight * (along.report->factor - 1.0f))});
     }
-    part.chain =
-        require_value(Chain::from_segments(std::move(segments), along.given.default_direction()));
+    part.chain = require_value(Chain::from_segments(std::move(segments), along.given.default_direction()));
     part.target = curve.points.back();
 }
 

@@ -1,9 +1,9 @@
 // Mode Curve: the chain lies along a curve through control points (tendril/ik/curve.hpp). The last control
 // point is the mode's target: what moves the target moves it.
 //
-// The chain as it was given, its bone lengths and its pose, is kept beside: every placement starts from it, so
-// that equal settings place it equally however often it was placed before. It is what edits edit, and what a
-// scene file has; the placed chain follows.
+// The chain as it was given, its bone lengths and its pose, is kept beside: every placement starts from it,
+// so that equal settings place it equally however often it was placed before. It is what edits edit, and what
+// a scene file has; the placed chain follows.
 #pragma once
 
 #include <cstddef>

@@ -153,10 +153,11 @@ void curve_report_rows(const ChainPart& part, const Palette& palette, Emit& emit
                           : past == 0      ? "Every joint lies on the curve."
                                       : count_text(past, "bone") + " go on straight past its last point.");
                      if (past == 0 || part.curve.fit) return;
-                     cure_line("", Cure{"Fit",
-                                        "Runs chain.curve: scales the bones so that the tip is on the last "
-                                        "control point",
-                                        {{"chain.curve", {{"fit", true}}}}},
+                     cure_line("",
+                               Cure{"Fit",
+                                    "Runs chain.curve: scales the bones so that the tip is on the last "
+                                    "control point",
+                                    {{"chain.curve", {{"fit", true}}}}},
                                emit);
                  });
     if (!part.along.report) return;

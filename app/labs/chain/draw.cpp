@@ -301,8 +301,7 @@ void draw_incident(const View& view, const ChainPart& part, DrawList& list) {
     for (const Segment& joint : was) list.sphere(joint.position, 4.5f * view.scale, Unit::Pixels, ghost);
     list.ring(before->target, 12.0f * view.scale, 1.5f * view.scale, ghost).layer = Layer::Overlay;
     const std::size_t joint = incident->joint;
-    if (incident->kind == Incident::Kind::Jump)
-        draw_incident_mark(view, *incident, is[joint].position, list);
+    if (incident->kind == Incident::Kind::Jump) draw_incident_mark(view, *incident, is[joint].position, list);
     if (incident->kind != Incident::Kind::Flip) return;
     // Turn about the neighbour that moved less.
     const auto moved = [&](std::size_t i) { return glm::distance(was[i].position, is[i].position); };

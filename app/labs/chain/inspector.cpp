@@ -186,8 +186,9 @@ void one_joint(const ShownChain& shown, const Joints& joints, std::size_t i, Emi
     ImGui::BeginDisabled(part.mode == ChainMode::Curve);
     if (point_field("at", to, 0.01f)) emit.continuously("chain.pull", {{"index", i}, {"to", to}});
     ImGui::EndDisabled();
-    explain(part.mode == ChainMode::Curve ? "Where the joint is. It follows the curve: drag that."
-                                          : "Where the joint is. A change pulls it there, and the chain follows.");
+    explain(part.mode == ChainMode::Curve
+                ? "Where the joint is. It follows the curve: drag that."
+                : "Where the joint is. A change pulls it there, and the chain follows.");
     length_field(i == 0 ? "length" : "bone length", part, emit);
     if (i == 0) note("No bone leads to this joint: its length counts once a joint is inserted before it.");
     reading("to the target", "%.3f m", static_cast<double>(glm::distance(joints[i], part.target)));

@@ -94,7 +94,9 @@ void ChainLab::click_more(const Workspace& workspace, PickId pick, Emit& emit) c
 std::vector<Handle> ChainLab::selectable(const Workspace& workspace) const {
     std::vector<Handle> joints = handles(workspace);
     const bool racing = chain_part(workspace).study.kind == Study::Kind::Race;
-    std::erase_if(joints, [&](const Handle& each) { return racing || each.pick < segment_pick(0) || each.pick == pole_pick; });
+    std::erase_if(joints, [&](const Handle& each) {
+        return racing || each.pick < segment_pick(0) || each.pick == pole_pick;
+    });
     return joints;
 }
 

@@ -39,8 +39,8 @@ float length_of_next(const Chain& chain) {
 }
 
 /// In order of interest: Reach and Curve first, then the four trailing modes.
-constexpr std::array modes_in_panel{ChainMode::Reach, ChainMode::Curve, ChainMode::Forward, ChainMode::Backward,
-                                    ChainMode::Fixed, ChainMode::WithIndex};
+constexpr std::array modes_in_panel{ChainMode::Reach,    ChainMode::Curve, ChainMode::Forward,
+                                    ChainMode::Backward, ChainMode::Fixed, ChainMode::WithIndex};
 
 void mode_rows(const ChainPart& part, const Palette& colours, MoreRows& more, Emit& emit) {
     for (const ChainMode mode : modes_in_panel) {

@@ -181,7 +181,7 @@ void lay_along_curve(ChainPart& part, const std::string& preset) {
         part.curve.roll_end_deg = 40;
         part.curve.fit = true;
     } else {
-        part.curve.points = {{0, 1, 0},          {-0.9f, 0.8f, 0},     {-1.8f, 1.2f, 0.2f},
+        part.curve.points = {{0, 1, 0},           {-0.9f, 0.8f, 0},    {-1.8f, 1.2f, 0.2f},
                              {-1.5f, 2.0f, 0.3f}, {-0.9f, 1.5f, 0.1f}, {-1.9f, 0.9f, -0.2f},
                              {-3.0f, 1.3f, 0}};
     }

@@ -178,8 +178,8 @@ void add_shape_commands(CommandTable& table) {
                       "Inserts a segment before another", insert));
     table.add(chain_command("chain.remove", "Remove a joint", {index_argument(true, "which segment")},
                             "Removes a segment", remove));
-    table.add(chain_command("chain.remove_selected", "Delete selection", {}, "Removes the selected joints, or the selected control points",
-                            remove_selected));
+    table.add(chain_command("chain.remove_selected", "Delete selection", {},
+                            "Removes the selected joints, or the selected control points", remove_selected));
     table.add(
         chain_command("chain.reset", "Reset the Chain lab", {}, "Resets this lab to its first state", reset));
     table.add(

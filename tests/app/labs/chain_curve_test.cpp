@@ -128,7 +128,8 @@ TEST_F(ChainCurve, edits_go_to_the_chain_and_its_new_pose_follows) {
     run("chain.remove", {{"index", 2}});
     run("chain.set_length", {{"index", 1}, {"length", 0.5}});
     EXPECT_NEAR(glm::distance(joints()[0], joints()[1]), 0.5f, 1e-5f);
-    EXPECT_TRUE(test::says(refused("chain.pull", {{"index", 1}, {"to", {0, 0, 0}}}), "the control points move the joints"));
+    EXPECT_TRUE(test::says(refused("chain.pull", {{"index", 1}, {"to", {0, 0, 0}}}),
+                           "the control points move the joints"));
     run("chain.preset", {{"name", "arm"}});
     EXPECT_EQ(part().mode, ChainMode::Curve);
     EXPECT_EQ(part().curve.points.front(), glm::vec3(0, 3, 0)) << "laid through the new chain";
@@ -166,9 +167,7 @@ TEST_F(ChainCurve, is_saved_and_opened_as_it_is) {
 
 // A loop that narrows until it is less wide than a bone.
 TEST_F(ChainCurve, a_jump_is_an_incident_with_its_cause) {
-    const auto loop = [](double high) {
-        return Json{{0, 0, 0}, {1, high, 0}, {1, -0.3, 0}, {5, 0, 0}};
-    };
+    const auto loop = [](double high) { return Json{{0, 0, 0}, {1, high, 0}, {1, -0.3, 0}, {5, 0, 0}}; };
     along(loop(2), {0.9f, 0.9f, 0.9f, 0.9f});
     std::vector<Incident> all;
     float least = 1.0f;
@@ -197,8 +196,8 @@ TEST_F(ChainCurve, a_jump_is_an_incident_with_its_cause) {
 TEST_F(ChainCurve, its_program_places_the_chain_as_it_was_given) {
     run("chain.preset", {{"name", "spine"}});
     const std::string code = chain_code(part());
-    for (const char* const said :
-         {"tendril/ik/curve.hpp", "options.fit = true;", "options.roll_end = 0.6981317f;", "ik::place_along("})
+    for (const char* const said : {"tendril/ik/curve.hpp", "options.fit = true;",
+                                   "options.roll_end = 0.6981317f;", "ik::place_along("})
         EXPECT_NE(code.find(said), std::string::npos) << said;
     EXPECT_EQ(code.find("glm::vec3 target"), std::string::npos);
 }
