@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "app/document/list_reader.hpp"
 #include "app/document/json_complete.hpp"
+#include "app/document/list_reader.hpp"
 #include "app/io/solver_json.hpp"
 
 namespace tendril::app {
@@ -46,6 +46,16 @@ std::vector<glm::vec3> read_joints(const Json& json, std::size_t bones, const st
     return joints;
 }
 
+std::vector<glm::vec3> read_control_points(const Json& json, const std::string& where) {
+    constexpr std::size_t most = 4096;
+    if (!json.is_array() || json.size() < 2 || json.size() > most)
+        throw std::runtime_error(where + ": expected a list of 2 to 4096 control points, found " +
+                                 json_summary(json));
+    std::vector<glm::vec3> points;
+    for (std::size_t i = 0; i < json.size(); ++i) points.push_back(json_point(json[i], element(where, i)));
+    return points;
+}
+
 std::vector<glm::vec3> along_x(const std::vector<float>& lengths) {
     std::vector<glm::vec3> joints{glm::vec3(0.0f)};
     joints.reserve(lengths.size() + 1);
@@ -82,8 +92,11 @@ std::vector<ik::Limit> read_limits(const Json& json, std::size_t bones, const st
 Case case_from_json(const Json& json, const std::string& where, std::size_t index) {
     Case read;
     read.lengths = read_lengths(json_member(json, "lengths", where), where + ".lengths");
-    read.target = json_point(json_member(json, "target", where), where + ".target");
     const std::size_t bones = read.lengths.size();
+    if (const auto curve = json.find("curve"); curve != json.end())
+        read.curve = read_control_points(*curve, where + ".curve");
+    else
+        read.target = json_point(json_member(json, "target", where), where + ".target");
     const auto given = [&](const char* key, const auto& take) {
         const auto found = json.find(key);
         if (found != json.end()) take(*found, where + "." + key);

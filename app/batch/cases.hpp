@@ -2,7 +2,8 @@
 //
 //   {"name": "arm", "lengths": [0.5, 0.4], "target": [0.3, 0.6, 0]}
 //
-// and optionally "start" and "rest" (a point per joint), "pole" (a point), "limits" (one per bone, for the
+// and optionally "curve" (control points, for a chain that lies along them instead of reaching for a target),
+// "start" and "rest" (a point per joint), "pole" (a point), "limits" (one per bone, for the
 // joint it starts at, in the format of solver_json.hpp; null for none). Other keys are ignored.
 #pragma once
 
@@ -26,6 +27,7 @@ struct Case {
     glm::vec3 target{0.0f};
     std::optional<glm::vec3> pole;
     std::vector<ik::Limit> limits;  ///< one per bone, or empty
+    std::vector<glm::vec3> curve;   ///< control points; empty: it reaches for the target
 };
 
 /// Throws std::runtime_error that begins with the JSON path of the error: "cases.3.lengths.0".

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <tendril/ik/curve.hpp>
 #include <tendril/ik/solver.hpp>
 
 #include "app/batch/cases.hpp"
@@ -25,6 +26,9 @@ struct Row {
     ik::Report report;
     double microseconds;
     const std::vector<glm::vec3>& joints;
+    std::optional<ik::CurveReport> curve{};  ///< of a case that lies along a curve
+
+    const char* solver() const { return curve ? "curve" : ik::name(method); }
 };
 
 /// Rounds to nanoseconds, the clock's resolution.
@@ -46,6 +50,10 @@ class JsonRows final : public Rows {
     void add(Output& out, const Row& row) override {
         Json json{{"name", row.asked.name}};
         json.update(report_json(row.method, row.report));
+        json["solver"] = row.solver();
+        if (row.curve)
+            json["curve"] = {{"bones_past_end", row.curve->bones_past_end},
+                             {"past_end", number(row.curve->past_end)}};
         json.erase("ran");  // scripts rely on the existing keys; the table has it
         json["microseconds"] = microseconds_json(row.microseconds);
         Json positions = Json::array();
@@ -66,7 +74,8 @@ class CsvRows final : public Rows {
     void begin(Output& out) override { out.write("name,solver,status,iterations,residual,microseconds\n"); }
     void add(Output& out, const Row& row) override {
         std::string line = csv_field(row.asked.name);
-        const Json report = report_json(row.method, row.report);
+        Json report = report_json(row.method, row.report);
+        report["solver"] = row.solver();
         for (const char* key : {"solver", "status", "iterations", "residual"}) {
             const Json& value = report[key];
             line += ',' + (value.is_string() ? value.get<std::string>()
@@ -91,9 +100,9 @@ class TableRows final : public Rows {
         if (row.report.status != ik::Status::InvalidInput) {
             std::snprintf(residual, sizeof residual, "%.6g", static_cast<double>(row.report.residual));
         }
-        std::snprintf(rest, sizeof rest, "  %-18s  %-14s  %10d  %14s  %10.2f  %s\n", ik::name(row.method),
+        std::snprintf(rest, sizeof rest, "  %-18s  %-14s  %10d  %14s  %10.2f  %s\n", row.solver(),
                       ik::name(row.report.status), row.report.iterations, residual, row.microseconds,
-                      ran_text(row.method, row.report).c_str());
+                      row.curve ? "" : ran_text(row.method, row.report).c_str());
         out.write(column(row.asked.name, name_width_) + rest);
     }
 
@@ -118,6 +127,20 @@ Survey check(std::string_view text, Progress& progress, const std::atomic<bool>&
         return !ending;
     });
     return survey;
+}
+
+/// Its residual is what the tip is off the curve's end.
+Row place(const Case& asked, std::vector<glm::vec3>& joints) {
+    joints = asked.start;
+    ik::State state(asked.lengths.size());
+    ik::CurveMemory memory;
+    const auto begin = Clock::now();
+    const ik::CurveReport placed =
+        ik::place_along(asked.curve, {asked.lengths, asked.rest_directions}, joints, state, memory);
+    const std::chrono::duration<double, std::micro> taken = Clock::now() - begin;
+    const ik::Report report{.status = placed.status,
+                            .residual = std::max(placed.past_end, placed.short_of_end)};
+    return {asked, ik::Method::Fabrik, report, taken.count(), joints, placed};
 }
 
 Row solve(const Case& asked, ik::Method method, const SolveOptions& options, std::vector<glm::vec3>& joints) {
@@ -170,6 +193,10 @@ void solve_cases(const SolveOptions& options, const std::atomic<bool>& ending) {
     const auto each = [&](const Case& asked, double) {
         for (const ik::Method method : options.methods) {
             if (ending) return false;
+            if (!asked.curve.empty()) {
+                rows->add(out, place(asked, joints));
+                break;  // no solver takes part
+            }
             rows->add(out, solve(asked, method, options, joints));
         }
         progress.show("solving", static_cast<double>(++done) / static_cast<double>(survey.cases));
@@ -186,6 +213,7 @@ const char* const solve_help =
     "CASES is a JSON list of\n"
     "  {\"name\": \"arm\", \"lengths\": [0.5, 0.4], \"target\": [0.3, 0.6, 0]}\n"
     "with a length in metres for each bone, and optionally\n"
+    "  \"curve\"   control points, instead of the target: the chain lies along the curve through them\n"
     "  \"start\"   a point for each joint, one more than lengths; default: straight along +X from the "
     "origin\n"
     "  \"rest\"    the same for the pose that limits are measured from\n"

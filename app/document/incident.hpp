@@ -26,7 +26,8 @@ struct Incident {
         Flip,     ///< a joint or bone jumped
         Limit,    ///< a joint limit became active; a control reached its limit, or left it
         Restart,  ///< a solver restarted from another pose
-        Status    ///< a solve's status differs from the previous one, or a request was refused
+        Status,   ///< a solve's status differs from the previous one, or a request was refused
+        Jump      ///< a joint went on to another crossing of its curve
     };
     Kind kind = Kind::Status;
     std::uint64_t tick = 0;        ///< between the moment of this tick and the next
@@ -40,7 +41,7 @@ struct Incident {
 
 /// As written by --state.
 inline const char* name(Incident::Kind kind) {
-    static constexpr std::array names{"flip", "limit", "restart", "status"};
+    static constexpr std::array names{"flip", "limit", "restart", "status", "jump"};
     return names[static_cast<std::size_t>(kind)];
 }
 

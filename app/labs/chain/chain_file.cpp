@@ -13,7 +13,7 @@ namespace tendril::app {
 
 Json ChainPart::save() const {
     Json segments = Json::array();
-    for (const Segment& segment : chain.segments()) {
+    for (const Segment& segment : own_chain(*this).segments()) {
         segments.push_back({{"position", point(segment.position)}, {"length", number(segment.length)}});
     }
     Json json{{"mode", chain_modes.name(mode)}, {"index", index}};
@@ -27,6 +27,8 @@ Json ChainPart::save() const {
     json["motion"] = save_motion(motion);
     json["segments"] = std::move(segments);
     json["reach"] = save_reach(reach, chain);
+    json["curve"] = save_curve(curve);
+    if (mode == ChainMode::Curve) json["selected_controls"] = along.selection.save();
     if (study.open()) json["study"] = save_study(study);
     json["flips"] = save_flip_rule(flips);
     return json;
@@ -88,6 +90,13 @@ std::shared_ptr<Part> ChainPart::load(const Json& json, const std::string& where
         part->index = static_cast<std::size_t>(place["index"].integer(0, last));
         // Scenes older than mode Reach have no such part.
         if (place.has("reach")) part->reach = load_reach(place["reach"], part->chain);
+        if (const auto curve = place.optional("curve")) part->curve = load_curve(*curve);
+        if (part->mode == ChainMode::Curve) {
+            std::swap(part->chain, part->along.given);
+            follow_curve(*part);
+            if (const auto selected = place.optional("selected_controls"))
+                part->along.selection = Selection::load(*selected, part->curve.points.size());
+        }
         if (place.has("study")) {
             if (part->mode != ChainMode::Reach)
                 place["study"].fail(std::string("is for mode reach, not ") + chain_modes.name(part->mode));

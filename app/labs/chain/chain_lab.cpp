@@ -30,12 +30,12 @@ std::string joint_hint(const ChainPart& part, std::size_t index) {
            (index == 0 ? "the tip keeps reaching for the target." : "root and target stay.");
 }
 
-/// While a study is open, joints cannot be dragged: they stay where the step has them.
+/// Joints cannot be dragged while a study is open, where they stay as the step has them, nor along a curve.
 Handle joint_handle(const ChainPart& part, std::size_t index, glm::vec3 at) {
     return {"segment." + std::to_string(index),
             segment_pick(index),
             {at},
-            part.study.open() ? Drag::Nothing : Drag::Position};
+            part.study.open() || part.mode == ChainMode::Curve ? Drag::Nothing : Drag::Position};
 }
 
 }  // namespace
@@ -69,6 +69,7 @@ void ChainLab::step(Workspace& workspace) const {
             part.study.gesture_begins = true;
             part.motion.ticks = (part.motion.ticks + 1) % ticks_per_round(part.motion);
             reach_for(part, motion_point(part.motion, part.motion.ticks), runtime);
+            if (part.mode == ChainMode::Curve) follow_curve(part);
             check_range(part);
         }
         keep_step(part, runtime);
@@ -98,7 +99,12 @@ std::uint64_t ChainLab::tick_work(const Workspace& workspace) const {
 
 std::vector<Handle> ChainLab::handles(const Workspace& workspace) const {
     const ChainPart& part = chain_part(workspace);
-    std::vector<Handle> handles{*handle(workspace, target_pick)};
+    std::vector<Handle> handles;
+    if (part.mode == ChainMode::Curve)
+        for (std::size_t i = 0; i < part.curve.points.size(); ++i)
+            handles.push_back(*handle(workspace, control_pick(i)));
+    else
+        handles.push_back(*handle(workspace, target_pick));
     if (part.mode == ChainMode::Reach && part.reach.pole) handles.push_back(*handle(workspace, pole_pick));
     const std::vector<glm::vec3> joints = shown_joints(shown_chain(workspace));
     for (std::size_t i = 0; i < joints.size(); ++i) handles.push_back(joint_handle(part, i, joints[i]));
@@ -107,7 +113,13 @@ std::vector<Handle> ChainLab::handles(const Workspace& workspace) const {
 
 std::optional<Handle> ChainLab::handle(const Workspace& workspace, PickId pick) const {
     const ChainPart& part = chain_part(workspace);
-    if (pick == target_pick) return Handle{"target", target_pick, {part.target}};
+    const bool curved = part.mode == ChainMode::Curve;  // its target is the last control point
+    if (pick == target_pick && !curved) return Handle{"target", target_pick, {part.target}};
+    if (const auto control = picked_control(pick); control && curved && *control < part.curve.points.size())
+        return Handle{"control." + std::to_string(*control), pick, {part.curve.points[*control]}};
+    if (const auto at = curved ? picked_on_curve(part, pick) : std::nullopt)
+        return Handle{
+            "curve", pick, {ik::curve_point(part.curve.points, part.curve.kind, *at)}, Drag::Nothing};
     if (pick == pole_pick && part.reach.pole) return Handle{"pole", pole_pick, {*part.reach.pole}};
     if (pick < segment_pick(0) || picked_segment(pick) >= part.chain.size()) return std::nullopt;
     const std::size_t index = picked_segment(pick);
@@ -126,8 +138,13 @@ std::string ChainLab::hint(const Workspace& workspace, PickId pick) const {
     if (pick == pole_pick)
         return "Pole target: the elbow or knee points at it. Drag to swivel the chain about the root-tip "
                "line.";
+    if (const auto control = picked_control(pick))
+        return "Control point " + std::to_string(*control) +
+               ": drag it to bend the curve; click selects it, Delete removes it.";
+    if (pick >= first_curve_pick) return "Curve: click adds a control point.";
     const std::size_t index = picked_segment(pick);
     if (part.mode == ChainMode::Reach) return joint_hint(part, index);
+    if (part.mode == ChainMode::Curve) return name_of(part, index) + ": click selects it.";
     return name_of(part, index) + ": click selects it, drag pulls it.";
 }
 
@@ -136,6 +153,14 @@ Bounds ChainLab::bounds(const Workspace& workspace, bool selection_only) const {
     if (selection_only && part.chosen_point) {
         const bool target = part.chosen_point == ChainPoint::Target;
         return {target ? part.target : part.reach.pole.value_or(part.target), 0.5f};
+    }
+    if (selection_only && !part.along.selection.empty()) {
+        glm::vec3 low(1e30f), high(-1e30f);
+        for (const std::size_t i : part.along.selection.all()) {
+            low = glm::min(low, part.curve.points[i]);
+            high = glm::max(high, part.curve.points[i]);
+        }
+        return bounds_of(low, high);
     }
     if (selection_only && !part.selection.empty()) {
         glm::vec3 low(1e30f), high(-1e30f);
@@ -151,6 +176,9 @@ Bounds ChainLab::bounds(const Workspace& workspace, bool selection_only) const {
         low = glm::min(low, segment.position);
         high = glm::max(high, segment.position);
     }
+    if (part.mode == ChainMode::Curve)
+        for (const glm::vec3& each : part.curve.points)
+            low = glm::min(low, each), high = glm::max(high, each);
     for (const glm::vec3& joint : part.study.start) low = glm::min(low, joint), high = glm::max(high, joint);
     if (part.mode == ChainMode::Reach && part.reach.pole) {
         low = glm::min(low, *part.reach.pole);
@@ -198,11 +226,12 @@ std::vector<LegendRow> ChainLab::legend(const Workspace& workspace) const {
         rows.push_back({"target", colours.target});
         return rows;
     }
-    const bool reaches = part.mode == ChainMode::Reach;
-    rows = {{reaches ? "root" : "head", colours.head},
-            {reaches ? "tip" : "tail", colours.tail},
-            {"target", colours.target},
+    const bool curved = part.mode == ChainMode::Curve, rooted = curved || part.mode == ChainMode::Reach;
+    rows = {{rooted ? "root" : "head", colours.head},
+            {rooted ? "tip" : "tail", colours.tail},
+            {curved ? "curve's end" : "target", colours.target},
             {"selection", colours.selection, true}};
+    if (curved) rows.push_back({"curve", pole_colour(colours)});
     if (shown.trace) rows.push_back({"this step", colours.accent, true});
     if (shown.trace) rows.push_back({"start, earlier iterations", colours.ghost});
     if (const TracedPose* const pose = traced_pose(part))
@@ -224,7 +253,8 @@ bool ChainLab::labels_pictures(const Workspace& workspace) const {
 
 std::vector<MouseHelp> ChainLab::mouse_help() const {
     return {{"Shift+click on a joint", "adds it to the selection, or takes it out"},
-            {"Ctrl+drag on nothing", "draws a box that selects the joints in it; with Shift it adds them"}};
+            {"Ctrl+drag on nothing", "draws a box that selects the joints in it; with Shift it adds them"},
+            {"Click on a curve", "adds a control point there"}};
 }
 
 std::vector<Shortcut> ChainLab::shortcuts() const {
@@ -248,7 +278,7 @@ std::vector<FileKind> ChainLab::files() const {
 }
 
 std::vector<LabSetting> ChainLab::settings() const {
-    return {segment_style(), reach_sphere(), chain_past().plot, chain_past().ghosts};
+    return {segment_style(), reach_sphere(), curve_frames(), chain_past().plot, chain_past().ghosts};
 }
 
 std::vector<CommandCall> ChainLab::opening() const {
@@ -279,6 +309,9 @@ std::vector<TestScene> ChainLab::test_scenes() const {
           {"chain.pole", {{"to", glm::vec3(0.5f, 2.0f, 0.5f)}}},
           {"chain.limit", {{"index", 1}, {"kind", "hinge"}, {"max_deg", 120.0f}}},
           {"chain.motion", {{"path", "figure_eight"}}}},
+         words},
+        {"curve",
+         {{"chain.preset", {{"name", "tail"}}}, {"chain.motion", {{"path", "figure_eight"}}}},
          words},
         {"studied",
          {{"chain.mode", {{"mode", "reach"}}},

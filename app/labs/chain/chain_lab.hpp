@@ -8,6 +8,19 @@ namespace tendril::app {
 
 inline constexpr PickId target_pick = 0;
 inline constexpr PickId pole_pick = static_cast<PickId>(max_segments) + 1;
+// In mode Curve: control points, and the strokes that the curve is drawn with.
+inline constexpr PickId first_control_pick = pole_pick + 1;
+inline constexpr PickId first_curve_pick = first_control_pick + static_cast<PickId>(max_control_points);
+inline PickId control_pick(std::size_t index) {
+    return first_control_pick + static_cast<PickId>(index);
+}
+/// The control point with that pick, if any.
+inline std::optional<std::size_t> picked_control(PickId pick) {
+    if (pick < first_control_pick || pick >= first_curve_pick) return std::nullopt;
+    return static_cast<std::size_t>(pick - first_control_pick);
+}
+/// The middle of the stroke of the curve with that pick, if any, in pieces along the curve.
+std::optional<float> picked_on_curve(const ChainPart& part, PickId pick);
 inline PickId segment_pick(std::size_t index) {
     return static_cast<PickId>(index) + 1;
 }

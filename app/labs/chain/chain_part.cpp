@@ -24,17 +24,17 @@ bool operator==(const ChainPart& a, const ChainPart& b) {
            a.tolerance == b.tolerance && a.target == b.target && a.reach_target == b.reach_target &&
            a.selection == b.selection && a.chosen_point == b.chosen_point && a.motion == b.motion &&
            a.chain == b.chain && a.reach == b.reach && a.result == b.result && a.study == b.study &&
-           a.flips == b.flips;
+           a.flips == b.flips && a.curve == b.curve && a.along == b.along;
 }
 
 void check_range(const ChainPart& part) {
     const auto outside = [](glm::vec3 p) {
         return glm::any(glm::greaterThan(glm::abs(p), glm::vec3(max_magnitude)));
     };
-    for (const Segment& segment : part.chain.segments()) {
-        if (outside(segment.position))
-            throw std::invalid_argument("the chain would reach farther than 1e9 m");
-    }
+    for (const Chain* const chain : {&part.chain, &part.along.given})
+        for (const Segment& segment : chain->segments())
+            if (outside(segment.position))
+                throw std::invalid_argument("the chain would reach farther than 1e9 m");
     if (!part.reach.limits.empty() && part.chain.size() > max_limited_segments) {
         throw std::invalid_argument("chains of up to " + std::to_string(max_limited_segments) +
                                     " segments can have limits; this one has " +
@@ -45,6 +45,7 @@ void check_range(const ChainPart& part) {
 }
 
 int iterations_of(const ChainPart& part, ChainMode mode) {
+    if (mode == ChainMode::Curve) return 1;
     return mode == ChainMode::Reach ? part.reach.iterations : part.iterations[static_cast<std::size_t>(mode)];
 }
 int& iterations_of(ChainPart& part, ChainMode mode) {
@@ -57,7 +58,8 @@ std::size_t led_joint(const ChainPart& part) {
 }
 
 void put_target_on_led_joint(ChainPart& part) {
-    if (part.mode == ChainMode::Reach || part.chain.empty() || part.motion.path != Motion::Path::Still)
+    if (part.mode == ChainMode::Reach || part.mode == ChainMode::Curve || part.chain.empty() ||
+        part.motion.path != Motion::Path::Still)
         return;
     part.target = part.chain.position(led_joint(part));
 }
@@ -65,6 +67,8 @@ void put_target_on_led_joint(ChainPart& part) {
 void enter_mode(ChainPart& part, ChainMode mode) {
     if (part.mode == mode) return;
     if (part.mode == ChainMode::Reach) part.reach_target = part.target;
+    // The pose stays, at the bones' own lengths.
+    if (part.mode == ChainMode::Curve) require_ok(part.chain.set_positions(positions(part.along.given)));
     const bool from_tip = part.mode == ChainMode::Backward;  // its target is on the tip, or goes on from it
     part.mode = mode;
     part.result.reset();
@@ -99,6 +103,9 @@ void reach_for(ChainPart& part, glm::vec3 target, ChainRuntime& runtime) {
             part.study.note_start(part.chain, part.reach);
             part.result = solve_reach(part.chain, part.reach, target, runtime);
             break;
+        case ChainMode::Curve:
+            if (!part.curve.points.empty()) part.curve.points.back() = target;
+            break;
     }
     part.target = target;
 }
@@ -113,9 +120,15 @@ std::shared_ptr<const Part> ChainPart::at_moment(std::shared_ptr<const Part> the
     const auto& earlier = dynamic_cast<const ChainPart&>(*then);
     Selection now = selection;
     now.keep_below(earlier.chain.size());
-    if (now == earlier.selection && chosen_point == earlier.chosen_point) return then;
+    Selection controls = along.selection;
+    controls.keep_below(earlier.curve.points.size());
+    if (earlier.mode != ChainMode::Curve) controls.clear();
+    if (now == earlier.selection && chosen_point == earlier.chosen_point &&
+        controls == earlier.along.selection)
+        return then;
     auto part = std::make_shared<ChainPart>(earlier);
     part->selection = std::move(now);
+    part->along.selection = std::move(controls);
     part->chosen_point = chosen_point;
     if (chosen_point == ChainPoint::Pole && !part->reach.pole) part->chosen_point.reset();
     return part;
@@ -123,7 +136,10 @@ std::shared_ptr<const Part> ChainPart::at_moment(std::shared_ptr<const Part> the
 
 std::size_t ChainPart::bytes() const {
     return sizeof(*this) + chain.size() * sizeof(Segment) + reach.limits.size() * sizeof(ik::Limit) +
-           bytes_of(reach.state) + study.bytes() + selection.all().size() * sizeof(std::size_t);
+           bytes_of(reach.state) + along.given.size() * sizeof(Segment) +
+           curve.points.size() * sizeof(glm::vec3) +
+           along.memory.at.size() * (sizeof(double) + sizeof(glm::vec3)) + study.bytes() +
+           selection.all().size() * sizeof(std::size_t);
 }
 
 float length_error(const Chain& chain, std::size_t index) {

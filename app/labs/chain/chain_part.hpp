@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/document/document.hpp"
+#include "app/labs/chain/curve.hpp"
 #include "app/labs/chain/reach.hpp"
 #include "app/labs/chain/study.hpp"
 #include "app/labs/kit/flips.hpp"
@@ -22,8 +23,9 @@ inline constexpr const char* chain_lab = "chain";
 inline constexpr std::size_t max_segments = 500'000;          ///< larger scenes would make too large a file
 inline constexpr std::size_t max_limited_segments = 100'000;  ///< of a chain with limits, for the same reason
 
-/// How the chain follows its target: the library's four modes, and Reach, which pins the head and iterates.
-enum class ChainMode { Forward, Backward, Fixed, WithIndex, Reach };
+/// How the chain follows its target: the library's four modes, Reach, which pins the head and iterates, and
+/// Curve, whose target is the curve's last control point.
+enum class ChainMode { Forward, Backward, Fixed, WithIndex, Reach, Curve };
 
 /// Selectable points other than joints.
 enum class ChainPoint { Target, Pole };
@@ -54,6 +56,8 @@ struct ChainPart final : Part {
     Motion motion;
     ReachSettings reach;
     std::optional<ReachResult> result;  ///< of the last solve; empty once anything else moved the chain
+    CurveSettings curve;
+    AlongCurve along;
     Study study;
     FlipRule flips;
     std::shared_ptr<const TracedPose> traced{};  ///< not saved, nor compared
@@ -70,14 +74,15 @@ struct ChainPart final : Part {
 ChainPart first_chain();
 
 /// In the order of the panel.
-inline constexpr EnumNames<ChainMode, 5> chain_modes{
+inline constexpr EnumNames<ChainMode, 6> chain_modes{
     "mode",
     {{"forward", "Forward", "Pulls by the head: it goes to the target, the rest trails."},
      {"backward", "Backward", "Pulls by the tail: it goes to the target, the rest trails."},
      {"fixed", "Fixed", "The head reaches for the target; the tail stays where it is."},
      {"with_index", "With index", "Pulls by one segment; both sides trail."},
-     {"reach", "Reach", "The root stays; the tip reaches for the target."}}};
-/// Each mode has its own number of iterations.
+     {"reach", "Reach", "The root stays; the tip reaches for the target."},
+     {"curve", "Curve", "Every joint lies on a curve through control points."}}};
+/// Each mode that iterates has its own number of iterations; Curve does not.
 int& iterations_of(ChainPart& part, ChainMode mode);
 int iterations_of(const ChainPart& part, ChainMode mode);
 
@@ -86,7 +91,8 @@ bool operator==(const ChainPart& a, const ChainPart& b);
 /// Throws std::invalid_argument if a point has left the range of scene files: a saved chain must open again.
 void check_range(const ChainPart& part);
 
-/// Moves the target and applies the mode once. While a study is open, Reach solves from the study's start.
+/// Moves the target and applies the mode once, but for Curve, where follow_curve() does. While a study is
+/// open, Reach solves from the study's start.
 void reach_for(ChainPart& part, glm::vec3 target, ChainRuntime& runtime);
 /// The joint that a trailing mode moves to the target.
 std::size_t led_joint(const ChainPart& part);

@@ -25,10 +25,12 @@ class ChainProgram {
   public:
     explicit ChainProgram(const ChainPart& part) : part_(part) {
         part_.study.rewind(part_.chain, part_.reach);
+        part_.chain = Chain(own_chain(part));
     }
     std::string text();
 
   private:
+    bool follows() const { return part_.mode == ChainMode::Curve && part_.chain.size() >= 2; }
     bool solves() const { return part_.mode == ChainMode::Reach && part_.chain.size() >= 2; }
     std::size_t limit_count() const;
     bool tables() const { return part_.chain.size() > max_listed; }
@@ -38,6 +40,7 @@ class ChainProgram {
     void move();
     void pull();
     void reach();
+    void curve();
     void limits();
     void rotations();
     void memory();
@@ -90,9 +93,10 @@ void ChainProgram::head() {
     line("#include <cstdio>");
     if (tables()) line("#include <iterator>");
     line("#include <tendril/chain/chain.hpp>");
+    if (follows()) line("#include <tendril/ik/curve.hpp>");
     if (solves()) line("#include <tendril/ik/solver.hpp>");
     line("#include <vector>\n");
-    if (solves()) line("namespace ik = tendril::ik;\n");
+    if (solves() || follows()) line("namespace ik = tendril::ik;\n");
 }
 
 void ChainProgram::chain() {
@@ -113,12 +117,14 @@ void ChainProgram::chain() {
     say("// What has no direction of its own lies along this one.");
     say("const glm::vec3 default_direction" + braced(part_.chain.default_direction()) + ";");
     say("tendril::Chain chain = tendril::Chain::from_segments(segments, default_direction).value();\n");
-    say("const glm::vec3 target" + braced(part_.target) + ";");
+    if (!follows()) say("const glm::vec3 target" + braced(part_.target) + ";");
 }
 
 void ChainProgram::move() {
     if (solves())
         reach();
+    else if (follows())
+        curve();
     else
         pull();
 }
@@ -137,6 +143,7 @@ void ChainProgram::pull() {
             if (part_.chain.empty())
                 return say("static_cast<void>(target);  // an empty chain has none to pull");
             return say_checked("chain.with_index(" + std::to_string(part_.index) + ", target)");
+        case ChainMode::Curve:
         case ChainMode::Reach:
             return say("static_cast<void>(target);  // fewer than two segments have no bone to turn");
     }
@@ -161,6 +168,49 @@ void ChainProgram::reach() {
         ", chain, state, target, options);");
     say("std::printf(\"%s after %d iterations, %g m from the target\\n\", ik::name(report.status),");
     say("            report.iterations, report.residual);");
+}
+
+void ChainProgram::curve() {
+    const CurveSettings& chosen = part_.curve;
+    const std::vector<float> weights = curve_weights(chosen, part_.chain.size() - 1);
+    const ik::CurveOptions options = curve_options(chosen, weights), plain;
+    const auto set = [&](bool differs, const std::string& what) {
+        if (differs) say("options." + what + ";");
+    };
+    say("// The curve's control points; metres.");
+    say("const std::vector<glm::vec3> points{");
+    for (const glm::vec3& each : chosen.points) say("    " + braced(each) + ",");
+    say("};");
+    if (!weights.empty()) {
+        say("const std::vector<float> weights{");
+        for (const float each : weights) say("    " + literal(each) + ",");
+        say("};");
+    }
+    say("ik::CurveOptions options;");
+    set(options.kind != plain.kind, "kind = ik::CurveKind::BSpline");
+    set(options.fit, "fit = true");
+    set(options.fit && options.max_factor != plain.max_factor, "max_factor = " + literal(options.max_factor));
+    set(options.up != plain.up, "up = " + braced(options.up));
+    set(options.roll_start != 0.0f, "roll_start = " + literal(options.roll_start));
+    set(options.roll_end != 0.0f, "roll_end = " + literal(options.roll_end));
+    set(options.weight != 1.0f, "weight = " + literal(options.weight));
+    set(!weights.empty(), "weights = weights");
+    line("");
+    say("// Make these once. State and memory go with the joints from frame to frame.");
+    say("std::vector<float> lengths;");
+    say("std::vector<glm::vec3> joints;");
+    say("for (const tendril::Segment& each : chain.segments()) {");
+    say("    if (!joints.empty()) lengths.push_back(each.length);");
+    say("    joints.push_back(each.position);");
+    say("}");
+    say("const std::vector<glm::vec3> rest(lengths.size(), default_direction);");
+    say("ik::State state(lengths.size());");
+    say("ik::CurveMemory memory(lengths.size());");
+    line("");
+    say("// From here on once a frame. The rotations are in the state.");
+    say("const ik::CurveReport report =");
+    say("    ik::place_along(points, {lengths, rest}, joints, state, memory, options);");
+    say("std::printf(\"%s, bones scaled by %g\\n\", ik::name(report.status), report.factor);");
 }
 
 void ChainProgram::options() {
@@ -240,8 +290,9 @@ void ChainProgram::memory() {
 
 void ChainProgram::end() {
     line("");
-    say("for (const tendril::Segment& segment : chain.segments()) {");
-    say("    const glm::vec3& at = segment.position;");
+    say(follows() ? "for (const glm::vec3& at : joints) {"
+                  : "for (const tendril::Segment& segment : chain.segments()) {");
+    if (!follows()) say("    const glm::vec3& at = segment.position;");
     say("    std::printf(\"%.9g %.9g %.9g\\n\", at.x, at.y, at.z);");
     say("}");
     line("}");

@@ -19,11 +19,15 @@ Command chain_command(const char* name, const char* title, std::vector<Argument>
             .effect = effect,
             .apply = [change, effect](Workspace& workspace, const Arguments& given) {
                 ChainRuntime& runtime = workspace.runtimes.of<ChainRuntime>(chain_lab);
-                change_part<ChainPart>(workspace, chain_lab, [&](ChainPart& part, const ChainPart&) {
+                change_part<ChainPart>(workspace, chain_lab, [&](ChainPart& part, const ChainPart& before) {
                     part.study.gesture_begins = workspace.gesture_begins;
+                    const bool edits = effect == Effect::Edit;
+                    // An edit is one of the chain as it was given.
+                    if (edits && part.mode == ChainMode::Curve) std::swap(part.chain, part.along.given);
                     change(part, given, runtime);
+                    if (edits) keep_on_curve(part, before);
                     // The study must always match the chain that is shown.
-                    if (part.study.open() && effect == Effect::Edit) reach_for(part, part.target, runtime);
+                    if (part.study.open() && edits) reach_for(part, part.target, runtime);
                     check_range(part);
                     keep_step(part, runtime);
                 });
@@ -78,6 +82,7 @@ void add_chain_commands(CommandTable& table) {
     add_shape_commands(table);
     add_mode_commands(table);
     add_reach_commands(table);
+    add_curve_command(table);
     add_study_commands(table);
     add_copy_commands(table);
     add_paste_command(table);
@@ -85,6 +90,7 @@ void add_chain_commands(CommandTable& table) {
 }
 
 void pull_joints(ChainPart& part, const std::vector<JointPull>& pulls, ChainRuntime& runtime) {
+    if (part.mode == ChainMode::Curve) throw Refused("in mode curve the control points move the joints");
     if (part.mode == ChainMode::Reach) {
         drag_joints(part.chain, part.reach, pulls, part.target, runtime);
     } else {
@@ -112,7 +118,9 @@ void set_mode(ChainPart& part, const Arguments& given) {
     enter_mode(part, mode);
     if (part.mode != ChainMode::Reach) part.study.close();
     if (part.mode != ChainMode::Reach && part.chosen_point == ChainPoint::Pole) part.chosen_point.reset();
+    if (part.mode == ChainMode::Curve) part.chosen_point.reset();  // its target is a control point
     if (given.has("iterations")) {
+        if (part.mode == ChainMode::Curve) throw Refused("mode curve does not iterate");
         iterations_of(part, part.mode) = given.integer("iterations");
     }
     if (!given.has("tolerance")) return;
@@ -148,14 +156,37 @@ void pull(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
     pull_joints(part, pulls_of(part, given), runtime);
 }
 
+/// In place of joints.
+void select_controls(ChainPart& part, const Arguments& given, bool add) {
+    if (part.mode != ChainMode::Curve) throw Refused("control points are those of mode curve");
+    if (given.has("index") || given.has("joints") || given.has("point"))
+        throw Refused("joints and control points cannot be selected together");
+    const std::size_t count = part.curve.points.size();
+    Selection& selection = part.along.selection;
+    if (gives_one(given, "control", "controls")) {
+        const auto control = static_cast<std::size_t>(given.integer("control"));
+        if (control >= count)
+            throw Refused("control " + std::to_string(control) + " is out of range, there are " +
+                          std::to_string(count));
+        add ? selection.toggle(control) : selection.only(control);
+    } else {
+        selection.take(index_list(given, "controls", count), add);
+    }
+    part.selection.clear();
+    part.chosen_point.reset();
+}
+
 void select(ChainPart& part, const Arguments& given) {
     const bool add = given.has("add") && given.boolean("add");
+    if (given.has("control") || given.has("controls")) return select_controls(part, given, add);
     if (given.has("point")) {
         if (given.has("index") || given.has("joints") || add)
             throw Refused("point cannot be given with joints: it is selected instead of them");
         const ChainPoint chosen = chain_points.value(given.text("point"));
         if (chosen == ChainPoint::Pole && !(part.mode == ChainMode::Reach && part.reach.pole))
             throw Refused("there is no pole target");
+        if (part.mode == ChainMode::Curve)
+            throw Refused("in mode curve the last control point is the target");
         part.selection.clear();
         part.chosen_point = chosen;
         return;
@@ -170,6 +201,7 @@ void select(ChainPart& part, const Arguments& given) {
     } else if (!add) {
         part.selection.clear();
     }
+    part.along.selection.clear();
     part.chosen_point.reset();
 }
 
@@ -223,8 +255,14 @@ void add_mode_commands(CommandTable& table) {
         {index_argument(false, "which joint; if all are omitted, nothing is selected"), joints_argument(),
          switch_argument("add",
                          "true: adds to the selection, or with index removes one that is already in it"),
-         choice_argument("point", false, "what is selected instead of joints", chain_points.names())},
-        "Selects joints, or the target or pole target", select, Effect::Look));
+         choice_argument("point", false, "what is selected instead of joints", chain_points.names()),
+         offering(
+             index_argument("control", false, "which control point, instead of joints", max_control_points),
+             [](const Workspace& w) {
+                 return places(w.document.get<ChainPart>(chain_lab).curve.points.size());
+             }),
+         index_list_argument("controls", "control")},
+        "Selects joints, the target, the pole target, or control points", select, Effect::Look));
     table.add(chain_command("chain.motion", "Move the target along a path",
                             {choice_argument("path", true, "the path", motion_paths.names()),
                              number_argument("radius", "metres", 0, static_cast<double>(max_motion_radius)),

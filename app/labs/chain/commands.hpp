@@ -53,6 +53,7 @@ void check_race(const ChainPart& part);
 void add_shape_commands(CommandTable& table);
 void add_mode_commands(CommandTable& table);
 void add_reach_commands(CommandTable& table);
+void add_curve_command(CommandTable& table);
 void add_study_commands(CommandTable& table);
 /// race.copy, race.save and race.record.
 void add_race_file_commands(CommandTable& table);

@@ -66,7 +66,10 @@ class Drawing {
         draw_traced_ghost(view_, part_, list_);
         draw_incident(view_, part_, list_);
         path();
-        target();
+        if (part_.mode == ChainMode::Curve)
+            draw_curve(view_, part_, list_);
+        else
+            target();
         labels();
     }
 
@@ -276,7 +279,7 @@ float worst_error(const ShownChain& shown, const std::vector<glm::vec3>& joints)
 }
 
 const char* end_name(const ChainPart& part, std::size_t index) {
-    const bool reaches = part.mode == ChainMode::Reach;
+    const bool reaches = part.mode == ChainMode::Reach || part.mode == ChainMode::Curve;
     if (index == 0) return reaches ? "root" : "head";
     if (index + 1 == part.chain.size()) return reaches ? "tip" : "tail";
     return "";
@@ -297,8 +300,9 @@ void draw_incident(const View& view, const ChainPart& part, DrawList& list) {
         list.line(was[i - 1].position, was[i].position, 2.5f * view.scale, ghost);
     for (const Segment& joint : was) list.sphere(joint.position, 4.5f * view.scale, Unit::Pixels, ghost);
     list.ring(before->target, 12.0f * view.scale, 1.5f * view.scale, ghost).layer = Layer::Overlay;
-    if (incident->kind != Incident::Kind::Flip) return;
     const std::size_t joint = incident->joint;
+    if (incident->kind == Incident::Kind::Jump) draw_incident_mark(view, *incident, is[joint].position, list);
+    if (incident->kind != Incident::Kind::Flip) return;
     // Turn about the neighbour that moved less.
     const auto moved = [&](std::size_t i) { return glm::distance(was[i].position, is[i].position); };
     const bool last = joint + 1 == is.size();
@@ -508,6 +512,8 @@ ModePicture picture_of(ChainMode mode) {
             return {{{2.6f, 0.45f}, {1.9f, 0.1f}, {1.1f, 0.25f}, {0.5f, 0.8f}}, 0, 3};
         case ChainMode::WithIndex:
             return {{{0.4f, 0.85f}, {0.9f, 0.45f}, {1.5f, 0.15f}, {2.1f, 0.45f}, {2.6f, 0.85f}}, 2};
+        case ChainMode::Curve:
+            return {{{0.3f, 0.3f}, {0.7f, 0.75f}, {1.3f, 0.75f}, {1.75f, 0.3f}, {2.35f, 0.25f}}, 4, 0};
         case ChainMode::Reach:
             break;
     }

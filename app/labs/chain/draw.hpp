@@ -48,12 +48,15 @@ ShownSegment shown_segment(const ShownChain& shown, const std::vector<glm::vec3>
 /// The maximum error of all segments, metres.
 float worst_error(const ShownChain& shown, const std::vector<glm::vec3>& joints);
 
-/// "root" and "tip" in mode Reach, "head" and "tail" in trailing modes; empty for joints between.
+/// "root" and "tip" in modes Reach and Curve, "head" and "tail" in trailing modes; empty for joints between.
 const char* end_name(const ChainPart& part, std::size_t index);
 
 /// Metres from the tip to the target; 0 for an empty chain.
 float shown_residual(const ChainPart& part, const std::vector<glm::vec3>& joints);
 
+/// In mode Curve: its curve and control points, and on wish the frames of the bones.
+void draw_curve(const View& view, const ChainPart& part, DrawList& list);
+LabSetting curve_frames();
 /// Draws segments as lines and spheres, or as bones.
 LabSetting segment_style();
 /// In mode Reach: shows or hides the sphere within the chain's reach.

@@ -183,8 +183,12 @@ void one_joint(const ShownChain& shown, const Joints& joints, std::size_t i, Emi
     reading("joint", "%zu%s", i, end.empty() ? "" : (" (" + end + ")").c_str());
     if (shown.trace) return joint_in_step(shown, joints, i);
     glm::vec3 to = joints[i];
+    ImGui::BeginDisabled(part.mode == ChainMode::Curve);
     if (point_field("at", to, 0.01f)) emit.continuously("chain.pull", {{"index", i}, {"to", to}});
-    explain("Where the joint is. A change pulls it there, and the chain follows.");
+    ImGui::EndDisabled();
+    explain(part.mode == ChainMode::Curve
+                ? "Where the joint is. It follows the curve: drag that."
+                : "Where the joint is. A change pulls it there, and the chain follows.");
     length_field(i == 0 ? "length" : "bone length", part, emit);
     if (i == 0) note("No bone leads to this joint: its length counts once a joint is inserted before it.");
     reading("to the target", "%.3f m", static_cast<double>(glm::distance(joints[i], part.target)));
@@ -227,6 +231,7 @@ bool same_limits(const ReachSettings& reach, const std::vector<std::size_t>& joi
 void selection_rows(const ShownChain& shown, const Joints& joints, Emit& emit) {
     section("Selection");
     const ChainPart& part = shown.part;
+    if (!part.along.selection.empty()) return control_rows(part, emit);
     if (part.selection.several()) return several_joints(shown, emit);
     if (part.selection.active()) return one_joint(shown, joints, *part.selection.active(), emit);
     if (!part.chosen_point) return note("Nothing is selected.");
@@ -237,7 +242,7 @@ void selection_rows(const ShownChain& shown, const Joints& joints, Emit& emit) {
 void length_field(const char* name, const ChainPart& part, Emit& emit) {
     const std::vector<std::size_t>& joints = part.selection.all();
     const std::size_t shown = *part.selection.active();
-    float length = part.chain.length(shown);
+    float length = own_chain(part).length(shown);
     if (number_field(name, length, 0.01f, 0.0f, 1000.0f, "%.3f m"))
         emit.continuously("chain.set_length", of_joints(joints, {{"length", length}}));
     explain(joints.size() > 1

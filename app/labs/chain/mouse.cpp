@@ -12,6 +12,7 @@
 #include "app/labs/chain/chain_lab.hpp"
 #include "app/labs/chain/chain_runtime.hpp"
 #include "app/labs/chain/draw.hpp"
+#include "app/labs/chain/panel.hpp"
 #include "app/labs/kit/arguments.hpp"
 
 namespace tendril::app {
@@ -22,11 +23,31 @@ void keep_target_still(const ChainPart& part, Emit& emit) {
     if (part.motion.path != Motion::Path::Still) emit.continuously("chain.motion", {{"path", "still"}});
 }
 
+/// The moved handles' places among the control points.
+void emit_moved_points(const ChainPart& part, const std::vector<Handle>& handles, Emit& emit) {
+    std::vector<glm::vec3> points = part.curve.points;
+    for (const Handle& each : handles)
+        if (const auto control = picked_control(each.pick); control && *control < points.size())
+            points[*control] = each.frame.position;
+    if (points != part.curve.points) emit_points(part, std::move(points), emit);
+}
+
 }  // namespace
+
+void emit_points(const ChainPart& part, std::vector<glm::vec3> points, Emit& emit) {
+    if (points.back() != part.curve.points.back()) keep_target_still(part, emit);
+    emit.continuously("chain.curve", {{"points", SharedJson(points_json(points))}});
+}
 
 void ChainLab::drag(const Workspace& workspace, PickId pick, const Handle::Frame& frame, Emit& emit) const {
     const glm::vec3 to = frame.position;
     const ChainPart& part = chain_part(workspace);
+    if (const auto control = picked_control(pick)) {
+        if (*control >= part.curve.points.size()) return;
+        std::vector<glm::vec3> points = part.curve.points;
+        points[*control] = to;
+        return emit_points(part, std::move(points), emit);
+    }
     if (pick != pole_pick) keep_target_still(part, emit);
     if (pick == target_pick) {
         emit.continuously("chain.target", {{"to", to}});
@@ -38,10 +59,16 @@ void ChainLab::drag(const Workspace& workspace, PickId pick, const Handle::Frame
 }
 
 void ChainLab::click(const Workspace& workspace, PickId pick, Emit& emit) const {
+    const ChainPart& part = chain_part(workspace);
     if (pick == no_pick) {
-        const ChainPart& part = chain_part(workspace);
-        if (!part.selection.empty() || part.chosen_point) emit("chain.select");
+        if (!part.selection.empty() || !part.along.selection.empty() || part.chosen_point)
+            emit("chain.select");
         return;
+    }
+    if (const auto control = picked_control(pick)) return emit("chain.select", {{"control", *control}});
+    if (const auto at = picked_on_curve(part, pick)) {
+        emit("chain.curve", {{"points", SharedJson(points_json(with_point_at(part.curve, *at)))}});
+        return emit("chain.select", {{"control", static_cast<std::size_t>(*at) + 1}});
     }
     if (pick == target_pick || pick == pole_pick) {
         const ChainPoint point = pick == target_pick ? ChainPoint::Target : ChainPoint::Pole;
@@ -50,7 +77,6 @@ void ChainLab::click(const Workspace& workspace, PickId pick, Emit& emit) const 
     }
     const std::size_t index = picked_segment(pick);
     emit("chain.select", {{"index", index}});
-    const ChainPart& part = chain_part(workspace);
     if (part.mode == ChainMode::WithIndex && part.index != index) {
         emit("chain.mode", {{"mode", chain_modes.name(part.mode)}, {"index", index}});
     }
@@ -58,28 +84,52 @@ void ChainLab::click(const Workspace& workspace, PickId pick, Emit& emit) const 
 
 void ChainLab::click_more(const Workspace& workspace, PickId pick, Emit& emit) const {
     if (pick == no_pick) return;
-    if (pick == target_pick || pick == pole_pick) return click(workspace, pick, emit);
+    if (const auto control = picked_control(pick))
+        return emit("chain.select", {{"control", *control}, {"add", true}});
+    if (pick < segment_pick(0) || pick >= pole_pick) return click(workspace, pick, emit);
     emit("chain.select", {{"index", picked_segment(pick)}, {"add", true}});
 }
 
-/// A race does not show the joints of the chain itself.
+/// Joints, and along a curve control points. A race does not show the joints of the chain itself.
 std::vector<Handle> ChainLab::selectable(const Workspace& workspace) const {
     std::vector<Handle> joints = handles(workspace);
     const bool racing = chain_part(workspace).study.kind == Study::Kind::Race;
-    std::erase_if(joints, [&](const Handle& each) { return racing || each.pick < segment_pick(0); });
+    std::erase_if(joints, [&](const Handle& each) {
+        return racing || each.pick < segment_pick(0) || each.pick == pole_pick;
+    });
     return joints;
 }
 
 void ChainLab::select(const Workspace& workspace, const std::vector<PickId>& picks, bool add,
                       Emit& emit) const {
-    Json joints = Json::array();
-    for (const PickId pick : picks) joints.push_back(picked_segment(pick));
-    if (!joints.empty()) {
+    Json joints = Json::array(), controls = Json::array();
+    for (const PickId pick : picks) {
+        if (const auto control = picked_control(pick))
+            controls.push_back(*control);
+        else
+            joints.push_back(picked_segment(pick));
+    }
+    // Control points first: they can be dragged.
+    if (!controls.empty()) {
+        emit("chain.select", {{"controls", SharedJson(std::move(controls))}, {"add", add}});
+    } else if (!joints.empty()) {
         emit("chain.select", {{"joints", SharedJson(std::move(joints))}, {"add", add}});
     } else if (!add) {
         click(workspace, no_pick, emit);
     }
 }
+
+namespace {
+
+/// Of control points if any are selected, else of joints.
+const Selection& selected(const ChainPart& part) {
+    return part.along.selection.empty() ? part.selection : part.along.selection;
+}
+PickId pick_of(const ChainPart& part, std::size_t index) {
+    return part.along.selection.empty() ? segment_pick(index) : control_pick(index);
+}
+
+}  // namespace
 
 /// The gizmo of the selection, if it can be moved. Several joints can also be rotated about the active one.
 std::optional<Handle> ChainLab::gizmo(const Workspace& workspace) const {
@@ -87,24 +137,27 @@ std::optional<Handle> ChainLab::gizmo(const Workspace& workspace) const {
     if (part.chosen_point == ChainPoint::Target) return handle(workspace, target_pick);
     if (part.chosen_point == ChainPoint::Pole)
         return part.mode == ChainMode::Reach ? handle(workspace, pole_pick) : std::nullopt;
-    if (!part.selection.active() || part.study.open()) return std::nullopt;
-    auto shown = handle(workspace, segment_pick(*part.selection.active()));
-    if (shown && part.selection.several()) shown->drag = Drag::Position | Drag::Rotation;
+    const Selection& selection = selected(part);
+    if (!selection.active() || part.study.open()) return std::nullopt;
+    if (part.mode == ChainMode::Curve && part.along.selection.empty()) return std::nullopt;
+    auto shown = handle(workspace, pick_of(part, *selection.active()));
+    if (shown && selection.several()) shown->drag = Drag::Position | Drag::Rotation;
     return shown;
 }
 
 Together ChainLab::together(const Workspace& workspace, Drag) const {
     const ChainPart& part = chain_part(workspace);
     Together together;
-    if (part.chosen_point || !part.selection.several()) return together;
-    for (const std::size_t i : part.selection.all())
-        together.handles.push_back(*handle(workspace, segment_pick(i)));
+    if (part.chosen_point || !selected(part).several()) return together;
+    for (const std::size_t i : selected(part).all())
+        together.handles.push_back(*handle(workspace, pick_of(part, i)));
     return together;
 }
 
 void ChainLab::drag_together(const Workspace& workspace, const std::vector<Handle>& handles,
                              Emit& emit) const {
     const ChainPart& part = chain_part(workspace);
+    if (part.mode == ChainMode::Curve) return emit_moved_points(part, handles, emit);
     Json joints = Json::array(), points = Json::array();
     for (const Handle& each : handles) {
         if (picked_segment(each.pick) >= part.chain.size()) continue;  // it may have been removed meanwhile

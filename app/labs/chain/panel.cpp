@@ -38,9 +38,9 @@ float length_of_next(const Chain& chain) {
     return length;
 }
 
-/// In order of interest: Reach first, then the four trailing modes.
-constexpr std::array modes_in_panel{ChainMode::Reach, ChainMode::Forward, ChainMode::Backward,
-                                    ChainMode::Fixed, ChainMode::WithIndex};
+/// In order of interest: Reach and Curve first, then the four trailing modes.
+constexpr std::array modes_in_panel{ChainMode::Reach,    ChainMode::Curve, ChainMode::Forward,
+                                    ChainMode::Backward, ChainMode::Fixed, ChainMode::WithIndex};
 
 void mode_rows(const ChainPart& part, const Palette& colours, MoreRows& more, Emit& emit) {
     for (const ChainMode mode : modes_in_panel) {
@@ -144,6 +144,7 @@ void ChainLab::panel(const Workspace& workspace, Emit& emit) const {
     section("Mode and solver", true, [&](MoreRows& more) {
         mode_rows(part, palette(workspace.settings.theme), more, emit);
         if (part.mode == ChainMode::Reach) solver_rows(part, more, emit);
+        if (part.mode == ChainMode::Curve) curve_rows(part, more, emit);
     });
     section("Joints", false, [&](MoreRows&) { segment_rows(part, emit); });
     section("Target", false, [&](MoreRows&) { target_rows(part, workspace.clock.playing, emit); });
@@ -216,13 +217,12 @@ void ChainLab::timeline(const Workspace& workspace, Emit& emit) const {
     past_rows(workspace, std::nullopt, emit);
 }
 
-namespace {
-
-/// "0.23 m", or "4.1 mm" if small.
 std::string distance_text(float metres) {
     const auto value = static_cast<double>(metres);
     return value >= 0.01 ? fixed_text(value, 2) + " m" : si_text(value, "m");
 }
+
+namespace {
 
 Verdict reach_verdict(const ChainPart& part) {
     if (part.chain.segments().size() < 2) return {"One joint", Verdict::Kind::Open};
@@ -293,6 +293,7 @@ std::string status_text(const ChainPart& part) {
 Verdict chain_verdict(const ChainPart& part) {
     if (part.chain.empty()) return {"No joints", Verdict::Kind::Open};
     if (part.mode == ChainMode::Reach) return reach_verdict(part);
+    if (part.mode == ChainMode::Curve) return curve_verdict(part);
     const std::size_t joint = led_joint(part);
     const std::string end = joint == 0                       ? "Head"
                             : joint + 1 == part.chain.size() ? "Tail"
@@ -306,6 +307,7 @@ Verdict chain_verdict(const ChainPart& part) {
 void report_rows(const ShownChain& shown, const std::vector<glm::vec3>& joints, const Palette& palette,
                  Emit& emit) {
     const ChainPart& part = shown.part;
+    if (part.mode == ChainMode::Curve && !part.chain.empty()) return curve_report_rows(part, palette, emit);
     if (!shows_end(shown)) {
         verdict("In progress", palette.text);
         reading("tip to target", "%.4f m", static_cast<double>(shown_residual(part, joints)));

@@ -12,6 +12,8 @@ namespace tendril::app {
 void draw_mode(ChainMode mode, const Palette& colours);
 /// Panel: the solver and its options.
 void solver_rows(const ChainPart& part, MoreRows& more, Emit& emit);
+/// Panel: the curve of mode Curve.
+void curve_rows(const ChainPart& part, MoreRows& more, Emit& emit);
 /// Panel: microscope and race.
 void study_rows(const ChainPart& part, Emit& emit);
 /// Panel: copying.
@@ -19,6 +21,12 @@ void export_rows(Emit& emit);
 /// Inspector: the outcome of the last move of the target, and the report of the last solve.
 void report_rows(const ShownChain& shown, const std::vector<glm::vec3>& joints, const Palette& palette,
                  Emit& emit);
+/// Inspector, in mode Curve: how the chain lies on it.
+void curve_report_rows(const ChainPart& part, const Palette& palette, Emit& emit);
+/// Inspector: the selected control points; at least one.
+void control_rows(const ChainPart& part, Emit& emit);
+/// Moves control points, and stops the target's motion if that would take them back.
+void emit_points(const ChainPart& part, std::vector<glm::vec3> points, Emit& emit);
 /// Inspector: the selection.
 void selection_rows(const ShownChain& shown, const std::vector<glm::vec3>& joints, Emit& emit);
 /// The bone length of the selected joints.
@@ -32,6 +40,9 @@ void race_rows(const ShownChain& shown, const Palette& palette, Emit& emit);
 
 /// The outcome of a move: "Reached", "Out of reach: 0.23 m short", "Limited: 0.10 m short".
 Verdict chain_verdict(const ChainPart& part);
+Verdict curve_verdict(const ChainPart& part);
+/// "0.23 m", or "4.1 mm" if small.
+std::string distance_text(float metres);
 /// The meaning of the last solve's status, with what may help, in sentences.
 std::string status_text(const ChainPart& part);
 

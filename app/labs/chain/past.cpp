@@ -33,10 +33,11 @@ float swing_of(const ChainPart& part, std::size_t joint) {
     return glm::degrees(std::atan2(glm::length(glm::cross(parent, bone)), glm::dot(parent, bone)));
 }
 
-/// Degrees about the bone. Known only with limits, since only then does the solver keep rotations.
+/// Degrees about the bone. Known only along a curve and with limits: else the solver keeps no rotations.
 float twist_of(const ChainPart& part, std::size_t joint) {
     const auto& rotations = part.reach.state.rotations;
-    if (part.reach.limits.empty() || joint >= rotations.size()) return nothing;
+    const bool kept = part.mode == ChainMode::Curve || !part.reach.limits.empty();
+    if (!kept || joint >= rotations.size()) return nothing;
     const glm::quat parent = joint > 0 ? rotations[joint - 1] : glm::quat(1, 0, 0, 0);
     return glm::degrees(ik::measure(limit_of(part.reach, joint), part.chain.default_direction(),
                                     glm::conjugate(parent) * rotations[joint])
@@ -56,8 +57,8 @@ const ChainPart& chain_of(const SharedPart& part) {
 
 /// The same number of joints, with bones of the same lengths, but for the rounding of an engine's log.
 bool same_joints(const Part& then, const Part& now) {
-    const auto a = dynamic_cast<const ChainPart&>(then).chain.segments(),
-               b = dynamic_cast<const ChainPart&>(now).chain.segments();
+    const auto a = own_chain(dynamic_cast<const ChainPart&>(then)).segments(),
+               b = own_chain(dynamic_cast<const ChainPart&>(now)).segments();
     if (a.size() != b.size()) return false;
     for (std::size_t i = 1; i < a.size(); ++i)
         if (std::abs(a[i].length - b[i].length) > 0.01f * b[i].length) return false;
@@ -92,7 +93,7 @@ std::optional<PastCurve> chain_past_curve(const Workspace& workspace) {
     return PastCurve{
         .name = name,
         .of = name,
-        .missing = what == Number::Twist ? "Twist is only known within limits: give a joint a limit."
+        .missing = what == Number::Twist ? "Twist is only known along a curve and within limits."
                                          : "Select a joint with a bone after it.",
         .value = [what, joint](const SharedPart& part) { return value_of(what, chain_of(part), joint); }};
 }
@@ -210,7 +211,18 @@ bool comparable(const ChainPart& before, const ChainPart& after) {
 
 }  // namespace
 
+static std::vector<Incident> jumps(const ChainPart& before, const ChainPart& after) {
+    const auto& report = after.along.report;
+    if (before.mode != ChainMode::Curve || before.curve == after.curve || !report || !report->jumped)
+        return {};
+    return {{.kind = Incident::Kind::Jump,
+             .joint = *report->jumped,
+             .cause = jump_cause(before, after),
+             .cure = "Open that bend, or use shorter bones there."}};
+}
+
 std::vector<Incident> chain_incidents(const ChainPart& before, const ChainPart& after) {
+    if (after.mode == ChainMode::Curve) return jumps(before, after);
     if (!comparable(before, after)) return {};
     std::vector<Incident> incidents;
     const ik::Report& report = after.result->report;

@@ -99,6 +99,12 @@ Segments snake(std::size_t count) {
     });
 }
 
+/// Straight up, of that height.
+Segments upright(std::size_t count, float height) {
+    const float step = count < 2 ? height : height / static_cast<float>(count - 1);
+    return placed({0, 1, 0}, count, [=](std::size_t) { return glm::vec3(0, step, 0); });
+}
+
 /// A rising coil.
 Segments coil(std::size_t count) {
     const float step = 26.0f / static_cast<float>(count);
@@ -132,11 +138,15 @@ const std::vector<Preset>& presets() {
         {"random", "Random", 16, 3},
         {reaching_arm, "Reach", 4, 3, ": an arm in mode reach, with a hinge and a pole target"},
         {straight_chain_preset, "Straight", 5, 3,
-         " in a line, the target on that line: FABRIK (2011) cannot bend it"}};
+         " in a line, the target on that line: FABRIK (2011) cannot bend it"},
+        {"spine", "Spine", 9, 3, " along a curve with a roll from hips to neck, in mode curve"},
+        {"tail", "Tail", 31, 3, " along a curve with a loop, in mode curve"}};
     return list;
 }
 
 Chain make_preset(const std::string& name, std::size_t count, std::uint32_t seed) {
+    if (name == "spine") return require_value(Chain::from_segments(upright(count, 0.7f)));
+    if (name == "tail") return require_value(Chain::from_segments(upright(count, 6.0f)));
     if (name == "start" || name == straight_chain_preset)
         return require_value(Chain::from_segments(start(count)));
     if (name == reaching_arm) return require_value(Chain::from_segments(bent_arm(count)));
@@ -161,6 +171,20 @@ void make_it_reach(ChainPart& part, ChainRuntime& runtime) {
         set_limit(part.reach, elbow, hinge, part.chain);
     }
     reach_for(part, {2.25f, 0.9f, 0.2f}, runtime);
+}
+
+void lay_along_curve(ChainPart& part, const std::string& preset) {
+    part.mode = ChainMode::Curve;
+    part.curve = {};
+    if (preset == "spine") {
+        part.curve.points = {{0, 1, 0}, {0, 1.25f, 0.06f}, {0, 1.5f, -0.05f}, {0.03f, 1.7f, 0}};
+        part.curve.roll_end_deg = 40;
+        part.curve.fit = true;
+    } else {
+        part.curve.points = {{0, 1, 0},           {-0.9f, 0.8f, 0},    {-1.8f, 1.2f, 0.2f},
+                             {-1.5f, 2.0f, 0.3f}, {-0.9f, 1.5f, 0.1f}, {-1.9f, 0.9f, -0.2f},
+                             {-3.0f, 1.3f, 0}};
+    }
 }
 
 void make_it_stall(ChainPart& part, ChainRuntime& runtime) {

@@ -33,6 +33,9 @@ Chain make_preset(const std::string& name, std::size_t count, std::uint32_t seed
 /// on the target. `part` already has the preset's chain.
 void make_it_reach(ChainPart& part, ChainRuntime& runtime);
 
+/// Completes the presets spine and tail: mode Curve, with control points of their own.
+void lay_along_curve(ChainPart& part, const std::string& preset);
+
 /// Completes the preset straight: mode Reach, solver FABRIK (2011), and the target on the chain's own line,
 /// three quarters of a bone before the tip. Both passes then shift the joints along the line and back: the
 /// chain stays as it is, to the last bit. Nearer to the root it would fold onto the line, and could end on

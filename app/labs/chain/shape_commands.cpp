@@ -109,6 +109,7 @@ void remove(ChainPart& part, const Arguments& given) {
 }
 
 void remove_selected(ChainPart& part, const Arguments&) {
+    if (!part.along.selection.empty()) return remove_selected_points(part);
     if (part.selection.empty()) throw Refused("no joint is selected");
     if (part.selection.several()) return remove_all(part, std::vector(part.selection.all()));
     remove_at(part, *part.selection.active());
@@ -142,6 +143,7 @@ void take_preset(ChainPart& part, const Arguments& given, ChainRuntime& runtime)
     take_chain(part, make_preset(name, count, seed));
     if (name == reaching_arm) make_it_reach(part, runtime);
     if (name == straight_chain_preset) make_it_stall(part, runtime);
+    if (name == "spine" || name == "tail") lay_along_curve(part, name);
 }
 
 }  // namespace
@@ -157,6 +159,8 @@ void take_chain(ChainPart& part, Chain chain) {
     part.reach.pole.reset();
     part.reach_target.reset();
     part.reach.state = {};
+    part.curve.points.clear();  // mode Curve lays it through the new chain
+    part.along.selection.clear();
     shape_changed(part);
     put_target_on_led_joint(part);
 }
@@ -174,8 +178,8 @@ void add_shape_commands(CommandTable& table) {
                       "Inserts a segment before another", insert));
     table.add(chain_command("chain.remove", "Remove a joint", {index_argument(true, "which segment")},
                             "Removes a segment", remove));
-    table.add(chain_command("chain.remove_selected", "Delete selection", {}, "Removes the selected joints",
-                            remove_selected));
+    table.add(chain_command("chain.remove_selected", "Delete selection", {},
+                            "Removes the selected joints, or the selected control points", remove_selected));
     table.add(
         chain_command("chain.reset", "Reset the Chain lab", {}, "Resets this lab to its first state", reset));
     table.add(
@@ -191,7 +195,8 @@ void add_shape_commands(CommandTable& table) {
          integer_argument("count", "segments", 1, static_cast<double>(max_segments)),
          {.name = "seed", .type = ArgumentType::Integer, .required = false, .help = "for random", .low = 0}},
         "Makes a preset chain, the target on its tail. Two come with mode reach: reaching_arm with limits "
-        "and a pole target, straight with a target on its own line, where FABRIK (2011) stalls",
+        "and a pole target, straight with a target on its own line, where FABRIK (2011) stalls; spine and "
+        "tail with mode curve",
         take_preset));
 }
 

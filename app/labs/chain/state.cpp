@@ -24,6 +24,23 @@ Json reach_state(const ChainPart& part) {
     return json;
 }
 
+Json curve_state(const ChainPart& part) {
+    Json json = save_curve(part.curve);
+    json["selected"] = part.along.selection.all();
+    json["rotations"] = Json::array();
+    for (const glm::quat& each : part.reach.state.rotations) json["rotations"].push_back(quaternion(each));
+    const auto& report = part.along.report;
+    if (!report) return json;
+    json["status"] = ik::name(report->status);
+    json["bones_past_end"] = report->bones_past_end;
+    json["past_end"] = number(report->past_end);
+    json["short_of_end"] = number(report->short_of_end);
+    json["factor"] = number(report->factor);
+    json["jumped"] = report->jumped ? Json(*report->jumped) : Json(nullptr);
+    json["collapsed"] = report->collapsed;
+    return json;
+}
+
 /// The step under the microscope.
 Json microscope_state(const ShownChain& shown) {
     const ChainPart& part = shown.part;
@@ -103,6 +120,7 @@ Json ChainLab::state(const Workspace& workspace) const {
               {"past", past_view_state(workspace, chain_past(), chain_past_curve(workspace))},
               {"segments", std::move(list)}};
     if (part.mode == ChainMode::Reach) json["solve"] = reach_state(part);
+    if (part.mode == ChainMode::Curve) json["curve"] = curve_state(part);
     const ShownChain shown = shown_chain(workspace);
     if (shown.trace) json["microscope"] = microscope_state(shown);
     if (!shown.race) return json;

@@ -19,6 +19,8 @@ std::string incident_title(const Incident& incident) {
         case Incident::Kind::Flip:
             return joint + (named ? " flipped: it turned " : " flipped: one of its bones turned ") +
                    fixed_text(static_cast<double>(incident.degrees), 0) + " degrees in one tick";
+        case Incident::Kind::Jump:
+            return joint + " jumped";
         case Incident::Kind::Limit:
             if (named) break;
             return joint + " reached its limit";
@@ -34,6 +36,7 @@ std::string incident_title(const Incident& incident) {
 glm::vec3 incident_colour(const Incident& incident, const Palette& palette) {
     switch (incident.kind) {
         case Incident::Kind::Flip:
+        case Incident::Kind::Jump:
         case Incident::Kind::Limit:
             return palette.limit;
         case Incident::Kind::Restart:
@@ -72,7 +75,7 @@ void record_button(const Workspace& workspace, Emit& emit) {
 TimeMark incident_mark(const Incident& incident, int at, const Palette& palette) {
     return {.at = at,
             .colour = incident_colour(incident, palette),
-            .large = incident.kind == Incident::Kind::Flip};
+            .large = incident.kind == Incident::Kind::Flip || incident.kind == Incident::Kind::Jump};
 }
 
 void tell_incident(const Incident& incident) {

@@ -67,6 +67,20 @@ TEST_F(Solve, prints_one_array_with_positions) {
     EXPECT_NEAR(rows[1]["residual"].get<double>(), 6.0, 1e-3);
 }
 
+TEST_F(Solve, a_chain_along_a_curve_has_one_row_for_all_solvers) {
+    const char* const text =
+        R"([{"name": "tail", "lengths": [1, 1, 1], "curve": [[0, 0, 0], [1, 0, 0], [2, 0, 0]]}])";
+    const Outcome outcome = run(text, {"--json", "--solver", "all"});
+    ASSERT_TRUE(succeeded(outcome));
+    const Json rows = app::parse_json(outcome.out);
+    ASSERT_EQ(rows.size(), 1u);
+    EXPECT_EQ(rows[0]["solver"], "curve");
+    EXPECT_EQ(rows[0]["status"], "Stretched");
+    EXPECT_EQ(rows[0]["curve"]["bones_past_end"], 1);
+    EXPECT_EQ(rows[0]["positions"][3], Json::array({3.0, 0.0, 0.0}));
+    EXPECT_TRUE(has(run(text, {"--csv"}).out, "tail,curve,Stretched,0,1.0,"));
+}
+
 TEST_F(Solve, prints_the_same_as_quoted_csv) {
     const Outcome outcome = run(two_cases, {"--csv", "--solver", "fabrik_plain"});
     ASSERT_TRUE(succeeded(outcome));

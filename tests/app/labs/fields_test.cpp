@@ -92,6 +92,7 @@ Table table_of(ik::JointKind kind) {
 std::vector<Table> all_tables() {
     std::vector<Table> all{
         table_of<ReachSettings>(chain_lab, "chain.solver", "/reach"),
+        table_of<CurveSettings>(chain_lab, "chain.curve", "/curve"),
         table_of<rope::Settings>(rope_lab, "rope.settings", "/world/settings"),
         {.lab = rope_lab,
          .command = "rope.collider.drive",

@@ -1,0 +1,176 @@
+// Mode Curve in the picture and in the panels.
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include "app/document/units.hpp"
+#include "app/fields/field_rows.hpp"
+#include "app/labs/chain/draw.hpp"
+#include "app/labs/chain/panel.hpp"
+#include "app/widgets/fields.hpp"
+
+namespace tendril::app {
+namespace {
+
+/// A curve of many pieces takes fewer strokes for each.
+std::size_t strokes_per_piece(const CurveSettings& curve) {
+    return std::clamp<std::size_t>(2048 / std::max<std::size_t>(curve.points.size() - 1, 1), 2, 24);
+}
+
+class CurveDrawing {
+  public:
+    CurveDrawing(const View& view, const ChainPart& part, DrawList& list)
+        : view_(view), part_(part), curve_(part.curve), list_(list) {}
+
+    void run() {
+        line();
+        for (std::size_t i = 0; i < curve_.points.size(); ++i) control(i);
+        if (curve_frames().chosen(view_.workspace.settings) == 1) frames();
+    }
+
+  private:
+    float px(float pixels) const { return pixels * view_.scale; }
+
+    void line() {
+        const std::size_t each = strokes_per_piece(curve_), all = each * (curve_.points.size() - 1);
+        const bool hovered = view_.hovered >= first_curve_pick && view_.hovered < first_gizmo_pick;
+        const glm::vec4 colour = faded(view_.palette, pole_colour(view_.palette), hovered ? 1.0f : 0.75f);
+        const auto place = [&](std::size_t i) {
+            return ik::curve_point(curve_.points, curve_.kind,
+                                   static_cast<float>(i) / static_cast<float>(each));
+        };
+        glm::vec3 from = place(0);
+        for (std::size_t i = 0; i < all; ++i) {
+            const glm::vec3 to = place(i + 1);
+            Stroke& stroke = list_.line(from, to, px(hovered ? 3.0f : 2.0f), colour);
+            stroke.pick = first_curve_pick + static_cast<PickId>(i);
+            stroke.rank = 1;  // before the bones, which lie along it
+            from = to;
+        }
+        if (curve_.kind == ik::CurveKind::Hermite) return;
+        // A B-spline passes beside its points: these lines say to which part each belongs.
+        for (std::size_t i = 1; i < curve_.points.size(); ++i)
+            list_.line(curve_.points[i - 1], curve_.points[i], px(1.0f),
+                       faded(view_.palette, pole_colour(view_.palette), 0.3f));
+    }
+
+    /// Over the joints, and smaller: the first one lies on the root.
+    void control(std::size_t i) {
+        const PickId pick = control_pick(i);
+        const bool hovered = view_.hovered == pick || view_.dragged == pick;
+        const bool last = i + 1 == curve_.points.size();
+        const glm::vec3 colour = last ? view_.palette.target : pole_colour(view_.palette);
+        Stroke& ball = list_.sphere(curve_.points[i], px((last ? 7.5f : 6.0f) + (hovered ? 1.5f : 0.0f)),
+                                    Unit::Pixels, glm::vec4(colour, 1.0f));
+        ball.shadow = true;
+        ball.layer = Layer::Overlay;
+        ball.pick = pick;
+        ball.rank = 2;
+        const bool selected = part_.along.selection.has(i);
+        if (!selected && !hovered && !last) return;
+        const float width = selected && part_.along.selection.active() == i ? 2.5f : 1.5f;
+        list_
+            .ring(curve_.points[i], px(last ? 14.0f : 11.0f), px(width),
+                  glm::vec4(selected ? view_.palette.selection : colour, 1.0f))
+            .layer = Layer::Overlay;
+    }
+
+    /// Of each bone, at its middle: its upper side, and what is on its right.
+    void frames() {
+        const auto& rotations = part_.reach.state.rotations;
+        const glm::vec3 rest = part_.chain.default_direction();
+        glm::vec3 side = glm::cross(curve_.up, rest);
+        if (!(glm::length(side) > 1e-6f * glm::length(curve_.up)))
+            side = glm::cross(std::abs(rest.x) < 0.9f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0), rest);
+        const glm::vec3 right = glm::normalize(side), upper = glm::cross(rest, right);
+        for (std::size_t i = 0; i < rotations.size() && i + 1 < part_.chain.size(); ++i) {
+            const glm::vec3 at = 0.5f * (part_.chain.position(i) + part_.chain.position(i + 1));
+            const float most = px(42.0f) * view_.camera.metres_per_pixel(at);
+            const float length = std::min(std::max(0.8f * part_.chain.length(i + 1), 0.5f * most), most);
+            list_.line(at, at + length * (rotations[i] * upper), px(2.5f),
+                       glm::vec4(view_.palette.axis_y, 1.0f));
+            list_.line(at, at + 0.6f * length * (rotations[i] * right), px(2.0f),
+                       glm::vec4(view_.palette.axis_z, 1.0f));
+        }
+    }
+
+    const View& view_;
+    const ChainPart& part_;
+    const CurveSettings& curve_;
+    DrawList& list_;
+};
+
+}  // namespace
+
+std::optional<float> picked_on_curve(const ChainPart& part, PickId pick) {
+    if (pick < first_curve_pick || part.curve.points.size() < 2) return std::nullopt;
+    const std::size_t each = strokes_per_piece(part.curve),
+                      stroke = static_cast<std::size_t>(pick - first_curve_pick);
+    if (stroke >= each * (part.curve.points.size() - 1)) return std::nullopt;
+    return (static_cast<float>(stroke) + 0.5f) / static_cast<float>(each);
+}
+
+void draw_curve(const View& view, const ChainPart& part, DrawList& list) {
+    if (part.curve.points.size() >= 2) CurveDrawing(view, part, list).run();
+}
+
+LabSetting curve_frames() {
+    return {.key = "curve frames",
+            .command = "view.curve_frames",
+            .title = "Show or hide the bones' frames",
+            .argument = "show",
+            .help = "Shows how each bone is rolled, in mode curve",
+            .choices = {{"off", "hidden"}, {"on", "shown"}}};
+}
+
+// The panels.
+
+void curve_rows(const ChainPart& part, MoreRows& more, Emit& emit) {
+    FieldRows(part.curve, "chain.curve", emit)
+        .under(more)
+        .rows("kind", "weight", "roll_start_deg", "roll_end_deg", "fit", "max_factor", "falloff", "up");
+}
+
+Verdict curve_verdict(const ChainPart& part) {
+    if (!part.along.report) return {"One joint", Verdict::Kind::Open};
+    const ik::CurveReport& report = *part.along.report;
+    if (report.collapsed) return {"All points coincide", Verdict::Kind::Bad};
+    if (report.status == ik::Status::Stretched)
+        return {"Past the end: " + distance_text(report.past_end), Verdict::Kind::Bad};
+    if (part.curve.weight < 1.0f || part.curve.falloff != 0.0f)
+        return {"Between pose and curve", Verdict::Kind::Open};
+    return {"On the curve", Verdict::Kind::Good};
+}
+
+void curve_report_rows(const ChainPart& part, const Palette& palette, Emit& emit) {
+    show_verdict(curve_verdict(part), palette, emit, {.verdict = 1, .notes = 3, .paragraphs = 2},
+                 [&part, &emit] {
+                     if (!part.along.report) return note("A chain needs two joints to lie on a curve.");
+                     const ik::CurveReport& report = *part.along.report;
+                     const std::size_t past = report.bones_past_end;
+                     note(report.collapsed ? "The curve has no direction: drag a control point away."
+                          : past == 0      ? "Every joint lies on the curve."
+                                      : count_text(past, "bone") + " go on straight past its last point.");
+                     if (past == 0 || part.curve.fit) return;
+                     cure_line("",
+                               Cure{"Fit",
+                                    "Runs chain.curve: scales the bones so that the tip is on the last "
+                                    "control point",
+                                    {{"chain.curve", {{"fit", true}}}}},
+                               emit);
+                 });
+    if (!part.along.report) return;
+    if (part.curve.fit) reading("bones scaled by", "%.4f", static_cast<double>(part.along.report->factor));
+}
+
+void control_rows(const ChainPart& part, Emit& emit) {
+    const std::vector<std::size_t>& all = part.along.selection.all();
+    if (all.size() > 1) return reading("control points", "%zu", all.size());
+    reading("control point", "%zu", all.front());
+    std::vector<glm::vec3> points = part.curve.points;
+    if (point_field("at", points[all.front()], 0.01f)) emit_points(part, std::move(points), emit);
+    explain("Where the control point is. It can be dragged in the scene too.");
+}
+
+}  // namespace tendril::app

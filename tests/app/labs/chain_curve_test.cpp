@@ -1,0 +1,251 @@
+// Mode Curve: the chain along a curve, by the lab's own commands.
+#include <fstream>
+#include <glm/gtc/quaternion.hpp>
+
+#include "app/labs/chain/code.hpp"
+#include "tests/app/labs/chain_support.hpp"
+#include "tests/app/support/play.hpp"
+#include "tests/places.hpp"
+#include "tests/says.hpp"
+
+namespace tendril::app {
+namespace {
+
+class ChainCurve : public ChainTest {
+  protected:
+    /// Bones from the origin along +X, in mode Curve along these points.
+    void along(const Json& points, const std::vector<float>& lengths) {
+        run("chain.clear");
+        run("chain.add", {{"length", 0}});
+        for (const float length : lengths) run("chain.add", {{"length", length}});
+        run("chain.mode", {{"mode", "curve"}});
+        run("chain.curve", {{"points", points}});
+    }
+    /// A bow of 1 m bones.
+    void bow(int bones = 4) { along({{0, 0, 0}, {1, 1, 0}, {3, 1, 0}, {5, 0, 0}}, std::vector(bones, 1.0f)); }
+    std::vector<glm::vec3> joints() const { return positions(part().chain); }
+    Json curve() const { return state().at("curve"); }
+    std::vector<Incident> moved(const Json& points) {
+        const auto before = workspace.document.parts().at(chain_lab);
+        run("chain.curve", {{"points", points}});
+        return lab().review(workspace, *before, *workspace.document.parts().at(chain_lab));
+    }
+};
+
+TEST_F(ChainCurve, agrees_with_an_independent_implementation) {
+    std::ifstream file(test::reference_path("spline.json"));
+    if (!file) GTEST_SKIP() << "spline.json is not here";
+    const Json cases = Json::parse(file).at("cases");
+    ASSERT_GE(cases.size(), 40u);
+    for (const Json& each : cases) {
+        along(each.at("control_points"), each.at("lengths").get<std::vector<float>>());
+        const std::vector<glm::vec3> placed = joints();
+        ASSERT_EQ(placed.size(), each.at("joints").size());
+        for (std::size_t i = 0; i < placed.size(); ++i) {
+            const auto at = each.at("joints")[i].get<std::vector<float>>();
+            EXPECT_LE(glm::distance(placed[i], {at[0], at[1], at[2]}), 1e-5f * part().chain.reach());
+        }
+        EXPECT_EQ(curve().at("bones_past_end"), each.at("bones_past_end"));
+    }
+}
+
+TEST_F(ChainCurve, begins_as_a_curve_through_the_chain_and_turns_the_bones_from_rest) {
+    run("chain.preset", {{"name", "tentacle"}});
+    const std::vector<glm::vec3> before = joints();
+    run("chain.mode", {{"mode", "curve"}});
+    EXPECT_EQ(curve().at("points").size(), 5u);
+    EXPECT_EQ(joints().front(), before.front());
+    EXPECT_LT(glm::distance(joints().back(), before.back()), 0.1f * part().chain.reach());
+    const auto& rotations = part().reach.state.rotations;
+    ASSERT_EQ(rotations.size(), curve().at("rotations").size());
+    for (std::size_t i = 0; i < rotations.size(); ++i) {
+        const glm::vec3 bone = glm::normalize(joints()[i + 1] - joints()[i]);
+        EXPECT_LT(glm::distance(rotations[i] * glm::vec3(1, 0, 0), bone), 1e-4f) << i;
+    }
+}
+
+TEST_F(ChainCurve, says_how_much_lies_past_the_end_and_fits_on_request) {
+    along({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {1, 1, 1});
+    EXPECT_EQ(curve().at("bones_past_end"), 1);
+    EXPECT_EQ(curve().at("past_end"), 1.0);
+    EXPECT_EQ(state().at("verdict"), "Past the end: 1.00 m");
+    run("chain.curve", {{"fit", true}});
+    EXPECT_NEAR(curve().at("factor").get<float>(), 2.0f / 3.0f, 1e-5f);
+    EXPECT_LT(glm::distance(joints().back(), {2, 0, 0}), 1e-5f);
+    run("chain.set_length", {{"index", 1}, {"length", 2}});
+    EXPECT_NEAR(curve().at("factor").get<float>(), 0.5f, 1e-5f) << "a length is that of the unscaled bone";
+    run("chain.mode", {{"mode", "forward"}});
+    EXPECT_EQ(part().chain.length(1), 2.0f);
+    EXPECT_EQ(part().chain.length(2), 1.0f);
+}
+
+TEST_F(ChainCurve, weight_and_falloff_ease_from_the_pose_it_had) {
+    bow();
+    const std::vector<glm::vec3> all = joints();
+    run("chain.curve", {{"weight", 0}});
+    for (std::size_t i = 0; i < all.size(); ++i)
+        EXPECT_LT(glm::distance(joints()[i], glm::vec3(i, 0, 0)), 1e-5f) << i;
+    run("chain.curve", {{"weight", 0.5}});
+    const std::vector<glm::vec3> half = joints();
+    run("chain.curve", {{"roll_end_deg", 90}});
+    run("chain.curve", {{"roll_end_deg", 0}});
+    EXPECT_EQ(joints(), half) << "the same settings give the same pose";
+    run("chain.curve", {{"weight", 1}, {"falloff", 1}});
+    EXPECT_LT(glm::distance(joints()[1], {1, 0, 0}), 1e-5f) << "the first bone keeps its pose";
+    const glm::vec3 last = joints()[4] - joints()[3];
+    EXPECT_LT(glm::distance(last, all[4] - all[3]), 1e-4f) << "the last one is the curve's";
+    run("chain.curve", {{"falloff", -1}});
+    EXPECT_LT(glm::distance(joints()[1], all[1]), 1e-5f);
+}
+
+TEST_F(ChainCurve, a_roll_turns_the_last_bone_about_itself) {
+    bow();
+    const glm::quat before = part().reach.state.rotations.back();
+    run("chain.curve", {{"roll_end_deg", 90}});
+    const glm::quat turn = part().reach.state.rotations.back() * glm::conjugate(before);
+    EXPECT_NEAR(2.0f * std::acos(std::abs(turn.w)), glm::radians(90.0f), 1e-3f);
+}
+
+TEST_F(ChainCurve, the_target_is_the_last_control_point) {
+    bow();
+    EXPECT_EQ(part().target, glm::vec3(5, 0, 0));
+    run("chain.target", {{"to", {4, 2, 1}}});
+    EXPECT_EQ(part().curve.points.back(), glm::vec3(4, 2, 1));
+    const std::vector<glm::vec3> before = joints();
+    run("chain.motion", {{"path", "circle"}});
+    for (int i = 0; i < 30; ++i) lab().step(workspace);
+    EXPECT_EQ(part().curve.points.back(), part().target);
+    EXPECT_NE(joints(), before);
+    run("chain.mode", {{"mode", "reach"}});
+    EXPECT_TRUE(part().along == AlongCurve());
+}
+
+TEST_F(ChainCurve, edits_go_to_the_chain_and_its_new_pose_follows) {
+    bow();
+    run("chain.add", {{"length", 1}});
+    ASSERT_EQ(joints().size(), 6u);
+    EXPECT_EQ(curve().at("rotations").size(), 5u);
+    run("chain.remove", {{"index", 2}});
+    run("chain.set_length", {{"index", 1}, {"length", 0.5}});
+    EXPECT_NEAR(glm::distance(joints()[0], joints()[1]), 0.5f, 1e-5f);
+    EXPECT_TRUE(test::says(refused("chain.pull", {{"index", 1}, {"to", {0, 0, 0}}}),
+                           "the control points move the joints"));
+    run("chain.preset", {{"name", "arm"}});
+    EXPECT_EQ(part().mode, ChainMode::Curve);
+    EXPECT_EQ(part().curve.points.front(), glm::vec3(0, 3, 0)) << "laid through the new chain";
+    run("chain.clear");
+    EXPECT_TRUE(part().chain.empty());
+}
+
+TEST_F(ChainCurve, control_points_are_selected_and_removed_like_joints) {
+    bow();
+    run("chain.select", {{"index", 1}});
+    run("chain.select", {{"controls", {1, 2}}});
+    EXPECT_TRUE(part().selection.empty());
+    run("chain.select", {{"control", 2}, {"add", true}});
+    EXPECT_EQ(curve().at("selected"), Json({1}));
+    run("chain.remove_selected");
+    EXPECT_EQ(curve().at("points").size(), 3u);
+    run("chain.select", {{"controls", {0, 1}}});
+    EXPECT_TRUE(test::says(refused("chain.remove_selected"), "needs two control points"));
+    expect_refused("chain.select", {{"control", 3}}, {"out of range", "there are 3"});
+    expect_refused("chain.curve", {{"points", {{0, 0, 0}}}}, {"needs two control points"});
+    run("chain.select", {{"index", 1}});
+    EXPECT_TRUE(part().along.selection.empty());
+}
+
+TEST_F(ChainCurve, is_saved_and_opened_as_it_is) {
+    run("chain.preset", {{"name", "spine"}});
+    run("chain.curve", {{"kind", "b_spline"}, {"weight", 0.75}, {"falloff", 0.5}});
+    run("chain.select", {{"control", 1}});
+    const ChainPart before = part();
+    const Json scene = parse_json(save_scene(workspace).dump());
+    run("chain.reset");
+    load_scene(workspace, scene);
+    EXPECT_TRUE(part() == before);
+}
+
+// A loop that narrows until it is less wide than a bone.
+TEST_F(ChainCurve, a_jump_is_an_incident_with_its_cause) {
+    const auto loop = [](double high) { return Json{{0, 0, 0}, {1, high, 0}, {1, -0.3, 0}, {5, 0, 0}}; };
+    along(loop(2), {0.9f, 0.9f, 0.9f, 0.9f});
+    std::vector<Incident> all;
+    float least = 1.0f;
+    for (double high = 2.0; high > 0.2; high -= 0.01) {
+        const std::vector<glm::vec3> before = joints();
+        const std::vector<Incident> now = moved(loop(high));
+        float furthest = 0.0f;
+        for (std::size_t i = 0; i < before.size(); ++i)
+            furthest = std::max(furthest, glm::distance(before[i], joints()[i]));
+        if (now.empty()) {
+            EXPECT_LE(furthest, 0.2f + 1e-4f) << high;
+            EXPECT_TRUE(curve().at("jumped").is_null());
+        } else {
+            least = std::min(least, furthest);
+            EXPECT_EQ(curve().at("jumped"), now.front().joint);
+        }
+        all.insert(all.end(), now.begin(), now.end());
+    }
+    ASSERT_FALSE(all.empty());
+    EXPECT_EQ(std::string(name(all.front().kind)), "jump");
+    EXPECT_TRUE(test::says(all.front().cause, "the joint went"));
+    EXPECT_GT(least, 0.15f);
+    EXPECT_TRUE(moved(loop(0.2)).empty()) << "a curve at rest does not jump";
+}
+
+TEST_F(ChainCurve, its_program_places_the_chain_as_it_was_given) {
+    run("chain.preset", {{"name", "spine"}});
+    const std::string code = chain_code(part());
+    for (const char* const said : {"tendril/ik/curve.hpp", "options.fit = true;",
+                                   "options.roll_end = 0.6981317f;", "ik::place_along("})
+        EXPECT_NE(code.find(said), std::string::npos) << said;
+    EXPECT_EQ(code.find("glm::vec3 target"), std::string::npos);
+}
+
+// The mouse.
+
+test::ScriptText straight_in_view() {
+    test::ScriptText script;
+    script.command("chain.mode", {{"mode", "curve"}})
+        .command("chain.curve", {{"points", {{0, 1, 0}, {2, 1, 0}, {4, 1, 0}, {6, 1, 0}}}})
+        .command("camera.frame", {{"what", "all"}});
+    return script;
+}
+
+TEST(ChainCurveMouse, adds_drags_and_removes_control_points) {
+    using test::handle, test::state_after;
+    test::ScriptText script = straight_in_view();
+    const Json start = state_after(script);
+    const glm::vec2 on_curve = glm::mix(handle(start, "segment.2"), handle(start, "segment.3"), 0.5f);
+    script.click(on_curve);  // and drags what it made
+    script.drag({on_curve, on_curve + glm::vec2(0, -20), on_curve + glm::vec2(0, -60)});
+    Json state = state_after(script);
+    ASSERT_EQ(state.at("curve").at("points").size(), 5u);
+    EXPECT_EQ(state.at("curve").at("selected"), Json({2}));
+    EXPECT_LT(glm::distance(handle(state, "control.2"), on_curve + glm::vec2(0, -60)), 8.0f);
+    EXPECT_EQ(handle(state, "control.1"), handle(start, "control.1"));
+    EXPECT_GT(test::point_of(state.at("segments")[3].at("position")).y, 1.1f) << "the chain follows";
+
+    state = state_after(script.key("delete").key("ctrl+z").key("ctrl+z").key("ctrl+z"));
+    EXPECT_EQ(state.at("curve").at("points"), start.at("curve").at("points")) << "three steps to undo";
+}
+
+TEST(ChainCurveMouse, drags_several_control_points_of_a_box) {
+    using test::handle, test::state_after;
+    test::ScriptText script = straight_in_view();
+    const Json start = state_after(script);
+    const glm::vec2 two = handle(start, "control.2"), three = handle(start, "control.3");
+    script.move(glm::min(two, three) - 25.0f).hold("ctrl").down().move(glm::max(two, three) + 25.0f).up();
+    Json state = state_after(script.release("ctrl"));
+    ASSERT_EQ(state.at("curve").at("selected"), Json({2, 3}));
+    const glm::vec2 arrow = handle(state, "control.3.move_y");
+    state = state_after(script.drag({arrow, arrow - glm::vec2(0, 10), arrow - glm::vec2(0, 40)}));
+    const auto at = [](const Json& in, int i) { return test::point_of(in.at("curve").at("points")[i]); };
+    EXPECT_GT(at(state, 2).y, 1.1f);
+    EXPECT_EQ(at(state, 2).y, at(state, 3).y);
+    EXPECT_EQ(at(state, 2).x, 4.0f);
+    EXPECT_EQ(at(state, 1), at(start, 1));
+}
+
+}  // namespace
+}  // namespace tendril::app
