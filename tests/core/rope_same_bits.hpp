@@ -61,10 +61,11 @@ class StateBits {
     void put(const rope::Collision& collision) { add(collision.a, collision.b); }
     void put(const rope::BodyContact& contact) { add(contact.a, contact.b, contact.force); }
     void put(const rope::Body& body) {
-        const auto& [id, kind, first, count, row, cells, radius, tear, friction, stretch] = body;
+        const auto& [id, kind, first, count, row, cells, radius, tear, bending, friction, stretch] = body;
         add(id, kind, first, count, row, radius, tear, stretch);
         if (!cells.empty()) put(cells);
         if (friction) add(*friction);
+        if (bending != 0.0f) add(bending);
     }
     void put(const rope::Link& link) {
         const auto& [a, b, rest, kind, compliance, tension] = link;

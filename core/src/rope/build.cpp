@@ -62,6 +62,20 @@ double elastic_energy(const Link& link, double compliance, double tension, const
     return 0.5 * stiffness * halfway * halfway;
 }
 
+ChainBend bend_between(const State& state, const Body& body, const Link& before, const Link& after) noexcept {
+    constexpr double min_length = 1e-6;     // a shorter link bends as if it were this long
+    constexpr double max_stiffness = 1e12;  // of a particle against its neighbours, relative to its mass
+    const double square = state.settings.substep * state.settings.substep;
+    const double length = std::max(static_cast<double>(before.rest), min_length),
+                 next = std::max(static_cast<double>(after.rest), min_length);
+    ChainBend bend;
+    bend.before = 1.0 / length, bend.after = 1.0 / next;
+    const double both = bend.before + bend.after;
+    bend.stiffness = std::min(2.0 * static_cast<double>(body.bending) * square / (length + next),
+                              max_stiffness * state.mass[after.a] / (both * both));
+    return bend;
+}
+
 dvec3 down(const Settings& settings) noexcept {
     const dvec3 gravity = static_cast<double>(settings.gravity_scale) * dvec3(settings.gravity);
     return length(gravity) > 1e-12 ? unit(gravity) : dvec3(0.0, -1.0, 0.0);
@@ -111,6 +125,7 @@ Result draft_rope(const State& state, const RopeShape& shape, Draft& draft) {
     draft.body.kind = Body::Kind::Rope;
     draft.body.row = segments + 1;
     draft.body.radius = shape.radius;
+    draft.body.bending = shape.bending;
     if (shape.pin_start) draft.pin(0);
     if (shape.pin_end) draft.pin(segments);
     return {};

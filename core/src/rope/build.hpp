@@ -3,6 +3,8 @@
 
 #include <vector>
 
+#include "rope/chain_system.hpp"
+#include "rope/geometry.hpp"
 #include "tendril/result.hpp"
 #include "tendril/rope/state.hpp"
 
@@ -45,6 +47,17 @@ void drift_gusts(State& state) noexcept;
 /// The compliance of a link as its solver uses it, m/N.
 double compliance(const Settings& settings, const Link& link) noexcept;
 
+/// Whether a body resists bending. Only the direct solver knows it.
+inline bool bends(const State& state, const Body& body) noexcept {
+    return body.bending > 0.0f && state.settings.solver == Solver::Direct;
+}
+/// How a rope resists bending where one link follows another.
+ChainBend bend_between(const State& state, const Body& body, const Link& before, const Link& after) noexcept;
+/// Whether a link continues a chain. Shear and bend links form none.
+inline bool follows(const Link& before, const Link& link) noexcept {
+    return link.a == before.b && link.kind == before.kind && link.kind == Link::Kind::Stretch;
+}
+
 /// The relative length error of a stretch link, or its length if its rest is 0; 0 for other links.
 double length_error(const State& state, const Link& link) noexcept;
 
@@ -67,6 +80,15 @@ double kinetic_energy(double mass, const glm::dvec3& by, double h) noexcept;
 /// halfway, so theirs is the energy at the end.
 double elastic_energy(const Link& link, double compliance, double tension, const glm::dvec3& now,
                       const glm::dvec3& by) noexcept;
+/// Of a body that resists bending where one link follows another; `at`: the position of a particle.
+template <class At>
+double bending_energy(const State& state, const Body& body, const Link& before, const Link& after, At at) {
+    const ChainBend bend = bend_between(state, body, before, after);
+    const glm::dvec3 curvature = bend.curvature(at(before.a), at(after.a), at(after.b));
+    return 0.5 * bend.stiffness * dot(curvature, curvature) /
+           (state.settings.substep * state.settings.substep);
+}
+
 /// Calls link(a, b, kind) for every link of a body of `rows` rows of `columns` particles, numbered from 0, in
 /// the order in which links are built and solved. A rope is a single row, hair a row for each strand.
 template <class Visit>

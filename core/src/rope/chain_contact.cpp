@@ -18,6 +18,7 @@ constexpr double touching = 1e-5;      ///< metres above a surface
 constexpr double depth = 1e-7;         ///< metres inside that are harmless
 constexpr double harmful = 1e-6;       ///< metres inside that require another step
 constexpr double harmful_late = 1e-5;  ///< the same after many steps
+constexpr double far_away = 1e30;      ///< metres, of what is not measured
 /// Slip per substep of a particle that friction holds, metres.
 constexpr double creep = 1e-7;
 
@@ -179,9 +180,53 @@ void ChainNewton::begin_plane(ContactScratch::Contact& contact, ContactScratch::
 /// Whether anything changed that requires another step.
 bool ChainNewton::update_contacts() {
     bool changed = false;
+    for (const ContactScratch::Contact& contact : s_.contacts) measure_planes(contact);
+    if (!s_.bends.empty()) choose_deepest();
     for (ContactScratch::Contact& contact : s_.contacts) changed |= update_planes(contact);
     for (ContactScratch::LinkContact& contact : s_.link_contacts) changed |= update_link(contact);
     return changed;
+}
+
+void ChainNewton::measure_planes(const ContactScratch::Contact& contact) {
+    const detail::ChainNode& node = s_.nodes[contact.node];
+    for (std::uint32_t p = contact.first; p < contact.first + contact.count; ++p) {
+        ContactScratch::Plane& plane = s_.planes[p];
+        const Scratch::Moving& moving = collider(plane.collider);
+        ++local_.done.work;
+        plane.gap = far_away;
+        if (s_.progress.moved && !plane.active && moving.far_from(node.x, radius_)) continue;
+        plane.gap = dot(plane.normal, node.x - plane.point);
+        // A particle far behind a plane that it touched has come through it: the surface nearest to it now is
+        // another one. If it did not touch the plane, it may have gone round.
+        if (s_.progress.moved && (!plane.active || plane.gap > -0.5 * moving.size - radius_)) {
+            const SurfaceDistance surface = surface_distance(*moving.shape, node.x);
+            plane.normal = surface.normal;
+            plane.gap = surface.distance - radius_;
+            plane.point = node.x - plane.gap * surface.normal;
+        }
+    }
+}
+
+/// Of new contacts so near to each other that bending makes their nodes move alike, only the deepest counts
+/// in a step: a stiff rope bent round a ball in one would be flung off it in the next.
+void ChainNewton::choose_deepest() {
+    ContactScratch::Contact* kept = nullptr;
+    double deepest = 0.0;
+    for (ContactScratch::Contact& contact : s_.contacts) {
+        contact.waits = false;
+        double gap = -depth;
+        for (std::uint32_t p = contact.first; p < contact.first + contact.count; ++p)
+            if (!s_.planes[p].active) gap = std::min(gap, s_.planes[p].gap);
+        if (gap == -depth) continue;
+        // In a substep bending reaches as many links as the fourth root of its stiffness.
+        const double stiff = s_.bends[contact.node].own / s_.nodes[contact.node].mass;
+        if (kept != nullptr && contact.node - kept->node < std::sqrt(std::sqrt(stiff))) {
+            (gap < deepest ? kept : &contact)->waits = true;
+            if (gap >= deepest) continue;
+        }
+        kept = &contact;
+        deepest = gap;
+    }
 }
 
 bool ChainNewton::update_planes(ContactScratch::Contact& contact) {
@@ -191,21 +236,9 @@ bool ChainNewton::update_planes(ContactScratch::Contact& contact) {
     hold.planes = 0;
     for (std::uint32_t p = contact.first; p < contact.first + contact.count; ++p) {
         ContactScratch::Plane& plane = s_.planes[p];
-        const Scratch::Moving& moving = collider(plane.collider);
-        ++local_.done.work;
         const bool was = plane.active;
-        if (s_.progress.moved && !was && moving.far_from(node.x, radius_)) continue;
-        plane.gap = dot(plane.normal, node.x - plane.point);
-        // A particle far behind a plane that it touched has come through it: the surface nearest to it now is
-        // another one. If it did not touch the plane, it may have gone round.
-        if (s_.progress.moved && (!was || plane.gap > -0.5 * moving.size - radius_)) {
-            const SurfaceDistance surface = surface_distance(*moving.shape, node.x);
-            plane.normal = surface.normal;
-            plane.gap = surface.distance - radius_;
-            plane.point = node.x - plane.gap * surface.normal;
-        }
         if (plane.gap < -depth) {
-            plane.active = true;
+            plane.active = was || !contact.waits;
             changed |= plane.gap < (s_.progress.may_go ? -harmful : -harmful_late);
         } else if (was && s_.progress.may_go) {
             // The force that the contact has to bear: what is out of balance without it.

@@ -69,10 +69,40 @@ void ChainNewton::begin() {
         s_.link_contacts[c].collider = ~0u;
     }
     s_.pushes.clear();
+    begin_bends();
     s_.progress = {};
     detail::ChainSystem system = this->system();
     system.evaluate(0.0);
     s_.progress.worst = system.largest_error();
+}
+
+void ChainNewton::begin_bends() {
+    const Plan::Chain& chain = plan_.chains[chain_];
+    const Body& body = state_.bodies[chain.body];
+    s_.bends.clear();
+    if (!detail::bends(state_, body)) return;
+    s_.bends.resize(s_.nodes.size());
+    const auto earlier = [&](std::uint32_t node) {
+        const std::uint32_t i = particle(node);
+        return state_.position[i] - state_.displacement[i];
+    };
+    const Link* const links = &state_.links[chain.first_link];
+    for (std::uint32_t k = 1; k < chain.links; ++k) {
+        detail::ChainBend &last = s_.bends[k - 1], &bend = s_.bends[k], &next = s_.bends[k + 1];
+        const detail::ChainBend is = detail::bend_between(state_, body, links[k - 1], links[k]);
+        bend.stiffness = is.stiffness, bend.before = is.before, bend.after = is.after;
+        const double now = detail::bend_ahead * bend.stiffness, both = bend.before + bend.after;
+        bend.earlier = (bend.stiffness - now) * bend.curvature(earlier(k - 1), earlier(k), earlier(k + 1));
+        last.own += now * bend.before * bend.before;
+        bend.own += now * both * both;
+        next.own += now * bend.after * bend.after;
+        last.to_next -= now * bend.before * both;
+        bend.to_next -= now * bend.after * both;
+        last.to_second += now * bend.before * bend.after;
+    }
+    if (!s_.contacts.empty() || !s_.link_contacts.empty()) return;
+    for (std::uint32_t k = 0; k < chain.links; ++k)
+        s_.bends[k].direction = detail::unit(earlier(k + 1) - earlier(k));
 }
 
 void ChainNewton::keep() {
@@ -131,7 +161,8 @@ bool ChainNewton::step(bool presses, bool more) {
     const double enough = p.taken <= few_steps ? accepted : p.may_go ? 10.0 * accepted : 100.0 * accepted;
     const bool done = p.moved && !changed && p.worst <= enough && p.used == 0.0;
     if ((done && !more) || p.taken == steps) return false;
-    ++p.taken;
+    if (++p.taken == few_steps)  // too fast for the mean of directions: the last one alone converges
+        for (detail::ChainBend& bend : s_.bends) bend.direction = dvec3(0.0);
     keep();
     system.step();
     local_.done.work += s_.bonds.size();

@@ -54,14 +54,19 @@ class ChainNewton {
                       bool moved) const;
     void begin_plane(ContactScratch::Contact& contact, ContactScratch::Plane& plane);
     bool update_contacts();
+    void measure_planes(const ContactScratch::Contact& contact);
+    void choose_deepest();
     bool update_planes(ContactScratch::Contact& contact);
     void rub(ContactScratch::Contact& contact);
     bool update_link(ContactScratch::LinkContact& contact);
     void rub_link(const ContactScratch::LinkContact& contact);
+    void begin_bends();
     void keep();
     void go_back(double part);
     bool went_too_far(double& turned) const;
-    detail::ChainSystem system() const { return {s_.nodes, s_.bonds, s_.holds, s_.bond_holds, s_.pushes}; }
+    detail::ChainSystem system() const {
+        return {s_.nodes, s_.bonds, s_.holds, s_.bond_holds, s_.pushes, s_.bends};
+    }
 
     const State& state_;
     const Plan& plan_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace tendril::rope::detail {
 namespace {
@@ -17,6 +18,26 @@ struct Sweep {
     dvec3 right{0.0};
     double stiffness = 0.0;
 };
+/// What they pass on to the next but one, if the chain resists bending.
+struct Beyond {
+    Matrix3 across;  ///< the matrix that leads there from the next
+    Symmetric3 matrix;
+    dvec3 right{0.0};
+};
+
+/// a b
+Matrix3 product(const Symmetric3& a, const Matrix3& b) noexcept {
+    Matrix3 c;
+    for (int i = 0; i < 3; ++i) {
+        const dvec3 column = a * dvec3(b.m[i], b.m[3 + i], b.m[6 + i]);
+        c.m[i] = column.x, c.m[3 + i] = column.y, c.m[6 + i] = column.z;
+    }
+    return c;
+}
+
+Matrix3 transposed(const Matrix3& a) noexcept {
+    return {{a.m[0], a.m[3], a.m[6], a.m[1], a.m[4], a.m[7], a.m[2], a.m[5], a.m[8]}};
+}
 
 Symmetric3 inverse_of(const Symmetric3& m) noexcept {
     const double xx = m.yy * m.zz - m.yz * m.yz, xy = m.xz * m.yz - m.xy * m.zz,
@@ -87,17 +108,56 @@ inline Sweep eliminate(const ChainNode& node, ChainBond& bond, const dvec3& alon
     return next;
 }
 
+/// The same if bending leads to the next node, and by `to_second` to the next but one. `beyond`: what nodes
+/// before have passed on to the next; then what this one passes on to the next but one.
+Sweep eliminate(const ChainNode& node, ChainBond& bond, ChainBend& bend, double to_second, const dvec3& along,
+                double weights, Beyond& beyond) noexcept {
+    Sweep next = eliminate(node, bond, along, weights);
+    const dvec3 moved = node.mobility * along;
+    const Matrix3& to = bend.across;
+    bond.row = along + to.transposed_by(moved);
+    bend.row = to_second * moved;
+    const Matrix3 by = product(node.mobility, to);
+    next.matrix = beyond.matrix;
+    const auto column = [](const Matrix3& a, int i) { return dvec3(a.m[i], a.m[3 + i], a.m[6 + i]); };
+    next.matrix.xx -= dot(column(to, 0), column(by, 0)), next.matrix.xy -= dot(column(to, 0), column(by, 1));
+    next.matrix.xz -= dot(column(to, 0), column(by, 2)), next.matrix.yy -= dot(column(to, 1), column(by, 1));
+    next.matrix.yz -= dot(column(to, 1), column(by, 2)), next.matrix.zz -= dot(column(to, 2), column(by, 2));
+    next.right = beyond.right - to.transposed_by(node.offset);
+    const double square = -to_second * to_second;
+    const Symmetric3& m = node.mobility;
+    beyond.matrix = {square * m.xx, square * m.xy, square * m.xz,
+                     square * m.yy, square * m.yz, square * m.zz};
+    beyond.right = -to_second * node.offset;
+    beyond.across = transposed(by);
+    for (double& each : beyond.across.m) each *= -to_second;
+    return next;
+}
+
 /// Adds the bond's multiplier, the only unknown between the two nodes.
 inline void couple(const ChainBond& bond, Sweep& next) noexcept {
     next.matrix.add(bond.inverse, bond.row, bond.row);
     next.right -= (bond.right * bond.inverse) * bond.row;
 }
 
+inline void couple(const ChainBond& bond, const ChainBend& bend, Sweep& next, Beyond& beyond) noexcept {
+    couple(bond, next);
+    beyond.matrix.add(bond.inverse, bend.row, bend.row);
+    beyond.across.add(bond.inverse, bond.row, bend.row);
+    beyond.right -= (bond.right * bond.inverse) * bend.row;
+}
+
 /// Adds the contact's multiplier too; `here` and `there` are its shares on the node and on the next.
 void couple(const ChainNode& node, ChainBond& bond, const dvec3& along, double weights, BondContact& contact,
-            double here, double there, Sweep& next) noexcept {
+            double here, double there, Sweep& next, ChainBend* bend, double to_second,
+            Beyond& beyond) noexcept {
     const dvec3 push = here * contact.normal, moved = node.mobility * push;
-    contact.row = there * contact.normal + bond.stiffness * moved;
+    if (bend == nullptr) {
+        contact.row = there * contact.normal + bond.stiffness * moved;
+    } else {
+        contact.row = there * contact.normal - bend->across.transposed_by(moved);
+        bend->contact_row = -to_second * moved;
+    }
     contact.right = contact.gap + dot(push, node.offset);
     contact.coupled = -dot(along, moved);
     const double own = dot(push, moved) + softness * weights;
@@ -105,7 +165,7 @@ void couple(const ChainNode& node, ChainBond& bond, const dvec3& along, double w
     const double determinant = pivot * own - contact.coupled * contact.coupled;
     if (!(determinant > 1e-14 * pivot * own)) {
         contact.inverse = 0.0;
-        couple(bond, next);
+        bend == nullptr ? couple(bond, next) : couple(bond, *bend, next, beyond);
         return;
     }
     contact.inverse = 1.0 / determinant;
@@ -115,6 +175,14 @@ void couple(const ChainNode& node, ChainBond& bond, const dvec3& along, double w
     next.matrix.add(1.0, first, bond.row);
     next.matrix.add(1.0, second, contact.row);
     next.right -= bond.right * first + contact.right * second;
+    if (bend != nullptr) {
+        const dvec3 one = a * bend->row + b * bend->contact_row, two = b * bend->row + c * bend->contact_row;
+        beyond.matrix.add(1.0, one, bend->row);
+        beyond.matrix.add(1.0, two, bend->contact_row);
+        beyond.across.add(1.0, bond.row, one);
+        beyond.across.add(1.0, contact.row, two);
+        beyond.right -= bond.right * one + contact.right * two;
+    }
     // Stores the inverse of the 2 x 2 matrix.
     bond.inverse = a, contact.coupled = b, contact.inverse = c;
 }
@@ -134,9 +202,13 @@ void ChainSystem::evaluate(double stiffer) noexcept {
             const double tension = std::max(bond.multiplier, 0.0);
             bond.error = is - bond.rest - bond.compliance * bond.multiplier;
             bond.stiffness = tension / std::max(bond.rest + bond.compliance * tension, 1e-9);
+            if (!bends.empty() && dot(bends[k].direction, bond.along) > 0.0) bond.stiffness *= tension_ahead;
             bond.stiffness = std::min(bond.stiffness + stiffer * node.mass, max_stiffness * node.mass);
             bond.pliant = std::max(1.0 - bond.compliance * bond.stiffness, 1e-9);
             pull = bond.multiplier * bond.along;
+            if (!bends.empty() && dot(bends[k].direction, bond.along) > 0.0)
+                pull = bond.multiplier *
+                       (tension_ahead * bond.along + (1.0 - tension_ahead) * bends[k].direction);
             if (bond.contact >= 0) {
                 const BondContact& contact = bond_contacts[static_cast<std::size_t>(bond.contact)];
                 pull += (contact.multiplier * (1.0 - contact.at)) * contact.normal;
@@ -151,6 +223,15 @@ void ChainSystem::evaluate(double stiffer) noexcept {
         // On the next node tension pulls back, but the contact's share pushes.
         pull_before = pull - push_next;
     }
+    for (std::size_t k = 1; k + 1 < bends.size(); ++k) {
+        const ChainBend& bend = bends[k];
+        const dvec3 moment =
+            (bend_ahead * bend.stiffness) * bend.curvature(nodes[k - 1].x, nodes[k].x, nodes[k + 1].x) +
+            bend.earlier;
+        nodes[k - 1].force -= bend.before * moment;
+        nodes[k].force += (bend.before + bend.after) * moment;
+        nodes[k + 1].force -= bend.after * moment;
+    }
 }
 
 double ChainSystem::largest_error() const noexcept {
@@ -161,51 +242,90 @@ double ChainSystem::largest_error() const noexcept {
 }
 
 void ChainSystem::step() noexcept {
+    bends.empty() ? solve<false>() : solve<true>();
+}
+
+template <bool bent>
+void ChainSystem::solve() noexcept {
     const auto weight = [](const ChainNode& node) { return node.pinned ? 0.0 : 1.0 / node.mass; };
+    const std::size_t last = nodes.size() - 1, middle = nodes.size() / 2;
+    Beyond left_beyond, right_beyond;
     /// Eliminates node `k` towards node `next`.
-    const auto pass = [&](const Sweep& before, std::size_t k, std::size_t next) {
+    const auto pass = [&](const Sweep& before, Beyond& beyond, std::size_t k, std::size_t next) {
         const bool forward = next > k;
         ChainNode& node = nodes[k];
         ChainBond& bond = bonds[forward ? k : next];
-        solve_node(node, before, before.stiffness + bond.stiffness, contacts, pushes);
+        ChainBend* const bend = bent ? &bends[k] : nullptr;
+        double stiffness = before.stiffness + bond.stiffness, to_second = 0.0;
+        if constexpr (bent) {
+            stiffness += bend->own;
+            // The right side has eliminated what is beyond the middle.
+            to_second = forward ? (next < middle ? bend->to_second : 0.0) : bends[k - 2].to_second;
+            bend->across = beyond.across;
+            const double to_next = bends[forward ? k : next].to_next - bond.stiffness;
+            for (int i = 0; i < 9; i += 4) bend->across.m[i] += to_next;
+        }
+        solve_node(node, before, stiffness, contacts, pushes);
         const dvec3 along = forward ? bond.along : -bond.along;
         const double weights = weight(node) + weight(nodes[next]);
-        Sweep after = eliminate(node, bond, along, weights);
+        Sweep after;
+        if constexpr (bent)
+            after = eliminate(node, bond, *bend, to_second, along, weights, beyond);
+        else
+            after = eliminate(node, bond, along, weights);
         BondContact* const contact =
             bond.contact < 0 ? nullptr : &bond_contacts[static_cast<std::size_t>(bond.contact)];
-        if (contact == nullptr || !contact->active) {
-            couple(bond, after);
-        } else {
+        if (contact != nullptr && contact->active) {
             const double t = forward ? contact->at : 1.0 - contact->at;
-            couple(node, bond, along, weights, *contact, 1.0 - t, t, after);
+            couple(node, bond, along, weights, *contact, 1.0 - t, t, after, bend, to_second, beyond);
+        } else if constexpr (bent) {
+            couple(bond, *bend, after, beyond);
+        } else {
+            couple(bond, after);
         }
         return after;
     };
-    const std::size_t last = nodes.size() - 1, middle = nodes.size() / 2;
     Sweep left, right;
     // Interleaved: neither side waits for the other.
     for (std::size_t k = 0; k < middle; ++k) {
-        left = pass(left, k, k + 1);
-        if (last - k > middle) right = pass(right, last - k, last - k - 1);
+        if (last - k > middle) right = pass(right, right_beyond, last - k, last - k - 1);
+        if (bent && k + 1 == middle) {  // the right side has come to the middle, and leads beyond it
+            left.matrix.add(right_beyond.matrix);
+            left.right += right_beyond.right;
+            const Matrix3 across = transposed(right_beyond.across);
+            for (int i = 0; i < 9; ++i) left_beyond.across.m[i] += across.m[i];
+        }
+        left = pass(left, left_beyond, k, k + 1);
     }
     ChainNode& node = nodes[middle];
     Sweep both = left;
-    both.matrix.xx += right.matrix.xx, both.matrix.xy += right.matrix.xy, both.matrix.xz += right.matrix.xz;
-    both.matrix.yy += right.matrix.yy, both.matrix.yz += right.matrix.yz, both.matrix.zz += right.matrix.zz;
+    both.matrix.add(right.matrix);
     both.right += right.right;
-    solve_node(node, both, left.stiffness + right.stiffness, contacts, pushes);
+    const double own = bent ? bends[middle].own : 0.0;
+    solve_node(node, both, left.stiffness + right.stiffness + own, contacts, pushes);
     node.x += node.offset;
-    const auto substitute = [&](const dvec3& next_by, std::size_t k, std::size_t next) {
+    /// How far node `k` moves, by how far the next, and the next but one, move.
+    const auto substitute = [&](const dvec3& next_by, const dvec3& second_by, std::size_t k,
+                                std::size_t next) {
         const bool forward = next > k;
         ChainNode& here = nodes[k];
         ChainBond& bond = bonds[forward ? k : next];
         const dvec3 along = forward ? bond.along : -bond.along;
-        double right_here = dot(bond.row, next_by) + bond.right, change = right_here * bond.inverse;
-        dvec3 push = bond.stiffness * next_by;
+        double right_here = dot(bond.row, next_by) + bond.right;
+        dvec3 push;
+        if constexpr (bent) {
+            right_here += dot(bends[k].row, second_by);
+            const double to_second = forward ? bends[k].to_second : bends[k - 2].to_second;
+            push = -(bends[k].across * next_by) - to_second * second_by;
+        } else {
+            push = bond.stiffness * next_by;
+        }
+        double change = right_here * bond.inverse;
         BondContact* const contact =
             bond.contact < 0 ? nullptr : &bond_contacts[static_cast<std::size_t>(bond.contact)];
         if (contact != nullptr && contact->active && contact->inverse > 0.0) {
-            const double other = dot(contact->row, next_by) + contact->right;
+            double other = dot(contact->row, next_by) + contact->right;
+            if constexpr (bent) other += dot(bends[k].contact_row, second_by);
             change += other * contact->coupled;
             const double pressed = right_here * contact->coupled + other * contact->inverse;
             contact->multiplier -= pressed;
@@ -219,11 +339,15 @@ void ChainSystem::step() noexcept {
         here.x += by;
         return by;
     };
-    dvec3 left_by = node.offset, right_by = node.offset;
+    dvec3 left_by = node.offset, right_by = node.offset, left_next(0.0), right_next(0.0);
     for (std::size_t k = middle; k-- > 0;) {
-        left_by = substitute(left_by, k, k + 1);
+        const dvec3 by = substitute(left_by, left_next, k, k + 1);
+        left_next = std::exchange(left_by, by);
+        if (k + 1 == middle) right_next = by;
         const std::size_t mirrored = 2 * middle - k;
-        if (mirrored <= last) right_by = substitute(right_by, mirrored, mirrored - 1);
+        if (mirrored > last) continue;
+        const dvec3 mirrored_by = substitute(right_by, right_next, mirrored, mirrored - 1);
+        right_next = std::exchange(right_by, mirrored_by);
     }
 }
 

@@ -7,6 +7,8 @@
 //     (m + s_{j-1} + s_j) dx_j - s_{j-1} dx_{j-1} - s_j dx_{j+1} + n_{j-1} dt_{j-1} - n_j dt_j = force_j
 //     n_k (dx_{k+1} - dx_k) - compliance dt_k = -(length - rest - compliance t_k)
 //
+// Where nodes resist bending, forces also lead to the next node but one, and the blocks are pentadiagonal.
+//
 // A node in contact moves by a given distance along the normal, and against friction tangentially; a link in
 // contact does so at the point that touches. Nodes are eliminated from both ends towards the middle, each
 // with the link behind it: 3 x 3 blocks, O(n). The matrix is symmetric and quasi-definite, so this is stable
@@ -33,6 +35,33 @@ struct Symmetric3 {
         const dvec3 w = by * a;
         xx += w.x * b.x, xy += w.x * b.y, xz += w.x * b.z;
         yy += w.y * b.y, yz += w.y * b.z, zz += w.z * b.z;
+    }
+    void add(const Symmetric3& by) noexcept {
+        xx += by.xx, xy += by.xy, xz += by.xz, yy += by.yy, yz += by.yz, zz += by.zz;
+    }
+};
+
+/// A general 3 x 3 matrix, by rows.
+struct Matrix3 {
+    double m[9] = {};
+
+    dvec3 operator*(const dvec3& v) const noexcept {
+        return {m[0] * v.x + m[1] * v.y + m[2] * v.z, m[3] * v.x + m[4] * v.y + m[5] * v.z,
+                m[6] * v.x + m[7] * v.y + m[8] * v.z};
+    }
+    dvec3 transposed_by(const dvec3& v) const noexcept {
+        return {m[0] * v.x + m[3] * v.y + m[6] * v.z, m[1] * v.x + m[4] * v.y + m[7] * v.z,
+                m[2] * v.x + m[5] * v.y + m[8] * v.z};
+    }
+    void add(double by, const dvec3& a, const dvec3& b) noexcept {
+        const dvec3 w = by * a;
+        m[0] += w.x * b.x, m[1] += w.x * b.y, m[2] += w.x * b.z;
+        m[3] += w.y * b.x, m[4] += w.y * b.y, m[5] += w.y * b.z;
+        m[6] += w.z * b.x, m[7] += w.z * b.y, m[8] += w.z * b.z;
+    }
+    void subtract(const Symmetric3& s) noexcept {
+        m[0] -= s.xx, m[1] -= s.xy, m[2] -= s.xz, m[3] -= s.xy, m[4] -= s.yy, m[5] -= s.yz;
+        m[6] -= s.xz, m[7] -= s.yz, m[8] -= s.zz;
     }
 };
 
@@ -94,12 +123,36 @@ struct BondContact {
     double right = 0.0, inverse = 0.0, coupled = 0.0;
 };
 
+/// How a chain resists bending at a node: by a moment, stiffness times the curvature before (x_{j-1} - x_j) +
+/// after (x_{j+1} - x_j). Its forces are linear in positions (M. Bergou et al., "A Quadratic Bending Model
+/// for Inextensible Surfaces", 2006).
+struct ChainBend {
+    double stiffness = 0.0;            ///< N m^2 over the mean length of its links, times h^2; 0 at the ends
+    double before = 0.0, after = 0.0;  ///< over the length of each link, 1/m
+    dvec3 earlier{0.0};                ///< the part of the moment that is known
+    dvec3 direction{0.0};              ///< of its link one substep before the last, unit; 0: unknown
+    double own = 0.0;                  ///< what it adds to the matrix of its node,
+    double to_next = 0.0, to_second = 0.0;  ///< and to those that lead to the next node and the next but one
+    // Within a step: the matrix that leads to the next node in elimination order; the rows of multipliers for
+    // the next but one.
+    Matrix3 across;
+    dvec3 row{0.0}, contact_row{0.0};
+
+    dvec3 curvature(const dvec3& previous, const dvec3& x, const dvec3& next) const noexcept {
+        return before * (previous - x) + after * (next - x);
+    }
+};
+/// The part of curvatures, and of directions of tension, that is taken at the end of a substep, the rest one
+/// substep before the last. At 0.5 nothing would be lost, and a stiff rope ring for ever.
+inline constexpr double bend_ahead = 0.6, tension_ahead = 0.51;
+
 struct ChainSystem {
     std::span<ChainNode> nodes;
     std::span<ChainBond> bonds;  ///< one fewer than nodes
     std::span<const NodeContact> contacts;
     std::span<BondContact> bond_contacts;
     std::span<const NodePush> pushes;
+    std::span<ChainBend> bends;  ///< by node; empty: nothing resists bending
 
     /// Computes directions, errors and forces from the positions of nodes. `stiffer`: sideways stiffness in
     /// addition to the tension's, relative to a node's mass, so that a step turns links less.
@@ -107,6 +160,10 @@ struct ChainSystem {
     /// Moves nodes and changes multipliers by one step, after evaluate().
     void step() noexcept;
     double largest_error() const noexcept;  ///< of a length, relative to its rest
+
+  private:
+    template <bool bent>
+    void solve() noexcept;
 };
 
 }  // namespace tendril::rope::detail

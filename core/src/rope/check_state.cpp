@@ -106,9 +106,11 @@ Result check_body(const State& state, std::size_t i, std::size_t next) {
         return bad("kind", "one of the three", static_cast<std::size_t>(body.kind));
     if (const Result r = check_cells(i, body); !r) return r;
     const std::pair<const char*, float> lengths[] = {
-        {"radius", body.radius}, {"tear", body.tear}, {"stretch", body.stretch}};
+        {"radius", body.radius}, {"tear", body.tear}, {"bending", body.bending}, {"stretch", body.stretch}};
     for (const auto& [member, value] : lengths)
         if (const Result r = check_length(op, Argument("bodies", i, member), value); !r) return r;
+    if (body.bending > 0.0f && body.kind != Body::Kind::Rope)
+        return refused(op, Argument("bodies", i, "bending"), "0 for all but ropes", body.bending);
     if (body.friction && !(*body.friction >= 0.0f && static_cast<double>(*body.friction) <= max_friction))
         return refused(op, Argument("bodies", i, "friction"), "0 to 100", *body.friction);
     return {};

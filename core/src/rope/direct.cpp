@@ -35,7 +35,7 @@ constexpr double accepted_error = 1e-4;         ///< a chain with more is solved
 constexpr double accepted_shared_error = 1e-3;  ///< the same if chains share particles
 constexpr double fallback_error = 0.02;         ///< a chain that ends with more: its body is relaxed
 constexpr double accepted_gain = 1e-3;          ///< of energy; a result that gains more is not accepted
-constexpr int max_restarts = 6, fallback_passes = 16;
+constexpr int max_restarts = 6, fallback_passes = 16, max_step_halvings = 10;
 /// Minimum passes of chains that share particles, while near a collider.
 constexpr int min_contact_passes = 4;
 /// In which contacts are projected, and what they may be off then, relative to the thickness.
@@ -63,13 +63,19 @@ int Substep::direct_alone() {
     ChainNewton newton(state_, plan_, island_, scratch_, local_);
     const std::uint32_t first = island_.chains.first, end = first + island_.chains.count;
     const auto near = [&](std::uint32_t r) { return is_near(plan_.chains[r].body); };
+    const auto bends = [&](std::uint32_t r) {
+        return detail::bends(state_, state_.bodies[plan_.chains[r].body]);
+    };
     const auto solve = [&](std::uint32_t r) {
         newton.solve();
+        if (bends(r)) shorten_step(r);
         const bool falls = acceleration_ != dvec3(0.0);
         if (falls && ledger_of(plan_.chains[r]).gains(accepted_gain)) slow_correction(plan_.chains[r]);
     };
     for (std::uint32_t r = first; r < end; ++r) {
-        if (scratch_.chain_solved[r] != 0 || !near(r) || !newton.find(r) || !newton.touches()) continue;
+        if (scratch_.chain_solved[r] != 0) continue;
+        const bool found = (bends(r) || near(r)) && newton.find(r);
+        if (!bends(r) && !(found && newton.touches())) continue;
         scratch_.chain_solved[r] = 1;
         solve(r);
     }
@@ -83,6 +89,34 @@ int Substep::direct_alone() {
     }
     measure();
     return 1;
+}
+
+/// Halves a step that gains energy, or did not converge, until it stretches and gains little. What it gains
+/// by bending a chain, slowing it down would not remove.
+void Substep::shorten_step(std::uint32_t number) {
+    const Plan::Chain& chain = plan_.chains[number];
+    const bool failed = !(scratch_.chain_error[number] <= fallback_error);
+    const auto stretch = [&](const std::vector<dvec3>& at) {
+        double worst = 0.0;
+        for (std::uint32_t k = 0; k < chain.links; ++k) {
+            const Link& link = state_.links[chain.first_link + k];
+            const double rest = std::max(static_cast<double>(link.rest), 1e-9);
+            worst = std::max(worst, std::abs(detail::length(at[link.b] - at[link.a]) - rest) / rest);
+        }
+        return worst;
+    };
+    const double most = failed ? fallback_error + stretch(state_.position) : 0.0;
+    const auto is_bad = [&] {
+        return (failed && !(stretch(scratch_.place) <= most)) || ledger_of(chain).gains(accepted_gain);
+    };
+    for (int i = 0; i < max_step_halvings && is_bad(); ++i) {
+        report_.fallbacks += i == 0 ? 1 : 0;
+        for (std::uint32_t k = 0; k <= chain.links; ++k) {
+            const std::uint32_t particle = plan_.nodes[chain.first_node + k];
+            dvec3& place = scratch_.place[particle];
+            if (scratch_.weight[particle] > 0.0) place = 0.5 * (state_.position[particle] + place);
+        }
+    }
 }
 
 /// Scales down a solve that would throw a chain: nothing is corrected faster than the maximum of the speed of

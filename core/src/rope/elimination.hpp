@@ -32,24 +32,6 @@ struct Elimination {
     std::uint32_t late = 0;            ///< the first place of the last nodes
 };
 
-/// A general 3 x 3 matrix, by rows.
-struct Matrix3 {
-    double m[9] = {};
-
-    dvec3 operator*(const dvec3& v) const noexcept {
-        return {m[0] * v.x + m[1] * v.y + m[2] * v.z, m[3] * v.x + m[4] * v.y + m[5] * v.z,
-                m[6] * v.x + m[7] * v.y + m[8] * v.z};
-    }
-    dvec3 transposed_by(const dvec3& v) const noexcept {
-        return {m[0] * v.x + m[3] * v.y + m[6] * v.z, m[1] * v.x + m[4] * v.y + m[7] * v.z,
-                m[2] * v.x + m[5] * v.y + m[8] * v.z};
-    }
-    void subtract(const Symmetric3& s) noexcept {
-        m[0] -= s.xx, m[1] -= s.xy, m[2] -= s.xz, m[3] -= s.xy, m[4] -= s.yy, m[5] -= s.yz;
-        m[6] -= s.xz, m[7] -= s.yz, m[8] -= s.zz;
-    }
-};
-
 /// Its numbers. Blocks and places are those of the elimination.
 struct EliminationSystem {
     std::vector<Symmetric3> diagonal;

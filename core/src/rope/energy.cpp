@@ -87,6 +87,24 @@ void Substep::Ledger::add_link(std::uint32_t number) {
     released_ += half - detail::elastic_energy(link, compliance, tension, now, dvec3(0.0));
 }
 
+/// The mean at both ends of a substep is what a solver bounds that takes curvatures there.
+void Substep::Ledger::add_bending(const Plan::Chain& chain) {
+    const State& state = it_.state_;
+    const Body& body = state.bodies[chain.body];
+    if (!detail::bends(state, body)) return;
+    const auto energy = [&](auto at) {
+        double sum = 0.0;
+        for (std::uint32_t k = chain.first_link + 1; k < chain.first_link + chain.links; ++k)
+            sum += detail::bending_energy(state, body, state.links[k - 1], state.links[k], at);
+        return sum;
+    };
+    const double now = energy([&](std::uint32_t i) { return it_.scratch_.place[i]; });
+    const double start = energy([&](std::uint32_t i) { return state.position[i]; });
+    const double then = energy([&](std::uint32_t i) { return state.position[i] - state.displacement[i]; });
+    gained_ += 0.5 * (now - then);
+    released_ += 0.5 * (start - now);
+}
+
 /// The links of a cloth are too stiff for lengths halfway; its solver has summed their energy at the end.
 void Substep::Ledger::add_cloth(const detail::Cloth& cloth) {
     length_ += cloth.energy.length;
@@ -142,6 +160,7 @@ Substep::Ledger Substep::ledger_of(const Plan::Chain& chain) const {
 void Substep::add_chain(Ledger& ledger, const Plan::Chain& chain) const {
     for (std::uint32_t k = 0; k <= chain.links; ++k) ledger.add_particle(plan_.nodes[chain.first_node + k]);
     for (std::uint32_t k = 0; k < chain.links; ++k) ledger.add_link(chain.first_link + k);
+    ledger.add_bending(chain);
 }
 
 /// Whether a link of tied bodies, by its number in the part, is a grid's.
@@ -162,6 +181,8 @@ Substep::Ledger Substep::ledger_of(const Plan::Island& part) const {
     }
     const Plan::Range grids = direct && part.tied != 0 ? plan_.tied[part.tied - 1].grids : Plan::Range{};
     for (std::uint32_t g = 0; g < grids.count; ++g) ledger.add_cloth(scratch_.cloths[grids.first + g]);
+    if (direct && part.tied != 0)
+        for (const Plan::Chain& chain : Plan::part(plan_.chains, part.chains)) ledger.add_bending(chain);
     const std::span<const std::uint32_t> links = Plan::part(plan_.links, part.links);
     for (std::size_t k = 0; k < links.size(); ++k)
         if (!direct || !tied_in_grid(part, k)) ledger.add_link(links[k]);

@@ -58,6 +58,7 @@ std::span<const Field> fields<rope::RopeShape>() noexcept {
         field<&RopeShape::length>("length", any_size, "m"),
         field<&RopeShape::radius>("radius", any_size, "m"),
         field<&RopeShape::density>("density", {rope::min_density, max_magnitude}, "kg/m"),
+        field<&RopeShape::bending>("bending", any_size, "N m^2"),
         field<&RopeShape::pin_start>("pin_start"),
         field<&RopeShape::pin_end>("pin_end")};
     return rows;

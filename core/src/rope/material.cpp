@@ -43,6 +43,16 @@ Result World::set_tear(BodyId body, float tear) noexcept {
     return result;
 }
 
+Result World::set_bending(BodyId rope, float stiffness) noexcept {
+    Body* const changed = found(rope);
+    if (changed == nullptr) return missing("set_bending", "rope", "body", rope.index);
+    if (changed->kind != Body::Kind::Rope)
+        return {ErrorCode::InvalidArgument, "cloth and hair bend by links: set_compliance"};
+    const Result result = check_length("set_bending", "stiffness", stiffness);
+    if (result) changed->bending = stiffness;
+    return result;
+}
+
 double World::mass(const Body& body) const noexcept {
     double sum = 0.0;
     for (std::size_t i = body.first; i < body.first + body.count; ++i) sum += state_.mass[i];

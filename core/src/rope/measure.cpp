@@ -30,6 +30,20 @@ double link_energy(const State& state, const Link& link) {
                                   state.displacement[link.b] - state.displacement[link.a]);
 }
 
+/// The mean at both ends of the last substep.
+double bending_energy(const State& state, const Body& body) {
+    double sum = 0.0;
+    for (std::size_t i = 1; detail::bends(state, body) && i < state.links.size(); ++i) {
+        const Link &link = state.links[i], &last = state.links[i - 1];
+        if (!detail::owns(body, link) || !detail::follows(last, link)) continue;
+        for (const double back : {0.0, 1.0})
+            sum += 0.5 * detail::bending_energy(state, body, last, link, [&](std::uint32_t p) {
+                       return state.position[p] - back * state.displacement[p];
+                   });
+    }
+    return sum;
+}
+
 }  // namespace
 
 double detail::length_error(const State& state, const Link& link) noexcept {
@@ -61,12 +75,13 @@ double World::energy(const Body& body) const noexcept {
     double energy = particle_energy(state_, body.first, body.count);
     for (const Link& link : state_.links)
         if (detail::owns(body, link)) energy += link_energy(state_, link);
-    return energy;
+    return energy + bending_energy(state_, body);
 }
 
 double World::energy() const noexcept {
     double energy = particle_energy(state_, 0, state_.position.size());
     for (const Link& link : state_.links) energy += link_energy(state_, link);
+    for (const Body& body : state_.bodies) energy += bending_energy(state_, body);
     return energy;
 }
 

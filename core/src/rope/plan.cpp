@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "rope/build.hpp"
 #include "rope/cloth_plan.hpp"
 #include "rope/islands.hpp"
 #include "rope/rest_grid.hpp"
@@ -17,10 +18,6 @@ std::vector<std::uint32_t> count_links(const State& state) {
     std::vector<std::uint32_t> touching(state.position.size(), 0);
     for (const Link& link : state.links) ++touching[link.a], ++touching[link.b];
     return touching;
-}
-
-bool follows(const Link& before, const Link& link) {
-    return link.a == before.b && link.kind == before.kind;
 }
 
 /// Of a cloth; 0 for others.
@@ -46,7 +43,8 @@ Plan::Plan(const State& state) {
     for (const Link& link : state.links) joined_.push_back({link.a, link.b, link.rest, link.kind});
     for (const Tie& tie : state.ties) tied_.emplace_back(tie.a, tie.b);
     for (const Body& body : state.bodies)
-        ranges_.push_back({body.first, body.count, row_of(body), body.cells, body.tear > 0.0f});
+        ranges_.push_back(
+            {body.first, body.count, row_of(body), body.cells, body.tear > 0.0f, body.bending > 0.0f});
     tears =
         std::any_of(state.bodies.begin(), state.bodies.end(), [](const Body& b) { return b.tear > 0.0f; });
 }
@@ -67,7 +65,7 @@ void Plan::find_chains(const State& state) {
         nodes.push_back(first.a);
         nodes.push_back(first.b);
         while (i + chain.links < state.links.size() &&
-               follows(state.links[i + chain.links - 1], state.links[i + chain.links])) {
+               detail::follows(state.links[i + chain.links - 1], state.links[i + chain.links])) {
             nodes.push_back(state.links[i + chain.links].b);
             ++chain.links;
         }
@@ -129,7 +127,7 @@ bool Plan::fits(const State& state) const noexcept {
                       [](const Body& body, const Particles& range) {
                           return body.first == range.first && body.count == range.count &&
                                  row_of(body) == range.row && body.cells == range.cells &&
-                                 (body.tear > 0.0f) == range.tears;
+                                 (body.tear > 0.0f) == range.tears && (body.bending > 0.0f) == range.bends;
                       });
 }
 
@@ -227,6 +225,12 @@ void Plan::order_tied(const State& state) {
             if (in_grid[a] + in_grid[b] == 0) edges.emplace_back(places[a], places[b]);
         };
         for (const std::uint32_t i : part(links, island.links)) join(state.links[i].a, state.links[i].b);
+        for (const Chain& chain : part(chains, island.chains))
+            for (std::uint32_t k = 1; state.bodies[chain.body].bending > 0.0f && k < chain.links; ++k) {
+                const std::uint32_t* const node = &nodes[chain.first_node + k];
+                made.bends.push_back({{node[-1], node[0], node[1]}, chain.first_link + k, chain.body, {}});
+                join(node[-1], node[1]);
+            }
         std::vector<std::uint8_t> late(nodes_of_it.size(), 0);
         for (const std::uint32_t i : part(ties, island.ties)) {
             const Tie& tie = state.ties[i];
@@ -244,6 +248,9 @@ void Plan::order_tied(const State& state) {
         };
         for (const std::uint32_t i : part(links, island.links))
             made.link_blocks.push_back(block(state.links[i].a, state.links[i].b));
+        for (Tied::Bend& bend : made.bends)
+            bend.blocks = {block(bend.points[0], bend.points[1]), block(bend.points[1], bend.points[2]),
+                           block(bend.points[0], bend.points[2])};
         for (const std::uint32_t i : part(ties, island.ties))
             made.tie_blocks.push_back(block(state.ties[i].a, state.ties[i].b));
     });

@@ -2,6 +2,7 @@
 // side. Depends on bodies and links alone. Not installed.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -37,6 +38,14 @@ struct Plan {
         detail::Elimination order;
         std::vector<std::uint32_t> link_blocks, tie_blocks;  ///< of the island's links and ties, or no_block
         std::vector<std::uint32_t> across;                   ///< ties of a grid to anything
+        /// Where a rope resists bending: three particles, the link between the last two, and the blocks of
+        /// each with the next: ab, bc, ca.
+        struct Bend {
+            std::array<std::uint32_t, 3> points{};
+            std::uint32_t link = 0, body = 0;
+            std::array<std::uint32_t, 3> blocks{};
+        };
+        std::vector<Bend> bends;
     };
     static constexpr std::uint32_t no_block = 0xffffffffu;
     /// Consecutive stretch links: each begins at the particle where the previous one ends.
@@ -144,7 +153,7 @@ struct Plan {
     struct Particles {
         std::size_t first, count, row;
         std::vector<std::uint32_t> cells;
-        bool tears;
+        bool tears, bends;
     };
     std::vector<Joined> joined_;  ///< links
     std::vector<detail::Elimination::Edge> tied_;

@@ -36,7 +36,7 @@ State frozen(const World& world) {
             link.rest = static_cast<float>(std::min(length, static_cast<double>(max_magnitude)));
         link.tension = 0.0f;
     }
-    for (Body& body : still.bodies) body.tear = 0.0f;
+    for (Body& body : still.bodies) body.tear = body.bending = 0.0f;
     for (Tie& tie : still.ties) tie.strength = 0.0f;
     for (Collider& collider : still.colliders) {
         collider.goal = glm::dvec3(centre(collider.shape));
@@ -86,6 +86,7 @@ Result drag(World& world, Workspace& workspace, Send send) {
     send_on(now, still, was);
     for (std::size_t i = 0; i < now.bodies.size(); ++i) {
         now.bodies[i].tear = was.bodies[i].tear;
+        now.bodies[i].bending = was.bodies[i].bending;
         if (!is_stiff(was.settings)) now.bodies[i].stretch = was.bodies[i].stretch;
     }
     now.settings = was.settings;

@@ -38,6 +38,7 @@ struct ContactScratch {
     struct Contact {
         std::uint32_t node = 0;
         std::uint32_t first = 0, count = 0;  ///< in `planes`
+        bool waits = false;                  ///< for what a deeper one nearby does
     };
     /// With colliders so small that a link can touch them between its ends.
     struct LinkContact {
@@ -58,7 +59,8 @@ struct ContactScratch {
     std::vector<detail::ChainBond> bonds;
     std::vector<detail::NodeContact> holds;
     std::vector<detail::BondContact> bond_holds;
-    std::vector<Kept> kept;  ///< nodes and bonds before a step
+    std::vector<detail::ChainBend> bends;  ///< by node; empty if the body does not resist bending
+    std::vector<Kept> kept;                ///< nodes and bonds before a step
     std::vector<double> kept_contacts;
     std::vector<detail::NodePush> pushes;  ///< of contacts with other segments
     /// Of the solve so far.

@@ -91,6 +91,7 @@ class Substep : IslandStep {
     double solve_batch(const Batch& batch, int iteration);
     void solve_again(std::uint32_t chain);
     void relax_failed_bodies();
+    void shorten_step(std::uint32_t chain);
     void slow_correction(const Plan::Chain& chain);
     void gather(const detail::Block& block, const Batch& batch) const;
     void scatter(const detail::Block& block, std::uint32_t lane, std::uint32_t chain);
@@ -126,6 +127,7 @@ class Substep::Ledger {
     void add_particle(std::size_t i);
     void add_link(std::uint32_t link);
     void add_cloth(const detail::Cloth& cloth);
+    void add_bending(const Plan::Chain& chain);
     /// Zero if a moving collider or pin may have done work.
     double gained() const { return worked_on_ ? 0.0 : gained_; }
     /// Whether the gain exceeds this part of their weight times their length.

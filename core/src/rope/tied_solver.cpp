@@ -180,6 +180,33 @@ void TiedSolver::assemble(bool first) {
     });
 }
 
+/// Calls `visit` with each place where a rope resists bending, in the units of springs, and its curvature.
+template <class Visit>
+void TiedSolver::each_bend(Visit visit) const {
+    for (const Plan::Tied::Bend& at : tied_.bends) {
+        detail::ChainBend bend = detail::bend_between(state_, state_.bodies[at.body],
+                                                      state_.links[at.link - 1], state_.links[at.link]);
+        bend.stiffness /= mass_;
+        visit(at, bend,
+              bend.curvature(scratch_.place[at.points[0]], scratch_.place[at.points[1]],
+                             scratch_.place[at.points[2]]));
+    }
+}
+
+void TiedSolver::add_bends() {
+    each_bend([&](const Plan::Tied::Bend& at, const detail::ChainBend& bend, const dvec3& curvature) {
+        const auto scalar = [](double by) { return Symmetric3{by, 0.0, 0.0, by, 0.0, by}; };
+        const std::array<double, 3> shares{bend.before, -bend.before - bend.after, bend.after};
+        for (std::size_t i = 0; i < 3; ++i) {
+            add(at.points[i], scalar(bend.stiffness * shares[i] * shares[i]),
+                -bend.stiffness * shares[i] * curvature);
+            const std::size_t j = (i + 1) % 3, block = at.blocks[i];
+            if (scratch_.weight[at.points[i]] > 0.0 && scratch_.weight[at.points[j]] > 0.0)
+                system_.blocks[block].subtract(scalar(-bend.stiffness * shares[i] * shares[j]));
+        }
+    });
+}
+
 void TiedSolver::add_contacts() {
     for (ClothContact& each : local_.cloth_contacts) {
         rub(each);
@@ -240,6 +267,9 @@ double TiedSolver::potential() {
             detail::length(scratch_.place[spring.b] - scratch_.place[spring.a]) - spring.rest;
         sum += spring.stiffness * longer * longer;
     });
+    each_bend([&](const Plan::Tied::Bend&, const detail::ChainBend& bend, const dvec3& curvature) {
+        sum += bend.stiffness * detail::dot(curvature, curvature);
+    });
     each_grid([&](std::uint32_t number) { sum = Cloth(*this, number).add_links(sum); });
     for (const ClothContact& each : local_.cloth_contacts) sum += potential_of(each);
     return sum;
@@ -279,6 +309,7 @@ void TiedSolver::find_step(const detail::GridSystem::Tolerance& tolerance, int i
 /// not rise.
 void TiedSolver::step(bool first, int iterations, double enough) {
     assemble(first);
+    add_bends();
     add_contacts();
     find_step({first ? 0.0 : enough, usual_residual}, iterations);
     local_.done.work += island_.links.count;

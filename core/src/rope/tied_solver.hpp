@@ -51,6 +51,9 @@ class TiedSolver : ImplicitStep {
     void measure_grids();
     void evaluate_grids();
     void start();
+    template <class Visit>
+    void each_bend(Visit visit) const;
+    void add_bends();
     void add(std::uint32_t particle, const detail::Symmetric3& matrix, const glm::dvec3& force);
     void find_step(const detail::GridSystem::Tolerance& tolerance, int iterations);
     void step(bool first, int iterations, double enough);

@@ -33,6 +33,9 @@ struct Body {
     /// Strain at which a stretch link tears, 0.1 for 10 % over its rest; 0: never. Shear and bend links tear
     /// at 0.5 more. A torn body is one until part_body().
     float tear = 0.0f;
+    /// Of a rope: bending stiffness, N m^2 (Young's modulus times the second moment of its cross-section); 0:
+    /// none. At rest it is straight. Only the direct solver bends.
+    float bending = 0.0f;
     /// Coulomb's coefficient between it and colliders, 0 to max_friction; empty: the settings'.
     std::optional<float> friction{};
     /// Maximum relative length error of its stretch links, |length / rest - 1| (or the length if rest is 0),
@@ -70,6 +73,7 @@ struct RopeShape {
     std::optional<float> length{};
     float radius = 0.02f;
     float density = 1.0f;  ///< kg/m
+    float bending = 0.0f;  ///< bending stiffness, N m^2
     bool pin_start = false, pin_end = false;
 };
 

@@ -118,6 +118,8 @@ class World {
     Result set_density(BodyId body, double density) noexcept;
     double density(const Body& body) const noexcept;                           ///< 0 for a body of length 0
     Result set_friction(BodyId body, std::optional<float> friction) noexcept;  ///< empty: the settings'
+    /// Bending stiffness of a rope, N m^2, 0 to max_magnitude.
+    Result set_bending(BodyId rope, float stiffness) noexcept;
     /// Strain at which its links tear; 0: never.
     Result set_tear(BodyId body, float tear) noexcept;
     /// Of its links of that kind, 0 to 1e9. Of stretch links that of its material, in addition to the
