@@ -3,7 +3,8 @@
 //   {"name": "arm", "lengths": [0.5, 0.4], "target": [0.3, 0.6, 0]}
 //
 // and optionally "start" and "rest" (a point per joint), "pole" (a point), "limits" (one per bone, for the
-// joint it starts at, in the format of solver_json.hpp; null for none). Other keys are ignored.
+// joint it starts at, in the format of solver_json.hpp; null for none), "plane" (its normal), "bend" ("left",
+// "right" or "free") and "angle_limits" (one per bone, in that plane). Other keys are ignored.
 #pragma once
 
 #include <functional>
@@ -12,6 +13,7 @@
 #include <string>
 #include <string_view>
 #include <tendril/ik/limit.hpp>
+#include <tendril/ik/plane.hpp>
 #include <vector>
 
 #include "app/document/json.hpp"
@@ -25,7 +27,10 @@ struct Case {
     std::vector<glm::vec3> start;  ///< one more than bones; default: straight along +X from the origin
     glm::vec3 target{0.0f};
     std::optional<glm::vec3> pole;
-    std::vector<ik::Limit> limits;  ///< one per bone, or empty
+    std::vector<ik::Limit> limits;    ///< one per bone, or empty
+    std::optional<glm::vec3> normal;  ///< of the plane
+    ik::Side bend = ik::Side::Free;
+    std::vector<ik::AngleLimit> angle_limits;  ///< one per bone, or empty
 };
 
 /// Throws std::runtime_error that begins with the JSON path of the error: "cases.3.lengths.0".

@@ -212,8 +212,8 @@ std::vector<LegendRow> ChainLab::legend(const Workspace& workspace) const {
         rows.push_back({ghost_legend, colours.ghost});
     if (part.mode != ChainMode::Reach) return rows;
     if (part.reach.pole) rows.push_back({"pole", pole_colour(colours)});
-    if (!part.reach.limits.empty()) rows.push_back({"limit", colours.ghost, true});
-    if (!part.reach.limits.empty()) rows.push_back({"active limit", colours.limit, true});
+    if (is_limited(part.reach)) rows.push_back({"limit", colours.ghost, true});
+    if (is_limited(part.reach)) rows.push_back({"active limit", colours.limit, true});
     return rows;
 }
 
@@ -279,6 +279,9 @@ std::vector<TestScene> ChainLab::test_scenes() const {
           {"chain.pole", {{"to", glm::vec3(0.5f, 2.0f, 0.5f)}}},
           {"chain.limit", {{"index", 1}, {"kind", "hinge"}, {"max_deg", 120.0f}}},
           {"chain.motion", {{"path", "figure_eight"}}}},
+         words},
+        {"plane",
+         {{"chain.preset", {{"name", "flat_mixed"}}}, {"chain.motion", {{"path", "circle"}}}},
          words},
         {"studied",
          {{"chain.mode", {{"mode", "reach"}}},

@@ -22,6 +22,7 @@ Command chain_command(const char* name, const char* title, std::vector<Argument>
                 change_part<ChainPart>(workspace, chain_lab, [&](ChainPart& part, const ChainPart&) {
                     part.study.gesture_begins = workspace.gesture_begins;
                     change(part, given, runtime);
+                    keep_in_plane(part.chain, part.reach, runtime);
                     // The study must always match the chain that is shown.
                     if (part.study.open() && effect == Effect::Edit) reach_for(part, part.target, runtime);
                     check_range(part);
@@ -84,7 +85,12 @@ void add_chain_commands(CommandTable& table) {
     add_trace_commands(table);
 }
 
-void pull_joints(ChainPart& part, const std::vector<JointPull>& pulls, ChainRuntime& runtime) {
+void pull_joints(ChainPart& part, const std::vector<JointPull>& asked, ChainRuntime& runtime) {
+    std::vector<JointPull> pulls = asked;
+    for (JointPull& pull : pulls)
+        // The plane goes through the root, so a dragged root takes it along.
+        if (pull.joint > 0 || part.mode != ChainMode::Reach)
+            pull.to = in_plane(part.chain, part.reach, pull.to);
     if (part.mode == ChainMode::Reach) {
         drag_joints(part.chain, part.reach, pulls, part.target, runtime);
     } else {

@@ -1,5 +1,6 @@
 #include "app/labs/chain/presets.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -108,6 +109,13 @@ Segments coil(std::size_t count) {
     });
 }
 
+/// Along +X above the ground; the last length is that of all further bones.
+Segments flat(std::size_t count, std::vector<float> lengths) {
+    return placed({0.0f, 2.5f, 0.0f}, count, [&](std::size_t i) {
+        return glm::vec3(lengths[std::min(i == 0 ? 0 : i - 1, lengths.size() - 1)], 0.0f, 0.0f);
+    });
+}
+
 /// Random lengths and directions, the same for the same seed.
 Segments random_walk(std::size_t count, std::uint32_t seed) {
     std::mt19937 generator(seed);
@@ -128,15 +136,23 @@ const std::vector<Preset>& presets() {
         {"arm", "Arm", 7, 4},
         {"snake", "Snake", 40, 4},
         {"coil", "Coil", 120, 4},
-        {"tentacle", "Tentacle", 24, 3},
-        {"random", "Random", 16, 3},
-        {reaching_arm, "Reach", 4, 3, ": an arm in mode reach, with a hinge and a pole target"},
-        {straight_chain_preset, "Straight", 5, 3,
-         " in a line, the target on that line: FABRIK (2011) cannot bend it"}};
+        {"tentacle", "Tentacle", 24, 4},
+        {"random", "Random", 16, 4},
+        {reaching_arm, "Reach", 4, 4, ": an arm in mode reach, with a hinge and a pole target"},
+        {straight_chain_preset, "Straight", 5, 4,
+         " in a line, the target on that line: FABRIK (2011) cannot bend it"},
+        {"flat_arm", "2D arm", 4, 3, " in a plane: an elbow that bends one way"},
+        {"flat_tail", "2D tail", 16, 3, " in a plane: each may turn by 25 degrees"},
+        {"flat_mixed", "2D crane", 6, 3,
+         " in a plane: limits from the bone before and from a fixed direction"}};
     return list;
 }
 
 Chain make_preset(const std::string& name, std::size_t count, std::uint32_t seed) {
+    if (name == "flat_arm") return require_value(Chain::from_segments(flat(count, {1.6f, 1.4f, 0.5f})));
+    if (name == "flat_tail") return require_value(Chain::from_segments(flat(count, {6.0f / 15.0f})));
+    if (name == "flat_mixed")
+        return require_value(Chain::from_segments(flat(count, {1.2f, 1.6f, 1.4f, 0.9f, 0.5f})));
     if (name == "start" || name == straight_chain_preset)
         return require_value(Chain::from_segments(start(count)));
     if (name == reaching_arm) return require_value(Chain::from_segments(bent_arm(count)));
@@ -161,6 +177,39 @@ void make_it_reach(ChainPart& part, ChainRuntime& runtime) {
         set_limit(part.reach, elbow, hinge, part.chain);
     }
     reach_for(part, {2.25f, 0.9f, 0.2f}, runtime);
+}
+
+bool is_planar(const std::string& name) {
+    return name.starts_with("flat_");
+}
+
+void make_it_planar(ChainPart& part, const std::string& name, ChainRuntime& runtime) {
+    part.mode = ChainMode::Reach;
+    part.reach = {};
+    ChainPlane& plane = part.reach.plane.emplace();
+    plane.limits.resize(part.chain.size() < 2 ? 0 : part.chain.size() - 1);
+    const auto limit = [&](std::size_t bone, float min_deg, float max_deg,
+                           ik::AngleFrom from = ik::AngleFrom::Bone) {
+        if (bone < plane.limits.size())
+            plane.limits[bone] = {glm::radians(min_deg), glm::radians(max_deg), from};
+    };
+    glm::vec3 target{1.9f, 3.4f, 0.0f};
+    if (name == "flat_arm") {
+        limit(0, -90.0f, 120.0f);
+        limit(1, -145.0f, 0.0f);
+        limit(2, -60.0f, 60.0f);
+    } else if (name == "flat_tail") {
+        for (std::size_t bone = 1; bone < plane.limits.size(); ++bone) limit(bone, -25.0f, 25.0f);
+        target = {2.6f, 4.6f, 0.0f};
+    } else {
+        limit(0, 60.0f, 120.0f);
+        limit(1, -80.0f, 0.0f);
+        limit(2, -30.0f, 30.0f, ik::AngleFrom::Base);
+        limit(3, -90.0f, 90.0f);
+        limit(4, -100.0f, -80.0f, ik::AngleFrom::Base);
+        target = {3.0f, 3.6f, 0.0f};
+    }
+    reach_for(part, target, runtime);
 }
 
 void make_it_stall(ChainPart& part, ChainRuntime& runtime) {
