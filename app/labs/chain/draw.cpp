@@ -427,7 +427,8 @@ class LimitDrawing {
     void ends(const LimitLook& look, const LimitShape& shape) {
         for (const float angle : {shape.limit().min, shape.limit().max}) {
             char text[16];
-            std::snprintf(text, sizeof text, "%+.0f\xc2\xb0",
+            const bool straight = std::abs(angle) < glm::radians(0.5f);
+            std::snprintf(text, sizeof text, straight ? "%.0f\xc2\xb0" : "%+.0f\xc2\xb0",
                           std::round(glm::degrees(static_cast<double>(angle))) + 0.0);
             list_.labels.push_back({.at = look.centre + 1.12f * look.radius * shape.direction(angle, 0.0f),
                                     .clearance = px(2.0f),

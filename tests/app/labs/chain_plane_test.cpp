@@ -109,7 +109,7 @@ TEST_F(ChainPlaneTest, APlaneComesBackFromFileAndUndo) {
     EXPECT_THROW(static_cast<void>(part().load(bad, "chain")), std::runtime_error);
     const ReachSettings before = part().reach;
     run("chain.plane", {{"off", true}});
-    run("edit.undo");
+    run("undo");
     EXPECT_EQ(part().reach, before);
 }
 
