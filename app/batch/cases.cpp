@@ -1,10 +1,14 @@
 #include "app/batch/cases.hpp"
 
 #include <cmath>
+#include <glm/geometric.hpp>
 
 #include "app/document/json_complete.hpp"
+#include "app/document/json_place.hpp"
 #include "app/document/list_reader.hpp"
+#include "app/fields/fields.hpp"
 #include "app/io/solver_json.hpp"
+#include "app/labs/kit/library_json.hpp"
 
 namespace tendril::app {
 namespace {
@@ -87,6 +91,35 @@ std::vector<ik::Limit> read_limits(const Json& json, std::size_t bones, const st
     return limits;
 }
 
+std::vector<ik::AngleLimit> read_angle_limits(const Json& json, std::size_t bones, const std::string& where) {
+    std::vector<ik::AngleLimit> limits;
+    if (json.is_array() && json.empty()) return limits;
+    check_list(json, bones, "limits, one for each length", where);
+    for (std::size_t i = 0; i < json.size(); ++i) {
+        const JsonPlace place(json[i], element(where, i));
+        limits.emplace_back();
+        if (json[i].is_null()) continue;
+        load_fields(place, limits.back());
+        if (const char* const why = ik::fault(limits.back())) place.fail(why);
+    }
+    return limits;
+}
+
+/// The plane, and what is only for one.
+void read_plane(const Json& json, const std::string& where, Case& read) {
+    const JsonPlace place(json, where);
+    const auto normal = place.optional("plane");
+    for (const char* const key : {"bend", "angle_limits"})
+        if (!normal && place.has(key)) place[key].fail("is for a case with a plane");
+    if (!normal) return;
+    if (!read.limits.empty()) place["limits"].fail("in a plane there are angle_limits instead");
+    read.normal = normal->point();
+    if (!(glm::length(*read.normal) > 1e-6f)) normal->fail("must be longer than 1e-6");
+    if (const auto bend = place.optional("bend")) read.bend = bend->choice(bend_sides);
+    if (const auto limits = place.optional("angle_limits"))
+        read.angle_limits = read_angle_limits(limits->json(), read.lengths.size(), limits->where());
+}
+
 }  // namespace
 
 Case case_from_json(const Json& json, const std::string& where, std::size_t index) {
@@ -112,6 +145,7 @@ Case case_from_json(const Json& json, const std::string& where, std::size_t inde
     });
     given("pole", [&](const Json& j, const std::string& at) { read.pole = json_point(j, at); });
     given("limits", [&](const Json& j, const std::string& at) { read.limits = read_limits(j, bones, at); });
+    read_plane(json, where, read);
     return read;
 }
 

@@ -4,7 +4,8 @@
 //
 // and optionally "curve" (control points, for a chain that lies along them instead of reaching for a target),
 // "start" and "rest" (a point per joint), "pole" (a point), "limits" (one per bone, for the
-// joint it starts at, in the format of solver_json.hpp; null for none). Other keys are ignored.
+// joint it starts at, in the format of solver_json.hpp; null for none), "plane" (its normal), "bend" ("left",
+// "right" or "free") and "angle_limits" (one per bone, in that plane). Other keys are ignored.
 #pragma once
 
 #include <functional>
@@ -13,6 +14,7 @@
 #include <string>
 #include <string_view>
 #include <tendril/ik/limit.hpp>
+#include <tendril/ik/plane.hpp>
 #include <vector>
 
 #include "app/document/json.hpp"
@@ -26,8 +28,11 @@ struct Case {
     std::vector<glm::vec3> start;  ///< one more than bones; default: straight along +X from the origin
     glm::vec3 target{0.0f};
     std::optional<glm::vec3> pole;
-    std::vector<ik::Limit> limits;  ///< one per bone, or empty
-    std::vector<glm::vec3> curve;   ///< control points; empty: it reaches for the target
+    std::vector<ik::Limit> limits;    ///< one per bone, or empty
+    std::optional<glm::vec3> normal;  ///< of the plane
+    ik::Side bend = ik::Side::Free;
+    std::vector<ik::AngleLimit> angle_limits;  ///< one per bone, or empty
+    std::vector<glm::vec3> curve;              ///< control points; empty: it reaches for the target
 };
 
 /// Throws std::runtime_error that begins with the JSON path of the error: "cases.3.lengths.0".

@@ -54,6 +54,7 @@ class JsonRows final : public Rows {
         if (row.curve)
             json["curve"] = {{"bones_past_end", row.curve->bones_past_end},
                              {"past_end", number(row.curve->past_end)}};
+        if (row.asked.normal) json["off_plane"] = number(row.report.off_plane);
         json.erase("ran");  // scripts rely on the existing keys; the table has it
         json["microseconds"] = microseconds_json(row.microseconds);
         Json positions = Json::array();
@@ -153,6 +154,7 @@ Row solve(const Case& asked, ik::Method method, const SolveOptions& options, std
     told.max_iterations = options.max_iterations;
     told.pole = asked.pole;
     told.limits = asked.limits;
+    if (asked.normal) told.plane = ik::Plane{*asked.normal, asked.bend, asked.angle_limits};
     joints = asked.start;
     const auto begin = Clock::now();
     const ik::Report report = solver.solve(method, joints, state, asked.target, told);
@@ -218,6 +220,9 @@ const char* const solve_help =
     "origin\n"
     "  \"rest\"    the same for the pose that limits are measured from\n"
     "  \"pole\"    the pole target: what the elbow points at\n"
+    "  \"plane\"   the normal of a plane that the chain stays in, through its root; with it\n"
+    "            \"bend\": \"left\" or \"right\", and \"angle_limits\": for each bone null or\n"
+    "            {\"min_deg\": -45, \"max_deg\": 45, \"from\": \"bone\"} (or \"base\") instead of limits\n"
     "  \"limits\"  for each bone, null or the limit of the joint that it starts from:\n"
     "            {\"kind\": \"hinge\", \"axis\": [0, 0, 1], \"min_deg\": 0, \"max_deg\": 145} or\n"
     "            {\"kind\": \"ball_and_socket\", \"axis\": [0, 0, 1], \"up_deg\": 90, \"down_deg\": 40, "

@@ -56,6 +56,10 @@ void set(Option option, ik::Options& options, std::span<float> residuals, const 
         case Option::Limits:
             options.limits = each.arm.limits;
             break;
+        case Option::Plane:
+            options.plane = ik::Plane{{0.3f, 0.2f, 1.0f}};
+            options.limits = {};  // it has its own
+            break;
         case Option::Pole:
             options.pole = glm::vec3(0.1f, -0.7f, 1.0f) * reach;
             break;

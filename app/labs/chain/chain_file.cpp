@@ -1,5 +1,6 @@
 // The Chain lab in scene files.
 #include <algorithm>
+#include <glm/geometric.hpp>
 #include <stdexcept>
 
 #include "app/document/json_complete.hpp"
@@ -133,6 +134,21 @@ std::optional<JsonPlace> bone_list(const JsonPlace& owner, const char* key, std:
     return list;
 }
 
+ChainPlane load_plane(const JsonPlace& place, std::size_t bones) {
+    ChainPlane plane;
+    plane.normal = place["normal"].point();
+    if (!(glm::length(plane.normal) > 1e-6f)) place["normal"].fail("must be longer than 1e-6");
+    if (const auto bend = place.optional("bend")) plane.bend = bend->choice(bend_sides);
+    if (const auto limits = bone_list(place, "limits", bones)) {
+        for (std::size_t i = 0; i < bones; ++i) {
+            const JsonPlace each = limits->element(i);
+            load_fields(each, plane.limits.emplace_back());
+            if (const char* why = ik::fault(plane.limits.back())) each.fail(why);
+        }
+    }
+    return plane;
+}
+
 }  // namespace
 
 void save_state(Json& json, const ik::State& state, const std::vector<glm::vec3>& joints) {
@@ -155,6 +171,12 @@ Json save_reach(const ReachSettings& settings, const Chain& chain) {
     Json json{{"solver", ik::name(settings.method)}};
     json.update(save_fields(settings));
     json["pole"] = settings.pole ? point(*settings.pole) : Json(nullptr);
+    if (settings.plane) {
+        Json& plane = json["plane"] = {{"normal", point(settings.plane->normal)},
+                                       {"bend", bend_sides.name(settings.plane->bend)}};
+        for (const ik::AngleLimit& limit : settings.plane->limits)
+            plane["limits"].push_back(save_fields(limit));
+    }
     for (const ik::Limit& limit : settings.limits) json["limits"].push_back(limit_json(limit));
     save_state(json, settings.state, positions(chain));
     return json;
@@ -169,6 +191,8 @@ ReachSettings load_reach(const JsonPlace& place, const Chain& chain) {
     settings.method = *method;
     load_fields(place, settings);
     if (const auto pole = place.optional("pole")) settings.pole = pole->point();
+    if (const auto plane = place.optional("plane")) settings.plane = load_plane(*plane, bones);
+    if (settings.plane && place.has("limits")) place["limits"].fail("a chain in a plane has the plane's");
     if (const auto limits = bone_list(place, "limits", bones)) {
         for (std::size_t i = 0; i < bones; ++i) {
             const JsonPlace each = limits->element(i);

@@ -241,8 +241,8 @@ std::vector<LegendRow> ChainLab::legend(const Workspace& workspace) const {
         rows.push_back({ghost_legend, colours.ghost});
     if (part.mode != ChainMode::Reach) return rows;
     if (part.reach.pole) rows.push_back({"pole", pole_colour(colours)});
-    if (!part.reach.limits.empty()) rows.push_back({"limit", colours.ghost, true});
-    if (!part.reach.limits.empty()) rows.push_back({"active limit", colours.limit, true});
+    if (is_limited(part.reach)) rows.push_back({"limit", colours.ghost, true});
+    if (is_limited(part.reach)) rows.push_back({"active limit", colours.limit, true});
     return rows;
 }
 
@@ -312,6 +312,9 @@ std::vector<TestScene> ChainLab::test_scenes() const {
          words},
         {"curve",
          {{"chain.preset", {{"name", "tail"}}}, {"chain.motion", {{"path", "figure_eight"}}}},
+         words},
+        {"plane",
+         {{"chain.preset", {{"name", "flat_mixed"}}}, {"chain.motion", {{"path", "circle"}}}},
          words},
         {"studied",
          {{"chain.mode", {{"mode", "reach"}}},

@@ -35,7 +35,7 @@ void check_range(const ChainPart& part) {
         for (const Segment& segment : chain->segments())
             if (outside(segment.position))
                 throw std::invalid_argument("the chain would reach farther than 1e9 m");
-    if (!part.reach.limits.empty() && part.chain.size() > max_limited_segments) {
+    if (is_limited(part.reach) && part.chain.size() > max_limited_segments) {
         throw std::invalid_argument("chains of up to " + std::to_string(max_limited_segments) +
                                     " segments can have limits; this one has " +
                                     std::to_string(part.chain.size()));
@@ -82,6 +82,7 @@ void enter_mode(ChainPart& part, ChainMode mode) {
 
 void reach_for(ChainPart& part, glm::vec3 target, ChainRuntime& runtime) {
     part.result.reset();
+    if (part.mode != ChainMode::Reach) target = in_plane(part.chain, part.reach, target);
     switch (part.mode) {
         case ChainMode::Forward:
             require_ok(part.chain.forward(target));
@@ -136,8 +137,8 @@ std::shared_ptr<const Part> ChainPart::at_moment(std::shared_ptr<const Part> the
 
 std::size_t ChainPart::bytes() const {
     return sizeof(*this) + chain.size() * sizeof(Segment) + reach.limits.size() * sizeof(ik::Limit) +
-           bytes_of(reach.state) + along.given.size() * sizeof(Segment) +
-           curve.points.size() * sizeof(glm::vec3) +
+           (reach.plane ? reach.plane->limits.size() * sizeof(ik::AngleLimit) : 0) + bytes_of(reach.state) +
+           along.given.size() * sizeof(Segment) + curve.points.size() * sizeof(glm::vec3) +
            along.memory.at.size() * (sizeof(double) + sizeof(glm::vec3)) + study.bytes() +
            selection.all().size() * sizeof(std::size_t);
 }

@@ -49,6 +49,7 @@ class ChainProgram {
         return part_.reach.limits.empty() ? std::vector<glm::quat>() : part_.reach.state.rotations;
     }
     void options();
+    void plane();
     void end();
 
     void line(std::string_view text) { (code_ += text) += '\n'; }
@@ -228,6 +229,7 @@ void ChainProgram::options() {
         say("options.pole = glm::vec3" + braced(*options.pole) + ";  // the elbow or knee points at it");
         if (options.pole_turn != plain_options.pole_turn) set("pole_turn", "ik::PoleTurn::EachJoint");
     }
+    plane();
     if (options.snap_back != plain_options.snap_back) set("snap_back", literal(options.snap_back));
     if (options.soft_zone != plain_options.soft_zone)
         set("soft_zone", literal(options.soft_zone), "  // part of the reach");
@@ -236,6 +238,24 @@ void ChainProgram::options() {
     if (options.restarts) set("restarts", std::to_string(*options.restarts));
     if (options.twist != plain_options.twist)
         set("twist", literal(options.twist), ("  // " + degrees_text(options.twist) + " degrees").c_str());
+}
+
+void ChainProgram::plane() {
+    if (!part_.reach.plane) return;
+    const ChainPlane& plane = *part_.reach.plane;
+    const std::string side = pascal_text(ik::name(plane.bend));
+    const auto& limits = plane.limits;
+    if (!limits.empty()) {
+        say("// For each bone the range of its angle, radians: positive to the left, 0 straight on.");
+        say("const std::vector<ik::AngleLimit> angle_limits{");
+        for (const ik::AngleLimit& limit : limits)
+            say("    {" + literal(limit.min) + ", " + literal(limit.max) +
+                ", ik::AngleFrom::" + pascal_text(ik::name(limit.from)) + "},");
+        say("};");
+    }
+    say("// The chain stays in the plane of this normal through its root.");
+    say("options.plane = ik::Plane{glm::vec3" + braced(plane.normal) + ", ik::Side::" + side +
+        (limits.empty() ? "" : ", angle_limits") + "};");
 }
 
 void ChainProgram::limits() {

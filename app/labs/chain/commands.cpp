@@ -26,6 +26,7 @@ Command chain_command(const char* name, const char* title, std::vector<Argument>
                     if (edits && part.mode == ChainMode::Curve) std::swap(part.chain, part.along.given);
                     change(part, given, runtime);
                     if (edits) keep_on_curve(part, before);
+                    if (part.mode != ChainMode::Curve) keep_in_plane(part.chain, part.reach, runtime);
                     // The study must always match the chain that is shown.
                     if (part.study.open() && edits) reach_for(part, part.target, runtime);
                     check_range(part);
@@ -89,8 +90,13 @@ void add_chain_commands(CommandTable& table) {
     add_trace_commands(table);
 }
 
-void pull_joints(ChainPart& part, const std::vector<JointPull>& pulls, ChainRuntime& runtime) {
+void pull_joints(ChainPart& part, const std::vector<JointPull>& asked, ChainRuntime& runtime) {
     if (part.mode == ChainMode::Curve) throw Refused("in mode curve the control points move the joints");
+    std::vector<JointPull> pulls = asked;
+    for (JointPull& pull : pulls)
+        // The plane goes through the root, so a dragged root takes it along.
+        if (pull.joint > 0 || part.mode != ChainMode::Reach)
+            pull.to = in_plane(part.chain, part.reach, pull.to);
     if (part.mode == ChainMode::Reach) {
         drag_joints(part.chain, part.reach, pulls, part.target, runtime);
     } else {

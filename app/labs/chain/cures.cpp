@@ -71,7 +71,7 @@ bool in_line_with_target(const ChainPart& part) {
 std::optional<Cure> reach_cure(const ChainPart& part) {
     if (part.mode != ChainMode::Reach || !part.result) return std::nullopt;
     const ReachSettings& reach = part.reach;
-    const bool limited = !reach.limits.empty();
+    const bool limited = is_limited(reach);
     const ik::Status status = part.result->report.status;
     if (status == ik::Status::IterationLimit && reach.iterations < max_iterations) {
         const int more = std::min(2 * reach.iterations, max_iterations);

@@ -4,6 +4,7 @@
 #include <imgui.h>
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -50,6 +51,7 @@ class Drawing {
         list_.strokes.reserve(2 * part_.chain.size() + 16);
         if (part_.mode == ChainMode::Reach && reach_sphere().chosen(view_.workspace.settings) == 1)
             draw_reach_sphere(view_, chain_, list_);
+        draw_plane();
         const bool racing = chain_.race != nullptr;
         if (racing) {
             draw_race(view_, chain_, list_);
@@ -78,6 +80,17 @@ class Drawing {
     float length(std::size_t i) const { return part_.chain.segments()[i].length; }
 
     float px(float pixels) const { return pixels * view_.scale; }
+
+    /// What the chain reaches in its plane: a disc, so that orbiting shows that it is flat.
+    void draw_plane() {
+        if (!part_.reach.plane || part_.chain.size() < 2) return;
+        const glm::vec3 normal = glm::normalize(part_.reach.plane->normal);
+        const glm::vec3 across = ik::base_direction(normal, part_.chain.default_direction());
+        draw_circle(list_, part_.chain.position(0), part_.chain.reach(), across, glm::cross(normal, across),
+                    px(1.5f), faded(view_.palette, view_.palette.ghost, 0.45f));
+        const glm::vec3 below = in_plane(part_.chain, part_.reach, part_.target);
+        list_.line(part_.target, below, px(1.0f), glm::vec4(view_.palette.target, 0.6f));
+    }
 
     glm::vec3 joint_colour(std::size_t i) const {
         const Palette& p = view_.palette;
@@ -286,7 +299,8 @@ const char* end_name(const ChainPart& part, std::size_t index) {
 }
 
 float shown_residual(const ChainPart& part, const std::vector<glm::vec3>& joints) {
-    return joints.empty() ? 0.0f : glm::distance(joints.back(), part.target);
+    if (joints.empty()) return 0.0f;
+    return glm::distance(joints.back(), in_plane(part.chain, part.reach, part.target));
 }
 
 void draw_incident(const View& view, const ChainPart& part, DrawList& list) {
@@ -361,6 +375,7 @@ void draw_reach_sphere(const View& view, const ShownChain& shown, DrawList& list
     const glm::vec3 root = shown.part.chain.position(0);
     const float reach = shown.part.chain.reach();
     if (!(reach > 0.0f)) return;
+    if (shown.part.reach.plane) return;  // draw_plane has the circle
     outline(view, list, root, reach);
     const float high = std::abs(root.y);
     if (high >= reach) return;
@@ -385,13 +400,17 @@ class LimitDrawing {
           active_(shown_active_limit(shown)),
           bones_(segment_style().chosen(view.workspace.settings) == 1),
           joints_(shown_joints(shown)),
-          turns_(rotations_at(joints_, part_.reach.state.rotations, part_.chain.default_direction())) {}
+          plane_(part_.reach.plane ? &*part_.reach.plane : nullptr),
+          rest_(plane_ ? ik::base_direction(plane_->normal, part_.chain.default_direction())
+                       : part_.chain.default_direction()),
+          turns_(rotations_at(joints_, plane_ ? std::vector<glm::quat>() : part_.reach.state.rotations,
+                              rest_)) {}
 
     void run() {
         const std::size_t bones = joints_.size() - 1;
         for (std::size_t i = 0; i < bones; ++i) {
             const bool shown = bones <= max_limits || is_active(i) || part_.selection.has(i);
-            if (shown && limit_of(part_.reach, i).kind != ik::JointKind::Free) joint(i);
+            if (shown && limit_at(i).kind != ik::JointKind::Free) joint(i);
         }
     }
 
@@ -399,10 +418,35 @@ class LimitDrawing {
     float px(float pixels) const { return pixels * view_.scale; }
     bool is_active(std::size_t i) const { return active_ != nullptr && active_->joint == i; }
 
+    /// In a plane: a hinge about its normal, measured from straight on or from the base.
+    ik::Limit limit_at(std::size_t i) const {
+        if (!plane_) return limit_of(part_.reach, i);
+        const ik::AngleLimit limit = angle_limit_of(*plane_, i);
+        return limit.max - limit.min >= glm::radians(359.9f)
+                   ? ik::Limit{}
+                   : ik::Limit::hinge(glm::normalize(plane_->normal), limit.min, limit.max);
+    }
+
+    /// "-45" and "+60" degrees at the ends of an arc.
+    void ends(const LimitLook& look, const LimitShape& shape) {
+        for (const float angle : {shape.limit().min, shape.limit().max}) {
+            char text[16];
+            const bool straight = std::abs(angle) < glm::radians(0.5f);
+            std::snprintf(text, sizeof text, straight ? "%.0f\xc2\xb0" : "%+.0f\xc2\xb0",
+                          std::round(glm::degrees(static_cast<double>(angle))) + 0.0);
+            list_.labels.push_back({.at = look.centre + 1.12f * look.radius * shape.direction(angle, 0.0f),
+                                    .clearance = px(2.0f),
+                                    .text = text,
+                                    .colour = view_.palette.text,
+                                    .rank = 1});
+        }
+    }
+
     void joint(std::size_t i) {
-        const ik::Limit limit = limit_of(part_.reach, i);
-        const glm::vec3 rest = part_.chain.default_direction();
-        const glm::quat parent = i == 0 ? glm::quat(1, 0, 0, 0) : turns_[i - 1];
+        const ik::Limit limit = limit_at(i);
+        const glm::vec3 rest = rest_;
+        const bool from_base = plane_ && angle_limit_of(*plane_, i).from == ik::AngleFrom::Base;
+        const glm::quat parent = i == 0 || from_base ? glm::quat(1, 0, 0, 0) : turns_[i - 1];
         const float bone = part_.chain.segments()[i + 1].length;
         const float pixels = 90.0f * view_.scale * view_.camera.metres_per_pixel(joints_[i]);
         const bool active = is_active(i), lit = active || part_.selection.has(i);
@@ -420,6 +464,7 @@ class LimitDrawing {
         pen.dot(shape, angles);
         pen.dial(shape, angles, 0.5f, 0.22f);
         pen.rest(shape);
+        if (plane_) ends(look, shape);
         if (active) {
             needed(pen, look, shape, angles);
             list_.ring(look.centre, px(13.0f), px(3.0f), glm::vec4(view_.palette.limit, 1.0f)).layer =
@@ -456,13 +501,15 @@ class LimitDrawing {
     const ik::ActiveLimit* active_;
     bool bones_;
     std::vector<glm::vec3> joints_;
+    const ChainPlane* plane_;
+    glm::vec3 rest_;  ///< of all bones
     std::vector<glm::quat> turns_;
 };
 
 }  // namespace
 
 void draw_limits(const View& view, const ShownChain& shown, DrawList& list) {
-    if (shown.part.reach.limits.empty() || shown.part.chain.size() < 2) return;
+    if (!is_limited(shown.part.reach) || shown.part.chain.size() < 2) return;
     LimitDrawing(view, shown, list).run();
 }
 

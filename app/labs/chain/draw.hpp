@@ -51,7 +51,7 @@ float worst_error(const ShownChain& shown, const std::vector<glm::vec3>& joints)
 /// "root" and "tip" in modes Reach and Curve, "head" and "tail" in trailing modes; empty for joints between.
 const char* end_name(const ChainPart& part, std::size_t index);
 
-/// Metres from the tip to the target; 0 for an empty chain.
+/// Metres from the tip to the target, in the plane if there is one; 0 for an empty chain.
 float shown_residual(const ChainPart& part, const std::vector<glm::vec3>& joints);
 
 /// In mode Curve: its curve and control points, and on wish the frames of the bones.

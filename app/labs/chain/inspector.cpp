@@ -30,6 +30,8 @@ void chain_rows(const ShownChain& shown, const Joints& joints) {
     if (chain.empty()) return;
     reading("reach", "%.3f m", static_cast<double>(chain.reach()));
     const bool reaches = part.mode == ChainMode::Reach;  // the report already shows "tip to target"
+    if (part.reach.plane)
+        reading("target off plane", "%.3f m", static_cast<double>(off_plane(chain, part.reach, part.target)));
     reading(reaches ? "root to target" : "head to target", "%.3f m",
             static_cast<double>(glm::distance(joints.front(), part.target)));
     if (!reaches) reading("tail to target", "%.3f m", static_cast<double>(shown_residual(part, joints)));
@@ -222,6 +224,8 @@ void axis_row(const ik::Limit& limit, const std::vector<std::size_t>& joints, Em
 
 bool same_limits(const ReachSettings& reach, const std::vector<std::size_t>& joints) {
     return std::all_of(joints.begin(), joints.end(), [&](std::size_t joint) {
+        if (reach.plane)
+            return angle_limit_of(*reach.plane, joint) == angle_limit_of(*reach.plane, joints.front());
         return limit_of(reach, joint) == limit_of(reach, joints.front());
     });
 }
@@ -263,6 +267,12 @@ void limit_rows(const ChainPart& part, Emit& emit) {
     section(several ? "Limit of these joints" : "Limit of this joint");
     if (several && !same_limits(part.reach, joints))
         note("They differ. Showing joint " + std::to_string(joint) + "; changes apply to all.");
+    if (part.reach.plane) {
+        const ik::AngleLimit limit = angle_limit_of(*part.reach.plane, joint);
+        FieldRows(limit, field_texts<ik::AngleLimit>(), "chain.angle_limit", emit, of_joints(joints))
+            .rows("min", "max", "from");
+        return;
+    }
     const ik::Limit limit = limit_of(part.reach, joint);
     const FieldRows rows({ik::limit_fields(limit.kind), &limit}, field_texts<ik::Limit>(), "chain.limit",
                          emit, of_joints(joints));

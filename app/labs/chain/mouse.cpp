@@ -2,7 +2,10 @@
 #include "app/labs/chain/mouse.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+#include <glm/trigonometric.hpp>
 #include <optional>
 #include <stdexcept>
 #include <tendril/ik/solver.hpp>
@@ -40,14 +43,14 @@ void emit_points(const ChainPart& part, std::vector<glm::vec3> points, Emit& emi
 }
 
 void ChainLab::drag(const Workspace& workspace, PickId pick, const Handle::Frame& frame, Emit& emit) const {
-    const glm::vec3 to = frame.position;
     const ChainPart& part = chain_part(workspace);
     if (const auto control = picked_control(pick)) {
         if (*control >= part.curve.points.size()) return;
         std::vector<glm::vec3> points = part.curve.points;
-        points[*control] = to;
+        points[*control] = frame.position;
         return emit_points(part, std::move(points), emit);
     }
+    const glm::vec3 to = in_plane(part.chain, part.reach, frame.position);
     if (pick != pole_pick) keep_target_still(part, emit);
     if (pick == target_pick) {
         emit.continuously("chain.target", {{"to", to}});
@@ -180,10 +183,11 @@ struct Section {
     std::vector<float> lengths;        ///< metres, one per bone
     std::vector<glm::vec3> joints;     ///< one more than bones
     std::vector<glm::quat> rotations;  ///< one per bone; only with limits
+    glm::vec3 base{1, 0, 0};           ///< where its first bone is straight: that of the bone before
 };
 
 Section section_of(const Chain& chain, const ReachSettings& settings, std::size_t first, std::size_t count) {
-    Section section{first, count, {}, {}, {}};
+    Section section{first, count, {}, {}, {}, chain.default_direction()};
     for (std::size_t i = 0; i <= count; ++i) {
         section.joints.push_back(chain.segments()[first + i].position);
         if (i < count) section.lengths.push_back(chain.segments()[first + i + 1].length);
@@ -195,6 +199,26 @@ Section section_of(const Chain& chain, const ReachSettings& settings, std::size_
     return section;
 }
 
+/// The limits of a section in the chain's plane, where its base is another than the chain's.
+std::vector<ik::AngleLimit> angle_limits(const Section& section, const Chain& chain,
+                                         const ChainPlane& plane) {
+    if (plane.limits.empty()) return {};
+    const auto from = plane.limits.begin() + static_cast<std::ptrdiff_t>(section.first);
+    std::vector<ik::AngleLimit> limits(from, from + static_cast<std::ptrdiff_t>(section.count));
+    const glm::vec3 base = ik::base_direction(plane.normal, chain.default_direction());
+    const float turned = glm::atan(glm::dot(glm::normalize(plane.normal), glm::cross(base, section.base)),
+                                   glm::dot(base, section.base));
+    constexpr float half_turn = glm::pi<float>();
+    for (ik::AngleLimit& limit : limits) {
+        if (limit.from == ik::AngleFrom::Bone || limit.max - limit.min > 6.28f) continue;
+        const float middle = std::remainder(0.5f * (limit.min + limit.max) - turned, 2.0f * half_turn);
+        const float half = 0.5f * (limit.max - limit.min);
+        limit.min = std::max(middle - half, -half_turn);
+        limit.max = std::min(middle + half, half_turn);
+    }
+    return limits;
+}
+
 /// Solves the section on its own; its first joint stays.
 void solve_section(Section& section, const Chain& chain, const ReachSettings& settings, glm::vec3 target,
                    ik::Options options, ChainRuntime& runtime) {
@@ -203,9 +227,14 @@ void solve_section(Section& section, const Chain& chain, const ReachSettings& se
         options.limits = std::span(settings.limits).subspan(section.first, section.count);
         state.rotations = section.rotations;
     }
+    std::vector<ik::AngleLimit> limits;
+    if (settings.plane) {
+        limits = angle_limits(section, chain, *settings.plane);
+        options.plane = ik::Plane{settings.plane->normal, ik::Side::Free, limits};
+    }
     const bool fits = settings.method != ik::Method::TwoBone || section.count == 2;
     const ik::Method method = fits ? settings.method : ik::Method::Fabrik;
-    ik::Solver& solver = runtime.solver(section.lengths, chain.default_direction());
+    ik::Solver& solver = runtime.solver(section.lengths, section.base);
     if (solver.solve(method, section.joints, state, target, options).status == ik::Status::InvalidInput) {
         throw std::invalid_argument("the solver does not take this point");
     }
@@ -315,6 +344,7 @@ class SectionDrag {
     void solve(Section& section, glm::vec3 to, float tolerance) {
         const ik::Options options = section_options(settings_, tolerance);
         const glm::quat was = section.rotations.empty() ? glm::quat(1, 0, 0, 0) : section.rotations.back();
+        if (first_ > 0 && settings_.plane) section.base = direction(joints_[first_ - 1], joints_[first_]);
         if (at_) move_along(section, *at_, turned_);
         if (first_ > 0)
             solve_beyond(section, chain_, settings_, to, options, parent_, runtime_);

@@ -3,7 +3,9 @@
 #include <imgui.h>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 #include <numeric>
 #include <optional>
 #include <string_view>
@@ -71,6 +73,38 @@ void mode_rows(const ChainPart& part, const Palette& colours, MoreRows& more, Em
             explain("How far from the target the solver may stop. Less takes more iterations.");
         });
     }
+}
+
+/// The camera square on to the plane, its normal towards the eye.
+void look_at_plane(const ChainPlane& plane, Emit& emit) {
+    const glm::vec3 normal = glm::normalize(plane.normal);
+    emit("camera.set", {{"yaw_deg", glm::degrees(std::atan2(normal.x, normal.z))},
+                        {"pitch_deg", glm::degrees(std::asin(std::clamp(normal.y, -1.0f, 1.0f)))},
+                        {"orthographic", true}});
+}
+
+void plane_rows(const ChainPart& part, MoreRows& more, Emit& emit) {
+    bool on = part.reach.plane.has_value();
+    if (ImGui::Checkbox("In a plane", &on))
+        emit("chain.plane", on ? ArgumentList{{"normal", glm::vec3(0, 0, 1)}} : ArgumentList{{"off", true}});
+    explain("Keeps the chain in a plane through its root, in every mode: the XY plane at first.");
+    if (!part.reach.plane) return;
+    const ChainPlane& plane = *part.reach.plane;
+    ImGui::SameLine();
+    if (ImGui::Button("2D")) look_at_plane(plane, emit);
+    explain("Looks square on to the plane, without perspective: drags stay in it.");
+    more.add("normal", {"chain.plane", {"normal"}}, plane.normal != ChainPlane().normal, [&plane, &emit] {
+        glm::vec3 normal = plane.normal;
+        if (point_field("normal", normal, 0.01f) && glm::length(normal) > 1e-6f)
+            emit.continuously("chain.plane", {{"normal", normal}});
+        explain("At right angles to the plane. Its length does not matter.");
+    });
+    if (part.mode != ChainMode::Reach) return;
+    const auto titles = bend_sides.titles();
+    int side = static_cast<int>(plane.bend);
+    if (choice_field("bends", side, titles.data(), static_cast<int>(titles.size())))
+        emit("chain.bend", {{"side", bend_sides.name(static_cast<ik::Side>(side))}});
+    explain("The side of the line from root to tip that the chain bends to, as the 2D view shows it.");
 }
 
 void segment_rows(const ChainPart& part, Emit& emit) {
@@ -144,7 +178,10 @@ void ChainLab::panel(const Workspace& workspace, Emit& emit) const {
     section("Mode and solver", true, [&](MoreRows& more) {
         mode_rows(part, palette(workspace.settings.theme), more, emit);
         if (part.mode == ChainMode::Reach) solver_rows(part, more, emit);
-        if (part.mode == ChainMode::Curve) curve_rows(part, more, emit);
+        if (part.mode == ChainMode::Curve)
+            curve_rows(part, more, emit);
+        else
+            plane_rows(part, more, emit);
     });
     section("Joints", false, [&](MoreRows&) { segment_rows(part, emit); });
     section("Target", false, [&](MoreRows&) { target_rows(part, workspace.clock.playing, emit); });
@@ -255,7 +292,7 @@ Verdict reach_verdict(const ChainPart& part) {
 /// Explains a stalled solve: why more iterations would not help.
 std::string stalled_text(const ChainPart& part) {
     const ReachSettings& reach = part.reach;
-    const bool limited = !reach.limits.empty();
+    const bool limited = is_limited(reach);
     if (!limited && in_line_with_target(part)) {
         const float span = glm::distance(part.chain.position(0), part.chain.position(part.chain.size() - 1));
         return std::string(span > 0.999f * part.chain.reach() ? "Straight, and the target is on its line"
@@ -334,7 +371,9 @@ namespace {
 
 /// Why the method ignores an option, as its row says; empty if it does not.
 std::string why_unused(const ReachSettings& reach, ik::Option option) {
-    const bool limited = !reach.limits.empty();
+    const bool limited = is_limited(reach);
+    const bool turns = option == ik::Option::PoleTurn || option == ik::Option::Twist;
+    if (reach.plane && turns) return "A chain in a plane does not use this.";
     if (ik::honours(reach.method, option, limited)) return {};
     const bool otherwise = ik::honours(reach.method, option, !limited);
     const char* const when = !otherwise ? "" : limited ? " within limits" : " without joint limits";

@@ -1,5 +1,6 @@
 #include "app/labs/chain/presets.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -114,6 +115,13 @@ Segments coil(std::size_t count) {
     });
 }
 
+/// Along +X above the ground; the last length is that of all further bones.
+Segments flat(std::size_t count, std::vector<float> lengths) {
+    return placed({0.0f, 2.5f, 0.0f}, count, [&](std::size_t i) {
+        return glm::vec3(lengths[std::min(i == 0 ? 0 : i - 1, lengths.size() - 1)], 0.0f, 0.0f);
+    });
+}
+
 /// Random lengths and directions, the same for the same seed.
 Segments random_walk(std::size_t count, std::uint32_t seed) {
     std::mt19937 generator(seed);
@@ -140,13 +148,21 @@ const std::vector<Preset>& presets() {
         {straight_chain_preset, "Straight", 5, 3,
          " in a line, the target on that line: FABRIK (2011) cannot bend it"},
         {"spine", "Spine", 9, 3, " along a curve with a roll from hips to neck, in mode curve"},
-        {"tail", "Tail", 31, 3, " along a curve with a loop, in mode curve"}};
+        {"tail", "Tail", 31, 3, " along a curve with a loop, in mode curve"},
+        {"flat_arm", "2D arm", 4, 3, " in a plane: an elbow that bends one way"},
+        {"flat_tail", "2D tail", 16, 3, " in a plane: each may turn by 25 degrees"},
+        {"flat_mixed", "2D crane", 6, 3,
+         " in a plane: limits from the bone before and from a fixed direction"}};
     return list;
 }
 
 Chain make_preset(const std::string& name, std::size_t count, std::uint32_t seed) {
     if (name == "spine") return require_value(Chain::from_segments(upright(count, 0.7f)));
     if (name == "tail") return require_value(Chain::from_segments(upright(count, 6.0f)));
+    if (name == "flat_arm") return require_value(Chain::from_segments(flat(count, {1.6f, 1.4f, 0.5f})));
+    if (name == "flat_tail") return require_value(Chain::from_segments(flat(count, {6.0f / 15.0f})));
+    if (name == "flat_mixed")
+        return require_value(Chain::from_segments(flat(count, {1.2f, 1.6f, 1.4f, 0.9f, 0.5f})));
     if (name == "start" || name == straight_chain_preset)
         return require_value(Chain::from_segments(start(count)));
     if (name == reaching_arm) return require_value(Chain::from_segments(bent_arm(count)));
@@ -185,6 +201,39 @@ void lay_along_curve(ChainPart& part, const std::string& preset) {
                              {-1.5f, 2.0f, 0.3f}, {-0.9f, 1.5f, 0.1f}, {-1.9f, 0.9f, -0.2f},
                              {-3.0f, 1.3f, 0}};
     }
+}
+
+bool is_planar(const std::string& name) {
+    return name.starts_with("flat_");
+}
+
+void make_it_planar(ChainPart& part, const std::string& name, ChainRuntime& runtime) {
+    part.mode = ChainMode::Reach;
+    part.reach = {};
+    ChainPlane& plane = part.reach.plane.emplace();
+    plane.limits.resize(part.chain.size() < 2 ? 0 : part.chain.size() - 1);
+    const auto limit = [&](std::size_t bone, float min_deg, float max_deg,
+                           ik::AngleFrom from = ik::AngleFrom::Bone) {
+        if (bone < plane.limits.size())
+            plane.limits[bone] = {glm::radians(min_deg), glm::radians(max_deg), from};
+    };
+    glm::vec3 target{1.9f, 3.4f, 0.0f};
+    if (name == "flat_arm") {
+        limit(0, -90.0f, 120.0f);
+        limit(1, -145.0f, 0.0f);
+        limit(2, -60.0f, 60.0f);
+    } else if (name == "flat_tail") {
+        for (std::size_t bone = 1; bone < plane.limits.size(); ++bone) limit(bone, -25.0f, 25.0f);
+        target = {2.6f, 4.6f, 0.0f};
+    } else {
+        limit(0, 60.0f, 120.0f);
+        limit(1, -80.0f, 0.0f);
+        limit(2, -30.0f, 30.0f, ik::AngleFrom::Base);
+        limit(3, -90.0f, 90.0f);
+        limit(4, -100.0f, -80.0f, ik::AngleFrom::Base);
+        target = {3.0f, 3.6f, 0.0f};
+    }
+    reach_for(part, target, runtime);
 }
 
 void make_it_stall(ChainPart& part, ChainRuntime& runtime) {

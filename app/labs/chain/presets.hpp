@@ -29,6 +29,11 @@ const std::vector<Preset>& presets();
 /// Throws std::invalid_argument for an unknown name. Only "random" uses `seed`.
 Chain make_preset(const std::string& name, std::size_t count, std::uint32_t seed);
 
+/// A chain in a plane: arm, tail, and a figure whose limits are from the bone before and from the base.
+bool is_planar(const std::string& name);
+/// Completes it: mode Reach, the plane z = 0, its limits, and a target within them.
+void make_it_planar(ChainPart& part, const std::string& name, ChainRuntime& runtime);
+
 /// Completes the preset reaching_arm: mode Reach, a hinge at the elbow, a pole target above it, and the hand
 /// on the target. `part` already has the preset's chain.
 void make_it_reach(ChainPart& part, ChainRuntime& runtime);

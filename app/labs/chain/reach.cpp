@@ -67,6 +67,8 @@ ik::Options solver_options(const ReachSettings& settings, float reach) {
     ik::Options options;
     options.tolerance = reach_tolerance(settings, reach);
     options.max_iterations = settings.iterations;
+    if (settings.plane)
+        options.plane = ik::Plane{settings.plane->normal, settings.plane->bend, settings.plane->limits};
     options.limits = settings.limits;
     options.pole = settings.pole;
     options.pole_turn = settings.pole_turn;
@@ -106,7 +108,7 @@ std::optional<ReachResult> solve_reach(Chain& chain, ReachSettings& settings, gl
         throw std::invalid_argument("the solver does not take this target, pole or limit");
     }
     forget_what_is_not_valid(state);
-    if (settings.limits.empty()) return result;
+    if (!is_limited(settings)) return result;
     if (result.report.status == ik::Status::Limited)
         result.active_limit = solver.explain(positions(chain), state, target, options);
     return result;
@@ -116,37 +118,90 @@ std::size_t bytes_of(const ik::State& state) {
     return state.rotations.size() * sizeof(glm::quat) + state.pole.joints.size() * sizeof(glm::vec3);
 }
 
+/// Calls `change` with each list of limits that is not empty.
+template <class Change>
+static void change_limits(ReachSettings& settings, const Change& change) {
+    if (!settings.limits.empty()) change(settings.limits);
+    if (settings.plane && !settings.plane->limits.empty()) change(settings.plane->limits);
+}
+
 void bone_inserted(ReachSettings& settings, std::size_t index, std::size_t segments_now) {
     settings.state = {};  // twist is determined anew
-    if (settings.limits.empty() || segments_now < 2) return;
-    const auto at = static_cast<std::ptrdiff_t>(std::min(index, settings.limits.size()));
-    settings.limits.insert(settings.limits.begin() + at, ik::Limit{});
-    settings.limits.resize(segments_now - 1);
+    if (segments_now < 2) return;
+    change_limits(settings, [&](auto& limits) {
+        const auto at = static_cast<std::ptrdiff_t>(std::min(index, limits.size()));
+        limits.insert(limits.begin() + at, {});
+        limits.resize(segments_now - 1);
+    });
 }
 
 void bone_removed(ReachSettings& settings, std::size_t index, std::size_t segments_now) {
     settings.state = {};
-    if (settings.limits.empty()) return;
-    const auto at = static_cast<std::ptrdiff_t>(std::min(index, settings.limits.size() - 1));
-    settings.limits.erase(settings.limits.begin() + at);
-    settings.limits.resize(segments_now < 2 ? 0 : segments_now - 1);
+    change_limits(settings, [&](auto& limits) {
+        limits.erase(limits.begin() + static_cast<std::ptrdiff_t>(std::min(index, limits.size() - 1)));
+        limits.resize(segments_now < 2 ? 0 : segments_now - 1);
+    });
 }
 
 void bones_removed(ReachSettings& settings, const std::vector<std::size_t>& joints,
                    std::size_t segments_now) {
     settings.state = {};
-    if (settings.limits.empty()) return;
-    std::vector<ik::Limit> left;
-    for (std::size_t i = 0; i < settings.limits.size(); ++i)
-        if (!std::binary_search(joints.begin(), joints.end(), i)) left.push_back(settings.limits[i]);
-    left.resize(segments_now < 2 ? 0 : segments_now - 1);  // no bone starts at the new tail
-    settings.limits = std::move(left);
+    change_limits(settings, [&](auto& limits) {
+        std::size_t left = 0;
+        for (std::size_t i = 0; i < limits.size(); ++i)
+            if (!std::binary_search(joints.begin(), joints.end(), i)) limits[left++] = limits[i];
+        limits.resize(left);
+        limits.resize(segments_now < 2 ? 0 : segments_now - 1);  // no bone starts at the new tail
+    });
 }
 
 void forget_limits(ReachSettings& settings) {
     settings.limits.clear();
+    if (settings.plane) settings.plane->limits.clear();
     settings.state.rotations.assign(settings.state.bones(), glm::quat(1, 0, 0, 0));
     settings.state.limits = {};
+}
+
+bool is_limited(const ReachSettings& settings) {
+    return !settings.limits.empty() || (settings.plane && !settings.plane->limits.empty());
+}
+
+ik::AngleLimit angle_limit_of(const ChainPlane& plane, std::size_t joint) {
+    return joint < plane.limits.size() ? plane.limits[joint] : ik::AngleLimit{};
+}
+
+/// Signed, metres; in double, for planes far out.
+static double height_over(const Chain& chain, const ChainPlane& plane, glm::vec3 point) {
+    const glm::dvec3 normal = glm::normalize(glm::dvec3(plane.normal));
+    return glm::dot(glm::dvec3(point) - glm::dvec3(chain.position(0)), normal);
+}
+
+glm::vec3 in_plane(const Chain& chain, const ReachSettings& settings, glm::vec3 point) {
+    if (!settings.plane || chain.empty()) return point;
+    const glm::dvec3 normal = glm::normalize(glm::dvec3(settings.plane->normal));
+    return glm::vec3(glm::dvec3(point) - height_over(chain, *settings.plane, point) * normal);
+}
+
+float off_plane(const Chain& chain, const ReachSettings& settings, glm::vec3 point) {
+    if (!settings.plane || chain.empty()) return 0.0f;
+    return static_cast<float>(std::abs(height_over(chain, *settings.plane, point)));
+}
+
+void keep_in_plane(Chain& chain, const ReachSettings& settings, ChainRuntime& runtime) {
+    if (!settings.plane || chain.size() < 2) return;
+    float off = 0.0f;
+    for (const Segment& segment : chain.segments())
+        off = std::max(off, off_plane(chain, settings, segment.position));
+    if (off <= 1e-6f * chain.reach()) return;
+    // A solve of no weight drops the joints onto the plane and restores the lengths there.
+    ik::Solver& solver = runtime.solver(chain);
+    ik::State state = solver.initial_state();
+    ik::Options options;
+    options.plane = ik::Plane{.normal = settings.plane->normal};
+    options.weight = 0.0f;
+    const glm::vec3 tip = chain.position(chain.size() - 1);
+    if (solver.solve(ik::Method::Fabrik, chain, state, tip, options).status == ik::Status::InvalidInput)
+        throw std::invalid_argument("the chain does not fit into this plane");
 }
 
 ik::Limit limit_of(const ReachSettings& settings, std::size_t joint) {

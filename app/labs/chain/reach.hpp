@@ -10,6 +10,7 @@
 #include <tendril/ik/active_limit.hpp>
 #include <tendril/ik/limit.hpp>
 #include <tendril/ik/method.hpp>
+#include <tendril/ik/plane.hpp>
 #include <tendril/ik/pole_turn.hpp>
 #include <tendril/ik/report.hpp>
 #include <tendril/ik/state.hpp>
@@ -33,6 +34,15 @@ inline constexpr int max_iterations = 10'000, max_restarts = 1000;
 inline constexpr float min_damping = 1e-4f, max_damping = 10.0f;
 inline constexpr int default_restarts = 8;  ///< ik::Options' default; none while the target is dragged
 
+/// The plane that the chain stays in, through its root.
+struct ChainPlane {
+    glm::vec3 normal{0.0f, 0.0f, 1.0f};
+    ik::Side bend = ik::Side::Free;
+    std::vector<ik::AngleLimit> limits;  ///< one per bone, or empty
+
+    bool operator==(const ChainPlane&) const = default;
+};
+
 struct ReachSettings {
     ik::Method method = ik::Method::Fabrik;
     int iterations = 100;
@@ -44,7 +54,8 @@ struct ReachSettings {
     std::optional<int> restarts;     ///< with limits, 0 to max_restarts; empty: the library's default
     std::optional<glm::vec3> pole;   ///< metres
     ik::PoleTurn pole_turn = ik::PoleTurn::WholeChain;
-    std::vector<ik::Limit> limits;  ///< one per bone, at the joint that it starts from; or empty
+    std::optional<ChainPlane> plane;  ///< of every mode; `limits` are then empty, for it has its own
+    std::vector<ik::Limit> limits;    ///< one per bone, at the joint that it starts from; or empty
     /// The solver's state between solves; no bones before the first solve. Its rotations are maintained only
     /// with limits, which need them.
     ik::State state;
@@ -99,7 +110,18 @@ void bone_inserted(ReachSettings& settings, std::size_t index, std::size_t segme
 void bone_removed(ReachSettings& settings, std::size_t index, std::size_t segments_now);
 /// The same for several removed segments: ascending indices from before the removal.
 void bones_removed(ReachSettings& settings, const std::vector<std::size_t>& joints, std::size_t segments_now);
+/// Those of the plane too.
 void forget_limits(ReachSettings& settings);
+/// Whether joints have limits, in a plane or without one.
+bool is_limited(const ReachSettings& settings);
+/// The limit of a bone in the plane; none if none is set.
+ik::AngleLimit angle_limit_of(const ChainPlane& plane, std::size_t joint);
+/// Drops a point onto the chain's plane; as it is without one.
+glm::vec3 in_plane(const Chain& chain, const ReachSettings& settings, glm::vec3 point);
+/// Metres from the plane; 0 without one.
+float off_plane(const Chain& chain, const ReachSettings& settings, glm::vec3 point);
+/// Moves a chain that has left its plane back into it.
+void keep_in_plane(Chain& chain, const ReachSettings& settings, ChainRuntime& runtime);
 /// The limit of a joint; free if none is set.
 ik::Limit limit_of(const ReachSettings& settings, std::size_t joint);
 /// A limit of that kind, with usual angles, widened to hold the joint's current pose, except for a hinge's
@@ -117,6 +139,10 @@ std::string active_limit_text(const ik::ActiveLimit& limit);
 /// "162": the angle in that sentence.
 std::string needed_degrees(const ik::ActiveLimit& limit);
 const char* solver_help(ik::Method method);
+inline constexpr EnumNames<ik::AngleFrom, 2> angle_origins{
+    "from",
+    {{"bone", "bone before", "From the bone before: 0 is straight."},
+     {"base", "base", "From a direction that never changes."}}};
 inline constexpr EnumNames<ik::JointKind, 7> joint_kinds{"kind of joint",
                                                          {{"free", "free"},
                                                           {"suture", "suture"},
@@ -143,3 +169,5 @@ template <>
 std::span<const tendril::app::FieldText> tendril::app::field_texts<tendril::app::ReachSettings>();
 template <>
 std::span<const tendril::app::FieldText> tendril::app::field_texts<tendril::ik::Limit>();
+template <>
+std::span<const tendril::app::FieldText> tendril::app::field_texts<tendril::ik::AngleLimit>();

@@ -1,4 +1,6 @@
 // Commands of mode Reach: the solver, its limits and its pole.
+#include <algorithm>
+#include <glm/geometric.hpp>
 #include <stdexcept>
 
 #include "app/document/json_complete.hpp"
@@ -79,6 +81,28 @@ std::span<const FieldText> field_texts<ReachSettings>() {
 }
 
 template <>
+std::span<const FieldText> field_texts<ik::AngleLimit>() {
+    static constexpr FieldText texts[] = {
+        {.name = "min",
+         .label = "minimum",
+         .help = "The smallest angle, to the right; 0 is straight on.",
+         .step = 0.5f,
+         .decimals = 1},
+        {.name = "max",
+         .label = "maximum",
+         .help = "The largest angle, to the left; 0 is straight on.",
+         .step = 0.5f,
+         .decimals = 1},
+        {.name = "from",
+         .label = "from",
+         .help = "What the angle is measured from: the bone before, or a fixed direction, along which the "
+                 "chain lies at rest.",
+         .listed = true,
+         .choices = angle_origins.rows}};
+    return texts;
+}
+
+template <>
 std::span<const FieldText> field_texts<ik::Limit>() {
     constexpr const char* cone = "How far the bone may turn this way from straight: a side of its cone.";
     static constexpr FieldText texts[] = {
@@ -152,12 +176,64 @@ void set_pole(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
     reach_again(part, runtime);
 }
 
+void set_plane(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
+    const bool off = given.has("off") && given.boolean("off");
+    if (given.has("normal") && off) throw Refused("normal and off cannot be combined");
+    if (!given.has("normal") && !off) throw Refused("needs either normal or off: true");
+    part.reach.state = {};
+    if (off) {
+        part.reach.plane.reset();
+    } else {
+        const glm::vec3 normal = given.point("normal");
+        if (!(glm::length(normal) > 1e-6f)) throw Refused("normal must be longer than 1e-6");
+        if (!part.reach.plane) {
+            forget_limits(part.reach);  // a plane has limits of its own
+            part.reach.plane.emplace();
+        }
+        part.reach.plane->normal = normal;
+        keep_in_plane(part.chain, part.reach, runtime);
+        put_target_on_led_joint(part);
+    }
+    reach_again(part, runtime);
+}
+
+ChainPlane& plane_of(ChainPart& part) {
+    if (!part.reach.plane) throw Refused("the chain is not in a plane. Set one first: chain.plane");
+    return *part.reach.plane;
+}
+
+void set_bend(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
+    plane_of(part).bend = bend_sides.value(given.text("side"));
+    reach_again(part, runtime);
+}
+
+void check_has_bone(const ChainPart& part, std::size_t index) {
+    if (index + 1 < part.chain.size()) return;
+    throw Refused("index " + std::to_string(index) +
+                  " is the tail: no bone starts there that could be limited");
+}
+
+void limit_angles(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
+    std::vector<ik::AngleLimit>& limits = plane_of(part).limits;
+    const std::vector<std::size_t> joints = joints_to_set(given, part);
+    if (limits.empty()) limits.resize(part.chain.size() - 1);
+    for (const std::size_t index : joints) {
+        check_has_bone(part, index);
+        ik::AngleLimit limit = limits[index];
+        set_fields(given, limit);
+        if (const char* const why = ik::fault(limit)) throw Refused(why);
+        limits[index] = limit;
+    }
+    const auto is_free = [](const ik::AngleLimit& each) { return each == ik::AngleLimit{}; };
+    if (std::ranges::all_of(limits, is_free)) limits.clear();
+    part.reach.state.limits = {};
+    reach_again(part, runtime);
+}
+
 /// A joint's limit after the edit.
 ik::Limit changed_limit(const ChainPart& part, std::size_t index, const Arguments& given) {
-    if (index + 1 == part.chain.size()) {
-        throw Refused("index " + std::to_string(index) +
-                      " is the tail: no bone starts there that could be limited");
-    }
+    check_has_bone(part, index);
+    if (part.reach.plane) throw Refused("in a plane chain.angle_limit limits a joint");
     // An edit of the same kind keeps the values that are not given; a new kind starts around the pose.
     ik::Limit limit = limit_of(part.reach, index);
     const ik::JointKind kind = given.has("kind") ? joint_kinds.value(given.text("kind")) : limit.kind;
@@ -179,8 +255,9 @@ void limit_joints(ChainPart& part, const Arguments& given, ChainRuntime& runtime
     reach_again(part, runtime);
 }
 
+template <class OneLimit>
 std::vector<Argument> limit_arguments() {
-    std::vector<Argument> arguments = field_arguments<ik::Limit>();
+    std::vector<Argument> arguments = field_arguments<OneLimit>();
     arguments.insert(
         arguments.begin(),
         {index_argument(false, "which joint; its limit is on the bone to the next one"), joints_argument()});
@@ -199,9 +276,27 @@ void add_reach_commands(CommandTable& table) {
     table.add(chain_command("chain.solver", "Set the solver", std::move(solver),
                             "Sets the solver of mode reach, from the next move of the target on",
                             set_solver));
-    table.add(chain_command("chain.limit", "Limit joints", limit_arguments(),
+    table.add(chain_command("chain.limit", "Limit joints", limit_arguments<ik::Limit>(),
                             "Limits how far a joint turns in mode reach; kind free removes the limit",
                             limit_joints));
+    table.add(chain_command(
+        "chain.plane", "Keep the chain in a plane",
+        {{.name = "normal",
+          .type = ArgumentType::Point,
+          .required = false,
+          .help = "at right angles to the plane, which goes through the root"},
+         switch_argument("off", "true: no plane")},
+        "Keeps the chain in a plane, in every mode, without its other limits; the 2D view looks along its "
+        "normal",
+        set_plane));
+    table.add(chain_command(
+        "chain.bend", "Bend the planar chain left or right",
+        {choice_argument("side", true, "of the line from root to tip, in the 2D view", bend_sides.names())},
+        "Bends a chain in a plane to one side; a pole target chooses its own", set_bend));
+    table.add(
+        chain_command("chain.angle_limit", "Limit angles in the plane", limit_arguments<ik::AngleLimit>(),
+                      "Limits the angle of a bone in a plane, in mode reach; -180 to 180 degrees is no limit",
+                      limit_angles));
     table.add(chain_command("chain.pole", "Set the pole target",
                             {{.name = "to",
                               .type = ArgumentType::Point,

@@ -144,6 +144,7 @@ void take_preset(ChainPart& part, const Arguments& given, ChainRuntime& runtime)
     if (name == reaching_arm) make_it_reach(part, runtime);
     if (name == straight_chain_preset) make_it_stall(part, runtime);
     if (name == "spine" || name == "tail") lay_along_curve(part, name);
+    if (is_planar(name)) make_it_planar(part, name, runtime);
 }
 
 }  // namespace
@@ -157,6 +158,7 @@ void take_chain(ChainPart& part, Chain chain) {
     part.motion.path = Motion::Path::Still;
     forget_limits(part.reach);
     part.reach.pole.reset();
+    part.reach.plane.reset();
     part.reach_target.reset();
     part.reach.state = {};
     part.curve.points.clear();  // mode Curve lays it through the new chain
@@ -194,9 +196,9 @@ void add_shape_commands(CommandTable& table) {
                          names(presets(), [](const Preset& p) { return p.name; })),
          integer_argument("count", "segments", 1, static_cast<double>(max_segments)),
          {.name = "seed", .type = ArgumentType::Integer, .required = false, .help = "for random", .low = 0}},
-        "Makes a preset chain, the target on its tail. Two come with mode reach: reaching_arm with limits "
-        "and a pole target, straight with a target on its own line, where FABRIK (2011) stalls; spine and "
-        "tail with mode curve",
+        "Makes a preset chain, the target on its tail. Some come with mode reach: reaching_arm with limits "
+        "and a pole target, straight with a target on its own line, where FABRIK (2011) stalls, those whose "
+        "names begin with flat_ in a plane; spine and tail with mode curve",
         take_preset));
 }
 

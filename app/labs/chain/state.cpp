@@ -1,4 +1,6 @@
 // The Chain lab in --state.
+#include <glm/geometric.hpp>
+
 #include "app/document/json_complete.hpp"
 #include "app/io/solver_json.hpp"
 #include "app/labs/chain/chain_lab.hpp"
@@ -119,6 +121,11 @@ Json ChainLab::state(const Workspace& workspace) const {
               {"motion", motion_paths.name(part.motion.path)},
               {"past", past_view_state(workspace, chain_past(), chain_past_curve(workspace))},
               {"segments", std::move(list)}};
+    if (part.reach.plane) {
+        json["plane"] = {{"normal", point(glm::normalize(part.reach.plane->normal))}};
+        json["off_plane"] = number(off_plane(part.chain, part.reach, part.target));
+        json["side"] = ik::name(part.reach.state.side);
+    }
     if (part.mode == ChainMode::Reach) json["solve"] = reach_state(part);
     if (part.mode == ChainMode::Curve) json["curve"] = curve_state(part);
     const ShownChain shown = shown_chain(workspace);

@@ -123,6 +123,7 @@ std::vector<std::string> ik_memory_texts(const std::string& name, const ik::Stat
         set("limits.target", "glm::vec3" + braced(state.limits.target));
         set("limits.damping", literal(state.limits.damping));
     }
+    if (state.side != ik::Side::Free) set("side", "tendril::ik::Side::" + pascal_text(ik::name(state.side)));
     if (state.pole.valid) {
         set("pole.valid", "true");
         if (state.pole.turn == ik::PoleTurn::EachJoint) set("pole.turn", "tendril::ik::PoleTurn::EachJoint");

@@ -142,6 +142,7 @@ Json save_ik_state(const ik::State& state) {
     Json json{{"rotations", Json::array()}};
     for (const glm::quat& q : state.rotations) json["rotations"].push_back(quaternion(q));
     if (state.limits.valid) json["limits"] = save_fields(state.limits);
+    if (state.side != ik::Side::Free) json["side"] = ik::name(state.side);
     if (state.pole.valid) {
         Json& pole = json["pole"] = {{"turn", pole_turns.name(state.pole.turn)},
                                      {"pole", point(state.pole.pole)},
@@ -165,6 +166,7 @@ ik::State load_ik_state(const JsonPlace& place, std::size_t bones, const std::ve
         load_fields(*limits, state.limits);
         state.limits.valid = true;
     }
+    if (const auto side = place.optional("side")) state.side = side->choice(bend_sides);
     if (const auto pole = place.optional("pole")) state.pole = load_pole(*pole, bones + 1, joints);
     if (const Result bad = ik::check(state, bones); !bad) place.fail(bad.message());
     return state;

@@ -36,6 +36,12 @@ void add_curve_members(std::vector<std::string>& names);
 //
 // Positions are in metres from the root. `pole` and `limits` are present if the last solve used them.
 
+/// Of a chain in a plane.
+inline constexpr EnumNames<ik::Side, 3> bend_sides{
+    "side",
+    {{"free", "as it is", "The chain stays on the side that it is on."},
+     {"left", "left", "To the left of the line from root to tip, as the 2D view shows it."},
+     {"right", "right", "To the right of the line from root to tip, as the 2D view shows it."}}};
 inline constexpr EnumNames<ik::PoleTurn, 2> pole_turns{
     "pole turn", {{"whole_chain", "whole chain"}, {"each_joint", "each joint"}}};
 

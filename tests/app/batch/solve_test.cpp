@@ -8,6 +8,7 @@
 
 #include "app/document/json_complete.hpp"
 #include "tests/app/support/program.hpp"
+#include "tests/says.hpp"
 
 namespace tendril::test {
 namespace {
@@ -79,6 +80,20 @@ TEST_F(Solve, a_chain_along_a_curve_has_one_row_for_all_solvers) {
     EXPECT_EQ(rows[0]["curve"]["bones_past_end"], 1);
     EXPECT_EQ(rows[0]["positions"][3], Json::array({3.0, 0.0, 0.0}));
     EXPECT_TRUE(has(run(text, {"--csv"}).out, "tail,curve,Stretched,0,1.0,"));
+}
+
+TEST_F(Solve, solves_in_a_plane) {
+    const char* const planar = R"([{"lengths": [1, 1, 1], "target": [1, 1.5, 0.5], "plane": [0, 0, 1],
+        "bend": "right", "angle_limits": [null, {"min_deg": -90, "max_deg": 90, "from": "bone"}, null]}])";
+    const Outcome outcome = run(planar, {"--json"});
+    ASSERT_TRUE(succeeded(outcome));
+    const Json row = app::parse_json(outcome.out)[0];
+    EXPECT_EQ(row["status"], "Converged");
+    EXPECT_NEAR(row["off_plane"].get<double>(), 0.5, 1e-6);
+    for (const Json& joint : row["positions"]) EXPECT_NEAR(joint[2].get<double>(), 0.0, 3e-6);
+    const Outcome refused = run(R"([{"lengths": [1], "target": [1, 0, 0], "bend": "left"}])");
+    EXPECT_FALSE(succeeded(refused));
+    EXPECT_TRUE(says(refused.err, "bend plane"));
 }
 
 TEST_F(Solve, prints_the_same_as_quoted_csv) {

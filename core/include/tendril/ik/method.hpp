@@ -8,6 +8,7 @@
 //     max_iterations   both         both      both      both      both      within
 //     every_iteration  both         both      both      both      both      within
 //     limits           yes          yes       yes       yes       yes       yes (2)
+//     plane            both (7)     both      both      both      both      both
 //     pole             both         both      both      both      both      both
 //     pole_turn        without (3)  without   without   without   without   never (3)
 //     snap_back        both         both      both      both      both      within
@@ -30,6 +31,8 @@
 //     left to solve. Within limits it is damped least squares from the start, without twist.
 // (5) Not if a tendril::Chain is solved, which keeps its lengths.
 // (6) Within limits the rotations are always kept up to date, because limits are defined on them.
+// (7) A chain in a plane has limits of its own (Plane::limits) and then counts as within limits, but its
+//     rotations are kept up to date only as without. It has no use for pole_turn and twist.
 #pragma once
 
 #include <array>
@@ -69,6 +72,7 @@ enum class Option : std::uint8_t {
     MaxIterations,
     EveryIteration,
     Limits,
+    Plane,
     Pole,
     PoleTurn,
     SnapBack,
@@ -82,11 +86,12 @@ enum class Option : std::uint8_t {
     Rotations,
     Residuals
 };
-inline constexpr std::array all_options{
-    Option::Tolerance, Option::MaxIterations, Option::EveryIteration, Option::Limits,
-    Option::Pole,      Option::PoleTurn,      Option::SnapBack,       Option::TipOrientation,
-    Option::SoftZone,  Option::Damping,       Option::Stretch,        Option::Twist,
-    Option::Weight,    Option::Restarts,      Option::Rotations,      Option::Residuals};
+inline constexpr std::array all_options{Option::Tolerance, Option::MaxIterations, Option::EveryIteration,
+                                        Option::Limits,    Option::Plane,         Option::Pole,
+                                        Option::PoleTurn,  Option::SnapBack,      Option::TipOrientation,
+                                        Option::SoftZone,  Option::Damping,       Option::Stretch,
+                                        Option::Twist,     Option::Weight,        Option::Restarts,
+                                        Option::Rotations, Option::Residuals};
 /// The name of the member: "snap_back". For Stretch it is "start_stretch_ratio".
 const char* name(Option option) noexcept;
 

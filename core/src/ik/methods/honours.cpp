@@ -13,6 +13,7 @@ When honoured(Method method, Option option) noexcept {
     const bool two_bone = method == Method::TwoBone;
     switch (option) {
         case Option::Tolerance:
+        case Option::Plane:
         case Option::Pole:
         case Option::TipOrientation:
         case Option::SoftZone:

@@ -23,10 +23,10 @@ std::optional<Method> method_named(std::string_view text) noexcept {
 }
 
 const char* name(Option option) noexcept {
-    constexpr const char* names[] = {"tolerance", "max_iterations", "every_iteration",     "limits",
-                                     "pole",      "pole_turn",      "snap_back",           "tip_orientation",
-                                     "soft_zone", "damping",        "start_stretch_ratio", "twist",
-                                     "weight",    "restarts",       "rotations",           "residuals"};
+    constexpr const char* names[] = {
+        "tolerance", "max_iterations", "every_iteration", "limits",    "plane",    "pole",
+        "pole_turn", "snap_back",      "tip_orientation", "soft_zone", "damping",  "start_stretch_ratio",
+        "twist",     "weight",         "restarts",        "rotations", "residuals"};
     return names[static_cast<std::size_t>(option)];
 }
 

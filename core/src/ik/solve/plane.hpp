@@ -8,6 +8,7 @@
 #pragma once
 
 #include "ik/solve/problem.hpp"
+#include "tendril/ik/method.hpp"
 #include "tendril/ik/options.hpp"
 
 namespace tendril::ik::detail {

@@ -1,0 +1,172 @@
+// A chain in a plane, in the program: commands, state, files, undo, drags, the trailing modes, code, presets.
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "app/document/command.hpp"
+#include "app/labs/chain/code.hpp"
+#include "app/labs/kit/code_text.hpp"
+#include "app/view/camera.hpp"
+#include "tests/app/labs/chain_support.hpp"
+#include "tests/app/support/play.hpp"
+#include "tests/says.hpp"
+
+namespace tendril::app {
+namespace {
+
+class ChainPlaneTest : public ChainTest {
+  protected:
+    /// Mode Reach in the plane z = 0.
+    void flat_with(int bones) {
+        reach_with(bones);
+        run("chain.plane", {{"normal", {0, 0, 1}}});
+    }
+    float furthest_off(glm::vec3 normal = {0, 0, 1}) const {
+        float off = 0.0f;
+        const glm::vec3 root = part().chain.position(0), along = glm::normalize(normal);
+        for (const Segment& each : part().chain.segments())
+            off = std::max(off, std::abs(glm::dot(each.position - root, along)));
+        return off;
+    }
+    void target(float x, float y, float z = 0.0f) { run("chain.target", {{"to", {x, y, z}}}); }
+    float angle(std::size_t bone) const {
+        const glm::vec3 b = part().chain.position(bone + 1) - part().chain.position(bone);
+        return glm::degrees(std::atan2(b.y, b.x));
+    }
+};
+
+TEST_F(ChainPlaneTest, StateSaysPlaneDistanceAndSide) {
+    reach_with(4);
+    EXPECT_FALSE(state().contains("plane"));
+    run("chain.plane", {{"normal", {0, 0, 2}}});
+    run("chain.bend", {{"side", "right"}});
+    target(2.0f, 1.0f, 0.75f);
+    EXPECT_EQ(state()["plane"], (Json{{"normal", {0, 0, 1}}}));
+    EXPECT_NEAR(state()["off_plane"].get<double>(), 0.75, 1e-5);
+    EXPECT_EQ(state()["side"], "right");
+    EXPECT_EQ(part().result->report.status, ik::Status::Converged);
+    EXPECT_LE(furthest_off(), 4e-6f);
+    EXPECT_LE(part().result->report.residual, 4e-3f);
+    run("chain.plane", {{"off", true}});
+    EXPECT_FALSE(state().contains("plane"));
+    target(2.0f, 1.0f, 0.75f);
+    EXPECT_GT(furthest_off(), 0.5f);
+}
+
+TEST_F(ChainPlaneTest, TheSideIsKeptWhileTheTargetCrossesTheBase) {
+    flat_with(5);
+    for (const char* const side : {"left", "right"}) {
+        run("chain.bend", {{"side", side}});
+        target(3.0f, 0.4f);
+        run("chain.bend", {{"side", "free"}});
+        for (float x = 3.0f; x > -3.0f; x -= 0.05f) {
+            target(x, 0.4f);
+            EXPECT_EQ(state()["side"], side) << x;
+        }
+    }
+}
+
+TEST_F(ChainPlaneTest, AnglesAreLimitedFromTheBoneBeforeAndFromTheBase) {
+    flat_with(3);
+    run("chain.angle_limit", {{"index", 1}, {"min_deg", -20}, {"max_deg", 30}});
+    run("chain.angle_limit", {{"index", 2}, {"min_deg", -10}, {"max_deg", 10}, {"from", "base"}});
+    for (const float x : {2.5f, 0.5f, -2.0f}) {
+        target(x, 1.5f);
+        const float bend = std::remainder(angle(1) - angle(0), 360.0f);
+        EXPECT_GE(bend, -20.1f) << x;
+        EXPECT_LE(bend, 30.1f) << x;
+        EXPECT_LE(std::abs(angle(2)), 10.1f) << x;
+    }
+    // A full turn from the bone before is no limit: the list goes when all are.
+    EXPECT_EQ(part().reach.plane->limits.size(), 3u);
+    run("chain.angle_limit", {{"joints", {0, 1, 2}}, {"min_deg", -180}, {"max_deg", 180}, {"from", "bone"}});
+    EXPECT_TRUE(part().reach.plane->limits.empty());
+}
+
+TEST_F(ChainPlaneTest, WhatIsWrongIsSaid) {
+    reach_with(3);
+    expect_refused("chain.bend", {{"side", "left"}}, {"not in a plane"});
+    expect_refused("chain.angle_limit", {{"index", 1}, {"min_deg", -20}}, {"not in a plane"});
+    expect_refused("chain.plane", {}, {"needs either normal or off"});
+    expect_refused("chain.plane", {{"normal", {0, 0, 0}}}, {"longer than"});
+    run("chain.plane", {{"normal", {0, 0, 1}}});
+    expect_refused("chain.angle_limit", {{"index", 1}, {"min_deg", 20}, {"max_deg", 10}},
+                   {"min is over max"});
+    expect_refused("chain.angle_limit", {{"index", 3}, {"min_deg", -20}}, {"tail"});
+    expect_refused("chain.limit", {{"index", 1}, {"kind", "hinge"}}, {"angle_limit"});
+}
+
+TEST_F(ChainPlaneTest, APlaneComesBackFromFileAndUndo) {
+    flat_with(4);
+    run("chain.plane", {{"normal", {1, 2, 3}}});
+    run("chain.bend", {{"side", "left"}});
+    run("chain.angle_limit", {{"index", 2}, {"min_deg", -20}, {"max_deg", 40}, {"from", "base"}});
+    target(1.0f, 2.0f, 0.3f);
+    EXPECT_LE(furthest_off({1, 2, 3}), 4e-6f);
+    const auto loaded = part().load(part().save(), "chain");
+    EXPECT_EQ(dynamic_cast<const ChainPart&>(*loaded).reach, part().reach);
+    Json bad = part().save();
+    bad["reach"]["plane"]["limits"][2]["min_deg"] = 90;
+    EXPECT_THROW(static_cast<void>(part().load(bad, "chain")), std::runtime_error);
+    const ReachSettings before = part().reach;
+    run("chain.plane", {{"off", true}});
+    run("undo");
+    EXPECT_EQ(part().reach, before);
+}
+
+TEST_F(ChainPlaneTest, EveryModeAndDragStaysInThePlane) {
+    run("chain.preset", {{"name", "tentacle"}, {"count", 8}});
+    for (const char* const mode : {"forward", "backward", "fixed", "with_index", "reach"}) {
+        run("chain.mode", {{"mode", mode}});
+        run("chain.plane", {{"normal", {0, 0, 1}}});
+        EXPECT_LE(furthest_off(), 1e-5f) << mode;
+        target(1.0f, 3.0f, 0.8f);
+        EXPECT_LE(furthest_off(), 1e-5f) << mode;
+        run("chain.pull", {{"index", 4}, {"to", {0.5f, 2.0f, -0.4f}}});
+        EXPECT_LE(furthest_off(), 1e-5f) << mode;
+        run("chain.pull", {{"joints", {2, 5}}, {"points", {{0.4f, 1.2f, 1}, {0.1f, 2.5f, -1}}}});
+        EXPECT_LE(furthest_off(), 1e-5f) << mode;
+        run("chain.add", {{"length", 0.5f}, {"position", {0, 9, 3}}});
+        EXPECT_LE(furthest_off(), 1e-5f) << mode;
+        run("chain.plane", {{"off", true}});
+    }
+}
+
+TEST_F(ChainPlaneTest, ADraggedJointKeepsLimitsOnBothSides) {
+    run("chain.preset", {{"name", "flat_tail"}, {"count", 9}});
+    run("chain.pull", {{"index", 4}, {"to", {1.2f, 3.6f, 0.5f}}});
+    EXPECT_LE(furthest_off(), 1e-5f);
+    for (std::size_t bone = 1; bone < 8; ++bone)
+        EXPECT_LE(std::abs(std::remainder(angle(bone) - angle(bone - 1), 360.0f)), 25.3f) << bone;
+}
+
+TEST_F(ChainPlaneTest, PresetsReachTheirTargets) {
+    for (const char* const name : {"flat_arm", "flat_tail", "flat_mixed"}) {
+        run("chain.preset", {{"name", name}});
+        ASSERT_TRUE(part().reach.plane) << name;
+        EXPECT_EQ(part().result->report.status, ik::Status::Converged) << name;
+    }
+    run("chain.preset", {{"name", "arm"}});
+    EXPECT_FALSE(part().reach.plane);
+}
+
+TEST_F(ChainPlaneTest, TheActiveLimitIsNamed) {
+    run("chain.preset", {{"name", "flat_arm"}});
+    target(0.2f, 2.6f);
+    ASSERT_EQ(part().result->report.status, ik::Status::Limited);
+    EXPECT_TRUE(part().result->active_limit);
+    target(1.9f, 3.4f);
+}
+
+TEST_F(ChainPlaneTest, CodeHasThePlane) {
+    run("chain.preset", {{"name", "flat_mixed"}});
+    run("chain.bend", {{"side", "left"}});
+    const std::string code = chain_code(part());
+    EXPECT_NE(
+        code.find("options.plane = ik::Plane{glm::vec3{0.0f, 0.0f, 1.0f}, ik::Side::Left, angle_limits};"),
+        std::string::npos)
+        << code;
+    EXPECT_NE(code.find("ik::AngleFrom::Base}"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace tendril::app
