@@ -1,0 +1,65 @@
+// One solve of a linkage. Not installed.
+#pragma once
+
+#include "ik/linkage/work.hpp"
+
+namespace tendril::ik::detail {
+
+class LinkageSolve {
+  public:
+    LinkageSolve(LinkageWork& work, const LinkageGoals& goals, const LinkageOptions& options) noexcept;
+    LinkageReport run() noexcept;
+
+    /// Closes the linkage by descent with the drivers where they are, from where it is.
+    bool close_from_here() noexcept;
+    /// The sign of the determinant of the closures by the joints that `by` does not hold: it changes at a dead
+    /// point of the held ones, and only there. 0 if these do not determine the pose.
+    int mode() noexcept;
+    void hold_drivers() noexcept;
+    /// Equations that are independent, in this pose.
+    std::size_t closure_rank() noexcept;
+
+  private:
+    /// What a descent makes small.
+    enum class Aim { Closures, Drivers, ExactTargets, Targets };
+
+    bool closed() const noexcept;
+    bool at_bound(std::size_t link, double by) const noexcept;
+    /// Newton's step on the closures, and on exact targets once they are there; leaves the basis of their rows.
+    /// Held columns of the step are given.
+    void find_return() noexcept;
+    void take_row(std::span<double> row, double error) noexcept;
+    void clear_step() noexcept;
+    bool hold_overstepped() noexcept;
+    /// Newton's steps to the closures. False if they go further than `allowed`, or do not get there.
+    bool return_to_closures(double allowed) noexcept;
+
+    void assemble() noexcept;
+    void glide() noexcept;
+    bool glide_by(double from, double to) noexcept;
+    double driver_distance(const LinkDriver& driver) const noexcept;
+
+    void descend(Aim aim) noexcept;
+    bool descent_step(double damping) noexcept;
+    void add_equation(std::span<double> row, double error, double weight) noexcept;
+    void find_equations() noexcept;
+    void solve_equations(double damping) noexcept;
+    double cost() noexcept;
+    double target_weight(const LinkTarget& target) const noexcept;
+    void put_back() noexcept;
+    void note_active() noexcept;
+    void finish(LinkageReport& report) noexcept;
+
+    LinkageWork& work_;
+    const LinkageGoals& goals_;
+    const LinkageOptions& options_;
+    double tolerance_;
+    int iterations_ = 0;
+    Aim aim_ = Aim::Closures;
+    bool closes_ = true;        ///< closures are kept, not approached
+    bool keeps_exact_ = false;  ///< exact targets are, too
+    double heaviest_ = 0.0;     ///< of the weights of the aim's targets
+    bool stopped_ = false, out_of_iterations_ = false, beyond_range_ = false;
+};
+
+}  // namespace tendril::ik::detail
