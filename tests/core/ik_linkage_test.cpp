@@ -52,6 +52,12 @@ struct Machine {
     LinkageState state;
 };
 
+/// In the plane; each coordinate from -range to range.
+glm::dvec3 random_place(Random& random, float range) {
+    const double x = random.around(range), y = random.around(range);
+    return {x, y, 0.0};
+}
+
 FourBar four_bar_of(const Json& lengths) {
     return {lengths.at("ground"),
             lengths.at("crank"),
@@ -128,8 +134,7 @@ TEST(Linkage, a_pantograph_enlarges_and_a_scissor_lift_lifts) {
     Machine machine{pantograph({1.0, 2.5})};
     Random random(3);
     for (int i = 0; i < 50; ++i) {
-        const glm::dvec3 to(0.4 + 0.1 * static_cast<double>(random.around(1.0f)),
-                            0.1 * static_cast<double>(random.around(1.0f)), 0.0);
+        const glm::dvec3 to = glm::dvec3(0.4, 0.0, 0.0) + random_place(random, 0.1f);
         ASSERT_EQ(machine.reach("T", to).status, LinkageStatus::Reached);
         EXPECT_LE(glm::length(machine.point("P") - 2.5 * machine.point("T")), 1e-8);
     }
@@ -189,7 +194,7 @@ TEST(Linkage, a_delta_robot_meets_its_closed_form_and_stays_level) {
 /// A crank, and dyads on it: each new point is joined by two bars to two points before.
 LinkageSketch random_sketch(Random& random) {
     LinkageSketch sketch;
-    const auto place = [&] { return glm::dvec2(random.around(2.0f), random.around(2.0f)); };
+    const auto place = [&] { return glm::dvec2(random_place(random, 2.0f)); };
     const auto bar = [&](std::size_t a, std::size_t b) {
         sketch.bars.push_back({"bar_" + std::to_string(sketch.bars.size()), {a, b}});
     };
@@ -245,8 +250,7 @@ TEST(Linkage, random_linkages_stay_closed_wherever_they_are_driven_and_drawn) {
         Machine machine(linkage);
         for (int i = 0; i < 50; ++i) {
             const bool drive = random.chance(2);
-            const LinkTarget target{1 + random.below(sketch.points.size() - 1),
-                                    3.0 * glm::dvec3(random.around(1.0f), random.around(1.0f), 0.0)};
+            const LinkTarget target{1 + random.below(sketch.points.size() - 1), random_place(random, 3.0f)};
             const LinkageReport report =
                 drive ? machine.drive("motor",
                                       machine.value("motor") + static_cast<double>(random.around(1.0f)))
@@ -306,8 +310,7 @@ TEST(Linkage, a_place_out_of_reach_is_approached_as_near_as_brute_force_comes) {
                               2.3,
                               {1.0, static_cast<double>(random.around(1.0f))}};
         Machine machine{four_bar(lengths)}, sweep{four_bar(lengths)};
-        const glm::dvec3 to(4.0 * static_cast<double>(random.around(1.0f)),
-                            4.0 * static_cast<double>(random.around(1.0f)), 0.0);
+        const glm::dvec3 to = random_place(random, 4.0f);
         double nearest = 1e9, at = 0.0;
         for (int degrees = 0; degrees < 3600; ++degrees) {
             sweep.drive("crank", radians(0.1 * degrees));

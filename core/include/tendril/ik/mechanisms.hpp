@@ -71,12 +71,12 @@ Expected<Linkage> delta(const Delta& lengths = {});
 std::optional<std::array<double, 3>> delta_motors(const Delta& lengths, const glm::dvec3& platform) noexcept;
 
 /// A platform on six legs (V. Gough 1954, D. Stewart 1965): base in z = 0, platform above it. Legs 2k and 2k
-/// + 1 stand on the base at 120 k degrees less and more base_spread, and lean apart: their tops are where
-/// platform_spread is left to the tops of their neighbours, at 120 k -+ 60 degrees. Drivers leg_0 to leg_5,
+/// + 1 stand on the base at 120 k degrees less and more base_angle, and lean apart: their tops are where
+/// platform_angle is left to the tops of their neighbours, at 120 k -+ 60 degrees. Drivers leg_0 to leg_5,
 /// their lengths. Point platform, its centre; also base_0..., top_0...
 struct Stewart {
     double base_radius = 1.0, platform_radius = 0.6, height = 1.0;  ///< height as drawn
-    double base_spread = 0.25, platform_spread = 0.25;              ///< half the angle of a pair, radians
+    double base_angle = 0.25, platform_angle = 0.25;                ///< half the angle of a pair, radians
     double minimum = 0.5, maximum = 2.0;                            ///< lengths of the legs
 };
 Expected<Linkage> stewart(const Stewart& lengths = {});

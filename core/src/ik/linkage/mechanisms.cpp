@@ -339,8 +339,8 @@ struct StewartEnds {
 };
 StewartEnds ends_of_leg(const Stewart& lengths, std::size_t leg) noexcept {
     const double third = static_cast<double>(leg / 2) * 2.0 * math::pi / 3.0, side = leg % 2 ? 1.0 : -1.0;
-    const double base = third + side * lengths.base_spread;
-    const double top = third + side * (math::pi / 3.0 - lengths.platform_spread);
+    const double base = third + side * lengths.base_angle;
+    const double top = third + side * (math::pi / 3.0 - lengths.platform_angle);
     return {in_base(point_at_angle(lengths.base_radius, base), 0.0),
             in_base(point_at_angle(lengths.platform_radius, top), 0.0)};
 }
@@ -351,8 +351,8 @@ Expected<Linkage> stewart(const Stewart& lengths) {
     if (const Result bad = check_lengths("stewart", {{"base_radius", lengths.base_radius},
                                                      {"platform_radius", lengths.platform_radius},
                                                      {"height", lengths.height},
-                                                     {"base_spread", lengths.base_spread, any_number},
-                                                     {"platform_spread", lengths.platform_spread, any_number},
+                                                     {"base_angle", lengths.base_angle, any_number},
+                                                     {"platform_angle", lengths.platform_angle, any_number},
                                                      {"minimum", lengths.minimum, 0.0},
                                                      {"maximum", lengths.maximum}});
         !bad)

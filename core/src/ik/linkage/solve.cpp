@@ -39,7 +39,7 @@ LinkageSolve::LinkageSolve(LinkageWork& work, const LinkageGoals& goals,
     : work_(work),
       goals_(goals),
       options_(options),
-      tolerance_(options.tolerance.value_or(1e-10 * work.size)) {
+      tolerance_(options.tolerance.value_or(std::max(1e-10 * work.size, work.rounding))) {
     std::ranges::fill(work_.driven, std::uint8_t{0});
     std::ranges::fill(work_.held, std::uint8_t{0});
     work_.active.clear();
@@ -507,10 +507,10 @@ void LinkageSolve::finish(LinkageReport& report) noexcept {
                 report.stopped_at = work_.joints[each.link].value;
             }
         }
-    const bool open = !(report.closed_to <= std::max(tolerance_, 1e-7 * work_.size));
+    const bool open = !(report.closed_to <= open_from());
     if (open)
         for (std::size_t i = 0; i < work_.linkage.closures.size(); ++i)
-            if (work_.gap_of(work_.linkage.closures[i]) > 1e-7 * work_.size) work_.open.push_back(i);
+            if (work_.gap_of(work_.linkage.closures[i]) > open_from()) work_.open.push_back(i);
     using enum LinkageStatus;
     if (!open && !missed && !stopped_ && !beyond_range_) work_.active.clear();
     report.status = open                        ? Open
@@ -534,7 +534,7 @@ LinkageReport LinkageSolve::run() noexcept {
     LinkageReport report;
     work_.move_links();
     if (!closed()) assemble();
-    const bool assembled = work_.largest_gap() <= std::max(tolerance_, 1e-7 * work_.size);
+    const bool assembled = work_.largest_gap() <= open_from();
     if (!assembled) {
         finish(report);
         return report;

@@ -1,6 +1,8 @@
 // One solve of a linkage. Not installed.
 #pragma once
 
+#include <algorithm>
+
 #include "ik/linkage/work.hpp"
 
 namespace tendril::ik::detail {
@@ -24,6 +26,10 @@ class LinkageSolve {
     enum class Aim { Closures, Drivers, ExactTargets, Targets };
 
     bool closed() const noexcept;
+    /// Closures that are apart by more cannot be closed, however near a dead point the linkage is.
+    double open_from() const noexcept {
+        return std::max(tolerance_, 1e3 * std::max(1e-10 * work_.size, work_.rounding));
+    }
     bool at_bound(std::size_t link, double by) const noexcept;
     /// Newton's step on the closures, and on exact targets once they are there; leaves the basis of their
     /// rows. Held columns of the step are given.

@@ -150,6 +150,7 @@ LinkageWork::LinkageWork(const Linkage& from) : linkage(from) {
     }
     const glm::dvec3 extent = minus(high, low);
     size = std::max({extent.x, extent.y, extent.z, 1e-9});
+    rounding = 1e-14 * std::max({largest_coordinate(low), largest_coordinate(high), size});
     driven.resize(columns);
     held.resize(columns);
     blocked.resize(count);

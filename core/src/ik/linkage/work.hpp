@@ -54,6 +54,7 @@ struct LinkageWork {
     std::vector<std::size_t> column;     ///< the first of each link
     std::size_t columns = 0;
     double size = 0.0;
+    double rounding = 0.0;  ///< metres: what a closure cannot be closer to, far from the origin
     bool planar = false;
     glm::dvec3 normal{0.0, 0.0, 1.0};  ///< of a planar one
 
