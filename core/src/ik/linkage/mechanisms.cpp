@@ -1,0 +1,398 @@
+#include "tendril/ik/mechanisms.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <string>
+
+#include "ik/math.hpp"
+#include "math/checks.hpp"
+#include "math/elementary.hpp"
+
+namespace tendril::ik {
+
+using tendril::detail::refused;
+
+namespace {
+
+using Point2 = glm::dvec2;
+
+Point2 point_at_angle(double radius, double radians) noexcept {
+    const math::SineCosine turn = math::sine_cosine(radians / (2.0 * math::pi));
+    return {radius * turn.cosine, radius * turn.sine};
+}
+
+/// Where two circles cross, to the left of the line from `a` to `b`; the nearest to that if they do not.
+Point2 crossing_left(const Point2& a, double from_a, const Point2& b, double from_b) noexcept {
+    const Point2 line{b.x - a.x, b.y - a.y};
+    const double square = std::max(line.x * line.x + line.y * line.y, 1e-300);
+    const double along = 0.5 * (1.0 + (from_a * from_a - from_b * from_b) / square);
+    const double aside = std::sqrt(std::max(from_a * from_a / square - along * along, 0.0));
+    return {a.x + along * line.x - aside * line.y, a.y + along * line.y + aside * line.x};
+}
+
+constexpr SketchHold pinned = SketchHold::Pinned;
+
+/// A named length, and whether it may be 0 or negative.
+struct Named {
+    const char* name;
+    double value;
+    double minimum = 1e-9;
+};
+Result check_lengths(const char* mechanism, std::initializer_list<Named> lengths) noexcept {
+    for (const auto& [name, value, minimum] : lengths)
+        if (!(value >= minimum && value <= static_cast<double>(max_magnitude)))
+            return refused(
+                mechanism, name,
+                minimum > 0.0 ? "a length over 0, at most 1e9 m" : "a number of magnitude at most 1e9",
+                value);
+    return {};
+}
+constexpr double any_number = -static_cast<double>(max_magnitude);
+
+double apart_by(const Point2& a, const Point2& b) noexcept {
+    return std::sqrt((b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y));
+}
+/// Whether bars of the lengths `a` and `b` can join two points `apart`, within rounding.
+bool joins_over(double apart, double a, double b) noexcept {
+    const double slack = 1e-12 * (a + b + apart);
+    return apart <= a + b + slack && apart >= std::abs(a - b) - slack;
+}
+
+}  // namespace
+
+Expected<LinkageSketch> four_bar(const FourBar& lengths) {
+    const auto& [ground, crank, coupler, rocker, coupler_point] = lengths;
+    if (const Result bad = check_lengths("four_bar", {{"ground", ground},
+                                                      {"crank", crank},
+                                                      {"coupler", coupler},
+                                                      {"rocker", rocker},
+                                                      {"coupler_point.x", coupler_point.x, any_number},
+                                                      {"coupler_point.y", coupler_point.y, any_number}});
+        !bad)
+        return bad;
+    // B to D: what the crank can make it, and what coupler and rocker can. Where the crank cannot be at 0, it
+    // is drawn in the middle of its range.
+    const double low = std::max(std::abs(ground - crank), std::abs(coupler - rocker)),
+                 high = std::min(ground + crank, coupler + rocker);
+    if (!(low <= high)) {
+        const double longest = std::max({ground, crank, coupler, rocker});
+        const char* name = longest == ground    ? "ground"
+                           : longest == crank   ? "crank"
+                           : longest == coupler ? "coupler"
+                                                : "rocker";
+        return refused("four_bar", name, "at most the other three together", longest);
+    }
+    double angle = 0.0;
+    if (!joins_over(std::abs(ground - crank), coupler, rocker)) {
+        const double apart = 0.5 * (low + high);
+        const double cosine = (ground * ground + crank * crank - apart * apart) / (2.0 * ground * crank);
+        angle = math::arctangent(std::sqrt(std::max(1.0 - cosine * cosine, 0.0)), cosine);
+    }
+    const Point2 b = point_at_angle(crank, angle), d{ground, 0.0};
+    const Point2 c = crossing_left(b, coupler, d, rocker);
+    const double x = (c.x - b.x) / coupler, y = (c.y - b.y) / coupler;
+    const Point2& p = coupler_point;
+    LinkageSketch sketch;
+    sketch.points = {{"A", {0.0, 0.0}, pinned},
+                     {"B", b},
+                     {"C", c},
+                     {"D", d, pinned},
+                     {"P", {b.x + p.x * x - p.y * y, b.y + p.x * y + p.y * x}}};
+    sketch.bars = {{"crank", {0, 1}}, {"coupler", {1, 2, 4}}, {"rocker", {3, 2}}};
+    sketch.motors = {{"crank", 0, 0}};
+    return sketch;
+}
+
+Expected<LinkageSketch> slider_crank(const SliderCrank& lengths) {
+    const auto& [crank, rod, offset] = lengths;
+    if (const Result bad =
+            check_lengths("slider_crank", {{"crank", crank}, {"rod", rod}, {"offset", offset, any_number}});
+        !bad)
+        return bad;
+    if (!(std::abs(offset) <= crank + rod))
+        return refused("slider_crank", "offset", "at most crank and rod together", offset);
+    // Where the rod does not reach down from 0, the crank is turned towards the slider's line.
+    const double lift = std::abs(offset) <= rod
+                            ? 0.0
+                            : offset - std::copysign(0.5 * (rod + std::abs(offset) - crank), offset);
+    const Point2 b{std::sqrt(std::max(crank * crank - lift * lift, 0.0)), lift};
+    const double reach = rod * rod - (offset - lift) * (offset - lift);
+    LinkageSketch sketch;
+    sketch.points = {{"A", {0.0, 0.0}, pinned},
+                     {"B", b},
+                     {"S", {b.x + std::sqrt(std::max(reach, 0.0)), offset}, SketchHold::Guided}};
+    sketch.bars = {{"crank", {0, 1}}, {"rod", {1, 2}}};
+    sketch.motors = {{"crank", 0, 0}};
+    return sketch;
+}
+
+Expected<LinkageSketch> peaucellier(const Peaucellier& lengths) {
+    if (const Result bad = check_lengths(
+            "peaucellier",
+            {{"long_bar", lengths.long_bar}, {"short_bar", lengths.short_bar}, {"crank", lengths.crank}});
+        !bad)
+        return bad;
+    if (!joins_over(2.0 * lengths.crank, lengths.long_bar, lengths.short_bar))
+        return refused("peaucellier", "crank", "such that long and short bars join O and C, 2 crank apart",
+                       lengths.crank);
+    // Drawn with C on +X, where O, C and P are on one line.
+    const Point2 o{0.0, 0.0}, c{2.0 * lengths.crank, 0.0};
+    const Point2 a = crossing_left(o, lengths.long_bar, c, lengths.short_bar), b{a.x, -a.y};
+    LinkageSketch sketch;
+    sketch.points = {{"O", o, pinned}, {"Q", {lengths.crank, 0.0}, pinned}, {"A", a}, {"B", b},
+                     {"C", c},         {"P", {2.0 * a.x - c.x, 0.0}}};
+    sketch.bars = {{"crank", {1, 4}}, {"OA", {0, 2}}, {"OB", {0, 3}}, {"AC", {2, 4}},
+                   {"BC", {3, 4}},    {"AP", {2, 5}}, {"BP", {3, 5}}};
+    sketch.motors = {{"crank", 1, 0}};
+    return sketch;
+}
+
+Expected<LinkageSketch> pantograph(const Pantograph& lengths) {
+    // D on OA and E on AP; D-A-E-T is a parallelogram, so that T stays on OP.
+    if (const Result bad = check_lengths("pantograph", {{"arm", lengths.arm}, {"scale", lengths.scale}});
+        !bad)
+        return bad;
+    if (!(lengths.scale > 1.0)) return refused("pantograph", "scale", "over 1", lengths.scale);
+    const double part = 1.0 / lengths.scale;
+    const Point2 a = point_at_angle(lengths.arm, math::pi / 3.0), p{lengths.arm, 0.0};
+    LinkageSketch sketch;
+    sketch.points = {{"O", {0.0, 0.0}, pinned},
+                     {"A", a},
+                     {"P", p},
+                     {"D", {part * a.x, part * a.y}},
+                     {"E", {a.x + part * (p.x - a.x), a.y + part * (p.y - a.y)}},
+                     {"T", {part * p.x, part * p.y}}};
+    sketch.bars = {{"OA", {0, 3, 1}}, {"AP", {1, 4, 2}}, {"DT", {3, 5}}, {"ET", {4, 5}}};
+    return sketch;
+}
+
+Expected<LinkageSketch> scissor_lift(const ScissorLift& lengths) {
+    const std::size_t stages = lengths.stages;
+    if (!(stages >= 1 && stages <= 32)) return refused("scissor_lift", "stages", "1 to 32", stages);
+    if (const Result bad = check_lengths("scissor_lift", {{"bar", lengths.bar}}); !bad) return bad;
+    if (!(lengths.angle > 1e-6 && lengths.angle < 0.5 * math::pi - 1e-6))
+        return refused("scissor_lift", "angle", "over 0 and under a right angle", lengths.angle);
+    const Point2 across = point_at_angle(lengths.bar, lengths.angle);
+    LinkageSketch sketch;
+    sketch.points = {{"L0", {0.0, 0.0}, pinned}, {"R0", {across.x, 0.0}, SketchHold::Guided}};
+    std::size_t left = 0, right = 1;
+    for (std::size_t k = 0; k < stages; ++k) {
+        const std::string below = std::to_string(k), above = std::to_string(k + 1);
+        const double y = static_cast<double>(k) * across.y;
+        const std::size_t next = sketch.points.size();
+        sketch.points.push_back({"L" + above, {0.0, y + across.y}});
+        sketch.points.push_back({"R" + above, {across.x, y + across.y}});
+        sketch.points.push_back({"M" + below, {0.5 * across.x, y + 0.5 * across.y}});
+        sketch.bars.push_back({"up" + below, {left, next + 2, next + 1}});
+        sketch.bars.push_back({"down" + below, {right, next + 2, next}});
+        left = next, right = next + 1;
+    }
+    sketch.motors = {{"lift", 0, 0}};
+    return sketch;
+}
+
+Expected<LinkageSketch> jansen(const Jansen& lengths) {
+    const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m] = lengths;
+    if (const Result bad = check_lengths("jansen", {{"a", a, any_number},
+                                                    {"b", b},
+                                                    {"c", c},
+                                                    {"d", d},
+                                                    {"e", e},
+                                                    {"f", f},
+                                                    {"g", g},
+                                                    {"h", h},
+                                                    {"i", i},
+                                                    {"j", j},
+                                                    {"k", k},
+                                                    {"l", l, any_number},
+                                                    {"m", m}});
+        !bad)
+        return bad;
+    const Point2 crank{m, 0.0}, pivot{-a, -l};
+    const Point2 upper = crossing_left(pivot, b, crank, j), lower = crossing_left(crank, k, pivot, c);
+    const Point2 back = crossing_left(pivot, d, upper, e), knee = crossing_left(lower, g, back, f);
+    const Point2 foot = crossing_left(lower, i, knee, h);
+    const struct {
+        const char* names;
+        double apart, one, other;
+    } triangles[] = {{"j", apart_by(pivot, crank), b, j},
+                     {"k", apart_by(pivot, crank), k, c},
+                     {"e", b, d, e},
+                     {"g", apart_by(lower, back), g, f},
+                     {"h", g, i, h}};
+    for (const auto& each : triangles)
+        if (!joins_over(each.apart, each.one, each.other))
+            return refused("jansen", each.names, "such that its triangle closes with the crank at 0",
+                           each.other);
+    LinkageSketch sketch;
+    sketch.points = {{"axis", {0.0, 0.0}, pinned},
+                     {"pivot", pivot, pinned},
+                     {"crank", crank},
+                     {"upper", upper},
+                     {"lower", lower},
+                     {"back", back},
+                     {"knee", knee},
+                     {"foot", foot}};
+    sketch.bars = {{"m", {0, 2}}, {"j", {2, 3}}, {"k", {2, 4}},     {"bde", {1, 3, 5}},
+                   {"c", {1, 4}}, {"f", {5, 6}}, {"ghi", {4, 6, 7}}};
+    sketch.motors = {{"motor", 0, 0}};
+    return sketch;
+}
+
+namespace {
+
+/// A rod on two crossed hinges, so that it points anywhere but does not spin: `name`_yoke and `name`. Returns
+/// the rod's link.
+std::size_t add_universal(Linkage& linkage, const std::string& name, std::size_t parent, const glm::dvec3& at,
+                          const glm::dvec3& first_axis, const glm::dvec3& along) {
+    linkage.links.push_back({name + "_yoke", parent, LinkJoint::Hinge, at, first_axis});
+    linkage.links.push_back(
+        {name, linkage.links.size() - 1, LinkJoint::Hinge, at, detail::cross(along, first_axis)});
+    return linkage.links.size() - 1;
+}
+
+/// The first rod holds the platform by a ball, the others close on it.
+void join_platform(Linkage& linkage, std::size_t& platform, std::size_t rod, const std::string& name,
+                   const glm::dvec3& at) {
+    if (platform != ground_link) {
+        linkage.closures.push_back({name, ClosureKind::Point, rod, platform, at, at});
+        return;
+    }
+    platform = linkage.links.size();
+    linkage.links.push_back({"platform", rod, LinkJoint::Ball, at});
+}
+
+glm::dvec3 in_base(const Point2& flat, double z) noexcept {
+    return {flat.x, flat.y, z};
+}
+
+}  // namespace
+
+Expected<Linkage> delta(const Delta& lengths) {
+    const auto& [base_radius, platform_radius, upper_arm, forearm, width] = lengths;
+    if (const Result bad = check_lengths("delta", {{"base_radius", base_radius, 0.0},
+                                                   {"platform_radius", platform_radius, 0.0},
+                                                   {"upper_arm", upper_arm},
+                                                   {"forearm", forearm},
+                                                   {"width", width}});
+        !bad)
+        return bad;
+    // As drawn, the arms point 30 degrees down.
+    constexpr double down = math::pi / 6.0;
+    const double elbow_radius = base_radius + upper_arm * std::sqrt(0.75);
+    const double aside = elbow_radius - platform_radius, elbow_z = -0.5 * upper_arm;
+    if (!(std::abs(aside) <= 0.999 * forearm))
+        return refused("delta", "forearm", "long enough to join elbow and platform 30 degrees down", forearm);
+    const double wrist_z = elbow_z - std::sqrt(forearm * forearm - aside * aside);
+    Linkage linkage;
+    std::size_t platform = ground_link;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::string number = std::to_string(i);
+        const Point2 out = point_at_angle(1.0, static_cast<double>(i) * 2.0 * math::pi / 3.0);
+        const glm::dvec3 tangent{-out.y, out.x, 0.0};
+        const auto at_radius = [&](double radius, double z) {
+            return glm::dvec3(radius * out.x, radius * out.y, z);
+        };
+        const glm::dvec3 elbow = at_radius(elbow_radius, elbow_z),
+                         wrist = at_radius(lengths.platform_radius, wrist_z);
+        const std::size_t motor = linkage.links.size();
+        linkage.links.push_back({"motor_" + number, ground_link, LinkJoint::Hinge,
+                                 at_radius(lengths.base_radius, 0.0), tangent, down});
+        for (const double side : {-0.5, 0.5}) {
+            const glm::dvec3 aside_by = detail::times(tangent, side * lengths.width);
+            const std::string name = "forearm_" + number + (side < 0.0 ? "a" : "b");
+            const glm::dvec3 far = detail::plus(wrist, aside_by);
+            const std::size_t rod = add_universal(linkage, name, motor, detail::plus(elbow, aside_by),
+                                                  tangent, detail::minus(wrist, elbow));
+            join_platform(linkage, platform, rod, name, far);
+        }
+        linkage.points.push_back({"elbow_" + number, motor, elbow});
+        linkage.points.push_back({"wrist_" + number, platform, wrist});
+    }
+    linkage.points.push_back({"platform", platform, {0.0, 0.0, wrist_z}});
+    if (const Result bad = check(linkage); !bad) return bad;
+    return linkage;
+}
+
+std::optional<std::array<double, 3>> delta_motors(const Delta& lengths, const glm::dvec3& platform) noexcept {
+    std::array<double, 3> motors{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Point2 out = point_at_angle(1.0, static_cast<double>(i) * 2.0 * math::pi / 3.0);
+        // From the hinge to the wrist: along the arm's plane, across it, and up.
+        const double x =
+            platform.x * out.x + platform.y * out.y + lengths.platform_radius - lengths.base_radius;
+        const double y = platform.y * out.x - platform.x * out.y, z = platform.z, arm = lengths.upper_arm;
+        const double sum = x * x + y * y + z * z + arm * arm - lengths.forearm * lengths.forearm;
+        // sum = 2 arm (x cos - z sin)
+        const double reach = 2.0 * arm * std::sqrt(x * x + z * z);
+        if (!(std::abs(sum) <= reach) || reach == 0.0) return std::nullopt;
+        motors[i] = math::arctangent(-z, x) - math::arctangent(std::sqrt(reach * reach - sum * sum), sum);
+    }
+    return motors;
+}
+
+namespace {
+
+struct StewartEnds {
+    glm::dvec3 base, top;  ///< the top as it is on the platform, from its centre
+};
+StewartEnds ends_of_leg(const Stewart& lengths, std::size_t leg) noexcept {
+    const double third = static_cast<double>(leg / 2) * 2.0 * math::pi / 3.0, side = leg % 2 ? 1.0 : -1.0;
+    const double base = third + side * lengths.base_angle;
+    const double top = third + side * (math::pi / 3.0 - lengths.platform_angle);
+    return {in_base(point_at_angle(lengths.base_radius, base), 0.0),
+            in_base(point_at_angle(lengths.platform_radius, top), 0.0)};
+}
+
+}  // namespace
+
+Expected<Linkage> stewart(const Stewart& lengths) {
+    if (const Result bad = check_lengths("stewart", {{"base_radius", lengths.base_radius},
+                                                     {"platform_radius", lengths.platform_radius},
+                                                     {"height", lengths.height},
+                                                     {"base_angle", lengths.base_angle, any_number},
+                                                     {"platform_angle", lengths.platform_angle, any_number},
+                                                     {"minimum", lengths.minimum, 0.0},
+                                                     {"maximum", lengths.maximum}});
+        !bad)
+        return bad;
+    Linkage linkage;
+    std::size_t platform = ground_link;
+    const glm::dvec3 centre{0.0, 0.0, lengths.height};
+    for (std::size_t i = 0; i < 6; ++i) {
+        const StewartEnds ends = ends_of_leg(lengths, i);
+        const glm::dvec3 top = detail::plus(ends.top, centre), along = detail::minus(top, ends.base);
+        const std::string name = "leg_" + std::to_string(i), number = std::to_string(i);
+        // Across the leg, and level.
+        const glm::dvec3 level{-along.y, along.x, 0.0};
+        const bool upright = !(detail::length(level) > 1e-9);
+        const std::size_t rod = add_universal(linkage, "swivel_" + number, ground_link, ends.base,
+                                              upright ? glm::dvec3(1.0, 0.0, 0.0) : level, along);
+        const double drawn = detail::length(along);
+        if (!(lengths.minimum <= drawn && drawn <= lengths.maximum))
+            return refused("stewart", "height", "such that legs are from minimum to maximum", lengths.height);
+        const std::size_t leg = linkage.links.size();
+        linkage.links.push_back(
+            {name, rod, LinkJoint::Slider, ends.base, along, drawn, lengths.minimum, lengths.maximum});
+        join_platform(linkage, platform, leg, name, top);
+        linkage.points.push_back({"base_" + number, ground_link, ends.base});
+        linkage.points.push_back({"top_" + number, platform, top});
+    }
+    linkage.points.push_back({"platform", platform, centre});
+    if (const Result bad = check(linkage); !bad) return bad;
+    return linkage;
+}
+
+std::array<double, 6> stewart_legs(const Stewart& lengths, const glm::dvec3& platform,
+                                   const glm::dquat& rotation) noexcept {
+    std::array<double, 6> legs{};
+    for (std::size_t i = 0; i < 6; ++i) {
+        const StewartEnds ends = ends_of_leg(lengths, i);
+        legs[i] = detail::length(
+            detail::minus(detail::plus(platform, detail::rotated(rotation, ends.top)), ends.base));
+    }
+    return legs;
+}
+
+}  // namespace tendril::ik

@@ -1,0 +1,276 @@
+// From joints and bars in the plane to links, their tree and its closures.
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "ik/math.hpp"
+#include "math/checks.hpp"
+#include "math/elementary.hpp"
+#include "tendril/ik/linkage_sketch.hpp"
+
+namespace tendril::ik {
+
+using tendril::detail::check_index;
+
+const char* name(SketchHold hold) noexcept {
+    constexpr const char* names[] = {"free", "pinned", "guided"};
+    return names[static_cast<std::size_t>(hold)];
+}
+
+namespace {
+
+template <class Named>
+std::size_t sketch_index(const std::vector<Named>& list, std::string_view name) noexcept {
+    for (std::size_t i = 0; i < list.size(); ++i)
+        if (list[i].name == name) return i;
+    return ground_link;
+}
+
+bool joins(const SketchBar& bar, std::size_t point) noexcept {
+    return std::ranges::find(bar.points, point) != bar.points.end();
+}
+
+/// `bar "coupler"`, or by its number where it has no name.
+std::string said(const char* kind, const std::string& name, std::size_t index) {
+    return name.empty() ? std::string(kind) + " " + std::to_string(index)
+                        : std::string(kind) + " \"" + name + "\"";
+}
+Result sketch_refused(const std::string& what) {
+    return {ErrorCode::InvalidArgument, "linkage_from: " + what};
+}
+
+class SketchTree {
+  public:
+    explicit SketchTree(const LinkageSketch& sketch)
+        : sketch_(sketch),
+          link_of_bar_(sketch.bars.size(), unplaced),
+          owner_(sketch.points.size(), unplaced) {}
+
+    Expected<Linkage> make() {
+        if (const Result bad = check_parts(); !bad) return bad;
+        place_holds();
+        // Breadth first, a motor's hinge before any other.
+        while (place_driven_bar() || place_next_bar()) {
+        }
+        for (std::size_t i = 0; i < sketch_.bars.size(); ++i)
+            if (link_of_bar_[i] == unplaced)
+                return sketch_refused(said("bar", sketch_.bars[i].name, i) +
+                                      " must be joined to a pinned or guided point, got none");
+        for (std::size_t i = 0; i < sketch_.motors.size(); ++i)
+            if (!driven(i))
+                return sketch_refused(said("motor", sketch_.motors[i].name, i) +
+                                      " must turn a bar that no other motor turns, got one in a circle");
+        for (std::size_t i = 0; i < sketch_.points.size(); ++i)
+            linkage_.points.push_back(
+                {sketch_.points[i].name, owner_[i] == unplaced ? ground_link : owner_[i], at(i)});
+        if (const Result bad = check(linkage_); !bad) return bad;
+        return std::move(linkage_);
+    }
+
+  private:
+    static constexpr std::size_t unplaced = ground_link - 1;
+
+    glm::dvec3 at(std::size_t point) const noexcept {
+        return {sketch_.points[point].at.x, sketch_.points[point].at.y, 0.0};
+    }
+    bool apart(std::size_t a, std::size_t b) const noexcept {
+        return detail::length(detail::minus(at(a), at(b))) > 1e-12;
+    }
+
+    Result check_parts() const {
+        for (std::size_t i = 0; i < sketch_.points.size(); ++i) {
+            const SketchPoint& each = sketch_.points[i];
+            const double limit = static_cast<double>(max_magnitude);
+            if (!(std::abs(each.at.x) <= limit && std::abs(each.at.y) <= limit &&
+                  std::abs(each.guide) <= limit))
+                return sketch_refused(said("point", each.name, i) +
+                                      " must have numbers of magnitude at most 1e9, got another");
+        }
+        for (std::size_t i = 0; i < sketch_.bars.size(); ++i)
+            if (const Result bad = check_bar(sketch_.bars[i], said("bar", sketch_.bars[i].name, i)); !bad)
+                return bad;
+        for (std::size_t i = 0; i < sketch_.motors.size(); ++i)
+            if (const Result bad = check_motor(sketch_.motors[i], said("motor", sketch_.motors[i].name, i));
+                !bad)
+                return bad;
+        return {};
+    }
+    Result check_bar(const SketchBar& bar, const std::string& who) const {
+        if (bar.points.size() < 2)
+            return sketch_refused(who + " must have 2 points or more, got " +
+                                  std::to_string(bar.points.size()));
+        for (const std::size_t each : bar.points)
+            if (each >= sketch_.points.size())
+                return sketch_refused(who + " must join points of the sketch, got " + std::to_string(each));
+        for (std::size_t i = 0; i < bar.points.size(); ++i)
+            for (std::size_t k = i + 1; k < bar.points.size(); ++k)
+                if (!apart(bar.points[i], bar.points[k]))
+                    return sketch_refused(who + " must have a length, got two points in one place");
+        return {};
+    }
+    Result check_motor(const SketchMotor& motor, const std::string& who) const {
+        if (motor.bar >= sketch_.bars.size() || motor.point >= sketch_.points.size())
+            return sketch_refused(who + " must name a bar and a point of the sketch, got another");
+        if (!joins(sketch_.bars[motor.bar], motor.point))
+            return sketch_refused(who + " must be at a point of its bar, got another");
+        if (motor.against == ground_link) {
+            if (sketch_.points[motor.point].hold != SketchHold::Pinned)
+                return sketch_refused(who + " must be at a pinned point or turn against a bar, got neither");
+        } else if (motor.against >= sketch_.bars.size() || motor.against == motor.bar ||
+                   !joins(sketch_.bars[motor.against], motor.point)) {
+            return sketch_refused(who + " must turn against another bar at its point, got none");
+        }
+        return {};
+    }
+
+    /// Pinned points belong to the ground, guided ones to a slider's link.
+    void place_holds() {
+        for (std::size_t i = 0; i < sketch_.points.size(); ++i) {
+            const SketchPoint& each = sketch_.points[i];
+            if (each.hold == SketchHold::Pinned) owner_[i] = ground_link;
+            if (each.hold != SketchHold::Guided) continue;
+            const math::SineCosine turn = math::sine_cosine(each.guide / (2.0 * math::pi));
+            Link slider;
+            slider.name = each.name;
+            slider.joint = LinkJoint::Slider;
+            slider.at = at(i);
+            slider.axis = {turn.cosine, turn.sine, 0.0};
+            slider.rest = detail::dot(slider.at, slider.axis);
+            owner_[i] = linkage_.links.size();
+            linkage_.links.push_back(slider);
+        }
+    }
+
+    bool place_driven_bar() {
+        for (std::size_t i = 0; i < sketch_.motors.size(); ++i) {
+            const SketchMotor& motor = sketch_.motors[i];
+            if (motor.against == ground_link) {
+                if (link_of_bar_[motor.bar] != unplaced) continue;
+                place_bar(motor.bar, motor.point, ground_link, i);
+                return true;
+            }
+            // Whichever of the two bars is there first has the other hang on it.
+            const bool bar = link_of_bar_[motor.bar] != unplaced,
+                       against = link_of_bar_[motor.against] != unplaced;
+            if (bar == against) continue;
+            if (against)
+                place_bar(motor.bar, motor.point, link_of_bar_[motor.against], i);
+            else
+                place_bar(motor.against, motor.point, link_of_bar_[motor.bar], i);
+            return true;
+        }
+        return false;
+    }
+    bool place_next_bar() {
+        // A bar that a motor turns waits for the bar that it turns against, as long as there are others.
+        for (const bool waits : {true, false})
+            for (std::size_t i = 0; i < sketch_.bars.size(); ++i) {
+                if (link_of_bar_[i] != unplaced || (waits && is_turned(i))) continue;
+                for (const std::size_t point : sketch_.bars[i].points)
+                    if (owner_[point] != unplaced) {
+                        place_bar(i, point, owner_[point], std::nullopt);
+                        return true;
+                    }
+            }
+        return false;
+    }
+    bool is_turned(std::size_t bar) const noexcept {
+        return std::ranges::any_of(sketch_.motors,
+                                   [&](const SketchMotor& motor) { return motor.bar == bar; });
+    }
+
+    double direction_of_bar(std::size_t bar, std::size_t from) const noexcept {
+        for (const std::size_t each : sketch_.bars[bar].points)
+            if (each != from) {
+                const glm::dvec3 along = detail::minus(at(each), at(from));
+                return math::arctangent(along.y, along.x);
+            }
+        return 0.0;
+    }
+
+    void place_bar(std::size_t bar, std::size_t point, std::size_t parent, std::optional<std::size_t> motor) {
+        Link link;
+        link.name = sketch_.bars[bar].name;
+        link.parent = parent;
+        link.at = at(point);
+        link.rest = direction_of_bar(bar, point);
+        if (motor) turn_by(link, bar, sketch_.motors[*motor]);
+        if (motor) driven_.push_back(*motor);
+        const std::size_t index = linkage_.links.size();
+        link_of_bar_[bar] = index;
+        linkage_.links.push_back(link);
+        for (const std::size_t each : sketch_.bars[bar].points) {
+            if (each == point) continue;
+            if (owner_[each] == unplaced)
+                owner_[each] = index;
+            else
+                linkage_.closures.push_back(
+                    {sketch_.points[each].name, ClosureKind::Point, owner_[each], index, at(each), at(each)});
+        }
+    }
+    /// The link's value is the motor's angle.
+    void turn_by(Link& link, std::size_t bar, const SketchMotor& motor) const {
+        link.name = motor.name;
+        link.minimum = motor.minimum;
+        link.maximum = motor.maximum;
+        if (motor.against == ground_link) return;
+        link.rest = direction_of_bar(motor.bar, motor.point) - direction_of_bar(motor.against, motor.point);
+        if (bar == motor.against) link.axis = {0.0, 0.0, -1.0};  // it is the other that hangs on it
+    }
+    bool driven(std::size_t motor) const noexcept {
+        return std::ranges::find(driven_, motor) != driven_.end();
+    }
+
+    const LinkageSketch& sketch_;
+    Linkage linkage_;
+    std::vector<std::size_t> link_of_bar_;
+    std::vector<std::size_t> owner_;   ///< of each point: the link whose point it is
+    std::vector<std::size_t> driven_;  ///< motors whose hinges are in the tree
+};
+
+}  // namespace
+
+std::size_t LinkageSketch::find_point(std::string_view name) const noexcept {
+    return sketch_index(points, name);
+}
+std::size_t LinkageSketch::find_bar(std::string_view name) const noexcept {
+    return sketch_index(bars, name);
+}
+
+Result remove_bar(LinkageSketch& sketch, std::size_t bar) {
+    if (const Result bad = check_index("remove_bar", bar, sketch.bars.size(), "the sketch", "bar"); !bad)
+        return bad;
+    sketch.bars.erase(sketch.bars.begin() + static_cast<std::ptrdiff_t>(bar));
+    std::erase_if(sketch.motors,
+                  [&](const SketchMotor& motor) { return motor.bar == bar || motor.against == bar; });
+    for (SketchMotor& motor : sketch.motors) {
+        if (motor.bar > bar) --motor.bar;
+        if (motor.against != ground_link && motor.against > bar) --motor.against;
+    }
+    return {};
+}
+
+Result remove_point(LinkageSketch& sketch, std::size_t point) {
+    if (const Result bad = check_index("remove_point", point, sketch.points.size(), "the sketch", "point");
+        !bad)
+        return bad;
+    std::erase_if(sketch.motors, [&](const SketchMotor& motor) { return motor.point == point; });
+    for (std::size_t i = sketch.bars.size(); i-- > 0;) {
+        std::vector<std::size_t>& points = sketch.bars[i].points;
+        std::erase(points, point);
+        for (std::size_t& each : points)
+            if (each > point) --each;
+        if (points.size() < 2)
+            if (const Result bad = remove_bar(sketch, i); !bad) return bad;
+    }
+    for (SketchMotor& motor : sketch.motors)
+        if (motor.point > point) --motor.point;
+    sketch.points.erase(sketch.points.begin() + static_cast<std::ptrdiff_t>(point));
+    return {};
+}
+
+Expected<Linkage> linkage_from(const LinkageSketch& sketch) {
+    return SketchTree(sketch).make();
+}
+
+}  // namespace tendril::ik

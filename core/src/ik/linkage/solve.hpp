@@ -1,0 +1,81 @@
+// One solve of a linkage. Not installed.
+#pragma once
+
+#include <algorithm>
+
+#include "ik/linkage/work.hpp"
+
+namespace tendril::ik::detail {
+
+class LinkageSolve {
+  public:
+    LinkageSolve(LinkageWork& work, const LinkageGoals& goals, const LinkageOptions& options) noexcept;
+    LinkageReport run() noexcept;
+
+    /// Closes the linkage by descent with the drivers where they are, from where it is.
+    /// Otherwise it ends with its closures as near as descent brings them.
+    bool close_from_here() noexcept;
+    /// The sign of the determinant of the closures by the joints that `by` does not hold: it changes at a
+    /// dead point of the held ones, and only there. 0 if these do not determine the pose.
+    int mode() noexcept;
+    void hold_drivers() noexcept;
+    /// Equations that are independent, in this pose.
+    std::size_t closure_rank() noexcept;
+
+  private:
+    /// What a descent makes small.
+    enum class Aim { Closures, Drivers, ExactTargets, Targets };
+
+    bool closed() const noexcept;
+    /// Closures that are apart by more cannot be closed, however near a dead point the linkage is.
+    double open_from() const noexcept {
+        return std::max(tolerance_, 1e3 * std::max(1e-10 * work_.size, work_.rounding));
+    }
+    bool at_bound(std::size_t link, double by) const noexcept;
+    /// Newton's step on the closures, and on exact targets once they are there; leaves the basis of their
+    /// rows. Held columns of the step are given.
+    void find_return() noexcept;
+    void take_row(std::span<double> row, double error) noexcept;
+    void clear_step() noexcept;
+    bool hold_overstepped() noexcept;
+    /// Newton's steps to the closures. False if they go further than `allowed`, or do not get there.
+    bool return_to_closures(double allowed) noexcept;
+
+    void assemble() noexcept;
+    void glide() noexcept;
+    bool glide_by(double from, double to, bool as_before) noexcept;
+    bool repeat_last_move(double part) noexcept;
+    double driver_distance(const LinkDriver& driver) const noexcept;
+
+    void descend(Aim aim) noexcept;
+    bool descend_from_here() noexcept;
+    bool perturb() noexcept;
+    bool descent_step(double damping) noexcept;
+    void add_equation(std::span<double> row, double error, double weight) noexcept;
+    void find_equations() noexcept;
+    void solve_equations(double damping) noexcept;
+    double cost() noexcept;
+    double target_weight(const LinkTarget& target) const noexcept;
+    void put_back(const std::vector<JointPlace>& joints) noexcept;
+    int watched_mode(bool at_start) noexcept;
+    std::size_t free_columns() const noexcept;
+    void note_active() noexcept;
+    void finish(LinkageReport& report) noexcept;
+
+    LinkageWork& work_;
+    const LinkageGoals& goals_;
+    const LinkageOptions& options_;
+    double tolerance_;
+    int iterations_ = 0;
+    Aim aim_ = Aim::Closures;
+    bool closes_ = true;        ///< closures are kept, not approached
+    bool keeps_exact_ = false;  ///< exact targets are, too
+    double heaviest_ = 0.0;     ///< of the weights of the aim's targets
+    bool descended_ = false;    ///< the last descent took a step
+    bool stopped_ = false, out_of_iterations_ = false, beyond_range_ = false;
+};
+
+/// Finds the nearest closed pose in another assembly mode, the drivers' joints where they are.
+bool find_other_mode(LinkageWork& work, LinkageState& state, std::span<const LinkDriver> drivers) noexcept;
+
+}  // namespace tendril::ik::detail

@@ -1,0 +1,162 @@
+#include <algorithm>
+#include <cmath>
+
+#include "ik/linkage/solve.hpp"
+#include "math/elementary.hpp"
+#include "tendril/magnitude.hpp"
+
+namespace tendril::ik {
+
+struct LinkageSolver::Parts : detail::LinkageWork {
+    using detail::LinkageWork::LinkageWork;
+};
+
+Expected<LinkageSolver> LinkageSolver::make(const Linkage& linkage) {
+    if (const Result bad = check(linkage); !bad) return bad;
+    return LinkageSolver(std::make_unique<Parts>(linkage));
+}
+
+LinkageSolver::LinkageSolver(std::unique_ptr<Parts> parts) noexcept : parts_(std::move(parts)) {}
+LinkageSolver::~LinkageSolver() = default;
+LinkageSolver::LinkageSolver(LinkageSolver&&) noexcept = default;
+LinkageSolver& LinkageSolver::operator=(LinkageSolver&&) noexcept = default;
+
+const Linkage& LinkageSolver::linkage() const noexcept {
+    return parts_->linkage;
+}
+bool LinkageSolver::planar() const noexcept {
+    return parts_->planar;
+}
+double LinkageSolver::size() const noexcept {
+    return parts_->size;
+}
+
+LinkageState LinkageSolver::initial_state() const {
+    LinkageState state;
+    for (const Link& link : parts_->linkage.links)
+        state.joints.push_back({link.joint == LinkJoint::Ball ? 0.0 : link.rest});
+    return state;
+}
+
+namespace {
+
+constexpr double state_limit = static_cast<double>(max_magnitude);
+
+bool fits(const LinkageState& state, const detail::LinkageWork& work) noexcept {
+    return state.joints.size() == work.linkage.links.size() &&
+           std::ranges::all_of(state.joints, [](const JointPlace& each) {
+               const glm::dquat& q = each.turn;
+               return std::abs(each.value) <= state_limit && std::abs(each.last) <= 2.0 * state_limit &&
+                      std::abs(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z - 1.0) <= 2e-3;
+           });
+}
+
+bool drives(std::span<const LinkDriver> drivers, detail::LinkageWork& work) noexcept {
+    std::ranges::fill(work.driven, std::uint8_t{0});
+    for (const LinkDriver& each : drivers) {
+        if (each.link >= work.linkage.links.size() || !(std::abs(each.value) <= state_limit) ||
+            work.linkage.links[each.link].joint == LinkJoint::Ball)
+            return false;
+        std::uint8_t& driven = work.driven[work.column[each.link]];
+        if (driven) return false;
+        driven = 1;
+    }
+    return true;
+}
+
+bool aims(std::span<const LinkTarget> targets, const detail::LinkageWork& work) noexcept {
+    for (std::size_t i = 0; i < targets.size(); ++i) {
+        const LinkTarget& each = targets[i];
+        if (each.point >= work.linkage.points.size() || !(each.weight > 0.0 && each.weight <= state_limit))
+            return false;
+        for (int axis = 0; axis < 3; ++axis)
+            if (!(std::abs(each.to[axis]) <= state_limit)) return false;
+        for (std::size_t k = 0; k < i; ++k)
+            if (targets[k].point == each.point) return false;
+    }
+    return true;
+}
+
+bool allows(const LinkageOptions& options, const detail::LinkageWork& work) noexcept {
+    return options.max_iterations >= 1 && options.max_iterations <= 1000000 &&
+           (!options.tolerance || (*options.tolerance > 0.0 && *options.tolerance <= state_limit)) &&
+           std::ranges::all_of(options.watched, [&](std::size_t each) {
+               return each < work.linkage.links.size() && work.linkage.links[each].joint != LinkJoint::Ball;
+           });
+}
+
+/// Into the joints' ranges, with unit rotations.
+void take_state(detail::LinkageWork& work, const LinkageState& state) noexcept {
+    work.joints = state.joints;
+    work.enter_ranges();
+}
+
+}  // namespace
+
+LinkageReport LinkageSolver::solve(LinkageState& state, const LinkageGoals& goals,
+                                   const LinkageOptions& options) noexcept {
+    detail::LinkageWork& work = *parts_;
+    LinkageReport report;
+    if (!fits(state, work) || !drives(goals.drivers, work) || !aims(goals.targets, work) ||
+        !allows(options, work)) {
+        report.status = LinkageStatus::InvalidInput;
+        return report;
+    }
+    take_state(work, state);
+    report = detail::LinkageSolve(work, goals, options).run();
+    state.joints = work.joints;
+    return report;
+}
+
+bool LinkageSolver::other_mode(LinkageState& state, std::span<const LinkDriver> drivers) noexcept {
+    detail::LinkageWork& work = *parts_;
+    if (!fits(state, work) || !drives(drivers, work)) return false;
+    return work.columns > 0 && detail::find_other_mode(work, state, drivers);
+}
+
+LinkageFreedom LinkageSolver::freedom(const LinkageState& state) noexcept {
+    LinkageFreedom freedom;
+    if (!place(state)) return freedom;
+    detail::LinkageWork& work = *parts_;
+    const LinkageGoals none;
+    const LinkageOptions options;
+    freedom.actual =
+        static_cast<int>(work.columns - detail::LinkageSolve(work, none, options).closure_rank());
+    freedom.counted = static_cast<int>(work.columns);
+    for (const Closure& each : work.linkage.closures)
+        freedom.counted -= each.kind == ClosureKind::Frame ? (work.planar ? 3 : 6) : (work.planar ? 2 : 3);
+    return freedom;
+}
+
+bool LinkageSolver::place(const LinkageState& state) noexcept {
+    if (!fits(state, *parts_)) return false;
+    take_state(*parts_, state);
+    parts_->move_links();
+    return true;
+}
+
+std::span<const LinkPlace> LinkageSolver::links() const noexcept {
+    return parts_->places;
+}
+glm::dvec3 LinkageSolver::point(std::size_t index) const noexcept {
+    if (index >= parts_->linkage.points.size()) return glm::dvec3(0.0);
+    const LinkPoint& point = parts_->linkage.points[index];
+    return parts_->point_of(point.link, point.at);
+}
+glm::dvec3 LinkageSolver::joint(std::size_t link) const noexcept {
+    return link < parts_->origins.size() ? parts_->origins[link] : glm::dvec3(0.0);
+}
+glm::dvec3 LinkageSolver::axis(std::size_t link) const noexcept {
+    return link < parts_->axes.size() ? parts_->axes[link] : glm::dvec3(0.0);
+}
+std::span<const double> LinkageSolver::residuals() const noexcept {
+    return parts_->residuals;
+}
+std::span<const std::size_t> LinkageSolver::active() const noexcept {
+    return parts_->active;
+}
+std::span<const std::size_t> LinkageSolver::open_closures() const noexcept {
+    return parts_->open;
+}
+
+}  // namespace tendril::ik

@@ -1,0 +1,364 @@
+#include "ik/linkage/work.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "math/elementary.hpp"
+
+namespace tendril::ik::detail {
+namespace {
+
+constexpr glm::dvec3 world_axes[3] = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
+
+glm::dquat turn_about(const glm::dvec3& axis, double radians) noexcept {
+    const math::SineCosine half = math::sine_cosine(radians / (4.0 * math::pi));
+    return {half.cosine, axis.x * half.sine, axis.y * half.sine, axis.z * half.sine};
+}
+glm::dquat turn_by_vector(const glm::dvec3& vector) noexcept {
+    const double angle = length(vector);
+    return angle > 0.0 ? turn_about(times(vector, 1.0 / angle), angle) : glm::dquat(1.0, 0.0, 0.0, 0.0);
+}
+/// The shortest rotation's vector.
+glm::dvec3 vector_of_turn(const glm::dquat& turn) noexcept {
+    const glm::dvec3 sine{turn.x, turn.y, turn.z};
+    const double size = length(sine), sign = turn.w < 0.0 ? -1.0 : 1.0;
+    if (size < 1e-150) return glm::dvec3(0.0);
+    return times(sine, sign * 2.0 * math::arctangent(size, std::abs(turn.w)) / size);
+}
+
+}  // namespace
+
+void RowBasis::reserve(std::size_t columns) {
+    columns_ = columns;
+    rows_.resize(columns * columns);
+    windows_.resize(columns);
+}
+
+void RowBasis::subtract_from(double* row, Window& window) const noexcept {
+    for (std::size_t k = 0; k < count_; ++k) {
+        const Window& other = windows_[k];
+        const std::size_t from = std::max(window.first, other.first), to = std::min(window.last, other.last);
+        if (from >= to) continue;
+        const double* unit = rows_.data() + k * columns_;
+        double part = 0.0;
+        for (std::size_t i = from; i < to; ++i) part += unit[i] * row[i];
+        if (part == 0.0) continue;
+        for (std::size_t i = other.first; i < other.last; ++i) row[i] -= part * unit[i];
+        window = {std::min(window.first, other.first), std::max(window.last, other.last)};
+    }
+}
+
+double RowBasis::add(std::span<double> row) noexcept {
+    Window window{columns_, 0};
+    double before = 0.0;
+    for (std::size_t i = 0; i < columns_; ++i) {
+        if (row[i] == 0.0) continue;
+        window = {std::min(window.first, i), i + 1};
+        before += row[i] * row[i];
+    }
+    if (!(before > 0.0) || count_ == columns_) return 0.0;
+    double left = before;
+    for (int pass = 0; pass < 2; ++pass) {
+        const double start = left;
+        subtract_from(row.data(), window);
+        left = 0.0;
+        for (std::size_t i = window.first; i < window.last; ++i) left += row[i] * row[i];
+        if (left > 0.25 * start) break;
+    }
+    // The rows before span it, to rounding.
+    if (!(left > 1e-18 * before)) return 0.0;
+    const double size = std::sqrt(left), inverse = 1.0 / size;
+    double* kept = rows_.data() + count_ * columns_;
+    std::fill(kept, kept + columns_, 0.0);
+    for (std::size_t i = window.first; i < window.last; ++i) kept[i] = row[i] *= inverse;
+    windows_[count_++] = window;
+    return size;
+}
+
+void RowBasis::remove_from(std::span<double> row) const noexcept {
+    for (int pass = 0; pass < 2; ++pass) {
+        Window all{0, columns_};
+        subtract_from(row.data(), all);
+    }
+}
+
+int RowBasis::orientation(std::span<const std::uint8_t> held, std::span<double> scratch) const noexcept {
+    std::size_t free = 0;
+    for (std::size_t col = 0; col < columns_; ++col) {
+        if (held[col]) continue;
+        for (std::size_t r = 0; r < count_; ++r) scratch[free * count_ + r] = rows_[r * columns_ + col];
+        ++free;
+    }
+    int sign = 1;
+    for (std::size_t k = 0; k < count_; ++k) {
+        std::size_t pivot = k;
+        for (std::size_t i = k + 1; i < count_; ++i)
+            if (std::abs(scratch[i * count_ + k]) > std::abs(scratch[pivot * count_ + k])) pivot = i;
+        if (scratch[pivot * count_ + k] == 0.0) return 0;
+        if (pivot != k) {
+            sign = -sign;
+            for (std::size_t j = k; j < count_; ++j)
+                std::swap(scratch[pivot * count_ + j], scratch[k * count_ + j]);
+        }
+        if (scratch[k * count_ + k] < 0.0) sign = -sign;
+        for (std::size_t i = k + 1; i < count_; ++i) {
+            const double by = scratch[i * count_ + k] / scratch[k * count_ + k];
+            for (std::size_t j = k + 1; j < count_; ++j)
+                scratch[i * count_ + j] -= by * scratch[k * count_ + j];
+        }
+    }
+    return sign;
+}
+
+LinkageWork::LinkageWork(const Linkage& from) : linkage(from) {
+    const std::size_t count = linkage.links.size();
+    column.resize(count);
+    places.resize(count);
+    origins.resize(count);
+    axes.resize(count);
+    joints.resize(count);
+    planar = true;
+    bool has_normal = false;
+    glm::dvec3 low(1e300), high(-1e300);
+    const auto extend = [&](const glm::dvec3& at) {
+        for (int axis = 0; axis < 3; ++axis) {
+            low[axis] = std::min(low[axis], at[axis]);
+            high[axis] = std::max(high[axis], at[axis]);
+        }
+    };
+    for (std::size_t i = 0; i < count; ++i) {
+        const Link& link = linkage.links[i];
+        const bool ball = link.joint == LinkJoint::Ball;
+        column[i] = columns;
+        columns += ball ? 3 : 1;
+        drawn_axes.push_back(ball ? glm::dvec3(0.0) : times(link.axis, 1.0 / length(link.axis)));
+        joints[i].value = ball ? 0.0 : link.rest;
+        extend(link.at);
+        if (ball) planar = false;
+        if (link.joint != LinkJoint::Hinge) continue;
+        if (!has_normal) normal = drawn_axes[i];
+        has_normal = true;
+        if (length(cross(normal, drawn_axes[i])) > 1e-9) planar = false;
+    }
+    for (std::size_t i = 0; i < count; ++i)
+        if (linkage.links[i].joint == LinkJoint::Slider && std::abs(dot(normal, drawn_axes[i])) > 1e-9)
+            planar = false;
+    for (const LinkPoint& each : linkage.points) extend(each.at);
+    for (const Closure& each : linkage.closures) {
+        extend(each.first_at);
+        extend(each.second_at);
+    }
+    const glm::dvec3 extent = minus(high, low);
+    size = std::max({extent.x, extent.y, extent.z, 1e-9});
+    rounding = 1e-14 * std::max({largest_coordinate(low), largest_coordinate(high), size});
+    driven.resize(columns);
+    held.resize(columns);
+    blocked.resize(count);
+    step.resize(columns);
+    block_rows.resize(6 * columns);
+    moved.resize(columns);
+    kept = best = nearest = joints;
+    basis.reserve(columns);
+    mode_at.reserve(count);
+    mode_held.reserve(columns);
+    square.resize(columns * columns);
+    gradient.resize(columns);
+    exact_places.resize(linkage.points.size());
+    driver_starts.resize(count);
+    residuals.reserve(linkage.points.size());
+    active.reserve(count);
+    open.reserve(linkage.closures.size());
+    move_links();
+}
+
+bool LinkageWork::ranged(std::size_t link) const noexcept {
+    const Link& each = linkage.links[link];
+    if (each.joint == LinkJoint::Ball) return each.maximum < math::pi;
+    return each.minimum > -std::numeric_limits<double>::infinity() ||
+           each.maximum < std::numeric_limits<double>::infinity();
+}
+
+void LinkageWork::move_links() noexcept {
+    for (std::size_t i = 0; i < joints.size(); ++i) {
+        const Link& link = linkage.links[i];
+        const bool free = link.parent != ground_link;
+        const LinkPlace parent = free ? places[link.parent] : LinkPlace{};
+        LinkPlace& place = places[i];
+        glm::dvec3 origin = free ? parent.point(link.at) : link.at;
+        axes[i] = free ? rotated(parent.rotation, drawn_axes[i]) : drawn_axes[i];
+        place.rotation = parent.rotation;
+        switch (link.joint) {
+            case LinkJoint::Hinge:
+                place.rotation =
+                    compose(parent.rotation, turn_about(drawn_axes[i], joints[i].value - link.rest));
+                break;
+            case LinkJoint::Slider:
+                origin = plus(origin, times(axes[i], joints[i].value - link.rest));
+                break;
+            case LinkJoint::Ball:
+                place.rotation = compose(parent.rotation, joints[i].turn);
+        }
+        origins[i] = origin;
+        place.shift = minus(origin, rotated(place.rotation, link.at));
+    }
+}
+
+void LinkageWork::scatter(std::uint64_t& random, double range) noexcept {
+    for (std::size_t i = 0; i < columns; ++i) {
+        // SplitMix64 (Steele, Lea, Flood 2014).
+        std::uint64_t z = (random += 0x9e3779b97f4a7c15u);
+        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+        z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+        const double part = static_cast<double>(static_cast<std::int64_t>(z ^ (z >> 31)) >> 11) * 0x1p-52;
+        step[i] = driven[i] ? 0.0 : range * part;
+    }
+}
+
+void LinkageWork::release() noexcept {
+    held = driven;
+    std::ranges::fill(blocked, std::uint8_t{0});
+}
+
+void LinkageWork::enter_ranges() noexcept {
+    for (std::size_t i = 0; i < joints.size(); ++i) {
+        const Link& link = linkage.links[i];
+        glm::dquat& turn = joints[i].turn;
+        if (link.joint != LinkJoint::Ball) {
+            joints[i].value = std::clamp(joints[i].value, link.minimum, link.maximum);
+            continue;
+        }
+        turn = unit_quaternion(turn.w, turn.x, turn.y, turn.z);
+        if (!ranged(i)) continue;
+        const glm::dvec3 whole = vector_of_turn(turn);
+        const double angle = length(whole);
+        if (angle > link.maximum) turn = turn_by_vector(times(whole, link.maximum / angle));
+    }
+}
+
+glm::dvec3 LinkageWork::outward_of(std::size_t link) const noexcept {
+    const glm::dvec3 whole = vector_of_turn(joints[link].turn);
+    const double angle = length(whole);
+    if (!(angle > 0.0)) return glm::dvec3(0.0);
+    const std::size_t parent = linkage.links[link].parent;
+    const glm::dvec3 axis = times(whole, 1.0 / angle);
+    return parent == ground_link ? axis : rotated(places[parent].rotation, axis);
+}
+
+bool LinkageWork::presses_outward(std::size_t link) const noexcept {
+    constexpr double bound_width = 1e-9;
+    if (length(vector_of_turn(joints[link].turn)) < linkage.links[link].maximum - bound_width) return false;
+    const double* by = step.data() + column[link];
+    return dot(outward_of(link), glm::dvec3(by[0], by[1], by[2])) > 0.0;
+}
+
+void LinkageWork::take_step(double part) noexcept {
+    for (std::size_t i = 0; i < joints.size(); ++i) {
+        const Link& link = linkage.links[i];
+        const double* by = step.data() + column[i];
+        JointPlace& joint = joints[i];
+        if (link.joint != LinkJoint::Ball) {
+            joint.value += part * *by * unit_of(i);
+            continue;
+        }
+        const glm::dquat parent =
+            link.parent == ground_link ? glm::dquat(1.0, 0.0, 0.0, 0.0) : places[link.parent].rotation;
+        const glm::dvec3 vector = rotated(conjugate(parent), times(glm::dvec3(by[0], by[1], by[2]), part));
+        const glm::dquat turn = compose(turn_by_vector(vector), joint.turn);
+        joint.turn = turn;
+    }
+    enter_ranges();
+}
+
+void LinkageWork::add_point(std::size_t link, const glm::dvec3& at, double sign) noexcept {
+    for (std::size_t k = link; k != ground_link; k = linkage.links[k].parent) {
+        const std::size_t col = column[k];
+        const LinkJoint kind = linkage.links[k].joint;
+        const glm::dvec3 arm = minus(at, origins[k]);
+        if (kind == LinkJoint::Ball) {
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const glm::dvec3 along = cross(world_axes[axis], arm);
+                for (int r = 0; r < 3; ++r) row(static_cast<std::size_t>(r))[col + axis] += sign * along[r];
+            }
+            continue;
+        }
+        const glm::dvec3 along = kind == LinkJoint::Hinge ? cross(axes[k], arm) : times(axes[k], size);
+        for (int r = 0; r < 3; ++r) row(static_cast<std::size_t>(r))[col] += sign * along[r];
+    }
+}
+
+void LinkageWork::add_turn(std::size_t link, double sign) noexcept {
+    for (std::size_t k = link; k != ground_link; k = linkage.links[k].parent) {
+        const LinkJoint kind = linkage.links[k].joint;
+        for (std::size_t r = 0; r < 3; ++r) {
+            const std::span<double> to = row(3 + r);
+            if (kind == LinkJoint::Ball) to[column[k] + r] += sign * size;
+            if (kind == LinkJoint::Hinge) to[column[k]] += sign * size * axes[k][static_cast<int>(r)];
+        }
+    }
+}
+
+glm::dvec3 LinkageWork::turn_between(const Closure& closure) const noexcept {
+    const glm::dquat still(1.0, 0.0, 0.0, 0.0);
+    const glm::dquat first = closure.first == ground_link ? still : places[closure.first].rotation;
+    const glm::dquat second = closure.second == ground_link ? still : places[closure.second].rotation;
+    return times(vector_of_turn(compose(second, conjugate(first))), size);
+}
+
+LinkageWork::Block LinkageWork::closure_block(std::size_t index) noexcept {
+    const Closure& closure = linkage.closures[index];
+    const glm::dvec3 first = point_of(closure.first, closure.first_at),
+                     second = point_of(closure.second, closure.second_at), gap = minus(second, first);
+    const bool frame = closure.kind == ClosureKind::Frame;
+    Block block{frame ? 6u : 3u, {gap.x, gap.y, gap.z}};
+    std::fill_n(block_rows.begin(), block.count * columns, 0.0);
+    add_point(closure.first, first, 1.0);
+    add_point(closure.second, second, -1.0);
+    if (!frame) return block;
+    add_turn(closure.first, 1.0);
+    add_turn(closure.second, -1.0);
+    const glm::dvec3 turn = turn_between(closure);
+    for (int r = 0; r < 3; ++r) block.errors[static_cast<std::size_t>(3 + r)] = turn[r];
+    return block;
+}
+
+LinkageWork::Block LinkageWork::target_block(const LinkTarget& target) noexcept {
+    const LinkPoint& point = linkage.points[target.point];
+    const glm::dvec3 at = point_of(point.link, point.at), gap = target_gap(target);
+    std::fill_n(block_rows.begin(), 3 * columns, 0.0);
+    add_point(point.link, at, 1.0);
+    return {3, {gap.x, gap.y, gap.z}};
+}
+
+glm::dvec3 LinkageWork::target_gap(const LinkTarget& target) const noexcept {
+    const LinkPoint& point = linkage.points[target.point];
+    const glm::dvec3 gap = minus(target.to, point_of(point.link, point.at));
+    return planar ? across(gap, normal) : gap;
+}
+
+double LinkageWork::driver_error(const LinkDriver& driver) const noexcept {
+    const Link& link = linkage.links[driver.link];
+    return (std::clamp(driver.value, link.minimum, link.maximum) - joints[driver.link].value) /
+           unit_of(driver.link);
+}
+
+double LinkageWork::squared_gap(const Closure& closure) const noexcept {
+    const glm::dvec3 gap =
+        minus(point_of(closure.second, closure.second_at), point_of(closure.first, closure.first_at));
+    if (closure.kind == ClosureKind::Point) return dot(gap, gap);
+    const glm::dvec3 turn = turn_between(closure);
+    return dot(gap, gap) + dot(turn, turn);
+}
+
+double LinkageWork::gap_of(const Closure& closure) const noexcept {
+    const double apart =
+        length(minus(point_of(closure.second, closure.second_at), point_of(closure.first, closure.first_at)));
+    return closure.kind == ClosureKind::Frame ? std::max(apart, length(turn_between(closure))) : apart;
+}
+
+double LinkageWork::largest_gap() const noexcept {
+    double largest = 0.0;
+    for (const Closure& each : linkage.closures) largest = std::max(largest, gap_of(each));
+    return largest;
+}
+
+}  // namespace tendril::ik::detail

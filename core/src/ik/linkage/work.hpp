@@ -1,0 +1,139 @@
+// One linkage being solved: its constants, its pose, and the equations of the present step. Not installed.
+//
+// Columns are the joints' freedoms: one of a hinge (radians) or slider (in sizes of the linkage, so that the
+// norm of a step does not depend on units), three of a ball (a rotation vector in the world).
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "ik/math.hpp"
+#include "tendril/ik/linkage.hpp"
+
+namespace tendril::ik::detail {
+
+/// Rows made orthonormal one by one, so that each gives way to those before it. Gram-Schmidt; a row that
+/// loses most of itself is treated twice (W. Kahan's rule: B. Parlett, "The Symmetric Eigenvalue Problem",
+/// 1980, 6.9). A row is nonzero only in its window, and loops that share no joints cost nothing to each
+/// other.
+class RowBasis {
+  public:
+    void reserve(std::size_t columns);
+    void clear() noexcept { count_ = 0; }
+    std::size_t rank() const noexcept { return count_; }
+
+    /// Makes `row` the unit vector in its new direction, and keeps that. Returns its length before, or 0, and
+    /// keeps nothing, if the rows before span it.
+    double add(std::span<double> row) noexcept;
+    /// Removes what the rows span.
+    void remove_from(std::span<double> row) const noexcept;
+    /// The sign of the determinant of the rows' columns that are not `held`, as many as there are rows.
+    /// `scratch`: columns * columns.
+    int orientation(std::span<const std::uint8_t> held, std::span<double> scratch) const noexcept;
+
+  private:
+    struct Window {
+        std::size_t first, last;
+    };
+    void subtract_from(double* row, Window& window) const noexcept;
+
+    std::size_t columns_ = 0, count_ = 0;
+    std::vector<double> rows_;
+    std::vector<Window> windows_;
+};
+
+struct LinkageWork {
+    explicit LinkageWork(const Linkage& from);
+
+    // Constants.
+    Linkage linkage;
+    std::vector<glm::dvec3> drawn_axes;  ///< unit
+    std::vector<std::size_t> column;     ///< the first of each link
+    std::size_t columns = 0;
+    double size = 0.0;
+    double rounding = 0.0;  ///< metres: what a closure cannot be closer to, far from the origin
+    bool planar = false;
+    glm::dvec3 normal{0.0, 0.0, 1.0};  ///< of a planar one
+
+    // The pose, and what follows from it.
+    std::vector<JointPlace> joints;
+    std::vector<LinkPlace> places;
+    std::vector<glm::dvec3> origins, axes;  ///< of the joints, in the world
+    /// Computes these for the joints.
+    void move_links() noexcept;
+    glm::dvec3 point_of(std::size_t link, const glm::dvec3& drawn) const noexcept {
+        return link == ground_link ? drawn : places[link].point(drawn);
+    }
+
+    // Steps.
+    std::vector<std::uint8_t> driven;   ///< columns that drivers hold
+    std::vector<std::uint8_t> held;     ///< these, and columns at the end of their range
+    std::vector<std::uint8_t> blocked;  ///< balls at their maximum: they turn no further outward
+    std::vector<double> step;
+    std::vector<double> moved;        ///< the sum of the steps of a return to the closures
+    std::vector<JointPlace> kept;     ///< where a step began, to go back
+    std::vector<JointPlace> best;     ///< before a perturbation
+    std::vector<JointPlace> nearest;  ///< of several restarts
+    /// Goes by `part` of the step, within the ranges.
+    void take_step(double part) noexcept;
+    /// Fills the step with pseudo-random numbers up to `range`; drivers' stay 0.
+    void scatter(std::uint64_t& random, double range) noexcept;
+    /// Only the drivers' columns are held.
+    void release() noexcept;
+    /// Brings the joints into their ranges, and balls to unit rotations.
+    void enter_ranges() noexcept;
+    /// The axis about which a ball is turned, in the world; unit.
+    glm::dvec3 outward_of(std::size_t link) const noexcept;
+    /// A ball at its maximum, which the step would turn further.
+    bool presses_outward(std::size_t link) const noexcept;
+    /// Of a hinge's or slider's value to its column.
+    double unit_of(std::size_t link) const noexcept {
+        return linkage.links[link].joint == LinkJoint::Slider ? size : 1.0;
+    }
+    bool ranged(std::size_t link) const noexcept;
+
+    // Equations. A block of rows has columns of the derivatives of what its errors are to add.
+    struct Block {
+        std::size_t count = 0;
+        std::array<double, 6> errors{};  ///< what is missing
+    };
+    std::span<double> row(std::size_t index) noexcept {
+        return {block_rows.data() + index * columns, columns};
+    }
+    std::vector<double> block_rows;  ///< six rows
+    Block closure_block(std::size_t index) noexcept;
+    Block target_block(const LinkTarget& target) noexcept;
+    /// Metres; a frame's rotation counts by the size.
+    double gap_of(const Closure& closure) const noexcept;
+    double largest_gap() const noexcept;
+    double squared_gap(const Closure& closure) const noexcept;
+    glm::dvec3 target_gap(const LinkTarget& target) const noexcept;
+    /// How far it is from its value, or from the end of its range before that; in columns' units.
+    double driver_error(const LinkDriver& driver) const noexcept;
+
+    RowBasis basis;
+    std::vector<double> square, gradient;  ///< normal equations, of all columns; lower triangle
+
+    // Of the goals.
+    std::vector<glm::dvec3> exact_places;  ///< of targets: where exact ones keep their points
+    std::vector<double> driver_starts;     ///< of each link
+
+    // The sign of LinkageSolve::mode(), for the pose and the held columns that it is of.
+    int mode = 0;
+    std::vector<JointPlace> mode_at;
+    std::vector<std::uint8_t> mode_held;
+
+    // For the report.
+    std::vector<double> residuals;
+    std::vector<std::size_t> active, open;
+
+  private:
+    void add_point(std::size_t link, const glm::dvec3& at, double sign) noexcept;
+    void add_turn(std::size_t link, double sign) noexcept;
+    glm::dvec3 turn_between(const Closure& closure) const noexcept;
+};
+
+}  // namespace tendril::ik::detail
