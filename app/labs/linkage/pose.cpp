@@ -1,0 +1,177 @@
+// Poses of the lab's linkage, and its shape from a sketch or a mechanism.
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "app/document/refused.hpp"
+#include "app/labs/kit/arguments.hpp"
+#include "app/labs/linkage/linkage_part.hpp"
+
+namespace tendril::app {
+namespace {
+
+/// Bars that neither a pin nor a guide reaches, directly or through other bars.
+std::vector<bool> floating_bars(const ik::LinkageSketch& sketch) {
+    std::vector<bool> held(sketch.points.size()), floats(sketch.bars.size(), true);
+    for (std::size_t i = 0; i < held.size(); ++i) held[i] = sketch.points[i].hold != ik::SketchHold::Free;
+    for (bool more = true; more;) {
+        more = false;
+        for (std::size_t b = 0; b < floats.size(); ++b) {
+            const auto& points = sketch.bars[b].points;
+            if (!floats[b] || std::ranges::none_of(points, [&](std::size_t each) { return held[each]; }))
+                continue;
+            floats[b] = false;
+            for (const std::size_t each : points) held[each] = true;
+            more = true;
+        }
+    }
+    return floats;
+}
+
+/// The sketch without the bars that float.
+ik::LinkageSketch held_part(const ik::LinkageSketch& sketch, const std::vector<bool>& floats) {
+    ik::LinkageSketch held = sketch;
+    for (std::size_t b = floats.size(); b-- > 0;)
+        if (floats[b]) require_ok(ik::remove_bar(held, b));
+    return held;
+}
+
+std::vector<std::string> driven_joints(const LinkageShape& shape) {
+    std::vector<std::string> names;
+    for (const ik::SketchMotor& motor : shape.sketch.motors)
+        if (shape.linkage.find_link(motor.name) != ik::ground_link) names.push_back(motor.name);
+    const MechanismKind* const kind = kind_of(shape.mechanism);
+    if (kind == nullptr || *kind->drivers == '\0') return names;
+    for (const ik::Link& link : shape.linkage.links)
+        if (link.name.starts_with(kind->drivers)) names.push_back(link.name);
+    return names;
+}
+
+}  // namespace
+
+glm::dvec3 LinkagePart::at(std::size_t point) const {
+    const ik::LinkPoint& drawn = linkage().points[point];
+    return drawn.link == ik::ground_link ? drawn.at : links[drawn.link].point(drawn.at);
+}
+
+const LinkageDrive* LinkagePart::find_drive(std::string_view joint) const {
+    const auto found = std::ranges::find(drives, joint, &LinkageDrive::joint);
+    return found == drives.end() ? nullptr : &*found;
+}
+
+ik::LinkageSolver& LinkageRuntime::solver(const std::shared_ptr<const LinkageShape>& shape) {
+    if (of_ != shape || !solver_) {
+        solver_.emplace(require_value(ik::LinkageSolver::make(shape->linkage)));
+        of_ = shape;
+    }
+    return *solver_;
+}
+
+void solve_linkage(LinkagePart& part, LinkageRuntime& runtime) {
+    ik::LinkageSolver& solver = runtime.solver(part.shape);
+    const ik::Linkage& linkage = part.linkage();
+    std::vector<ik::LinkDriver> drivers;
+    std::vector<std::size_t> watched;
+    for (const LinkageDrive& each : part.drives) {
+        const std::size_t link = linkage.find_link(each.joint);
+        watched.push_back(link);
+        if (each.held && !part.drag) drivers.push_back({link, each.value});
+    }
+    std::vector<ik::LinkTarget> targets;
+    const auto aim = [&](const LinkageTarget& each) {
+        targets.push_back({linkage.find_point(each.point), each.to, each.weight, each.exact});
+    };
+    if (part.drag)
+        aim(*part.drag);
+    else
+        for (const LinkageTarget& each : part.targets) aim(each);
+    LinkageResult& result = part.result;
+    result.report = solver.solve(part.state, {drivers, targets}, {.watched = watched});
+    result.freedom = solver.freedom(part.state);
+    result.active.assign(solver.active().begin(), solver.active().end());
+    result.open_closures.assign(solver.open_closures().begin(), solver.open_closures().end());
+    for (LinkageDrive& each : part.drives)
+        each.value = part.state.joints[linkage.find_link(each.joint)].value;
+    part.links.assign(solver.links().begin(), solver.links().end());
+}
+
+LinkageShape shape_of(ik::LinkageSketch sketch) {
+    LinkageShape shape;
+    shape.floating = floating_bars(sketch);
+    shape.linkage = require_value(ik::linkage_from(held_part(sketch, shape.floating)));
+    shape.sketch = std::move(sketch);
+    return shape;
+}
+
+LinkageShape shape_of(const Mechanism& mechanism) {
+    LinkageShape shape = std::visit(
+        [](const auto& lengths) -> LinkageShape {
+            using Lengths = std::decay_t<decltype(lengths)>;
+            if constexpr (std::is_same_v<Lengths, std::monostate>)
+                return {};
+            else if constexpr (std::is_same_v<Lengths, ik::FourBar>)
+                return shape_of(ik::four_bar(lengths));
+            else if constexpr (std::is_same_v<Lengths, ik::SliderCrank>)
+                return shape_of(ik::slider_crank(lengths));
+            else if constexpr (std::is_same_v<Lengths, ik::Peaucellier>)
+                return shape_of(ik::peaucellier(lengths));
+            else if constexpr (std::is_same_v<Lengths, ik::Pantograph>)
+                return shape_of(ik::pantograph(lengths));
+            else if constexpr (std::is_same_v<Lengths, ik::ScissorLift>)
+                return shape_of(ik::scissor_lift(lengths));
+            else if constexpr (std::is_same_v<Lengths, ik::Jansen>)
+                return shape_of(ik::jansen(lengths));
+            else if constexpr (std::is_same_v<Lengths, ik::Delta>)
+                return {.linkage = require_value(ik::delta(lengths))};
+            else
+                return {.linkage = require_value(ik::stewart(lengths))};
+        },
+        mechanism);
+    shape.mechanism = mechanism;
+    return shape;
+}
+
+void take_shape(LinkagePart& part, LinkageShape shape, LinkageRuntime& runtime) {
+    part.shape = std::make_shared<const LinkageShape>(std::move(shape));
+    part.state = runtime.solver(part.shape).initial_state();
+    std::vector<LinkageDrive> drives;
+    for (const std::string& joint : driven_joints(*part.shape)) {
+        const LinkageDrive* const before = part.find_drive(joint);
+        LinkageDrive& drive = drives.emplace_back(before != nullptr ? *before : LinkageDrive{.joint = joint});
+        drive.value = part.state.joints[part.linkage().find_link(joint)].value;
+    }
+    part.drives = std::move(drives);
+    const auto gone = [&](const std::string& point) {
+        return part.linkage().find_point(point) == ik::ground_link;
+    };
+    std::erase_if(part.targets, [&](const LinkageTarget& each) { return gone(each.point); });
+    if (gone(part.selected)) part.selected.clear();
+    part.drag.reset();
+    solve_linkage(part, runtime);
+}
+
+ik::LinkageSketch present_sketch(const LinkagePart& part) {
+    if (!part.shape->in_plane()) throw Refused("only linkages in a plane can be drawn by hand");
+    ik::LinkageSketch sketch = part.shape->sketch;
+    for (std::size_t i = 0; i < sketch.points.size(); ++i) sketch.points[i].at = glm::dvec2(part.at(i));
+    return sketch;
+}
+
+LinkagePart first_linkage() {
+    LinkagePart part;
+    LinkageRuntime runtime;
+    open_mechanism(part, ik::FourBar{}, runtime);
+    return part;
+}
+
+void open_mechanism(LinkagePart& part, const Mechanism& mechanism, LinkageRuntime& runtime) {
+    const LinkageTool tool = part.tool;
+    LinkageShape shape = shape_of(mechanism);
+    part = {};
+    part.tool = tool;
+    const MechanismKind* const kind = kind_of(mechanism);
+    part.selected = kind != nullptr ? kind->traced : "";
+    take_shape(part, std::move(shape), runtime);
+}
+
+}  // namespace tendril::app
