@@ -1,7 +1,7 @@
 // Linkages: rigid links joined by hinges, sliders and balls into closed loops. A four-bar, a walking leg, a
 // Stewart platform.
 //
-//     const Linkage linkage = *linkage_from(four_bar({.ground = 3, .crank = 1, .coupler = 2.5, .rocker = 2}));
+//     const Linkage linkage = *linkage_from(*four_bar({.ground = 3, .crank = 1, .coupler = 2.5}));
 //     LinkageSolver solver = *LinkageSolver::make(linkage);
 //     LinkageState state = solver.initial_state();
 //     const LinkDriver crank{linkage.find_link("crank"), angle};
@@ -116,6 +116,9 @@ inline constexpr std::size_t max_links = 512;
 struct JointPlace {
     double value = 0.0;
     glm::dquat turn{1.0, 0.0, 0.0, 0.0};
+    /// How far a driver last moved the value. A linkage goes on like that through poses in which its motion is
+    /// ambiguous: a parallelogram folded onto one line.
+    double last = 0.0;
     bool operator==(const JointPlace&) const = default;
 };
 /// All that a linkage remembers from frame to frame. One JointPlace for each link.
@@ -172,8 +175,8 @@ struct LinkageReport {
 };
 
 struct LinkageOptions {
-    int max_iterations = 200;  ///< 1 to 1 000 000
-    /// Metres; by default 1e-9 of the size. Targets count as reached at 1e-6 of the size.
+    int max_iterations = 1000;  ///< 1 to 1 000 000
+    /// Metres; by default 1e-10 of the size. Targets count as reached at 1e-6 of the size.
     std::optional<double> tolerance{};
     /// Links whose joints would drive the linkage: while targets move it, a passage through a dead point of
     /// these is reported.

@@ -1,6 +1,6 @@
 // Well-known linkages from named lengths, in metres. Planar ones as sketches (linkage_from makes linkages of
-// them), for tests, benchmarks and presets alike. Each is drawn closed where its lengths allow that, and as
-// near as circles come otherwise; linkage_from or LinkageSolver say what is wrong with lengths.
+// them), for tests, benchmarks and presets alike. Each is drawn closed, with its driver at 0 if it can be there.
+// Lengths that close in no pose are refused, as are those of no length, by name.
 #pragma once
 
 #include <array>
@@ -19,27 +19,27 @@ struct FourBar {
     double ground = 3.0, crank = 1.0, coupler = 2.5, rocker = 2.0;
     glm::dvec2 coupler_point{1.25, 0.8};
 };
-LinkageSketch four_bar(const FourBar& lengths = {});
+Expected<LinkageSketch> four_bar(const FourBar& lengths = {});
 
 /// Crank at the origin with its end B; the slider S moves along the line y = offset, on the side of +X.
 struct SliderCrank {
     double crank = 1.0, rod = 3.0, offset = 0.0;
 };
-LinkageSketch slider_crank(const SliderCrank& lengths = {});
+Expected<LinkageSketch> slider_crank(const SliderCrank& lengths = {});
 
 /// A. Peaucellier, 1864: P moves on a straight line, x = (long_bar^2 - short_bar^2) / (2 crank). O at the
 /// origin, Q at {crank, 0}; A and B at the ends of the long bars, C on the circle about Q. Driver `crank`.
 struct Peaucellier {
     double long_bar = 3.0, short_bar = 1.2, crank = 1.0;
 };
-LinkageSketch peaucellier(const Peaucellier& lengths = {});
+Expected<LinkageSketch> peaucellier(const Peaucellier& lengths = {});
 
 /// O is fixed; P is O's image of T, `scale` times as far. Two degrees of freedom, no driver.
 struct Pantograph {
     double arm = 1.0;  ///< from O to the elbow A, and from the elbow to P
     double scale = 2.0;
 };
-LinkageSketch pantograph(const Pantograph& lengths = {});
+Expected<LinkageSketch> pantograph(const Pantograph& lengths = {});
 
 /// `stages` crosses of two bars each: L0 is fixed, R0 slides along +X from it, the top points are L<stages>
 /// and R<stages>. Driver `lift`, the angle of the first bar from +X.
@@ -48,7 +48,7 @@ struct ScissorLift {
     double bar = 1.0;
     double angle = 0.6;  ///< as drawn, radians, over 0 to pi / 2
 };
-LinkageSketch scissor_lift(const ScissorLift& lengths = {});
+Expected<LinkageSketch> scissor_lift(const ScissorLift& lengths = {});
 
 /// T. Jansen's leg, with his names for the lengths. The motor's axis is the origin, the other pivot at {-a, -l}.
 /// Points crank, upper, lower, back, knee, foot; driver `motor`.
@@ -56,7 +56,7 @@ struct Jansen {
     double a = 38.0, b = 41.5, c = 39.3, d = 40.1, e = 55.8, f = 39.4, g = 36.7, h = 65.7, i = 49.0, j = 50.0,
            k = 61.9, l = 7.8, m = 15.0;
 };
-LinkageSketch jansen(const Jansen& lengths = {});
+Expected<LinkageSketch> jansen(const Jansen& lengths = {});
 
 /// R. Clavel's delta robot, 1988: base in z = 0, the platform hangs along -Z; arm i turns in the vertical plane
 /// at 120 i degrees about Z. Forearms are pairs of parallel bars, `width` apart, which keep the platform level.

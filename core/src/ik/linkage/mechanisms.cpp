@@ -2,12 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <string>
 
 #include "ik/math.hpp"
+#include "math/checks.hpp"
 #include "math/elementary.hpp"
 
 namespace tendril::ik {
+
+using tendril::detail::refused;
+
 namespace {
 
 using Point2 = glm::dvec2;
@@ -28,14 +33,65 @@ Point2 crossing_left(const Point2& a, double from_a, const Point2& b, double fro
 
 constexpr SketchHold pinned = SketchHold::Pinned;
 
+/// A named length, and whether it may be 0 or negative.
+struct Named {
+    const char* name;
+    double value;
+    double minimum = 1e-9;
+};
+Result check_lengths(const char* mechanism, std::initializer_list<Named> lengths) noexcept {
+    for (const auto& [name, value, minimum] : lengths)
+        if (!(value >= minimum && value <= static_cast<double>(max_magnitude)))
+            return refused(mechanism, name,
+                           minimum > 0.0 ? "a length over 0, at most 1e9 m" : "a number of magnitude at most 1e9",
+                           value);
+    return {};
+}
+constexpr double any_number = -static_cast<double>(max_magnitude);
+
+double apart_by(const Point2& a, const Point2& b) noexcept {
+    return std::sqrt((b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y));
+}
+/// Whether bars of the lengths `a` and `b` can join two points `apart`, within rounding.
+bool joins_over(double apart, double a, double b) noexcept {
+    const double slack = 1e-12 * (a + b + apart);
+    return apart <= a + b + slack && apart >= std::abs(a - b) - slack;
+}
+
 }  // namespace
 
-LinkageSketch four_bar(const FourBar& lengths) {
-    const Point2 b{lengths.crank, 0.0}, d{lengths.ground, 0.0};
-    // The side of the line from B to D on which C is, is that of the coupler's open loop.
-    const Point2 c = crossing_left(b, lengths.coupler, d, lengths.rocker);
-    const double x = (c.x - b.x) / lengths.coupler, y = (c.y - b.y) / lengths.coupler;
-    const Point2& p = lengths.coupler_point;
+Expected<LinkageSketch> four_bar(const FourBar& lengths) {
+    const auto& [ground, crank, coupler, rocker, coupler_point] = lengths;
+    if (const Result bad = check_lengths("four_bar", {{"ground", ground},
+                                                      {"crank", crank},
+                                                      {"coupler", coupler},
+                                                      {"rocker", rocker},
+                                                      {"coupler_point.x", coupler_point.x, any_number},
+                                                      {"coupler_point.y", coupler_point.y, any_number}});
+        !bad)
+        return bad;
+    // B to D: what the crank can make it, and what coupler and rocker can. Where the crank cannot be at 0, it is
+    // drawn in the middle of its range.
+    const double low = std::max(std::abs(ground - crank), std::abs(coupler - rocker)),
+                 high = std::min(ground + crank, coupler + rocker);
+    if (!(low <= high)) {
+        const double longest = std::max({ground, crank, coupler, rocker});
+        const char* name = longest == ground  ? "ground"
+                           : longest == crank ? "crank"
+                           : longest == coupler ? "coupler"
+                                                : "rocker";
+        return refused("four_bar", name, "at most the other three together", longest);
+    }
+    double angle = 0.0;
+    if (!joins_over(std::abs(ground - crank), coupler, rocker)) {
+        const double apart = 0.5 * (low + high);
+        const double cosine = (ground * ground + crank * crank - apart * apart) / (2.0 * ground * crank);
+        angle = math::arctangent(std::sqrt(std::max(1.0 - cosine * cosine, 0.0)), cosine);
+    }
+    const Point2 b = point_at_angle(crank, angle), d{ground, 0.0};
+    const Point2 c = crossing_left(b, coupler, d, rocker);
+    const double x = (c.x - b.x) / coupler, y = (c.y - b.y) / coupler;
+    const Point2& p = coupler_point;
     LinkageSketch sketch;
     sketch.points = {{"A", {0.0, 0.0}, pinned},
                      {"B", b},
@@ -47,18 +103,36 @@ LinkageSketch four_bar(const FourBar& lengths) {
     return sketch;
 }
 
-LinkageSketch slider_crank(const SliderCrank& lengths) {
-    const double reach = lengths.rod * lengths.rod - lengths.offset * lengths.offset;
+Expected<LinkageSketch> slider_crank(const SliderCrank& lengths) {
+    const auto& [crank, rod, offset] = lengths;
+    if (const Result bad = check_lengths(
+            "slider_crank", {{"crank", crank}, {"rod", rod}, {"offset", offset, any_number}});
+        !bad)
+        return bad;
+    if (!(std::abs(offset) <= crank + rod))
+        return refused("slider_crank", "offset", "at most crank and rod together", offset);
+    // Where the rod does not reach down from 0, the crank is turned towards the slider's line.
+    const double lift = std::abs(offset) <= rod ? 0.0 : offset - std::copysign(0.5 * (rod + std::abs(offset) - crank), offset);
+    const Point2 b{std::sqrt(std::max(crank * crank - lift * lift, 0.0)), lift};
+    const double reach = rod * rod - (offset - lift) * (offset - lift);
     LinkageSketch sketch;
     sketch.points = {{"A", {0.0, 0.0}, pinned},
-                     {"B", {lengths.crank, 0.0}},
-                     {"S", {lengths.crank + std::sqrt(std::max(reach, 0.0)), lengths.offset}, SketchHold::Guided}};
+                     {"B", b},
+                     {"S", {b.x + std::sqrt(std::max(reach, 0.0)), offset}, SketchHold::Guided}};
     sketch.bars = {{"crank", {0, 1}}, {"rod", {1, 2}}};
     sketch.motors = {{"crank", 0, 0}};
     return sketch;
 }
 
-LinkageSketch peaucellier(const Peaucellier& lengths) {
+Expected<LinkageSketch> peaucellier(const Peaucellier& lengths) {
+    if (const Result bad = check_lengths("peaucellier", {{"long_bar", lengths.long_bar},
+                                                         {"short_bar", lengths.short_bar},
+                                                         {"crank", lengths.crank}});
+        !bad)
+        return bad;
+    if (!joins_over(2.0 * lengths.crank, lengths.long_bar, lengths.short_bar))
+        return refused("peaucellier", "crank", "such that long and short bars join O and C, 2 crank apart",
+                       lengths.crank);
     // Drawn with C on +X, where O, C and P are on one line.
     const Point2 o{0.0, 0.0}, c{2.0 * lengths.crank, 0.0};
     const Point2 a = crossing_left(o, lengths.long_bar, c, lengths.short_bar), b{a.x, -a.y};
@@ -71,8 +145,11 @@ LinkageSketch peaucellier(const Peaucellier& lengths) {
     return sketch;
 }
 
-LinkageSketch pantograph(const Pantograph& lengths) {
+Expected<LinkageSketch> pantograph(const Pantograph& lengths) {
     // D on OA and E on AP; D-A-E-T is a parallelogram, so that T stays on OP.
+    if (const Result bad = check_lengths("pantograph", {{"arm", lengths.arm}, {"scale", lengths.scale}}); !bad)
+        return bad;
+    if (!(lengths.scale > 1.0)) return refused("pantograph", "scale", "over 1", lengths.scale);
     const double part = 1.0 / lengths.scale;
     const Point2 a = point_at_angle(lengths.arm, math::pi / 3.0), p{lengths.arm, 0.0};
     LinkageSketch sketch;
@@ -86,8 +163,12 @@ LinkageSketch pantograph(const Pantograph& lengths) {
     return sketch;
 }
 
-LinkageSketch scissor_lift(const ScissorLift& lengths) {
-    const std::size_t stages = std::clamp<std::size_t>(lengths.stages, 1, 32);
+Expected<LinkageSketch> scissor_lift(const ScissorLift& lengths) {
+    const std::size_t stages = lengths.stages;
+    if (!(stages >= 1 && stages <= 32)) return refused("scissor_lift", "stages", "1 to 32", stages);
+    if (const Result bad = check_lengths("scissor_lift", {{"bar", lengths.bar}}); !bad) return bad;
+    if (!(lengths.angle > 1e-6 && lengths.angle < 0.5 * math::pi - 1e-6))
+        return refused("scissor_lift", "angle", "over 0 and under a right angle", lengths.angle);
     const Point2 across = point_at_angle(lengths.bar, lengths.angle);
     LinkageSketch sketch;
     sketch.points = {{"L0", {0.0, 0.0}, pinned}, {"R0", {across.x, 0.0}, SketchHold::Guided}};
@@ -107,12 +188,28 @@ LinkageSketch scissor_lift(const ScissorLift& lengths) {
     return sketch;
 }
 
-LinkageSketch jansen(const Jansen& lengths) {
+Expected<LinkageSketch> jansen(const Jansen& lengths) {
     const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m] = lengths;
+    if (const Result bad = check_lengths("jansen", {{"a", a, any_number}, {"b", b}, {"c", c}, {"d", d}, {"e", e},
+                                                    {"f", f}, {"g", g}, {"h", h}, {"i", i}, {"j", j}, {"k", k},
+                                                    {"l", l, any_number}, {"m", m}});
+        !bad)
+        return bad;
     const Point2 crank{m, 0.0}, pivot{-a, -l};
     const Point2 upper = crossing_left(pivot, b, crank, j), lower = crossing_left(crank, k, pivot, c);
     const Point2 back = crossing_left(pivot, d, upper, e), knee = crossing_left(lower, g, back, f);
     const Point2 foot = crossing_left(lower, i, knee, h);
+    const struct {
+        const char* names;
+        double apart, one, other;
+    } triangles[] = {{"j", apart_by(pivot, crank), b, j},
+                     {"k", apart_by(pivot, crank), k, c},
+                     {"e", b, d, e},
+                     {"g", apart_by(lower, back), g, f},
+                     {"h", g, i, h}};
+    for (const auto& each : triangles)
+        if (!joins_over(each.apart, each.one, each.other))
+            return refused("jansen", each.names, "such that its triangle closes with the crank at 0", each.other);
     LinkageSketch sketch;
     sketch.points = {{"axis", {0.0, 0.0}, pinned}, {"pivot", pivot, pinned}, {"crank", crank}, {"upper", upper},
                      {"lower", lower},             {"back", back},           {"knee", knee},   {"foot", foot}};
@@ -151,11 +248,21 @@ glm::dvec3 in_base(const Point2& flat, double z) noexcept {
 }  // namespace
 
 Expected<Linkage> delta(const Delta& lengths) {
+    const auto& [base_radius, platform_radius, upper_arm, forearm, width] = lengths;
+    if (const Result bad = check_lengths("delta", {{"base_radius", base_radius, 0.0},
+                                                   {"platform_radius", platform_radius, 0.0},
+                                                   {"upper_arm", upper_arm},
+                                                   {"forearm", forearm},
+                                                   {"width", width}});
+        !bad)
+        return bad;
     // As drawn, the arms point 30 degrees down.
     constexpr double down = math::pi / 6.0;
-    const double elbow_radius = lengths.base_radius + lengths.upper_arm * std::sqrt(0.75);
-    const double aside = elbow_radius - lengths.platform_radius, elbow_z = -0.5 * lengths.upper_arm;
-    const double wrist_z = elbow_z - std::sqrt(std::max(lengths.forearm * lengths.forearm - aside * aside, 0.0));
+    const double elbow_radius = base_radius + upper_arm * std::sqrt(0.75);
+    const double aside = elbow_radius - platform_radius, elbow_z = -0.5 * upper_arm;
+    if (!(std::abs(aside) <= 0.999 * forearm))
+        return refused("delta", "forearm", "long enough to join elbow and platform 30 degrees down", forearm);
+    const double wrist_z = elbow_z - std::sqrt(forearm * forearm - aside * aside);
     Linkage linkage;
     std::size_t platform = ground_link;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -215,6 +322,15 @@ StewartEnds ends_of_leg(const Stewart& lengths, std::size_t leg) noexcept {
 }  // namespace
 
 Expected<Linkage> stewart(const Stewart& lengths) {
+    if (const Result bad = check_lengths("stewart", {{"base_radius", lengths.base_radius},
+                                                     {"platform_radius", lengths.platform_radius},
+                                                     {"height", lengths.height},
+                                                     {"base_spread", lengths.base_spread, any_number},
+                                                     {"platform_spread", lengths.platform_spread, any_number},
+                                                     {"minimum", lengths.minimum, 0.0},
+                                                     {"maximum", lengths.maximum}});
+        !bad)
+        return bad;
     Linkage linkage;
     std::size_t platform = ground_link;
     const glm::dvec3 centre{0.0, 0.0, lengths.height};
@@ -227,8 +343,11 @@ Expected<Linkage> stewart(const Stewart& lengths) {
         const bool upright = !(detail::length(level) > 1e-9);
         const std::size_t rod = add_universal(linkage, "swivel_" + number, ground_link, ends.base,
                                               upright ? glm::dvec3(1.0, 0.0, 0.0) : level, along);
+        const double drawn = detail::length(along);
+        if (!(lengths.minimum <= drawn && drawn <= lengths.maximum))
+            return refused("stewart", "height", "such that legs are from minimum to maximum", lengths.height);
         const std::size_t leg = linkage.links.size();
-        linkage.links.push_back({name, rod, LinkJoint::Slider, ends.base, along, detail::length(along),
+        linkage.links.push_back({name, rod, LinkJoint::Slider, ends.base, along, drawn,
                                  lengths.minimum, lengths.maximum});
         join_platform(linkage, platform, leg, name, top);
         linkage.points.push_back({"base_" + number, ground_link, ends.base});

@@ -10,11 +10,17 @@ namespace {
 
 // In radians, or sizes of the linkage.
 constexpr double widest_step = 0.5;     ///< of a joint in one step, radians: the tangent says little beyond
-constexpr double finest_substep = 1e-9;  ///< where a driver counts as stopped
+/// Where a driver counts as stopped. A joint near a dead point is off it by the root of this; the closures'
+/// tolerance must be far finer, so as not to lose the side.
+constexpr double finest_substep = 1e-7;
 constexpr double bound_width = 1e-9;     ///< a joint so near to the end of its range is at it
 constexpr double shortest_step = 1e-10;  ///< of a descent: it has ended
 constexpr double reached = 1e-6;         ///< of the size: a target's tolerance
 
+/// As a multiple of whole turns, radians.
+double whole_turns(double radians) noexcept {
+    return 2.0 * math::pi * std::round(radians / (2.0 * math::pi));
+}
 double norm_of(std::span<const double> step) noexcept {
     double sum = 0.0;
     for (const double each : step) sum += each * each;
@@ -32,7 +38,7 @@ LinkageSolve::LinkageSolve(LinkageWork& work, const LinkageGoals& goals, const L
     : work_(work),
       goals_(goals),
       options_(options),
-      tolerance_(options.tolerance.value_or(1e-9 * work.size)) {
+      tolerance_(options.tolerance.value_or(1e-10 * work.size)) {
     std::ranges::fill(work_.driven, std::uint8_t{0});
     std::ranges::fill(work_.held, std::uint8_t{0});
     work_.active.clear();
@@ -73,7 +79,7 @@ void LinkageSolve::take_row(std::span<double> row, double error) noexcept {
 void LinkageSolve::find_return() noexcept {
     work_.basis.clear();
     for (std::size_t i = 0; i < work_.joints.size(); ++i) {
-        if (work_.linkage.links[i].joint != LinkJoint::Ball || !work_.held[work_.column[i]]) continue;
+        if (!work_.blocked[i]) continue;
         // A ball at its maximum turns no further outward: its columns stay free, but for this direction.
         const std::span<double> row = work_.row(0);
         std::ranges::fill(row, 0.0);
@@ -98,7 +104,7 @@ void LinkageSolve::find_return() noexcept {
 
 void LinkageSolve::clear_step() noexcept {
     for (std::size_t i = 0; i < work_.columns; ++i)
-        if (!work_.is_held(i)) work_.step[i] = 0.0;
+        if (!work_.held[i]) work_.step[i] = 0.0;
 }
 
 bool LinkageSolve::at_bound(std::size_t link, double by) const noexcept {
@@ -114,8 +120,8 @@ bool LinkageSolve::hold_overstepped() noexcept {
         if (!work_.ranged(i) || work_.held[col]) continue;
         const Link& link = work_.linkage.links[i];
         if (link.joint == LinkJoint::Ball) {
-            if (!work_.presses_outward(i)) continue;
-            work_.held[col] = 1;
+            if (work_.blocked[i] || !work_.presses_outward(i)) continue;
+            work_.blocked[i] = 1;
             changed = true;
             continue;
         }
@@ -130,7 +136,7 @@ bool LinkageSolve::hold_overstepped() noexcept {
 
 bool LinkageSolve::return_to_closures(double allowed) noexcept {
     constexpr int enough = 12;
-    work_.held = work_.driven;
+    work_.release();
     std::ranges::fill(work_.moved, 0.0);
     for (int i = 0;; ++i) {
         if (closed()) return true;
@@ -178,19 +184,37 @@ double LinkageSolve::driver_distance(const LinkDriver& driver) const noexcept {
     return (to - work_.driver_starts[driver.link]) / work_.unit_of(driver.link);
 }
 
-/// One substep, between two parts of the way.
-bool LinkageSolve::glide_by(double from, double to) noexcept {
+/// As the joints last moved; false if that was not along what the drivers want.
+bool LinkageSolve::repeat_last_move(double part) noexcept {
+    double along = 0.0, square = 0.0;
+    for (const LinkDriver& each : goals_.drivers) {
+        const double last = work_.joints[each.link].last / work_.unit_of(each.link);
+        along += part * driver_distance(each) * last;
+        square += last * last;
+    }
+    if (!(square > 0.0)) return false;
+    for (std::size_t i = 0; i < work_.joints.size(); ++i)
+        if (work_.linkage.links[i].joint != LinkJoint::Ball)
+            work_.step[work_.column[i]] = along / square * work_.joints[i].last / work_.unit_of(i);
+    return true;
+}
+
+/// One substep, between two parts of the way. Along the tangent, or where there is none, as before.
+bool LinkageSolve::glide_by(double from, double to, bool as_before) noexcept {
     work_.kept = work_.joints;
-    work_.held = work_.driven;
+    work_.release();
     std::ranges::fill(work_.step, 0.0);
-    for (const LinkDriver& each : goals_.drivers)
-        work_.step[work_.column[each.link]] = (to - from) * driver_distance(each);
-    // The tangent.
-    do {
-        clear_step();
-        find_return();
-    } while (hold_overstepped());
     ++iterations_;
+    if (as_before) {
+        if (!repeat_last_move(to - from)) return false;
+    } else {
+        for (const LinkDriver& each : goals_.drivers)
+            work_.step[work_.column[each.link]] = (to - from) * driver_distance(each);
+        do {
+            clear_step();
+            find_return();
+        } while (hold_overstepped());
+    }
     const double predicted = norm_of(work_.step);
     const bool wide = !(largest_of(work_.step) <= widest_step);
     if (!wide) {
@@ -200,7 +224,11 @@ bool LinkageSolve::glide_by(double from, double to) noexcept {
                 work_.driver_starts[each.link] + to * driver_distance(each) * work_.unit_of(each.link);
         work_.move_links();
         // It ends where the tangent led, and not on another branch.
-        if (return_to_closures(0.5 * predicted)) return true;
+        if (return_to_closures(0.5 * predicted)) {
+            for (std::size_t i = 0; i < work_.joints.size(); ++i)
+                work_.joints[i].last = work_.joints[i].value - work_.kept[i].value;
+            return true;
+        }
     }
     note_active();
     put_back();
@@ -223,7 +251,7 @@ void LinkageSolve::glide() noexcept {
             return;
         }
         const double to = by >= 1.0 - at ? 1.0 : at + by;
-        if (glide_by(at, to)) {
+        if (glide_by(at, to, false) || glide_by(at, to, true)) {
             at = to;
             by = std::min(2.0 * by, 0.9 * widest_step / longest);
             work_.active.clear();
@@ -246,7 +274,7 @@ double LinkageSolve::target_weight(const LinkTarget& target) const noexcept {
 
 void LinkageSolve::add_equation(std::span<double> row, double error, double weight) noexcept {
     for (std::size_t i = 0; i < row.size(); ++i)
-        if (work_.is_held(i)) row[i] = 0.0;
+        if (work_.held[i]) row[i] = 0.0;
     work_.basis.remove_from(row);
     const std::size_t count = work_.columns;
     for (std::size_t i = 0; i < count; ++i) {
@@ -330,7 +358,7 @@ void LinkageSolve::solve_equations(double damping) noexcept {
 
 /// Takes one damped step and returns to the closures. False if that gains nothing; the pose is then as it was.
 bool LinkageSolve::descent_step(double damping) noexcept {
-    work_.held = work_.driven;
+    work_.release();
     std::ranges::fill(work_.step, 0.0);
     for (bool again = true; again;) {
         clear_step();
@@ -341,11 +369,11 @@ bool LinkageSolve::descent_step(double damping) noexcept {
         again = false;
         for (std::size_t i = 0; i < work_.joints.size(); ++i) {
             const std::size_t col = work_.column[i];
-            if (!work_.ranged(i) || work_.held[col]) continue;
+            if (!work_.ranged(i) || work_.held[col] || work_.blocked[i]) continue;
             const bool ball = work_.linkage.links[i].joint == LinkJoint::Ball;
             const double by = work_.step[col];
             if (ball ? !work_.presses_outward(i) : (by == 0.0 || !at_bound(i, by))) continue;
-            work_.held[col] = 1;
+            (ball ? work_.blocked[i] : work_.held[col]) = 1;
             if (!ball) work_.step[col] = 0.0;
             again = true;
         }
@@ -404,7 +432,8 @@ void LinkageSolve::descend(Aim aim) noexcept {
 void LinkageSolve::note_active() noexcept {
     work_.active.clear();
     for (std::size_t i = 0; i < work_.joints.size(); ++i)
-        if (work_.held[work_.column[i]] && !work_.driven[work_.column[i]]) work_.active.push_back(i);
+        if (work_.blocked[i] || (work_.held[work_.column[i]] && !work_.driven[work_.column[i]]))
+            work_.active.push_back(i);
 }
 
 std::size_t LinkageSolve::closure_rank() noexcept {
@@ -415,7 +444,7 @@ std::size_t LinkageSolve::closure_rank() noexcept {
 }
 
 int LinkageSolve::mode() noexcept {
-    work_.held = work_.driven;
+    work_.release();
     const std::size_t rank = closure_rank();
     std::size_t free = 0;
     for (const std::uint8_t each : work_.held) free += each ? 0 : 1;
@@ -465,10 +494,12 @@ void LinkageSolve::finish(LinkageReport& report) noexcept {
                     : stopped_ || beyond_range_ ? (work_.active.empty() ? DeadPoint : Limited)
                     : missed            ? (work_.active.empty() ? TargetMissed : Limited)
                                         : Reached;
-    work_.held = work_.driven;
-    for (const std::size_t each : work_.active) work_.held[work_.column[each]] = 1;
+    work_.release();
+    for (const std::size_t each : work_.active)
+        (work_.linkage.links[each].joint == LinkJoint::Ball ? work_.blocked[each]
+                                                            : work_.held[work_.column[each]]) = 1;
     std::size_t free = 0;
-    for (std::size_t i = 0; i < work_.columns; ++i) free += work_.is_held(i) ? 0 : 1;
+    for (std::size_t i = 0; i < work_.columns; ++i) free += work_.held[i] ? 0 : 1;
     report.freedom = static_cast<int>(free - closure_rank());
 }
 
@@ -511,6 +542,74 @@ LinkageReport LinkageSolve::run() noexcept {
     report.passed_dead_point = mode_before * watch() < 0;
     finish(report);
     return report;
+}
+
+// ------------------------------------------------------------------------------------ the other modes
+
+namespace {
+
+/// How far a pose is from another, whole turns aside.
+double distance_of_modes(const LinkageWork& work, const std::vector<JointPlace>& other) noexcept {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < other.size(); ++i) {
+        const JointPlace &a = work.joints[i], &b = other[i];
+        double by = (a.value - b.value) / work.unit_of(i);
+        if (work.linkage.links[i].joint == LinkJoint::Hinge) by -= whole_turns(by);
+        if (work.linkage.links[i].joint == LinkJoint::Ball)
+            by = 1.0 - std::abs(a.turn.w * b.turn.w + a.turn.x * b.turn.x + a.turn.y * b.turn.y +
+                                a.turn.z * b.turn.z);
+        sum += by * by;
+    }
+    return sum;
+}
+
+}  // namespace
+
+bool find_other_mode(LinkageWork& work, LinkageState& state, std::span<const LinkDriver> drivers) noexcept {
+    constexpr int starts = 48;
+    constexpr double same = 1e-6;
+    const LinkageGoals goals{drivers, {}};
+    const LinkageOptions options{.max_iterations = 100000};
+    const auto take = [&] {
+        work.joints = state.joints;
+        work.enter_ranges();
+        work.move_links();
+    };
+    take();
+    LinkageSolve from(work, goals, options);
+    from.hold_drivers();
+    const int mode = from.mode();
+    const std::vector<JointPlace> here = work.joints;
+    double nearest = 1e300;
+    std::uint64_t random = 1;
+    // SplitMix64 (Steele, Lea, Flood 2014); -1 to 1.
+    const auto next = [&] {
+        std::uint64_t z = (random += 0x9e3779b97f4a7c15u);
+        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+        z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+        return static_cast<double>(static_cast<std::int64_t>(z ^ (z >> 31)) >> 11) * 0x1p-52;
+    };
+    for (int start = 0; start < starts; ++start) {
+        work.joints = here;
+        work.move_links();
+        for (std::size_t i = 0; i < work.columns; ++i) work.step[i] = work.driven[i] ? 0.0 : math::pi * next();
+        work.take_step(1.0);
+        work.move_links();
+        LinkageSolve solve(work, goals, options);
+        solve.hold_drivers();
+        if (!solve.close_from_here()) continue;
+        const double far = distance_of_modes(work, here);
+        if (far < same || far >= nearest || (mode != 0 && solve.mode() == 0)) continue;
+        nearest = far;
+        for (std::size_t i = 0; i < here.size(); ++i) {
+            if (work.linkage.links[i].joint == LinkJoint::Hinge)
+                work.joints[i].value -= whole_turns(work.joints[i].value - here[i].value);
+            state.joints[i] = work.joints[i];
+        }
+    }
+    const bool found = nearest < 1e300;
+    take();
+    return found;
 }
 
 }  // namespace tendril::ik::detail

@@ -36,7 +36,8 @@ class LinkageSolve {
 
     void assemble() noexcept;
     void glide() noexcept;
-    bool glide_by(double from, double to) noexcept;
+    bool glide_by(double from, double to, bool as_before) noexcept;
+    bool repeat_last_move(double part) noexcept;
     double driver_distance(const LinkDriver& driver) const noexcept;
 
     void descend(Aim aim) noexcept;
@@ -61,5 +62,8 @@ class LinkageSolve {
     double heaviest_ = 0.0;     ///< of the weights of the aim's targets
     bool stopped_ = false, out_of_iterations_ = false, beyond_range_ = false;
 };
+
+/// Finds the nearest closed pose in another assembly mode, the drivers' joints where they are.
+bool find_other_mode(LinkageWork& work, LinkageState& state, std::span<const LinkDriver> drivers) noexcept;
 
 }  // namespace tendril::ik::detail

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "ik/linkage/solve.hpp"
+#include "tendril/magnitude.hpp"
 #include "math/elementary.hpp"
 
 namespace tendril::ik {
@@ -45,7 +46,7 @@ bool fits(const LinkageState& state, const detail::LinkageWork& work) noexcept {
     return state.joints.size() == work.linkage.links.size() &&
            std::ranges::all_of(state.joints, [](const JointPlace& each) {
                const glm::dquat& q = each.turn;
-               return std::abs(each.value) <= state_limit &&
+               return std::abs(each.value) <= state_limit && std::abs(each.last) <= 2.0 * state_limit &&
                       std::abs(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z - 1.0) <= 2e-3;
            });
 }

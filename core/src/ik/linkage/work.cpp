@@ -82,6 +82,33 @@ void RowBasis::remove_from(std::span<double> row) const noexcept {
     }
 }
 
+int RowBasis::orientation(std::span<const std::uint8_t> held, std::span<double> scratch) const noexcept {
+    std::size_t free = 0;
+    for (std::size_t col = 0; col < columns_; ++col) {
+        if (held[col]) continue;
+        for (std::size_t r = 0; r < count_; ++r) scratch[free * count_ + r] = rows_[r * columns_ + col];
+        ++free;
+    }
+    int sign = 1;
+    for (std::size_t k = 0; k < count_; ++k) {
+        std::size_t pivot = k;
+        for (std::size_t i = k + 1; i < count_; ++i)
+            if (std::abs(scratch[i * count_ + k]) > std::abs(scratch[pivot * count_ + k])) pivot = i;
+        if (scratch[pivot * count_ + k] == 0.0) return 0;
+        if (pivot != k) {
+            sign = -sign;
+            for (std::size_t j = k; j < count_; ++j)
+                std::swap(scratch[pivot * count_ + j], scratch[k * count_ + j]);
+        }
+        if (scratch[k * count_ + k] < 0.0) sign = -sign;
+        for (std::size_t i = k + 1; i < count_; ++i) {
+            const double by = scratch[i * count_ + k] / scratch[k * count_ + k];
+            for (std::size_t j = k + 1; j < count_; ++j) scratch[i * count_ + j] -= by * scratch[k * count_ + j];
+        }
+    }
+    return sign;
+}
+
 LinkageWork::LinkageWork(const Linkage& from) : linkage(from) {
     const std::size_t count = linkage.links.size();
     column.resize(count);
@@ -103,7 +130,6 @@ LinkageWork::LinkageWork(const Linkage& from) : linkage(from) {
         const bool ball = link.joint == LinkJoint::Ball;
         column[i] = columns;
         columns += ball ? 3 : 1;
-        link_of.resize(columns, i);
         drawn_axes.push_back(ball ? glm::dvec3(0.0) : times(link.axis, 1.0 / length(link.axis)));
         joints[i].value = ball ? 0.0 : link.rest;
         extend(link.at);
@@ -125,6 +151,7 @@ LinkageWork::LinkageWork(const Linkage& from) : linkage(from) {
     size = std::max({extent.x, extent.y, extent.z, 1e-9});
     driven.resize(columns);
     held.resize(columns);
+    blocked.resize(count);
     step.resize(columns);
     block_rows.resize(6 * columns);
     moved.resize(columns);
@@ -172,14 +199,50 @@ void LinkageWork::move_links() noexcept {
     }
 }
 
+void LinkageWork::release() noexcept {
+    held = driven;
+    std::ranges::fill(blocked, std::uint8_t{0});
+}
+
+void LinkageWork::enter_ranges() noexcept {
+    for (std::size_t i = 0; i < joints.size(); ++i) {
+        const Link& link = linkage.links[i];
+        glm::dquat& turn = joints[i].turn;
+        if (link.joint != LinkJoint::Ball) {
+            joints[i].value = std::clamp(joints[i].value, link.minimum, link.maximum);
+            continue;
+        }
+        turn = unit_quaternion(turn.w, turn.x, turn.y, turn.z);
+        if (!ranged(i)) continue;
+        const glm::dvec3 whole = vector_of_turn(turn);
+        const double angle = length(whole);
+        if (angle > link.maximum) turn = turn_by_vector(times(whole, link.maximum / angle));
+    }
+}
+
+glm::dvec3 LinkageWork::outward_of(std::size_t link) const noexcept {
+    const glm::dvec3 whole = vector_of_turn(joints[link].turn);
+    const double angle = length(whole);
+    if (!(angle > 0.0)) return glm::dvec3(0.0);
+    const std::size_t parent = linkage.links[link].parent;
+    const glm::dvec3 axis = times(whole, 1.0 / angle);
+    return parent == ground_link ? axis : rotated(places[parent].rotation, axis);
+}
+
+bool LinkageWork::presses_outward(std::size_t link) const noexcept {
+    constexpr double bound_width = 1e-9;
+    if (length(vector_of_turn(joints[link].turn)) < linkage.links[link].maximum - bound_width) return false;
+    const double* by = step.data() + column[link];
+    return dot(outward_of(link), glm::dvec3(by[0], by[1], by[2])) > 0.0;
+}
+
 void LinkageWork::take_step(double part) noexcept {
     for (std::size_t i = 0; i < joints.size(); ++i) {
         const Link& link = linkage.links[i];
         const double* by = step.data() + column[i];
         JointPlace& joint = joints[i];
         if (link.joint != LinkJoint::Ball) {
-            if (*by == 0.0) continue;
-            joint.value = std::clamp(joint.value + part * *by * unit_of(i), link.minimum, link.maximum);
+            joint.value += part * *by * unit_of(i);
             continue;
         }
         const glm::dquat parent =
@@ -187,12 +250,9 @@ void LinkageWork::take_step(double part) noexcept {
         const glm::dvec3 vector =
             rotated(conjugate(parent), times(glm::dvec3(by[0], by[1], by[2]), part));
         const glm::dquat turn = compose(turn_by_vector(vector), joint.turn);
-        joint.turn = unit_quaternion(turn.w, turn.x, turn.y, turn.z);
-        if (!ranged(i)) continue;
-        const glm::dvec3 whole = vector_of_turn(joint.turn);
-        const double angle = length(whole);
-        if (angle > link.maximum) joint.turn = turn_by_vector(times(whole, link.maximum / angle));
+        joint.turn = turn;
     }
+    enter_ranges();
 }
 
 void LinkageWork::add_point(std::size_t link, const glm::dvec3& at, double sign) noexcept {
@@ -249,12 +309,30 @@ LinkageWork::Block LinkageWork::closure_block(std::size_t index) noexcept {
 
 LinkageWork::Block LinkageWork::target_block(const LinkTarget& target) noexcept {
     const LinkPoint& point = linkage.points[target.point];
-    const glm::dvec3 at = point_of(point.link, point.at);
-    glm::dvec3 gap = minus(target.to, at);
-    if (planar) gap = across(gap, normal);
+    const glm::dvec3 at = point_of(point.link, point.at), gap = target_gap(target);
     std::fill_n(block_rows.begin(), 3 * columns, 0.0);
     add_point(point.link, at, 1.0);
     return {3, {gap.x, gap.y, gap.z}};
+}
+
+glm::dvec3 LinkageWork::target_gap(const LinkTarget& target) const noexcept {
+    const LinkPoint& point = linkage.points[target.point];
+    const glm::dvec3 gap = minus(target.to, point_of(point.link, point.at));
+    return planar ? across(gap, normal) : gap;
+}
+
+double LinkageWork::driver_error(const LinkDriver& driver) const noexcept {
+    const Link& link = linkage.links[driver.link];
+    return (std::clamp(driver.value, link.minimum, link.maximum) - joints[driver.link].value) /
+           unit_of(driver.link);
+}
+
+double LinkageWork::squared_gap(const Closure& closure) const noexcept {
+    const glm::dvec3 gap =
+        minus(point_of(closure.second, closure.second_at), point_of(closure.first, closure.first_at));
+    if (closure.kind == ClosureKind::Point) return dot(gap, gap);
+    const glm::dvec3 turn = turn_between(closure);
+    return dot(gap, gap) + dot(turn, turn);
 }
 
 double LinkageWork::gap_of(const Closure& closure) const noexcept {

@@ -29,6 +29,9 @@ class RowBasis {
     double add(std::span<double> row) noexcept;
     /// Removes what the rows span.
     void remove_from(std::span<double> row) const noexcept;
+    /// The sign of the determinant of the rows' columns that are not `held`, as many as there are rows.
+    /// `scratch`: columns * columns.
+    int orientation(std::span<const std::uint8_t> held, std::span<double> scratch) const noexcept;
 
   private:
     struct Window {
@@ -48,7 +51,6 @@ struct LinkageWork {
     Linkage linkage;
     std::vector<glm::dvec3> drawn_axes;  ///< unit
     std::vector<std::size_t> column;     ///< the first of each link
-    std::vector<std::size_t> link_of;    ///< of each column
     std::size_t columns = 0;
     double size = 0.0;
     bool planar = false;
@@ -67,12 +69,20 @@ struct LinkageWork {
     // Steps.
     std::vector<std::uint8_t> driven;  ///< columns that drivers hold
     std::vector<std::uint8_t> held;    ///< these, and columns at the end of their range
+    std::vector<std::uint8_t> blocked;  ///< balls at their maximum: they turn no further outward
     std::vector<double> step;
     std::vector<double> moved;         ///< the sum of the steps of a return to the closures
     std::vector<JointPlace> kept;      ///< where a step began, to go back
     /// Goes by `part` of the step, within the ranges.
     void take_step(double part) noexcept;
-    double value_of(std::size_t col) const noexcept { return joints[link_of[col]].value; }
+    /// Only the drivers' columns are held.
+    void release() noexcept;
+    /// Brings the joints into their ranges, and balls to unit rotations.
+    void enter_ranges() noexcept;
+    /// The axis about which a ball is turned, in the world; unit.
+    glm::dvec3 outward_of(std::size_t link) const noexcept;
+    /// A ball at its maximum, which the step would turn further.
+    bool presses_outward(std::size_t link) const noexcept;
     /// Of a hinge's or slider's value to its column.
     double unit_of(std::size_t link) const noexcept {
         return linkage.links[link].joint == LinkJoint::Slider ? size : 1.0;
@@ -91,6 +101,10 @@ struct LinkageWork {
     /// Metres; a frame's rotation counts by the size.
     double gap_of(const Closure& closure) const noexcept;
     double largest_gap() const noexcept;
+    double squared_gap(const Closure& closure) const noexcept;
+    glm::dvec3 target_gap(const LinkTarget& target) const noexcept;
+    /// How far it is from its value, or from the end of its range before that; in columns' units.
+    double driver_error(const LinkDriver& driver) const noexcept;
 
     RowBasis basis;
     std::vector<double> square, gradient;  ///< normal equations, of all columns; lower triangle
