@@ -67,8 +67,8 @@ void set_lengths(LinkagePart& part, const Arguments& given, LinkageRuntime& runt
     for (const auto& each : given.json().items())
         if (each.key() != "lengths") check_name(each.key());
     set_fields(given, mechanism_fields(mechanism));
-    if (save_fields(mechanism_fields(mechanism)) == save_fields(mechanism_fields(part.shape->mechanism)))
-        return;
+    const Mechanism& wanted = mechanism;
+    if (save_fields(mechanism_fields(wanted)) == save_fields(mechanism_fields(part.shape->mechanism))) return;
     take_shape(part, shape_of(mechanism), runtime);
 }
 
@@ -151,6 +151,7 @@ void reset(LinkagePart& part, const Arguments&, LinkageRuntime&) {
 
 void clear(LinkagePart& part, const Arguments&, LinkageRuntime& runtime) {
     open_mechanism(part, Mechanism{}, runtime);
+    part.tool = LinkageTool::Draw;
 }
 
 void select(LinkagePart& part, const Arguments& given, LinkageRuntime&) {

@@ -137,8 +137,11 @@ ik::LinkageState load_state(const JsonPlace& place, const ik::Linkage& linkage) 
         ik::JointPlace each;
         if (linkage.links[i].joint == ik::LinkJoint::Ball)
             each.turn = joint.drotation();
-        else
-            each.value = joint.real();
+        else {
+            joint.check_size(2, "numbers, the value and its last step");
+            each.value = joint.element(0).real();
+            each.last = joint.element(1).real();
+        }
         state.joints.push_back(each);
     }
     return state;
@@ -171,9 +174,11 @@ Json LinkagePart::save() const {
     else
         json["sketch"] = save_sketch(shape->sketch);
     Json joints = Json::array();
-    for (std::size_t i = 0; i < state.joints.size(); ++i)
-        joints.push_back(linkage().links[i].joint == ik::LinkJoint::Ball ? dquaternion(state.joints[i].turn)
-                                                                         : Json(state.joints[i].value));
+    for (std::size_t i = 0; i < state.joints.size(); ++i) {
+        const ik::JointPlace& each = state.joints[i];
+        const bool ball = linkage().links[i].joint == ik::LinkJoint::Ball;
+        joints.push_back(ball ? dquaternion(each.turn) : Json{each.value, each.last});
+    }
     json["joints"] = std::move(joints);
     json["drivers"] = Json::array();
     for (const LinkageDrive& each : drives)

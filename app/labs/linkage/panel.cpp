@@ -84,6 +84,8 @@ Verdict linkage_verdict(const LinkagePart& part) {
         case TargetMissed:
             return {"Out of reach: " + length_text(report.residual) + " short", Verdict::Kind::Bad,
                     "No pose brings the point to its target."};
+        case IterationLimit:
+            return {"Not solved yet", Verdict::Kind::Open, "The solver ran out of iterations."};
         case InvalidInput:
             return {"Too large", Verdict::Kind::Bad, "A number is beyond what can be solved."};
         case Reached:
@@ -159,7 +161,6 @@ void driver_rows(const Workspace& workspace, MoreRows&, Emit& emit) {
 void length_rows(const LinkagePart& part, MoreRows& more, Emit& emit) {
     const MechanismKind* const kind = kind_of(part.shape->mechanism);
     if (kind == nullptr) return note("Drawn by hand: select a joint, and set its bars beside it.");
-    const Mechanism usual = kind->blank();
     FieldRows(mechanism_fields(part.shape->mechanism), kind->texts, "linkage.set", emit).under(more).all();
 }
 

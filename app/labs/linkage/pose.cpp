@@ -103,30 +103,32 @@ LinkageShape shape_of(ik::LinkageSketch sketch) {
     return shape;
 }
 
+namespace {
+
+/// The library's maker of each mechanism.
+struct MakeShape {
+    static LinkageShape drawn(Expected<ik::LinkageSketch> sketch) {
+        return shape_of(require_value(std::move(sketch)));
+    }
+    static LinkageShape in_space(Expected<ik::Linkage> linkage) {
+        return {.linkage = require_value(std::move(linkage))};
+    }
+
+    LinkageShape operator()(const std::monostate&) const { return {}; }
+    LinkageShape operator()(const ik::FourBar& lengths) const { return drawn(ik::four_bar(lengths)); }
+    LinkageShape operator()(const ik::SliderCrank& lengths) const { return drawn(ik::slider_crank(lengths)); }
+    LinkageShape operator()(const ik::Peaucellier& lengths) const { return drawn(ik::peaucellier(lengths)); }
+    LinkageShape operator()(const ik::Pantograph& lengths) const { return drawn(ik::pantograph(lengths)); }
+    LinkageShape operator()(const ik::ScissorLift& lengths) const { return drawn(ik::scissor_lift(lengths)); }
+    LinkageShape operator()(const ik::Jansen& lengths) const { return drawn(ik::jansen(lengths)); }
+    LinkageShape operator()(const ik::Delta& lengths) const { return in_space(ik::delta(lengths)); }
+    LinkageShape operator()(const ik::Stewart& lengths) const { return in_space(ik::stewart(lengths)); }
+};
+
+}  // namespace
+
 LinkageShape shape_of(const Mechanism& mechanism) {
-    LinkageShape shape = std::visit(
-        [](const auto& lengths) -> LinkageShape {
-            using Lengths = std::decay_t<decltype(lengths)>;
-            if constexpr (std::is_same_v<Lengths, std::monostate>)
-                return {};
-            else if constexpr (std::is_same_v<Lengths, ik::FourBar>)
-                return shape_of(ik::four_bar(lengths));
-            else if constexpr (std::is_same_v<Lengths, ik::SliderCrank>)
-                return shape_of(ik::slider_crank(lengths));
-            else if constexpr (std::is_same_v<Lengths, ik::Peaucellier>)
-                return shape_of(ik::peaucellier(lengths));
-            else if constexpr (std::is_same_v<Lengths, ik::Pantograph>)
-                return shape_of(ik::pantograph(lengths));
-            else if constexpr (std::is_same_v<Lengths, ik::ScissorLift>)
-                return shape_of(ik::scissor_lift(lengths));
-            else if constexpr (std::is_same_v<Lengths, ik::Jansen>)
-                return shape_of(ik::jansen(lengths));
-            else if constexpr (std::is_same_v<Lengths, ik::Delta>)
-                return {.linkage = require_value(ik::delta(lengths))};
-            else
-                return {.linkage = require_value(ik::stewart(lengths))};
-        },
-        mechanism);
+    LinkageShape shape = std::visit(MakeShape{}, mechanism);
     shape.mechanism = mechanism;
     return shape;
 }
