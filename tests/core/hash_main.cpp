@@ -14,6 +14,7 @@ int main(int count, char** arguments) {
     const Session sessions[] = {{"chains", session_hash(), golden_session_hash},
                                 {"solves", solve_hash(), golden_solve_hash},
                                 {"curves", curve_hash(), golden_curve_hash},
+                                {"linkages", linkage_hash(), golden_linkage_hash},
                                 {"ropes", rope_hash(), golden_rope_hash},
                                 {"rigs", rig_hash(), golden_rig_hash},
                                 {"rig solves", rig_solve_hash(), golden_rig_solve_hash},

@@ -1,5 +1,6 @@
 #include "session.hpp"
 
+#include <utility>
 #include <vector>
 
 #include "fnv.hpp"
@@ -7,6 +8,7 @@
 #include "rope_named.hpp"
 #include "tendril/chain/chain.hpp"
 #include "tendril/ik/curve.hpp"
+#include "tendril/ik/mechanisms.hpp"
 #include "tendril/ik/solver.hpp"
 
 namespace tendril::test {
@@ -222,6 +224,41 @@ std::uint64_t curve_hash() {
             hash.add(static_cast<float>(report.bones_past_end));
             for (const glm::vec3& joint : joints) hash.add(joint);
             for (const glm::quat& each : state.rotations) hash.add({each.x, each.y, each.z});
+        }
+    }
+    return hash.value();
+}
+
+std::uint64_t linkage_hash() {
+    Random random(20261127);
+    Fnv hash;
+    const Expected<ik::Linkage> linkages[] = {ik::linkage_from(*ik::four_bar()),
+                                              ik::linkage_from(*ik::slider_crank({1.0, 2.5, 0.25})),
+                                              ik::linkage_from(*ik::jansen()),
+                                              ik::linkage_from(*ik::pantograph()),
+                                              ik::delta(),
+                                              ik::stewart()};
+    for (const Expected<ik::Linkage>& linkage : linkages) {
+        ik::LinkageSolver solver = std::move(*ik::LinkageSolver::make(*linkage));
+        ik::LinkageState state = solver.initial_state();
+        for (int i = 0; i < 60; ++i) {
+            const std::size_t link = random.below(linkage->links.size());
+            const ik::LinkDriver driver{link,
+                                        state.joints[link].value + static_cast<double>(random.around(0.5f))};
+            const ik::LinkTarget target{random.below(linkage->points.size()),
+                                        solver.size() * glm::dvec3(random.point(1.0f)), 1.0,
+                                        random.chance(2)};
+            const bool drives = linkage->links[link].joint != ik::LinkJoint::Ball && random.chance(2);
+            const ik::LinkageReport report =
+                solver.solve(state, {{&driver, drives ? 1u : 0u}, {&target, drives ? 0u : 1u}});
+            hash.add(static_cast<float>(report.iterations));
+            hash.add(report.residual);
+            for (const ik::JointPlace& each : state.joints) {
+                hash.add(each.value);
+                hash.add(each.turn.x);
+            }
+            for (std::size_t k = 0; k < linkage->points.size(); ++k)
+                for (int axis = 0; axis < 3; ++axis) hash.add(solver.point(k)[axis]);
         }
     }
     return hash.value();

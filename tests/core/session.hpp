@@ -26,6 +26,12 @@ inline constexpr std::uint64_t golden_curve_hash = 0x6412e79709d604deu;
 /// bits of every joint and rotation.
 std::uint64_t curve_hash();
 
+/// The expected linkage_hash().
+inline constexpr std::uint64_t golden_linkage_hash = 0x66f80ce3094df2dau;
+
+/// Drives and draws six linkages 60 times each, and hashes the bits of every joint and point.
+std::uint64_t linkage_hash();
+
 /// The expected rope_hash().
 inline constexpr std::uint64_t golden_rope_hash = 0x7f61b4ea2cbd83cau;
 

@@ -16,6 +16,10 @@ TEST(Session, CurvesEndInTheSameBitsInEveryBuild) {
     EXPECT_EQ(curve_hash(), golden_curve_hash);
 }
 
+TEST(Session, LinkagesEndInTheSameBitsInEveryBuild) {
+    EXPECT_EQ(linkage_hash(), golden_linkage_hash);
+}
+
 TEST(Session, RopesEndInTheSameBitsInEveryBuild) {
     EXPECT_EQ(rope_hash(), golden_rope_hash);
 }

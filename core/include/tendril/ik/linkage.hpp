@@ -12,14 +12,15 @@
 // closures, two points or two frames that coincide. Drivers give a joint a value; targets draw points to
 // places.
 //
-// A solve meets, in this order: closures and the joints' ranges; drivers; exact targets; the others, weighted.
-// What comes later gets what freedom is left. Method: Newton's steps of minimal norm on the closures, rows
-// orthogonalised in order of priority (B. Siciliano, J.-J. Slotine, "A general framework for managing multiple
-// tasks in highly redundant robotic systems", 1991); targets by damped Gauss-Newton steps (Levenberg 1944,
-// Marquardt 1963) in the null space of these, each followed by a return to the closures; ranges by an active
-// set. A driver goes to its value in substeps: one is taken only if it ends where the tangent led (K. Georg,
-// E. Allgower, "Introduction to Numerical Continuation Methods", 2003, on step control). So a linkage stays in
-// its assembly mode while a driver or target glides, and stops at a dead point.
+// A solve meets, in this order: closures and the joints' ranges; drivers; exact targets; the others,
+// weighted. What comes later gets what freedom is left. Method: Newton's steps of minimal norm on the
+// closures, rows orthogonalised in order of priority (B. Siciliano, J.-J. Slotine, "A general framework for
+// managing multiple tasks in highly redundant robotic systems", 1991); targets by damped Gauss-Newton steps
+// (Levenberg 1944, Marquardt 1963) in the null space of these, each followed by a return to the closures;
+// ranges by an active set. A driver goes to its value in substeps: one is taken only if it ends where the
+// tangent led (K. Georg, E. Allgower, "Introduction to Numerical Continuation Methods", 2003, on step
+// control). So a linkage stays in its assembly mode while a driver or target glides, and stops at a dead
+// point.
 //
 // Cost: O(m^2 n) an iteration with m equations of closures and n degrees of freedom of the joints; a frame
 // takes two to four. A four-bar takes about 1 us, Jansen's leg 6 us, a Stewart platform 30 us. Solving does
@@ -106,18 +107,18 @@ struct Linkage {
     bool operator==(const Linkage&) const = default;
 };
 /// InvalidArgument, with the name of the list, the index and the value, for a parent that does not come
-/// before, a coordinate that is not finite or over max_magnitude, an axis of no length, an empty range, a rest
-/// outside it, a link that is not there, or more than max_links links, points or closures.
+/// before, a coordinate that is not finite or over max_magnitude, an axis of no length, an empty range, a
+/// rest outside it, a link that is not there, or more than max_links links, points or closures.
 Result check(const Linkage& linkage) noexcept;
 inline constexpr std::size_t max_links = 512;
 
-/// Where one joint is: a hinge's angle (radians, not wrapped) or a slider's travel (metres); a ball's rotation
-/// from the pose as drawn.
+/// Where one joint is: a hinge's angle (radians, not wrapped) or a slider's travel (metres); a ball's
+/// rotation from the pose as drawn.
 struct JointPlace {
     double value = 0.0;
     glm::dquat turn{1.0, 0.0, 0.0, 0.0};
-    /// How far a driver last moved the value. A linkage goes on like that through poses in which its motion is
-    /// ambiguous: a parallelogram folded onto one line.
+    /// How far a driver last moved the value. A linkage goes on like that through poses in which its motion
+    /// is ambiguous: a parallelogram folded onto one line.
     double last = 0.0;
     bool operator==(const JointPlace&) const = default;
 };
@@ -146,13 +147,13 @@ struct LinkageGoals {
 };
 
 enum class LinkageStatus : std::uint8_t {
-    Reached,       ///< closed, drivers at their values, targets reached
-    TargetMissed,  ///< closed and driven, but a target is out of reach
-    Limited,       ///< a range stops a driver or target
-    DeadPoint,     ///< a driver cannot go on
-    Open,          ///< no pose closes the linkage: the closures contradict each other
+    Reached,         ///< closed, drivers at their values, targets reached
+    TargetMissed,    ///< closed and driven, but a target is out of reach
+    Limited,         ///< a range stops a driver or target
+    DeadPoint,       ///< a driver cannot go on
+    Open,            ///< no pose closes the linkage: the closures contradict each other
     IterationLimit,  ///< not there when the iterations were used up; the next solve goes on
-    InvalidInput   ///< a number is not finite or out of range: nothing was moved
+    InvalidInput     ///< a number is not finite or out of range: nothing was moved
 };
 /// "Reached", "TargetMissed"...
 const char* name(LinkageStatus status) noexcept;
@@ -160,8 +161,8 @@ const char* name(LinkageStatus status) noexcept;
 struct LinkageReport {
     LinkageStatus status = LinkageStatus::Reached;
     int iterations = 0;
-    double closed_to = 0.0;  ///< metres, the largest distance between points that should coincide
-    double residual = 0.0;   ///< metres, the largest distance of a target's point from its place
+    double closed_to = 0.0;        ///< metres, the largest distance between points that should coincide
+    double residual = 0.0;         ///< metres, the largest distance of a target's point from its place
     double driver_residual = 0.0;  ///< radians or metres, how far a driver is from its value at most
     int freedom = 0;               ///< degrees of freedom that drivers and active ranges leave
     /// The driver that cannot go on, a link, and the value where it stopped.
@@ -183,8 +184,9 @@ struct LinkageOptions {
     std::span<const std::size_t> watched{};
 };
 
-/// Gruebler's (Kutzbach's) count of the degrees of freedom, beside the true one in the given pose. They differ
-/// where closures repeat each other (a double parallelogram, Bennett's linkage) or the pose is singular.
+/// Gruebler's (Kutzbach's) count of the degrees of freedom, beside the true one in the given pose. They
+/// differ where closures repeat each other (a double parallelogram, Bennett's linkage) or the pose is
+/// singular.
 struct LinkageFreedom {
     int counted = 0;  ///< joints' freedoms less closures' equations; in the plane if the linkage is planar
     int actual = 0;   ///< the rank's
@@ -215,9 +217,9 @@ class LinkageSolver {
     /// As drawn. It need not be closed: the first solve closes it.
     LinkageState initial_state() const;
 
-    /// Moves the state to the best pose there is. InvalidInput, and nothing is changed, for a state of another
-    /// linkage, a number that is not finite or out of range, a link or point that is not there, a link that is
-    /// driven twice or is a ball's.
+    /// Moves the state to the best pose there is. InvalidInput, and nothing is changed, for a state of
+    /// another linkage, a number that is not finite or out of range, a link or point that is not there, a
+    /// link that is driven twice or is a ball's.
     ///
     /// If it ends Open, the sum of squared distances of the closures is minimal; if at a dead point with
     /// several drivers, they are as near to their values as they can be from here.

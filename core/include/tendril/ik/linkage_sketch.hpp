@@ -50,8 +50,8 @@ struct SketchBar {
     bool operator==(const SketchBar&) const = default;
 };
 
-/// A hinge that can be driven, or has a range. Its angle, radians, is the direction of `bar`, from the hinge to
-/// its first other point, counted from +X, or from the direction of `against`.
+/// A hinge that can be driven, or has a range. Its angle, radians, is the direction of `bar`, from the hinge
+/// to its first other point, counted from +X, or from the direction of `against`.
 struct SketchMotor {
     std::string name{};  ///< of the driven link
     std::size_t point = 0;

@@ -1,6 +1,6 @@
 // Well-known linkages from named lengths, in metres. Planar ones as sketches (linkage_from makes linkages of
-// them), for tests, benchmarks and presets alike. Each is drawn closed, with its driver at 0 if it can be there.
-// Lengths that close in no pose are refused, as are those of no length, by name.
+// them), for tests, benchmarks and presets alike. Each is drawn closed, with its driver at 0 if it can be
+// there. Lengths that close in no pose are refused, as are those of no length, by name.
 #pragma once
 
 #include <array>
@@ -12,9 +12,9 @@
 
 namespace tendril::ik {
 
-/// Fixed pivots A at the origin and D on +X; B at the end of the crank, C where coupler and rocker meet, above
-/// the line from B to D. P moves with the coupler: `coupler_point` is in the coupler's frame, from B, first
-/// coordinate towards C. Driver `crank`, 0 along +X.
+/// Fixed pivots A at the origin and D on +X; B at the end of the crank, C where coupler and rocker meet,
+/// above the line from B to D. P moves with the coupler: `coupler_point` is in the coupler's frame, from B,
+/// first coordinate towards C. Driver `crank`, 0 along +X.
 struct FourBar {
     double ground = 3.0, crank = 1.0, coupler = 2.5, rocker = 2.0;
     glm::dvec2 coupler_point{1.25, 0.8};
@@ -50,18 +50,18 @@ struct ScissorLift {
 };
 Expected<LinkageSketch> scissor_lift(const ScissorLift& lengths = {});
 
-/// T. Jansen's leg, with his names for the lengths. The motor's axis is the origin, the other pivot at {-a, -l}.
-/// Points crank, upper, lower, back, knee, foot; driver `motor`.
+/// T. Jansen's leg, with his names for the lengths. The motor's axis is the origin, the other pivot at {-a,
+/// -l}. Points crank, upper, lower, back, knee, foot; driver `motor`.
 struct Jansen {
     double a = 38.0, b = 41.5, c = 39.3, d = 40.1, e = 55.8, f = 39.4, g = 36.7, h = 65.7, i = 49.0, j = 50.0,
            k = 61.9, l = 7.8, m = 15.0;
 };
 Expected<LinkageSketch> jansen(const Jansen& lengths = {});
 
-/// R. Clavel's delta robot, 1988: base in z = 0, the platform hangs along -Z; arm i turns in the vertical plane
-/// at 120 i degrees about Z. Forearms are pairs of parallel bars, `width` apart, which keep the platform level.
-/// Drivers motor_0 to motor_2, radians below the base's plane. Point platform; also elbow_0 to elbow_2 and
-/// wrist_0 to wrist_2.
+/// R. Clavel's delta robot, 1988: base in z = 0, the platform hangs along -Z; arm i turns in the vertical
+/// plane at 120 i degrees about Z. Forearms are pairs of parallel bars, `width` apart, which keep the
+/// platform level. Drivers motor_0 to motor_2, radians below the base's plane. Point platform; also elbow_0
+/// to elbow_2 and wrist_0 to wrist_2.
 struct Delta {
     double base_radius = 0.2, platform_radius = 0.05, upper_arm = 0.2, forearm = 0.5;
     double width = 0.06;
@@ -70,13 +70,13 @@ Expected<Linkage> delta(const Delta& lengths = {});
 /// The motors' angles for a place of the platform, in closed form: the elbows outside. none if out of reach.
 std::optional<std::array<double, 3>> delta_motors(const Delta& lengths, const glm::dvec3& platform) noexcept;
 
-/// A platform on six legs (V. Gough 1954, D. Stewart 1965): base in z = 0, platform above it. Legs 2k and 2k + 1
-/// stand on the base at 120 k degrees less and more base_spread, and lean apart: their tops are where
-/// platform_spread is left to the tops of their neighbours, at 120 k -+ 60 degrees. Drivers leg_0 to leg_5, their
-/// lengths. Point platform, its centre; also base_0..., top_0...
+/// A platform on six legs (V. Gough 1954, D. Stewart 1965): base in z = 0, platform above it. Legs 2k and 2k
+/// + 1 stand on the base at 120 k degrees less and more base_angle, and lean apart: their tops are where
+/// platform_angle is left to the tops of their neighbours, at 120 k -+ 60 degrees. Drivers leg_0 to leg_5,
+/// their lengths. Point platform, its centre; also base_0..., top_0...
 struct Stewart {
     double base_radius = 1.0, platform_radius = 0.6, height = 1.0;  ///< height as drawn
-    double base_spread = 0.25, platform_spread = 0.25;              ///< half the angle of a pair, radians
+    double base_angle = 0.25, platform_angle = 0.25;                ///< half the angle of a pair, radians
     double minimum = 0.5, maximum = 2.0;                            ///< lengths of the legs
 };
 Expected<Linkage> stewart(const Stewart& lengths = {});

@@ -18,8 +18,8 @@ const char* name(LinkJoint joint) noexcept {
 }
 
 const char* name(LinkageStatus status) noexcept {
-    constexpr const char* names[] = {"Reached", "TargetMissed", "Limited", "DeadPoint", "Open",
-                                     "IterationLimit", "InvalidInput"};
+    constexpr const char* names[] = {"Reached", "TargetMissed",   "Limited",     "DeadPoint",
+                                     "Open",    "IterationLimit", "InvalidInput"};
     return names[static_cast<std::size_t>(status)];
 }
 
@@ -52,7 +52,8 @@ Result check_link_of(const Argument& argument, std::size_t link, const Linkage& 
 Result check_range(const Link& link, std::size_t at) noexcept {
     if (link.joint == LinkJoint::Ball) {
         // By default a ball turns all the way; its minimum has no effect.
-        if (!(link.maximum >= 0.0)) return refused("linkage", {"links", at, "maximum"}, "0 to pi", link.maximum);
+        if (!(link.maximum >= 0.0))
+            return refused("linkage", {"links", at, "maximum"}, "0 to pi", link.maximum);
         return {};
     }
     if (!(std::abs(link.rest) <= static_cast<double>(max_magnitude)))

@@ -42,9 +42,10 @@ struct Named {
 Result check_lengths(const char* mechanism, std::initializer_list<Named> lengths) noexcept {
     for (const auto& [name, value, minimum] : lengths)
         if (!(value >= minimum && value <= static_cast<double>(max_magnitude)))
-            return refused(mechanism, name,
-                           minimum > 0.0 ? "a length over 0, at most 1e9 m" : "a number of magnitude at most 1e9",
-                           value);
+            return refused(
+                mechanism, name,
+                minimum > 0.0 ? "a length over 0, at most 1e9 m" : "a number of magnitude at most 1e9",
+                value);
     return {};
 }
 constexpr double any_number = -static_cast<double>(max_magnitude);
@@ -70,14 +71,14 @@ Expected<LinkageSketch> four_bar(const FourBar& lengths) {
                                                       {"coupler_point.y", coupler_point.y, any_number}});
         !bad)
         return bad;
-    // B to D: what the crank can make it, and what coupler and rocker can. Where the crank cannot be at 0, it is
-    // drawn in the middle of its range.
+    // B to D: what the crank can make it, and what coupler and rocker can. Where the crank cannot be at 0, it
+    // is drawn in the middle of its range.
     const double low = std::max(std::abs(ground - crank), std::abs(coupler - rocker)),
                  high = std::min(ground + crank, coupler + rocker);
     if (!(low <= high)) {
         const double longest = std::max({ground, crank, coupler, rocker});
-        const char* name = longest == ground  ? "ground"
-                           : longest == crank ? "crank"
+        const char* name = longest == ground    ? "ground"
+                           : longest == crank   ? "crank"
                            : longest == coupler ? "coupler"
                                                 : "rocker";
         return refused("four_bar", name, "at most the other three together", longest);
@@ -105,14 +106,16 @@ Expected<LinkageSketch> four_bar(const FourBar& lengths) {
 
 Expected<LinkageSketch> slider_crank(const SliderCrank& lengths) {
     const auto& [crank, rod, offset] = lengths;
-    if (const Result bad = check_lengths(
-            "slider_crank", {{"crank", crank}, {"rod", rod}, {"offset", offset, any_number}});
+    if (const Result bad =
+            check_lengths("slider_crank", {{"crank", crank}, {"rod", rod}, {"offset", offset, any_number}});
         !bad)
         return bad;
     if (!(std::abs(offset) <= crank + rod))
         return refused("slider_crank", "offset", "at most crank and rod together", offset);
     // Where the rod does not reach down from 0, the crank is turned towards the slider's line.
-    const double lift = std::abs(offset) <= rod ? 0.0 : offset - std::copysign(0.5 * (rod + std::abs(offset) - crank), offset);
+    const double lift = std::abs(offset) <= rod
+                            ? 0.0
+                            : offset - std::copysign(0.5 * (rod + std::abs(offset) - crank), offset);
     const Point2 b{std::sqrt(std::max(crank * crank - lift * lift, 0.0)), lift};
     const double reach = rod * rod - (offset - lift) * (offset - lift);
     LinkageSketch sketch;
@@ -125,9 +128,9 @@ Expected<LinkageSketch> slider_crank(const SliderCrank& lengths) {
 }
 
 Expected<LinkageSketch> peaucellier(const Peaucellier& lengths) {
-    if (const Result bad = check_lengths("peaucellier", {{"long_bar", lengths.long_bar},
-                                                         {"short_bar", lengths.short_bar},
-                                                         {"crank", lengths.crank}});
+    if (const Result bad = check_lengths(
+            "peaucellier",
+            {{"long_bar", lengths.long_bar}, {"short_bar", lengths.short_bar}, {"crank", lengths.crank}});
         !bad)
         return bad;
     if (!joins_over(2.0 * lengths.crank, lengths.long_bar, lengths.short_bar))
@@ -137,7 +140,7 @@ Expected<LinkageSketch> peaucellier(const Peaucellier& lengths) {
     const Point2 o{0.0, 0.0}, c{2.0 * lengths.crank, 0.0};
     const Point2 a = crossing_left(o, lengths.long_bar, c, lengths.short_bar), b{a.x, -a.y};
     LinkageSketch sketch;
-    sketch.points = {{"O", o, pinned}, {"Q", {lengths.crank, 0.0}, pinned},   {"A", a}, {"B", b},
+    sketch.points = {{"O", o, pinned}, {"Q", {lengths.crank, 0.0}, pinned}, {"A", a}, {"B", b},
                      {"C", c},         {"P", {2.0 * a.x - c.x, 0.0}}};
     sketch.bars = {{"crank", {1, 4}}, {"OA", {0, 2}}, {"OB", {0, 3}}, {"AC", {2, 4}},
                    {"BC", {3, 4}},    {"AP", {2, 5}}, {"BP", {3, 5}}};
@@ -147,7 +150,8 @@ Expected<LinkageSketch> peaucellier(const Peaucellier& lengths) {
 
 Expected<LinkageSketch> pantograph(const Pantograph& lengths) {
     // D on OA and E on AP; D-A-E-T is a parallelogram, so that T stays on OP.
-    if (const Result bad = check_lengths("pantograph", {{"arm", lengths.arm}, {"scale", lengths.scale}}); !bad)
+    if (const Result bad = check_lengths("pantograph", {{"arm", lengths.arm}, {"scale", lengths.scale}});
+        !bad)
         return bad;
     if (!(lengths.scale > 1.0)) return refused("pantograph", "scale", "over 1", lengths.scale);
     const double part = 1.0 / lengths.scale;
@@ -190,9 +194,19 @@ Expected<LinkageSketch> scissor_lift(const ScissorLift& lengths) {
 
 Expected<LinkageSketch> jansen(const Jansen& lengths) {
     const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m] = lengths;
-    if (const Result bad = check_lengths("jansen", {{"a", a, any_number}, {"b", b}, {"c", c}, {"d", d}, {"e", e},
-                                                    {"f", f}, {"g", g}, {"h", h}, {"i", i}, {"j", j}, {"k", k},
-                                                    {"l", l, any_number}, {"m", m}});
+    if (const Result bad = check_lengths("jansen", {{"a", a, any_number},
+                                                    {"b", b},
+                                                    {"c", c},
+                                                    {"d", d},
+                                                    {"e", e},
+                                                    {"f", f},
+                                                    {"g", g},
+                                                    {"h", h},
+                                                    {"i", i},
+                                                    {"j", j},
+                                                    {"k", k},
+                                                    {"l", l, any_number},
+                                                    {"m", m}});
         !bad)
         return bad;
     const Point2 crank{m, 0.0}, pivot{-a, -l};
@@ -209,11 +223,18 @@ Expected<LinkageSketch> jansen(const Jansen& lengths) {
                      {"h", g, i, h}};
     for (const auto& each : triangles)
         if (!joins_over(each.apart, each.one, each.other))
-            return refused("jansen", each.names, "such that its triangle closes with the crank at 0", each.other);
+            return refused("jansen", each.names, "such that its triangle closes with the crank at 0",
+                           each.other);
     LinkageSketch sketch;
-    sketch.points = {{"axis", {0.0, 0.0}, pinned}, {"pivot", pivot, pinned}, {"crank", crank}, {"upper", upper},
-                     {"lower", lower},             {"back", back},           {"knee", knee},   {"foot", foot}};
-    sketch.bars = {{"m", {0, 2}}, {"j", {2, 3}}, {"k", {2, 4}}, {"bde", {1, 3, 5}},
+    sketch.points = {{"axis", {0.0, 0.0}, pinned},
+                     {"pivot", pivot, pinned},
+                     {"crank", crank},
+                     {"upper", upper},
+                     {"lower", lower},
+                     {"back", back},
+                     {"knee", knee},
+                     {"foot", foot}};
+    sketch.bars = {{"m", {0, 2}}, {"j", {2, 3}}, {"k", {2, 4}},     {"bde", {1, 3, 5}},
                    {"c", {1, 4}}, {"f", {5, 6}}, {"ghi", {4, 6, 7}}};
     sketch.motors = {{"motor", 0, 0}};
     return sketch;
@@ -221,12 +242,13 @@ Expected<LinkageSketch> jansen(const Jansen& lengths) {
 
 namespace {
 
-/// A rod on two crossed hinges, so that it points anywhere but does not spin: `name`_yoke and `name`. Returns the
-/// rod's link.
+/// A rod on two crossed hinges, so that it points anywhere but does not spin: `name`_yoke and `name`. Returns
+/// the rod's link.
 std::size_t add_universal(Linkage& linkage, const std::string& name, std::size_t parent, const glm::dvec3& at,
                           const glm::dvec3& first_axis, const glm::dvec3& along) {
     linkage.links.push_back({name + "_yoke", parent, LinkJoint::Hinge, at, first_axis});
-    linkage.links.push_back({name, linkage.links.size() - 1, LinkJoint::Hinge, at, detail::cross(along, first_axis)});
+    linkage.links.push_back(
+        {name, linkage.links.size() - 1, LinkJoint::Hinge, at, detail::cross(along, first_axis)});
     return linkage.links.size() - 1;
 }
 
@@ -269,17 +291,20 @@ Expected<Linkage> delta(const Delta& lengths) {
         const std::string number = std::to_string(i);
         const Point2 out = point_at_angle(1.0, static_cast<double>(i) * 2.0 * math::pi / 3.0);
         const glm::dvec3 tangent{-out.y, out.x, 0.0};
-        const auto at_radius = [&](double radius, double z) { return glm::dvec3(radius * out.x, radius * out.y, z); };
-        const glm::dvec3 elbow = at_radius(elbow_radius, elbow_z), wrist = at_radius(lengths.platform_radius, wrist_z);
+        const auto at_radius = [&](double radius, double z) {
+            return glm::dvec3(radius * out.x, radius * out.y, z);
+        };
+        const glm::dvec3 elbow = at_radius(elbow_radius, elbow_z),
+                         wrist = at_radius(lengths.platform_radius, wrist_z);
         const std::size_t motor = linkage.links.size();
-        linkage.links.push_back({"motor_" + number, ground_link, LinkJoint::Hinge, at_radius(lengths.base_radius, 0.0),
-                                 tangent, down});
+        linkage.links.push_back({"motor_" + number, ground_link, LinkJoint::Hinge,
+                                 at_radius(lengths.base_radius, 0.0), tangent, down});
         for (const double side : {-0.5, 0.5}) {
             const glm::dvec3 aside_by = detail::times(tangent, side * lengths.width);
             const std::string name = "forearm_" + number + (side < 0.0 ? "a" : "b");
             const glm::dvec3 far = detail::plus(wrist, aside_by);
-            const std::size_t rod = add_universal(linkage, name, motor, detail::plus(elbow, aside_by), tangent,
-                                                  detail::minus(wrist, elbow));
+            const std::size_t rod = add_universal(linkage, name, motor, detail::plus(elbow, aside_by),
+                                                  tangent, detail::minus(wrist, elbow));
             join_platform(linkage, platform, rod, name, far);
         }
         linkage.points.push_back({"elbow_" + number, motor, elbow});
@@ -295,7 +320,8 @@ std::optional<std::array<double, 3>> delta_motors(const Delta& lengths, const gl
     for (std::size_t i = 0; i < 3; ++i) {
         const Point2 out = point_at_angle(1.0, static_cast<double>(i) * 2.0 * math::pi / 3.0);
         // From the hinge to the wrist: along the arm's plane, across it, and up.
-        const double x = platform.x * out.x + platform.y * out.y + lengths.platform_radius - lengths.base_radius;
+        const double x =
+            platform.x * out.x + platform.y * out.y + lengths.platform_radius - lengths.base_radius;
         const double y = platform.y * out.x - platform.x * out.y, z = platform.z, arm = lengths.upper_arm;
         const double sum = x * x + y * y + z * z + arm * arm - lengths.forearm * lengths.forearm;
         // sum = 2 arm (x cos - z sin)
@@ -313,8 +339,8 @@ struct StewartEnds {
 };
 StewartEnds ends_of_leg(const Stewart& lengths, std::size_t leg) noexcept {
     const double third = static_cast<double>(leg / 2) * 2.0 * math::pi / 3.0, side = leg % 2 ? 1.0 : -1.0;
-    const double base = third + side * lengths.base_spread;
-    const double top = third + side * (math::pi / 3.0 - lengths.platform_spread);
+    const double base = third + side * lengths.base_angle;
+    const double top = third + side * (math::pi / 3.0 - lengths.platform_angle);
     return {in_base(point_at_angle(lengths.base_radius, base), 0.0),
             in_base(point_at_angle(lengths.platform_radius, top), 0.0)};
 }
@@ -325,8 +351,8 @@ Expected<Linkage> stewart(const Stewart& lengths) {
     if (const Result bad = check_lengths("stewart", {{"base_radius", lengths.base_radius},
                                                      {"platform_radius", lengths.platform_radius},
                                                      {"height", lengths.height},
-                                                     {"base_spread", lengths.base_spread, any_number},
-                                                     {"platform_spread", lengths.platform_spread, any_number},
+                                                     {"base_angle", lengths.base_angle, any_number},
+                                                     {"platform_angle", lengths.platform_angle, any_number},
                                                      {"minimum", lengths.minimum, 0.0},
                                                      {"maximum", lengths.maximum}});
         !bad)
@@ -347,8 +373,8 @@ Expected<Linkage> stewart(const Stewart& lengths) {
         if (!(lengths.minimum <= drawn && drawn <= lengths.maximum))
             return refused("stewart", "height", "such that legs are from minimum to maximum", lengths.height);
         const std::size_t leg = linkage.links.size();
-        linkage.links.push_back({name, rod, LinkJoint::Slider, ends.base, along, drawn,
-                                 lengths.minimum, lengths.maximum});
+        linkage.links.push_back(
+            {name, rod, LinkJoint::Slider, ends.base, along, drawn, lengths.minimum, lengths.maximum});
         join_platform(linkage, platform, leg, name, top);
         linkage.points.push_back({"base_" + number, ground_link, ends.base});
         linkage.points.push_back({"top_" + number, platform, top});

@@ -32,7 +32,8 @@ bool joins(const SketchBar& bar, std::size_t point) noexcept {
 
 /// `bar "coupler"`, or by its number where it has no name.
 std::string said(const char* kind, const std::string& name, std::size_t index) {
-    return name.empty() ? std::string(kind) + " " + std::to_string(index) : std::string(kind) + " \"" + name + "\"";
+    return name.empty() ? std::string(kind) + " " + std::to_string(index)
+                        : std::string(kind) + " \"" + name + "\"";
 }
 Result sketch_refused(const std::string& what) {
     return {ErrorCode::InvalidArgument, "linkage_from: " + what};
@@ -41,13 +42,16 @@ Result sketch_refused(const std::string& what) {
 class SketchTree {
   public:
     explicit SketchTree(const LinkageSketch& sketch)
-        : sketch_(sketch), link_of_bar_(sketch.bars.size(), unplaced), owner_(sketch.points.size(), unplaced) {}
+        : sketch_(sketch),
+          link_of_bar_(sketch.bars.size(), unplaced),
+          owner_(sketch.points.size(), unplaced) {}
 
     Expected<Linkage> make() {
         if (const Result bad = check_parts(); !bad) return bad;
         place_holds();
         // Breadth first, a motor's hinge before any other.
-        while (place_driven_bar() || place_next_bar()) {}
+        while (place_driven_bar() || place_next_bar()) {
+        }
         for (std::size_t i = 0; i < sketch_.bars.size(); ++i)
             if (link_of_bar_[i] == unplaced)
                 return sketch_refused(said("bar", sketch_.bars[i].name, i) +
@@ -86,15 +90,15 @@ class SketchTree {
             if (const Result bad = check_bar(sketch_.bars[i], said("bar", sketch_.bars[i].name, i)); !bad)
                 return bad;
         for (std::size_t i = 0; i < sketch_.motors.size(); ++i)
-            if (const Result bad =
-                    check_motor(sketch_.motors[i], said("motor", sketch_.motors[i].name, i));
+            if (const Result bad = check_motor(sketch_.motors[i], said("motor", sketch_.motors[i].name, i));
                 !bad)
                 return bad;
         return {};
     }
     Result check_bar(const SketchBar& bar, const std::string& who) const {
         if (bar.points.size() < 2)
-            return sketch_refused(who + " must have 2 points or more, got " + std::to_string(bar.points.size()));
+            return sketch_refused(who + " must have 2 points or more, got " +
+                                  std::to_string(bar.points.size()));
         for (const std::size_t each : bar.points)
             if (each >= sketch_.points.size())
                 return sketch_refused(who + " must join points of the sketch, got " + std::to_string(each));
@@ -200,8 +204,8 @@ class SketchTree {
             if (owner_[each] == unplaced)
                 owner_[each] = index;
             else
-                linkage_.closures.push_back({sketch_.points[each].name, ClosureKind::Point, owner_[each],
-                                             index, at(each), at(each)});
+                linkage_.closures.push_back(
+                    {sketch_.points[each].name, ClosureKind::Point, owner_[each], index, at(each), at(each)});
         }
     }
     /// The link's value is the motor's angle.
@@ -237,7 +241,8 @@ Result remove_bar(LinkageSketch& sketch, std::size_t bar) {
     if (const Result bad = check_index("remove_bar", bar, sketch.bars.size(), "the sketch", "bar"); !bad)
         return bad;
     sketch.bars.erase(sketch.bars.begin() + static_cast<std::ptrdiff_t>(bar));
-    std::erase_if(sketch.motors, [&](const SketchMotor& motor) { return motor.bar == bar || motor.against == bar; });
+    std::erase_if(sketch.motors,
+                  [&](const SketchMotor& motor) { return motor.bar == bar || motor.against == bar; });
     for (SketchMotor& motor : sketch.motors) {
         if (motor.bar > bar) --motor.bar;
         if (motor.against != ground_link && motor.against > bar) --motor.against;
@@ -246,7 +251,8 @@ Result remove_bar(LinkageSketch& sketch, std::size_t bar) {
 }
 
 Result remove_point(LinkageSketch& sketch, std::size_t point) {
-    if (const Result bad = check_index("remove_point", point, sketch.points.size(), "the sketch", "point"); !bad)
+    if (const Result bad = check_index("remove_point", point, sketch.points.size(), "the sketch", "point");
+        !bad)
         return bad;
     std::erase_if(sketch.motors, [&](const SketchMotor& motor) { return motor.point == point; });
     for (std::size_t i = sketch.bars.size(); i-- > 0;) {

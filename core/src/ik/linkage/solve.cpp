@@ -9,7 +9,7 @@ namespace tendril::ik::detail {
 namespace {
 
 // In radians, or sizes of the linkage.
-constexpr double widest_step = 0.5;     ///< of a joint in one step, radians: the tangent says little beyond
+constexpr double widest_step = 0.5;  ///< of a joint in one step, radians: the tangent says little beyond
 /// Where a driver counts as stopped. A joint near a dead point is off it by the root of this; the closures'
 /// tolerance must be far finer, so as not to lose the side.
 constexpr double finest_substep = 1e-7;
@@ -34,11 +34,12 @@ double largest_of(std::span<const double> step) noexcept {
 
 }  // namespace
 
-LinkageSolve::LinkageSolve(LinkageWork& work, const LinkageGoals& goals, const LinkageOptions& options) noexcept
+LinkageSolve::LinkageSolve(LinkageWork& work, const LinkageGoals& goals,
+                           const LinkageOptions& options) noexcept
     : work_(work),
       goals_(goals),
       options_(options),
-      tolerance_(options.tolerance.value_or(1e-10 * work.size)) {
+      tolerance_(options.tolerance.value_or(std::max(1e-10 * work.size, work.rounding))) {
     std::ranges::fill(work_.driven, std::uint8_t{0});
     std::ranges::fill(work_.held, std::uint8_t{0});
     work_.active.clear();
@@ -125,7 +126,8 @@ bool LinkageSolve::hold_overstepped() noexcept {
             changed = true;
             continue;
         }
-        const double unit = work_.unit_of(i), value = work_.joints[i].value, to = value + unit * work_.step[col];
+        const double unit = work_.unit_of(i), value = work_.joints[i].value,
+                     to = value + unit * work_.step[col];
         if (to >= link.minimum && to <= link.maximum) continue;
         work_.held[col] = 1;
         work_.step[col] = ((to < link.minimum ? link.minimum : link.maximum) - value) / unit;
@@ -242,7 +244,8 @@ void LinkageSolve::glide() noexcept {
         const Link& link = work_.linkage.links[each.link];
         if (!(each.value >= link.minimum && each.value <= link.maximum)) beyond_range_ = true;
     }
-    for (const LinkDriver& each : goals_.drivers) longest = std::max(longest, std::abs(driver_distance(each)));
+    for (const LinkDriver& each : goals_.drivers)
+        longest = std::max(longest, std::abs(driver_distance(each)));
     if (longest == 0.0) return;
     double at = 0.0, by = std::min(1.0, 0.9 * widest_step / longest);
     while (at < 1.0) {
@@ -330,7 +333,8 @@ double LinkageSolve::cost() noexcept {
     return sum;
 }
 
-/// Adds (square + damping * its largest diagonal entry * I)^-1 gradient to the step, by Cholesky decomposition.
+/// Adds (square + damping * its largest diagonal entry * I)^-1 gradient to the step, by Cholesky
+/// decomposition.
 void LinkageSolve::solve_equations(double damping) noexcept {
     const std::size_t count = work_.columns;
     double largest = 0.0;
@@ -356,7 +360,8 @@ void LinkageSolve::solve_equations(double damping) noexcept {
     }
 }
 
-/// Takes one damped step and returns to the closures. False if that gains nothing; the pose is then as it was.
+/// Takes one damped step and returns to the closures. False if that gains nothing; the pose is then as it
+/// was.
 bool LinkageSolve::descent_step(double damping) noexcept {
     work_.release();
     std::ranges::fill(work_.step, 0.0);
@@ -386,7 +391,8 @@ bool LinkageSolve::descent_step(double damping) noexcept {
         const Link& link = work_.linkage.links[i];
         const double by = work_.step[work_.column[i]];
         if (link.joint == LinkJoint::Ball || !work_.ranged(i) || by == 0.0) continue;
-        const double left = ((by < 0.0 ? link.minimum : link.maximum) - work_.joints[i].value) / work_.unit_of(i);
+        const double left =
+            ((by < 0.0 ? link.minimum : link.maximum) - work_.joints[i].value) / work_.unit_of(i);
         if (part * std::abs(by) > std::abs(left)) part = std::abs(left / by);
     }
     const double before = cost(), predicted = part * norm_of(work_.step);
@@ -443,11 +449,29 @@ std::size_t LinkageSolve::closure_rank() noexcept {
     return work_.basis.rank();
 }
 
+std::size_t LinkageSolve::free_columns() const noexcept {
+    return static_cast<std::size_t>(std::ranges::count(work_.held, std::uint8_t{0}));
+}
+
+/// mode(), with what is watched held if nothing is driven. Where the last solve ended it is known.
+int LinkageSolve::watched_mode(bool at_start) noexcept {
+    hold_drivers();
+    if (goals_.drivers.empty())
+        for (const std::size_t each : options_.watched) work_.driven[work_.column[each]] = 1;
+    if (!at_start || work_.mode_held != work_.driven || work_.mode_at != work_.joints) {
+        work_.mode = mode();
+        work_.mode_held = work_.driven;
+        work_.mode_at = work_.joints;
+    }
+    std::ranges::fill(work_.driven, std::uint8_t{0});
+    hold_drivers();
+    return work_.mode;
+}
+
 int LinkageSolve::mode() noexcept {
     work_.release();
     const std::size_t rank = closure_rank();
-    std::size_t free = 0;
-    for (const std::uint8_t each : work_.held) free += each ? 0 : 1;
+    const std::size_t free = free_columns();
     if (rank != free || rank == 0) return 0;
     // The basis' rows are the closures' by a triangular matrix of positive diagonal: the same sign.
     return work_.basis.orientation(work_.held, work_.square);
@@ -483,46 +507,40 @@ void LinkageSolve::finish(LinkageReport& report) noexcept {
                 report.stopped_at = work_.joints[each.link].value;
             }
         }
-    const bool open = !(report.closed_to <= std::max(tolerance_, 1e-7 * work_.size));
+    const bool open = !(report.closed_to <= open_from());
     if (open)
         for (std::size_t i = 0; i < work_.linkage.closures.size(); ++i)
-            if (work_.gap_of(work_.linkage.closures[i]) > 1e-7 * work_.size) work_.open.push_back(i);
+            if (work_.gap_of(work_.linkage.closures[i]) > open_from()) work_.open.push_back(i);
     using enum LinkageStatus;
     if (!open && !missed && !stopped_ && !beyond_range_) work_.active.clear();
-    report.status = open                ? Open
-                    : out_of_iterations_ ? IterationLimit
+    report.status = open                        ? Open
+                    : out_of_iterations_        ? IterationLimit
                     : stopped_ || beyond_range_ ? (work_.active.empty() ? DeadPoint : Limited)
-                    : missed            ? (work_.active.empty() ? TargetMissed : Limited)
-                                        : Reached;
+                    : missed                    ? (work_.active.empty() ? TargetMissed : Limited)
+                                                : Reached;
     work_.release();
     for (const std::size_t each : work_.active)
         (work_.linkage.links[each].joint == LinkJoint::Ball ? work_.blocked[each]
                                                             : work_.held[work_.column[each]]) = 1;
-    std::size_t free = 0;
-    for (std::size_t i = 0; i < work_.columns; ++i) free += work_.held[i] ? 0 : 1;
-    report.freedom = static_cast<int>(free - closure_rank());
+    // If nothing more is held, watched_mode() has just found it.
+    const std::size_t rank =
+        work_.held == work_.mode_held && work_.active.empty() && work_.mode_at == work_.joints
+            ? work_.basis.rank()
+            : closure_rank();
+    report.freedom = static_cast<int>(free_columns() - rank);
 }
 
 LinkageReport LinkageSolve::run() noexcept {
     LinkageReport report;
     work_.move_links();
     if (!closed()) assemble();
-    const bool assembled = work_.largest_gap() <= std::max(tolerance_, 1e-7 * work_.size);
+    const bool assembled = work_.largest_gap() <= open_from();
     if (!assembled) {
         finish(report);
         return report;
     }
     const bool targets = !goals_.targets.empty();
-    const auto watch = [&] {
-        hold_drivers();
-        if (goals_.drivers.empty())
-            for (const std::size_t each : options_.watched) work_.driven[work_.column[each]] = 1;
-        const int sign = mode();
-        std::ranges::fill(work_.driven, std::uint8_t{0});
-        hold_drivers();
-        return sign;
-    };
-    const int mode_before = watch();
+    const int mode_before = watched_mode(true);
     glide();
     if (stopped_ && goals_.drivers.size() > 1) {
         std::ranges::fill(work_.driven, std::uint8_t{0});
@@ -539,7 +557,7 @@ LinkageReport LinkageSolve::run() noexcept {
         descend(Aim::Targets);
         keeps_exact_ = false;
     }
-    report.passed_dead_point = mode_before * watch() < 0;
+    report.passed_dead_point = mode_before * watched_mode(false) < 0;
     finish(report);
     return report;
 }
@@ -592,7 +610,8 @@ bool find_other_mode(LinkageWork& work, LinkageState& state, std::span<const Lin
     for (int start = 0; start < starts; ++start) {
         work.joints = here;
         work.move_links();
-        for (std::size_t i = 0; i < work.columns; ++i) work.step[i] = work.driven[i] ? 0.0 : math::pi * next();
+        for (std::size_t i = 0; i < work.columns; ++i)
+            work.step[i] = work.driven[i] ? 0.0 : math::pi * next();
         work.take_step(1.0);
         work.move_links();
         LinkageSolve solve(work, goals, options);

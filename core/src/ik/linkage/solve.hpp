@@ -1,6 +1,8 @@
 // One solve of a linkage. Not installed.
 #pragma once
 
+#include <algorithm>
+
 #include "ik/linkage/work.hpp"
 
 namespace tendril::ik::detail {
@@ -12,8 +14,8 @@ class LinkageSolve {
 
     /// Closes the linkage by descent with the drivers where they are, from where it is.
     bool close_from_here() noexcept;
-    /// The sign of the determinant of the closures by the joints that `by` does not hold: it changes at a dead
-    /// point of the held ones, and only there. 0 if these do not determine the pose.
+    /// The sign of the determinant of the closures by the joints that `by` does not hold: it changes at a
+    /// dead point of the held ones, and only there. 0 if these do not determine the pose.
     int mode() noexcept;
     void hold_drivers() noexcept;
     /// Equations that are independent, in this pose.
@@ -24,9 +26,13 @@ class LinkageSolve {
     enum class Aim { Closures, Drivers, ExactTargets, Targets };
 
     bool closed() const noexcept;
+    /// Closures that are apart by more cannot be closed, however near a dead point the linkage is.
+    double open_from() const noexcept {
+        return std::max(tolerance_, 1e3 * std::max(1e-10 * work_.size, work_.rounding));
+    }
     bool at_bound(std::size_t link, double by) const noexcept;
-    /// Newton's step on the closures, and on exact targets once they are there; leaves the basis of their rows.
-    /// Held columns of the step are given.
+    /// Newton's step on the closures, and on exact targets once they are there; leaves the basis of their
+    /// rows. Held columns of the step are given.
     void find_return() noexcept;
     void take_row(std::span<double> row, double error) noexcept;
     void clear_step() noexcept;
@@ -48,6 +54,8 @@ class LinkageSolve {
     double cost() noexcept;
     double target_weight(const LinkTarget& target) const noexcept;
     void put_back() noexcept;
+    int watched_mode(bool at_start) noexcept;
+    std::size_t free_columns() const noexcept;
     void note_active() noexcept;
     void finish(LinkageReport& report) noexcept;
 

@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "ik/linkage/solve.hpp"
-#include "tendril/magnitude.hpp"
 #include "math/elementary.hpp"
+#include "tendril/magnitude.hpp"
 
 namespace tendril::ik {
 
@@ -120,7 +120,8 @@ LinkageFreedom LinkageSolver::freedom(const LinkageState& state) noexcept {
     detail::LinkageWork& work = *parts_;
     const LinkageGoals none;
     const LinkageOptions options;
-    freedom.actual = static_cast<int>(work.columns - detail::LinkageSolve(work, none, options).closure_rank());
+    freedom.actual =
+        static_cast<int>(work.columns - detail::LinkageSolve(work, none, options).closure_rank());
     freedom.counted = static_cast<int>(work.columns);
     for (const Closure& each : work.linkage.closures)
         freedom.counted -= each.kind == ClosureKind::Frame ? (work.planar ? 3 : 6) : (work.planar ? 2 : 3);

@@ -103,7 +103,8 @@ int RowBasis::orientation(std::span<const std::uint8_t> held, std::span<double> 
         if (scratch[k * count_ + k] < 0.0) sign = -sign;
         for (std::size_t i = k + 1; i < count_; ++i) {
             const double by = scratch[i * count_ + k] / scratch[k * count_ + k];
-            for (std::size_t j = k + 1; j < count_; ++j) scratch[i * count_ + j] -= by * scratch[k * count_ + j];
+            for (std::size_t j = k + 1; j < count_; ++j)
+                scratch[i * count_ + j] -= by * scratch[k * count_ + j];
         }
     }
     return sign;
@@ -149,6 +150,7 @@ LinkageWork::LinkageWork(const Linkage& from) : linkage(from) {
     }
     const glm::dvec3 extent = minus(high, low);
     size = std::max({extent.x, extent.y, extent.z, 1e-9});
+    rounding = 1e-14 * std::max({largest_coordinate(low), largest_coordinate(high), size});
     driven.resize(columns);
     held.resize(columns);
     blocked.resize(count);
@@ -157,6 +159,8 @@ LinkageWork::LinkageWork(const Linkage& from) : linkage(from) {
     moved.resize(columns);
     kept = joints;
     basis.reserve(columns);
+    mode_at.reserve(count);
+    mode_held.reserve(columns);
     square.resize(columns * columns);
     gradient.resize(columns);
     exact_places.resize(linkage.points.size());
@@ -247,8 +251,7 @@ void LinkageWork::take_step(double part) noexcept {
         }
         const glm::dquat parent =
             link.parent == ground_link ? glm::dquat(1.0, 0.0, 0.0, 0.0) : places[link.parent].rotation;
-        const glm::dvec3 vector =
-            rotated(conjugate(parent), times(glm::dvec3(by[0], by[1], by[2]), part));
+        const glm::dvec3 vector = rotated(conjugate(parent), times(glm::dvec3(by[0], by[1], by[2]), part));
         const glm::dquat turn = compose(turn_by_vector(vector), joint.turn);
         joint.turn = turn;
     }
@@ -336,8 +339,8 @@ double LinkageWork::squared_gap(const Closure& closure) const noexcept {
 }
 
 double LinkageWork::gap_of(const Closure& closure) const noexcept {
-    const double apart = length(
-        minus(point_of(closure.second, closure.second_at), point_of(closure.first, closure.first_at)));
+    const double apart =
+        length(minus(point_of(closure.second, closure.second_at), point_of(closure.first, closure.first_at)));
     return closure.kind == ClosureKind::Frame ? std::max(apart, length(turn_between(closure))) : apart;
 }
 

@@ -15,9 +15,10 @@
 
 namespace tendril::ik::detail {
 
-/// Rows made orthonormal one by one, so that each gives way to those before it. Gram-Schmidt; a row that loses
-/// most of itself is treated twice (W. Kahan's rule: B. Parlett, "The Symmetric Eigenvalue Problem", 1980,
-/// 6.9). A row is nonzero only in its window, and loops that share no joints cost nothing to each other.
+/// Rows made orthonormal one by one, so that each gives way to those before it. Gram-Schmidt; a row that
+/// loses most of itself is treated twice (W. Kahan's rule: B. Parlett, "The Symmetric Eigenvalue Problem",
+/// 1980, 6.9). A row is nonzero only in its window, and loops that share no joints cost nothing to each
+/// other.
 class RowBasis {
   public:
     void reserve(std::size_t columns);
@@ -53,6 +54,7 @@ struct LinkageWork {
     std::vector<std::size_t> column;     ///< the first of each link
     std::size_t columns = 0;
     double size = 0.0;
+    double rounding = 0.0;  ///< metres: what a closure cannot be closer to, far from the origin
     bool planar = false;
     glm::dvec3 normal{0.0, 0.0, 1.0};  ///< of a planar one
 
@@ -67,12 +69,12 @@ struct LinkageWork {
     }
 
     // Steps.
-    std::vector<std::uint8_t> driven;  ///< columns that drivers hold
-    std::vector<std::uint8_t> held;    ///< these, and columns at the end of their range
+    std::vector<std::uint8_t> driven;   ///< columns that drivers hold
+    std::vector<std::uint8_t> held;     ///< these, and columns at the end of their range
     std::vector<std::uint8_t> blocked;  ///< balls at their maximum: they turn no further outward
     std::vector<double> step;
-    std::vector<double> moved;         ///< the sum of the steps of a return to the closures
-    std::vector<JointPlace> kept;      ///< where a step began, to go back
+    std::vector<double> moved;     ///< the sum of the steps of a return to the closures
+    std::vector<JointPlace> kept;  ///< where a step began, to go back
     /// Goes by `part` of the step, within the ranges.
     void take_step(double part) noexcept;
     /// Only the drivers' columns are held.
@@ -94,7 +96,9 @@ struct LinkageWork {
         std::size_t count = 0;
         std::array<double, 6> errors{};  ///< what is missing
     };
-    std::span<double> row(std::size_t index) noexcept { return {block_rows.data() + index * columns, columns}; }
+    std::span<double> row(std::size_t index) noexcept {
+        return {block_rows.data() + index * columns, columns};
+    }
     std::vector<double> block_rows;  ///< six rows
     Block closure_block(std::size_t index) noexcept;
     Block target_block(const LinkTarget& target) noexcept;
@@ -112,6 +116,11 @@ struct LinkageWork {
     // Of the goals.
     std::vector<glm::dvec3> exact_places;  ///< of targets: where exact ones keep their points
     std::vector<double> driver_starts;     ///< of each link
+
+    // The sign of LinkageSolve::mode(), for the pose and the held columns that it is of.
+    int mode = 0;
+    std::vector<JointPlace> mode_at;
+    std::vector<std::uint8_t> mode_held;
 
     // For the report.
     std::vector<double> residuals;

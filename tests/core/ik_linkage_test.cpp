@@ -1,0 +1,677 @@
+// Linkages: cases of an independent implementation over whole turns, closed forms, what is out of reach
+// against brute force, modes and dead points, ranges, priorities, freedom, sketches, and hostile input.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "memory.hpp"
+#include "random.hpp"
+#include "tendril/ik/mechanisms.hpp"
+#include "tests/places.hpp"
+#include "tests/says.hpp"
+
+namespace tendril::test::ik_linkage_test {
+namespace {
+
+using namespace ik;
+using Json = nlohmann::json;
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+double radians(double degrees) {
+    return degrees * std::numbers::pi / 180.0;
+}
+
+/// A linkage that is driven and looked at by names.
+struct Machine {
+    explicit Machine(const Expected<Linkage>& linkage)
+        : solver(std::move(*LinkageSolver::make(*linkage))), state(solver.initial_state()) {}
+    explicit Machine(const Expected<LinkageSketch>& sketch) : Machine(linkage_from(*sketch)) {}
+
+    std::size_t link(const std::string& name) const { return solver.linkage().find_link(name); }
+    std::size_t point_index(const std::string& name) const { return solver.linkage().find_point(name); }
+    glm::dvec3 point(const std::string& name) const { return solver.point(point_index(name)); }
+    double value(const std::string& name) const { return state.joints[link(name)].value; }
+    LinkageReport drive(const std::string& name, double value) {
+        const LinkDriver driver{link(name), value};
+        return solver.solve(state, {{&driver, 1}, {}});
+    }
+    LinkageReport reach(const std::string& name, const glm::dvec3& to, bool exact = false) {
+        const LinkTarget target{point_index(name), to, 1.0, exact};
+        return solver.solve(state, {{}, {&target, 1}});
+    }
+
+    LinkageSolver solver;
+    LinkageState state;
+};
+
+/// In the plane; each coordinate from -range to range.
+glm::dvec3 random_place(Random& random, float range) {
+    const double x = random.around(range), y = random.around(range);
+    return {x, y, 0.0};
+}
+
+FourBar four_bar_of(const Json& lengths) {
+    return {lengths.at("ground"),
+            lengths.at("crank"),
+            lengths.at("coupler"),
+            lengths.at("rocker"),
+            {lengths.at("coupler_point")[0], lengths.at("coupler_point")[1]}};
+}
+
+/// Two turns, in steps of so many degrees; the rows are a turn.
+void follows(Machine& machine, const std::string& driver, const Json& rows, int step,
+             const std::vector<std::string>& points) {
+    const int spacing = 360 / static_cast<int>(rows.size());
+    double furthest = 0.0;
+    for (int degrees = 0; degrees <= 720; degrees += step) {
+        const LinkageReport report = machine.drive(driver, radians(degrees));
+        ASSERT_EQ(report.status, LinkageStatus::Reached) << degrees;
+        ASSERT_FALSE(report.passed_dead_point) << degrees;
+        ASSERT_LE(report.closed_to, 1e-6 * machine.solver.size());
+        ASSERT_EQ(report.freedom, 0);
+        if (degrees % spacing != 0) continue;
+        const Json& row = rows[static_cast<std::size_t>(degrees / spacing) % rows.size()];
+        for (const std::string& each : points) {
+            const glm::dvec3 at = machine.point(each);
+            const double x = row.contains("slider_x") ? row.at("slider_x") : row.at(each)[0];
+            const double y = row.contains("slider_x") ? at.y : row.at(each)[1].get<double>();
+            furthest = std::max(furthest, glm::length(at - glm::dvec3(x, y, 0.0)));
+        }
+    }
+    EXPECT_LE(furthest, 1e-5);
+}
+
+TEST(Linkage, agrees_with_an_independent_implementation_over_whole_turns) {
+    std::ifstream file(reference_path("linkage.json"));
+    if (!file) GTEST_SKIP() << "linkage.json is not here";
+    const Json cases = Json::parse(file);
+    for (const bool fine : {false, true}) {
+        for (const Json& each : cases.at("four_bar")) {
+            Machine machine(four_bar(four_bar_of(each)));
+            follows(machine, "crank", each.at("rows"), fine ? 1 : 15, {"B", "C", "P"});
+        }
+        for (const Json& each : cases.at("slider_crank")) {
+            Machine machine(slider_crank({each.at("crank"), each.at("rod"), each.at("offset")}));
+            follows(machine, "crank", each.at("rows"), fine ? 1 : 15, {"S"});
+        }
+        Machine machine{jansen()};
+        follows(machine, "motor", cases.at("jansen").at("rows"), fine ? 1 : 10,
+                {"crank", "upper", "lower", "back", "knee", "foot"});
+    }
+    for (const Json& each : cases.at("delta")) {
+        const Delta lengths{each.at("base_radius"), each.at("platform_radius"), each.at("upper_arm"),
+                            each.at("forearm")};
+        Machine machine(delta(lengths));
+        for (const Json& row : each.at("rows")) {
+            const Json& to = row.at("platform");
+            ASSERT_EQ(machine.reach("platform", {to[0], to[1], to[2]}).status, LinkageStatus::Reached);
+            for (std::size_t i = 0; i < 3; ++i)
+                EXPECT_NEAR(machine.value("motor_" + std::to_string(i)), radians(row.at("motors_deg")[i]),
+                            1e-5);
+        }
+    }
+}
+
+// ------------------------------------------------------------------------------------------- closed forms
+
+TEST(Linkage, peaucellier_draws_a_straight_line) {
+    Machine machine{peaucellier()};
+    for (int degrees = -50; degrees <= 50; ++degrees) {
+        ASSERT_EQ(machine.drive("crank", radians(degrees)).status, LinkageStatus::Reached);
+        EXPECT_NEAR(machine.point("P").x, (3.0 * 3.0 - 1.2 * 1.2) / 2.0, 1e-6);
+    }
+}
+
+TEST(Linkage, a_pantograph_enlarges_and_a_scissor_lift_lifts) {
+    Machine machine{pantograph({1.0, 2.5})};
+    Random random(3);
+    for (int i = 0; i < 50; ++i) {
+        const glm::dvec3 to = glm::dvec3(0.4, 0.0, 0.0) + random_place(random, 0.1f);
+        ASSERT_EQ(machine.reach("T", to).status, LinkageStatus::Reached);
+        EXPECT_LE(glm::length(machine.point("P") - 2.5 * machine.point("T")), 1e-8);
+    }
+    Machine lift{scissor_lift({5, 1.0, 0.6})};
+    for (int degrees = 5; degrees <= 85; degrees += 5) {
+        ASSERT_EQ(lift.drive("lift", radians(degrees)).status, LinkageStatus::Reached);
+        EXPECT_NEAR(lift.point("R5").y, 5.0 * std::sin(radians(degrees)), 1e-7);
+    }
+}
+
+glm::dquat turned_by(const glm::dvec3& vector) {
+    const double angle = glm::length(vector);
+    return angle > 0.0 ? glm::angleAxis(angle, vector / angle) : glm::dquat(1.0, 0.0, 0.0, 0.0);
+}
+
+TEST(Linkage, a_stewart_platform_is_where_its_legs_put_it) {
+    const Stewart lengths;
+    Machine machine(stewart(lengths));
+    Random random(11);
+    for (int i = 0; i < 200; ++i) {
+        const glm::dvec3 at = glm::dvec3(0.0, 0.0, 1.0) + 0.25 * glm::dvec3(random.point(1.0f));
+        const glm::dquat turn = turned_by(0.25 * glm::dvec3(random.point(1.0f)));
+        const auto legs = stewart_legs(lengths, at, turn);
+        std::vector<LinkDriver> drivers;
+        for (std::size_t k = 0; k < 6; ++k)
+            drivers.push_back({machine.link("leg_" + std::to_string(k)), legs[k]});
+        const LinkageReport report = machine.solver.solve(machine.state, {drivers, {}});
+        ASSERT_EQ(report.status, LinkageStatus::Reached);
+        ASSERT_EQ(report.freedom, 0);
+        EXPECT_LE(glm::length(machine.point("platform") - at), 1e-6);
+        const glm::dquat is = machine.solver.links()[machine.link("platform")].rotation;
+        EXPECT_GE(std::abs(glm::dot(is, turn)), 1.0 - 1e-12);
+    }
+}
+
+TEST(Linkage, a_delta_robot_meets_its_closed_form_and_stays_level) {
+    const Delta lengths;
+    Machine machine(delta(lengths));
+    Random random(12);
+    int checked = 0;
+    for (int i = 0; i < 200; ++i) {
+        const glm::dvec3 at = glm::dvec3(0.0, 0.0, -0.45) + 0.12 * glm::dvec3(random.point(1.0f));
+        const auto motors = delta_motors(lengths, at);
+        const LinkageReport report = machine.reach("platform", at);
+        if (!motors) continue;
+        ++checked;
+        ASSERT_EQ(report.status, LinkageStatus::Reached);
+        for (std::size_t k = 0; k < 3; ++k)
+            EXPECT_NEAR(machine.value("motor_" + std::to_string(k)), (*motors)[k], 1e-5);
+        EXPECT_NEAR(std::abs(machine.solver.links()[machine.link("platform")].rotation.w), 1.0, 1e-9);
+    }
+    EXPECT_GE(checked, 150);
+}
+
+// ------------------------------------------------------------------------------------------ random linkages
+
+/// A crank, and dyads on it: each new point is joined by two bars to two points before.
+LinkageSketch random_sketch(Random& random) {
+    LinkageSketch sketch;
+    const auto place = [&] { return glm::dvec2(random_place(random, 2.0f)); };
+    const auto bar = [&](std::size_t a, std::size_t b) {
+        sketch.bars.push_back({"bar_" + std::to_string(sketch.bars.size()), {a, b}});
+    };
+    sketch.points = {{"O", place(), SketchHold::Pinned}, {"A", place()}};
+    bar(0, 1);
+    sketch.motors = {{"motor", 0, 0}};
+    for (std::size_t i = random.below(5) + 1; i-- > 0;) {
+        const std::size_t count = sketch.points.size();
+        if (random.chance(2)) sketch.points.push_back({"pin", place(), SketchHold::Pinned});
+        const std::size_t one = random.chance(2) ? 1 + random.below(count - 1) : count - 1;
+        std::size_t other = sketch.points.size() - 1;
+        if (other == one) other = 0;
+        if (random.chance(4)) {
+            // One bar, to a point that slides.
+            sketch.points.push_back(
+                {"S", place(), SketchHold::Guided, 3.0 * static_cast<double>(random.part())});
+            bar(one, sketch.points.size() - 1);
+            continue;
+        }
+        sketch.points.push_back({"P", place()});
+        bar(one, sketch.points.size() - 1);
+        bar(other, sketch.points.size() - 1);
+    }
+    return sketch;
+}
+
+/// How much the sketch's bars have changed their lengths, and its pins their places.
+double distortion(const LinkageSketch& sketch, const LinkageSolver& solver) {
+    double largest = 0.0;
+    const auto length_of = [&](std::size_t a, std::size_t b) {
+        return glm::length(solver.point(a) - solver.point(b));
+    };
+    for (const SketchBar& bar : sketch.bars)
+        for (const std::size_t each : bar.points)
+            largest = std::max(
+                largest, std::abs(length_of(bar.points[0], each) -
+                                  glm::length(sketch.points[bar.points[0]].at - sketch.points[each].at)));
+    for (std::size_t i = 0; i < sketch.points.size(); ++i)
+        if (sketch.points[i].hold == SketchHold::Pinned)
+            largest = std::max(largest, glm::length(glm::dvec2(solver.point(i)) - sketch.points[i].at));
+    return largest;
+}
+
+// 10^5 poses were run once, with `linkages` 2000.
+TEST(Linkage, random_linkages_stay_closed_wherever_they_are_driven_and_drawn) {
+    constexpr int linkages = 40;
+    Random random(21);
+    int poses = 0, reached = 0;
+    for (int trial = 0; trial < linkages; ++trial) {
+        const LinkageSketch sketch = random_sketch(random);
+        const Expected<Linkage> linkage = linkage_from(sketch);
+        ASSERT_TRUE(linkage) << linkage.message();
+        Machine machine(linkage);
+        for (int i = 0; i < 50; ++i) {
+            const bool drive = random.chance(2);
+            const LinkTarget target{1 + random.below(sketch.points.size() - 1), random_place(random, 3.0f)};
+            const LinkageReport report =
+                drive ? machine.drive("motor",
+                                      machine.value("motor") + static_cast<double>(random.around(1.0f)))
+                      : machine.solver.solve(machine.state, {{}, {&target, 1}});
+            ASSERT_NE(report.status, LinkageStatus::Open) << trial << " " << i;
+            ASSERT_LE(report.closed_to, 1e-6 * machine.solver.size()) << trial << " " << i;
+            ASSERT_LE(distortion(sketch, machine.solver), 1e-6 * machine.solver.size());
+            ++poses;
+            reached += report.status == LinkageStatus::Reached;
+        }
+    }
+    EXPECT_GE(reached, poses / 4);
+}
+
+// ------------------------------------------------------------------------------------------ what is not
+// there
+
+TEST(Linkage, a_dead_point_is_where_the_closed_form_has_it_and_says_which_driver) {
+    Machine machine{four_bar({.ground = 3.0, .crank = 2.0, .coupler = 1.5, .rocker = 1.2})};
+    const double dead = std::acos((3.0 * 3.0 + 2.0 * 2.0 - 2.7 * 2.7) / (2.0 * 3.0 * 2.0));
+    ASSERT_EQ(machine.drive("crank", radians(10)).status, LinkageStatus::Reached);
+    const glm::dvec3 before = machine.point("C");
+    for (int i = 0; i < 3; ++i) {
+        const LinkageReport report = machine.drive("crank", radians(90));
+        ASSERT_EQ(report.status, LinkageStatus::DeadPoint);
+        ASSERT_EQ(report.stopped, machine.link("crank"));
+        EXPECT_NEAR(report.stopped_at, dead, 1e-6);
+        EXPECT_NEAR(machine.value("crank"), dead, 1e-6);
+    }
+    // And back, on the same side.
+    EXPECT_EQ(machine.drive("crank", radians(10)).status, LinkageStatus::Reached);
+    EXPECT_LE(glm::length(machine.point("C") - before), 1e-6);
+}
+
+TEST(Linkage, closures_that_contradict_each_other_are_named_and_as_near_as_can_be) {
+    // A triangle of bars over a ground that is too long for them.
+    Linkage linkage;
+    linkage.links = {{"left", ground_link, LinkJoint::Hinge, {0, 0, 0}},
+                     {"right", ground_link, LinkJoint::Hinge, {5, 0, 0}}};
+    linkage.points = {{"L", 0, {1, 0.5, 0}}, {"R", 1, {4, 1, 0}}};
+    linkage.closures = {{"top", ClosureKind::Point, 0, 1, {1, 0.5, 0}, {4, 1, 0}}};
+    Machine machine{Expected<Linkage>(linkage)};
+    const LinkageReport report = machine.solver.solve(machine.state);
+    EXPECT_EQ(report.status, LinkageStatus::Open);
+    EXPECT_NEAR(report.closed_to, 5.0 - std::sqrt(1.25) - std::sqrt(2.0), 1e-4);
+    ASSERT_EQ(machine.solver.open_closures().size(), 1u);
+    EXPECT_EQ(machine.solver.open_closures()[0], 0u);
+}
+
+TEST(Linkage, a_place_out_of_reach_is_approached_as_near_as_brute_force_comes) {
+    Random random(5);
+    int missed = 0;
+    for (int trial = 0; trial < 40; ++trial) {
+        const FourBar lengths{3.0,
+                              0.6 + 0.4 * static_cast<double>(random.part()),
+                              2.4,
+                              2.3,
+                              {1.0, static_cast<double>(random.around(1.0f))}};
+        Machine machine{four_bar(lengths)}, sweep{four_bar(lengths)};
+        const glm::dvec3 to = random_place(random, 4.0f);
+        double nearest = 1e9, at = 0.0;
+        for (int degrees = 0; degrees < 3600; ++degrees) {
+            sweep.drive("crank", radians(0.1 * degrees));
+            const double far = glm::length(sweep.point("P") - to);
+            if (far < nearest) nearest = far, at = radians(0.1 * degrees);
+        }
+        // A target draws to the nearest place that descent leads to: it starts in reach of the nearest.
+        machine.drive("crank", at - 0.3);
+        const LinkageReport report = machine.reach("P", to);
+        EXPECT_EQ(report.status, LinkageStatus::TargetMissed);
+        missed += report.residual > 0.01;
+        EXPECT_LE(report.residual, 1.01 * nearest);
+    }
+    EXPECT_GE(missed, 30);
+}
+
+TEST(Linkage, legs_that_cannot_all_have_their_lengths_come_as_near_as_they_can) {
+    // A planar five-bar with two cranks that would pull the middle apart.
+    LinkageSketch sketch;
+    sketch.points = {{"A", {0, 0}, SketchHold::Pinned},
+                     {"B", {0, 1}},
+                     {"C", {1, 1.8}},
+                     {"D", {2, 1}},
+                     {"E", {2, 0}, SketchHold::Pinned}};
+    sketch.bars = {{"left", {0, 1}}, {"BC", {1, 2}}, {"CD", {2, 3}}, {"right", {4, 3}}};
+    sketch.motors = {{"left", 0, 0}, {"right", 4, 3}};
+    Machine machine{Expected<LinkageSketch>(sketch)};
+    const double reach = 2.0 * std::hypot(1.0, 0.8);
+    for (const double open : {0.3, 0.7, 1.2}) {
+        const double left = radians(90) + open, right = radians(90) - 1.5 * open;
+        const LinkDriver drivers[] = {{machine.link("left"), left}, {machine.link("right"), right}};
+        const LinkageReport report = machine.solver.solve(machine.state, {drivers, {}});
+        double nearest = 1e9;
+        for (int i = -1000; i <= 1000; ++i)
+            for (int k = -1000; k <= 1000; k += 1) {
+                const double a = left + 0.001 * i, b = right + 0.001 * k;
+                const double apart = std::hypot(2.0 + std::cos(b) - std::cos(a), std::sin(b) - std::sin(a));
+                if (apart <= reach)
+                    nearest =
+                        std::min(nearest, 1e-6 * (static_cast<double>(i) * i + static_cast<double>(k) * k));
+                if (i % 10) k += 9;
+            }
+        const double a = machine.value("left") - left, b = machine.value("right") - right;
+        EXPECT_LE(std::hypot(a, b), 1.01 * std::sqrt(nearest) + 1e-6) << open;
+        EXPECT_EQ(report.status, nearest > 0.0 ? LinkageStatus::DeadPoint : LinkageStatus::Reached);
+    }
+}
+
+// ------------------------------------------------------------------------------------------------- modes
+
+TEST(Linkage, the_other_mode_is_the_mirrored_one_and_again_the_first) {
+    Machine machine{four_bar()};
+    machine.drive("crank", radians(40));
+    const LinkageState first = machine.state;
+    const glm::dvec3 b = machine.point("B"), c = machine.point("C"), d = machine.point("D");
+    const LinkDriver crank{machine.link("crank"), machine.value("crank")};
+    ASSERT_TRUE(machine.solver.other_mode(machine.state, {&crank, 1}));
+    machine.drive("crank", radians(40));
+    const glm::dvec3 along = glm::normalize(d - b),
+                     mirrored = b + 2.0 * glm::dot(c - b, along) * along - (c - b);
+    EXPECT_LE(glm::length(machine.point("C") - mirrored), 1e-6);
+    ASSERT_TRUE(machine.solver.other_mode(machine.state, {&crank, 1}));
+    machine.drive("crank", radians(40));
+    EXPECT_LE(glm::length(machine.point("C") - c), 1e-6);
+    // A linkage that has no other one.
+    Machine triangle{slider_crank()};
+    EXPECT_FALSE(triangle.solver.other_mode(triangle.state, std::vector<LinkDriver>{{0, nan}}));
+}
+
+TEST(Linkage, a_parallelogram_stays_one_through_the_poses_where_it_is_flat) {
+    Machine machine{four_bar({.ground = 2.0, .crank = 1.0, .coupler = 2.0, .rocker = 1.0})};
+    int passed = 0;
+    for (int degrees = 1; degrees <= 720; ++degrees) {
+        const LinkageReport report = machine.drive("crank", radians(degrees));
+        ASSERT_EQ(report.status, LinkageStatus::Reached) << degrees;
+        ASSERT_LE(glm::length(machine.point("C") - machine.point("B") - glm::dvec3(2, 0, 0)), 1e-6)
+            << degrees;
+        passed += report.passed_dead_point;
+    }
+    EXPECT_GE(passed, 2);
+}
+
+TEST(Linkage, a_target_that_pulls_it_past_a_dead_point_is_reported) {
+    // The rocker's motor cannot turn it over; the crank's end pulled round does.
+    Machine machine{four_bar({.ground = 3.0, .crank = 1.0, .coupler = 2.5, .rocker = 2.0})};
+    const std::size_t watched[] = {machine.link("rocker")};
+    const std::size_t crank[] = {machine.link("crank")};
+    int rocker_passed = 0, crank_passed = 0;
+    for (int degrees = 0; degrees <= 360; degrees += 2) {
+        const LinkTarget target{machine.point_index("B"),
+                                {std::cos(radians(degrees)), std::sin(radians(degrees)), 0.0}};
+        LinkageState other = machine.state;
+        const LinkageReport report =
+            machine.solver.solve(machine.state, {{}, {&target, 1}}, {.watched = watched});
+        rocker_passed += report.passed_dead_point;
+        crank_passed += machine.solver.solve(other, {{}, {&target, 1}}, {.watched = crank}).passed_dead_point;
+        ASSERT_EQ(report.status, LinkageStatus::Reached) << degrees;
+        EXPECT_EQ(other, machine.state);
+    }
+    EXPECT_EQ(rocker_passed, 2);
+    EXPECT_EQ(crank_passed, 0);
+}
+
+// ------------------------------------------------------------------------------------ ranges, priorities
+
+TEST(Linkage, a_range_stops_a_driver_and_is_named) {
+    LinkageSketch sketch = *four_bar();
+    sketch.motors.push_back({"rocker", 3, 2, ground_link, 0.0, radians(120)});
+    Machine machine{Expected<LinkageSketch>(sketch)};
+    LinkageReport report;
+    bool limited = false;
+    for (int degrees = 0; degrees <= 180 && !limited; ++degrees) {
+        report = machine.drive("crank", radians(degrees));
+        limited = report.status == LinkageStatus::Limited;
+        ASSERT_LE(machine.value("rocker"), radians(120) + 1e-9);
+    }
+    ASSERT_TRUE(limited);
+    ASSERT_EQ(machine.solver.active().size(), 1u);
+    EXPECT_EQ(machine.solver.active()[0], machine.link("rocker"));
+    EXPECT_EQ(report.stopped, machine.link("crank"));
+    EXPECT_NEAR(machine.value("rocker"), radians(120), 1e-6);
+    // Its own range, too.
+    sketch.motors = {{"crank", 0, 0, ground_link, -1.0, 0.5}};
+    Machine own{Expected<LinkageSketch>(sketch)};
+    report = own.drive("crank", 2.0);
+    EXPECT_EQ(report.status, LinkageStatus::Limited);
+    EXPECT_NEAR(own.value("crank"), 0.5, 1e-12);
+    EXPECT_EQ(report.stopped, own.link("crank"));
+}
+
+TEST(Linkage, a_target_meets_ranges_of_hinges_sliders_and_balls) {
+    // A slider along X, a ball on it, and an arm of 1 m along X.
+    Linkage linkage;
+    linkage.links = {{"carriage", ground_link, LinkJoint::Slider, {0, 0, 0}, {1, 0, 0}, 0.0, -0.5, 0.5},
+                     {"arm", 0, LinkJoint::Ball, {0, 0, 0}}};
+    linkage.links[1].maximum = radians(60);
+    linkage.points = {{"hand", 1, {1, 0, 0}}};
+    Machine machine{Expected<Linkage>(linkage)};
+    Random random(8);
+    for (int i = 0; i < 100; ++i) {
+        const glm::dvec3 to = 2.0 * glm::dvec3(random.point(1.0f));
+        const LinkageReport report = machine.reach("hand", to);
+        // The nearest point of the swept caps, by brute force over the slider.
+        double nearest = 1e9;
+        for (int k = -500; k <= 500; ++k) {
+            const glm::dvec3 from = to - glm::dvec3(0.001 * k, 0.0, 0.0);
+            const double aside = std::hypot(from.y, from.z);
+            const double angle = std::min(std::atan2(aside, from.x), radians(60));
+            nearest = std::min(nearest, std::hypot(from.x - std::cos(angle), aside - std::sin(angle)));
+        }
+        EXPECT_LE(report.residual, 1.01 * nearest + 2e-3) << i;
+        EXPECT_LE(std::abs(machine.value("carriage")), 0.5);
+        EXPECT_LE(2.0 * std::acos(std::min(1.0, std::abs(machine.state.joints[1].turn.w))),
+                  radians(60) + 1e-7);
+    }
+}
+
+TEST(Linkage, exact_targets_come_before_weighted_ones_and_drivers_before_both) {
+    LinkageSketch sketch;
+    sketch.points = {{"O", {0, 0}, SketchHold::Pinned}, {"A", {1, 0}}, {"B", {2, 0.2}}, {"C", {3, 0}}};
+    sketch.bars = {{"one", {0, 1}}, {"two", {1, 2}}, {"three", {2, 3}}};
+    Machine machine{Expected<LinkageSketch>(sketch)};
+    const LinkTarget targets[] = {{3, {1.5, 1.5, 0.0}, 1.0, true}, {1, {-2.0, 2.0, 0.0}, 1000.0, false}};
+    LinkageReport report = machine.solver.solve(machine.state, {{}, targets});
+    EXPECT_EQ(report.status, LinkageStatus::TargetMissed);
+    EXPECT_LE(machine.solver.residuals()[0], 1e-6);
+    EXPECT_GT(machine.solver.residuals()[1], 1.0);
+    // Of all poses with C there, A is as near to its target as it can be: on the circle about C that the two
+    // other bars reach, or on its own towards the target.
+    double nearest = 1e9;
+    const double two = glm::length(glm::dvec2(1.0, 0.2));
+    for (int i = 0; i < 36000; ++i) {
+        const glm::dvec2 a(std::cos(radians(0.01 * i)), std::sin(radians(0.01 * i)));
+        const double apart = glm::length(a - glm::dvec2(1.5, 1.5));
+        if (apart <= 2.0 * two) nearest = std::min(nearest, glm::length(a - glm::dvec2(-2.0, 2.0)));
+    }
+    EXPECT_LE(machine.solver.residuals()[1], 1.01 * nearest);
+    const LinkDriver driver{0, 1.0};
+    report = machine.solver.solve(machine.state, {{&driver, 1}, targets});
+    EXPECT_LE(report.driver_residual, 1e-12);
+    EXPECT_LE(machine.solver.residuals()[0], 1e-6);
+    // Two that cannot both be: the heavier one comes nearer.
+    for (const double weight : {1.0, 100.0}) {
+        const LinkTarget apart[] = {{3, {0, 9, 0}, weight}, {2, {0, -9, 0}, 1.0}};
+        machine.solver.solve(machine.state, {{}, apart});
+        const double high = machine.point("C").y;
+        EXPECT_EQ(high > 1.5, weight > 1.0) << high;
+    }
+}
+
+// ------------------------------------------------------------------------------------------------ freedom
+
+TEST(Linkage, counts_freedom_as_gruebler_does_and_as_it_is) {
+    const auto freedom = [](Machine machine) { return machine.solver.freedom(machine.state); };
+    EXPECT_EQ(freedom(Machine(four_bar())), (LinkageFreedom{1, 1}));
+    EXPECT_EQ(freedom(Machine(jansen())), (LinkageFreedom{1, 1}));
+    EXPECT_EQ(freedom(Machine(pantograph())), (LinkageFreedom{2, 2}));
+    EXPECT_EQ(freedom(Machine(delta())), (LinkageFreedom{3, 3}));
+    EXPECT_EQ(freedom(Machine(stewart())), (LinkageFreedom{6, 6}));
+    // A third rocker is one too many by the count; as it is parallel, the linkage moves all the same.
+    LinkageSketch sketch;
+    const SketchHold pinned = SketchHold::Pinned;
+    sketch.points = {{"A", {0, 0}, pinned}, {"B", {1, 0}, pinned}, {"C", {2, 0}, pinned},
+                     {"P", {0.5, 1}},       {"Q", {1.5, 1}},       {"R", {2.5, 1}}};
+    sketch.bars = {{"a", {0, 3}}, {"b", {1, 4}}, {"c", {2, 5}}, {"coupler", {3, 4, 5}}};
+    sketch.motors = {{"a", 0, 0}};
+    Machine machine{Expected<LinkageSketch>(sketch)};
+    EXPECT_EQ(machine.solver.freedom(machine.state), (LinkageFreedom{0, 1}));
+    for (int i = 0; i < 50; ++i) {
+        const LinkageReport report = machine.drive("a", machine.value("a") + 0.02);
+        ASSERT_EQ(report.status, LinkageStatus::Reached);
+        ASSERT_LE(report.closed_to, 1e-6);
+        ASSERT_EQ(report.freedom, 0);
+    }
+    // A truss: nothing moves, and a target is only missed.
+    sketch.points[5].at.x = 2.2;
+    Machine truss{Expected<LinkageSketch>(sketch)};
+    EXPECT_EQ(truss.solver.freedom(truss.state).actual, 0);
+    EXPECT_EQ(truss.reach("P", {5, 5, 0}).status, LinkageStatus::TargetMissed);
+    EXPECT_LE(glm::length(truss.point("P") - glm::dvec3(0.5, 1, 0)), 1e-6);
+    EXPECT_EQ(truss.drive("a", 0.1).status, LinkageStatus::DeadPoint);
+}
+
+// ------------------------------------------------------------------------------------------------ sketches
+
+TEST(Linkage, a_sketch_knows_its_linkage_through_edits) {
+    LinkageSketch sketch = *jansen();
+    ASSERT_TRUE(remove_point(sketch, sketch.find_point("foot")));
+    EXPECT_EQ(sketch.bars[sketch.find_bar("ghi")].points.size(), 2u);
+    Machine shorter{Expected<LinkageSketch>(sketch)};
+    EXPECT_EQ(shorter.drive("motor", 1.0).status, LinkageStatus::Reached);
+    ASSERT_TRUE(remove_bar(sketch, sketch.find_bar("j")));
+    Machine loose{Expected<LinkageSketch>(sketch)};
+    EXPECT_EQ(loose.solver.freedom(loose.state), (LinkageFreedom{2, 2}));
+    ASSERT_TRUE(remove_point(sketch, sketch.find_point("axis")));
+    EXPECT_TRUE(sketch.motors.empty());
+    EXPECT_EQ(sketch.find_bar("m"), ground_link);
+    EXPECT_FALSE(remove_point(sketch, 99));
+    EXPECT_FALSE(remove_bar(sketch, 99));
+    // A motor between two bars: its angle is the one between them, whichever hangs on the other.
+    LinkageSketch elbow;
+    elbow.points = {{"O", {0, 0}, SketchHold::Pinned}, {"A", {1, 0}}, {"B", {1, 1}}};
+    elbow.bars = {{"upper", {0, 1}}, {"lower", {1, 2}}};
+    elbow.motors = {{"elbow", 1, 1, 0}};
+    Machine arm{Expected<LinkageSketch>(elbow)};
+    EXPECT_EQ(arm.drive("elbow", 0.0).status, LinkageStatus::Reached);
+    EXPECT_NEAR(glm::length(arm.point("B")), 0.0, 1e-9);
+    std::swap(elbow.motors[0].bar, elbow.motors[0].against);
+    Machine reversed{Expected<LinkageSketch>(elbow)};
+    EXPECT_NEAR(reversed.value("elbow"), radians(90), 1e-12);
+    EXPECT_EQ(reversed.drive("elbow", radians(135)).status, LinkageStatus::Reached);
+    EXPECT_NEAR(reversed.point("B").x, 1.0 + std::sqrt(0.5), 1e-9);
+}
+
+TEST(Linkage, what_cannot_be_a_linkage_is_refused_by_name_and_place) {
+    const LinkageSketch good = *four_bar();
+    const auto refused = [&](auto change, const char* words) {
+        LinkageSketch sketch = good;
+        change(sketch);
+        const Expected<Linkage> linkage = linkage_from(sketch);
+        ASSERT_FALSE(linkage) << words;
+        EXPECT_TRUE(says(linkage.message(), words)) << linkage.message();
+    };
+    refused([](auto& s) { s.bars[1].points = {1}; }, "bar \"coupler\" 2 points");
+    refused([](auto& s) { s.bars[1].points = {1, 77}; }, "bar \"coupler\" points of the sketch 77");
+    refused([](auto& s) { s.bars[1].points = {1, 1}; }, "bar \"coupler\" length");
+    refused([](auto& s) { s.points[2].at = s.points[1].at; }, "bar \"coupler\" length");
+    refused([](auto& s) { s.points[2].at.x = nan; }, "point \"C\" at most 1e9");
+    refused(
+        [](auto& s) {
+            s.points[0].hold = s.points[3].hold = SketchHold::Free;
+            s.motors.clear();
+        },
+        "bar \"crank\" pinned or guided");
+    refused([](auto& s) { s.motors.push_back({"second", 0, 0}); }, "motor \"second\" no other motor");
+    refused([](auto& s) { s.motors[0].bar = 9; }, "motor \"crank\" bar and a point");
+    refused([](auto& s) { s.motors[0].point = 1; }, "motor \"crank\" pinned point or turn against");
+    refused(
+        [](auto& s) {
+            s.motors[0].minimum = 2.0;
+            s.motors[0].maximum = 1.0;
+        },
+        "links 0 minimum at most its maximum 2");
+    refused([](auto& s) { s.motors[0].minimum = 2.0; }, "links 0 rest within its range 0");
+    const auto bad = [](auto change, const char* words) {
+        Linkage linkage = *linkage_from(*four_bar());
+        change(linkage);
+        EXPECT_FALSE(LinkageSolver::make(linkage)) << words;
+        EXPECT_TRUE(says(check(linkage).message(), words)) << check(linkage).message();
+    };
+    bad([](auto& l) { l.links[1].parent = 1; }, "links 1 parent earlier link 1");
+    bad([](auto& l) { l.links[1].axis = glm::dvec3(0.0); }, "links 1 axis longer than 0");
+    bad([](auto& l) { l.links[1].at.y = nan; }, "links 1 at nan");
+    bad([](auto& l) { l.points[0].link = 9; }, "points 0 link index 9");
+    bad([](auto& l) { l.closures[0].second = l.closures[0].first; }, "closures 0 second another link");
+    bad([](auto& l) { l.closures[0].first_at.x = 1e12; }, "closures 0 first_at 1e9");
+    bad([](auto& l) { l.points.resize(600); }, "points at most 512 600");
+    EXPECT_TRUE(says(four_bar({.ground = 9.0}).message(), "four_bar ground other three together 9"));
+    EXPECT_TRUE(says(slider_crank({.offset = 9.0}).message(), "slider_crank offset crank and rod 9"));
+    EXPECT_TRUE(says(jansen({.k = 999.0}).message(), "jansen k triangle"));
+    EXPECT_TRUE(says(peaucellier({.crank = 9.0}).message(), "peaucellier crank"));
+    EXPECT_TRUE(says(scissor_lift({.stages = 0}).message(), "scissor_lift stages 1 to 32 0"));
+    EXPECT_TRUE(says(delta({.forearm = 0.01}).message(), "delta forearm"));
+    EXPECT_TRUE(says(stewart({.height = 9.0}).message(), "stewart height"));
+    EXPECT_TRUE(says(four_bar({.crank = nan}).message(), "four_bar crank nan"));
+}
+
+TEST(Linkage, bad_goals_change_nothing) {
+    Machine machine{four_bar()};
+    machine.drive("crank", 0.7);
+    const LinkageState before = machine.state;
+    const auto refused = [&](const LinkageGoals& goals, const LinkageOptions& options = {}) {
+        EXPECT_EQ(machine.solver.solve(machine.state, goals, options).status, LinkageStatus::InvalidInput);
+        EXPECT_EQ(machine.state, before);
+    };
+    const LinkDriver drivers[] = {{0, nan}, {9, 0.0}, {0, 1.0}, {0, 1.0}};
+    refused({{drivers, 1}, {}});
+    refused({{drivers + 1, 1}, {}});
+    refused({{drivers + 2, 2}, {}});
+    const LinkTarget targets[] = {
+        {0, {nan, 0, 0}}, {99, {0, 0, 0}}, {0, {0, 0, 0}, -1.0}, {0, {0, 0, 0}}, {0, {0, 0, 0}}};
+    for (std::size_t i = 0; i < 3; ++i) refused({{}, {targets + i, 1}});
+    refused({{}, {targets + 3, 2}});
+    refused({}, {.max_iterations = 0});
+    refused({}, {.tolerance = nan});
+    LinkageState other;
+    EXPECT_EQ(machine.solver.solve(other).status, LinkageStatus::InvalidInput);
+    EXPECT_FALSE(machine.solver.place(other));
+    EXPECT_EQ(machine.solver.point(99), glm::dvec3(0.0));
+    LinkageSolver empty = std::move(*LinkageSolver::make({}));
+    LinkageState none = empty.initial_state();
+    EXPECT_EQ(empty.solve(none).status, LinkageStatus::Reached);
+}
+
+TEST(Linkage, far_turns_take_several_solves_and_say_so) {
+    Machine machine{four_bar()};
+    const LinkageReport report = machine.drive("crank", 1e8);
+    EXPECT_EQ(report.status, LinkageStatus::IterationLimit);
+    EXPECT_LE(report.closed_to, 1e-6);
+    EXPECT_GT(machine.value("crank"), 50.0);
+}
+
+// A workspace remembers nothing, and solving needs no memory.
+TEST(Linkage, a_new_solver_gives_the_same_bits_and_none_allocates) {
+    Machine machine{jansen()};
+    Random random(2);
+    for (int i = 0; i < 100; ++i) {
+        LinkageState copy = machine.state;
+        LinkageSolver fresh = std::move(*LinkageSolver::make(machine.solver.linkage()));
+        const LinkDriver driver{machine.link("motor"), 3.0 * static_cast<double>(random.around(1.0f))};
+        const LinkTarget target{machine.point_index("foot"), 100.0 * glm::dvec3(random.point(1.0f))};
+        const bool drive = random.chance(2);
+        const LinkageGoals goals = drive ? LinkageGoals{{&driver, 1}, {}} : LinkageGoals{{}, {&target, 1}};
+        const std::size_t watched[] = {driver.link};
+        LinkageReport one, other;
+        without_memory([&] { one = machine.solver.solve(machine.state, goals, {.watched = watched}); });
+        other = fresh.solve(copy, goals, {.watched = watched});
+        ASSERT_EQ(one, other) << i;
+        ASSERT_EQ(machine.state, copy) << i;
+    }
+}
+
+}  // namespace
+}  // namespace tendril::test::ik_linkage_test
