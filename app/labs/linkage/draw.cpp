@@ -26,7 +26,7 @@ class LinkageDrawing {
     void run() {
         path();
         if (part_.shape->in_plane())
-            bars();
+            bars(), walker();
         else
             links();
         open_closures();
@@ -37,7 +37,7 @@ class LinkageDrawing {
 
   private:
     float px(float pixels) const { return pixels * view_.scale; }
-    glm::vec3 at(std::size_t point) const { return glm::vec3(part_.at(point)); }
+    glm::vec3 at(std::size_t point) const { return in_scene(part_, part_.at(point)); }
     glm::vec4 opaque(const glm::vec3& colour) const { return glm::vec4(colour, 1.0f); }
     float thick() const { return std::max(0.012f * size_, 1e-4f); }
 
@@ -51,7 +51,7 @@ class LinkageDrawing {
             const std::size_t next = (i + 1) % path.size();
             if (next == 0 && !closed) break;
             const double share = fastest > 0.0 ? path[next].speed / fastest : 0.0;
-            list_.line(glm::vec3(path[i].at), glm::vec3(path[next].at), px(2.5f),
+            list_.line(in_scene(part_, path[i].at), in_scene(part_, path[next].at), px(2.5f),
                        opaque(speed_colour(view_.palette, share)));
         }
     }
@@ -98,6 +98,25 @@ class LinkageDrawing {
         }
     }
 
+    /// The other legs, and marks on the ground that pass under them.
+    void walker() {
+        if (part_.copies.empty()) return;
+        for (const LinkageCopy& copy : part_.copies)
+            for (const ik::SketchBar& bar : part_.shape->sketch.bars) {
+                std::vector<glm::vec3> places;
+                for (const std::size_t each : bar.points)
+                    places.push_back(in_scene(part_, part_.at(each, copy)));
+                body(places, copy.mirrored ? view_.palette.tail : view_.palette.neutral);
+            }
+        const auto back = static_cast<float>(part_.copies.back().depth);
+        const float apart = 0.5f * size_, shift = static_cast<float>(std::fmod(part_.walked, double(apart)));
+        for (int i = -6; i <= 6; ++i) {
+            const float x = apart * static_cast<float>(i) - shift;
+            list_.line({x, 0, back - 0.3f * size_}, {x, 0, 0.3f * size_}, px(1.5f),
+                       opaque(view_.palette.grid));
+        }
+    }
+
     /// The triangle and the line that stand for the ground in drawings of mechanisms.
     void pin(const glm::vec3& at) {
         const float unit = px(9.0f) * view_.camera.metres_per_pixel(at);
@@ -133,7 +152,7 @@ class LinkageDrawing {
         for (const std::size_t each : part_.result.open_closures) {
             const ik::Closure& closure = part_.linkage().closures[each];
             const auto end = [&](std::size_t link, const glm::dvec3& drawn) {
-                return glm::vec3(link == ik::ground_link ? drawn : part_.links[link].point(drawn));
+                return in_scene(part_, link == ik::ground_link ? drawn : part_.links[link].point(drawn));
             };
             const glm::vec3 a = end(closure.first, closure.first_at),
                             b = end(closure.second, closure.second_at);
@@ -170,13 +189,13 @@ class LinkageDrawing {
             const glm::dvec3 drawn =
                 of.parent == ik::ground_link ? of.at : part_.links[of.parent].point(of.at);
             const glm::vec3 colour = is_stalled(part_, each) ? view_.palette.limit : view_.palette.head;
-            list_.ring(glm::vec3(drawn), px(13.0f), px(each.rate != 0.0 ? 3.5f : 2.0f), opaque(colour));
+            list_.ring(in_scene(part_, drawn), px(13.0f), px(each.rate != 0.0 ? 3.5f : 2.0f), opaque(colour));
         }
     }
 
     void targets() {
         const auto draw = [&](const LinkageTarget& target, PickId pick) {
-            const glm::vec3 to(target.to);
+            const glm::vec3 to = in_scene(part_, target.to);
             list_.line(at(part_.linkage().find_point(target.point)), to, px(1.5f),
                        opaque(view_.palette.target));
             Stroke& ball = list_.sphere(to, px(view_.hovered == pick ? 8.5f : 7.0f), Unit::Pixels,
@@ -216,15 +235,33 @@ glm::vec3 speed_colour(const Palette& palette, double share) {
     return glm::mix(palette.head, palette.target, static_cast<float>(std::clamp(share, 0.0, 1.0)));
 }
 
+glm::vec3 in_scene(const LinkagePart& part, const glm::dvec3& at) {
+    if (!part.shape->in_plane()) return glm::vec3(at.x, at.z, -at.y);
+    return glm::vec3(at.x, at.y - part.lowest_foot(), at.z);  // a walker stands on the ground
+}
+
+glm::vec3 from_scene(const LinkagePart& part, const glm::vec3& at) {
+    if (!part.shape->in_plane()) return {at.x, -at.z, at.y};
+    return at + glm::vec3(0.0f, static_cast<float>(part.lowest_foot()), 0.0f);
+}
+
 std::vector<glm::vec3> places_on(const LinkagePart& part, std::size_t link) {
     const ik::Linkage& linkage = part.linkage();
     std::vector<glm::vec3> places;
     const auto add = [&](const glm::dvec3& drawn) {
-        const glm::vec3 at(link == ik::ground_link ? drawn : part.links[link].point(drawn));
+        const glm::vec3 at = in_scene(part, link == ik::ground_link ? drawn : part.links[link].point(drawn));
         const auto same = [&](const glm::vec3& other) { return glm::distance(at, other) < 1e-6f; };
         if (std::ranges::none_of(places, same)) places.push_back(at);
     };
-    if (link != ik::ground_link) add(linkage.links[link].at);
+    if (link != ik::ground_link) {
+        const ik::Link& own = linkage.links[link];
+        // A slider's link reaches from where it slides.
+        if (own.joint == ik::LinkJoint::Slider) {
+            const bool grounded = own.parent == ik::ground_link;
+            places.push_back(in_scene(part, grounded ? own.at : part.links[own.parent].point(own.at)));
+        }
+        add(own.at);
+    }
     for (const ik::Link& each : linkage.links)
         if (each.parent == link) add(each.at);
     for (const ik::Closure& each : linkage.closures) {
@@ -273,14 +310,19 @@ double transmission_angle(const LinkagePart& part) {
 
 void look_at_linkage(Workspace& workspace) {
     const LinkagePart& part = linkage_part(workspace);
-    glm::dvec3 low(1e30), high(-1e30);
-    const auto take = [&](const glm::dvec3& at) { low = glm::min(low, at), high = glm::max(high, at); };
+    glm::vec3 low(1e30f), high(-1e30f);
+    const auto take = [&](const glm::dvec3& point) {
+        const glm::vec3 at = in_scene(part, point);
+        low = glm::min(low, at), high = glm::max(high, at);
+    };
     for (std::size_t i = 0; i < part.linkage().points.size(); ++i) take(part.at(i));
+    for (const LinkageCopy& copy : part.copies)
+        for (std::size_t i = 0; i < part.linkage().points.size(); ++i) take(part.at(i, copy));
     for (const PathPoint& each : workspace.runtimes.of<LinkageRuntime>(linkage_lab).path(part)) take(each.at);
-    if (low.x > high.x) low = glm::dvec3(-1.0), high = glm::dvec3(1.0);
-    const Bounds all = bounds_of(glm::vec3(low), glm::vec3(high), 0.1f);
+    if (low.x > high.x) low = glm::vec3(-2.0f), high = glm::vec3(2.0f);
+    const Bounds all = bounds_of(low, high, 0.1f);
     CameraPose from;
-    if (part.shape->in_plane()) {
+    if (part.shape->in_plane() && part.copies.empty()) {
         from.orthographic = true;
     } else {
         from.yaw = 0.6f, from.pitch = 0.3f;

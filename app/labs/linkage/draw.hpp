@@ -17,7 +17,11 @@ inline PickId linkage_target_pick(std::size_t target) {
     return static_cast<PickId>(ik::max_links + target);
 }
 
-/// Where a link is joined to others, in the present pose.
+/// A point of the linkage in the scene, and back. Mechanisms in space have Z upwards, the scene Y.
+glm::vec3 in_scene(const LinkagePart& part, const glm::dvec3& at);
+glm::vec3 from_scene(const LinkagePart& part, const glm::vec3& at);
+
+/// Where a link is joined to others, in the present pose, in the scene.
 std::vector<glm::vec3> places_on(const LinkagePart& part, std::size_t link);
 /// Frames the linkage with room to move: square on to its plane, or from the side.
 void look_at_linkage(Workspace& workspace);

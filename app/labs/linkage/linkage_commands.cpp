@@ -221,12 +221,33 @@ bool is_stalled(const LinkagePart& part, const LinkageDrive& drive) {
     return report.stopped && part.linkage().links[*report.stopped].name == drive.joint;
 }
 
+namespace {
+
+/// Of a walker: in its own frame.
+std::vector<glm::dvec3> feet_of(const LinkagePart& part) {
+    std::vector<glm::dvec3> feet;
+    if (part.copies.empty()) return feet;
+    const std::size_t foot = part.linkage().find_point(kind_of(part.shape->mechanism)->traced);
+    feet.push_back(part.at(foot));
+    for (const LinkageCopy& each : part.copies) feet.push_back(part.at(foot, each));
+    return feet;
+}
+
+}  // namespace
+
 void run_motors(LinkagePart& part, double seconds, LinkageRuntime& runtime) {
     part.time += seconds;
     if (part.drag) return;
     for (LinkageDrive& each : part.drives)
         if (each.rate != 0.0) each.value += each.rate * seconds;
+    const std::vector<glm::dvec3> before = feet_of(part);
     solve_linkage(part, runtime);
+    // The lowest foot stands: the ground goes with it.
+    const std::vector<glm::dvec3> after = feet_of(part);
+    std::size_t lowest = 0;
+    for (std::size_t i = 0; i < after.size(); ++i)
+        if (after[i].y < after[lowest].y) lowest = i;
+    if (!after.empty()) part.walked -= after[lowest].x - before[lowest].x;
 }
 
 void add_linkage_commands(CommandTable& table) {

@@ -43,7 +43,7 @@ std::optional<StrokeEnd> end_at(const LinkagePart& part, const Camera& camera, g
     StrokeEnd end;
     float nearest = catch_pixels;
     for (std::size_t i = 0; i < part.linkage().points.size(); ++i) {
-        const auto at = camera.project(glm::vec3(part.at(i)));
+        const auto at = camera.project(in_scene(part, part.at(i)));
         const float far = at ? glm::distance(*at, pixel) : nearest;
         if (far >= nearest) continue;
         nearest = far;
@@ -62,8 +62,8 @@ std::string bar_at(const LinkagePart& part, const Camera& camera, glm::vec2 pixe
     float nearest = catch_pixels;
     for (const ik::SketchBar& bar : part.shape->sketch.bars)
         for (std::size_t i = 0; i < bar.points.size(); ++i) {
-            const auto a = camera.project(glm::vec3(part.at(bar.points[i])));
-            const auto b = camera.project(glm::vec3(part.at(bar.points[(i + 1) % bar.points.size()])));
+            const auto a = camera.project(in_scene(part, part.at(bar.points[i])));
+            const auto b = camera.project(in_scene(part, part.at(bar.points[(i + 1) % bar.points.size()])));
             if (!a || !b || *a == *b) continue;
             const glm::vec2 way = *b - *a;
             const float along = std::clamp(glm::dot(pixel - *a, way) / glm::dot(way, way), 0.0f, 1.0f);
@@ -121,23 +121,25 @@ std::vector<Handle> LinkageLab::handles(const Workspace& workspace) const {
     const LinkagePart& part = linkage_part(workspace);
     std::vector<Handle> all;
     for (std::size_t i = 0; i < part.linkage().points.size(); ++i)
-        all.push_back({part.linkage().points[i].name, linkage_pick(i), {glm::vec3(part.at(i))}});
+        all.push_back({part.linkage().points[i].name, linkage_pick(i), {in_scene(part, part.at(i))}});
     for (std::size_t i = 0; i < part.targets.size(); ++i)
-        all.push_back(
-            {"target." + part.targets[i].point, linkage_target_pick(i), {glm::vec3(part.targets[i].to)}});
+        all.push_back({"target." + part.targets[i].point,
+                       linkage_target_pick(i),
+                       {in_scene(part, part.targets[i].to)}});
     return all;
 }
 
 void LinkageLab::drag(const Workspace& workspace, PickId pick, const Handle::Frame& frame, Emit& emit) const {
     const LinkagePart& part = linkage_part(workspace);
     if (const LinkageTarget* const target = picked_linkage_target(part, pick))
-        return emit.continuously("linkage.target", {{"point", target->point}, {"to", frame.position}});
+        return emit.continuously("linkage.target",
+                                 {{"point", target->point}, {"to", from_scene(part, frame.position)}});
     const ik::LinkPoint* const point = picked_point(part, pick);
     if (point == nullptr) return;
     const bool stays = point->link == ik::ground_link;
     if (stays && !part.shape->in_plane()) return;
     emit.continuously(stays ? "linkage.move" : "linkage.drag",
-                      {{"point", point->name}, {"to", frame.position}});
+                      {{"point", point->name}, {"to", from_scene(part, frame.position)}});
 }
 
 void LinkageLab::drop(const Workspace& workspace, PickId, Emit& emit) const {

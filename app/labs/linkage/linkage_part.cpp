@@ -11,13 +11,13 @@
 namespace tendril::app {
 
 bool LinkagePart::operator==(const LinkagePart& other) const {
-    return shape == other.shape && state == other.state && drives == other.drives &&
-           targets == other.targets && drag == other.drag && result == other.result && time == other.time &&
-           tool == other.tool && selected == other.selected;
+    return shape == other.shape && state == other.state && copies == other.copies && walked == other.walked &&
+           drives == other.drives && targets == other.targets && drag == other.drag &&
+           result == other.result && time == other.time && tool == other.tool && selected == other.selected;
 }
 
 std::size_t LinkagePart::bytes() const {
-    return sizeof(*this) + state.joints.size() * sizeof(ik::JointPlace) +
+    return sizeof(*this) + (1 + copies.size()) * state.joints.size() * sizeof(ik::JointPlace) +
            links.size() * sizeof(ik::LinkPlace) + drives.size() * sizeof(LinkageDrive) +
            targets.size() * sizeof(LinkageTarget);
 }
@@ -93,6 +93,7 @@ ik::LinkageSketch load_sketch(const JsonPlace& place) {
         ik::SketchBar bar{.name = each["name"].text()};
         each["points"].for_each("points", max_linkage_points,
                                 [&](const JsonPlace& end) { bar.points.push_back(point_of(end)); });
+        if (bar.points.size() < 2) each["points"].fail("a bar needs two points");
         sketch.bars.push_back(std::move(bar));
     });
     place["motors"].for_each("motors", max_linkage_bars, [&](const JsonPlace& each) {
@@ -127,6 +128,16 @@ LinkageShape load_shape(const JsonPlace& place) {
     } catch (const std::invalid_argument& error) {
         sketch.fail(error.what());
     }
+}
+
+Json save_state(const ik::LinkageState& state, const ik::Linkage& linkage) {
+    Json joints = Json::array();
+    for (std::size_t i = 0; i < state.joints.size(); ++i) {
+        const ik::JointPlace& each = state.joints[i];
+        const bool ball = linkage.links[i].joint == ik::LinkJoint::Ball;
+        joints.push_back(ball ? dquaternion(each.turn) : Json{each.value, each.last});
+    }
+    return joints;
 }
 
 ik::LinkageState load_state(const JsonPlace& place, const ik::Linkage& linkage) {
@@ -173,13 +184,12 @@ Json LinkagePart::save() const {
                              {"lengths", save_fields(mechanism_fields(shape->mechanism))}};
     else
         json["sketch"] = save_sketch(shape->sketch);
-    Json joints = Json::array();
-    for (std::size_t i = 0; i < state.joints.size(); ++i) {
-        const ik::JointPlace& each = state.joints[i];
-        const bool ball = linkage().links[i].joint == ik::LinkJoint::Ball;
-        joints.push_back(ball ? dquaternion(each.turn) : Json{each.value, each.last});
+    json["joints"] = save_state(state, linkage());
+    if (!copies.empty()) {
+        json["legs"] = Json::array();
+        for (const LinkageCopy& each : copies) json["legs"].push_back(save_state(each.state, linkage()));
+        json["walked"] = walked;
     }
-    json["joints"] = std::move(joints);
     json["drivers"] = Json::array();
     for (const LinkageDrive& each : drives)
         json["drivers"].push_back({{"joint", each.joint}, {"rate", each.rate}, {"held", each.held}});
@@ -198,6 +208,13 @@ std::shared_ptr<Part> LinkagePart::load(const Json& json, const std::string& whe
     auto part = std::make_shared<LinkagePart>();
     part->shape = std::make_shared<const LinkageShape>(load_shape(place));
     part->state = load_state(place["joints"], part->linkage());
+    part->copies = copies_of(*part->shape, part->state);
+    if (!part->copies.empty()) {
+        place["legs"].check_size(part->copies.size(), "states, one for each further leg");
+        for (std::size_t i = 0; i < part->copies.size(); ++i)
+            part->copies[i].state = load_state(place["legs"].element(i), part->linkage());
+        part->walked = place["walked"].real();
+    }
     place["drivers"].for_each("drivers", ik::max_links,
                               [&](const JsonPlace& each) { load_drive(each, *part); });
     place["targets"].for_each("targets", max_linkage_points, [&](const JsonPlace& each) {
@@ -211,15 +228,21 @@ std::shared_ptr<Part> LinkagePart::load(const Json& json, const std::string& whe
             selected_point->fail("there is no point \"" + part->selected + "\"");
     }
     // The pose stays as it was saved, to the bit; the report is that of a solve from there.
+    const std::vector<LinkageDrive> drives = part->drives;
+    std::vector<LinkageCopy> copies = part->copies;
     const ik::LinkageState saved = part->state;
     LinkageRuntime runtime;
     solve_linkage(*part, runtime);
-    part->state = saved;
     ik::LinkageSolver& solver = runtime.solver(part->shape);
-    static_cast<void>(solver.place(saved));
-    part->links.assign(solver.links().begin(), solver.links().end());
-    for (LinkageDrive& each : part->drives)
-        each.value = saved.joints[part->linkage().find_link(each.joint)].value;
+    const auto put_back = [&](const ik::LinkageState& state, std::vector<ik::LinkPlace>& links) {
+        static_cast<void>(solver.place(state));
+        links.assign(solver.links().begin(), solver.links().end());
+    };
+    part->state = saved;
+    put_back(saved, part->links);
+    for (LinkageCopy& each : copies) put_back(each.state, each.links);
+    part->copies = std::move(copies);
+    part->drives = drives;
     return part;
 }
 

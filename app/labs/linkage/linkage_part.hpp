@@ -58,6 +58,16 @@ struct LinkageTarget {
     bool operator==(const LinkageTarget&) const = default;
 };
 
+/// The linkage once more, at another angle of its motor: a leg of a walker.
+struct LinkageCopy {
+    double phase = 0.0;     ///< of the motor, radians
+    bool mirrored = false;  ///< through the plane x = 0
+    double depth = 0.0;     ///< along Z, metres
+    ik::LinkageState state{};
+    std::vector<ik::LinkPlace> links{};
+    bool operator==(const LinkageCopy& other) const { return phase == other.phase && state == other.state; }
+};
+
 /// What the last solve says. Indices of the linkage.
 struct LinkageResult {
     ik::LinkageReport report{};
@@ -71,6 +81,8 @@ struct LinkagePart final : Part {
     std::shared_ptr<const LinkageShape> shape = std::make_shared<const LinkageShape>();
     ik::LinkageState state{};
     std::vector<ik::LinkPlace> links{};  ///< follows from `state`
+    std::vector<LinkageCopy> copies{};   ///< of a walker
+    double walked = 0.0;                 ///< metres that the ground has passed under it
     std::vector<LinkageDrive> drives{};
     std::vector<LinkageTarget> targets{};
     std::optional<LinkageTarget> drag{};  ///< by the mouse: while it lasts, drivers follow
@@ -89,8 +101,11 @@ struct LinkagePart final : Part {
     bool operator==(const LinkagePart& other) const;
 
     const ik::Linkage& linkage() const { return shape->linkage; }
-    /// Where a point of the linkage is now.
+    /// Where a point of the linkage is now, or the same of a copy.
     glm::dvec3 at(std::size_t point) const;
+    glm::dvec3 at(std::size_t point, const LinkageCopy& copy) const;
+    /// The height of a walker's lowest foot; 0 of others.
+    double lowest_foot() const;
     const LinkageDrive* find_drive(std::string_view joint) const;
 };
 
@@ -133,6 +148,8 @@ void take_shape(LinkagePart& part, LinkageShape shape, LinkageRuntime& runtime);
 LinkageShape shape_of(ik::LinkageSketch sketch);
 /// The shape of a mechanism. Throws std::invalid_argument as the library refuses its lengths.
 LinkageShape shape_of(const Mechanism& mechanism);
+/// The other legs of a walker, all in this state; none of others.
+std::vector<LinkageCopy> copies_of(const LinkageShape& shape, const ik::LinkageState& state);
 /// A mechanism at rest. The tool stays.
 void open_mechanism(LinkagePart& part, const Mechanism& mechanism, LinkageRuntime& runtime);
 /// The sketch in the present pose, to be edited. Throws Refused for a mechanism in space.

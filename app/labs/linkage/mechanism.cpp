@@ -95,8 +95,8 @@ std::span<const tendril::Field> tendril::fields<tendril::ik::Stewart>() noexcept
         field<&Stewart::base_radius>("base_radius", app::extent_range, "m"),
         field<&Stewart::platform_radius>("platform_radius", app::extent_range, "m"),
         field<&Stewart::height>("height", app::extent_range, "m"),
-        field<&Stewart::base_spread>("base_spread", {0.01, 1.0}, "rad"),
-        field<&Stewart::platform_spread>("platform_spread", {0.01, 1.0}, "rad"),
+        field<&Stewart::base_angle>("base_angle", {0.01, 1.0}, "rad"),
+        field<&Stewart::platform_angle>("platform_angle", {0.01, 1.0}, "rad"),
         field<&Stewart::minimum>("minimum", app::extent_range, "m"),
         field<&Stewart::maximum>("maximum", app::extent_range, "m")};
     return rows;
@@ -111,8 +111,7 @@ std::span<const FieldText> field_texts<ik::FourBar>() {
         length_text("crank", "crank", "The bar on the first pin, which the motor turns."),
         length_text("coupler", "coupler", "The bar between crank and rocker. It carries P."),
         length_text("rocker", "rocker", "The bar on the second pin."),
-        length_text("coupler_point", "coupler point",
-                    "Where P is on the coupler: along it from B, and to its left.")};
+        length_text("coupler_point", "P", "Where P is on the coupler: along it from B, and to its left.")};
     return texts;
 }
 
@@ -195,14 +194,14 @@ std::span<const FieldText> field_texts<ik::Stewart>() {
         length_text("height", "height", "Of the platform, as it is made."),
         length_text("minimum", "shortest leg", "No leg gets shorter than this."),
         length_text("maximum", "longest leg", "No leg gets longer than this."),
-        {.name = "base_spread",
-         .label = "base spread",
+        {.name = "base_angle",
+         .label = "base angle",
          .help = "Half the angle between the two feet of a pair.",
          .step = 0.2f,
          .decimals = 1,
          .more = true},
-        {.name = "platform_spread",
-         .label = "top spread",
+        {.name = "platform_angle",
+         .label = "top angle",
          .help = "Half the angle between the two joints of a pair on the platform.",
          .step = 0.2f,
          .decimals = 1,
@@ -212,14 +211,19 @@ std::span<const FieldText> field_texts<ik::Stewart>() {
 
 namespace {
 
-template <class Of>
+template <class Of, class Table = Of>
 MechanismKind kind(const char* name, const char* title, const char* help, const char* traced,
                    const char* drivers = "") {
-    return {name,   title,  help, [] { return Mechanism(Of{}); }, fields<Of>(), field_texts<Of>(),
+    return {name,   title,  help, [] { return Mechanism(Of{}); }, fields<Table>(), field_texts<Table>(),
             traced, drivers};
 }
 
 }  // namespace
+
+JansenWalker::JansenWalker() {
+    for (const Field& field : fields<ik::Jansen>())
+        field.set_number(static_cast<ik::Jansen*>(this), 0.01 * field.number(static_cast<ik::Jansen*>(this)));
+}
 
 const std::vector<MechanismKind>& mechanism_kinds() {
     static const std::vector<MechanismKind> list{
@@ -233,6 +237,8 @@ const std::vector<MechanismKind>& mechanism_kinds() {
         kind<ik::ScissorLift>("scissor_lift", "Scissor lift",
                               "Crosses on top of one another, with one degree of freedom.", ""),
         kind<ik::Jansen>("jansen", "Jansen's leg", "A crank makes a foot walk, by eleven lengths.", "foot"),
+        kind<JansenWalker, ik::Jansen>("walker", "Twelve legs",
+                                       "Twelve of Jansen's legs on one crank, walking.", "foot"),
         kind<ik::Delta>("delta", "Delta robot", "Drag the platform: three motors follow.", "platform",
                         "motor_"),
         kind<ik::Stewart>("stewart", "Stewart platform", "Drag the platform: six legs follow.", "platform",

@@ -11,9 +11,14 @@
 
 namespace tendril::app {
 
+/// Twelve of Jansen's legs on one crank, a hundredth as large: six pairs, a sixth of a turn apart.
+struct JansenWalker : ik::Jansen {
+    JansenWalker();
+};
+
 /// The lengths of one; none: drawn by hand.
 using Mechanism = std::variant<std::monostate, ik::FourBar, ik::SliderCrank, ik::Peaucellier, ik::Pantograph,
-                               ik::ScissorLift, ik::Jansen, ik::Delta, ik::Stewart>;
+                               ik::ScissorLift, ik::Jansen, JansenWalker, ik::Delta, ik::Stewart>;
 
 struct MechanismKind {
     const char* name;

@@ -119,49 +119,97 @@ void linkage_tool_rows(const LinkagePart& part, Emit& emit) {
     end_row();
 }
 
-void motor_rows(const Workspace& workspace, const LinkageDrive& drive, Emit& emit) {
-    const LinkagePart& part = linkage_part(workspace);
-    const bool angular = turns(part, drive.joint), runs = drive.rate != 0.0;
-    ImGui::PushID(drive.joint.c_str());
-    float value = static_cast<float>(angular ? glm::degrees(drive.value) : drive.value);
-    if (number_field(drive.joint.c_str(), value, angular ? 0.5f : 0.002f, -1e6f, 1e6f,
-                     angular ? "%.1f deg" : "%.3f m"))
-        emit.continuously("linkage.drive",
-                          {{"joint", drive.joint}, {angular ? "angle_deg" : "value", value}});
-    explain("The joint's value: drag or type it to drive the linkage.");
-    float rate = static_cast<float>(angular ? glm::degrees(drive.rate) : drive.rate);
-    if (number_field("speed", rate, angular ? 1.0f : 0.01f, -3600.0f, 3600.0f,
+void speed_row(const LinkagePart& part, const LinkageDrive& drive, const std::string& name, Emit& emit) {
+    const bool angular = turns(part, drive.joint);
+    auto rate = static_cast<float>(angular ? glm::degrees(drive.rate) : drive.rate);
+    const auto most = static_cast<float>(max_motor_rate);
+    if (number_field(name.c_str(), rate, angular ? 1.0f : 0.01f, -most, most,
                      angular ? "%.0f deg/s" : "%.2f m/s"))
         emit.continuously("linkage.motor", {{"joint", drive.joint}, {angular ? "deg_per_s" : "per_s", rate}});
     explain("How fast the motor runs while time passes. 0 stops it.");
-    if (row_button(runs ? "Stop" : "Run", 2, true,
-                   runs ? "Stops the motor and holds the joint" : "Runs the motor while time passes")) {
-        if (runs)
-            emit("linkage.drive", {{"joint", drive.joint}, {angular ? "angle_deg" : "value", value}});
-        else
-            emit("linkage.motor", {{"joint", drive.joint}});
-        if (!runs && !workspace.clock.playing) emit("time.play");
-    }
-    if (row_button("Free", 2, drive.held, "Lets the joint follow the others"))
-        emit("linkage.release", {{"joint", drive.joint}});
-    end_row();
-    ImGui::PopID();
 }
 
-void driver_rows(const Workspace& workspace, MoreRows&, Emit& emit) {
+void value_row(const LinkagePart& part, const LinkageDrive& drive, Emit& emit) {
+    const bool angular = turns(part, drive.joint);
+    auto value = static_cast<float>(angular ? glm::degrees(drive.value) : drive.value);
+    const char* const format = angular ? "%.1f deg" : "%.3f m";
+    if (number_field(drive.joint.c_str(), value, angular ? 0.5f : 0.002f, -1e6f, 1e6f, format))
+        emit.continuously("linkage.drive",
+                          {{"joint", drive.joint}, {angular ? "angle_deg" : "value", value}});
+    explain("The joint's value: drag or type it to drive the linkage.");
+}
+
+/// Runs, stops and frees all motors.
+void motor_buttons(const Workspace& workspace, Emit& emit) {
     const LinkagePart& part = linkage_part(workspace);
-    for (const LinkageDrive& each : part.drives) motor_rows(workspace, each, emit);
-    if (part.drives.empty()) note("No motor yet: choose Motor, and click a pinned joint.");
-    if (row_button("Other mode", 1, part.result.freedom.actual > 0 || !part.drives.empty(),
+    const auto any = [&](auto has) { return std::ranges::any_of(part.drives, has); };
+    const bool runs = any([](const LinkageDrive& each) { return each.rate != 0.0; });
+    if (row_button(runs ? "Stop" : "Run", 3, !part.drives.empty(),
+                   runs ? "Stops the motor and holds the joint" : "Runs the motor while time passes")) {
+        for (const LinkageDrive& each : part.drives)
+            if (runs)
+                emit.continuously("linkage.drive", {{"joint", each.joint}, {"value", each.value}});
+            else
+                emit.continuously("linkage.motor", {{"joint", each.joint}});
+        if (!runs && !workspace.clock.playing) emit("time.play");
+    }
+    if (row_button("Free", 3, any([](const LinkageDrive& each) { return each.held; }),
+                   "Stops the motor, and lets the joint follow the others"))
+        for (const LinkageDrive& each : part.drives)
+            emit.continuously("linkage.release", {{"joint", each.joint}});
+    if (row_button("Other mode", 3, !part.linkage().closures.empty(),
                    "Assembles the same bars the other way, with the drivers where they are"))
         emit("linkage.other_mode");
     end_row();
 }
 
+void driver_rows(const Workspace& workspace, MoreRows& more, Emit& emit) {
+    const LinkagePart& part = linkage_part(workspace);
+    const bool several = part.drives.size() > 1;
+    for (const LinkageDrive& each : part.drives) {
+        value_row(part, each, emit);
+        if (!several) speed_row(part, each, "speed", emit);
+        const std::string name = each.joint + " speed";
+        if (several)
+            more.add(name, {"linkage.motor", {"joint"}}, each.rate != 0.0,
+                     [&part, &each, &emit, name] { speed_row(part, each, name, emit); });
+    }
+    if (part.drives.empty()) note("No motor yet: choose Motor, and click a pinned joint.");
+    motor_buttons(workspace, emit);
+}
+
+/// A point beside a bar: along it, and to its left.
+void pair_rows(const Field& field, const FieldText& text, const Mechanism& mechanism, Emit& emit) {
+    const FieldValue now = field.get(mechanism_fields(mechanism).object);
+    const char* const ways[] = {"along", "beside"};
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+        auto value = static_cast<float>(now[axis]);
+        if (number_field((std::string(text.label) + " " + ways[axis]).c_str(), value, text.step, -1e6f, 1e6f,
+                         "%.3f m")) {
+            FieldValue wanted = now;
+            wanted[axis] = static_cast<double>(value);
+            emit.continuously("linkage.set", {{field.name, SharedJson(Json{wanted[0], wanted[1]})}});
+        }
+        explain(text.help);
+    }
+}
+
 void length_rows(const LinkagePart& part, MoreRows& more, Emit& emit) {
-    const MechanismKind* const kind = kind_of(part.shape->mechanism);
+    const Mechanism& mechanism = part.shape->mechanism;
+    const MechanismKind* const kind = kind_of(mechanism);
     if (kind == nullptr) return note("Drawn by hand: select a joint, and set its bars beside it.");
-    FieldRows(mechanism_fields(part.shape->mechanism), kind->texts, "linkage.set", emit).under(more).all();
+    const FieldRows rows(mechanism_fields(mechanism), kind->texts, "linkage.set", emit);
+    for (const FieldText& text : kind->texts) {
+        const Field& field = *find_field(kind->fields, text.name);
+        if (field.type == FieldType::Pair)
+            pair_rows(field, text, mechanism, emit);
+        else if (text.more)
+            FieldRows(mechanism_fields(mechanism), kind->texts, "linkage.set", emit)
+                .under(more)
+                .row(field.name);
+        else
+            rows.row(field.name);
+    }
 }
 
 constexpr PastHelp linkage_past_help{
@@ -179,7 +227,7 @@ void LinkageLab::panel(const Workspace& workspace, Emit& emit) const {
     section("Presets", true, [&](MoreRows&) { linkage_presets(emit); });
     section("Mouse", true, [&](MoreRows&) { linkage_tool_rows(part, emit); });
     section("Motors", true, [&](MoreRows& more) { driver_rows(workspace, more, emit); });
-    section("Lengths", true, [&](MoreRows& more) { length_rows(part, more, emit); });
+    section("Lengths", false, [&](MoreRows& more) { length_rows(part, more, emit); });
     section("Show", false,
             [&](MoreRows&) { past_view_rows(workspace, linkage_past(), linkage_past_help, emit); });
     section("Export", false, [&](MoreRows&) {

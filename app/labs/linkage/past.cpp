@@ -80,7 +80,7 @@ PoseLines linkage_lines(const SharedPart& shared) {
         for (std::size_t i = 0; i < part.linkage().links.size(); ++i) add(places_on(part, i));
     for (const ik::SketchBar& bar : part.shape->sketch.bars) {
         std::vector<glm::vec3> places;
-        for (const std::size_t each : bar.points) places.push_back(glm::vec3(part.at(each)));
+        for (const std::size_t each : bar.points) places.push_back(in_scene(part, part.at(each)));
         add(places);
     }
     return lines;

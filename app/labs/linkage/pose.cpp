@@ -54,6 +54,22 @@ glm::dvec3 LinkagePart::at(std::size_t point) const {
     return drawn.link == ik::ground_link ? drawn.at : links[drawn.link].point(drawn.at);
 }
 
+glm::dvec3 LinkagePart::at(std::size_t point, const LinkageCopy& copy) const {
+    const ik::LinkPoint& drawn = linkage().points[point];
+    glm::dvec3 now = drawn.link == ik::ground_link ? drawn.at : copy.links[drawn.link].point(drawn.at);
+    if (copy.mirrored) now.x = -now.x;
+    now.z += copy.depth;
+    return now;
+}
+
+double LinkagePart::lowest_foot() const {
+    if (copies.empty()) return 0.0;
+    const std::size_t foot = linkage().find_point(kind_of(shape->mechanism)->traced);
+    double lowest = at(foot).y;
+    for (const LinkageCopy& each : copies) lowest = std::min(lowest, at(foot, each).y);
+    return lowest;
+}
+
 const LinkageDrive* LinkagePart::find_drive(std::string_view joint) const {
     const auto found = std::ranges::find(drives, joint, &LinkageDrive::joint);
     return found == drives.end() ? nullptr : &*found;
@@ -93,6 +109,13 @@ void solve_linkage(LinkagePart& part, LinkageRuntime& runtime) {
     for (LinkageDrive& each : part.drives)
         each.value = part.state.joints[linkage.find_link(each.joint)].value;
     part.links.assign(solver.links().begin(), solver.links().end());
+    for (LinkageCopy& each : part.copies) {
+        const LinkageDrive& motor = part.drives.front();
+        const double turned = motor.value + each.phase;
+        const ik::LinkDriver driver{linkage.find_link(motor.joint), each.mirrored ? M_PI - turned : turned};
+        static_cast<void>(solver.solve(each.state, {{&driver, 1}, {}}));
+        each.links.assign(solver.links().begin(), solver.links().end());
+    }
 }
 
 LinkageShape shape_of(ik::LinkageSketch sketch) {
@@ -121,6 +144,7 @@ struct MakeShape {
     LinkageShape operator()(const ik::Pantograph& lengths) const { return drawn(ik::pantograph(lengths)); }
     LinkageShape operator()(const ik::ScissorLift& lengths) const { return drawn(ik::scissor_lift(lengths)); }
     LinkageShape operator()(const ik::Jansen& lengths) const { return drawn(ik::jansen(lengths)); }
+    LinkageShape operator()(const JansenWalker& lengths) const { return drawn(ik::jansen(lengths)); }
     LinkageShape operator()(const ik::Delta& lengths) const { return in_space(ik::delta(lengths)); }
     LinkageShape operator()(const ik::Stewart& lengths) const { return in_space(ik::stewart(lengths)); }
 };
@@ -133,9 +157,28 @@ LinkageShape shape_of(const Mechanism& mechanism) {
     return shape;
 }
 
+std::vector<LinkageCopy> copies_of(const LinkageShape& shape, const ik::LinkageState& state) {
+    std::vector<LinkageCopy> copies;
+    const auto* const walker = std::get_if<JansenWalker>(&shape.mechanism);
+    if (walker == nullptr) return copies;
+    constexpr int pairs = 6;
+    for (int i = 0; i < 2 * pairs; ++i) {
+        const int pair = i / 2;
+        // The first is the linkage itself.
+        if (i > 0)
+            copies.push_back({.phase = pair * 2.0 * M_PI / pairs,
+                              .mirrored = i % 2 == 1,
+                              .depth = -walker->m * pair,
+                              .state = state});
+    }
+    return copies;
+}
+
 void take_shape(LinkagePart& part, LinkageShape shape, LinkageRuntime& runtime) {
     part.shape = std::make_shared<const LinkageShape>(std::move(shape));
     part.state = runtime.solver(part.shape).initial_state();
+    part.copies = copies_of(*part.shape, part.state);
+    part.walked = 0.0;
     std::vector<LinkageDrive> drives;
     for (const std::string& joint : driven_joints(*part.shape)) {
         const LinkageDrive* const before = part.find_drive(joint);
