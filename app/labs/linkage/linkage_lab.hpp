@@ -12,7 +12,7 @@ class LinkageLab final : public Lab {
     std::string title() const override { return "Linkage"; }
     std::shared_ptr<Part> blank() const override;
     CameraPose first_view() const override;
-    const char* invitation() const override { return "Drag any joint, or press play: the motor runs."; }
+    const char* invitation() const override { return "Drag any joint, or run the motor."; }
     void add_commands(CommandTable& table) const override;
 
     bool moving(const Workspace& workspace) const override;

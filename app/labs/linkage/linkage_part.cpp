@@ -17,7 +17,10 @@ bool LinkagePart::operator==(const LinkagePart& other) const {
 }
 
 std::size_t LinkagePart::bytes() const {
-    return sizeof(*this) + (1 + copies.size()) * state.joints.size() * sizeof(ik::JointPlace) +
+    const std::size_t shared = linkage().links.size() * sizeof(ik::Link) +
+                               linkage().closures.size() * sizeof(ik::Closure) +
+                               linkage().points.size() * (sizeof(ik::LinkPoint) + sizeof(ik::SketchPoint));
+    return sizeof(*this) + shared + (1 + copies.size()) * state.joints.size() * sizeof(ik::JointPlace) +
            links.size() * sizeof(ik::LinkPlace) + drives.size() * sizeof(LinkageDrive) +
            targets.size() * sizeof(LinkageTarget);
 }

@@ -141,7 +141,8 @@ std::size_t leading_joint(const LinkagePart& part);
 
 /// Moves the linkage to what is asked of it: held drivers and targets, or the mouse's drag alone.
 void solve_linkage(LinkagePart& part, LinkageRuntime& runtime);
-/// A shape as drawn, with its own state; drivers, targets and selection stay where their names do.
+/// A shape as drawn, with its own state; drivers, targets and selection stay where their names do, and held
+/// drivers at their values.
 void take_shape(LinkagePart& part, LinkageShape shape, LinkageRuntime& runtime);
 /// The shape of a sketch. Bars that nothing holds are left out of the linkage. Throws std::invalid_argument
 /// for a sketch that the library refuses.

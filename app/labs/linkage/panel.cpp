@@ -144,7 +144,7 @@ void motor_buttons(const Workspace& workspace, Emit& emit) {
     const LinkagePart& part = linkage_part(workspace);
     const auto any = [&](auto has) { return std::ranges::any_of(part.drives, has); };
     const bool runs = any([](const LinkageDrive& each) { return each.rate != 0.0; });
-    if (row_button(runs ? "Stop" : "Run", 3, !part.drives.empty(),
+    if (row_button(runs ? "Stop" : "Run", 2, !part.drives.empty(),
                    runs ? "Stops the motor and holds the joint" : "Runs the motor while time passes")) {
         for (const LinkageDrive& each : part.drives)
             if (runs)
@@ -153,11 +153,11 @@ void motor_buttons(const Workspace& workspace, Emit& emit) {
                 emit.continuously("linkage.motor", {{"joint", each.joint}});
         if (!runs && !workspace.clock.playing) emit("time.play");
     }
-    if (row_button("Free", 3, any([](const LinkageDrive& each) { return each.held; }),
+    if (row_button("Free", 2, any([](const LinkageDrive& each) { return each.held; }),
                    "Stops the motor, and lets the joint follow the others"))
         for (const LinkageDrive& each : part.drives)
             emit.continuously("linkage.release", {{"joint", each.joint}});
-    if (row_button("Other mode", 3, !part.linkage().closures.empty(),
+    if (row_button("Other mode", 1, !part.linkage().closures.empty(),
                    "Assembles the same bars the other way, with the drivers where they are"))
         emit("linkage.other_mode");
     end_row();

@@ -183,7 +183,10 @@ void take_shape(LinkagePart& part, LinkageShape shape, LinkageRuntime& runtime) 
     for (const std::string& joint : driven_joints(*part.shape)) {
         const LinkageDrive* const before = part.find_drive(joint);
         LinkageDrive& drive = drives.emplace_back(before != nullptr ? *before : LinkageDrive{.joint = joint});
-        drive.value = part.state.joints[part.linkage().find_link(joint)].value;
+        const std::size_t link = part.linkage().find_link(joint);
+        const double drawn = part.state.joints[link].value, held = drive.value;
+        const bool hinge = part.linkage().links[link].joint == ik::LinkJoint::Hinge;
+        drive.value = !drive.held ? drawn : hinge ? drawn + std::remainder(held - drawn, 2.0 * M_PI) : held;
     }
     part.drives = std::move(drives);
     const auto gone = [&](const std::string& point) {

@@ -81,7 +81,8 @@ void add_bar(LinkageSketch& sketch, const Arguments& given) {
     if (name.empty()) throw Refused("name: a bar needs one");
     if (sketch.find_bar(name) != ik::ground_link) throw Refused("there is a bar \"" + name + "\" already");
     const std::size_t from = end_of_bar(sketch, given, "from"), to = end_of_bar(sketch, given, "to");
-    if (from == to) throw Refused("a bar needs two different joints");
+    if (from == to || sketch.points[from].at == sketch.points[to].at)
+        throw Refused("a bar needs two different joints");
     for (const ik::SketchBar& each : sketch.bars)
         if (std::ranges::count(each.points, from) > 0 && std::ranges::count(each.points, to) > 0)
             throw Refused("bar \"" + each.name + "\" joins " + sketch.points[from].name + " and " +

@@ -65,6 +65,33 @@ TEST_F(LinkageTest, ACrankDrivesAFourBar) {
     EXPECT_NEAR(at("B").x, 1.0, 1e-9);
 }
 
+TEST_F(LinkageTest, ALengthChangesAndTheCrankStaysWhereItIsHeld) {
+    four_bar();
+    run("linkage.drive", {{"joint", "crank"}, {"angle_deg", 400}});
+    run("linkage.set", {{"crank", 0.9}, {"coupler_point", {1, -0.5}}});
+    EXPECT_NEAR(driver("crank"), 40.0, 1e-6);
+    EXPECT_NEAR(glm::length(at("B")), 0.9, 1e-9);
+    EXPECT_NEAR(glm::distance(at("B"), at("P")), std::hypot(1.0, 0.5), 1e-8);
+}
+
+TEST_F(LinkageTest, TwelveLegsWalkOnTheirFeet) {
+    run("linkage.preset", {{"name", "walker"}});
+    run("linkage.motor", {{"joint", "motor"}, {"deg_per_s", 90}});
+    ASSERT_EQ(part().copies.size(), 11u);
+    double walked = 0.0, highest = -1e9, lowest = 1e9;
+    for (int i = 0; i < 240; ++i) {
+        wait(1);
+        highest = std::max(highest, part().lowest_foot());
+        lowest = std::min(lowest, part().lowest_foot());
+        EXPECT_LT(std::abs(part().walked - walked), 0.05) << "no leg jumps";
+        walked = part().walked;
+    }
+    EXPECT_GT(std::abs(walked), 1.0) << "one turn";
+    EXPECT_LT(highest - lowest, 0.1) << "it hardly bobs";
+    const auto loaded = part().load(part().save(), "labs.linkage");
+    EXPECT_EQ(loaded->save(), part().save());
+}
+
 TEST_F(LinkageTest, ADraggedJointTakesTheCrankAlong) {
     four_bar();
     run("linkage.drive", {{"joint", "crank"}, {"angle_deg", 30}});
