@@ -30,6 +30,7 @@ class LinkageDrawing {
         else
             links();
         open_closures();
+        dead_point();
         for (std::size_t i = 0; i < part_.linkage().points.size(); ++i) point(i);
         motors();
         targets();
@@ -146,6 +147,14 @@ class LinkageDrawing {
                                                     : view_.palette.neutral);
         }
         body(places_on(part_, ik::ground_link), view_.palette.target);
+    }
+
+    void dead_point() {
+        if (part_.result.report.status != ik::LinkageStatus::DeadPoint) return;
+        const std::vector<std::size_t> line = joints_in_line(part_);
+        for (std::size_t i = 1; i < line.size(); ++i)
+            list_.line(at(line[i - 1]), at(line[i]), px(2.0f), opaque(view_.palette.limit)).layer =
+                Layer::Overlay;
     }
 
     void open_closures() {

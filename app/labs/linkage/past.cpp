@@ -86,25 +86,27 @@ PoseLines linkage_lines(const SharedPart& shared) {
     return lines;
 }
 
-std::string dead_point_reason(const LinkagePart& part) {
+std::vector<std::size_t> joints_in_line(const LinkagePart& part) {
     constexpr double in_line = 4.0;  // degrees
     const ik::LinkageSketch& sketch = part.shape->sketch;
+    const auto bars_at = [&](std::size_t point) {
+        return std::ranges::count_if(sketch.bars, [&](const ik::SketchBar& each) {
+            return std::ranges::count(each.points, point) > 0;
+        });
+    };
     double best = in_line;
-    std::string reason;
+    std::vector<std::size_t> line;
     for (std::size_t p = 0; p < sketch.points.size(); ++p) {
         if (sketch.points[p].hold == ik::SketchHold::Pinned) continue;
+        // Of a bar with more joints, the one that joins it to something else.
         std::vector<std::size_t> ends;
         for (const ik::SketchBar& bar : sketch.bars) {
             if (std::ranges::count(bar.points, p) == 0) continue;
-            // Of a bar with more joints, the one where another bar is.
-            for (const std::size_t other : bar.points)
-                if (other != p && (sketch.points[other].hold != ik::SketchHold::Free ||
-                                   std::ranges::count_if(sketch.bars, [&](const ik::SketchBar& each) {
-                                       return std::ranges::count(each.points, other) > 0;
-                                   }) > 1)) {
-                    ends.push_back(other);
-                    break;
-                }
+            const auto end = std::ranges::find_if(bar.points, [&](std::size_t other) {
+                return other != p &&
+                       (sketch.points[other].hold != ik::SketchHold::Free || bars_at(other) > 1);
+            });
+            if (end != bar.points.end()) ends.push_back(*end);
         }
         if (ends.size() != 2) continue;
         const glm::dvec3 a = part.at(ends[0]) - part.at(p), b = part.at(ends[1]) - part.at(p);
@@ -112,10 +114,17 @@ std::string dead_point_reason(const LinkagePart& part) {
             glm::degrees(std::atan2(glm::length(glm::cross(a, b)), std::abs(glm::dot(a, b))));
         if (angle >= best) continue;
         best = angle;
-        reason = sketch.points[ends[0]].name + ", " + sketch.points[p].name + " and " +
-                 sketch.points[ends[1]].name + " are in line";
+        line = {ends[0], p, ends[1]};
     }
-    return reason;
+    return line;
+}
+
+std::string dead_point_reason(const LinkagePart& part) {
+    const std::vector<std::size_t> line = joints_in_line(part);
+    if (line.empty()) return {};
+    const auto& points = part.shape->sketch.points;
+    return points[line[0]].name + ", " + points[line[1]].name + " and " + points[line[2]].name +
+           " are in line";
 }
 
 std::vector<Incident> linkage_incidents(const LinkagePart& before, const LinkagePart& after) {
