@@ -198,7 +198,7 @@ class Lab {
     /// usually does.
     virtual bool takes_strokes(const Workspace&) const { return false; }
     /// The stroke in a pane, in the camera's pixels; its commands are emitted continuously, as one step to
-    /// undo.
+    /// undo. A click on empty space is a stroke of no length.
     virtual void stroke(const Workspace&, std::size_t /*pane*/, const Camera&, glm::vec2 /*from*/,
                         glm::vec2 /*to*/, Emit&) const {}
     /// The second click on a handle; the first one called click().

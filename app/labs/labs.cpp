@@ -10,6 +10,7 @@
 #include "app/labs/files.hpp"
 #include "app/labs/humanoid/humanoid_lab.hpp"
 #include "app/labs/lab_commands.hpp"
+#include "app/labs/linkage/linkage_lab.hpp"
 #include "app/labs/rig/rig_lab.hpp"
 #include "app/labs/rope/rope_lab.hpp"
 #include "app/labs/signal/signal_lab.hpp"
@@ -22,6 +23,7 @@ Labs::Labs() {
     add(std::make_unique<SignalLab>());
     add(std::make_unique<RigLab>());
     add(std::make_unique<HumanoidLab>());
+    add(std::make_unique<LinkageLab>());
 }
 
 void Labs::add(std::unique_ptr<Lab> lab) {

@@ -164,6 +164,8 @@ void Pointer::let_go(const Input& input, const Scene& scene, Emit& emit) {
         } else {
             scene.lab.click(scene.workspace, caught_, emit);
         }
+        if (stroking_ && caught_ == no_pick)
+            scene.lab.stroke(scene.workspace, scene.pane, scene.camera, caught_at_, caught_at_, emit);
         clicked_ = twice ? no_pick : caught_;  // a third click counts as a first one
         clicked_at_ = input.mouse();
         since_click_ = 0;

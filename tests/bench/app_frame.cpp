@@ -110,6 +110,7 @@ BENCHMARK_CAPTURE(opening_frame, rope, "rope")->Unit(benchmark::kMillisecond)->U
 BENCHMARK_CAPTURE(opening_frame, signal, "signal")->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK_CAPTURE(opening_frame, rig, "rig")->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK_CAPTURE(opening_frame, humanoid, "humanoid")->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK_CAPTURE(opening_frame, linkage, "linkage")->Unit(benchmark::kMillisecond)->UseRealTime();
 
 void start_to_first_picture(benchmark::State& state) {
     for (auto _ : state) {

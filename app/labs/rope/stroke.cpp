@@ -197,7 +197,7 @@ class KnifeStroke {
 
 void RopeLab::stroke(const Workspace& workspace, std::size_t pane, const Camera& camera, glm::vec2 from,
                      glm::vec2 to, Emit& emit) const {
-    KnifeStroke(world_in(rope_part(workspace), pane), camera, from, to).cut(emit);
+    if (from != to) KnifeStroke(world_in(rope_part(workspace), pane), camera, from, to).cut(emit);
 }
 
 }  // namespace tendril::app

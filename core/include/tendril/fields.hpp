@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <glm/ext/quaternion_double.hpp>
 #include <glm/ext/quaternion_float.hpp>
+#include <glm/ext/vector_double2.hpp>
 #include <limits>
 #include <optional>
 #include <span>
@@ -126,6 +127,8 @@ template <class Value>
 struct FieldPair : std::false_type {};
 template <class Value>
 struct FieldPair<std::array<Value, 2>> : std::true_type {};
+template <>
+struct FieldPair<glm::dvec2> : std::true_type {};
 
 template <class Value>
 FieldValue to_field(const Value& value) noexcept {
@@ -212,7 +215,7 @@ constexpr Field field(const char* name, FieldRange range = {0.0, 1.0}, const cha
             .unit = unit,
             .type = detail::field_type<Value>(),
             .exact = std::is_same_v<Value, double> || std::is_same_v<Value, glm::dvec3> ||
-                     std::is_same_v<Value, std::array<double, 2>>,
+                     std::is_same_v<Value, glm::dvec2> || std::is_same_v<Value, std::array<double, 2>>,
             .optional = detail::FieldOptional<Member>::value,
             .range = range,
             .get = detail::get_field<member>,

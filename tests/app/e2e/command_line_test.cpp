@@ -30,7 +30,7 @@ TEST_F(CommandLine, lists_and_says_what_it_is_asked) {
         EXPECT_TRUE(succeeded(outcome)) << flag;
         EXPECT_FALSE(outcome.out.empty()) << flag;
     }
-    EXPECT_EQ(run_program({"--list-labs"}).out, "chain\nrope\nsignal\nrig\nhumanoid\n");
+    EXPECT_EQ(run_program({"--list-labs"}).out, "chain\nrope\nsignal\nrig\nhumanoid\nlinkage\n");
     EXPECT_TRUE(run_program({"--version"}).out.starts_with("tendril "));
 }
 

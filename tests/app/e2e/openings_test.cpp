@@ -40,7 +40,8 @@ class Openings : public testing::TestWithParam<std::string> {
             {"rope", {"rope.settings", Json{{"friction", 0.41}}}},
             {"signal", {"signal.filter.add", Json{{"kind", "moving_average"}, {"window", 0.2}}}},
             {"rig", {"rig.control.set", Json{{"name", "look"}, {"value", {0.1, 0.2}}}}},
-            {"humanoid", {"humanoid.attach", Json{{"bone", "Hips"}, {"kind", "rope"}, {"name", "tail"}}}}};
+            {"humanoid", {"humanoid.attach", Json{{"bone", "Hips"}, {"kind", "rope"}, {"name", "tail"}}}},
+            {"linkage", {"linkage.joint", Json{{"at", {0, -2, 0}}}}}};
         return all.at(GetParam());
     }
 };
@@ -179,7 +180,8 @@ TEST_P(Openings, go_on_where_a_command_is_refused) {
         {"rope", {"rope.remove", Json{{"name", "nothing"}}}},
         {"signal", {"signal.filter.remove", Json{{"at", 99}}}},
         {"rig", {"rig.control.set", Json{{"name", "nobody"}, {"value", 1}}}},
-        {"humanoid", {"humanoid.attach", Json{{"bone", "Nowhere"}, {"kind", "rope"}}}}};
+        {"humanoid", {"humanoid.attach", Json{{"bone", "Nowhere"}, {"kind", "rope"}}}},
+        {"linkage", {"linkage.drive", Json{{"joint", "nobody"}, {"angle_deg", 1}}}}};
     EXPECT_THROW(app_.run(wrong.at(GetParam())), Refused);
     EXPECT_TRUE(opens());
     EXPECT_EQ(part(), then);
@@ -207,7 +209,8 @@ TEST_P(Openings, every_step_of_the_card_plays) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Labs, Openings, testing::Values("chain", "rope", "signal", "rig", "humanoid"),
+INSTANTIATE_TEST_SUITE_P(Labs, Openings,
+                         testing::Values("chain", "rope", "signal", "rig", "humanoid", "linkage"),
                          [](const auto& lab) { return lab.param; });
 
 class RigOpening : public Openings {};

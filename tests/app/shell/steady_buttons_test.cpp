@@ -145,12 +145,15 @@ TEST_P(BelowTheVerdict, NothingMovesWhateverItSays) {
          {{call("humanoid.load")},
           {call("humanoid.map", {{"bone", "LeftHand"}, {"node", ""}}),
            call("humanoid.map", {{"bone", "RightFoot"}, {"node", ""}}),
-           call("humanoid.map", {{"bone", "Head"}, {"node", ""}})}}}};
-    const std::map<std::string, std::string> below{{"chain", "Selection"},
-                                                   {"rope", "Selection"},
-                                                   {"signal", "Now"},
-                                                   {"rig", "Element"},
-                                                   {"humanoid", "Character"}};
+           call("humanoid.map", {{"bone", "Head"}, {"node", ""}})}}},
+        {"linkage",
+         {{call("linkage.preset", {{"name", "four_bar"}})},
+          {call("linkage.drive", {{"joint", "rocker"}, {"angle_deg", 0}})},
+          {call("linkage.target", {{"point", "P"}, {"to", glm::vec3(9.0f, 9.0f, 0.0f)}})},
+          {call("linkage.clear")}}}};
+    const std::map<std::string, std::string> below{
+        {"chain", "Selection"}, {"rope", "Selection"},     {"signal", "Now"},
+        {"rig", "Element"},     {"humanoid", "Character"}, {"linkage", "Degrees of freedom"}};
     set_up({});
     std::set<std::string> said;
     float first = 0.0f;
@@ -204,7 +207,8 @@ TEST_P(ChainVerdict, LeavesAtMostOneLineEmpty) {
 
 INSTANTIATE_TEST_SUITE_P(Chain, ChainVerdict, testing::Values("chain"));
 
-INSTANTIATE_TEST_SUITE_P(Labs, BelowTheVerdict, testing::Values("chain", "rope", "signal", "rig", "humanoid"),
+INSTANTIATE_TEST_SUITE_P(Labs, BelowTheVerdict,
+                         testing::Values("chain", "rope", "signal", "rig", "humanoid", "linkage"),
                          [](const auto& lab) { return std::string(lab.param); });
 
 class BoneMapRows : public BelowTheVerdict {};
@@ -256,7 +260,8 @@ TEST_P(KeptRoom, HoldsWhatIsBelowAListUntilTheMouseLeavesIt) {
 
 INSTANTIATE_TEST_SUITE_P(Lint, KeptRoom, testing::Values("humanoid"));
 
-INSTANTIATE_TEST_SUITE_P(Labs, SteadyButtons, testing::Values("chain", "rope", "signal", "rig", "humanoid"),
+INSTANTIATE_TEST_SUITE_P(Labs, SteadyButtons,
+                         testing::Values("chain", "rope", "signal", "rig", "humanoid", "linkage"),
                          [](const auto& lab) { return std::string(lab.param); });
 
 }  // namespace

@@ -113,7 +113,8 @@ TEST_P(TooltipPlaces, HideNothingBesideLargeText) {
     EXPECT_GT(seen_, 20);
 }
 
-INSTANTIATE_TEST_SUITE_P(Labs, TooltipPlaces, testing::Values("chain", "rope", "signal", "rig", "humanoid"),
+INSTANTIATE_TEST_SUITE_P(Labs, TooltipPlaces,
+                         testing::Values("chain", "rope", "signal", "rig", "humanoid", "linkage"),
                          [](const auto& lab) { return std::string(lab.param); });
 
 }  // namespace

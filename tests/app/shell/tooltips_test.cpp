@@ -92,7 +92,8 @@ TEST_P(Tooltips, StandAtEverythingInThePanels) {
     EXPECT_GT(items_.size(), 40u) << "the search finds what there is";
 }
 
-INSTANTIATE_TEST_SUITE_P(Labs, Tooltips, testing::Values("chain", "rope", "signal", "rig", "humanoid"),
+INSTANTIATE_TEST_SUITE_P(Labs, Tooltips,
+                         testing::Values("chain", "rope", "signal", "rig", "humanoid", "linkage"),
                          [](const auto& lab) { return std::string(lab.param); });
 
 /// The window around the panels, with a lab open.
@@ -168,7 +169,8 @@ TEST_P(ShellTooltips, StandAtTheVideoDialogAndAtItsProgress) {
     });
 }
 
-INSTANTIATE_TEST_SUITE_P(Labs, ShellTooltips, testing::Values("chain", "rope", "signal", "rig", "humanoid"),
+INSTANTIATE_TEST_SUITE_P(Labs, ShellTooltips,
+                         testing::Values("chain", "rope", "signal", "rig", "humanoid", "linkage"),
                          [](const auto& lab) { return std::string(lab.param); });
 
 class RigTooltips : public TooltipTest {

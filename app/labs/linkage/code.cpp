@@ -1,0 +1,101 @@
+#include "app/labs/linkage/code.hpp"
+
+#include <cmath>
+
+#include "app/labs/kit/code_text.hpp"
+
+namespace tendril::app {
+namespace {
+
+std::string braced_pair(const glm::dvec2& value) {
+    return "{" + double_text(value.x) + ", " + double_text(value.y) + "}";
+}
+
+std::string indices_text(const std::vector<std::size_t>& indices) {
+    std::vector<std::string> texts;
+    for (const std::size_t each : indices) texts.push_back(std::to_string(each));
+    return "{" + joined(texts) + "}";
+}
+
+std::string sketch_text(const ik::LinkageSketch& sketch) {
+    std::string text = "    ik::LinkageSketch sketch;\n    sketch.points = {";
+    for (const ik::SketchPoint& each : sketch.points) {
+        text += "\n        {" + string_text(each.name) + ", " + braced_pair(each.at);
+        if (each.hold == ik::SketchHold::Pinned) text += ", ik::SketchHold::Pinned";
+        if (each.hold == ik::SketchHold::Guided)
+            text += ", ik::SketchHold::Guided, " + double_text(each.guide);
+        text += "},";
+    }
+    text += "};\n    sketch.bars = {";
+    for (const ik::SketchBar& each : sketch.bars)
+        text += "\n        {" + string_text(each.name) + ", " + indices_text(each.points) + "},";
+    text += "};\n";
+    if (sketch.motors.empty()) return text;
+    text += "    sketch.motors = {";
+    for (const ik::SketchMotor& each : sketch.motors)
+        text += "\n        {" + string_text(each.name) + ", " + std::to_string(each.point) + ", " +
+                std::to_string(each.bar) + "},";
+    return text + "};\n";
+}
+
+/// "ik::four_bar({.ground = 3, ...})", or the sketch's name.
+std::string making_text(const LinkagePart& part) {
+    const MechanismKind* const kind = kind_of(part.shape->mechanism);
+    if (kind == nullptr) return "sketch";
+    return "ik::" + std::string(kind->name) + "({" +
+           joined(member_texts(mechanism_fields(part.shape->mechanism))) + "})";
+}
+
+}  // namespace
+
+std::string linkage_code(const LinkagePart& part) {
+    std::string text =
+        "// A linkage, exported from Tendril.\n"
+        "//\n"
+        "// CMake: find_package(tendril REQUIRED)\n"
+        "//        target_link_libraries(your_program PRIVATE tendril::core)\n"
+        "#include <cstdio>\n"
+        "#include <tendril/ik/linkage.hpp>\n"
+        "#include <tendril/ik/mechanisms.hpp>\n"
+        "#include <vector>\n\n"
+        "using namespace tendril;\n\n"
+        "int main() {\n";
+    const bool plane = part.shape->in_plane();
+    if (kind_of(part.shape->mechanism) == nullptr) text += sketch_text(part.shape->sketch);
+    text += "    const Expected<ik::Linkage> linkage = ";
+    text += plane ? "ik::linkage_from(" + making_text(part) + ");\n" : making_text(part) + ";\n";
+    text +=
+        "    if (!linkage) return std::puts(linkage.message()), 1;\n"
+        "    Expected<ik::LinkageSolver> made = ik::LinkageSolver::make(*linkage);\n"
+        "    if (!made) return std::puts(made.message()), 1;\n"
+        "    ik::LinkageSolver& solver = *made;\n"
+        "    // All that it remembers: copy it to save it.\n"
+        "    ik::LinkageState state = solver.initial_state();\n\n"
+        "    for (int frame = 0; frame <= 60; ++frame) {\n"
+        "        std::vector<ik::LinkDriver> drivers;\n";
+    for (const LinkageDrive& each : part.drives) {
+        if (!each.held) continue;
+        text += "        drivers.push_back({linkage->find_link(" + string_text(each.joint) + "), " +
+                double_text(each.value);
+        if (each.rate != 0.0) text += " + frame / 60.0 * " + double_text(each.rate);
+        text += "});\n";
+    }
+    text += "        std::vector<ik::LinkTarget> targets;\n";
+    for (const LinkageTarget& each : part.targets)
+        text += "        targets.push_back({linkage->find_point(" + string_text(each.point) + "), " +
+                braced(each.to) + ", " + double_text(each.weight) + (each.exact ? ", true" : "") + "});\n";
+    text +=
+        "        const ik::LinkageReport report = solver.solve(state, {drivers, targets});\n"
+        "        std::printf(\"%d %s\", frame, ik::name(report.status));\n"
+        "        for (std::size_t i = 0; i < linkage->points.size(); ++i) {\n"
+        "            const glm::dvec3 at = solver.point(i);\n"
+        "            std::printf(\" %s %.6f %.6f %.6f\", linkage->points[i].name.c_str(), at.x, at.y, "
+        "at.z);\n"
+        "        }\n"
+        "        std::puts(\"\");\n"
+        "    }\n"
+        "}\n";
+    return text;
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,361 @@
+#include "app/labs/linkage/draw.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "app/document/units.hpp"
+#include "app/labs/linkage/linkage_commands.hpp"
+#include "app/labs/linkage/linkage_lab.hpp"
+#include "app/labs/linkage/past.hpp"
+
+namespace tendril::app {
+namespace {
+
+class LinkageDrawing {
+  public:
+    LinkageDrawing(const View& view, DrawList& list)
+        : view_(view),
+          list_(list),
+          part_(linkage_part(view.workspace)),
+          runtime_(view.workspace.runtimes.of<LinkageRuntime>(linkage_lab)),
+          size_(static_cast<float>(runtime_.solver(part_.shape).size())) {}
+
+    void run() {
+        path();
+        if (part_.shape->in_plane())
+            bars(), walker();
+        else
+            links();
+        open_closures();
+        dead_point();
+        for (std::size_t i = 0; i < part_.linkage().points.size(); ++i) point(i);
+        motors();
+        targets();
+    }
+
+  private:
+    float px(float pixels) const { return pixels * view_.scale; }
+    glm::vec3 at(std::size_t point) const { return in_scene(part_, part_.at(point)); }
+    glm::vec4 opaque(const glm::vec3& colour) const { return glm::vec4(colour, 1.0f); }
+    float thick() const { return std::max(0.012f * size_, 1e-4f); }
+
+    void path() {
+        const std::vector<PathPoint>& path = runtime_.path(part_);
+        double fastest = 0.0;
+        for (const PathPoint& each : path) fastest = std::max(fastest, each.speed);
+        const bool closed = path.size() > 2 && glm::distance(path.front().at, path.back().at) <
+                                                   0.1 * runtime_.solver(part_.shape).size();
+        for (std::size_t i = 0; i < path.size(); ++i) {
+            const std::size_t next = (i + 1) % path.size();
+            if (next == 0 && !closed) break;
+            const double share = fastest > 0.0 ? path[next].speed / fastest : 0.0;
+            list_.line(in_scene(part_, path[i].at), in_scene(part_, path[next].at), px(2.5f),
+                       opaque(speed_colour(view_.palette, share)));
+        }
+    }
+
+    bool stalled(const std::string& link) const {
+        const LinkageDrive* const drive = part_.find_drive(link);
+        return drive != nullptr && is_stalled(part_, *drive);
+    }
+    /// A bar that a motor turns has its colour.
+    glm::vec3 bar_colour(std::size_t bar) const {
+        const LinkageShape& shape = *part_.shape;
+        if (shape.floating[bar]) return view_.palette.ghost;
+        for (const ik::SketchMotor& motor : shape.sketch.motors)
+            if (motor.bar == bar) return stalled(motor.name) ? view_.palette.limit : view_.palette.head;
+        return view_.palette.neutral;
+    }
+
+    void body(const std::vector<glm::vec3>& places, const glm::vec3& colour) {
+        const std::size_t count = places.size();
+        const auto rod = [&](std::size_t a, std::size_t b) {
+            list_.bone(places[a], places[b], thick(), thick(), opaque(colour)).shadow = true;
+        };
+        if (count == 2) rod(0, 1);
+        if (count < 3) return;
+        for (std::size_t i = 0; i < count; ++i) rod(i, (i + 1) % count);
+        const std::uint32_t first = list_.veil.next();
+        for (const glm::vec3& each : places)
+            list_.veil.vertices.push_back(
+                {.position = each, .normal = {0, 0, 1}, .colour = colour, .back = colour});
+        for (std::uint32_t i = 1; i + 1 < count; ++i) list_.veil.triangle(first, first + i, first + i + 1);
+    }
+
+    void bars() {
+        const ik::LinkageSketch& sketch = part_.shape->sketch;
+        for (std::size_t b = 0; b < sketch.bars.size(); ++b) {
+            std::vector<glm::vec3> places;
+            for (const std::size_t each : sketch.bars[b].points) places.push_back(at(each));
+            body(places, bar_colour(b));
+        }
+        for (std::size_t i = 0; i < sketch.points.size(); ++i) {
+            const ik::SketchPoint& point = sketch.points[i];
+            if (point.hold == ik::SketchHold::Pinned) pin(at(i));
+            if (point.hold == ik::SketchHold::Guided) rail(at(i), point.guide);
+        }
+    }
+
+    /// The other legs, and marks on the ground that pass under them.
+    void walker() {
+        if (part_.copies.empty()) return;
+        for (const LinkageCopy& copy : part_.copies)
+            for (const ik::SketchBar& bar : part_.shape->sketch.bars) {
+                std::vector<glm::vec3> places;
+                for (const std::size_t each : bar.points)
+                    places.push_back(in_scene(part_, part_.at(each, copy)));
+                body(places, copy.mirrored ? view_.palette.tail : view_.palette.neutral);
+            }
+        const auto back = static_cast<float>(part_.copies.back().depth);
+        const float apart = 0.5f * size_, shift = static_cast<float>(std::fmod(part_.walked, double(apart)));
+        for (int i = -6; i <= 6; ++i) {
+            const float x = apart * static_cast<float>(i) - shift;
+            list_.line({x, 0, back - 0.3f * size_}, {x, 0, 0.3f * size_}, px(1.5f),
+                       opaque(view_.palette.grid));
+        }
+    }
+
+    /// The triangle and the line that stand for the ground in drawings of mechanisms.
+    void pin(const glm::vec3& at) {
+        const float unit = px(9.0f) * view_.camera.metres_per_pixel(at);
+        const glm::vec3 left = at + unit * glm::vec3(-1.0f, -1.7f, 0),
+                        right = at + unit * glm::vec3(1, -1.7f, 0);
+        const glm::vec4 colour = opaque(view_.palette.target);
+        list_.line(at, left, px(2.0f), colour);
+        list_.line(at, right, px(2.0f), colour);
+        list_.line(left - glm::vec3(0.6f * unit, 0, 0), right + glm::vec3(0.6f * unit, 0, 0), px(2.0f),
+                   colour);
+    }
+    void rail(const glm::vec3& at, double angle) {
+        const glm::vec3 way(std::cos(angle), std::sin(angle), 0.0f), side(-way.y, way.x, 0.0f);
+        const float unit = px(9.0f) * view_.camera.metres_per_pixel(at);
+        const glm::vec4 colour = opaque(view_.palette.target);
+        for (const float by : {-1.0f, 1.0f})
+            list_.line(at + by * unit * side - 4.0f * unit * way, at + by * unit * side + 4.0f * unit * way,
+                       px(1.5f), colour);
+    }
+
+    void links() {
+        for (std::size_t i = 0; i < part_.linkage().links.size(); ++i) {
+            const std::string& name = part_.linkage().links[i].name;
+            const bool driven = part_.find_drive(name) != nullptr;
+            body(places_on(part_, i), stalled(name) ? view_.palette.limit
+                                      : driven      ? view_.palette.head
+                                                    : view_.palette.neutral);
+        }
+        body(places_on(part_, ik::ground_link), view_.palette.target);
+    }
+
+    void dead_point() {
+        if (part_.result.report.status != ik::LinkageStatus::DeadPoint) return;
+        const std::vector<std::size_t> line = joints_in_line(part_);
+        for (std::size_t i = 1; i < line.size(); ++i)
+            list_.line(at(line[i - 1]), at(line[i]), px(2.0f), opaque(view_.palette.limit)).layer =
+                Layer::Overlay;
+    }
+
+    void open_closures() {
+        for (const std::size_t each : part_.result.open_closures) {
+            const ik::Closure& closure = part_.linkage().closures[each];
+            const auto end = [&](std::size_t link, const glm::dvec3& drawn) {
+                return in_scene(part_, link == ik::ground_link ? drawn : part_.links[link].point(drawn));
+            };
+            const glm::vec3 a = end(closure.first, closure.first_at),
+                            b = end(closure.second, closure.second_at);
+            list_.line(a, b, px(2.0f), opaque(view_.palette.limit)).layer = Layer::Overlay;
+            for (const glm::vec3& ring : {a, b})
+                list_.ring(ring, px(10.0f), px(2.0f), opaque(view_.palette.limit)).layer = Layer::Overlay;
+        }
+    }
+
+    void point(std::size_t i) {
+        const ik::LinkPoint& of = part_.linkage().points[i];
+        const PickId pick = linkage_pick(i);
+        const bool lit = view_.hovered == pick || view_.dragged == pick, selected = part_.selected == of.name;
+        const bool held = of.link == ik::ground_link;
+        const glm::vec3 colour = selected ? view_.palette.selection
+                                 : held   ? view_.palette.target
+                                          : view_.palette.joint;
+        Stroke& ball = list_.sphere(at(i), px(lit ? 7.5f : 6.0f), Unit::Pixels, opaque(colour));
+        ball.pick = pick;
+        ball.rank = held ? 1 : 2;
+        const bool named = lit || view_.workspace.settings.labels == LabelMode::Always;
+        if (named)
+            list_.labels.push_back({.at = at(i),
+                                    .clearance = px(12.0f),
+                                    .text = of.name,
+                                    .colour = view_.palette.text,
+                                    .rank = lit ? 1 : 0});
+    }
+
+    void motors() {
+        for (const LinkageDrive& each : part_.drives) {
+            const std::size_t link = part_.linkage().find_link(each.joint);
+            const ik::Link& of = part_.linkage().links[link];
+            const glm::dvec3 drawn =
+                of.parent == ik::ground_link ? of.at : part_.links[of.parent].point(of.at);
+            const glm::vec3 colour = is_stalled(part_, each) ? view_.palette.limit : view_.palette.head;
+            list_.ring(in_scene(part_, drawn), px(13.0f), px(each.rate != 0.0 ? 3.5f : 2.0f), opaque(colour));
+        }
+    }
+
+    void targets() {
+        const auto draw = [&](const LinkageTarget& target, PickId pick) {
+            const glm::vec3 to = in_scene(part_, target.to);
+            list_.line(at(part_.linkage().find_point(target.point)), to, px(1.5f),
+                       opaque(view_.palette.target));
+            Stroke& ball = list_.sphere(to, px(view_.hovered == pick ? 8.5f : 7.0f), Unit::Pixels,
+                                        opaque(view_.palette.target));
+            ball.pick = pick;
+            ball.rank = 3;
+        };
+        if (part_.drag) draw(*part_.drag, no_pick);
+        for (std::size_t i = 0; i < part_.targets.size(); ++i) draw(part_.targets[i], linkage_target_pick(i));
+    }
+
+    const View& view_;
+    DrawList& list_;
+    const LinkagePart& part_;
+    LinkageRuntime& runtime_;
+    float size_ = 1.0f;
+};
+
+glm::dvec2 bar_way(const LinkagePart& part, const ik::SketchBar& bar, std::size_t from) {
+    const std::size_t to = bar.points[0] == from ? bar.points[1] : bar.points[0];
+    return glm::dvec2(part.at(to) - part.at(from));
+}
+
+double between(const glm::dvec2& a, const glm::dvec2& b) {
+    return glm::degrees(std::atan2(std::abs(a.x * b.y - a.y * b.x), glm::dot(a, b)));
+}
+
+bool is_on_bar(const ik::SketchBar& bar, std::size_t point) {
+    return std::ranges::count(bar.points, point) > 0;
+}
+
+constexpr double no_angle = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace
+
+glm::vec3 speed_colour(const Palette& palette, double share) {
+    return glm::mix(palette.head, palette.target, static_cast<float>(std::clamp(share, 0.0, 1.0)));
+}
+
+glm::vec3 in_scene(const LinkagePart& part, const glm::dvec3& at) {
+    if (!part.shape->in_plane()) return glm::vec3(at.x, at.z, -at.y);
+    return glm::vec3(at.x, at.y - part.lowest_foot(), at.z);  // a walker stands on the ground
+}
+
+glm::vec3 from_scene(const LinkagePart& part, const glm::vec3& at) {
+    if (!part.shape->in_plane()) return {at.x, -at.z, at.y};
+    return at + glm::vec3(0.0f, static_cast<float>(part.lowest_foot()), 0.0f);
+}
+
+std::vector<glm::vec3> places_on(const LinkagePart& part, std::size_t link) {
+    const ik::Linkage& linkage = part.linkage();
+    std::vector<glm::vec3> places;
+    const auto add = [&](const glm::dvec3& drawn) {
+        const glm::vec3 at = in_scene(part, link == ik::ground_link ? drawn : part.links[link].point(drawn));
+        const auto same = [&](const glm::vec3& other) { return glm::distance(at, other) < 1e-6f; };
+        if (std::ranges::none_of(places, same)) places.push_back(at);
+    };
+    if (link != ik::ground_link) {
+        const ik::Link& own = linkage.links[link];
+        // A slider's link reaches from where it slides.
+        if (own.joint == ik::LinkJoint::Slider) {
+            const bool grounded = own.parent == ik::ground_link;
+            places.push_back(in_scene(part, grounded ? own.at : part.links[own.parent].point(own.at)));
+        }
+        add(own.at);
+    }
+    for (const ik::Link& each : linkage.links)
+        if (each.parent == link) add(each.at);
+    for (const ik::Closure& each : linkage.closures) {
+        if (each.first == link) add(each.first_at);
+        if (each.second == link) add(each.second_at);
+    }
+    return places;
+}
+
+double angle_at(const LinkagePart& part, std::string_view point) {
+    const ik::LinkageSketch& sketch = part.shape->sketch;
+    const std::size_t at = sketch.find_point(point);
+    if (at == ik::ground_link) return no_angle;
+    std::vector<glm::dvec2> ways;
+    for (const ik::SketchBar& bar : sketch.bars)
+        if (is_on_bar(bar, at) && ways.size() < 2) ways.push_back(bar_way(part, bar, at));
+    if (ways.empty()) return no_angle;
+    if (ways.size() == 1) ways.insert(ways.begin(), {1.0, 0.0});
+    return between(ways[0], ways[1]);
+}
+
+double transmission_angle(const LinkagePart& part) {
+    const ik::LinkageSketch& sketch = part.shape->sketch;
+    const auto fold = [](double degrees) { return std::min(degrees, 180.0 - degrees); };
+    for (const ik::SketchMotor& motor : sketch.motors)
+        for (const std::size_t tip : sketch.bars[motor.bar].points)
+            for (const ik::SketchBar& coupler : sketch.bars) {
+                if (tip == motor.point || &coupler == &sketch.bars[motor.bar] || !is_on_bar(coupler, tip))
+                    continue;
+                for (const std::size_t end : coupler.points) {
+                    if (end == tip) continue;
+                    const glm::dvec2 way = glm::dvec2(part.at(tip) - part.at(end));
+                    if (sketch.points[end].hold == ik::SketchHold::Guided) {
+                        const double guide = sketch.points[end].guide;
+                        return 90.0 - fold(between(way, {std::cos(guide), std::sin(guide)}));
+                    }
+                    for (const ik::SketchBar& rocker : sketch.bars)
+                        for (const std::size_t held : rocker.points)
+                            if (&rocker != &coupler && is_on_bar(rocker, end) && held != end &&
+                                sketch.points[held].hold == ik::SketchHold::Pinned)
+                                return fold(between(way, glm::dvec2(part.at(held) - part.at(end))));
+                }
+            }
+    return no_angle;
+}
+
+void look_at_linkage(Workspace& workspace) {
+    const LinkagePart& part = linkage_part(workspace);
+    glm::vec3 low(1e30f), high(-1e30f);
+    const auto take = [&](const glm::dvec3& point) {
+        const glm::vec3 at = in_scene(part, point);
+        low = glm::min(low, at), high = glm::max(high, at);
+    };
+    for (std::size_t i = 0; i < part.linkage().points.size(); ++i) take(part.at(i));
+    for (const LinkageCopy& copy : part.copies)
+        for (std::size_t i = 0; i < part.linkage().points.size(); ++i) take(part.at(i, copy));
+    for (const PathPoint& each : workspace.runtimes.of<LinkageRuntime>(linkage_lab).path(part)) take(each.at);
+    if (low.x > high.x) low = glm::vec3(-2.0f), high = glm::vec3(2.0f);
+    const Bounds all = bounds_of(low, high, 0.1f);
+    CameraPose from;
+    if (part.shape->in_plane() && part.copies.empty()) {
+        from.orthographic = true;
+    } else {
+        from.yaw = 0.6f, from.pitch = 0.3f;
+    }
+    const Rect view{glm::vec2(0.0f), workspace.ui.view_size};
+    (workspace.lab == linkage_lab ? workspace.camera : workspace.cameras[linkage_lab]) =
+        framed(from, view, all.centre, 1.1f * all.radius);
+}
+
+void LinkageLab::draw(const View& view, DrawList& list) const {
+    draw_past_ghosts(view, linkage_past(), linkage_lines, list);
+    LinkageDrawing(view, list).run();
+}
+
+std::vector<LegendRow> LinkageLab::legend(const Workspace& workspace) const {
+    const Palette& colours = palette(workspace.settings.theme);
+    std::vector<LegendRow> rows{{"pinned", colours.target}, {"motor", colours.head, true}};
+    const LinkagePart& part = linkage_part(workspace);
+    if (!workspace.runtimes.of<LinkageRuntime>(linkage_lab).path(part).empty()) {
+        rows.push_back({"path, slow", speed_colour(colours, 0.0)});
+        rows.push_back({"path, fast", speed_colour(colours, 1.0)});
+    }
+    if (linkage_past().shows_ghosts(workspace.settings)) rows.push_back({ghost_legend, colours.ghost});
+    return rows;
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,320 @@
+// Commands that open a linkage, move it and look at it.
+#include "app/labs/linkage/linkage_commands.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/trigonometric.hpp>
+
+#include "app/document/json_complete.hpp"
+#include "app/document/refused.hpp"
+#include "app/labs/kit/arguments.hpp"
+#include "app/labs/lab.hpp"
+#include "app/labs/linkage/code.hpp"
+#include "app/labs/linkage/draw.hpp"
+
+namespace tendril::app {
+namespace {
+
+std::vector<std::string> joints_here(const LinkagePart& part) {
+    std::vector<std::string> joints;
+    for (const ik::Link& link : part.linkage().links)
+        if (link.joint != ik::LinkJoint::Ball) joints.push_back(link.name);
+    return joints;
+}
+
+Argument joint_argument() {
+    return offering(text_argument("joint", true, "a motor, or the link that the joint moves"),
+                    [](const Workspace& workspace) { return joints_here(linkage_part(workspace)); });
+}
+
+/// The drive of a hinge or slider; a new one if it has none. Throws Refused.
+LinkageDrive& drive_of(LinkagePart& part, const std::string& joint) {
+    const std::size_t link = part.linkage().find_link(joint);
+    if (link == ik::ground_link) throw Refused("there is no joint \"" + joint + "\"");
+    if (part.linkage().links[link].joint == ik::LinkJoint::Ball)
+        throw Refused("joint \"" + joint + "\" is a ball: it has no single value");
+    if (part.find_drive(joint) == nullptr)
+        part.drives.push_back({.joint = joint, .value = part.state.joints[link].value});
+    return *std::ranges::find(part.drives, joint, &LinkageDrive::joint);
+}
+
+void preset(LinkagePart& part, const Arguments& given, LinkageRuntime& runtime) {
+    open_mechanism(part, mechanism_kind(given.text("name")).blank(), runtime);
+}
+
+/// Throws Refused where the part was drawn by hand.
+Mechanism mechanism_of(const LinkagePart& part) {
+    if (kind_of(part.shape->mechanism) == nullptr)
+        throw Refused("this linkage was drawn by hand: it has no named lengths");
+    return part.shape->mechanism;
+}
+
+void set_lengths(LinkagePart& part, const Arguments& given, LinkageRuntime& runtime) {
+    Mechanism mechanism = mechanism_of(part);
+    const MechanismKind& kind = *kind_of(mechanism);
+    const auto check_name = [&](const std::string& name) {
+        for (const Field& field : kind.fields)
+            if (file_name(field) == name) return;
+        throw Refused(std::string(kind.title) + " has no length \"" + name + "\"");
+    };
+    if (given.has("lengths")) {
+        const JsonPlace lengths(given.json("lengths"), "lengths");
+        if (!lengths.json().is_object())
+            lengths.fail("expected an object, found " + json_summary(lengths.json()));
+        for (const auto& each : lengths.json().items()) check_name(each.key());
+        load_fields(lengths, mechanism_fields(mechanism));
+    }
+    for (const auto& each : given.json().items())
+        if (each.key() != "lengths") check_name(each.key());
+    set_fields(given, mechanism_fields(mechanism));
+    const Mechanism& wanted = mechanism;
+    if (save_fields(mechanism_fields(wanted)) == save_fields(mechanism_fields(part.shape->mechanism))) return;
+    take_shape(part, shape_of(mechanism), runtime);
+}
+
+void drive(LinkagePart& part, const Arguments& given, LinkageRuntime& runtime) {
+    const std::string joint = given.text("joint");
+    LinkageDrive& drive = drive_of(part, joint);
+    if (given.has("angle_deg") == given.has("value")) throw Refused("give angle_deg or value, and not both");
+    if (given.has("angle_deg") && !turns(part, joint))
+        throw Refused("joint \"" + joint + "\" is a slider: give value, in metres");
+    drive.value = given.has("angle_deg") ? glm::radians(given.real("angle_deg")) : given.real("value");
+    drive.held = true;
+    drive.rate = 0.0;
+    solve_linkage(part, runtime);
+}
+
+void release(LinkagePart& part, const Arguments& given, LinkageRuntime& runtime) {
+    LinkageDrive& drive = drive_of(part, given.text("joint"));
+    drive.held = false;
+    drive.rate = 0.0;
+    solve_linkage(part, runtime);
+}
+
+void motor(LinkagePart& part, const Arguments& given, LinkageRuntime& runtime) {
+    const std::string joint = given.text("joint");
+    const bool angular = turns(part, joint);
+    LinkageDrive& drive = drive_of(part, joint);
+    if (given.has("deg_per_s") && given.has("per_s")) throw Refused("give deg_per_s or per_s, and not both");
+    if (given.has("deg_per_s") && !angular)
+        throw Refused("joint \"" + joint + "\" is a slider: give per_s, in metres a second");
+    double rate = angular ? glm::radians(usual_motor_rate) : 0.1 * runtime.solver(part.shape).size();
+    if (given.has("deg_per_s")) rate = glm::radians(given.real("deg_per_s"));
+    if (given.has("per_s")) rate = given.real("per_s");
+    drive.rate = rate;
+    drive.held = true;
+    solve_linkage(part, runtime);
+}
+
+void target(LinkagePart& part, const Arguments& given, LinkageRuntime& runtime) {
+    const std::string point = given.text("point");
+    static_cast<void>(require_linkage_point(part, point));
+    auto found = std::ranges::find(part.targets, point, &LinkageTarget::point);
+    if (found == part.targets.end()) found = part.targets.insert(found, LinkageTarget{.point = point});
+    found->to = json_dpoint(given.json("to"), "to");
+    if (given.has("weight")) found->weight = given.real("weight");
+    if (given.has("exact")) found->exact = given.boolean("exact");
+    solve_linkage(part, runtime);
+}
+
+void remove_target(LinkagePart& part, const Arguments& given, LinkageRuntime& runtime) {
+    const std::string point = given.text("point");
+    if (std::erase_if(part.targets, [&](const LinkageTarget& each) { return each.point == point; }) == 0)
+        throw Refused("\"" + point + "\" has no target");
+    solve_linkage(part, runtime);
+}
+
+void drag(LinkagePart& part, const Arguments& given, LinkageRuntime& runtime) {
+    const std::string point = given.text("point");
+    static_cast<void>(require_linkage_point(part, point));
+    part.drag = LinkageTarget{.point = point, .to = json_dpoint(given.json("to"), "to")};
+    solve_linkage(part, runtime);
+}
+
+void let_go(LinkagePart& part, const Arguments&, LinkageRuntime& runtime) {
+    part.drag.reset();
+    solve_linkage(part, runtime);
+}
+
+void other_mode(LinkagePart& part, const Arguments&, LinkageRuntime& runtime) {
+    std::vector<ik::LinkDriver> drivers;
+    for (const LinkageDrive& each : part.drives)
+        drivers.push_back({part.linkage().find_link(each.joint), each.value});
+    if (!runtime.solver(part.shape).other_mode(part.state, drivers))
+        throw Refused("no other assembly mode is found with the drivers where they are");
+    solve_linkage(part, runtime);
+}
+
+void reset(LinkagePart& part, const Arguments&, LinkageRuntime&) {
+    part = first_linkage();
+}
+
+void clear(LinkagePart& part, const Arguments&, LinkageRuntime& runtime) {
+    open_mechanism(part, Mechanism{}, runtime);
+    part.tool = LinkageTool::Draw;
+}
+
+void select(LinkagePart& part, const Arguments& given, LinkageRuntime&) {
+    part.selected = given.has("point") ? given.text("point") : "";
+    if (!part.selected.empty()) static_cast<void>(require_linkage_point(part, part.selected));
+}
+
+void choose_tool(LinkagePart& part, const Arguments& given, LinkageRuntime&) {
+    part.tool = linkage_tools.value(given.text("name"));
+}
+
+std::vector<Argument> length_arguments() {
+    std::vector<Argument> all{{.name = "lengths",
+                               .type = ArgumentType::Any,
+                               .required = false,
+                               .help = "an object of lengths by their names"}};
+    for (const MechanismKind& kind : mechanism_kinds())
+        for (Argument& each : field_arguments(kind.fields, kind.texts)) {
+            const auto same = std::ranges::find(all, each.name, &Argument::name);
+            if (same == all.end()) {
+                all.push_back(std::move(each));
+            } else {
+                same->low = std::min(same->low, each.low);
+                same->high = std::max(same->high, each.high);
+            }
+        }
+    return all;
+}
+
+}  // namespace
+
+Command linkage_command(const char* name, const char* title, std::vector<Argument> arguments,
+                        const char* help, void (*change)(LinkagePart&, const Arguments&, LinkageRuntime&),
+                        Effect effect) {
+    return {.name = name,
+            .title = title,
+            .arguments = std::move(arguments),
+            .help = help,
+            .effect = effect,
+            .apply = [change](Workspace& workspace, const Arguments& given) {
+                auto& runtime = workspace.runtimes.of<LinkageRuntime>(linkage_lab);
+                change_part<LinkagePart>(workspace, linkage_lab, [&](LinkagePart& part, const LinkagePart&) {
+                    change(part, given, runtime);
+                });
+            }};
+}
+
+Argument linkage_point_argument(const char* name, bool required, const char* help) {
+    return offering(text_argument(name, required, help), [](const Workspace& workspace) {
+        return names(linkage_part(workspace).linkage().points, [](const auto& each) { return each.name; });
+    });
+}
+
+std::size_t require_linkage_point(const LinkagePart& part, const std::string& name) {
+    const std::size_t point = part.linkage().find_point(name);
+    if (point == ik::ground_link) throw Refused("there is no point \"" + name + "\"");
+    return point;
+}
+
+bool turns(const LinkagePart& part, std::string_view joint) {
+    const std::size_t link = part.linkage().find_link(joint);
+    return link != ik::ground_link && part.linkage().links[link].joint == ik::LinkJoint::Hinge;
+}
+
+bool is_stalled(const LinkagePart& part, const LinkageDrive& drive) {
+    const ik::LinkageReport& report = part.result.report;
+    return report.stopped && part.linkage().links[*report.stopped].name == drive.joint;
+}
+
+namespace {
+
+/// Of a walker: in its own frame.
+std::vector<glm::dvec3> feet_of(const LinkagePart& part) {
+    std::vector<glm::dvec3> feet;
+    if (part.copies.empty()) return feet;
+    const std::size_t foot = part.linkage().find_point(kind_of(part.shape->mechanism)->traced);
+    feet.push_back(part.at(foot));
+    for (const LinkageCopy& each : part.copies) feet.push_back(part.at(foot, each));
+    return feet;
+}
+
+}  // namespace
+
+void run_motors(LinkagePart& part, double seconds, LinkageRuntime& runtime) {
+    part.time += seconds;
+    if (part.drag) return;
+    for (LinkageDrive& each : part.drives)
+        if (each.rate != 0.0) each.value += each.rate * seconds;
+    const std::vector<glm::dvec3> before = feet_of(part);
+    solve_linkage(part, runtime);
+    // The lowest foot stands: the ground goes with it.
+    const std::vector<glm::dvec3> after = feet_of(part);
+    std::size_t lowest = 0;
+    for (std::size_t i = 0; i < after.size(); ++i)
+        if (after[i].y < after[lowest].y) lowest = i;
+    if (!after.empty()) part.walked -= after[lowest].x - before[lowest].x;
+}
+
+void add_linkage_commands(CommandTable& table) {
+    const Argument to{.name = "to", .type = ArgumentType::Point, .help = "metres"};
+    table.add(
+        {.name = "linkage.preset",
+         .title = "Open a linkage preset",
+         .arguments = {choice_argument("name", true, "which mechanism",
+                                       names(mechanism_kinds(), [](const auto& each) { return each.name; }))},
+         .help = "Opens a mechanism made from named lengths",
+         .effect = Effect::Edit,
+         .apply = [](Workspace& workspace, const Arguments& given) {
+             auto& runtime = workspace.runtimes.of<LinkageRuntime>(linkage_lab);
+             change_part<LinkagePart>(workspace, linkage_lab, [&](LinkagePart& part, const LinkagePart&) {
+                 preset(part, given, runtime);
+             });
+             look_at_linkage(workspace);
+         }});
+    table.add(linkage_command("linkage.set", "Set a mechanism's lengths", length_arguments(),
+                              "Sets lengths of the preset; omitted ones are kept", set_lengths));
+    table.add(
+        linkage_command("linkage.drive", "Give a joint a value",
+                        {joint_argument(), number_argument("angle_deg", "of a hinge, degrees", -1e6, 1e6),
+                         number_argument("value", "of a slider, metres; of a hinge, radians", -1e6, 1e6)},
+                        "Turns a hinge or moves a slider, and holds it there", drive));
+    table.add(linkage_command("linkage.release", "Let a joint move freely", {joint_argument()},
+                              "Stops the joint's motor and lets it follow the others", release));
+    table.add(linkage_command(
+        "linkage.motor", "Run a motor",
+        {joint_argument(),
+         number_argument("deg_per_s", "of a hinge; 0 stops it", -max_motor_rate, max_motor_rate),
+         number_argument("per_s", "of a slider, metres a second", -1e6, 1e6)},
+        "Runs a joint at this speed while time passes; at the usual one if none is given", motor));
+    table.add(linkage_command("linkage.target", "Draw a point to a place",
+                              {linkage_point_argument("point", true, "which point"), to,
+                               number_argument("weight", "relative to other targets", 1e-6, 1e6),
+                               switch_argument("exact", "comes before all targets that are not")},
+                              "Draws a point to a place as far as the drivers let it", target));
+    table.add(linkage_command("linkage.target.remove", "Remove a point's target",
+                              {linkage_point_argument("point", true, "which point")}, "Lets the point go",
+                              remove_target));
+    table.add(linkage_command("linkage.drag", "Drag a point of the linkage",
+                              {linkage_point_argument("point", true, "which point"), to},
+                              "Moves a point as the mouse does: drivers follow until it is let go", drag));
+    table.add(linkage_command("linkage.let_go", "Let go of the linkage", {}, "Ends a drag", let_go));
+    table.add(linkage_command("linkage.other_mode", "Go to the other assembly mode", {},
+                              "Assembles the same bars the other way, with the drivers where they are",
+                              other_mode));
+    table.add(
+        linkage_command("linkage.clear", "Remove all bars and joints", {}, "Removes everything", clear));
+    table.add(linkage_command("linkage.reset", "Reset the Linkage lab", {},
+                              "Resets this lab to its first state", reset));
+    table.add(linkage_command("linkage.select", "Select a joint",
+                              {linkage_point_argument("point", false, "which one; none if omitted")},
+                              "Selects a joint or point; its path is drawn", select, Effect::Look));
+    table.add(linkage_command("linkage.tool", "Choose what the mouse does",
+                              {choice_argument("name", true, "which tool", linkage_tools.names())},
+                              "Chooses what clicks and drags in the view do", choose_tool, Effect::Look));
+    table.add({.name = "linkage.copy",
+               .title = "Copy the linkage as C++",
+               .arguments = {},
+               .help = "Copies the linkage to the clipboard as a C++ program that uses the library",
+               .effect = Effect::Look,
+               .apply = [](Workspace& workspace, const Arguments&) {
+                   workspace.ui.copied = linkage_code(linkage_part(workspace));
+                   workspace.toast("The linkage is on the clipboard as C++");
+               }});
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,33 @@
+// Commands of the Linkage lab.
+#pragma once
+
+#include "app/document/command.hpp"
+#include "app/labs/linkage/linkage_part.hpp"
+
+namespace tendril::app {
+
+/// Presets, lengths, drivers, motors, targets, drags.
+void add_linkage_commands(CommandTable& table);
+/// Joints, bars, pins: a linkage drawn by hand.
+void add_sketch_commands(CommandTable& table);
+
+/// A motor that does not say turns this fast, degrees a second; a slider's moves a tenth of the linkage.
+inline constexpr double usual_motor_rate = 90.0;
+
+/// Whether the joint of that link turns: its values are angles.
+bool turns(const LinkagePart& part, std::string_view joint);
+/// One tick of all motors.
+void run_motors(LinkagePart& part, double seconds, LinkageRuntime& runtime);
+/// A motor that cannot go on: at a dead point, or at the end of a range.
+bool is_stalled(const LinkagePart& part, const LinkageDrive& drive);
+
+/// A command that changes the part, given the lab's solver.
+Command linkage_command(const char* name, const char* title, std::vector<Argument> arguments,
+                        const char* help, void (*change)(LinkagePart&, const Arguments&, LinkageRuntime&),
+                        Effect effect = Effect::Edit);
+/// An argument that names a point.
+Argument linkage_point_argument(const char* name, bool required, const char* help);
+/// Throws Refused where there is none of that name.
+std::size_t require_linkage_point(const LinkagePart& part, const std::string& name);
+
+}  // namespace tendril::app

@@ -1,0 +1,286 @@
+#include "app/labs/linkage/linkage_lab.hpp"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "app/document/json_complete.hpp"
+#include "app/document/units.hpp"
+#include "app/labs/kit/arguments.hpp"
+#include "app/labs/linkage/code.hpp"
+#include "app/labs/linkage/draw.hpp"
+#include "app/labs/linkage/linkage_commands.hpp"
+#include "app/labs/linkage/panel.hpp"
+#include "app/labs/linkage/past.hpp"
+
+namespace tendril::app {
+namespace {
+
+/// The point or the target that was picked; null: the other, or nothing.
+const ik::LinkPoint* picked_point(const LinkagePart& part, PickId pick) {
+    const auto& points = part.linkage().points;
+    const bool is_one = pick >= 0 && static_cast<std::size_t>(pick) < points.size();
+    return is_one ? &points[static_cast<std::size_t>(pick)] : nullptr;
+}
+const LinkageTarget* picked_linkage_target(const LinkagePart& part, PickId pick) {
+    const PickId first = linkage_target_pick(0);
+    const bool is_one = pick >= first && static_cast<std::size_t>(pick - first) < part.targets.size();
+    return is_one ? &part.targets[static_cast<std::size_t>(pick - first)] : nullptr;
+}
+
+constexpr float catch_pixels = 14.0f;  ///< how far a stroke may begin beside a joint or bar
+
+/// The end of a stroke: a joint that is there, or a place in the plane.
+struct StrokeEnd {
+    std::string joint{};
+    glm::vec3 place{0.0f};
+    ArgumentValue argument() const {
+        return joint.empty() ? ArgumentValue(SharedJson(Json{place.x, place.y, 0.0f})) : ArgumentValue(joint);
+    }
+};
+
+std::optional<StrokeEnd> end_at(const LinkagePart& part, const Camera& camera, glm::vec2 pixel) {
+    StrokeEnd end;
+    float nearest = catch_pixels;
+    for (std::size_t i = 0; i < part.linkage().points.size(); ++i) {
+        const auto at = camera.project(in_scene(part, part.at(i)));
+        const float far = at ? glm::distance(*at, pixel) : nearest;
+        if (far >= nearest) continue;
+        nearest = far;
+        end.joint = part.linkage().points[i].name;
+    }
+    if (!end.joint.empty()) return end;
+    const auto place = camera.on_plane(pixel, glm::vec3(0.0f), {0, 0, 1});
+    if (!place) return std::nullopt;
+    end.place = *place;
+    return end;
+}
+
+/// The bar under a pixel; empty: none.
+std::string bar_at(const LinkagePart& part, const Camera& camera, glm::vec2 pixel) {
+    std::string found;
+    float nearest = catch_pixels;
+    for (const ik::SketchBar& bar : part.shape->sketch.bars)
+        for (std::size_t i = 0; i < bar.points.size(); ++i) {
+            const auto a = camera.project(in_scene(part, part.at(bar.points[i])));
+            const auto b = camera.project(in_scene(part, part.at(bar.points[(i + 1) % bar.points.size()])));
+            if (!a || !b || *a == *b) continue;
+            const glm::vec2 way = *b - *a;
+            const float along = std::clamp(glm::dot(pixel - *a, way) / glm::dot(way, way), 0.0f, 1.0f);
+            const float far = glm::distance(pixel, *a + along * way);
+            if (far >= nearest) continue;
+            nearest = far;
+            found = bar.name;
+        }
+    return found;
+}
+
+Json drive_state(const LinkagePart& part, const LinkageDrive& drive) {
+    return turns(part, drive.joint) ? Json(glm::degrees(drive.value)) : Json(drive.value);
+}
+
+}  // namespace
+
+std::shared_ptr<Part> LinkageLab::blank() const {
+    return std::make_shared<LinkagePart>(first_linkage());
+}
+
+CameraPose LinkageLab::first_view() const {
+    return {.target = {1.4f, 0.8f, 0.0f}, .distance = 7.5f, .orthographic = true};
+}
+
+void LinkageLab::add_commands(CommandTable& table) const {
+    add_linkage_commands(table);
+    add_sketch_commands(table);
+}
+
+bool LinkageLab::moving(const Workspace& workspace) const {
+    const LinkagePart& part = linkage_part(workspace);
+    return std::ranges::any_of(
+        part.drives, [&](const LinkageDrive& each) { return each.rate != 0.0 && !is_stalled(part, each); });
+}
+
+void LinkageLab::step(Workspace& workspace) const {
+    const bool modified = workspace.modified();
+    auto& runtime = workspace.runtimes.of<LinkageRuntime>(linkage_lab);
+    run_motors(workspace.document.edit<LinkagePart>(linkage_lab),
+               tick_seconds * static_cast<double>(workspace.clock.speed), runtime);
+    if (!modified) workspace.saved = workspace.document;  // time does not modify the scene
+}
+
+std::vector<Incident> LinkageLab::review(const Workspace&, const Part& before, const Part& after) const {
+    return linkage_incidents(dynamic_cast<const LinkagePart&>(before),
+                             dynamic_cast<const LinkagePart&>(after));
+}
+
+bool LinkageLab::same_joints(const Part& before, const Part& after) const {
+    return linkage_past().same_joints(before, after);
+}
+
+std::vector<Handle> LinkageLab::handles(const Workspace& workspace) const {
+    const LinkagePart& part = linkage_part(workspace);
+    std::vector<Handle> all;
+    for (std::size_t i = 0; i < part.linkage().points.size(); ++i)
+        all.push_back({part.linkage().points[i].name, linkage_pick(i), {in_scene(part, part.at(i))}});
+    for (std::size_t i = 0; i < part.targets.size(); ++i)
+        all.push_back({"target." + part.targets[i].point,
+                       linkage_target_pick(i),
+                       {in_scene(part, part.targets[i].to)}});
+    return all;
+}
+
+void LinkageLab::drag(const Workspace& workspace, PickId pick, const Handle::Frame& frame, Emit& emit) const {
+    const LinkagePart& part = linkage_part(workspace);
+    if (const LinkageTarget* const target = picked_linkage_target(part, pick))
+        return emit.continuously("linkage.target",
+                                 {{"point", target->point}, {"to", from_scene(part, frame.position)}});
+    const ik::LinkPoint* const point = picked_point(part, pick);
+    if (point == nullptr) return;
+    const bool stays = point->link == ik::ground_link;
+    if (stays && !part.shape->in_plane()) return;
+    emit.continuously(stays ? "linkage.move" : "linkage.drag",
+                      {{"point", point->name}, {"to", from_scene(part, frame.position)}});
+}
+
+void LinkageLab::drop(const Workspace& workspace, PickId, Emit& emit) const {
+    if (linkage_part(workspace).drag) emit.continuously("linkage.let_go");
+}
+
+void LinkageLab::click(const Workspace& workspace, PickId pick, Emit& emit) const {
+    const LinkagePart& part = linkage_part(workspace);
+    const ik::LinkPoint* const point = picked_point(part, pick);
+    if (point == nullptr) {
+        if (!part.selected.empty() && part.tool == LinkageTool::Move) emit("linkage.select");
+        return;
+    }
+    emit("linkage.select", {{"point", point->name}});
+    if (part.tool == LinkageTool::Pin) emit("linkage.pin", {{"point", point->name}});
+    if (part.tool != LinkageTool::Motor) return;
+    const auto& sketch = part.shape->sketch;
+    for (const ik::SketchMotor& each : sketch.motors)
+        if (sketch.points[each.point].name == point->name)
+            return emit("linkage.motor.remove", {{"joint", each.name}});
+    emit("linkage.motor.add", {{"point", point->name}});
+}
+
+void LinkageLab::stroke(const Workspace& workspace, std::size_t, const Camera& camera, glm::vec2 from,
+                        glm::vec2 to, Emit& emit) const {
+    const LinkagePart& part = linkage_part(workspace);
+    const auto begin = end_at(part, camera, from), end = end_at(part, camera, to);
+    if (!begin || !end) return;
+    if (from != to) {
+        if (!begin->joint.empty() && begin->joint == end->joint) return;
+        return emit.continuously("linkage.bar", {{"from", begin->argument()}, {"to", end->argument()}});
+    }
+    if (!begin->joint.empty()) return;
+    const std::string bar = bar_at(part, camera, from);
+    ArgumentList arguments{{"at", begin->place}};
+    if (!bar.empty()) arguments.push_back({"bar", bar});
+    emit.continuously("linkage.joint", arguments);
+}
+
+std::string LinkageLab::hint(const Workspace& workspace, PickId pick) const {
+    const LinkagePart& part = linkage_part(workspace);
+    if (const LinkageTarget* const target = picked_linkage_target(part, pick))
+        return "Where " + target->point + " is drawn to: drag moves it.";
+    const ik::LinkPoint* const point = picked_point(part, pick);
+    const std::string name = point != nullptr ? point->name : "";
+    const bool stays = point != nullptr && point->link == ik::ground_link;
+    switch (part.tool) {
+        case LinkageTool::Draw:
+            return point != nullptr ? name + ": drag from here draws a bar."
+                                    : "Drag draws a bar. A click adds a joint, on a bar or beside it.";
+        case LinkageTool::Pin:
+            return point != nullptr ? name + ": click pins it to the ground, or lets it move again."
+                                    : "Click a joint to pin it to the ground.";
+        case LinkageTool::Motor:
+            return point != nullptr ? name + ": click adds a motor, or takes it away."
+                                    : "Click a pinned joint to put a motor there.";
+        case LinkageTool::Move:
+            break;
+    }
+    if (point == nullptr) return {};
+    return name + (stays ? ": drag moves it, and its bars change their lengths. Click selects it."
+                         : ": drag moves the linkage. Click selects it and draws its path.");
+}
+
+std::vector<LabSetting> LinkageLab::settings() const {
+    return {linkage_past().plot, linkage_past().ghosts};
+}
+
+std::vector<Shortcut> LinkageLab::shortcuts() const {
+    return {delete_shortcut("linkage.remove_selected")};
+}
+
+std::vector<MouseHelp> LinkageLab::mouse_help() const {
+    return {{"Left drag on a joint", "moves the linkage; drivers follow"},
+            {"Left drag with Draw", "draws a bar, from joint to joint or to a new one"},
+            {"Left click with Draw", "adds a joint, on a bar or beside it"},
+            {"Left click with Pin, Motor", "pins a joint; puts a motor at a pinned one"}};
+}
+
+std::vector<CommandCall> LinkageLab::opening() const {
+    return {{"linkage.motor", {{"joint", "crank"}, {"deg_per_s", 60.0f}}}};
+}
+
+std::vector<CommandCall> LinkageLab::calm() const {
+    return {{"linkage.release", {{"joint", "crank"}}}};
+}
+
+std::vector<TestScene> LinkageLab::test_scenes() const {
+    const std::vector<std::string> words{"crank", "motor", "A", "B", "C", "P", "S", "platform", "bar 1"};
+    std::vector<TestScene> scenes{
+        {"motor", {{"linkage.motor", {{"joint", "crank"}}}}, words},
+        {"drawn",
+         {{"linkage.clear", {}},
+          {"linkage.joint", {{"at", glm::vec3(0.0f)}}},
+          {"linkage.pin", {{"point", "A"}}},
+          {"linkage.bar", {{"from", "A"}, {"to", SharedJson(Json{1, 1, 0})}}},
+          {"linkage.bar", {{"from", SharedJson(Json{3, 0, 0})}, {"to", SharedJson(Json{4, 1, 0})}}},
+          {"linkage.motor.add", {{"point", "A"}}},
+          {"linkage.motor", {{"joint", "motor 1"}}}},
+         words},
+        {"empty", {{"linkage.clear", {}}}, words}};
+    for (const MechanismKind& kind : mechanism_kinds())
+        scenes.push_back({kind.name, {{"linkage.preset", {{"name", kind.name}}}}, words});
+    return scenes;
+}
+
+std::string LinkageLab::code(const Workspace& workspace) const {
+    return linkage_code(linkage_part(workspace));
+}
+
+Json LinkageLab::state(const Workspace& workspace) const {
+    const LinkagePart& part = linkage_part(workspace);
+    const LinkageResult& result = part.result;
+    Json points = Json::object(), drivers = Json::object(), active = Json::array(), open = Json::array(),
+         targets = Json::object();
+    for (std::size_t i = 0; i < part.linkage().points.size(); ++i)
+        points[part.linkage().points[i].name] = dpoint(part.at(i));
+    for (const LinkageDrive& each : part.drives) drivers[each.joint] = drive_state(part, each);
+    for (const std::size_t each : result.active) active.push_back(part.linkage().links[each].name);
+    for (const std::size_t each : result.open_closures) open.push_back(part.linkage().closures[each].name);
+    for (const LinkageTarget& each : part.targets)
+        targets[each.point] = {
+            {"to", dpoint(each.to)},
+            {"residual", glm::distance(each.to, part.at(part.linkage().find_point(each.point)))}};
+    const double transmission = transmission_angle(part);
+    return Json{{"lab", linkage_lab},
+                {"points", std::move(points)},
+                {"closed_to", result.report.closed_to},
+                {"freedom", result.freedom.actual},
+                {"gruebler", result.freedom.counted},
+                {"status", ik::name(result.report.status)},
+                {"verdict", linkage_verdict(part).text},
+                {"drivers", std::move(drivers)},
+                {"targets", std::move(targets)},
+                {"active", std::move(active)},
+                {"open_closures", std::move(open)},
+                {"transmission_angle", std::isfinite(transmission) ? Json(transmission) : Json(nullptr)},
+                {"selected", part.selected.empty() ? Json(nullptr) : Json(part.selected)},
+                {"tool", linkage_tools.name(part.tool)},
+                {"seconds", part.time},
+                {"past", past_view_state(workspace, linkage_past(), linkage_past_curve(workspace))}};
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,54 @@
+// The Linkage lab: bars, joints, pins and motors, to draw, drag and run.
+#pragma once
+
+#include "app/labs/lab.hpp"
+#include "app/labs/linkage/linkage_part.hpp"
+
+namespace tendril::app {
+
+class LinkageLab final : public Lab {
+  public:
+    std::string name() const override { return linkage_lab; }
+    std::string title() const override { return "Linkage"; }
+    std::shared_ptr<Part> blank() const override;
+    CameraPose first_view() const override;
+    const char* invitation() const override { return "Drag any joint, or run the motor."; }
+    void add_commands(CommandTable& table) const override;
+
+    bool moving(const Workspace& workspace) const override;
+    void step(Workspace& workspace) const override;
+    double seconds(const Workspace& workspace) const override { return linkage_part(workspace).time; }
+    std::vector<Incident> review(const Workspace& workspace, const Part& before,
+                                 const Part& after) const override;
+    bool same_joints(const Part& before, const Part& after) const override;
+
+    void draw(const View& view, DrawList& list) const override;
+    std::vector<LegendRow> legend(const Workspace& workspace) const override;
+
+    std::vector<Handle> handles(const Workspace& workspace) const override;
+    void drag(const Workspace& workspace, PickId pick, const Handle::Frame& frame, Emit& emit) const override;
+    void drop(const Workspace& workspace, PickId pick, Emit& emit) const override;
+    void click(const Workspace& workspace, PickId pick, Emit& emit) const override;
+    bool takes_strokes(const Workspace& workspace) const override {
+        return linkage_part(workspace).tool == LinkageTool::Draw;
+    }
+    void stroke(const Workspace& workspace, std::size_t pane, const Camera& camera, glm::vec2 from,
+                glm::vec2 to, Emit& emit) const override;
+    std::string hint(const Workspace& workspace, PickId pick) const override;
+
+    void panel(const Workspace& workspace, Emit& emit) const override;
+    void inspector(const Workspace& workspace, Emit& emit) const override;
+    float timeline_height(const Workspace& workspace) const override;
+    void timeline(const Workspace& workspace, Emit& emit) const override;
+
+    std::vector<LabSetting> settings() const override;
+    std::vector<Shortcut> shortcuts() const override;
+    std::vector<MouseHelp> mouse_help() const override;
+    std::vector<CommandCall> opening() const override;
+    std::vector<CommandCall> calm() const override;
+    std::vector<TestScene> test_scenes() const override;
+    std::string code(const Workspace& workspace) const override;
+    Json state(const Workspace& workspace) const override;
+};
+
+}  // namespace tendril::app

@@ -1,0 +1,252 @@
+// The Linkage lab's part: comparison, undo and scene files.
+#include "app/labs/linkage/linkage_part.hpp"
+
+#include <algorithm>
+
+#include "app/document/json_complete.hpp"
+#include "app/document/json_place.hpp"
+#include "app/labs/kit/arguments.hpp"
+#include "app/labs/linkage/linkage_commands.hpp"
+
+namespace tendril::app {
+
+bool LinkagePart::operator==(const LinkagePart& other) const {
+    return shape == other.shape && state == other.state && copies == other.copies && walked == other.walked &&
+           drives == other.drives && targets == other.targets && drag == other.drag &&
+           result == other.result && time == other.time && tool == other.tool && selected == other.selected;
+}
+
+std::size_t LinkagePart::bytes() const {
+    const std::size_t shared = linkage().links.size() * sizeof(ik::Link) +
+                               linkage().closures.size() * sizeof(ik::Closure) +
+                               linkage().points.size() * (sizeof(ik::LinkPoint) + sizeof(ik::SketchPoint));
+    return sizeof(*this) + shared + (1 + copies.size()) * state.joints.size() * sizeof(ik::JointPlace) +
+           links.size() * sizeof(ik::LinkPlace) + drives.size() * sizeof(LinkageDrive) +
+           targets.size() * sizeof(LinkageTarget);
+}
+
+std::shared_ptr<const Part> LinkagePart::after_undo() const {
+    if (!drag) return nullptr;
+    auto part = std::make_shared<LinkagePart>(*this);
+    part->drag.reset();
+    return part;
+}
+
+std::shared_ptr<const Part> LinkagePart::at_moment(std::shared_ptr<const Part> then) const {
+    auto part = std::make_shared<LinkagePart>(dynamic_cast<const LinkagePart&>(*then));
+    part->tool = tool;
+    part->selected = part->linkage().find_point(selected) != ik::ground_link ? selected : "";
+    part->drag.reset();
+    return part;
+}
+
+namespace {
+
+constexpr std::array sketch_holds{ik::SketchHold::Free, ik::SketchHold::Pinned, ik::SketchHold::Guided};
+
+Json save_sketch(const ik::LinkageSketch& sketch) {
+    Json json{{"points", Json::array()}, {"bars", Json::array()}, {"motors", Json::array()}};
+    for (const ik::SketchPoint& each : sketch.points) {
+        Json point{{"name", each.name}, {"at", {each.at.x, each.at.y}}, {"hold", ik::name(each.hold)}};
+        if (each.hold == ik::SketchHold::Guided) point["guide"] = each.guide;
+        json["points"].push_back(std::move(point));
+    }
+    for (const ik::SketchBar& each : sketch.bars) {
+        Json ends = Json::array();
+        for (const std::size_t point : each.points) ends.push_back(sketch.points[point].name);
+        json["bars"].push_back({{"name", each.name}, {"points", std::move(ends)}});
+    }
+    for (const ik::SketchMotor& each : sketch.motors)
+        json["motors"].push_back({{"name", each.name},
+                                  {"point", sketch.points[each.point].name},
+                                  {"bar", sketch.bars[each.bar].name}});
+    return json;
+}
+
+std::size_t load_index(const JsonPlace& place, const char* what, auto find) {
+    const std::size_t found = find(place.text());
+    if (found == ik::ground_link)
+        place.fail("there is no " + std::string(what) + " \"" + place.text() + "\"");
+    return found;
+}
+
+ik::LinkageSketch load_sketch(const JsonPlace& place) {
+    ik::LinkageSketch sketch;
+    const auto point_of = [&](const JsonPlace& each) {
+        return load_index(each, "point", [&](const std::string& name) { return sketch.find_point(name); });
+    };
+    place["points"].for_each("points", max_linkage_points, [&](const JsonPlace& each) {
+        ik::SketchPoint point{.name = each["name"].text()};
+        if (point.name.empty()) each["name"].fail("a point needs a name");
+        if (sketch.find_point(point.name) != ik::ground_link)
+            each["name"].fail("there is a point of this name");
+        each["at"].check_size(2, "coordinates");
+        point.at = {each["at"].element(0).real(-max_linkage_extent, max_linkage_extent),
+                    each["at"].element(1).real(-max_linkage_extent, max_linkage_extent)};
+        const std::string hold = each["hold"].text();
+        const auto found =
+            std::ranges::find_if(sketch_holds, [&](auto any) { return hold == ik::name(any); });
+        if (found == sketch_holds.end())
+            each["hold"].fail("expected free, pinned or guided, found \"" + hold + "\"");
+        point.hold = *found;
+        if (point.hold == ik::SketchHold::Guided) point.guide = each["guide"].real(-1e3, 1e3);
+        sketch.points.push_back(std::move(point));
+    });
+    place["bars"].for_each("bars", max_linkage_bars, [&](const JsonPlace& each) {
+        ik::SketchBar bar{.name = each["name"].text()};
+        each["points"].for_each("points", max_linkage_points,
+                                [&](const JsonPlace& end) { bar.points.push_back(point_of(end)); });
+        if (bar.points.size() < 2) each["points"].fail("a bar needs two points");
+        sketch.bars.push_back(std::move(bar));
+    });
+    place["motors"].for_each("motors", max_linkage_bars, [&](const JsonPlace& each) {
+        sketch.motors.push_back({.name = each["name"].text(),
+                                 .point = point_of(each["point"]),
+                                 .bar = load_index(each["bar"], "bar", [&](const std::string& name) {
+                                     return sketch.find_bar(name);
+                                 })});
+    });
+    return sketch;
+}
+
+LinkageShape load_shape(const JsonPlace& place) {
+    if (const auto preset = place.optional("mechanism")) {
+        const std::string name = (*preset)["name"].text();
+        for (const MechanismKind& kind : mechanism_kinds()) {
+            if (name != kind.name) continue;
+            Mechanism mechanism = kind.blank();
+            load_all_fields((*preset)["lengths"], mechanism_fields(mechanism));
+            try {
+                return shape_of(mechanism);
+            } catch (const std::invalid_argument& error) {
+                (*preset)["lengths"].fail(error.what());
+            }
+        }
+        (*preset)["name"].fail("unknown mechanism \"" + name + "\"");
+    }
+    const JsonPlace sketch = place["sketch"];
+    ik::LinkageSketch loaded = load_sketch(sketch);
+    try {
+        return shape_of(std::move(loaded));
+    } catch (const std::invalid_argument& error) {
+        sketch.fail(error.what());
+    }
+}
+
+Json save_state(const ik::LinkageState& state, const ik::Linkage& linkage) {
+    Json joints = Json::array();
+    for (std::size_t i = 0; i < state.joints.size(); ++i) {
+        const ik::JointPlace& each = state.joints[i];
+        const bool ball = linkage.links[i].joint == ik::LinkJoint::Ball;
+        joints.push_back(ball ? dquaternion(each.turn) : Json{each.value, each.last});
+    }
+    return joints;
+}
+
+ik::LinkageState load_state(const JsonPlace& place, const ik::Linkage& linkage) {
+    ik::LinkageState state;
+    place.check_size(linkage.links.size(), "joints, one for each link");
+    for (std::size_t i = 0; i < linkage.links.size(); ++i) {
+        const JsonPlace joint = place.element(i);
+        ik::JointPlace each;
+        if (linkage.links[i].joint == ik::LinkJoint::Ball)
+            each.turn = joint.drotation();
+        else {
+            joint.check_size(2, "numbers, the value and its last step");
+            each.value = joint.element(0).real();
+            each.last = joint.element(1).real();
+        }
+        state.joints.push_back(each);
+    }
+    return state;
+}
+
+LinkageTarget load_target(const JsonPlace& place, const LinkagePart& part) {
+    const std::string point = place["point"].text();
+    if (part.linkage().find_point(point) == ik::ground_link)
+        place["point"].fail("there is no point \"" + point + "\"");
+    return {point, place["to"].dpoint(), place["weight"].real(1e-6, 1e6), place["exact"].flag()};
+}
+
+void load_drive(const JsonPlace& place, LinkagePart& part) {
+    const std::string joint = place["joint"].text();
+    const std::size_t link = part.linkage().find_link(joint);
+    if (link == ik::ground_link || part.linkage().links[link].joint == ik::LinkJoint::Ball)
+        place["joint"].fail("there is no hinge or slider \"" + joint + "\"");
+    if (part.find_drive(joint) != nullptr) place["joint"].fail("it is driven twice");
+    part.drives.push_back(
+        {joint, part.state.joints[link].value, place["rate"].real(-1e6, 1e6), place["held"].flag()});
+}
+
+}  // namespace
+
+Json LinkagePart::save() const {
+    Json json;
+    if (const MechanismKind* const kind = kind_of(shape->mechanism))
+        json["mechanism"] = {{"name", kind->name},
+                             {"lengths", save_fields(mechanism_fields(shape->mechanism))}};
+    else
+        json["sketch"] = save_sketch(shape->sketch);
+    json["joints"] = save_state(state, linkage());
+    if (!copies.empty()) {
+        json["legs"] = Json::array();
+        for (const LinkageCopy& each : copies) json["legs"].push_back(save_state(each.state, linkage()));
+        json["walked"] = walked;
+    }
+    json["drivers"] = Json::array();
+    for (const LinkageDrive& each : drives)
+        json["drivers"].push_back({{"joint", each.joint}, {"rate", each.rate}, {"held", each.held}});
+    json["targets"] = Json::array();
+    for (const LinkageTarget& each : targets)
+        json["targets"].push_back(
+            {{"point", each.point}, {"to", dpoint(each.to)}, {"weight", each.weight}, {"exact", each.exact}});
+    json["time"] = time;
+    json["tool"] = linkage_tools.name(tool);
+    json["selected"] = selected.empty() ? Json(nullptr) : Json(selected);
+    return json;
+}
+
+std::shared_ptr<Part> LinkagePart::load(const Json& json, const std::string& where) const {
+    const JsonPlace place(json, where);
+    auto part = std::make_shared<LinkagePart>();
+    part->shape = std::make_shared<const LinkageShape>(load_shape(place));
+    part->state = load_state(place["joints"], part->linkage());
+    part->copies = copies_of(*part->shape, part->state);
+    if (!part->copies.empty()) {
+        place["legs"].check_size(part->copies.size(), "states, one for each further leg");
+        for (std::size_t i = 0; i < part->copies.size(); ++i)
+            part->copies[i].state = load_state(place["legs"].element(i), part->linkage());
+        part->walked = place["walked"].real();
+    }
+    place["drivers"].for_each("drivers", ik::max_links,
+                              [&](const JsonPlace& each) { load_drive(each, *part); });
+    place["targets"].for_each("targets", max_linkage_points, [&](const JsonPlace& each) {
+        part->targets.push_back(load_target(each, *part));
+    });
+    part->time = place["time"].real(0.0, 1e9);
+    part->tool = place["tool"].choice(linkage_tools);
+    if (const auto selected_point = place.optional("selected")) {
+        part->selected = selected_point->text();
+        if (part->linkage().find_point(part->selected) == ik::ground_link)
+            selected_point->fail("there is no point \"" + part->selected + "\"");
+    }
+    // The pose stays as it was saved, to the bit; the report is that of a solve from there.
+    const std::vector<LinkageDrive> drives = part->drives;
+    std::vector<LinkageCopy> copies = part->copies;
+    const ik::LinkageState saved = part->state;
+    LinkageRuntime runtime;
+    solve_linkage(*part, runtime);
+    ik::LinkageSolver& solver = runtime.solver(part->shape);
+    const auto put_back = [&](const ik::LinkageState& state, std::vector<ik::LinkPlace>& links) {
+        static_cast<void>(solver.place(state));
+        links.assign(solver.links().begin(), solver.links().end());
+    };
+    part->state = saved;
+    put_back(saved, part->links);
+    for (LinkageCopy& each : copies) put_back(each.state, each.links);
+    part->copies = std::move(copies);
+    part->drives = drives;
+    return part;
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,45 @@
+// The Linkage lab's presets: the library's mechanisms, with their lengths as tables of fields.
+#pragma once
+
+#include <string>
+#include <tendril/ik/mechanisms.hpp>
+#include <variant>
+#include <vector>
+
+#include "app/document/camera_pose.hpp"
+#include "app/fields/fields.hpp"
+
+namespace tendril::app {
+
+/// Twelve of Jansen's legs on one crank, a hundredth as large: six pairs, a sixth of a turn apart.
+struct JansenWalker : ik::Jansen {
+    JansenWalker();
+};
+
+/// The lengths of one; none: drawn by hand.
+using Mechanism = std::variant<std::monostate, ik::FourBar, ik::SliderCrank, ik::Peaucellier, ik::Pantograph,
+                               ik::ScissorLift, ik::Jansen, JansenWalker, ik::Delta, ik::Stewart>;
+
+struct MechanismKind {
+    const char* name;
+    const char* title;
+    const char* help;
+    Mechanism (*blank)();
+    std::span<const Field> fields;
+    std::span<const FieldText> texts;
+    const char* traced;        ///< the point whose path is shown first; empty: none
+    const char* drivers = "";  ///< in space: links whose names begin like this are driven
+};
+
+/// In the order of the variant, from its second alternative on.
+const std::vector<MechanismKind>& mechanism_kinds();
+/// Throws std::invalid_argument for an unknown name.
+const MechanismKind& mechanism_kind(const std::string& name);
+/// Null if it was drawn by hand.
+const MechanismKind* kind_of(const Mechanism& mechanism);
+
+/// The table and the lengths; an empty table if it was drawn by hand.
+FieldsOf mechanism_fields(const Mechanism& mechanism);
+FieldsIn mechanism_fields(Mechanism& mechanism);
+
+}  // namespace tendril::app

@@ -1,0 +1,327 @@
+#include "app/labs/linkage/panel.hpp"
+
+#include <imgui.h>
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "app/document/json_complete.hpp"
+#include "app/document/units.hpp"
+#include "app/fields/field_rows.hpp"
+#include "app/labs/kit/past_strip.hpp"
+#include "app/labs/linkage/draw.hpp"
+#include "app/labs/linkage/linkage_commands.hpp"
+#include "app/labs/linkage/linkage_lab.hpp"
+#include "app/labs/linkage/past.hpp"
+#include "app/widgets/fields.hpp"
+#include "app/widgets/text.hpp"
+
+namespace tendril::app {
+namespace {
+
+std::string angle_text(double degrees) {
+    return fixed_text(degrees, 1) + " degrees";
+}
+
+/// "crank at 43.0 degrees"
+std::string stop_text(const LinkagePart& part) {
+    const ik::LinkageReport& report = part.result.report;
+    const std::string& joint = part.linkage().links[*report.stopped].name;
+    return joint + " at " +
+           (turns(part, joint) ? angle_text(glm::degrees(report.stopped_at))
+                               : fixed_text(report.stopped_at, 3) + " m");
+}
+
+std::string closure_names(const LinkagePart& part) {
+    std::string text;
+    for (const std::size_t each : part.result.open_closures) {
+        if (!text.empty()) text += ", ";
+        text += part.linkage().closures[each].name;
+    }
+    return text;
+}
+
+/// How far the linkage is drawn by hand, as the next step. Empty text: it is done.
+Verdict drawing_verdict(const LinkagePart& part) {
+    const LinkageShape& shape = *part.shape;
+    if (shape.sketch.bars.empty())
+        return {"Draw a bar", Verdict::Kind::Open,
+                "Choose Draw, and drag from one place to another in the view."};
+    const auto loose = std::ranges::count(shape.floating, true);
+    if (loose == static_cast<std::ptrdiff_t>(shape.floating.size()))
+        return {"Nothing holds it", Verdict::Kind::Open,
+                "Choose Pin, and click the joints that stay in place."};
+    if (loose > 0) {
+        const auto first = std::ranges::find(shape.floating, true) - shape.floating.begin();
+        return {shape.sketch.bars[static_cast<std::size_t>(first)].name + " is loose", Verdict::Kind::Open,
+                "Join it to the others by a bar, or pin one of its joints."};
+    }
+    return {};
+}
+
+}  // namespace
+
+Verdict linkage_verdict(const LinkagePart& part) {
+    using enum ik::LinkageStatus;
+    const ik::LinkageReport& report = part.result.report;
+    if (part.shape->in_plane())
+        if (Verdict next = drawing_verdict(part); !next.text.empty()) return next;
+    switch (report.status) {
+        case Open:
+            return {"Does not close: " + length_text(report.closed_to) + " apart", Verdict::Kind::Bad,
+                    "No pose has these lengths. Apart: " + closure_names(part) + "."};
+        case DeadPoint: {
+            const std::string reason = dead_point_reason(part);
+            return {"Dead point", Verdict::Kind::Bad,
+                    capitalised(stop_text(part)) + " cannot go on" +
+                        (reason.empty() ? "." : ": " + reason + ".")};
+        }
+        case Limited:
+            return {
+                "At the end of a range", Verdict::Kind::Bad,
+                report.stopped ? capitalised(stop_text(part)) + " cannot go on." : "A target is beyond it."};
+        case TargetMissed:
+            return {"Out of reach: " + length_text(report.residual) + " short", Verdict::Kind::Bad,
+                    "No pose brings the point to its target."};
+        case IterationLimit:
+            return {"Not solved yet", Verdict::Kind::Open, "The solver ran out of iterations."};
+        case InvalidInput:
+            return {"Too large", Verdict::Kind::Bad, "A number is beyond what can be solved."};
+        case Reached:
+            break;
+    }
+    const int freedom = part.result.freedom.actual;
+    if (freedom == 0)
+        return {"Cannot move", Verdict::Kind::Open, "It has no degree of freedom: remove a bar or a pin."};
+    const std::string text = count_text(static_cast<std::size_t>(freedom), "degree") + " of freedom";
+    if (part.drives.empty())
+        return {text, Verdict::Kind::Good, "Drag a joint. Or choose Motor, and click a pinned joint."};
+    const bool runs =
+        std::ranges::any_of(part.drives, [](const LinkageDrive& each) { return each.rate != 0.0; });
+    return {text, Verdict::Kind::Good, runs ? "The motor runs." : "Drag a joint, or run the motor."};
+}
+
+namespace {
+
+void linkage_presets(Emit& emit) {
+    std::vector<PresetButton> buttons;
+    for (const MechanismKind& kind : mechanism_kinds()) buttons.push_back({kind.name, kind.title, kind.help});
+    preset_rows(linkage_lab, buttons, "Removes everything and begins to draw", emit, 2);
+}
+
+void linkage_tool_rows(const LinkagePart& part, Emit& emit) {
+    const auto tools = linkage_tools.values();
+    for (const LinkageTool tool : tools)
+        if (row_option(linkage_tools.title(tool), static_cast<int>(tools.size()), part.tool == tool,
+                       linkage_tools.help(tool)))
+            emit("linkage.tool", {{"name", linkage_tools.name(tool)}});
+    end_row();
+}
+
+void speed_row(const LinkagePart& part, const LinkageDrive& drive, const std::string& name, Emit& emit) {
+    const bool angular = turns(part, drive.joint);
+    auto rate = static_cast<float>(angular ? glm::degrees(drive.rate) : drive.rate);
+    const auto most = static_cast<float>(max_motor_rate);
+    if (number_field(name.c_str(), rate, angular ? 1.0f : 0.01f, -most, most,
+                     angular ? "%.0f deg/s" : "%.2f m/s"))
+        emit.continuously("linkage.motor", {{"joint", drive.joint}, {angular ? "deg_per_s" : "per_s", rate}});
+    explain("How fast the motor runs while time passes. 0 stops it.");
+}
+
+void value_row(const LinkagePart& part, const LinkageDrive& drive, Emit& emit) {
+    const bool angular = turns(part, drive.joint);
+    auto value = static_cast<float>(angular ? glm::degrees(drive.value) : drive.value);
+    const char* const format = angular ? "%.1f deg" : "%.3f m";
+    if (number_field(drive.joint.c_str(), value, angular ? 0.5f : 0.002f, -1e6f, 1e6f, format))
+        emit.continuously("linkage.drive",
+                          {{"joint", drive.joint}, {angular ? "angle_deg" : "value", value}});
+    explain("The joint's value: drag or type it to drive the linkage.");
+}
+
+/// Runs, stops and frees all motors.
+void motor_buttons(const Workspace& workspace, Emit& emit) {
+    const LinkagePart& part = linkage_part(workspace);
+    const auto any = [&](auto has) { return std::ranges::any_of(part.drives, has); };
+    const bool runs = any([](const LinkageDrive& each) { return each.rate != 0.0; });
+    if (row_button(runs ? "Stop" : "Run", 2, !part.drives.empty(),
+                   runs ? "Stops the motor and holds the joint" : "Runs the motor while time passes")) {
+        for (const LinkageDrive& each : part.drives)
+            if (runs)
+                emit.continuously("linkage.drive", {{"joint", each.joint}, {"value", each.value}});
+            else
+                emit.continuously("linkage.motor", {{"joint", each.joint}});
+        if (!runs && !workspace.clock.playing) emit("time.play");
+    }
+    if (row_button("Free", 2, any([](const LinkageDrive& each) { return each.held; }),
+                   "Stops the motor, and lets the joint follow the others"))
+        for (const LinkageDrive& each : part.drives)
+            emit.continuously("linkage.release", {{"joint", each.joint}});
+    if (row_button("Other mode", 1, !part.linkage().closures.empty(),
+                   "Assembles the same bars the other way, with the drivers where they are"))
+        emit("linkage.other_mode");
+    end_row();
+}
+
+void driver_rows(const Workspace& workspace, MoreRows& more, Emit& emit) {
+    const LinkagePart& part = linkage_part(workspace);
+    const bool several = part.drives.size() > 1;
+    for (const LinkageDrive& each : part.drives) {
+        value_row(part, each, emit);
+        if (!several) speed_row(part, each, "speed", emit);
+        const std::string name = each.joint + " speed";
+        if (several)
+            more.add(name, {"linkage.motor", {"joint"}}, each.rate != 0.0,
+                     [&part, &each, &emit, name] { speed_row(part, each, name, emit); });
+    }
+    if (part.drives.empty()) note("No motor yet: choose Motor, and click a pinned joint.");
+    motor_buttons(workspace, emit);
+}
+
+/// A point beside a bar: along it, and to its left.
+void pair_rows(const Field& field, const FieldText& text, const Mechanism& mechanism, Emit& emit) {
+    const FieldValue now = field.get(mechanism_fields(mechanism).object);
+    const char* const ways[] = {"along", "beside"};
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+        auto value = static_cast<float>(now[axis]);
+        if (number_field((std::string(text.label) + " " + ways[axis]).c_str(), value, text.step, -1e6f, 1e6f,
+                         "%.3f m")) {
+            FieldValue wanted = now;
+            wanted[axis] = static_cast<double>(value);
+            emit.continuously("linkage.set", {{field.name, SharedJson(Json{wanted[0], wanted[1]})}});
+        }
+        explain(text.help);
+    }
+}
+
+void length_rows(const LinkagePart& part, MoreRows& more, Emit& emit) {
+    const Mechanism& mechanism = part.shape->mechanism;
+    const MechanismKind* const kind = kind_of(mechanism);
+    if (kind == nullptr) return note("Drawn by hand: select a joint, and set its bars beside it.");
+    const FieldRows rows(mechanism_fields(mechanism), kind->texts, "linkage.set", emit);
+    for (const FieldText& text : kind->texts) {
+        const Field& field = *find_field(kind->fields, text.name);
+        if (field.type == FieldType::Pair)
+            pair_rows(field, text, mechanism, emit);
+        else if (text.more)
+            FieldRows(mechanism_fields(mechanism), kind->texts, "linkage.set", emit)
+                .under(more)
+                .row(field.name);
+        else
+            rows.row(field.name);
+    }
+}
+
+constexpr PastHelp linkage_past_help{
+    "What is plotted below the scene for the last ten seconds: the angle at the selected joint, how well the "
+    "coupler pushes, or the motor",
+    "Where the bars were, every half second"};
+
+}  // namespace
+
+void LinkageLab::panel(const Workspace& workspace, Emit& emit) const {
+    const LinkagePart& part = linkage_part(workspace);
+    const auto section = [&](const char* title, bool at_first, const auto& rows) {
+        folding_section(workspace, title, emit, at_first, rows);
+    };
+    section("Presets", true, [&](MoreRows&) { linkage_presets(emit); });
+    section("Mouse", true, [&](MoreRows&) { linkage_tool_rows(part, emit); });
+    section("Motors", true, [&](MoreRows& more) { driver_rows(workspace, more, emit); });
+    section("Lengths", false, [&](MoreRows& more) { length_rows(part, more, emit); });
+    section("Show", false,
+            [&](MoreRows&) { past_view_rows(workspace, linkage_past(), linkage_past_help, emit); });
+    section("Export", false, [&](MoreRows&) {
+        if (row_button("Copy as C++", 1, true, "Copies the linkage as a C++ program that uses the library"))
+            emit("linkage.copy");
+        end_row();
+    });
+}
+
+// The inspector.
+
+namespace {
+
+void freedom_rows(const LinkagePart& part) {
+    section("Degrees of freedom");
+    reading("in this pose", "%d", part.result.freedom.actual);
+    explain("Counted from the equations as they are here: what really can move, motors left out.");
+    reading("Gruebler's count", "%d", part.result.freedom.counted);
+    explain(
+        "Three for each link, less two for each joint, by number alone: it misses joints that repeat each "
+        "other, and poses where bars are in line.");
+    const double transmission = transmission_angle(part);
+    if (std::isfinite(transmission)) {
+        reading("transmission angle", "%s", angle_text(transmission).c_str());
+        explain(
+            "Between the coupler and what it moves: near 90 degrees it pushes well, below 40 badly, at 0 it "
+            "is at a dead point.");
+    }
+    reading("closed to", "%s", si_text(part.result.report.closed_to, "m").c_str());
+    explain("The largest distance between two points that should be one.");
+}
+
+void bar_rows(const LinkagePart& part, std::size_t at, Emit& emit) {
+    const ik::LinkageSketch& sketch = part.shape->sketch;
+    for (const ik::SketchBar& bar : sketch.bars) {
+        if (std::ranges::count(bar.points, at) == 0 || bar.points.size() != 2) continue;
+        auto length = static_cast<float>(glm::distance(part.at(bar.points[0]), part.at(bar.points[1])));
+        if (number_field(bar.name.c_str(), length, 0.01f, 1e-6f, 1e6f, "%.3f m"))
+            emit.continuously("linkage.length", {{"bar", bar.name}, {"length", length}});
+        explain("The bar's length. Setting it makes the linkage one drawn by hand.");
+    }
+}
+
+void joint_rows(const LinkagePart& part, Emit& emit) {
+    section("Joint");
+    const std::size_t at = part.linkage().find_point(part.selected);
+    if (at == ik::ground_link) return note("Click a joint to select it: its path is drawn.");
+    const glm::dvec3 place = part.at(at);
+    reading("name", "%s", part.selected.c_str());
+    explain("As in files and commands.");
+    reading("at", "%.3f  %.3f  %.3f m", place.x, place.y, place.z);
+    explain("Where it is: X, Y and Z.");
+    const double angle = angle_at(part, part.selected);
+    if (std::isfinite(angle)) {
+        reading("angle", "%s", angle_text(angle).c_str());
+        explain("Between its two bars; of a single one on a pin, from +X.");
+    }
+    if (!part.shape->in_plane()) return;
+    bar_rows(part, at, emit);
+    const ik::SketchHold hold = part.shape->sketch.points[at].hold;
+    const bool pinned = hold == ik::SketchHold::Pinned, guided = hold == ik::SketchHold::Guided;
+    if (row_option("Free", 3, !pinned && !guided, "Nothing but its bars holds it"))
+        emit("linkage.pin", {{"point", part.selected}, {"on", false}});
+    if (row_option("Pinned", 3, pinned, "The ground holds it where it is"))
+        emit("linkage.pin", {{"point", part.selected}, {"on", true}});
+    if (row_option("Slides", 3, guided, "It slides on a line through where it is"))
+        emit("linkage.guide", {{"point", part.selected}});
+    end_row();
+    if (guided) {
+        auto along = static_cast<float>(glm::degrees(part.shape->sketch.points[at].guide));
+        if (number_field("line", along, 0.5f, -360.0f, 360.0f, "%.1f deg"))
+            emit.continuously("linkage.guide", {{"point", part.selected}, {"angle_deg", along}});
+        explain("The direction of its line, from +X.");
+    }
+}
+
+}  // namespace
+
+void LinkageLab::inspector(const Workspace& workspace, Emit& emit) const {
+    const LinkagePart& part = linkage_part(workspace);
+    const Palette& colours = palette(workspace.settings.theme);
+    show_verdict(linkage_verdict(part), colours, emit);
+    freedom_rows(part);
+    joint_rows(part, emit);
+    incident_rows(workspace, colours, emit);
+}
+
+float LinkageLab::timeline_height(const Workspace& workspace) const {
+    return strip_height + past_plot_height(workspace.settings, linkage_past());
+}
+
+void LinkageLab::timeline(const Workspace& workspace, Emit& emit) const {
+    const StripLine strip = past_strip(workspace, emit);
+    past_plot(workspace, linkage_past(), linkage_past_curve(workspace), strip, emit);
+}
+
+}  // namespace tendril::app

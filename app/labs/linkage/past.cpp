@@ -1,0 +1,179 @@
+#include "app/labs/linkage/past.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+#include <limits>
+
+#include "app/document/units.hpp"
+#include "app/labs/linkage/draw.hpp"
+#include "app/labs/linkage/linkage_commands.hpp"
+
+namespace tendril::app {
+namespace {
+
+enum class LinkageNumber { Angle, Transmission, Motor };  // in the order of linkage_past()
+
+const LinkagePart& linkage_of(const SharedPart& part) {
+    return dynamic_cast<const LinkagePart&>(*part);
+}
+
+double shown_value(const LinkagePart& part, const LinkageDrive& drive) {
+    return turns(part, drive.joint) ? glm::degrees(drive.value) : drive.value;
+}
+
+}  // namespace
+
+PastView linkage_past() {
+    return past_view(
+        linkage_lab, "linkage",
+        {{"angle", "angle at a joint"}, {"transmission", "transmission angle"}, {"motor", "first motor"}},
+        [](const Part& then, const Part& now) {
+            return dynamic_cast<const LinkagePart&>(then).shape ==
+                   dynamic_cast<const LinkagePart&>(now).shape;
+        });
+}
+
+std::optional<PastCurve> linkage_past_curve(const Workspace& workspace) {
+    const PastView view = linkage_past();
+    if (!view.plots(workspace.settings)) return std::nullopt;
+    const LinkagePart& part = linkage_part(workspace);
+    switch (static_cast<LinkageNumber>(view.chosen(workspace.settings))) {
+        case LinkageNumber::Angle: {
+            const std::string point = part.selected;
+            return PastCurve{
+                .name = point.empty() ? "angle at a joint" : "angle at " + point,
+                .of = "angle " + point,
+                .missing = "Select a joint between two bars.",
+                .value = [point](const SharedPart& then) { return angle_at(linkage_of(then), point); }};
+        }
+        case LinkageNumber::Transmission:
+            return PastCurve{
+                .name = "transmission angle",
+                .of = "transmission",
+                .missing = "A motor has to drive a coupler.",
+                .value = [](const SharedPart& then) { return transmission_angle(linkage_of(then)); }};
+        default:
+            break;
+    }
+    const std::string joint = part.drives.empty() ? "" : part.drives.front().joint;
+    return PastCurve{.name = joint,
+                     .of = "motor " + joint,
+                     .unit = joint.empty() || turns(part, joint) ? "deg" : "m",
+                     .lowest_range = 0.01f,
+                     .missing = "There is no motor: add one.",
+                     .value = [joint](const SharedPart& then) {
+                         const LinkageDrive* const drive = linkage_of(then).find_drive(joint);
+                         return drive != nullptr ? shown_value(linkage_of(then), *drive)
+                                                 : std::numeric_limits<double>::quiet_NaN();
+                     }};
+}
+
+PoseLines linkage_lines(const SharedPart& shared) {
+    const LinkagePart& part = linkage_of(shared);
+    PoseLines lines;
+    const auto add = [&](const std::vector<glm::vec3>& places) {
+        for (std::size_t i = 1; i < places.size(); ++i) lines.emplace_back(places[i - 1], places[i]);
+    };
+    if (!part.shape->in_plane())
+        for (std::size_t i = 0; i < part.linkage().links.size(); ++i) add(places_on(part, i));
+    for (const ik::SketchBar& bar : part.shape->sketch.bars) {
+        std::vector<glm::vec3> places;
+        for (const std::size_t each : bar.points) places.push_back(in_scene(part, part.at(each)));
+        add(places);
+    }
+    return lines;
+}
+
+std::vector<std::size_t> joints_in_line(const LinkagePart& part) {
+    constexpr double in_line = 4.0;  // degrees
+    const ik::LinkageSketch& sketch = part.shape->sketch;
+    const auto bars_at = [&](std::size_t point) {
+        return std::ranges::count_if(sketch.bars, [&](const ik::SketchBar& each) {
+            return std::ranges::count(each.points, point) > 0;
+        });
+    };
+    double best = in_line;
+    std::vector<std::size_t> line;
+    for (std::size_t p = 0; p < sketch.points.size(); ++p) {
+        if (sketch.points[p].hold == ik::SketchHold::Pinned) continue;
+        // Of a bar with more joints, the one that joins it to something else.
+        std::vector<std::size_t> ends;
+        for (const ik::SketchBar& bar : sketch.bars) {
+            if (std::ranges::count(bar.points, p) == 0) continue;
+            const auto end = std::ranges::find_if(bar.points, [&](std::size_t other) {
+                return other != p &&
+                       (sketch.points[other].hold != ik::SketchHold::Free || bars_at(other) > 1);
+            });
+            if (end != bar.points.end()) ends.push_back(*end);
+        }
+        if (ends.size() != 2) continue;
+        const glm::dvec3 a = part.at(ends[0]) - part.at(p), b = part.at(ends[1]) - part.at(p);
+        const double angle =
+            glm::degrees(std::atan2(glm::length(glm::cross(a, b)), std::abs(glm::dot(a, b))));
+        if (angle >= best) continue;
+        best = angle;
+        line = {ends[0], p, ends[1]};
+    }
+    return line;
+}
+
+std::string dead_point_reason(const LinkagePart& part) {
+    const std::vector<std::size_t> line = joints_in_line(part);
+    if (line.empty()) return {};
+    const auto& points = part.shape->sketch.points;
+    return points[line[0]].name + ", " + points[line[1]].name + " and " + points[line[2]].name +
+           " are in line";
+}
+
+std::vector<Incident> linkage_incidents(const LinkagePart& before, const LinkagePart& after) {
+    using enum ik::LinkageStatus;
+    if (before.shape != after.shape) return {};
+    const ik::LinkageReport &was = before.result.report, &is = after.result.report;
+    std::vector<Incident> incidents;
+    const std::string reason = dead_point_reason(after);
+    if (is.passed_dead_point) {
+        incidents.push_back(
+            {.kind = Incident::Kind::Limit,
+             .joint = 0,
+             .name = after.drives.empty() ? "linkage" : after.drives.front().joint,
+             .cause = "passed a dead point: " +
+                      (reason.empty() ? "the linkage went over into its other assembly mode"
+                                      : reason + ", and it went on in the other assembly mode"),
+             .buttons = {{"Other mode",
+                          "Runs linkage.other_mode: back into the mode before",
+                          {{"linkage.other_mode", {}}}}}});
+    }
+    if (is.stopped && is.stopped != was.stopped) {
+        const std::string& joint = after.linkage().links[*is.stopped].name;
+        const bool hinge = turns(after, joint), dead = is.status == DeadPoint;
+        const std::string at = hinge ? fixed_text(glm::degrees(is.stopped_at), 1) + " degrees"
+                                     : fixed_text(is.stopped_at, 3) + " m";
+        Incident incident{.kind = Incident::Kind::Limit,
+                          .joint = *is.stopped,
+                          .name = joint,
+                          .degrees = hinge ? static_cast<float>(glm::degrees(is.stopped_at)) : 0.0f,
+                          .cause = joint + (dead ? " is at a dead point: " : " is stopped by a range: ") +
+                                   "it cannot go on beyond " + at +
+                                   (dead && !reason.empty() ? ", for " + reason : "")};
+        if (const LinkageDrive* const drive = after.find_drive(joint);
+            drive != nullptr && drive->rate != 0.0) {
+            const double rate = -drive->rate;
+            incident.buttons.push_back(
+                {"Turn back",
+                 "Runs linkage.motor the other way",
+                 {{"linkage.motor",
+                   {{"joint", joint}, {hinge ? "deg_per_s" : "per_s", hinge ? glm::degrees(rate) : rate}}}}});
+        }
+        incidents.push_back(std::move(incident));
+    } else if (is.status == Open && was.status != Open) {
+        incidents.push_back(
+            {.kind = Incident::Kind::Status,
+             .joint = 0,
+             .cause = "no pose closes it: the bars are " + length_text(is.closed_to) + " apart"});
+    }
+    return incidents;
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,21 @@
+// The Linkage lab's last ten seconds: plots, past poses and incidents.
+#pragma once
+
+#include "app/labs/kit/past_view.hpp"
+#include "app/labs/linkage/linkage_part.hpp"
+
+namespace tendril::app {
+
+PastView linkage_past();
+/// Empty while nothing is plotted.
+std::optional<PastCurve> linkage_past_curve(const Workspace& workspace);
+PoseLines linkage_lines(const SharedPart& part);
+
+/// Dead points, ranges, and bars that do not meet, between two ticks.
+std::vector<Incident> linkage_incidents(const LinkagePart& before, const LinkagePart& after);
+/// The three joints of two bars that are most nearly in line, the middle one between; empty: none are.
+std::vector<std::size_t> joints_in_line(const LinkagePart& part);
+/// "B, C and D are in line": why a motor stops there. Empty if no joint shows it.
+std::string dead_point_reason(const LinkagePart& part);
+
+}  // namespace tendril::app

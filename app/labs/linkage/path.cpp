@@ -1,0 +1,82 @@
+// The path of a point: the linkage is driven through all of its assembly mode.
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "app/labs/linkage/linkage_part.hpp"
+
+namespace tendril::app {
+namespace {
+
+constexpr int turn_steps = 120;  ///< of a whole turn, or along a slider
+
+/// Drives the joint on from the present pose until it is round, or cannot go on.
+std::vector<PathPoint> swept(ik::LinkageSolver& solver, ik::LinkageState state, std::size_t joint,
+                             std::size_t point, double step) {
+    std::vector<PathPoint> path;
+    static_cast<void>(solver.place(state));
+    glm::dvec3 before = solver.point(point);
+    double value = state.joints[joint].value;
+    for (int i = 0; i < turn_steps; ++i) {
+        value += step;
+        const ik::LinkDriver driver{joint, value};
+        const ik::LinkageReport report = solver.solve(state, {{&driver, 1}, {}});
+        const double gone = step - (value - state.joints[joint].value);
+        const bool ends = report.status != ik::LinkageStatus::Reached;
+        if (std::abs(gone) > 1e-9) {
+            const glm::dvec3 at = solver.point(point);
+            path.push_back({at, glm::distance(at, before) / std::abs(gone)});
+            before = at;
+        }
+        if (ends) break;
+    }
+    return path;
+}
+
+bool is_on(const std::vector<PathPoint>& path, const glm::dvec3& at, double within) {
+    return std::ranges::any_of(path,
+                               [&](const PathPoint& each) { return glm::distance(each.at, at) < within; });
+}
+
+}  // namespace
+
+std::size_t leading_joint(const LinkagePart& part) {
+    const ik::Linkage& linkage = part.linkage();
+    if (!part.drives.empty()) return linkage.find_link(part.drives.front().joint);
+    for (std::size_t i = 0; i < linkage.links.size(); ++i)
+        if (linkage.links[i].parent == ik::ground_link && linkage.links[i].joint != ik::LinkJoint::Ball)
+            return i;
+    return ik::ground_link;
+}
+
+const std::vector<PathPoint>& LinkageRuntime::path(const LinkagePart& part) {
+    const std::size_t point = part.linkage().find_point(part.selected), joint = leading_joint(part);
+    const bool has_path = point != ik::ground_link && joint != ik::ground_link &&
+                          part.linkage().points[point].link != ik::ground_link &&
+                          part.result.freedom.actual == 1 && part.result.open_closures.empty();
+    if (!has_path) {
+        path_of_ = nullptr;
+        path_.clear();
+        return path_;
+    }
+    ik::LinkageSolver& of = solver(part.shape);
+    // The other assembly mode has a path of its own.
+    if (path_of_ == part.shape && path_point_ == part.selected &&
+        is_on(path_, part.at(point), 0.05 * of.size()))
+        return path_;
+    path_of_ = part.shape;
+    path_point_ = part.selected;
+    const bool hinge = part.linkage().links[joint].joint == ik::LinkJoint::Hinge;
+    const double step = hinge ? 2.0 * M_PI / turn_steps : 2.0 * of.size() / turn_steps;
+    path_ = swept(of, part.state, joint, point, step);
+    if (!hinge || path_.size() < turn_steps) {
+        std::vector<PathPoint> back = swept(of, part.state, joint, point, -step);
+        std::ranges::reverse(back);
+        back.push_back({part.at(point), path_.empty() ? 0.0 : path_.front().speed});
+        path_.insert(path_.begin(), back.begin(), back.end());
+    }
+    return path_;
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,225 @@
+// Poses of the lab's linkage, and its shape from a sketch or a mechanism.
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "app/document/refused.hpp"
+#include "app/labs/kit/arguments.hpp"
+#include "app/labs/linkage/linkage_part.hpp"
+
+namespace tendril::app {
+namespace {
+
+/// Bars that neither a pin nor a guide reaches, directly or through other bars.
+std::vector<bool> floating_bars(const ik::LinkageSketch& sketch) {
+    std::vector<bool> held(sketch.points.size()), floats(sketch.bars.size(), true);
+    for (std::size_t i = 0; i < held.size(); ++i) held[i] = sketch.points[i].hold != ik::SketchHold::Free;
+    for (bool more = true; more;) {
+        more = false;
+        for (std::size_t b = 0; b < floats.size(); ++b) {
+            const auto& points = sketch.bars[b].points;
+            if (!floats[b] || std::ranges::none_of(points, [&](std::size_t each) { return held[each]; }))
+                continue;
+            floats[b] = false;
+            for (const std::size_t each : points) held[each] = true;
+            more = true;
+        }
+    }
+    return floats;
+}
+
+/// The sketch without the bars that float.
+ik::LinkageSketch held_part(const ik::LinkageSketch& sketch, const std::vector<bool>& floats) {
+    ik::LinkageSketch held = sketch;
+    for (std::size_t b = floats.size(); b-- > 0;)
+        if (floats[b]) require_ok(ik::remove_bar(held, b));
+    return held;
+}
+
+std::vector<std::string> driven_joints(const LinkageShape& shape) {
+    std::vector<std::string> names;
+    for (const ik::SketchMotor& motor : shape.sketch.motors)
+        if (shape.linkage.find_link(motor.name) != ik::ground_link) names.push_back(motor.name);
+    const MechanismKind* const kind = kind_of(shape.mechanism);
+    if (kind == nullptr || *kind->drivers == '\0') return names;
+    for (const ik::Link& link : shape.linkage.links)
+        if (link.name.starts_with(kind->drivers)) names.push_back(link.name);
+    return names;
+}
+
+}  // namespace
+
+glm::dvec3 LinkagePart::at(std::size_t point) const {
+    const ik::LinkPoint& drawn = linkage().points[point];
+    return drawn.link == ik::ground_link ? drawn.at : links[drawn.link].point(drawn.at);
+}
+
+glm::dvec3 LinkagePart::at(std::size_t point, const LinkageCopy& copy) const {
+    const ik::LinkPoint& drawn = linkage().points[point];
+    glm::dvec3 now = drawn.link == ik::ground_link ? drawn.at : copy.links[drawn.link].point(drawn.at);
+    if (copy.mirrored) now.x = -now.x;
+    now.z += copy.depth;
+    return now;
+}
+
+double LinkagePart::lowest_foot() const {
+    if (copies.empty()) return 0.0;
+    const std::size_t foot = linkage().find_point(kind_of(shape->mechanism)->traced);
+    double lowest = at(foot).y;
+    for (const LinkageCopy& each : copies) lowest = std::min(lowest, at(foot, each).y);
+    return lowest;
+}
+
+const LinkageDrive* LinkagePart::find_drive(std::string_view joint) const {
+    const auto found = std::ranges::find(drives, joint, &LinkageDrive::joint);
+    return found == drives.end() ? nullptr : &*found;
+}
+
+ik::LinkageSolver& LinkageRuntime::solver(const std::shared_ptr<const LinkageShape>& shape) {
+    if (of_ != shape || !solver_) {
+        solver_.emplace(require_value(ik::LinkageSolver::make(shape->linkage)));
+        of_ = shape;
+    }
+    return *solver_;
+}
+
+void solve_linkage(LinkagePart& part, LinkageRuntime& runtime) {
+    ik::LinkageSolver& solver = runtime.solver(part.shape);
+    const ik::Linkage& linkage = part.linkage();
+    std::vector<ik::LinkDriver> drivers;
+    std::vector<std::size_t> watched;
+    for (const LinkageDrive& each : part.drives) {
+        const std::size_t link = linkage.find_link(each.joint);
+        watched.push_back(link);
+        if (each.held && !part.drag) drivers.push_back({link, each.value});
+    }
+    std::vector<ik::LinkTarget> targets;
+    const auto aim = [&](const LinkageTarget& each) {
+        targets.push_back({linkage.find_point(each.point), each.to, each.weight, each.exact});
+    };
+    if (part.drag)
+        aim(*part.drag);
+    else
+        for (const LinkageTarget& each : part.targets) aim(each);
+    LinkageResult& result = part.result;
+    result.report = solver.solve(part.state, {drivers, targets}, {.watched = watched});
+    result.freedom = solver.freedom(part.state);
+    result.active.assign(solver.active().begin(), solver.active().end());
+    result.open_closures.assign(solver.open_closures().begin(), solver.open_closures().end());
+    for (LinkageDrive& each : part.drives)
+        each.value = part.state.joints[linkage.find_link(each.joint)].value;
+    part.links.assign(solver.links().begin(), solver.links().end());
+    for (LinkageCopy& each : part.copies) {
+        const LinkageDrive& motor = part.drives.front();
+        const double turned = motor.value + each.phase;
+        const ik::LinkDriver driver{linkage.find_link(motor.joint), each.mirrored ? M_PI - turned : turned};
+        static_cast<void>(solver.solve(each.state, {{&driver, 1}, {}}));
+        each.links.assign(solver.links().begin(), solver.links().end());
+    }
+}
+
+LinkageShape shape_of(ik::LinkageSketch sketch) {
+    LinkageShape shape;
+    shape.floating = floating_bars(sketch);
+    shape.linkage = require_value(ik::linkage_from(held_part(sketch, shape.floating)));
+    shape.sketch = std::move(sketch);
+    return shape;
+}
+
+namespace {
+
+/// The library's maker of each mechanism.
+struct MakeShape {
+    static LinkageShape drawn(Expected<ik::LinkageSketch> sketch) {
+        return shape_of(require_value(std::move(sketch)));
+    }
+    static LinkageShape in_space(Expected<ik::Linkage> linkage) {
+        return {.linkage = require_value(std::move(linkage))};
+    }
+
+    LinkageShape operator()(const std::monostate&) const { return {}; }
+    LinkageShape operator()(const ik::FourBar& lengths) const { return drawn(ik::four_bar(lengths)); }
+    LinkageShape operator()(const ik::SliderCrank& lengths) const { return drawn(ik::slider_crank(lengths)); }
+    LinkageShape operator()(const ik::Peaucellier& lengths) const { return drawn(ik::peaucellier(lengths)); }
+    LinkageShape operator()(const ik::Pantograph& lengths) const { return drawn(ik::pantograph(lengths)); }
+    LinkageShape operator()(const ik::ScissorLift& lengths) const { return drawn(ik::scissor_lift(lengths)); }
+    LinkageShape operator()(const ik::Jansen& lengths) const { return drawn(ik::jansen(lengths)); }
+    LinkageShape operator()(const JansenWalker& lengths) const { return drawn(ik::jansen(lengths)); }
+    LinkageShape operator()(const ik::Delta& lengths) const { return in_space(ik::delta(lengths)); }
+    LinkageShape operator()(const ik::Stewart& lengths) const { return in_space(ik::stewart(lengths)); }
+};
+
+}  // namespace
+
+LinkageShape shape_of(const Mechanism& mechanism) {
+    LinkageShape shape = std::visit(MakeShape{}, mechanism);
+    shape.mechanism = mechanism;
+    return shape;
+}
+
+std::vector<LinkageCopy> copies_of(const LinkageShape& shape, const ik::LinkageState& state) {
+    std::vector<LinkageCopy> copies;
+    const auto* const walker = std::get_if<JansenWalker>(&shape.mechanism);
+    if (walker == nullptr) return copies;
+    constexpr int pairs = 6;
+    for (int i = 0; i < 2 * pairs; ++i) {
+        const int pair = i / 2;
+        // The first is the linkage itself.
+        if (i > 0)
+            copies.push_back({.phase = pair * 2.0 * M_PI / pairs,
+                              .mirrored = i % 2 == 1,
+                              .depth = -walker->m * pair,
+                              .state = state});
+    }
+    return copies;
+}
+
+void take_shape(LinkagePart& part, LinkageShape shape, LinkageRuntime& runtime) {
+    part.shape = std::make_shared<const LinkageShape>(std::move(shape));
+    part.state = runtime.solver(part.shape).initial_state();
+    part.copies = copies_of(*part.shape, part.state);
+    part.walked = 0.0;
+    std::vector<LinkageDrive> drives;
+    for (const std::string& joint : driven_joints(*part.shape)) {
+        const LinkageDrive* const before = part.find_drive(joint);
+        LinkageDrive& drive = drives.emplace_back(before != nullptr ? *before : LinkageDrive{.joint = joint});
+        const std::size_t link = part.linkage().find_link(joint);
+        const double drawn = part.state.joints[link].value, held = drive.value;
+        const bool hinge = part.linkage().links[link].joint == ik::LinkJoint::Hinge;
+        drive.value = !drive.held ? drawn : hinge ? drawn + std::remainder(held - drawn, 2.0 * M_PI) : held;
+    }
+    part.drives = std::move(drives);
+    const auto gone = [&](const std::string& point) {
+        return part.linkage().find_point(point) == ik::ground_link;
+    };
+    std::erase_if(part.targets, [&](const LinkageTarget& each) { return gone(each.point); });
+    if (gone(part.selected)) part.selected.clear();
+    part.drag.reset();
+    solve_linkage(part, runtime);
+}
+
+ik::LinkageSketch present_sketch(const LinkagePart& part) {
+    if (!part.shape->in_plane()) throw Refused("only linkages in a plane can be drawn by hand");
+    ik::LinkageSketch sketch = part.shape->sketch;
+    for (std::size_t i = 0; i < sketch.points.size(); ++i) sketch.points[i].at = glm::dvec2(part.at(i));
+    return sketch;
+}
+
+LinkagePart first_linkage() {
+    LinkagePart part;
+    LinkageRuntime runtime;
+    open_mechanism(part, ik::FourBar{}, runtime);
+    return part;
+}
+
+void open_mechanism(LinkagePart& part, const Mechanism& mechanism, LinkageRuntime& runtime) {
+    const LinkageTool tool = part.tool;
+    LinkageShape shape = shape_of(mechanism);
+    part = {};
+    part.tool = tool;
+    const MechanismKind* const kind = kind_of(mechanism);
+    part.selected = kind != nullptr ? kind->traced : "";
+    take_shape(part, std::move(shape), runtime);
+}
+
+}  // namespace tendril::app

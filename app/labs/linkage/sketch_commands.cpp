@@ -1,0 +1,263 @@
+// Commands that draw a linkage by hand: joints, bars, pins and motors.
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "app/document/json_complete.hpp"
+#include "app/document/refused.hpp"
+#include "app/labs/kit/arguments.hpp"
+#include "app/labs/linkage/linkage_commands.hpp"
+
+namespace tendril::app {
+namespace {
+
+using ik::LinkageSketch, ik::SketchHold;
+
+std::size_t require_in_sketch(const LinkageSketch& sketch, const std::string& point) {
+    const std::size_t found = sketch.find_point(point);
+    if (found == ik::ground_link) throw Refused("there is no point \"" + point + "\"");
+    return found;
+}
+
+std::size_t require_bar(const LinkageSketch& sketch, const std::string& bar) {
+    const std::size_t found = sketch.find_bar(bar);
+    if (found == ik::ground_link) throw Refused("there is no bar \"" + bar + "\"");
+    return found;
+}
+
+/// A to Z, then A2 to Z2, ...
+std::string free_point_name(const LinkageSketch& sketch) {
+    for (std::size_t i = 0;; ++i) {
+        std::string name(1, static_cast<char>('A' + i % 26));
+        if (i >= 26) name += std::to_string(i / 26 + 1);
+        if (sketch.find_point(name) == ik::ground_link) return name;
+    }
+}
+
+/// "bar 1", "motor 2": no bar and no motor has it.
+std::string free_link_name(const LinkageSketch& sketch, const std::string& what) {
+    for (std::size_t i = 1;; ++i) {
+        std::string name = what + " " + std::to_string(i);
+        if (sketch.find_bar(name) == ik::ground_link &&
+            std::ranges::count(sketch.motors, name, &ik::SketchMotor::name) == 0)
+            return name;
+    }
+}
+
+glm::dvec2 place_in_plane(const Json& json, const std::string& where) {
+    const glm::dvec3 at = json_dpoint(json, where);
+    if (glm::length(at) > max_linkage_extent) throw Refused(where + ": at most 1e6 m from the origin");
+    return glm::dvec2(at);
+}
+
+std::size_t add_point(LinkageSketch& sketch, const std::string& name, const glm::dvec2& at) {
+    if (sketch.points.size() >= max_linkage_points)
+        throw Refused("a linkage has at most " + std::to_string(max_linkage_points) + " joints");
+    if (sketch.find_point(name) != ik::ground_link)
+        throw Refused("there is a joint \"" + name + "\" already");
+    sketch.points.push_back({.name = name, .at = at});
+    return sketch.points.size() - 1;
+}
+
+void add_joint(LinkageSketch& sketch, const Arguments& given) {
+    const std::string name = given.has("name") ? given.text("name") : free_point_name(sketch);
+    if (name.empty()) throw Refused("name: a joint needs one");
+    const std::size_t point = add_point(sketch, name, place_in_plane(given.json("at"), "at"));
+    if (given.has("bar")) sketch.bars[require_bar(sketch, given.text("bar"))].points.push_back(point);
+}
+
+/// A joint by its name, or a new one at a place.
+std::size_t end_of_bar(LinkageSketch& sketch, const Arguments& given, const char* argument) {
+    const Json& json = given.json(argument);
+    if (json.is_string()) return require_in_sketch(sketch, json.get<std::string>());
+    return add_point(sketch, free_point_name(sketch), place_in_plane(json, argument));
+}
+
+void add_bar(LinkageSketch& sketch, const Arguments& given) {
+    if (sketch.bars.size() >= max_linkage_bars)
+        throw Refused("a linkage has at most " + std::to_string(max_linkage_bars) + " bars");
+    const std::string name = given.has("name") ? given.text("name") : free_link_name(sketch, "bar");
+    if (name.empty()) throw Refused("name: a bar needs one");
+    if (sketch.find_bar(name) != ik::ground_link) throw Refused("there is a bar \"" + name + "\" already");
+    const std::size_t from = end_of_bar(sketch, given, "from"), to = end_of_bar(sketch, given, "to");
+    if (from == to || sketch.points[from].at == sketch.points[to].at)
+        throw Refused("a bar needs two different joints");
+    for (const ik::SketchBar& each : sketch.bars)
+        if (std::ranges::count(each.points, from) > 0 && std::ranges::count(each.points, to) > 0)
+            throw Refused("bar \"" + each.name + "\" joins " + sketch.points[from].name + " and " +
+                          sketch.points[to].name + " already");
+    sketch.bars.push_back({.name = name, .points = {from, to}});
+}
+
+/// A motor at a joint that the ground no longer holds would have nothing to push against.
+void remove_motors_at(LinkageSketch& sketch, std::size_t point) {
+    std::erase_if(sketch.motors, [&](const ik::SketchMotor& each) {
+        return each.point == point && each.against == ik::ground_link;
+    });
+}
+
+void pin(LinkageSketch& sketch, const Arguments& given) {
+    const std::size_t index = require_in_sketch(sketch, given.text("point"));
+    ik::SketchPoint& point = sketch.points[index];
+    const bool pinned = point.hold == SketchHold::Pinned;
+    const bool on = given.has("on") ? given.boolean("on") : !pinned;
+    if (on == pinned) return;
+    point.hold = on ? SketchHold::Pinned : SketchHold::Free;
+    if (!on) remove_motors_at(sketch, index);
+}
+
+void guide(LinkageSketch& sketch, const Arguments& given) {
+    const std::size_t index = require_in_sketch(sketch, given.text("point"));
+    sketch.points[index].hold = SketchHold::Guided;
+    sketch.points[index].guide = glm::radians(given.has("angle_deg") ? given.real("angle_deg") : 0.0);
+    remove_motors_at(sketch, index);
+}
+
+void move(LinkageSketch& sketch, const Arguments& given) {
+    sketch.points[require_in_sketch(sketch, given.text("point"))].at = place_in_plane(given.json("to"), "to");
+}
+
+void set_length(LinkageSketch& sketch, const Arguments& given) {
+    const ik::SketchBar& bar = sketch.bars[require_bar(sketch, given.text("bar"))];
+    if (bar.points.size() != 2)
+        throw Refused("bar \"" + bar.name + "\" has more than two joints: move those");
+    // The end that nothing else holds moves; of two free ones, the second.
+    auto a = bar.points[0], b = bar.points[1];
+    if (sketch.points[b].hold != SketchHold::Free && sketch.points[a].hold == SketchHold::Free)
+        std::swap(a, b);
+    const glm::dvec2 way = sketch.points[b].at - sketch.points[a].at;
+    sketch.points[b].at = sketch.points[a].at + given.real("length") / glm::length(way) * way;
+}
+
+void add_motor(LinkageSketch& sketch, const Arguments& given) {
+    const std::size_t point = require_in_sketch(sketch, given.text("point"));
+    const std::string& at = sketch.points[point].name;
+    if (sketch.points[point].hold != SketchHold::Pinned)
+        throw Refused(at + " is not pinned: a motor needs the ground to push against");
+    const auto driven = [&](std::size_t bar) {
+        return std::ranges::any_of(sketch.motors, [&](const ik::SketchMotor& each) {
+            return each.point == point && each.bar == bar;
+        });
+    };
+    std::size_t bar = ik::ground_link;
+    if (given.has("bar")) {
+        bar = require_bar(sketch, given.text("bar"));
+        if (std::ranges::count(sketch.bars[bar].points, point) == 0)
+            throw Refused("bar \"" + sketch.bars[bar].name + "\" is not on " + at);
+        if (driven(bar)) throw Refused("bar \"" + sketch.bars[bar].name + "\" has a motor already");
+    } else {
+        for (std::size_t b = sketch.bars.size(); b-- > 0;)
+            if (std::ranges::count(sketch.bars[b].points, point) > 0 && !driven(b)) bar = b;
+        if (bar == ik::ground_link) throw Refused("there is no bar on " + at + " that a motor could turn");
+    }
+    const std::string name = given.has("name") ? given.text("name") : free_link_name(sketch, "motor");
+    if (name.empty() || sketch.find_bar(name) != ik::ground_link ||
+        std::ranges::count(sketch.motors, name, &ik::SketchMotor::name) > 0)
+        throw Refused("name: \"" + name + "\" is taken");
+    sketch.motors.push_back({.name = name, .point = point, .bar = bar});
+}
+
+void remove_motor(LinkageSketch& sketch, const Arguments& given) {
+    const std::string name = given.text("joint");
+    if (std::erase_if(sketch.motors, [&](const ik::SketchMotor& each) { return each.name == name; }) == 0)
+        throw Refused("there is no motor \"" + name + "\"");
+}
+
+void remove_bar_or_joint(LinkageSketch& sketch, const Arguments& given) {
+    if (given.has("point") == given.has("bar")) throw Refused("give a point or a bar, and not both");
+    if (given.has("point"))
+        require_ok(ik::remove_point(sketch, require_in_sketch(sketch, given.text("point"))));
+    else
+        require_ok(ik::remove_bar(sketch, require_bar(sketch, given.text("bar"))));
+}
+
+/// A command that edits the sketch in the present pose.
+Command sketch_command(const char* name, const char* title, std::vector<Argument> arguments, const char* help,
+                       void (*edit)(LinkageSketch&, const Arguments&)) {
+    return {.name = name,
+            .title = title,
+            .arguments = std::move(arguments),
+            .help = help,
+            .effect = Effect::Edit,
+            .apply = [edit](Workspace& workspace, const Arguments& given) {
+                auto& runtime = workspace.runtimes.of<LinkageRuntime>(linkage_lab);
+                const auto change = [&](LinkagePart& part, const LinkagePart&) {
+                    const LinkageSketch before = present_sketch(part);
+                    LinkageSketch sketch = before;
+                    edit(sketch, given);
+                    if (!(sketch == before)) take_shape(part, shape_of(std::move(sketch)), runtime);
+                };
+                change_part<LinkagePart>(workspace, linkage_lab, change);
+            }};
+}
+
+Argument place_argument(const char* name) {
+    return {.name = name, .type = ArgumentType::Point, .help = "[x, y, 0], metres"};
+}
+
+Argument bar_argument(bool required, const char* help) {
+    return offering(text_argument("bar", required, help), [](const Workspace& workspace) {
+        return names(linkage_part(workspace).shape->sketch.bars, [](const auto& each) { return each.name; });
+    });
+}
+
+Argument end_argument(const char* name) {
+    return {.name = name,
+            .type = ArgumentType::ListOrText,
+            .help = "a joint's name, or [x, y, 0] for a new joint, metres"};
+}
+
+}  // namespace
+
+void add_sketch_commands(CommandTable& table) {
+    const Argument point = linkage_point_argument("point", true, "which joint");
+    const Argument name = text_argument("name", false, "a free one if omitted");
+    table.add(sketch_command(
+        "linkage.joint", "Add a joint",
+        {place_argument("at"), name, bar_argument(false, "the bar that carries it; omitted: none yet")},
+        "Adds a joint, alone or on a bar", add_joint));
+    table.add(sketch_command("linkage.bar", "Add a bar", {end_argument("from"), end_argument("to"), name},
+                             "Adds a bar between two joints, and the joints where there are none", add_bar));
+    table.add(sketch_command("linkage.pin", "Pin a joint to the ground",
+                             {point, switch_argument("on", "toggles if omitted")},
+                             "Pins a joint to the ground, or lets it move again", pin));
+    table.add(
+        sketch_command("linkage.guide", "Let a joint slide on a line",
+                       {point, number_argument("angle_deg", "of the line, from +X; 0 if omitted", -360, 360)},
+                       "Holds a joint on a straight line through where it is", guide));
+    table.add(sketch_command("linkage.move", "Move a joint of the drawing", {point, place_argument("to")},
+                             "Puts a joint somewhere else: its bars change their lengths", move));
+    table.add(sketch_command(
+        "linkage.length", "Set a bar's length",
+        {bar_argument(true, "which bar"), {.name = "length", .help = "metres", .low = 1e-6, .high = 1e6}},
+        "Makes a bar longer or shorter", set_length));
+    table.add(sketch_command("linkage.motor.add", "Add a motor",
+                             {point, bar_argument(false, "which of its bars; the first if omitted"), name},
+                             "Puts a motor at a pinned joint: it turns a bar", add_motor));
+    table.add(sketch_command("linkage.motor.remove", "Remove a motor",
+                             {text_argument("joint", true, "which motor")}, "Removes a motor; its bar stays",
+                             remove_motor));
+    table.add(
+        sketch_command("linkage.remove", "Remove a joint or bar",
+                       {linkage_point_argument("point", false, "which joint, with the bars that end there"),
+                        bar_argument(false, "or which bar")},
+                       "Removes a joint or a bar", remove_bar_or_joint));
+    table.add({.name = "linkage.remove_selected",
+               .title = "Delete selection",
+               .arguments = {},
+               .help = "Removes the joint that is selected",
+               .effect = Effect::Edit,
+               .apply = [](Workspace& workspace, const Arguments&) {
+                   auto& runtime = workspace.runtimes.of<LinkageRuntime>(linkage_lab);
+                   const auto change = [&](LinkagePart& part, const LinkagePart&) {
+                       if (part.selected.empty()) throw Refused("no joint is selected");
+                       LinkageSketch sketch = present_sketch(part);
+                       require_ok(ik::remove_point(sketch, require_in_sketch(sketch, part.selected)));
+                       take_shape(part, shape_of(std::move(sketch)), runtime);
+                   };
+                   change_part<LinkagePart>(workspace, linkage_lab, change);
+               }});
+}
+
+}  // namespace tendril::app

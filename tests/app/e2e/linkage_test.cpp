@@ -1,0 +1,63 @@
+// The Linkage lab in the running program: a four-bar drawn with the mouse, and run.
+#include <cmath>
+
+#include "tests/app/support/play.hpp"
+
+namespace tendril::test {
+namespace {
+
+using app::Json;
+
+TEST(LinkageInTheWindow, AFourBarIsDrawnByMouseAndRun) {
+    ScriptText script =
+        ScriptText().command("lab.open", {{"name", "linkage"}}).command("linkage.clear").wait(2);
+    const glm::vec2 a{500, 420}, b{500, 340}, c{640, 300}, d{700, 420};
+    script.drag({a, {510, 400}, b}).drag({b, {560, 320}, c}).drag({c, {680, 360}, d}).wait(2);
+    Json state = state_after(script);
+    ASSERT_EQ(state.at("points").size(), 4u) << "strokes that begin at a joint go on from it";
+    EXPECT_EQ(state.at("verdict"), "Nothing holds it");
+    script.command("linkage.tool", {{"name", "pin"}}).click(a).wait(30).click(d).wait(30);
+    script.command("linkage.tool", {{"name", "motor"}}).click(a).wait(2);
+    state = state_after(script);
+    EXPECT_EQ(state.at("freedom"), 1);
+    ASSERT_EQ(state.at("drivers").size(), 1u);
+    const double before = state.at("drivers").at("motor 1").get<double>();
+    script.command("linkage.motor", {{"joint", "motor 1"}}).wait(20);
+    state = state_after(script);
+    EXPECT_NEAR(state.at("drivers").at("motor 1").get<double>(), before + 30.0, 1e-6);
+    EXPECT_LT(state.at("closed_to").get<double>(), 1e-6);
+}
+
+TEST(LinkageInTheWindow, AClickOnNothingAddsAJointAndOnABarOneToIt) {
+    ScriptText script =
+        ScriptText().command("lab.open", {{"name", "linkage"}}).command("linkage.clear").wait(2);
+    script.drag({{500, 420}, {560, 420}, {700, 420}})
+        .wait(30)
+        .click({600, 422})
+        .wait(30)
+        .click({600, 300})
+        .wait(2);
+    const Json state = state_after(script);
+    EXPECT_EQ(state.at("points").size(), 4u);
+    script.command("linkage.pin", {{"point", "A"}});
+    script.command("linkage.drag", {{"point", "B"}, {"to", {state["points"]["A"][0].get<double>(), 9, 0}}});
+    const Json turned = state_after(script);
+    EXPECT_GT(turned["points"]["C"][1].get<double>() - state["points"]["C"][1].get<double>(), 0.5)
+        << "the joint on the bar turns with it";
+    EXPECT_EQ(turned["points"]["D"], state["points"]["D"]);
+}
+
+TEST(LinkageInTheWindow, AJointIsDraggedAndTheDragIsOneStep) {
+    const ScriptText before = ScriptText().command("lab.open", {{"name", "linkage"}}).wait(2);
+    const Json state = state_after(before);
+    const glm::vec2 at = handle(state, "B");
+    ScriptText script = before;
+    script.drag({at, at + glm::vec2(0, -20), at + glm::vec2(-10, -50)}).wait(2);
+    const Json dragged = state_after(script);
+    EXPECT_GT(dragged.at("drivers").at("crank").get<double>(), 10.0);
+    const Json back = state_after(script.command("undo").wait(2));
+    EXPECT_EQ(back.at("points"), state.at("points"));
+}
+
+}  // namespace
+}  // namespace tendril::test

@@ -1,0 +1,316 @@
+// The Linkage lab: presets against the reference, drawing by hand, drags, motors, files, refusals.
+#include <cmath>
+#include <filesystem>
+#include <glm/trigonometric.hpp>
+
+#include "app/document/json_complete.hpp"
+#include "app/labs/kit/past_view.hpp"
+#include "app/labs/linkage/linkage_part.hpp"
+#include "tests/app/labs/lab_support.hpp"
+#include "tests/places.hpp"
+#include "tests/says.hpp"
+
+namespace tendril::app {
+namespace {
+
+class LinkageTest : public LabTest {
+  protected:
+    LinkageTest() : LabTest(linkage_lab) { workspace.lab = linkage_lab; }
+    const LinkagePart& part() const { return linkage_part(workspace); }
+    void wait(int ticks) {
+        for (int i = 0; i < ticks; ++i) lab().step(workspace);
+    }
+    glm::dvec3 at(const char* point) const {
+        const Json place = state().at("points").at(point);
+        return {place[0].get<double>(), place[1].get<double>(), place[2].get<double>()};
+    }
+    double driver(const char* name) const { return state().at("drivers").at(name).get<double>(); }
+    void four_bar() {
+        run("linkage.preset", {{"name", "four_bar"}});
+        run("linkage.set", {{"lengths", {{"ground", 3}, {"crank", 1}, {"coupler", 2.5}, {"rocker", 2}}}});
+    }
+    /// By hand: A and D are pinned, bars A-B, B-C, C-D, a motor at A.
+    void draw_four_bar() {
+        run("linkage.clear");
+        run("linkage.bar", {{"from", {0, 0, 0}}, {"to", {0, 1, 0}}});
+        run("linkage.bar", {{"from", "B"}, {"to", {2, 2, 0}}});
+        run("linkage.bar", {{"from", "C"}, {"to", {3, 0, 0}}});
+        run("linkage.pin", {{"point", "A"}});
+        run("linkage.pin", {{"point", "D"}});
+        run("linkage.motor.add", {{"point", "A"}});
+    }
+};
+
+TEST_F(LinkageTest, StateIsTheSpecs) {
+    const Json now = state();
+    EXPECT_EQ(now.at("lab"), "linkage");
+    for (const char* point : {"B", "C", "P"}) EXPECT_EQ(now.at("points").at(point).size(), 3u) << point;
+    EXPECT_LT(now.at("closed_to").get<double>(), 1e-6);
+    EXPECT_EQ(now.at("freedom"), 1);
+    EXPECT_EQ(now.at("gruebler"), 1);
+    EXPECT_EQ(now.at("status"), "Reached");
+    EXPECT_EQ(now.at("active"), Json::array());
+    EXPECT_TRUE(now.at("drivers").contains("crank"));
+}
+
+TEST_F(LinkageTest, ACrankDrivesAFourBar) {
+    four_bar();
+    run("linkage.drive", {{"joint", "crank"}, {"angle_deg", 90}});
+    EXPECT_NEAR(at("B").x, 0.0, 1e-9);
+    EXPECT_NEAR(at("B").y, 1.0, 1e-9);
+    EXPECT_NEAR(glm::distance(at("B"), at("C")), 2.5, 1e-8);
+    EXPECT_NEAR(glm::distance(at("C"), glm::dvec3(3, 0, 0)), 2.0, 1e-8);
+    EXPECT_NEAR(driver("crank"), 90.0, 1e-6);
+    run("undo");
+    EXPECT_NEAR(at("B").x, 1.0, 1e-9);
+}
+
+TEST_F(LinkageTest, ALengthChangesAndTheCrankStaysWhereItIsHeld) {
+    four_bar();
+    run("linkage.drive", {{"joint", "crank"}, {"angle_deg", 400}});
+    run("linkage.set", {{"crank", 0.9}, {"coupler_point", {1, -0.5}}});
+    EXPECT_NEAR(driver("crank"), 40.0, 1e-6);
+    EXPECT_NEAR(glm::length(at("B")), 0.9, 1e-9);
+    EXPECT_NEAR(glm::distance(at("B"), at("P")), std::hypot(1.0, 0.5), 1e-8);
+}
+
+TEST_F(LinkageTest, TwelveLegsWalkOnTheirFeet) {
+    run("linkage.preset", {{"name", "walker"}});
+    run("linkage.motor", {{"joint", "motor"}, {"deg_per_s", 90}});
+    ASSERT_EQ(part().copies.size(), 11u);
+    double walked = 0.0, highest = -1e9, lowest = 1e9;
+    for (int i = 0; i < 240; ++i) {
+        wait(1);
+        highest = std::max(highest, part().lowest_foot());
+        lowest = std::min(lowest, part().lowest_foot());
+        EXPECT_LT(std::abs(part().walked - walked), 0.05) << "no leg jumps";
+        walked = part().walked;
+    }
+    EXPECT_GT(std::abs(walked), 1.0) << "one turn";
+    EXPECT_LT(highest - lowest, 0.1) << "it hardly bobs";
+    const auto loaded = part().load(part().save(), "labs.linkage");
+    EXPECT_EQ(loaded->save(), part().save());
+}
+
+TEST_F(LinkageTest, ADraggedJointTakesTheCrankAlong) {
+    four_bar();
+    run("linkage.drive", {{"joint", "crank"}, {"angle_deg", 30}});
+    run("linkage.drag", {{"point", "B"}, {"to", {0, 5, 0}}}, 1);
+    run("linkage.let_go", {}, 1);
+    EXPECT_NEAR(driver("crank"), 90.0, 1e-3);
+    EXPECT_NEAR(at("B").y, 1.0, 1e-6);
+    EXPECT_FALSE(part().drag);
+    run("undo");
+    EXPECT_NEAR(driver("crank"), 30.0, 1e-6) << "a drag is one step";
+}
+
+TEST_F(LinkageTest, IsDrawnByHandAndRuns) {
+    draw_four_bar();
+    EXPECT_EQ(state().at("freedom"), 1);
+    EXPECT_EQ(state().at("gruebler"), 1);
+    EXPECT_NEAR(driver("motor 1"), 90.0, 1e-9);
+    const glm::dvec3 before = at("C");
+    run("linkage.motor", {{"joint", "motor 1"}, {"deg_per_s", 60}});
+    wait(30);
+    EXPECT_NEAR(driver("motor 1"), 120.0, 1e-6);
+    EXPECT_GT(glm::distance(at("C"), before), 0.1);
+    EXPECT_NEAR(glm::distance(at("B"), at("C")), std::sqrt(5.0), 1e-8);
+    for (int i = 0; i < 7; ++i) run("undo");
+    EXPECT_TRUE(part().shape->sketch.bars.empty());
+    for (int i = 0; i < 7; ++i) run("redo");
+    EXPECT_EQ(state().at("drivers").size(), 1u);
+}
+
+TEST_F(LinkageTest, GoesThroughAFileAndOnFromThere) {
+    for (const bool drawn : {false, true}) {
+        if (drawn)
+            draw_four_bar();
+        else
+            four_bar();
+        run("linkage.motor", {{"joint", drawn ? "motor 1" : "crank"}, {"deg_per_s", 50}});
+        run("linkage.target", {{"point", "C"}, {"to", {1, 2, 0}}});
+        wait(20);
+        const Json saved = part().save();
+        const auto loaded = part().load(saved, "labs.linkage");
+        EXPECT_EQ(loaded->save(), saved);
+        Workspace other = workspace;
+        other.document.set(linkage_lab, loaded);
+        EXPECT_EQ(lab().state(other), state());
+        for (int i = 0; i < 60; ++i) lab().step(other), lab().step(workspace);
+        EXPECT_EQ(lab().state(other), state()) << "to the bit";
+    }
+}
+
+TEST_F(LinkageTest, TheLibrarysMechanismsStandAsTheyAreNamed) {
+    for (const MechanismKind& kind : mechanism_kinds()) {
+        run("linkage.preset", {{"name", kind.name}});
+        EXPECT_EQ(state().at("status"), "Reached") << kind.name;
+        EXPECT_LT(state().at("closed_to").get<double>(), 1e-6) << kind.name;
+        EXPECT_TRUE(*kind.traced == '\0' || state().at("points").contains(kind.traced)) << kind.name;
+        EXPECT_FALSE(lab().code(workspace).empty());
+    }
+    EXPECT_EQ(state().at("drivers").size(), 6u) << "a Stewart platform has six legs";
+}
+
+TEST_F(LinkageTest, PeaucellierDrawsAStraightLine) {
+    run("linkage.preset", {{"name", "peaucellier"}});
+    const double line = at("P").x;
+    for (const int angle : {-30, -15, 10, 25, 40}) {
+        run("linkage.drive", {{"joint", "crank"}, {"angle_deg", angle}});
+        if (state().at("status") != "Reached") continue;
+        EXPECT_NEAR(at("P").x, line, 1e-6) << angle;
+    }
+}
+
+/// Through the lab's own commands, over whole turns.
+class LinkageReference : public LinkageTest {
+  protected:
+    void SetUp() override {
+        const std::filesystem::path file = test::reference_path("linkage.json");
+        if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is missing";
+        reference_ = read_json_file(file);
+    }
+    void open(const char* preset, Json lengths) {
+        lengths.erase("rows");
+        run("linkage.preset", {{"name", preset}});
+        run("linkage.set", {{"lengths", lengths}});
+    }
+    void expect_at(const char* point, const Json& row) {
+        if (!row.contains(point)) return;
+        for (std::size_t axis = 0; axis < row.at(point).size(); ++axis)
+            EXPECT_NEAR(at(point)[static_cast<int>(axis)], row.at(point)[axis].get<double>(), 1e-5)
+                << point << " " << row.dump();
+    }
+    Json reference_;
+};
+
+TEST_F(LinkageReference, FourBarsSliderCranksAndJansensLeg) {
+    for (const Json& each : reference_.at("four_bar")) {
+        open("four_bar", each);
+        for (const Json& row : each.at("rows")) {
+            run("linkage.drive", {{"joint", "crank"}, {"angle_deg", row.at("crank_deg")}});
+            for (const char* point : {"B", "C", "P"}) expect_at(point, row);
+        }
+    }
+    for (const Json& each : reference_.at("slider_crank")) {
+        open("slider_crank", each);
+        for (const Json& row : each.at("rows")) {
+            run("linkage.drive", {{"joint", "crank"}, {"angle_deg", row.at("crank_deg")}});
+            EXPECT_NEAR(at("S").x, row.at("slider_x").get<double>(), 1e-5);
+        }
+    }
+    open("jansen", reference_.at("jansen").at("lengths"));
+    for (const Json& row : reference_.at("jansen").at("rows")) {
+        run("linkage.drive", {{"joint", "motor"}, {"angle_deg", row.at("crank_deg")}});
+        for (const char* point : {"crank", "upper", "lower", "back", "knee", "foot"}) expect_at(point, row);
+    }
+}
+
+TEST_F(LinkageReference, ATargetOfTheDeltasPlatformGivesItsMotors) {
+    for (const Json& each : reference_.at("delta")) {
+        open("delta", each);
+        for (const Json& row : each.at("rows")) {
+            run("linkage.target", {{"point", "platform"}, {"to", row.at("platform")}});
+            for (std::size_t i = 0; i < 3; ++i)
+                EXPECT_NEAR(driver(("motor_" + std::to_string(i)).c_str()),
+                            row.at("motors_deg")[i].get<double>(), 1e-3);
+        }
+    }
+}
+
+TEST_F(LinkageTest, AMotorStopsAtADeadPointAndSaysWhy) {
+    four_bar();
+    run("linkage.set", {{"crank", 2.2}});
+    run("linkage.motor", {{"joint", "crank"}, {"deg_per_s", 90}});
+    SharedPart before;
+    for (int i = 0; i < 240 && lab().moving(workspace); ++i) {
+        before = workspace.document.parts().at(linkage_lab);
+        wait(1);
+    }
+    EXPECT_FALSE(lab().moving(workspace)) << "the window may idle";
+    EXPECT_EQ(state().at("status"), "DeadPoint");
+    const auto incidents = lab().review(workspace, *before, part());
+    ASSERT_EQ(incidents.size(), 1u);
+    EXPECT_EQ(incidents[0].name, "crank");
+    EXPECT_TRUE(test::says(incidents[0].cause, "crank is at a dead point B, C and D are in line"))
+        << incidents[0].cause;
+    // 2.5 + 2 against 2.2 and 3: the law of cosines.
+    const double limit = glm::degrees(std::acos((2.2 * 2.2 + 9.0 - 4.5 * 4.5) / (2.0 * 2.2 * 3.0)));
+    EXPECT_NEAR(incidents[0].degrees, limit, 0.1);
+    ASSERT_EQ(incidents[0].buttons.size(), 1u);
+    const CommandCall& back = incidents[0].buttons[0].calls[0];
+    run(back.name.c_str(), to_json(back.arguments));
+    wait(5);
+    EXPECT_TRUE(lab().moving(workspace));
+    EXPECT_LT(driver("crank"), limit - 5.0);
+}
+
+TEST_F(LinkageTest, TheOtherModeIsTheMirroredRocker) {
+    four_bar();
+    run("linkage.drive", {{"joint", "crank"}, {"angle_deg", 90}});
+    const glm::dvec3 above = at("C");
+    run("linkage.other_mode");
+    EXPECT_GT(glm::distance(at("C"), above), 0.5);
+    EXPECT_NEAR(glm::distance(at("B"), at("C")), 2.5, 1e-8);
+    EXPECT_NEAR(driver("crank"), 90.0, 1e-6);
+    run("linkage.other_mode");
+    EXPECT_NEAR(glm::distance(at("C"), above), 0.0, 1e-6);
+}
+
+TEST_F(LinkageTest, WhatIsWrongIsRefusedByNameAndNothingIsLost) {
+    four_bar();
+    expect_refused("linkage.set", {{"lengths", {{"cranc", 1}}}}, {"cranc"});
+    expect_refused("linkage.set", {{"lengths", {{"crank", -1}}}}, {"lengths.crank", "-1"});
+    expect_refused("linkage.set", {{"lengths", {{"coupler_point", {1}}}}}, {"coupler_point"});
+    expect_refused("linkage.set", {{"crank", 100}}, {});
+    expect_refused("linkage.drive", {{"joint", "nobody"}, {"angle_deg", 1}}, {"nobody"});
+    expect_refused("linkage.drive", {{"joint", "crank"}}, {"angle_deg"});
+    expect_refused("linkage.target", {{"point", "X"}, {"to", {0, 0, 0}}}, {"X"});
+    expect_refused("linkage.bar", {{"from", "B"}, {"to", "B"}}, {"different"});
+    expect_refused("linkage.bar", {{"from", "B"}, {"to", "C"}}, {"B", "C", "already"});
+    expect_refused("linkage.bar", {{"from", "B"}, {"to", {1, 2}}}, {"to"});
+    expect_refused("linkage.motor.add", {{"point", "C"}}, {"C", "not pinned"});
+    expect_refused("linkage.remove", {{"bar", "bar 9"}}, {"bar 9"});
+    run("linkage.preset", {{"name", "delta"}});
+    expect_refused("linkage.joint", {{"at", {0, 0, 0}}}, {"plane"});
+}
+
+TEST_F(LinkageTest, AFileThatIsWrongIsRefusedWithItsPlace) {
+    draw_four_bar();
+    const Json good = part().save();
+    const auto expect_place = [&](const char* path, const Json& value, const char* place) {
+        Json broken = good;
+        broken[Json::json_pointer(path)] = value;
+        try {
+            static_cast<void>(part().load(broken, "labs.linkage"));
+            ADD_FAILURE() << path << " was opened";
+        } catch (const std::runtime_error& error) {
+            EXPECT_TRUE(test::says(error.what(), place)) << error.what();
+        }
+    };
+    expect_place("/sketch/points/1/name", "A", "labs.linkage.sketch.points.1.name");
+    expect_place("/sketch/points/1/hold", "glued", "labs.linkage.sketch.points.1.hold");
+    expect_place("/sketch/bars/0/points/1", "Z", "labs.linkage.sketch.bars.0.points.1");
+    expect_place("/sketch/motors/0/bar", "bar 7", "labs.linkage.sketch.motors.0.bar");
+    expect_place("/sketch/bars/0/points", Json::array(), "labs.linkage.sketch");
+    expect_place("/joints", Json::array(), "labs.linkage.joints");
+    expect_place("/drivers/0/joint", "nobody", "labs.linkage.drivers.0.joint");
+    expect_place("/selected", "nobody", "labs.linkage.selected");
+}
+
+TEST_F(LinkageTest, BarsThatNothingHoldsWaitForTheirPins) {
+    run("linkage.clear");
+    EXPECT_EQ(state().at("verdict"), "Draw a bar");
+    EXPECT_EQ(state().at("tool"), "draw") << "an empty lab is there to be drawn in";
+    run("linkage.bar", {{"from", {0, 0, 0}}, {"to", {0, 1, 0}}});
+    EXPECT_EQ(state().at("verdict"), "Nothing holds it");
+    run("linkage.pin", {{"point", "A"}});
+    EXPECT_EQ(state().at("verdict"), "1 degree of freedom");
+    run("linkage.bar", {{"from", {2, 0, 0}}, {"to", {3, 0, 0}}});
+    EXPECT_EQ(state().at("verdict"), "bar 2 is loose");
+    run("linkage.drag", {{"point", "B"}, {"to", {5, 0, 0}}});
+    EXPECT_NEAR(at("B").x, 1.0, 1e-6) << "the rest moves";
+}
+
+}  // namespace
+}  // namespace tendril::app
