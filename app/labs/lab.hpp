@@ -190,8 +190,10 @@ class Lab {
     }
     /// Whether Ctrl and a drag on empty space selects by a box.
     virtual bool selects_by_box() const { return false; }
-    /// Handles that a box can select, by their positions.
-    virtual std::vector<Handle> selectable(const Workspace& workspace) const { return handles(workspace); }
+    /// Handles that a box in a pane can select, by their positions there.
+    virtual std::vector<Handle> selectable(const Workspace& workspace, std::size_t /*pane*/) const {
+        return handles(workspace);
+    }
     /// Selects the handles in the box; `add` keeps the selection there was. Some may be selected already.
     virtual void select(const Workspace&, const std::vector<PickId>&, bool /*add*/, Emit&) const {}
     /// Whether a drag, wherever it begins, draws a straight stroke across the scene instead of what a drag

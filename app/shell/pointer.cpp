@@ -227,7 +227,7 @@ std::optional<std::pair<glm::vec2, glm::vec2>> Pointer::stroke() const {
 void Pointer::select_in_box(bool add, const Scene& scene, Emit& emit) const {
     const Rect inside = *box();
     std::vector<PickId> picks;
-    for (const Handle& handle : scene.lab.selectable(scene.workspace)) {
+    for (const Handle& handle : scene.lab.selectable(scene.workspace, scene.pane)) {
         const auto pixel = scene.camera.project(handle.frame.position);
         if (pixel && inside.contains(*pixel)) picks.push_back(handle.pick);
     }

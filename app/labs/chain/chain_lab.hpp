@@ -55,7 +55,7 @@ class ChainLab final : public Lab {
     void drag(const Workspace& workspace, PickId pick, const Handle::Frame& frame, Emit& emit) const override;
     void click_more(const Workspace& workspace, PickId pick, Emit& emit) const override;
     bool selects_by_box() const override { return true; }
-    std::vector<Handle> selectable(const Workspace& workspace) const override;
+    std::vector<Handle> selectable(const Workspace& workspace, std::size_t pane) const override;
     void select(const Workspace& workspace, const std::vector<PickId>& picks, bool add,
                 Emit& emit) const override;
     std::optional<Handle> gizmo(const Workspace& workspace) const override;

@@ -94,7 +94,7 @@ void ChainLab::click_more(const Workspace& workspace, PickId pick, Emit& emit) c
 }
 
 /// Joints, and along a curve control points. A race does not show the joints of the chain itself.
-std::vector<Handle> ChainLab::selectable(const Workspace& workspace) const {
+std::vector<Handle> ChainLab::selectable(const Workspace& workspace, std::size_t) const {
     std::vector<Handle> joints = handles(workspace);
     const bool racing = chain_part(workspace).study.kind == Study::Kind::Race;
     std::erase_if(joints, [&](const Handle& each) {

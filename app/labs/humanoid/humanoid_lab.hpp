@@ -41,7 +41,7 @@ class HumanoidLab final : public Lab {
     void deselect(const Workspace& workspace, Emit& emit) const override;
     void click_more(const Workspace& workspace, PickId pick, Emit& emit) const override;
     bool selects_by_box() const override { return true; }
-    std::vector<Handle> selectable(const Workspace& workspace) const override;
+    std::vector<Handle> selectable(const Workspace& workspace, std::size_t pane) const override;
     void select(const Workspace& workspace, const std::vector<PickId>& picks, bool add,
                 Emit& emit) const override;
     std::string hint(const Workspace& workspace, PickId pick) const override;

@@ -162,7 +162,7 @@ void HumanoidLab::click_more(const Workspace& workspace, PickId pick, Emit& emit
 }
 
 /// The visible nodes.
-std::vector<Handle> HumanoidLab::selectable(const Workspace& workspace) const {
+std::vector<Handle> HumanoidLab::selectable(const Workspace& workspace, std::size_t) const {
     const HumanoidPart& part = humanoid_part(workspace);
     const bool helpers = helpers_setting().chosen(workspace.settings) == 0;
     const std::vector<bool> body = body_nodes(part),

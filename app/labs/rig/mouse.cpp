@@ -159,7 +159,7 @@ void RigLab::click_more(const Workspace& workspace, PickId pick, Emit& emit) con
 }
 
 /// Every element, even those without a handle.
-std::vector<Handle> RigLab::selectable(const Workspace& workspace) const {
+std::vector<Handle> RigLab::selectable(const Workspace& workspace, std::size_t) const {
     std::vector<Handle> all;
     for (std::size_t i = 0; i < rig_part(workspace).state.controls.size(); ++i)
         all.push_back(element_handle(workspace, i));

@@ -25,9 +25,7 @@ RopeScene cloth_scene() {
                               .radius = 0.012f,
                               .density = 0.3f,
                               .tear = 0.3f});
-    rope::Settings settings = world.settings();
-    settings.damping = 0.6f;
-    world.set_settings(settings);
+    world.set_settings({.damping = 0.6f});
     return scene;
 }
 
@@ -50,9 +48,7 @@ RopeScene curtain_scene() {
     const glm::vec3 middle(0.1f, 1.0f, 0.6f);
     world.add_collider("ball", rope::Sphere{middle, 0.22f});
     scene.swings.push_back({"ball", middle, {-0.15f, 0.0f, -0.75f}, 4.0f});
-    rope::Settings settings = world.settings();
-    settings.damping = 0.6f;
-    world.set_settings(settings);
+    world.set_settings({.damping = 0.6f});
     return scene;
 }
 
@@ -72,10 +68,7 @@ RopeScene flag_scene() {
                              .shear = 0.03f,
                              .bend = 0.002f,  // canvas: softer cloth crumples at its free edge
                              .pins = rope::ClothShape::Pins::Corners});
-    rope::Settings settings = world.settings();
-    settings.wind = {7.0f, 0, 0.5f};
-    settings.gusts = 0.5f;
-    world.set_settings(settings);
+    world.set_settings({.wind = {7.0f, 0, 0.5f}, .gusts = 0.5f});
     return scene;
 }
 
@@ -110,10 +103,7 @@ RopeScene line_scene() {
         world.tie({}, world.particle("line", static_cast<std::size_t>(std::lround(part * segments))),
                   world.particle("cloth", static_cast<std::size_t>(column)), {.length = tie});
     }
-    rope::Settings settings = world.settings();
-    settings.wind = {0.4f, 0, 2.2f};
-    settings.damping = 0.4f;
-    world.set_settings(settings);
+    world.set_settings({.damping = 0.4f, .wind = {0.4f, 0, 2.2f}});
     return scene;
 }
 
@@ -155,10 +145,7 @@ RopeScene rings_scene() {
     world.add_collider("hand", rope::Sphere{hand, 0.03f});
     world.attach(world.particle("curtain", 0), "hand");
     scene.swings.push_back({"hand", hand, {0.28f, 0.0f, 0.0f}, 8.0f});
-    rope::Settings settings = world.settings();
-    settings.damping = 0.6f;
-    settings.friction = 0.05f;
-    world.set_settings(settings);
+    world.set_settings({.damping = 0.6f, .friction = 0.05f});
     return scene;
 }
 
@@ -178,10 +165,7 @@ RopeScene hair_scene() {
     hair.roots = require_value(roots_on(head, patch, hair.radius));
     world.add_hair("hair", std::move(hair), "head");
     scene.swings.push_back({"head", centre, {0.16f, 0.0f, 0.0f}, 2.6f});
-    rope::Settings settings = world.settings();
-    settings.damping = 1.0f;
-    settings.friction = 0.3f;
-    world.set_settings(settings);
+    world.set_settings({.damping = 1.0f, .friction = 0.3f});
     return scene;
 }
 

@@ -211,19 +211,15 @@ void body_rows(const NamedWorld& world, const rope::Body& body, Emit& emit) {
     section(world.name(body).c_str());
     const BodySettings settings = settings_of(world, body);
     const FieldRows rows(settings, "rope.set", emit, {{"rope", world.name(body)}});
-    rows.row("length", {.why_not = settings.length > 0.0f
-                                       ? ""
-                                       : "All its particles are in one place: there is no length to scale."});
-    const bool cloth = body.kind == rope::Body::Kind::Cloth;
-    cloth ? rows.rows("width", "columns", "rows") : rows.row("segments");
-    rows.row("mass");
-    if (settings.density) rows.row("density", {.unit = cloth ? "kg/m^2" : "kg/m"});
-    rows.rows("radius", "friction");
-    if (settings.stretch) rows.row("stretch");
-    if (settings.shear) rows.row("shear");
-    if (settings.bend) rows.row("bend");
-    if (settings.tear) rows.row("tear");
-    rows.row("colour");
+    for (const Field& field : fields<BodySettings>()) {
+        if (field.optional && field.empty(&settings)) continue;  // it has no such links
+        const std::string_view name = field.name;
+        RowOptions options;
+        if (name == "length" && !(settings.length > 0.0f))
+            options.why_not = "All its particles are in one place: there is no length to scale.";
+        if (name == "density" && body.kind == rope::Body::Kind::Cloth) options.unit = "kg/m^2";
+        rows.row(name, options);
+    }
     const ArgumentList which{{"rope", world.name(body)}};
     if (row_button("Subdivide", 3, true, "Halves each segment; shape, motion and material stay"))
         emit("rope.subdivide", which);

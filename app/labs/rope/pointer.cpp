@@ -13,6 +13,34 @@ namespace {
 
 constexpr std::size_t max_handles = 400;
 
+/// The world of the pane that was picked in.
+const NamedWorld& picked_world(const RopePart& part, PickId pick) {
+    return world_in(part, static_cast<std::size_t>(std::max(pick, 0) / picks_in_pane));
+}
+
+/// What was picked of these, whose picks begin with `first`; null if it is something else, or the world has
+/// changed since.
+template <class Thing>
+const Thing* picked_of(const std::vector<Thing>& all, PickId first, PickId pick) {
+    const PickId index = pick % picks_in_pane - first;
+    return index >= 0 && static_cast<std::size_t>(index) < all.size() ? &all[static_cast<std::size_t>(index)]
+                                                                      : nullptr;
+}
+const rope::Collider* picked_collider(const NamedWorld& world, PickId pick) {
+    return picked_of(world.state().colliders, collider_pick(0), pick);
+}
+const rope::Tie* picked_tie(const NamedWorld& world, PickId pick) {
+    return picked_of(world.state().ties, tie_pick(0), pick);
+}
+const rope::Body* picked_body(const NamedWorld& world, PickId pick) {
+    return picked_of(world.state().bodies, body_pick(0), pick);
+}
+
+/// Every n-th particle has a handle. Rope ends and pinned particles always have one.
+std::size_t handle_stride(const NamedWorld& world) {
+    return world.size() / max_handles + 1;
+}
+
 ArgumentList of_particle(const NamedWorld& world, const ParticlePlace& place) {
     return {{"rope", world.name(*place.body)}, {"particle", place.index}};
 }
@@ -24,10 +52,13 @@ const rope::Collider* holder_of(const NamedWorld& world, std::size_t particle) {
     return nullptr;
 }
 
-/// The drag that holds particles of the picked world.
-const std::optional<Hold>& picked_hold(const RopePart& part, PickId pick) {
-    const auto pane = static_cast<std::size_t>(std::max(pick, 0) / picks_in_pane);
-    return pane == 0 || pane > part.rivals.size() ? part.hold : part.rivals[pane - 1].hold;
+/// Whether the picked particle is pinned, and not only held by a drag.
+bool is_pinned(const RopePart& part, PickId pick) {
+    const auto pane = static_cast<std::size_t>(pick / picks_in_pane),
+               particle = static_cast<std::size_t>(pick % picks_in_pane);
+    const bool own = pane == 0 || pane > part.rivals.size();
+    const NamedWorld& world = picked_world(part, pick);
+    return world.pinned(particle) && !is_held(world, own ? part.hold : part.rivals[pane - 1].hold, particle);
 }
 
 constexpr glm::vec3 along_x(1.0f, 0.0f, 0.0f), upright(0.0f, 1.0f, 0.0f);
@@ -106,34 +137,6 @@ bool is_attached(const NamedWorld& world, const rope::Body& body) {
     });
 }
 
-const NamedWorld& picked_world(const RopePart& part, PickId pick) {
-    return world_in(part, static_cast<std::size_t>(std::max(pick, 0) / picks_in_pane));
-}
-
-const rope::Collider* picked_collider(const NamedWorld& world, PickId pick) {
-    const auto& colliders = world.state().colliders;
-    pick %= picks_in_pane;
-    if (pick < collider_pick(0)) return nullptr;
-    const auto index = static_cast<std::size_t>(pick - collider_pick(0));
-    return index < colliders.size() ? &colliders[index] : nullptr;
-}
-
-const rope::Tie* picked_tie(const NamedWorld& world, PickId pick) {
-    const auto& ties = world.state().ties;
-    pick %= picks_in_pane;
-    if (pick < tie_pick(0)) return nullptr;
-    const auto index = static_cast<std::size_t>(pick - tie_pick(0));
-    return index < ties.size() ? &ties[index] : nullptr;
-}
-
-const rope::Body* picked_body(const NamedWorld& world, PickId pick) {
-    const auto& bodies = world.state().bodies;
-    pick %= picks_in_pane;
-    if (pick < body_pick(0)) return nullptr;
-    const auto index = static_cast<std::size_t>(pick - body_pick(0));
-    return index < bodies.size() ? &bodies[index] : nullptr;
-}
-
 std::optional<ParticlePlace> picked_particle(const NamedWorld& world, PickId pick) {
     pick %= picks_in_pane;
     if (pick < 0 || pick >= collider_pick(0)) return std::nullopt;
@@ -142,10 +145,6 @@ std::optional<ParticlePlace> picked_particle(const NamedWorld& world, PickId pic
         if (particle >= body.first && particle < body.first + body.count)
             return ParticlePlace{&body, particle - body.first};
     return std::nullopt;
-}
-
-std::size_t handle_stride(const NamedWorld& world) {
-    return world.size() / max_handles + 1;
 }
 
 std::vector<Handle> RopeLab::handles(const Workspace& workspace) const {
@@ -211,8 +210,7 @@ void RopeLab::drag(const Workspace& workspace, PickId pick, const Handle::Frame&
                           {{"name", world.name(*holder)}, {"to", rope::centre(world.shape(*holder)) + by}});
         return;
     }
-    const std::size_t particle = place->body->first + place->index;
-    const bool pinned = world.pinned(particle) && !is_held(world, picked_hold(part, pick), particle);
+    const bool pinned = is_pinned(part, pick);
     ArgumentList arguments = of_particle(world, *place);
     arguments.push_back({"at", to});
     emit.continuously(pinned ? "rope.pin" : "rope.hold", arguments);
@@ -322,11 +320,11 @@ void RopeLab::click_more(const Workspace& workspace, PickId pick, Emit& emit) co
     emit("rope.select", arguments);
 }
 
-/// Every particle, even those without a handle.
-std::vector<Handle> RopeLab::selectable(const Workspace& workspace) const {
-    const NamedWorld& world = *rope_part(workspace).world;
+/// Every particle of the pane's world, even those without a handle.
+std::vector<Handle> RopeLab::selectable(const Workspace& workspace, std::size_t pane) const {
     std::vector<Handle> all;
-    for (const glm::vec3& at : world.positions()) all.push_back({{}, particle_pick(all.size()), {at}});
+    for (const glm::vec3& at : world_in(rope_part(workspace), pane).positions())
+        all.push_back({{}, pick_in(pane, particle_pick(all.size())), {at}});
     return all;
 }
 
@@ -334,8 +332,9 @@ std::vector<Handle> RopeLab::selectable(const Workspace& workspace) const {
 void RopeLab::select(const Workspace& workspace, const std::vector<PickId>& picks, bool add,
                      Emit& emit) const {
     const RopePart& part = rope_part(workspace);
-    const NamedWorld& world = *part.world;
-    std::vector<std::size_t> boxed(picks.begin(), picks.end());
+    const NamedWorld& world = picked_world(part, picks.empty() ? no_pick : picks.front());
+    std::vector<std::size_t> boxed;
+    for (const PickId pick : picks) boxed.push_back(static_cast<std::size_t>(pick % picks_in_pane));
     std::sort(boxed.begin(), boxed.end());
     const rope::Body* most = nullptr;
     std::vector<std::size_t> inside;
@@ -398,8 +397,7 @@ std::string RopeLab::hint(const Workspace& workspace, PickId pick) const {
     }
     if (const rope::Collider* holder = holder_of(world, place->body->first + place->index))
         return name + " (attached to " + world.name(*holder) + "): drag moves both.";
-    const std::size_t particle = place->body->first + place->index;
-    const bool pinned = world.pinned(particle) && !is_held(world, picked_hold(part, pick), particle);
+    const bool pinned = is_pinned(part, pick);
     return name + (pinned ? " (pinned): drag moves its pin."
                           : ": drag pulls it. Click selects it, double-click the whole.");
 }
@@ -444,8 +442,7 @@ std::optional<Handle> RopeLab::gizmo(const Workspace& workspace) const {
             return body_handle(*part.world, *selected.body, body_pick(index));
         }
         const std::size_t active = part.selection->particle();
-        const std::size_t particle = selected.body->first + active;
-        const bool pinned = part.world->pinned(particle) && !is_held(part, particle);
+        const bool pinned = is_pinned(part, particle_pick(selected.body->first + active));
         if (!pinned && !part.selection->particles.several()) return std::nullopt;
         const bool moves = std::ranges::binary_search(selected.movable, active);
         Handle shown = *handle(

@@ -27,16 +27,11 @@ inline constexpr PickId picks_in_pane = 2 * max_lab_particles + max_lab_collider
 inline PickId pick_in(std::size_t pane, PickId pick) {
     return static_cast<PickId>(pane) * picks_in_pane + pick;
 }
-/// The world of the pane that was picked in.
-const NamedWorld& picked_world(const RopePart& part, PickId pick);
-/// What was picked; null if it is something else, or the world has changed since.
-const rope::Collider* picked_collider(const NamedWorld& world, PickId pick);
-const rope::Tie* picked_tie(const NamedWorld& world, PickId pick);
-const rope::Body* picked_body(const NamedWorld& world, PickId pick);
 struct ParticlePlace {
     const rope::Body* body = nullptr;
     std::size_t index = 0;  ///< in the body
 };
+/// None if it is something else, or the world has changed since.
 std::optional<ParticlePlace> picked_particle(const NamedWorld& world, PickId pick);
 
 /// Where a whole body is moved by: the middle of its pins, which stay where they are put, or of its
@@ -47,9 +42,6 @@ bool is_attached(const NamedWorld& world, const rope::Body& body);
 
 /// Extends a box by a collider, except for planes, which are infinite.
 void include_shape(const rope::Shape& shape, glm::vec3& low, glm::vec3& high);
-
-/// Every n-th particle has a handle, at most a few hundred. Rope ends and pinned particles always have one.
-std::size_t handle_stride(const NamedWorld& world);
 
 class RopeLab final : public Lab {
   public:
@@ -87,7 +79,7 @@ class RopeLab final : public Lab {
     }
     void stroke(const Workspace& workspace, std::size_t pane, const Camera& camera, glm::vec2 from,
                 glm::vec2 to, Emit& emit) const override;
-    std::vector<Handle> selectable(const Workspace& workspace) const override;
+    std::vector<Handle> selectable(const Workspace& workspace, std::size_t pane) const override;
     void select(const Workspace& workspace, const std::vector<PickId>& picks, bool add,
                 Emit& emit) const override;
     std::string hint(const Workspace& workspace, PickId pick) const override;

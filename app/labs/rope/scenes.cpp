@@ -143,9 +143,7 @@ RopeScene drape_scene() {
                         .segments = 36,
                         .radius = 0.016f});
     }
-    rope::Settings settings = world.settings();
-    settings.damping = 0.8f;  // dangling ends come to rest within half a minute
-    world.set_settings(settings);
+    world.set_settings({.damping = 0.8f});  // dangling ends come to rest within half a minute
     return scene;
 }
 
@@ -186,10 +184,7 @@ RopeScene bridge_scene() {
     const glm::vec3 roll(0.0f, 0.92f, 0.0f);  // low enough to press the deck down
     world.add_collider("ball", rope::Sphere{roll, 0.22f});
     scene.swings.push_back({"ball", roll, {1.1f, 0.0f, 0.0f}, 9.0f});
-    rope::Settings settings = world.settings();
-    settings.damping = 0.6f;
-    settings.friction = 0.2f;
-    world.set_settings(settings);
+    world.set_settings({.damping = 0.6f, .friction = 0.2f});
     return scene;
 }
 
@@ -249,9 +244,7 @@ RopeScene hanger_scene() {
             world.tie({}, world.particle(hanger, 4), below);
         }
     }
-    rope::Settings settings = world.settings();
-    settings.damping = 1.0f;
-    world.set_settings(settings);
+    world.set_settings({.damping = 1.0f});
     return scene;
 }
 
@@ -289,11 +282,8 @@ RopeScene knot_scene() {
     lay(world, "rope", line);
     weigh_down(world, "rope", 1, 0.5);
     world.set_collides("rope", "rope", true);
-    rope::Settings settings = world.settings();
-    settings.damping = 0.6f;
-    settings.substep = 1.0 / 480.0;  // the blow when the knot closes
-    settings.friction = 0.15f;
-    world.set_settings(settings);
+    // The blow when the knot closes needs finer steps.
+    world.set_settings({.substep = 1.0 / 480.0, .damping = 0.6f, .friction = 0.15f});
     return scene;
 }
 
@@ -370,9 +360,7 @@ RopeScene pendulum_scene() {
                               .pin_start = true});
         weigh_down(world, name, 1, 0.5);
     }
-    rope::Settings settings = world.settings();
-    settings.damping = 0.0f;
-    world.set_settings(settings);
+    world.set_settings({.damping = 0.0f});
     return scene;
 }
 
@@ -395,10 +383,7 @@ RopeScene bars_scene() {
                                         .to = {middle + half, height + fall, 0},
                                         .segments = segments});
     }
-    rope::Settings settings = world.settings();
-    settings.damping = 0.0f;
-    settings.friction = 0.2f;
-    world.set_settings(settings);
+    world.set_settings({.damping = 0.0f, .friction = 0.2f});
     return scene;
 }
 
@@ -447,11 +432,8 @@ RopeScene well_scene() {
     weigh_down(world, "rope", 1, 0.6);
     world.attach(world.particle("rope", 0), "hand");
     scene.swings.push_back({"hand", hand, 0.24f * pull, 6.0f});
-    rope::Settings settings = world.settings();
-    settings.substep = 1.0 / 480.0;  // a weight over a drum needs finer steps
-    settings.damping = 0.4f;
-    settings.friction = 0.15f;
-    world.set_settings(settings);
+    // A weight over a drum needs finer steps.
+    world.set_settings({.substep = 1.0 / 480.0, .damping = 0.4f, .friction = 0.15f});
     return scene;
 }
 
@@ -503,9 +485,7 @@ RopeScene net_scene() {
     const glm::vec3 middle(0.05f, 1.65f, -0.05f);
     world.add_collider("ball", rope::Sphere{middle, 0.22f});
     scene.swings.push_back({"ball", middle, {0.0f, -0.65f, 0.0f}, 6.0f});
-    rope::Settings settings = world.settings();
-    settings.damping = 0.6f;
-    world.set_settings(settings);
+    world.set_settings({.damping = 0.6f});
     return scene;
 }
 
@@ -537,9 +517,7 @@ RopeScene crane_scene() {
                                 .density = 0.1f});
     world.attach(world.particle("tag line", tag_segments), "hand");
     world.tie("shackle", world.particle("hoist", hoist_segments), world.particle("tag line", 0));
-    rope::Settings settings = world.settings();
-    settings.damping = 0.3f;
-    world.set_settings(settings);
+    world.set_settings({.damping = 0.3f});
     return scene;
 }
 
@@ -579,10 +557,7 @@ RopeScene mail_scene() {
                           link);
         }
     }
-    rope::Settings settings = world.settings();
-    settings.damping = 0.8f;
-    settings.friction = 0.4f;
-    world.set_settings(settings);
+    world.set_settings({.damping = 0.8f, .friction = 0.4f});
     return scene;
 }
 

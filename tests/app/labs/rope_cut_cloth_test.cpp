@@ -16,12 +16,7 @@ class RopeCutCloth : public RopeTest {
   protected:
     RopeCutCloth() {
         run("rope.clear");
-        run("rope.cloth.add", {{"corner", {3, 2, 0}},
-                               {"along", {1, 0, 0}},
-                               {"down", {0, -1, 0}},
-                               {"columns", 8},
-                               {"rows", 8},
-                               {"pins", "corners"}});
+        add_cloth();
         wait(60);
     }
     void cut(const char* name, const Json& points) {

@@ -55,7 +55,7 @@ TEST_F(RopeSelectionTest, ABoxTakesTheRopeThatHasMostInIt) {
     single_rope(8);
     run("rope.add", {{"name", "other"}, {"from", {0, 3, 0}}, {"to", {1, 3, 0}}, {"segments", 4}});
     const auto first = static_cast<PickId>(world().find("other")->first);
-    EXPECT_EQ(lab().selectable(workspace).size(), world().size());
+    EXPECT_EQ(lab().selectable(workspace, 0).size(), world().size());
     select({first + 3, 2, first + 1, first, 7});
     EXPECT_EQ(part().selection->body, "other");
     EXPECT_EQ(selected(), (Indices{0, 1, 3}));
@@ -65,6 +65,30 @@ TEST_F(RopeSelectionTest, ABoxTakesTheRopeThatHasMostInIt) {
     select({}, true);
     EXPECT_EQ(selected().size(), 4u);
     select({});
+    EXPECT_FALSE(part().selection);
+}
+
+/// A box takes what it shows, not what is there in the first pane.
+TEST_F(RopeSelectionTest, ABoxInTheOtherPaneOfARaceTakesWhatIsThere) {
+    single_rope(8);
+    run("rope.race");
+    RopePart& changed = workspace.document.edit<RopePart>(rope_lab);
+    auto elsewhere = std::make_shared<NamedWorld>(*changed.world);
+    rope::State state = elsewhere->state();
+    for (glm::dvec3& each : state.position) each.x += 2.0;
+    elsewhere->put(std::move(state));
+    changed.rivals[0].world = elsewhere;
+    const auto box = [&](std::size_t pane, float from, float to) {
+        std::vector<PickId> picks;
+        for (const Handle& each : lab().selectable(workspace, pane))
+            if (each.frame.position.x > from && each.frame.position.x < to) picks.push_back(each.pick);
+        select(picks);
+    };
+    box(1, 2.1f, 2.4f);
+    EXPECT_EQ(selected(), (Indices{1, 2, 3}));
+    box(2, 0.6f, 0.7f);
+    EXPECT_EQ(selected(), (Indices{5}));
+    box(1, 0.1f, 0.4f);
     EXPECT_FALSE(part().selection);
 }
 

@@ -4,36 +4,26 @@
 #include "app/labs/kit/race.hpp"
 #include "app/labs/kit/world_drawing.hpp"
 #include "app/labs/rope/rope_fields.hpp"
-#include "app/labs/rope/rope_lab.hpp"
-#include "tests/app/labs/lab_support.hpp"
+#include "tests/app/labs/rope_support.hpp"
 #include "tests/says.hpp"
 
 namespace tendril::app {
 namespace {
 
-class RopeSet : public LabTest {
+class RopeSet : public RopeTest {
   protected:
-    RopeSet() : LabTest(rope_lab) {
-        run("rope.clear");
-        run("rope.add", {{"from", {0, 2, 0}}, {"to", {1, 2, 0}}, {"segments", 16}, {"pin_start", true}});
-        run("rope.cloth.add", {{"corner", {3, 2, 0}},
-                               {"along", {1, 0, 0}},
-                               {"down", {0, -1, 0}},
-                               {"columns", 8},
-                               {"rows", 8},
-                               {"pins", "corners"}});
+    RopeSet() {
+        single_rope(16);
+        run("rope.pin", {{"rope", "rope"}, {"particle", 0}});
+        add_cloth();
         run("rope.hair.add", {{"centre", {6, 2, 0}}, {"strands", 3}, {"segments", 8}});
-        tick(120);
+        wait(120);
     }
-    const NamedWorld& world() const { return *rope_part(workspace).world; }
     BodySettings made_of(const char* body) const { return settings_of(world(), *world().find(body)); }
     double lowest() const {
         double low = 10.0;
         for (const glm::dvec3& each : world().state().position) low = std::min(low, each.y);
         return low;
-    }
-    void tick(int count) {
-        for (int i = 0; i < count; ++i) lab().step(workspace);
     }
 };
 
@@ -63,7 +53,7 @@ TEST_F(RopeSet, EveryPropertyOfEveryKind) {
     run("rope.cut", {{"rope", "bit"}, {"segment", 0}});
     run("rope.cloth.cut",
         {{"rope", "cloth"}, {"lines", {{{-1, 2.5}, {3.5, 5.5}, {8, 2.5}}, {{-1, 6.5}, {8, 6.5}}}}});
-    tick(30);
+    wait(30);
     const struct {
         const char *body, *lacks;
     } cases[] = {{"rope", "width columns rows shear"},
@@ -146,8 +136,8 @@ TEST_F(RopeSet, TheMaterialStaysAsABodyGrows) {
 
 /// The selection stays on its particles, or the nearest to them.
 TEST_F(RopeSet, TheSelectionFollowsItsParticles) {
-    const auto selected = [&] { return rope_part(workspace).selection->particles.all(); };
-    const auto active = [&] { return rope_part(workspace).selection->particle(); };
+    const auto selected = [&] { return part().selection->particles.all(); };
+    const auto active = [&] { return part().selection->particle(); };
     run("rope.select", {{"rope", "rope"}, {"particles", {4, 12}}});
     run("rope.set", {{"rope", "rope"}, {"segments", 32}});
     EXPECT_EQ(selected(), (std::vector<std::size_t>{8, 24}));
@@ -173,7 +163,7 @@ TEST_F(RopeSet, TheSelectionFollowsItsParticles) {
 TEST_F(RopeSet, AHeldRopeIsDividedAndLetGo) {
     workspace.clock.playing = true;
     run("rope.hold", {{"rope", "rope"}, {"particle", 16}, {"at", {1, 2.2, 0}}});
-    tick(10);
+    wait(10);
     run("rope.set", {{"rope", "rope"}, {"segments", 40}});
     run("rope.let_go");
     EXPECT_FALSE(world().pinned(40));
@@ -233,7 +223,7 @@ TEST_F(RopeSet, ABodyHasAColour) {
 TEST_F(RopeSet, RenamesABody) {
     run("rope.select", {{"rope", "rope"}, {"particle", 3}});
     run("rope.set", {{"rope", "rope"}, {"name", "line"}});
-    EXPECT_EQ(rope_part(workspace).selection->body, "line");
+    EXPECT_EQ(part().selection->body, "line");
     EXPECT_EQ(world().find("rope"), nullptr);
     EXPECT_TRUE(
         test::says(refused("rope.set", {{"rope", "line"}, {"name", "cloth"}}), "rope.set name cloth"));
@@ -248,13 +238,13 @@ TEST_F(RopeSet, ALongerRopeSinksToItsNewLength) {
     const std::vector<glm::dvec3> was = world().state().position;
     run("rope.set", {{"rope", "rope"}, {"length", 1.3}});
     EXPECT_EQ(world().state().position, was);
-    tick(1);
+    wait(1);
     for (std::size_t i = 0; i <= 16; ++i) {
         EXPECT_LT(glm::distance(world().state().position[i], was[i]),
                   0.3 * static_cast<double>(i) / 16 + 0.01);
         EXPECT_LT(glm::length(world().velocity(i)), 2.5f) << i;
     }
-    tick(600);
+    wait(600);
     EXPECT_NEAR(lowest(), before - 0.3, 0.02);
     EXPECT_LT(world().length_error(), 0.02);
 }

@@ -21,6 +21,15 @@ class RopeTest : public LabTest {
         run("rope.clear");
         run("rope.add", {{"from", {0, 2, 0}}, {"to", {1, 2, 0}}, {"segments", segments}});
     }
+    /// A cloth of 1 m that hangs by two corners, away from the rope.
+    void add_cloth() {
+        run("rope.cloth.add", {{"corner", {3, 2, 0}},
+                               {"along", {1, 0, 0}},
+                               {"down", {0, -1, 0}},
+                               {"columns", 8},
+                               {"rows", 8},
+                               {"pins", "corners"}});
+    }
 };
 
 }  // namespace tendril::app

@@ -14,6 +14,8 @@ namespace {
 /// A dancer with two antennae of five joints and a tail of six.
 class HumanoidSprings : public HumanoidTest {
   protected:
+    test::TempFolder folder;
+
     HumanoidSprings() {
         run("humanoid.load", {{"path", tendril::test::source_path("tests/app/golden/antennae.bvh")}});
         run("humanoid.clip", {{"name", ""}});
@@ -22,6 +24,18 @@ class HumanoidSprings : public HumanoidTest {
     void put_on_springs() {
         for (const char* node : {"antenna_l_1", "antenna_r_1", "tail_1"})
             run("humanoid.spring", {{"node", node}});
+    }
+    /// Hair that hangs on the hips into a sphere below them.
+    void load_hair() {
+        test::write(
+            folder / "hair.vrm",
+            R"({"asset":{"version":"2.0"},"nodes":[{"name":"hips","children":[1]},)"
+            R"({"name":"hair","translation":[0.05,1,0],"children":[2]},{"name":"tip","translation":[0,-0.2,0]}],)"
+            R"("skins":[{"joints":[0]}],"extensions":{"VRMC_springBone":{)"
+            R"("colliders":[{"node":0,"shape":{"capsule":{"offset":[0,0.8,0],"tail":[0,0.6,0],"radius":0.1}}}],)"
+            R"("colliderGroups":[{"colliders":[0]}],"springs":[)"
+            R"({"joints":[{"node":1,"hitRadius":0.02,"stiffness":1},{"node":2}],"colliderGroups":[0]}]}}})");
+        run("humanoid.load", {{"path", (folder / "hair.vrm").string()}});
     }
     void dance() { run("humanoid.clip", {{"index", 0}, {"play", true}}); }
     /// The distance of a node from its position in the clip, metres.
@@ -226,7 +240,6 @@ TEST_F(HumanoidSprings, AreRefusedFromAFileThatWasBroken) {
 }
 
 TEST_F(HumanoidSprings, AreBakedIntoAClip) {
-    const test::TempFolder folder;
     put_on_springs();
     run("humanoid.clip", {{"index", 0}});
     const std::string file = (folder / "dance.bvh").string();
@@ -258,14 +271,7 @@ TEST_F(HumanoidSprings, AreBakedIntoAClip) {
 }
 
 TEST_F(HumanoidSprings, OfAVrmAreOnItOnceItIsLoaded) {
-    const test::TempFolder folder;
-    test::write(
-        folder / "hair.vrm",
-        R"({"asset":{"version":"2.0"},"nodes":[{"name":"hips","children":[1]},)"
-        R"({"name":"hair","translation":[0,1,0],"children":[2]},{"name":"tip","translation":[0,-0.2,0]}],)"
-        R"("skins":[{"joints":[0]}],"extensions":{"VRMC_springBone":{"springs":[)"
-        R"({"joints":[{"node":1,"stiffness":1,"dragForce":0.4},{"node":2}]}]}}})");
-    run("humanoid.load", {{"path", (folder / "hair.vrm").string()}});
+    load_hair();
     ASSERT_EQ(part().springs.size(), 1u);
     EXPECT_EQ(part().springs[0].node, "hair");
     EXPECT_NEAR(part().springs[0].strength, part().loaded->character.springs[0].strength, 0.0);
@@ -278,18 +284,9 @@ TEST_F(HumanoidSprings, OfAVrmAreOnItOnceItIsLoaded) {
     EXPECT_TRUE(part().springs.empty());
 }
 
-/// Hair that hangs into a sphere on the hips is held at its surface and comes to rest there.
+/// Hair is held at the surface of the sphere and comes to rest there.
 TEST_F(HumanoidSprings, AreKeptOutOfTheCollidersOfTheirFile) {
-    const test::TempFolder folder;
-    test::write(
-        folder / "hair.vrm",
-        R"({"asset":{"version":"2.0"},"nodes":[{"name":"hips","children":[1]},)"
-        R"({"name":"hair","translation":[0.05,1,0],"children":[2]},{"name":"tip","translation":[0,-0.2,0]}],)"
-        R"("skins":[{"joints":[0]}],"extensions":{"VRMC_springBone":{)"
-        R"("colliders":[{"node":0,"shape":{"capsule":{"offset":[0,0.8,0],"tail":[0,0.6,0],"radius":0.1}}}],)"
-        R"("colliderGroups":[{"colliders":[0]}],"springs":[)"
-        R"({"joints":[{"node":1,"hitRadius":0.02,"stiffness":1},{"node":2}],"colliderGroups":[0]}]}}})");
-    run("humanoid.load", {{"path", (folder / "hair.vrm").string()}});
+    load_hair();
     EXPECT_EQ(state().at("springs")[0].at("colliders"), 1);
     run("humanoid.spring", {{"node", "hair"}, {"strength", 2.0}});
     run("time.play");

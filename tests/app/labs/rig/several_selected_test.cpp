@@ -137,7 +137,7 @@ TEST_F(SeveralSelected, ABoxSelectsWhatIsInItBesideTheUnit) {
     unit({{"unit", "offset_transform"}, {"name", "lift"}, {"item", "a"}});
     run("rig.select", {{"unit", "lift"}});
     EXPECT_TRUE(lab().selects_by_box());
-    const std::vector<Handle> all = lab().selectable(workspace);
+    const std::vector<Handle> all = lab().selectable(workspace, 0);
     ASSERT_EQ(all.size(), 7u);
     const auto box = [&](const Names& names, bool add) {
         std::vector<PickId> picks;

@@ -201,7 +201,7 @@ TEST_F(SeveralSet, ThousandsAreDoneAtOnce) {
     }
     open(elements);
     std::vector<PickId> picks;
-    for (const Handle& each : lab().selectable(workspace)) picks.push_back(each.pick);
+    for (const Handle& each : lab().selectable(workspace, 0)) picks.push_back(each.pick);
     ASSERT_EQ(picks.size(), max_lab_elements);
     Emit emit;
     lab().select(workspace, picks, false, emit);
