@@ -61,7 +61,7 @@ struct Given {
 };
 
 /// The limb's direction: to the target, or if that is at the root, its current one.
-glm::dvec3 line_of(const Given& given) noexcept {
+glm::dvec3 limb_line(const Given& given) noexcept {
     if (const auto ahead = direction_of(given.target, 0.0)) return *ahead;
     if (const auto present = direction_of(given.tip, no_side * given.reach)) return *present;
     // Folded upon itself: any line perpendicular to the bones.
@@ -117,7 +117,7 @@ TwoBoneResult solve(const TwoBone& limb, const glm::vec3& target, const TwoBoneO
     const Given given{minus(wide(limb.mid), root), minus(wide(limb.tip), root), minus(wide(target), root),
                       upper + lower};
     const Triangle t = triangle(upper, lower, length(given.target), options);
-    const glm::dvec3 line = line_of(given);
+    const glm::dvec3 line = limb_line(given);
     const double maximum = t.height > 0.0 ? allowance / t.height : allowance;
     const glm::dvec3 side = side_of(given, line, options, root, maximum);
     const glm::dvec3 mid = plus(times(line, t.along), times(side, t.height));
@@ -156,7 +156,7 @@ std::optional<glm::vec3> pole_of_limb(const Problem& problem) noexcept {
     if (!problem.options.plane) return problem.options.pole;
     const glm::dvec3 root = wide(problem.root()), to_target = minus(wide(problem.target), root);
     const glm::dvec3 line =
-        line_of({minus(wide(problem.joints[1]), root), minus(wide(problem.joints[2]), root), to_target,
+        limb_line({minus(wide(problem.joints[1]), root), minus(wide(problem.joints[2]), root), to_target,
                  static_cast<double>(problem.scratch.reach)});
     return narrow(plus(root, times(planar_side(problem, line), static_cast<double>(problem.scratch.reach))));
 }
