@@ -5,7 +5,6 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 #include <glm/trigonometric.hpp>
-#include <tendril/rope/workspace.hpp>
 #include <utility>
 
 #include "app/document/names.hpp"
@@ -70,7 +69,7 @@ const std::vector<RopeSceneEntry>& rope_scenes() {
         {"crane", "Crane", "A trolley carries a load along a jib; a rope in a hand steers it", crane_scene,
          view({0.0f, 1.15f, 0.2f}, -28.0f, 12.0f, 5.2f)},
         {"folded", "Folded", "A cloth lies folded in four: its layers rest on each other", folded_scene,
-         view({-0.1f, 0.05f, -0.1f}, -30.0f, 22.0f, 1.1f)}};
+         view({0.0f, 0.05f, 0.0f}, -30.0f, 22.0f, 1.1f)}};
     return list;
 }
 
@@ -287,49 +286,39 @@ RopeScene knot_scene() {
     return scene;
 }
 
-/// Folds a cloth along 0: layers `gap` apart, and half a circle between them. `at` becomes the place along
-/// the layers, and the result the height above the lower one.
-double fold(double& at, double gap) {
-    const double quarter = 0.25 * glm::pi<double>() * gap;
-    if (std::abs(at) >= quarter) {
-        const bool upper = at > 0.0;
-        at = quarter - std::abs(at);
-        return upper ? gap : 0.0;
-    }
-    const double turned = 2.0 * at / gap;
-    at = 0.5 * gap * std::cos(turned);
-    return 0.5 * gap * (1.0 + std::sin(turned));
-}
-
-RopeScene folded_at_rest() {
+/// A cloth folded in four, like a concertina. A crease is a row of particles that stand out halfway between
+/// two layers, so that every thread has its length.
+RopeScene folded_scene() {
     RopeScene scene;
     NamedWorld& world = scene.world;
     add_ground(world);
-    constexpr float side = 0.45f, radius = 0.006f;
-    world.add_cloth("cloth", {.corner = {-0.5f * side, 0, -0.5f * side},
-                              .along = {side, 0, 0},
-                              .down = {0, 0, side},
-                              .columns = 16,
-                              .rows = 16,
+    constexpr int layers = 4, cells = 6, rows = 10;
+    constexpr float cell = 0.04f, radius = 0.008f;
+    const float width = cell * layers * cells, depth = cell * (rows - 1);
+    world.add_cloth("cloth", {.corner = {0, 0, -0.5f * depth},
+                              .along = {width, 0, 0},
+                              .down = {0, 0, depth},
+                              .columns = layers * cells + 1,
+                              .rows = rows,
                               .radius = radius});
     rope::State state = world.state();
-    const double apart = 2.1 * static_cast<double>(radius);
-    for (glm::dvec3& p : state.position) {
-        const double inner = fold(p.x, apart), outer = fold(p.z, 3.0 * apart - 2.0 * inner);
-        p.y = 0.5 * apart + inner + outer;
+    const double apart = 2.02 * static_cast<double>(radius), flat = cell * (cells - 2.0f);
+    const double out = std::sqrt(cell * cell - 0.25 * apart * apart);
+    for (std::size_t i = 0; i < state.position.size(); ++i) {
+        const int column = static_cast<int>(i % (layers * cells + 1));
+        const int layer = std::min(column / cells, layers - 1), along = column - layer * cells;
+        const bool crease = along == 0 && layer > 0;
+        const double end = crease ? -out : static_cast<double>(cell) * (along - 1);
+        glm::dvec3& p = state.position[i];
+        p.x = (layer % 2 == 0 ? end : flat - end) - 0.5 * flat;
+        p.y = static_cast<double>(radius) + apart * (layer - (crease ? 0.5 : 0.0));
     }
+    // The creases are pressed: what shapes the cloth is at rest as it lies.
+    for (rope::Link& link : state.links)
+        if (link.kind != rope::Link::Kind::Stretch)
+            link.rest = static_cast<float>(glm::distance(state.position[link.a], state.position[link.b]));
     world.put(std::move(state));
     world.set_collides("cloth", "cloth", true);
-    // A crease is narrower than a cell is long, and springs open to its length: the scene begins after that.
-    constexpr int ticks = 8;
-    rope::Workspace workspace;
-    for (int i = 0; i < ticks; ++i) world.advance(tick_seconds, workspace, 1000);
-    return scene;
-}
-
-/// Worked out once: it takes a hundred times as long as any other scene.
-RopeScene folded_scene() {
-    static const RopeScene scene = folded_at_rest();
     return scene;
 }
 

@@ -201,10 +201,41 @@ void BodyContacts::solve() {
     }
 }
 
-/// Leaves out what projections in this substep will not bring together.
-void BodyContacts::drop_distant() {
-    std::erase_if(s_.projected, [&](const Contact& contact) {
-        return respond(contact, points_of(contact, scratch_.place)).gap > contact.target + nearby;
+void BodyContacts::find_presses(const Body& cloth, double stiffness, std::vector<ClothPress>& presses) {
+    const auto body = static_cast<std::uint32_t>(&cloth - state_.bodies.data());
+    local_.done.work += s_.projected.size();
+    note_moves();
+    for (Contact& contact : s_.projected) {
+        if (contact.body_a != body || contact.body_b != body ||
+            contact.apart - both(contact, &Scratch::Listed::moved) > contact.thickness)
+            continue;
+        contact.stiffness = stiffness;
+        const Response found = respond(contact, points_of(contact, scratch_.place));
+        if (!(found.along > 0.0)) continue;
+        dvec3 slip(0.0), at(0.0);
+        for (std::size_t k = 0; k < 4; ++k) {
+            const dvec3 place = scratch_.place[contact.points[k]];
+            at += found.shares[k] * place;
+            slip += found.shares[k] * (place - state_.position[contact.points[k]]);
+        }
+        slip -= detail::dot(slip, found.normal) * found.normal;
+        presses.push_back({contact.points, found.shares, found.normal, found.along, found.across,
+                           found.gap - contact.target, at, slip});
+    }
+}
+
+/// Leaves out what projections in this substep will not bring together, unless it takes `all`. The deepest
+/// come first.
+void BodyContacts::begin_projection(bool all) {
+    note_moves();
+    const auto distant = [&](const Contact& contact) {
+        const double reach = contact.target + nearby;
+        return contact.apart - both(contact, &Scratch::Listed::moved) > contact.thickness + reach ||
+               respond(contact, points_of(contact, scratch_.place)).gap > reach;
+    };
+    if (!all) std::erase_if(s_.projected, distant);
+    std::stable_sort(s_.projected.begin(), s_.projected.end(), [](const Contact& p, const Contact& q) {
+        return p.apart - p.thickness < q.apart - q.thickness;
     });
 }
 

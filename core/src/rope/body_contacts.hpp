@@ -8,8 +8,10 @@
 //    others where they are now, or will be if nothing presses; then each contact adds what is left of its
 //    gap, times a stiffness, to its multiplier. With the stiffness of about what the chains themselves offer
 //    sideways both converge within a few rounds.
-// 3. project() goes through the contacts of cloth and tied bodies, once these are solved.
-// 4. keep_apart() makes sure that nothing crosses on the straight way from the start of the substep to the
+// 3. find_presses() are the contacts within a cloth, for each step of its own solve.
+// 4. project() goes through the contacts of cloth and tied bodies, once these are solved, and what is left of
+//    those within a cloth.
+// 5. keep_apart() makes sure that nothing crosses on the straight way from the start of the substep to the
 //    solver's result.
 #pragma once
 
@@ -29,10 +31,12 @@ class BodyContacts : IslandStep {
     void find();  ///< once particles have moved freely
     /// Solves chains in contact; Scratch::chain_solved says which.
     void solve();
+    /// What presses within a cloth now, for its own solve. `stiffness`: of a contact, times h^2.
+    void find_presses(const Body& cloth, double stiffness, std::vector<ClothPress>& presses);
     /// Once through the contacts left to it; `all`: through all, for solvers that take one link after the
     /// other. Returns the largest correction, relative to the thickness.
     double project(bool all);
-    void drop_distant();
+    void begin_projection(bool all);
     void keep_apart();
 
   private:
@@ -57,7 +61,11 @@ class BodyContacts : IslandStep {
     // body_search.cpp
     void search(const std::vector<glm::dvec3>& ends);
     bool stay_listed(const std::vector<glm::dvec3>& ends);
-    bool outran() const;
+    bool outran();
+    void note_moves();
+    template <class Visit>
+    void each_listed(Visit visit) const;
+    double both(const Candidate& pair, double Scratch::Listed::*way) const;
     void list_candidates();
     void add_features(const Plan::Chunk& chunk);
     void search_chunks(const BodyContactScratch::Chunk& c, const BodyContactScratch::Chunk& d);

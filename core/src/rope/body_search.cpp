@@ -37,6 +37,17 @@ double square(const dvec3& v) {
 
 }  // namespace
 
+/// Calls `visit` with each particle that may collide, its place in the list, and its radius.
+template <class Visit>
+void BodyContacts::each_listed(Visit visit) const {
+    for (const std::uint32_t b : Plan::part(plan_.bodies, island_.bodies)) {
+        if (plan_.collides[b] == Plan::Collides::None) continue;
+        const Body& body = state_.bodies[b];
+        for (std::size_t i = body.first; i < body.first + body.count; ++i)
+            visit(i, scratch_.listed[i], static_cast<double>(body.radius));
+    }
+}
+
 /// Where two features are nearest: what its particles contribute.
 BodyContacts::Nearest BodyContacts::nearest_of(const Candidate& pair, const std::array<dvec3, 4>& at) {
     if (pair.split == 2) {
@@ -64,17 +75,16 @@ void BodyContacts::search(const std::vector<dvec3>& ends) {
     local_.done.work += s_.candidates.size();
     s_.pairs.clear();
     for (const Candidate& each : s_.candidates) {
-        double way_a = 0.0, way_b = 0.0;
-        for (std::uint32_t k = 0; k < 4; ++k) {
-            double& way = k < each.split ? way_a : way_b;
-            way = std::max(way, scratch_.listed[each.points[k]].way_squared);
-        }
         const double radii = static_cast<double>(state_.bodies[each.body_a].radius) +
                              static_cast<double>(state_.bodies[each.body_b].radius);
+        // Diagonals never touch: they only must not be crossed.
+        const bool touches = std::max(each.a, each.b) < state_.links.size();
+        const double near = both(each, &Scratch::Listed::way) + 2.0 * off_path + (touches ? radii : 0.0);
+        if (each.listed - both(each, &Scratch::Listed::roamed) > near) continue;
         const std::array<dvec3, 4> at = points_of(each, state_.position);
         const Nearest nearest = nearest_of(each, at);
         const double apart = detail::length(nearest.between);
-        if (apart > std::sqrt(way_a) + std::sqrt(way_b) + 2.0 * off_path + radii) continue;
+        if (apart > near) continue;
         Pair& pair = s_.pairs.emplace_back(Pair{each});
         pair.thickness = std::max(radii, each.least);
         pair.apart = apart, pair.shares = nearest.shares;
@@ -87,6 +97,16 @@ void BodyContacts::search(const std::vector<dvec3>& ends) {
         pair.normal =
             detail::length(across) > 0.0 ? detail::unit(across) : detail::perpendicular(at[1] - at[0]);
     }
+}
+
+/// How much the farthest particles of a pair's two features have gone together.
+double BodyContacts::both(const Candidate& pair, double Scratch::Listed::*way) const {
+    double a = 0.0, b = 0.0;
+    for (std::uint32_t k = 0; k < 4; ++k) {
+        double& most = k < pair.split ? a : b;
+        most = std::max(most, scratch_.listed[pair.points[k]].*way);
+    }
+    return a + b;
 }
 
 /// Notes how far particles go in the substep; false if candidates must be listed again.
@@ -103,35 +123,31 @@ bool BodyContacts::stay_listed(const std::vector<dvec3>& ends) {
     bool stay = s_.listed;
     s_.radii.resize(bodies.size());
     for (std::size_t k = 0; k < bodies.size(); ++k) {
-        const Body& body = state_.bodies[bodies[k]];
-        stay = stay && body.radius == s_.radii[k];
-        s_.radii[k] = body.radius;
-        if (plan_.collides[bodies[k]] == Plan::Collides::None) continue;
-        for (std::size_t i = body.first; i < body.first + body.count; ++i) {
-            Scratch::Listed& it = scratch_.listed[i];
-            it.way_squared = square(ends[i] - state_.position[i] - s_.mean);
-            const double most = it.reach - off_path;
-            stay = stay && it.way_squared <= most * most &&
-                   square(state_.position[i] - it.at - drift) <= it.roam * it.roam;
-        }
+        const float radius = state_.bodies[bodies[k]].radius;
+        stay = stay && radius == s_.radii[k];
+        s_.radii[k] = radius;
     }
+    each_listed([&](std::size_t i, Scratch::Listed& it, double) {
+        it.way = detail::length(ends[i] - state_.position[i] - s_.mean);
+        it.roamed = detail::length(state_.position[i] - it.at - drift);
+        stay = stay && it.way <= it.reach - off_path && it.roamed <= it.roam;
+    });
     return stay;
 }
 
 /// Whether a segment went farther than the search expected.
-bool BodyContacts::outran() const {
-    for (const std::uint32_t b : Plan::part(plan_.bodies, island_.bodies)) {
-        if (plan_.collides[b] == Plan::Collides::None) continue;
-        for (std::size_t i = state_.bodies[b].first; i < state_.bodies[b].first + state_.bodies[b].count;
-             ++i) {
-            const double way = square(scratch_.place[i] - state_.position[i] - s_.mean),
-                         expected = scratch_.listed[i].way_squared;
-            if (way <= expected + off_path * off_path) continue;
-            const double most = std::sqrt(expected) + off_path;
-            if (!(way <= most * most)) return true;
-        }
-    }
-    return false;
+bool BodyContacts::outran() {
+    note_moves();
+    bool farther = false;
+    each_listed(
+        [&](std::size_t, const Scratch::Listed& it, double) { farther |= !(it.moved <= it.way + off_path); });
+    return farther;
+}
+
+void BodyContacts::note_moves() {
+    each_listed([&](std::size_t i, Scratch::Listed& it, double) {
+        it.moved = detail::length(scratch_.place[i] - state_.position[i] - s_.mean);
+    });
 }
 
 void BodyContacts::list_candidates() {
@@ -139,17 +155,11 @@ void BodyContacts::list_candidates() {
     s_.candidates.clear();
     s_.features.clear();
     s_.chunks.clear();
-    for (const std::uint32_t b : Plan::part(plan_.bodies, island_.bodies)) {
-        if (plan_.collides[b] == Plan::Collides::None) continue;
-        const Body& body = state_.bodies[b];
-        for (std::size_t i = body.first; i < body.first + body.count; ++i) {
-            Scratch::Listed& it = scratch_.listed[i];
-            const double way = std::sqrt(it.way_squared), radius = body.radius;
-            it.at = state_.position[i];
-            it.roam = roamed_ways * way + roamed_radii * radius;
-            it.reach = off_path + grown_way * way + grown_radii * radius;
-        }
-    }
+    each_listed([&](std::size_t i, Scratch::Listed& it, double radius) {
+        it.at = state_.position[i], it.roamed = 0.0;
+        it.roam = roamed_ways * it.way + roamed_radii * radius;
+        it.reach = off_path + grown_way * it.way + grown_radii * radius;
+    });
     for (std::uint32_t c = island_.chunks.first; c < island_.chunks.first + island_.chunks.count; ++c)
         if (plan_.collides[plan_.chunks[c].body] != Plan::Collides::None) add_features(plan_.chunks[c]);
     std::sort(s_.chunks.begin(), s_.chunks.end(), [](const auto& c, const auto& d) {
@@ -271,8 +281,8 @@ void BodyContacts::consider(const BodyContactScratch::Feature& a, const BodyCont
                     square(plan_.rest_at[a.points[k]] - plan_.rest_at[b.points[l]]) < arc * arc)
                     return;
     }
-    if (detail::length(nearest_of(it, points_of(it, state_.position)).between) <= a.reach + b.reach)
-        s_.candidates.push_back(it);
+    it.listed = detail::length(nearest_of(it, points_of(it, state_.position)).between);
+    if (it.listed <= a.reach + b.reach) s_.candidates.push_back(it);
 }
 
 /// Whether no neighbour of one of its segments is nearer to the other.
@@ -308,9 +318,6 @@ void BodyContacts::choose_contacts() {
         const double gap = pair.apart - pair.thickness;
         contact.target = gap < 0.0 ? gap + std::min(-recovered * gap, recovery_speed * h_) : 0.0;
     }
-    std::stable_sort(s_.projected.begin(), s_.projected.end(), [](const Contact& p, const Contact& q) {
-        return p.apart - p.thickness < q.apart - q.thickness;
-    });
 }
 
 /// Takes over the forces of the previous substep: of the same two segments, or of neighbours if it has slid.

@@ -1,7 +1,8 @@
-// The contacts of a cloth in its system.
+// The contacts of a cloth in its system: with colliders, and with itself.
 #include <algorithm>
 #include <array>
 
+#include "rope/body_contacts.hpp"
 #include "rope/cloth_solver.hpp"
 #include "rope/geometry.hpp"
 
@@ -9,6 +10,10 @@ namespace tendril::rope {
 namespace {
 
 using glm::dvec3;
+
+/// Of a contact within the cloth, in m / h^2: it carries a hundred times the weight of a particle with a gap
+/// of a few micrometres.
+constexpr double press_stiffness = 300.0;
 
 /// along n n^T + across (I - n n^T), in the order of GridBlocks.
 std::array<double, 6> block(const dvec3& n, double along, double across) {
@@ -50,6 +55,45 @@ void ClothSolver::add_contact(const ClothContact& contact) {
     const std::span<const Plan::GridLink> links = Plan::part(plan_.grid_links, grid_.links);
     const Plan::GridLink& link = *std::ranges::lower_bound(links, contact.link, {}, &Plan::GridLink::link);
     add(level_.links[link.step], link.cell, -to_a * to_b, stiff);
+}
+
+void ClothSolver::find_presses() {
+    local_.presses.clear();
+    if (island_.contacts == 0) return;
+    const Body& body = state_.bodies[grid_.body];
+    BodyContacts(*this).find_presses(body, press_stiffness * mass_, local_.presses);
+}
+
+void ClothSolver::add_presses() {
+    std::vector<detail::GridPress>& to = cloth_.system.presses();
+    to.clear();
+    const double unit = 1.0 / mass_;
+    for (const ClothPress& each : local_.presses) {
+        detail::GridPress press{.along = static_cast<float>(unit * each.along),
+                                .across = static_cast<float>(unit * each.across)};
+        const dvec3 force = -unit * (each.along * each.gap * each.normal + each.across * each.slip);
+        for (std::size_t k = 0; k < 4; ++k) {
+            const std::size_t cell = cell_of(each.points[k]);
+            press.cells[k] = static_cast<std::uint32_t>(cell);
+            press.shares[k] = level_.free[cell] * static_cast<float>(each.shares[k]);
+            add(level_.right, cell, each.shares[k] * force);
+        }
+        for (std::size_t c = 0; c < 3; ++c)
+            press.normal[c] = static_cast<float>(each.normal[static_cast<int>(c)]);
+        to.push_back(press);
+    }
+}
+
+double ClothSolver::potential_of_presses() const {
+    double sum = 0.0;
+    for (const ClothPress& each : local_.presses) {
+        dvec3 by = -each.at;
+        for (std::size_t k = 0; k < 4; ++k) by += each.shares[k] * scratch_.place[each.points[k]];
+        const double along = detail::dot(by, each.normal), gap = each.gap + along;
+        const dvec3 slip = each.slip + by - along * each.normal;
+        sum += each.along * gap * gap + each.across * detail::dot(slip, slip);
+    }
+    return sum / mass_;
 }
 
 /// Stores the force of each contact after a solve.

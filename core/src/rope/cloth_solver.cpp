@@ -175,6 +175,7 @@ int ClothSolver::step(int iterations, bool first, double enough) {
     const detail::GridSystem::Tolerance tolerance{first ? 0.0 : enough, usual_residual};
     in_cells([&](detail::GridRange cells) { scratch_.cloth_unit.cells(level_, cloth_.arrays, cells); });
     add_contacts();
+    add_presses();
     pin();
     // Never the last, the first one need not keep angular momentum.
     const detail::GridVector* place = first ? nullptr : &cloth_.arrays.place;
@@ -225,7 +226,7 @@ int ClothSolver::step(int iterations, bool first, double enough) {
 double ClothSolver::potential() const {
     double sum = potential_;
     for (const ClothContact& each : local_.cloth_contacts) sum += potential_of(each);
-    return sum;
+    return sum + potential_of_presses();
 }
 
 double ClothSolver::add_links(double sum) const {
@@ -277,6 +278,7 @@ int ClothSolver::solve(int iterations) {
     int most = 0;
     for (int taken = 0;; ++taken) {
         find_contacts(taken == 0);
+        find_presses();
         const bool good = strain_ <= accepted_strain && deepest() <= accepted_depth * shortest_;
         if (taken == max_newton_steps || (good && taken >= min_newton_steps)) break;
         most = std::max(most, step(iterations, taken == 0, enough));

@@ -35,6 +35,9 @@ class ClothSolver : protected ImplicitStep {
     void add_contact(const ClothContact& contact);
     void note_forces();
     double deepest() const;
+    void find_presses();
+    void add_presses();
+    double potential_of_presses() const;
 
     double stiffness_of(const Link& link) const;
     std::size_t cell_of(std::size_t particle) const { return cells_[particle - first_]; }

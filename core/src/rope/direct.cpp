@@ -179,7 +179,7 @@ int Substep::direct() {
 
 /// The contacts that were not solved with lengths, in turns with colliders and lengths.
 void Substep::project_contacts() {
-    BodyContacts(*this).drop_distant();
+    BodyContacts(*this).begin_projection(false);
     for (int pass = 0; pass < contact_passes; ++pass) {
         if (BodyContacts(*this).project(false) <= projected_enough) break;
         resolve_contacts(false);

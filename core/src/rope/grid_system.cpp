@@ -45,6 +45,7 @@ class Arrays {
 
 void GridSystem::resize(std::size_t columns, std::size_t rows, std::span<float*> others) {
     levels_.clear();
+    presses_.clear();
     for (;;) {
         GridLevel level;
         level.columns = columns, level.rows = rows;
@@ -120,7 +121,39 @@ void GridSystem::factorize_coarsest() {
                 put(std::max(i, j), std::min(i, j), level.links[s], cell, -1.0);
             }
         }
+    const std::size_t shift = levels_.size() - 1, stride = finest().stride;
+    for (const GridPress& press : presses_)
+        for (std::size_t p = 0; p < 4; ++p)
+            for (std::size_t q = 0; q < 4; ++q) {
+                const auto row_of = [&](std::uint32_t cell) {
+                    return 3 * ((cell / stride >> shift) * columns + (cell % stride >> shift));
+                };
+                const std::size_t i = row_of(press.cells[p]), j = row_of(press.cells[q]);
+                if (j > i) continue;
+                const auto share = static_cast<double>(press.shares[p] * press.shares[q]);
+                for (std::size_t r = 0; r < 3; ++r)
+                    for (std::size_t c = 0; c < 3; ++c) {
+                        const float beyond = (press.along - press.across) * press.normal[r] * press.normal[c];
+                        a[(i + r) * n + j + c] +=
+                            share * static_cast<double>(beyond + (r == c ? press.across : 0.0f));
+                    }
+            }
     coarsest_.factorize(3 * cells);
+}
+
+void GridSystem::multiply(const Loops& loops, const GridVector& x) {
+    loops.multiply(finest(), x, product_);
+    for (const GridPress& press : presses_) {
+        std::array<float, 3> by{};
+        for (std::size_t p = 0; p < 4; ++p)
+            for (std::size_t c = 0; c < 3; ++c) by[c] += press.shares[p] * x[c][press.cells[p]];
+        const float beyond = (press.along - press.across) *
+                             (press.normal[0] * by[0] + press.normal[1] * by[1] + press.normal[2] * by[2]);
+        for (std::size_t p = 0; p < 4; ++p)
+            for (std::size_t c = 0; c < 3; ++c)
+                product_[c][press.cells[p]] +=
+                    press.shares[p] * (beyond * press.normal[c] + press.across * by[c]);
+    }
 }
 
 /// Calls `visit` with the component and the cell of each unknown of the coarsest level.
@@ -182,7 +215,7 @@ void GridSystem::balance(const Loops& loops, const GridVector* place) {
     }
     for (std::size_t k = 0; k < rotations && place != nullptr; ++k) {
         double* const row = coarsest_.matrix.data() + (first + k) * n;
-        loops.multiply(fine, about[k], product_);
+        multiply(loops, about[k]);
         project(loops, product_);
         each_coarsest([&](std::size_t i, std::size_t c, std::size_t cell) {
             row[i] = static_cast<double>(coarse.right[c][cell]);
@@ -257,7 +290,7 @@ GridSystem::Solved GridSystem::solve(const GridUnit& unit, float floor, const To
         const float kept = solved.iterations == 0 ? 0.0f : static_cast<float>(now / before);
         loops.cells(fine, [&](GridRange part) { unit.scale_and_add(kept, fine.x, direction_, part); });
         before = now;
-        loops.multiply(fine, direction_, product_);
+        multiply(loops, direction_);
         const double curvature = dot(loops, direction_, product_);
         if (!(curvature > 0.0)) return solved;
         const auto length = static_cast<float>(now / curvature);

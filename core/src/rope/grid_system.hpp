@@ -68,6 +68,15 @@ struct GridLevel {
     }
 };
 
+/// Couples four cells anywhere, of which some may have no share: a spring between two of their means, as
+/// stiff along its direction as `along`, and sideways as `across`.
+struct GridPress {
+    std::array<std::uint32_t, 4> cells{};
+    std::array<float, 4> shares{};  ///< 0 for a cell that is not free
+    std::array<float, 3> normal{};
+    float along = 0.0f, across = 0.0f;
+};
+
 /// A half-open range: of cells, in whole registers, or of rows.
 struct GridRange {
     std::size_t first = 0, end = 0;
@@ -131,6 +140,9 @@ class GridSystem {
     /// free the diagonal is 1 and everything else 0, including the blocks of its links. solve() changes the
     /// right side.
     GridLevel& finest() { return levels_.front(); }
+    /// What solve() adds to the blocks. The preconditioner has it on the coarsest level alone, so its
+    /// stiffness should not exceed some hundred times the smallest on the diagonal.
+    std::vector<GridPress>& presses() { return presses_; }
 
     struct Solved {
         int iterations = 0;
@@ -171,6 +183,7 @@ class GridSystem {
 
     void precondition(const Loops& loops, std::size_t level);
     void factorize_coarsest();
+    void multiply(const Loops& loops, const GridVector& x);  ///< to `product_`
     void solve_coarsest(std::size_t n);
     void project(const Loops& loops, const GridVector& vector);
     void balance(const Loops& loops, const GridVector* place);
@@ -187,6 +200,7 @@ class GridSystem {
     std::vector<float> memory_;
     std::vector<double> sums_;  ///< partial sums of a dot product
     std::vector<GridLevel> levels_;
+    std::vector<GridPress> presses_;
     /// Of the coarsest level, then of the rotations: the factor, and the solution.
     DenseSystem coarsest_;
     std::vector<double> coarsest_x_;

@@ -150,6 +150,9 @@ void join_parts(Plan& plan, const std::vector<std::uint32_t>& first,
         std::uint32_t& number = plan.islands[whole[island_of[a]]].contacts;
         if (number == 0) number = ++plan.colliding;
     });
+    for (const Plan::Island& island : plan.islands)
+        for (std::uint32_t k = 0; k < island.parts.count; ++k)
+            plan.parts[island.parts.first + k].contacts = island.contacts;
     plan.each_part([&](const Plan::Island& island) {
         for (const std::uint32_t body : Plan::part(plan.bodies, island.bodies))
             if (!island.alone && !plan.collides.empty() && plan.collides[body] == Plan::Collides::Solved)

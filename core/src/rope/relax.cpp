@@ -65,6 +65,7 @@ int Substep::relax() {
     for (const std::uint32_t i : links) scratch_.multiplier[i] = 0.0;
     for (const std::uint32_t i : Plan::part(plan_.ties, island_.ties)) scratch_.tie_multiplier[i] = 0.0;
     const int passes = passes_allowed();
+    if (island_.contacts != 0) BodyContacts(*this).begin_projection(true);
     for (int pass = 0; pass < passes; ++pass) {
         report_.work += links.size() + island_.ties.count;
         resolve_contacts(pass == 0);

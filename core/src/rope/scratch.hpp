@@ -108,7 +108,8 @@ struct BodyContactScratch {
         std::array<std::uint32_t, 4> points{};  ///< particles: two of a and two of b, or one and three
         std::uint32_t split = 2;                ///< how many are of a
         std::uint32_t body_a = 0, body_b = 0;
-        double least = 0.0;  ///< thickness, metres
+        double least = 0.0;   ///< thickness, metres
+        double listed = 0.0;  ///< how far apart when listed
     };
     /// Candidates that may come near each other in the substep.
     struct Pair : Candidate {
@@ -200,10 +201,11 @@ struct Scratch {
     std::vector<Slowed> chain_slowed;
     std::vector<BodyContactScratch> body_contacts;  ///< of the plan's islands with collisions
     /// A particle that may collide: where it was when candidates were listed, how far it may roam from there
-    /// until they are listed again, and how far it may go in a substep; squared, how far it goes in this one.
+    /// until they are listed again, and how far it may go in a substep; how far it has roamed; how far it
+    /// goes in this one, and how far the solver has moved it so far.
     struct Listed {
         glm::dvec3 at{0.0};
-        double roam = 0.0, reach = 0.0, way_squared = 0.0;
+        double roam = 0.0, reach = 0.0, roamed = 0.0, way = 0.0, moved = 0.0;
     };
     std::vector<Listed> listed;                   ///< of each particle; empty if nothing collides
     std::vector<ContactScratch> chain_contacts;   ///< of each chain; empty if nothing collides
@@ -234,6 +236,17 @@ struct ClothContact {
     bool is_link() const { return a != b; }
 };
 
+/// A contact within a cloth, where it is now: its features press on each other like a spring.
+struct ClothPress {
+    std::array<std::uint32_t, 4> points{};
+    std::array<double, 4> shares{};
+    glm::dvec3 normal{0.0};
+    double along = 0.0, across = 0.0;  ///< stiffness along the normal, and along the surface
+    double gap = 0.0;                  ///< beyond the one to reach, metres
+    glm::dvec3 at{0.0};                ///< from a to b, where it was found
+    glm::dvec3 slip{0.0};              ///< along the surface, since the substep began
+};
+
 /// Memory for solving one island; each thread has its own.
 struct IslandScratch {
     struct Near {
@@ -246,6 +259,7 @@ struct IslandScratch {
     std::size_t block_offset = 0;
     ContactScratch contact;
     std::vector<ClothContact> cloth_contacts, earlier_contacts;
+    std::vector<ClothPress> presses;
     std::vector<Scratch::Slowed> part_slowed;  ///< of the island's parts
     tendril::detail::ForkJoin loops;           ///< of a cloth; idle threads help
     Advance done;                              ///< in this substep; `passes`: maximum over the islands

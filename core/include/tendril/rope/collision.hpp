@@ -10,9 +10,10 @@
 // With Solver::Direct, contacts of ropes and their friction (Settings::friction) are solved together with
 // lengths and colliders. A contact is a Lagrange multiplier that continues from substep to substep (an
 // augmented Lagrangian: C. Giles, E. Diaz, C. Yuksel, "Augmented Vertex Block Descent", 2025), so its error
-// vanishes at rest, but a blow may press ropes into each other for some substeps. Contacts of cloth and of
-// ropes with ties are projected after the solve, in turns with lengths and colliders; the other solvers
-// project all.
+// vanishes at rest, but a blow may press ropes into each other for some substeps. Contacts within a cloth are
+// springs in its own implicit step, so that its layers rest on each other and lie still. Those of cloth with
+// anything else, and of what has ties, are projected after the solve, in turns with lengths and colliders;
+// the other solvers project all.
 //
 // Whatever the solver left, a last check keeps segments from crossing, and particles from triangles (R.
 // Bridson, R. Fedkiw, J. Anderson, "Robust Treatment of Collisions, Contact and Friction for Cloth
