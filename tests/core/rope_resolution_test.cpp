@@ -70,6 +70,23 @@ TEST(RopeResolution, KeepsItsLengthOverManyBalls) {
     }
 }
 
+/// It falls in folds that run along it faster than a segment in a substep.
+TEST(RopeResolution, KeepsItsLengthFallingOnBallsAndAFloor) {
+    for (const int segments : {256, 1024}) {
+        World world;
+        world.add_rope("rope",
+                       {.from = {-2, 2.5f, 0}, .to = {2, 2.5f, 0}, .segments = segments, .radius = 0.01f});
+        world.add_collider("floor", rope::Plane{});
+        for (int i = 0; i < 15; ++i) {
+            const auto n = static_cast<float>(i);
+            const float high = 0.4f + 0.15f * static_cast<float>(i % 3);
+            world.add_collider("ball " + std::to_string(i),
+                               Sphere{{-1.8f + 0.26f * n, high, 0.03f * std::sin(n)}, 0.12f});
+        }
+        run_substeps(world, 300, [&] { ASSERT_LT(stretch(world), 0.01) << segments; });
+    }
+}
+
 /// Links may be much longer than the bar is thick, and much shorter.
 TEST(RopeResolution, KeepsItsLengthTautOverAThinBar) {
     for (const int segments : {16, 64, 256})

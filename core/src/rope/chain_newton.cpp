@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "rope/build.hpp"
 #include "rope/contact_shape.hpp"
@@ -22,6 +23,9 @@ constexpr int max_rejected = 3;     ///< consecutive steps that may be repeated
 /// its weight stretches by a millionth.
 constexpr double min_compliance = 1e-8;
 constexpr double accepted = 1e-5;  ///< relative length error
+/// So often steps become wild, or late ones worse, before links keep their resistance to turning: a fold that
+/// runs along a rope would have them go wild again and again, and end so.
+constexpr int max_relapses = 2;
 constexpr double first_stiffer = 10.0;
 constexpr double grown_too_far = 0.25, turned_too_far = 0.5;
 
@@ -159,7 +163,8 @@ bool ChainNewton::step(bool presses, bool more) {
     p.may_go = p.taken <= steps_to_let_go;
     const bool changed = update_contacts();
     const double enough = p.taken <= few_steps ? accepted : p.may_go ? 10.0 * accepted : 100.0 * accepted;
-    const bool done = p.moved && !changed && p.worst <= enough && p.used == 0.0;
+    const bool done =
+        p.moved && !changed && p.worst <= enough && (p.used == 0.0 || p.relapses == max_relapses);
     if ((done && !more) || p.taken == steps) return false;
     if (++p.taken == few_steps)  // too fast for the mean of directions: the last one alone converges
         for (detail::ChainBend& bend : s_.bends) bend.direction = dvec3(0.0);
@@ -169,6 +174,7 @@ bool ChainNewton::step(bool presses, bool more) {
     system.evaluate(p.stiffer);
     const bool wild = went_too_far(p.turned);
     if (wild && p.rejected < max_rejected) {
+        if (p.rejected == 0) p.relapses = std::min(p.relapses + 1, max_relapses);
         ++p.rejected;
         p.stiffer = std::max(first_stiffer, 100.0 * p.stiffer);
         go_back(0.0);
@@ -182,8 +188,12 @@ bool ChainNewton::step(bool presses, bool more) {
     }
     p.moved = true;
     p.used = p.stiffer;
-    p.stiffer = p.stiffer > first_stiffer ? 0.1 * p.stiffer : 0.0;
-    p.worst = system.largest_error();
+    const double before = std::exchange(p.worst, system.largest_error());
+    if (p.taken > steps_to_let_go && p.worst > std::max(before, 100.0 * accepted)) p.relapses = max_relapses;
+    if (p.relapses < max_relapses)
+        p.stiffer = p.stiffer > first_stiffer ? 0.1 * p.stiffer : 0.0;
+    else
+        p.stiffer = std::max(p.worst > 0.5 * before ? 10.0 * p.stiffer : p.stiffer, first_stiffer);
     return true;
 }
 

@@ -7,7 +7,8 @@
 // converges in a few steps (iteratively reweighted least squares). Contacts that stick creep invisibly.
 //
 // A step that lengthens a link too much, or turns it too far for its linearisation, is repeated with links
-// that resist turning (K. Levenberg, 1944), and finally taken only in part.
+// that resist turning (K. Levenberg, 1944), and finally taken only in part. If that helps only for a while,
+// they resist until lengths hold.
 #pragma once
 
 #include <cstdint>

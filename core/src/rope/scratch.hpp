@@ -66,7 +66,7 @@ struct ContactScratch {
     /// Of the solve so far.
     struct {
         double stiffer = 0.0, used = 0.0, turned = 1.0, worst = 0.0;
-        int taken = 0, rejected = 0;
+        int taken = 0, rejected = 0, relapses = 0;
         bool moved = false;   ///< a step was taken
         bool may_go = false;  ///< contacts may still be dropped
     } progress;
