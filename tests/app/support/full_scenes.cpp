@@ -1,5 +1,6 @@
 #include "tests/app/support/full_scenes.hpp"
 
+#include <set>
 #include <tendril/signal/filter.hpp>
 #include <utility>
 
@@ -199,6 +200,12 @@ std::vector<Shown> all_scenes(const Lab& lab, const CommandTable& table) {
     if (lab.name() == "signal") add(full_signals());
     if (lab.name() == "rig") add(full_rigs());
     if (lab.name() == "humanoid") add(full_humanoids());
+    std::set<std::string> seen;
+    std::erase_if(all, [&](const Shown& shown) {
+        Json json = shown.ticks;
+        for (const CommandCall& each : shown.commands) json = {json, each.name, to_json(each.arguments)};
+        return !seen.insert(json.dump()).second;
+    });
     return all;
 }
 
