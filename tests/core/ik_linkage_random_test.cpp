@@ -142,7 +142,7 @@ void in_range(const Linkage& linkage, const LinkageState& state) {
 }
 
 TEST(Linkage, whatever_it_is_and_is_asked_for_it_stays_finite_and_in_range) {
-    constexpr int linkages = 60;  // run once with 5000
+    constexpr int linkages = 60;  // 5000 were run once
     Random random(44);
     for (int trial = 0; trial < linkages; ++trial) {
         const Linkage linkage = random_linkage(random);

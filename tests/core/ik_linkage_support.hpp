@@ -14,7 +14,8 @@ namespace tendril::test::linkage {
 
 using namespace ik;
 
-inline double radians(double degrees) {
+/// Degrees, in radians.
+inline double deg(double degrees) {
     return degrees * std::numbers::pi / 180.0;
 }
 

@@ -40,7 +40,7 @@ void follows(Machine& machine, const std::string& driver, const Json& rows, int 
     const int spacing = 360 / static_cast<int>(rows.size());
     double furthest = 0.0;
     for (int degrees = 0; degrees <= 720; degrees += step) {
-        const LinkageReport report = machine.drive(driver, radians(degrees));
+        const LinkageReport report = machine.drive(driver, deg(degrees));
         ASSERT_EQ(report.status, LinkageStatus::Reached) << degrees;
         ASSERT_FALSE(report.passed_dead_point) << degrees;
         ASSERT_LE(report.closed_to, 1e-6 * machine.solver.size());
@@ -82,8 +82,7 @@ TEST(Linkage, agrees_with_an_independent_implementation_over_whole_turns) {
             const Json& to = row.at("platform");
             ASSERT_EQ(machine.reach("platform", {to[0], to[1], to[2]}).status, LinkageStatus::Reached);
             for (std::size_t i = 0; i < 3; ++i)
-                EXPECT_NEAR(machine.value("motor_" + std::to_string(i)), radians(row.at("motors_deg")[i]),
-                            1e-5);
+                EXPECT_NEAR(machine.value("motor_" + std::to_string(i)), deg(row.at("motors_deg")[i]), 1e-5);
         }
     }
 }
@@ -93,7 +92,7 @@ TEST(Linkage, agrees_with_an_independent_implementation_over_whole_turns) {
 TEST(Linkage, peaucellier_draws_a_straight_line) {
     Machine machine{peaucellier()};
     for (int degrees = -50; degrees <= 50; ++degrees) {
-        ASSERT_EQ(machine.drive("crank", radians(degrees)).status, LinkageStatus::Reached);
+        ASSERT_EQ(machine.drive("crank", deg(degrees)).status, LinkageStatus::Reached);
         EXPECT_NEAR(machine.point("P").x, (3.0 * 3.0 - 1.2 * 1.2) / 2.0, 1e-6);
     }
 }
@@ -108,8 +107,8 @@ TEST(Linkage, a_pantograph_enlarges_and_a_scissor_lift_lifts) {
     }
     Machine lift{scissor_lift({5, 1.0, 0.6})};
     for (int degrees = 5; degrees <= 85; degrees += 5) {
-        ASSERT_EQ(lift.drive("lift", radians(degrees)).status, LinkageStatus::Reached);
-        EXPECT_NEAR(lift.point("R5").y, 5.0 * std::sin(radians(degrees)), 1e-7);
+        ASSERT_EQ(lift.drive("lift", deg(degrees)).status, LinkageStatus::Reached);
+        EXPECT_NEAR(lift.point("R5").y, 5.0 * std::sin(deg(degrees)), 1e-7);
     }
 }
 
@@ -162,17 +161,17 @@ TEST(Linkage, a_delta_robot_meets_its_closed_form_and_stays_level) {
 TEST(Linkage, a_dead_point_is_where_the_closed_form_has_it_and_says_which_driver) {
     Machine machine{four_bar({.ground = 3.0, .crank = 2.0, .coupler = 1.5, .rocker = 1.2})};
     const double dead = std::acos((3.0 * 3.0 + 2.0 * 2.0 - 2.7 * 2.7) / (2.0 * 3.0 * 2.0));
-    ASSERT_EQ(machine.drive("crank", radians(10)).status, LinkageStatus::Reached);
+    ASSERT_EQ(machine.drive("crank", deg(10)).status, LinkageStatus::Reached);
     const glm::dvec3 before = machine.point("C");
     for (int i = 0; i < 3; ++i) {
-        const LinkageReport report = machine.drive("crank", radians(90));
+        const LinkageReport report = machine.drive("crank", deg(90));
         ASSERT_EQ(report.status, LinkageStatus::DeadPoint);
         ASSERT_EQ(report.stopped, machine.link("crank"));
         EXPECT_NEAR(report.stopped_at, dead, 1e-6);
         EXPECT_NEAR(machine.value("crank"), dead, 1e-6);
     }
     // And back, on the same side.
-    EXPECT_EQ(machine.drive("crank", radians(10)).status, LinkageStatus::Reached);
+    EXPECT_EQ(machine.drive("crank", deg(10)).status, LinkageStatus::Reached);
     EXPECT_LE(glm::length(machine.point("C") - before), 1e-6);
 }
 
@@ -220,8 +219,8 @@ TEST(Linkage, contradicting_closures_come_as_near_as_brute_force_finds) {
         };
         for (int i = 0; i < 45; ++i)
             for (int j = 0; j < 45; ++j)
-                for (int k = 0; k < 45; ++k) attempt(radians(8.0) * glm::dvec3(i, j, k));
-        for (double step = radians(4.0); step > 1e-5; step *= 0.7)
+                for (int k = 0; k < 45; ++k) attempt(deg(8.0) * glm::dvec3(i, j, k));
+        for (double step = deg(4.0); step > 1e-5; step *= 0.7)
             for (int i = 0; i < 27; ++i)
                 attempt(best + step * glm::dvec3(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1));
 
@@ -271,9 +270,9 @@ TEST(Linkage, a_place_out_of_reach_is_approached_as_near_as_brute_force_comes) {
             const double far = glm::length(sweep.point("P") - to);
             if (far < nearest) nearest = far, at = angle;
         };
-        for (int degrees = 0; degrees < 360; degrees += 2) look(radians(degrees));
+        for (int degrees = 0; degrees < 360; degrees += 2) look(deg(degrees));
         const double coarse = at;
-        for (int i = -40; i <= 40; ++i) look(coarse + radians(0.05 * i));
+        for (int i = -40; i <= 40; ++i) look(coarse + deg(0.05 * i));
         // A target draws to the nearest place that descent leads to: it starts in reach of the nearest.
         machine.drive("crank", at - 0.3);
         const LinkageReport report = machine.reach("P", to);
@@ -297,7 +296,7 @@ TEST(Linkage, legs_that_cannot_all_have_their_lengths_come_as_near_as_they_can) 
     Machine machine{Expected<LinkageSketch>(sketch)};
     const double reach = 2.0 * std::hypot(1.0, 0.8);
     for (const double open : {0.3, 0.7, 1.2}) {
-        const double left = radians(90) + open, right = radians(90) - 1.5 * open;
+        const double left = deg(90) + open, right = deg(90) - 1.5 * open;
         const LinkDriver drivers[] = {{machine.link("left"), left}, {machine.link("right"), right}};
         const LinkageReport report = machine.solver.solve(machine.state, {drivers, {}});
         double nearest = 1e9;
@@ -320,17 +319,17 @@ TEST(Linkage, legs_that_cannot_all_have_their_lengths_come_as_near_as_they_can) 
 
 TEST(Linkage, the_other_mode_is_the_mirrored_one_and_again_the_first) {
     Machine machine{four_bar()};
-    machine.drive("crank", radians(40));
+    machine.drive("crank", deg(40));
     const LinkageState first = machine.state;
     const glm::dvec3 b = machine.point("B"), c = machine.point("C"), d = machine.point("D");
     const LinkDriver crank{machine.link("crank"), machine.value("crank")};
     ASSERT_TRUE(machine.solver.other_mode(machine.state, {&crank, 1}));
-    machine.drive("crank", radians(40));
+    machine.drive("crank", deg(40));
     const glm::dvec3 along = glm::normalize(d - b),
                      mirrored = b + 2.0 * glm::dot(c - b, along) * along - (c - b);
     EXPECT_LE(glm::length(machine.point("C") - mirrored), 1e-6);
     ASSERT_TRUE(machine.solver.other_mode(machine.state, {&crank, 1}));
-    machine.drive("crank", radians(40));
+    machine.drive("crank", deg(40));
     EXPECT_LE(glm::length(machine.point("C") - c), 1e-6);
     // A linkage that has no other one.
     Machine triangle{slider_crank()};
@@ -341,7 +340,7 @@ TEST(Linkage, a_parallelogram_stays_one_through_the_poses_where_it_is_flat) {
     Machine machine{four_bar({.ground = 2.0, .crank = 1.0, .coupler = 2.0, .rocker = 1.0})};
     int passed = 0;
     for (int degrees = 1; degrees <= 720; ++degrees) {
-        const LinkageReport report = machine.drive("crank", radians(degrees));
+        const LinkageReport report = machine.drive("crank", deg(degrees));
         ASSERT_EQ(report.status, LinkageStatus::Reached) << degrees;
         ASSERT_LE(glm::length(machine.point("C") - machine.point("B") - glm::dvec3(2, 0, 0)), 1e-6)
             << degrees;
@@ -358,7 +357,7 @@ TEST(Linkage, a_target_that_pulls_it_past_a_dead_point_is_reported) {
     int rocker_passed = 0, crank_passed = 0;
     for (int degrees = 0; degrees <= 360; degrees += 2) {
         const LinkTarget target{machine.point_index("B"),
-                                {std::cos(radians(degrees)), std::sin(radians(degrees)), 0.0}};
+                                {std::cos(deg(degrees)), std::sin(deg(degrees)), 0.0}};
         LinkageState other = machine.state;
         const LinkageReport report =
             machine.solver.solve(machine.state, {{}, {&target, 1}}, {.watched = watched});
@@ -375,20 +374,20 @@ TEST(Linkage, a_target_that_pulls_it_past_a_dead_point_is_reported) {
 
 TEST(Linkage, a_range_stops_a_driver_and_is_named) {
     LinkageSketch sketch = *four_bar();
-    sketch.motors.push_back({"rocker", 3, 2, ground_link, 0.0, radians(120)});
+    sketch.motors.push_back({"rocker", 3, 2, ground_link, 0.0, deg(120)});
     Machine machine{Expected<LinkageSketch>(sketch)};
     LinkageReport report;
     bool limited = false;
     for (int degrees = 0; degrees <= 180 && !limited; ++degrees) {
-        report = machine.drive("crank", radians(degrees));
+        report = machine.drive("crank", deg(degrees));
         limited = report.status == LinkageStatus::Limited;
-        ASSERT_LE(machine.value("rocker"), radians(120) + 1e-9);
+        ASSERT_LE(machine.value("rocker"), deg(120) + 1e-9);
     }
     ASSERT_TRUE(limited);
     ASSERT_EQ(machine.solver.active().size(), 1u);
     EXPECT_EQ(machine.solver.active()[0], machine.link("rocker"));
     EXPECT_EQ(report.stopped, machine.link("crank"));
-    EXPECT_NEAR(machine.value("rocker"), radians(120), 1e-6);
+    EXPECT_NEAR(machine.value("rocker"), deg(120), 1e-6);
     // Its own range, too.
     sketch.motors = {{"crank", 0, 0, ground_link, -1.0, 0.5}};
     Machine own{Expected<LinkageSketch>(sketch)};
@@ -403,7 +402,7 @@ TEST(Linkage, a_target_meets_ranges_of_hinges_sliders_and_balls) {
     Linkage linkage;
     linkage.links = {{"carriage", ground_link, LinkJoint::Slider, {0, 0, 0}, {1, 0, 0}, 0.0, -0.5, 0.5},
                      {"arm", 0, LinkJoint::Ball, {0, 0, 0}}};
-    linkage.links[1].maximum = radians(60);
+    linkage.links[1].maximum = deg(60);
     linkage.points = {{"hand", 1, {1, 0, 0}}};
     Machine machine{Expected<Linkage>(linkage)};
     Random random(8);
@@ -415,13 +414,12 @@ TEST(Linkage, a_target_meets_ranges_of_hinges_sliders_and_balls) {
         for (int k = -500; k <= 500; ++k) {
             const glm::dvec3 from = to - glm::dvec3(0.001 * k, 0.0, 0.0);
             const double aside = std::hypot(from.y, from.z);
-            const double angle = std::min(std::atan2(aside, from.x), radians(60));
+            const double angle = std::min(std::atan2(aside, from.x), deg(60));
             nearest = std::min(nearest, std::hypot(from.x - std::cos(angle), aside - std::sin(angle)));
         }
         EXPECT_LE(report.residual, 1.01 * nearest + 2e-3) << i;
         EXPECT_LE(std::abs(machine.value("carriage")), 0.5);
-        EXPECT_LE(2.0 * std::acos(std::min(1.0, std::abs(machine.state.joints[1].turn.w))),
-                  radians(60) + 1e-7);
+        EXPECT_LE(2.0 * std::acos(std::min(1.0, std::abs(machine.state.joints[1].turn.w))), deg(60) + 1e-7);
     }
 }
 
@@ -460,7 +458,7 @@ TEST(Linkage, exact_targets_come_before_weighted_ones_and_drivers_before_both) {
     double nearest = 1e9;
     const double two = glm::length(glm::dvec2(1.0, 0.2));
     for (int i = 0; i < 36000; ++i) {
-        const glm::dvec2 a(std::cos(radians(0.01 * i)), std::sin(radians(0.01 * i)));
+        const glm::dvec2 a(std::cos(deg(0.01 * i)), std::sin(deg(0.01 * i)));
         const double apart = glm::length(a - glm::dvec2(1.5, 1.5));
         if (apart <= 2.0 * two) nearest = std::min(nearest, glm::length(a - glm::dvec2(-2.0, 2.0)));
     }
@@ -537,8 +535,8 @@ TEST(Linkage, a_sketch_knows_its_linkage_through_edits) {
     EXPECT_NEAR(glm::length(arm.point("B")), 0.0, 1e-9);
     std::swap(elbow.motors[0].bar, elbow.motors[0].against);
     Machine reversed{Expected<LinkageSketch>(elbow)};
-    EXPECT_NEAR(reversed.value("elbow"), radians(90), 1e-12);
-    EXPECT_EQ(reversed.drive("elbow", radians(135)).status, LinkageStatus::Reached);
+    EXPECT_NEAR(reversed.value("elbow"), deg(90), 1e-12);
+    EXPECT_EQ(reversed.drive("elbow", deg(135)).status, LinkageStatus::Reached);
     EXPECT_NEAR(reversed.point("B").x, 1.0 + std::sqrt(0.5), 1e-9);
 }
 
