@@ -243,9 +243,13 @@ bool LinkageSolve::glide_by(double from, double to, bool as_before) noexcept {
     const bool wide = !(largest_of(work_.step) <= widest_step);
     if (!wide) {
         work_.take_step(1.0);
-        for (const LinkDriver& each : goals_.drivers)
-            work_.joints[each.link].value =
-                work_.driver_starts[each.link] + to * driver_distance(each) * work_.unit_of(each.link);
+        for (const LinkDriver& each : goals_.drivers) {
+            const Link& link = work_.linkage.links[each.link];
+            const double start = work_.driver_starts[each.link];
+            const double value =
+                to < 1.0 ? start + to * driver_distance(each) * work_.unit_of(each.link) : each.value;
+            work_.joints[each.link].value = std::clamp(value, link.minimum, link.maximum);
+        }
         work_.move_links();
         // It ends where the tangent led, and not on another branch.
         if (return_to_closures(0.5 * predicted)) {
