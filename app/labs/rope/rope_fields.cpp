@@ -127,8 +127,9 @@ std::span<const FieldText> field_texts<BodySettings>() {
                   "longer. 0: never."),
         {.name = "colour",
          .label = "colour",
-         .help = "Its colour in the picture, and in the legend. By its kind: ropes, cloth and hair differ. "
-                 "While strain is shown as colour, strain has it.",
+         .help =
+             "Its colour in the picture and the legend. By its kind, ropes, cloth and hair differ. Strain "
+             "shown as colour hides it.",
          .listed = true,
          .choices = body_colours.rows}};
     return texts;
