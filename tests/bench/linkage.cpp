@@ -54,6 +54,35 @@ Case turning(const std::string& name, const LinkageSketch& sketch, const char* d
     return each;
 }
 
+/// Twelve of Jansen's legs in one linkage, each with its own motor, a twelfth of a turn apart.
+Case twelve_legs() {
+    LinkageSketch all;
+    for (int leg = 0; leg < 12; ++leg) {
+        LinkageSketch one = need(jansen());
+        const std::size_t points = all.points.size(), bars = all.bars.size();
+        for (SketchBar& bar : one.bars) {
+            for (std::size_t& each : bar.points) each += points;
+            all.bars.push_back(bar);
+        }
+        for (SketchMotor motor : one.motors) {
+            motor.point += points;
+            motor.bar += bars;
+            all.motors.push_back(motor);
+        }
+        for (const SketchPoint& point : one.points) all.points.push_back(point);
+    }
+    Case each{"twelve legs", need(linkage_from(all)), {}, {}};
+    for (std::size_t i = 0; i < each.linkage.links.size(); ++i)
+        if (each.linkage.links[i].name == "motor") each.drivers.push_back(i);
+    for (int i = 1; i <= frames; ++i) {
+        each.values.emplace_back();
+        for (int leg = 0; leg < 12; ++leg)
+            each.values.back().push_back(2.0 * std::numbers::pi *
+                                         (static_cast<double>(i) / frames + leg / 12.0));
+    }
+    return each;
+}
+
 Case circling_stewart() {
     Case each{"Stewart platform", need(stewart()), {}, {}};
     for (int k = 0; k < 6; ++k) each.drivers.push_back(each.linkage.find_link("leg_" + std::to_string(k)));
@@ -181,6 +210,7 @@ int main(int count, char** arguments) {
     cases.push_back(turning("slider-crank", need(slider_crank()), "crank", 0.0));
     cases.push_back(turning("Peaucellier", need(peaucellier()), "crank", 0.8));
     cases.push_back(turning("Jansen's leg", need(jansen()), "motor", 0.0));
+    cases.push_back(twelve_legs());
     cases.push_back(circling_delta());
     cases.push_back(circling_stewart());
     for (const std::size_t stages : {1u, 4u, 16u, 32u})

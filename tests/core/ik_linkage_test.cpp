@@ -549,7 +549,8 @@ TEST(Linkage, what_cannot_be_a_linkage_is_refused_by_name_and_place) {
         ASSERT_FALSE(linkage) << words;
         EXPECT_TRUE(says(linkage.message(), words)) << linkage.message();
     };
-    refused([](auto& s) { s.bars[1].points = {1}; }, "bar \"coupler\" 2 points");
+    refused([](auto& s) { s.bars[1].points = {1}; }, "bar \"coupler\" 2 to 512 points 1");
+    refused([](auto& l) { l.bars.resize(100000, l.bars[0]); }, "points bars and motors at most 512 100000");
     refused([](auto& s) { s.bars[1].points = {1, 77}; }, "bar \"coupler\" points of the sketch 77");
     refused([](auto& s) { s.bars[1].points = {1, 1}; }, "bar \"coupler\" length");
     refused([](auto& s) { s.points[2].at = s.points[1].at; }, "bar \"coupler\" length");

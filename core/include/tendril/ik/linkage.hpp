@@ -18,7 +18,7 @@
 // managing multiple tasks in highly redundant robotic systems", 1991); targets by damped Gauss-Newton steps
 // (Levenberg 1944, Marquardt 1963) in the null space of these, each followed by a return to the closures;
 // ranges by an active set. A driver goes to its value in substeps: one is taken only if it ends where the
-// tangent led (K. Georg, E. Allgower, "Introduction to Numerical Continuation Methods", 2003, on step
+// tangent led (E. Allgower, K. Georg, "Introduction to Numerical Continuation Methods", 2003, on step
 // control). So a linkage stays in its assembly mode while a driver or target glides, and stops at a dead
 // point.
 //

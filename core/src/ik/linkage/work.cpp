@@ -103,6 +103,7 @@ int RowBasis::orientation(std::span<const std::uint8_t> held, std::span<double> 
         if (scratch[k * count_ + k] < 0.0) sign = -sign;
         for (std::size_t i = k + 1; i < count_; ++i) {
             const double by = scratch[i * count_ + k] / scratch[k * count_ + k];
+            if (by == 0.0) continue;
             for (std::size_t j = k + 1; j < count_; ++j)
                 scratch[i * count_ + j] -= by * scratch[k * count_ + j];
         }
