@@ -246,6 +246,20 @@ TEST_F(LinkageTest, AMotorStopsAtADeadPointAndSaysWhy) {
     EXPECT_LT(driver("crank"), limit - 5.0);
 }
 
+TEST_F(LinkageTest, ADragThroughADeadPointIsAnIncident) {
+    four_bar();
+    run("linkage.set", {{"crank", 2.2}});
+    std::vector<Incident> all;
+    for (int angle = 100; angle < 290; angle += 4) {
+        const SharedPart before = workspace.document.parts().at(linkage_lab);
+        const double at = glm::radians(static_cast<double>(angle));
+        run("linkage.drag", {{"point", "C"}, {"to", {3 + 2 * std::cos(at), 2 * std::sin(at), 0}}}, 1);
+        for (const Incident& each : lab().review(workspace, *before, part())) all.push_back(each);
+    }
+    ASSERT_EQ(all.size(), 1u);
+    EXPECT_TRUE(test::says(all[0].cause, "passed a dead point B, C and D are in line")) << all[0].cause;
+}
+
 TEST_F(LinkageTest, TheOtherModeIsTheMirroredRocker) {
     four_bar();
     run("linkage.drive", {{"joint", "crank"}, {"angle_deg", 90}});
