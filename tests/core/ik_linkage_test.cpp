@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "ik_linkage_support.hpp"
 #include "memory.hpp"
 #include "random.hpp"
 #include "tendril/ik/mechanisms.hpp"
@@ -21,42 +22,9 @@
 namespace tendril::test::ik_linkage_test {
 namespace {
 
-using namespace ik;
+using namespace linkage;
 using Json = nlohmann::json;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-double radians(double degrees) {
-    return degrees * std::numbers::pi / 180.0;
-}
-
-/// A linkage that is driven and looked at by names.
-struct Machine {
-    explicit Machine(const Expected<Linkage>& linkage)
-        : solver(std::move(*LinkageSolver::make(*linkage))), state(solver.initial_state()) {}
-    explicit Machine(const Expected<LinkageSketch>& sketch) : Machine(linkage_from(*sketch)) {}
-
-    std::size_t link(const std::string& name) const { return solver.linkage().find_link(name); }
-    std::size_t point_index(const std::string& name) const { return solver.linkage().find_point(name); }
-    glm::dvec3 point(const std::string& name) const { return solver.point(point_index(name)); }
-    double value(const std::string& name) const { return state.joints[link(name)].value; }
-    LinkageReport drive(const std::string& name, double value) {
-        const LinkDriver driver{link(name), value};
-        return solver.solve(state, {{&driver, 1}, {}});
-    }
-    LinkageReport reach(const std::string& name, const glm::dvec3& to, bool exact = false) {
-        const LinkTarget target{point_index(name), to, 1.0, exact};
-        return solver.solve(state, {{}, {&target, 1}});
-    }
-
-    LinkageSolver solver;
-    LinkageState state;
-};
-
-/// In the plane; each coordinate from -range to range.
-glm::dvec3 random_place(Random& random, float range) {
-    const double x = random.around(range), y = random.around(range);
-    return {x, y, 0.0};
-}
 
 FourBar four_bar_of(const Json& lengths) {
     return {lengths.at("ground"),
@@ -72,7 +40,7 @@ void follows(Machine& machine, const std::string& driver, const Json& rows, int 
     const int spacing = 360 / static_cast<int>(rows.size());
     double furthest = 0.0;
     for (int degrees = 0; degrees <= 720; degrees += step) {
-        const LinkageReport report = machine.drive(driver, radians(degrees));
+        const LinkageReport report = machine.drive(driver, deg(degrees));
         ASSERT_EQ(report.status, LinkageStatus::Reached) << degrees;
         ASSERT_FALSE(report.passed_dead_point) << degrees;
         ASSERT_LE(report.closed_to, 1e-6 * machine.solver.size());
@@ -114,8 +82,7 @@ TEST(Linkage, agrees_with_an_independent_implementation_over_whole_turns) {
             const Json& to = row.at("platform");
             ASSERT_EQ(machine.reach("platform", {to[0], to[1], to[2]}).status, LinkageStatus::Reached);
             for (std::size_t i = 0; i < 3; ++i)
-                EXPECT_NEAR(machine.value("motor_" + std::to_string(i)), radians(row.at("motors_deg")[i]),
-                            1e-5);
+                EXPECT_NEAR(machine.value("motor_" + std::to_string(i)), deg(row.at("motors_deg")[i]), 1e-5);
         }
     }
 }
@@ -125,7 +92,7 @@ TEST(Linkage, agrees_with_an_independent_implementation_over_whole_turns) {
 TEST(Linkage, peaucellier_draws_a_straight_line) {
     Machine machine{peaucellier()};
     for (int degrees = -50; degrees <= 50; ++degrees) {
-        ASSERT_EQ(machine.drive("crank", radians(degrees)).status, LinkageStatus::Reached);
+        ASSERT_EQ(machine.drive("crank", deg(degrees)).status, LinkageStatus::Reached);
         EXPECT_NEAR(machine.point("P").x, (3.0 * 3.0 - 1.2 * 1.2) / 2.0, 1e-6);
     }
 }
@@ -140,8 +107,8 @@ TEST(Linkage, a_pantograph_enlarges_and_a_scissor_lift_lifts) {
     }
     Machine lift{scissor_lift({5, 1.0, 0.6})};
     for (int degrees = 5; degrees <= 85; degrees += 5) {
-        ASSERT_EQ(lift.drive("lift", radians(degrees)).status, LinkageStatus::Reached);
-        EXPECT_NEAR(lift.point("R5").y, 5.0 * std::sin(radians(degrees)), 1e-7);
+        ASSERT_EQ(lift.drive("lift", deg(degrees)).status, LinkageStatus::Reached);
+        EXPECT_NEAR(lift.point("R5").y, 5.0 * std::sin(deg(degrees)), 1e-7);
     }
 }
 
@@ -189,99 +156,22 @@ TEST(Linkage, a_delta_robot_meets_its_closed_form_and_stays_level) {
     EXPECT_GE(checked, 150);
 }
 
-// ------------------------------------------------------------------------------------------ random linkages
-
-/// A crank, and dyads on it: each new point is joined by two bars to two points before.
-LinkageSketch random_sketch(Random& random) {
-    LinkageSketch sketch;
-    const auto place = [&] { return glm::dvec2(random_place(random, 2.0f)); };
-    const auto bar = [&](std::size_t a, std::size_t b) {
-        sketch.bars.push_back({"bar_" + std::to_string(sketch.bars.size()), {a, b}});
-    };
-    sketch.points = {{"O", place(), SketchHold::Pinned}, {"A", place()}};
-    bar(0, 1);
-    sketch.motors = {{"motor", 0, 0}};
-    for (std::size_t i = random.below(5) + 1; i-- > 0;) {
-        const std::size_t count = sketch.points.size();
-        if (random.chance(2)) sketch.points.push_back({"pin", place(), SketchHold::Pinned});
-        const std::size_t one = random.chance(2) ? 1 + random.below(count - 1) : count - 1;
-        std::size_t other = sketch.points.size() - 1;
-        if (other == one) other = 0;
-        if (random.chance(4)) {
-            // One bar, to a point that slides.
-            sketch.points.push_back(
-                {"S", place(), SketchHold::Guided, 3.0 * static_cast<double>(random.part())});
-            bar(one, sketch.points.size() - 1);
-            continue;
-        }
-        sketch.points.push_back({"P", place()});
-        bar(one, sketch.points.size() - 1);
-        bar(other, sketch.points.size() - 1);
-    }
-    return sketch;
-}
-
-/// How much the sketch's bars have changed their lengths, and its pins their places.
-double distortion(const LinkageSketch& sketch, const LinkageSolver& solver) {
-    double largest = 0.0;
-    const auto length_of = [&](std::size_t a, std::size_t b) {
-        return glm::length(solver.point(a) - solver.point(b));
-    };
-    for (const SketchBar& bar : sketch.bars)
-        for (const std::size_t each : bar.points)
-            largest = std::max(
-                largest, std::abs(length_of(bar.points[0], each) -
-                                  glm::length(sketch.points[bar.points[0]].at - sketch.points[each].at)));
-    for (std::size_t i = 0; i < sketch.points.size(); ++i)
-        if (sketch.points[i].hold == SketchHold::Pinned)
-            largest = std::max(largest, glm::length(glm::dvec2(solver.point(i)) - sketch.points[i].at));
-    return largest;
-}
-
-// 10^5 poses were run once, with `linkages` 2000.
-TEST(Linkage, random_linkages_stay_closed_wherever_they_are_driven_and_drawn) {
-    constexpr int linkages = 40;
-    Random random(21);
-    int poses = 0, reached = 0;
-    for (int trial = 0; trial < linkages; ++trial) {
-        const LinkageSketch sketch = random_sketch(random);
-        const Expected<Linkage> linkage = linkage_from(sketch);
-        ASSERT_TRUE(linkage) << linkage.message();
-        Machine machine(linkage);
-        for (int i = 0; i < 50; ++i) {
-            const bool drive = random.chance(2);
-            const LinkTarget target{1 + random.below(sketch.points.size() - 1), random_place(random, 3.0f)};
-            const LinkageReport report =
-                drive ? machine.drive("motor",
-                                      machine.value("motor") + static_cast<double>(random.around(1.0f)))
-                      : machine.solver.solve(machine.state, {{}, {&target, 1}});
-            ASSERT_NE(report.status, LinkageStatus::Open) << trial << " " << i;
-            ASSERT_LE(report.closed_to, 1e-6 * machine.solver.size()) << trial << " " << i;
-            ASSERT_LE(distortion(sketch, machine.solver), 1e-6 * machine.solver.size());
-            ++poses;
-            reached += report.status == LinkageStatus::Reached;
-        }
-    }
-    EXPECT_GE(reached, poses / 4);
-}
-
-// ------------------------------------------------------------------------------------------ what is not
-// there
+// --------------------------------------------------------------------------------------- out of reach
 
 TEST(Linkage, a_dead_point_is_where_the_closed_form_has_it_and_says_which_driver) {
     Machine machine{four_bar({.ground = 3.0, .crank = 2.0, .coupler = 1.5, .rocker = 1.2})};
     const double dead = std::acos((3.0 * 3.0 + 2.0 * 2.0 - 2.7 * 2.7) / (2.0 * 3.0 * 2.0));
-    ASSERT_EQ(machine.drive("crank", radians(10)).status, LinkageStatus::Reached);
+    ASSERT_EQ(machine.drive("crank", deg(10)).status, LinkageStatus::Reached);
     const glm::dvec3 before = machine.point("C");
     for (int i = 0; i < 3; ++i) {
-        const LinkageReport report = machine.drive("crank", radians(90));
+        const LinkageReport report = machine.drive("crank", deg(90));
         ASSERT_EQ(report.status, LinkageStatus::DeadPoint);
         ASSERT_EQ(report.stopped, machine.link("crank"));
         EXPECT_NEAR(report.stopped_at, dead, 1e-6);
         EXPECT_NEAR(machine.value("crank"), dead, 1e-6);
     }
     // And back, on the same side.
-    EXPECT_EQ(machine.drive("crank", radians(10)).status, LinkageStatus::Reached);
+    EXPECT_EQ(machine.drive("crank", deg(10)).status, LinkageStatus::Reached);
     EXPECT_LE(glm::length(machine.point("C") - before), 1e-6);
 }
 
@@ -300,6 +190,69 @@ TEST(Linkage, closures_that_contradict_each_other_are_named_and_as_near_as_can_b
     EXPECT_EQ(machine.solver.open_closures()[0], 0u);
 }
 
+TEST(Linkage, contradicting_closures_come_as_near_as_brute_force_finds) {
+    // A four-bar whose coupler would have to be at a third place, too. Whatever pose it begins in.
+    Random random(17);
+    for (int trial = 0; trial < 8; ++trial) {
+        const glm::dvec3 place = glm::dvec3(1.5, 0.5, 0.0) + random_place(random, 3.0f);
+        Linkage linkage;
+        linkage.links = {{"crank", ground_link, LinkJoint::Hinge, {0, 0, 0}},
+                         {"coupler", 0, LinkJoint::Hinge, {1, 0, 0}},
+                         {"rocker", ground_link, LinkJoint::Hinge, {3, 0, 0}}};
+        linkage.closures = {{"C", ClosureKind::Point, 1, 2, {3, 0, 0}, {5, 0, 0}},
+                            {"P", ClosureKind::Point, 1, ground_link, {2, 1, 0}, place}};
+        const auto squares = [&](const glm::dvec3& angles) {
+            const auto turned = [](double angle, double x, double y) {
+                const double c = std::cos(angle), s = std::sin(angle);
+                return glm::dvec3(c * x - s * y, s * x + c * y, 0.0);
+            };
+            const glm::dvec3 b = turned(angles.x, 1, 0);
+            const double both = angles.x + angles.y;
+            const glm::dvec3 c = b + turned(both, 2, 0) - (glm::dvec3(3, 0, 0) + turned(angles.z, 2, 0));
+            const glm::dvec3 p = b + turned(both, 1, 1) - place;
+            return glm::dot(c, c) + glm::dot(p, p);
+        };
+        double least = 1e9;
+        glm::dvec3 best(0.0);
+        const auto attempt = [&](const glm::dvec3& angles) {
+            if (const double sum = squares(angles); sum < least) least = sum, best = angles;
+        };
+        for (int i = 0; i < 45; ++i)
+            for (int j = 0; j < 45; ++j)
+                for (int k = 0; k < 45; ++k) attempt(deg(8.0) * glm::dvec3(i, j, k));
+        for (double step = deg(4.0); step > 1e-5; step *= 0.7)
+            for (int i = 0; i < 27; ++i)
+                attempt(best + step * glm::dvec3(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1));
+
+        Machine machine{Expected<Linkage>(linkage)};
+        for (JointPlace& each : machine.state.joints)
+            each.value = 3.0 * static_cast<double>(random.around(1.0f));
+        ASSERT_EQ(machine.solver.solve(machine.state).status, LinkageStatus::Open);
+        const auto value = [&](std::size_t link) { return machine.state.joints[link].value; };
+        EXPECT_LE(squares({value(0), value(1), value(2)}), 1.02 * least) << trial;
+        // The next frame leaves it there.
+        const LinkageState before = machine.state;
+        const LinkageReport report = machine.solver.solve(machine.state);
+        EXPECT_EQ(report.status, LinkageStatus::Open);
+        for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(value(i), before.joints[i].value, 1e-4);
+        EXPECT_EQ(machine.solver.open_closures().size(), 2u);
+    }
+}
+
+TEST(Linkage, a_straight_arm_bends_to_a_place_on_its_line) {
+    LinkageSketch sketch;
+    sketch.points = {{"O", {0, 0}, SketchHold::Pinned}, {"A", {1, 0}}, {"B", {2, 0}}};
+    sketch.bars = {{"upper", {0, 1}}, {"lower", {1, 2}}};
+    Machine machine{Expected<LinkageSketch>(sketch)};
+    EXPECT_EQ(machine.reach("B", {1.2, 0.0, 0.0}).status, LinkageStatus::Reached);
+    // Stretched out beyond its reach it stays, frame after frame.
+    ASSERT_EQ(machine.reach("B", {4.0, 0.0, 0.0}).status, LinkageStatus::TargetMissed);
+    const LinkageState stretched = machine.state;
+    machine.reach("B", {4.0, 0.0, 0.0});
+    for (std::size_t i = 0; i < 2; ++i)
+        EXPECT_NEAR(machine.state.joints[i].value, stretched.joints[i].value, 1e-4);
+}
+
 TEST(Linkage, a_place_out_of_reach_is_approached_as_near_as_brute_force_comes) {
     Random random(5);
     int missed = 0;
@@ -312,11 +265,14 @@ TEST(Linkage, a_place_out_of_reach_is_approached_as_near_as_brute_force_comes) {
         Machine machine{four_bar(lengths)}, sweep{four_bar(lengths)};
         const glm::dvec3 to = random_place(random, 4.0f);
         double nearest = 1e9, at = 0.0;
-        for (int degrees = 0; degrees < 3600; ++degrees) {
-            sweep.drive("crank", radians(0.1 * degrees));
+        const auto look = [&](double angle) {
+            sweep.drive("crank", angle);
             const double far = glm::length(sweep.point("P") - to);
-            if (far < nearest) nearest = far, at = radians(0.1 * degrees);
-        }
+            if (far < nearest) nearest = far, at = angle;
+        };
+        for (int degrees = 0; degrees < 360; degrees += 2) look(deg(degrees));
+        const double coarse = at;
+        for (int i = -40; i <= 40; ++i) look(coarse + deg(0.05 * i));
         // A target draws to the nearest place that descent leads to: it starts in reach of the nearest.
         machine.drive("crank", at - 0.3);
         const LinkageReport report = machine.reach("P", to);
@@ -340,7 +296,7 @@ TEST(Linkage, legs_that_cannot_all_have_their_lengths_come_as_near_as_they_can) 
     Machine machine{Expected<LinkageSketch>(sketch)};
     const double reach = 2.0 * std::hypot(1.0, 0.8);
     for (const double open : {0.3, 0.7, 1.2}) {
-        const double left = radians(90) + open, right = radians(90) - 1.5 * open;
+        const double left = deg(90) + open, right = deg(90) - 1.5 * open;
         const LinkDriver drivers[] = {{machine.link("left"), left}, {machine.link("right"), right}};
         const LinkageReport report = machine.solver.solve(machine.state, {drivers, {}});
         double nearest = 1e9;
@@ -363,17 +319,17 @@ TEST(Linkage, legs_that_cannot_all_have_their_lengths_come_as_near_as_they_can) 
 
 TEST(Linkage, the_other_mode_is_the_mirrored_one_and_again_the_first) {
     Machine machine{four_bar()};
-    machine.drive("crank", radians(40));
+    machine.drive("crank", deg(40));
     const LinkageState first = machine.state;
     const glm::dvec3 b = machine.point("B"), c = machine.point("C"), d = machine.point("D");
     const LinkDriver crank{machine.link("crank"), machine.value("crank")};
     ASSERT_TRUE(machine.solver.other_mode(machine.state, {&crank, 1}));
-    machine.drive("crank", radians(40));
+    machine.drive("crank", deg(40));
     const glm::dvec3 along = glm::normalize(d - b),
                      mirrored = b + 2.0 * glm::dot(c - b, along) * along - (c - b);
     EXPECT_LE(glm::length(machine.point("C") - mirrored), 1e-6);
     ASSERT_TRUE(machine.solver.other_mode(machine.state, {&crank, 1}));
-    machine.drive("crank", radians(40));
+    machine.drive("crank", deg(40));
     EXPECT_LE(glm::length(machine.point("C") - c), 1e-6);
     // A linkage that has no other one.
     Machine triangle{slider_crank()};
@@ -384,7 +340,7 @@ TEST(Linkage, a_parallelogram_stays_one_through_the_poses_where_it_is_flat) {
     Machine machine{four_bar({.ground = 2.0, .crank = 1.0, .coupler = 2.0, .rocker = 1.0})};
     int passed = 0;
     for (int degrees = 1; degrees <= 720; ++degrees) {
-        const LinkageReport report = machine.drive("crank", radians(degrees));
+        const LinkageReport report = machine.drive("crank", deg(degrees));
         ASSERT_EQ(report.status, LinkageStatus::Reached) << degrees;
         ASSERT_LE(glm::length(machine.point("C") - machine.point("B") - glm::dvec3(2, 0, 0)), 1e-6)
             << degrees;
@@ -401,7 +357,7 @@ TEST(Linkage, a_target_that_pulls_it_past_a_dead_point_is_reported) {
     int rocker_passed = 0, crank_passed = 0;
     for (int degrees = 0; degrees <= 360; degrees += 2) {
         const LinkTarget target{machine.point_index("B"),
-                                {std::cos(radians(degrees)), std::sin(radians(degrees)), 0.0}};
+                                {std::cos(deg(degrees)), std::sin(deg(degrees)), 0.0}};
         LinkageState other = machine.state;
         const LinkageReport report =
             machine.solver.solve(machine.state, {{}, {&target, 1}}, {.watched = watched});
@@ -418,20 +374,20 @@ TEST(Linkage, a_target_that_pulls_it_past_a_dead_point_is_reported) {
 
 TEST(Linkage, a_range_stops_a_driver_and_is_named) {
     LinkageSketch sketch = *four_bar();
-    sketch.motors.push_back({"rocker", 3, 2, ground_link, 0.0, radians(120)});
+    sketch.motors.push_back({"rocker", 3, 2, ground_link, 0.0, deg(120)});
     Machine machine{Expected<LinkageSketch>(sketch)};
     LinkageReport report;
     bool limited = false;
     for (int degrees = 0; degrees <= 180 && !limited; ++degrees) {
-        report = machine.drive("crank", radians(degrees));
+        report = machine.drive("crank", deg(degrees));
         limited = report.status == LinkageStatus::Limited;
-        ASSERT_LE(machine.value("rocker"), radians(120) + 1e-9);
+        ASSERT_LE(machine.value("rocker"), deg(120) + 1e-9);
     }
     ASSERT_TRUE(limited);
     ASSERT_EQ(machine.solver.active().size(), 1u);
     EXPECT_EQ(machine.solver.active()[0], machine.link("rocker"));
     EXPECT_EQ(report.stopped, machine.link("crank"));
-    EXPECT_NEAR(machine.value("rocker"), radians(120), 1e-6);
+    EXPECT_NEAR(machine.value("rocker"), deg(120), 1e-6);
     // Its own range, too.
     sketch.motors = {{"crank", 0, 0, ground_link, -1.0, 0.5}};
     Machine own{Expected<LinkageSketch>(sketch)};
@@ -446,7 +402,7 @@ TEST(Linkage, a_target_meets_ranges_of_hinges_sliders_and_balls) {
     Linkage linkage;
     linkage.links = {{"carriage", ground_link, LinkJoint::Slider, {0, 0, 0}, {1, 0, 0}, 0.0, -0.5, 0.5},
                      {"arm", 0, LinkJoint::Ball, {0, 0, 0}}};
-    linkage.links[1].maximum = radians(60);
+    linkage.links[1].maximum = deg(60);
     linkage.points = {{"hand", 1, {1, 0, 0}}};
     Machine machine{Expected<Linkage>(linkage)};
     Random random(8);
@@ -458,14 +414,33 @@ TEST(Linkage, a_target_meets_ranges_of_hinges_sliders_and_balls) {
         for (int k = -500; k <= 500; ++k) {
             const glm::dvec3 from = to - glm::dvec3(0.001 * k, 0.0, 0.0);
             const double aside = std::hypot(from.y, from.z);
-            const double angle = std::min(std::atan2(aside, from.x), radians(60));
+            const double angle = std::min(std::atan2(aside, from.x), deg(60));
             nearest = std::min(nearest, std::hypot(from.x - std::cos(angle), aside - std::sin(angle)));
         }
         EXPECT_LE(report.residual, 1.01 * nearest + 2e-3) << i;
         EXPECT_LE(std::abs(machine.value("carriage")), 0.5);
-        EXPECT_LE(2.0 * std::acos(std::min(1.0, std::abs(machine.state.joints[1].turn.w))),
-                  radians(60) + 1e-7);
+        EXPECT_LE(2.0 * std::acos(std::min(1.0, std::abs(machine.state.joints[1].turn.w))), deg(60) + 1e-7);
     }
+}
+
+TEST(Linkage, in_a_plane_that_is_tilted_only_the_part_in_it_counts) {
+    // The four-bar, turned about X.
+    const auto tilted = [](const glm::dvec3& at) {
+        return glm::dvec3(at.x, 0.6 * at.y - 0.8 * at.z, 0.8 * at.y + 0.6 * at.z);
+    };
+    Linkage linkage = *linkage_from(*four_bar());
+    for (Link& each : linkage.links) each.at = tilted(each.at), each.axis = tilted(each.axis);
+    for (LinkPoint& each : linkage.points) each.at = tilted(each.at);
+    for (Closure& each : linkage.closures)
+        each.first_at = tilted(each.first_at), each.second_at = tilted(each.second_at);
+    Machine machine{Expected<Linkage>(linkage)}, flat{four_bar()};
+    EXPECT_TRUE(machine.solver.planar());
+    EXPECT_EQ(machine.solver.freedom(machine.state), (LinkageFreedom{1, 1}));
+    flat.drive("crank", 1.0);
+    const LinkageReport report = machine.reach("P", tilted(flat.point("P") + glm::dvec3(0.0, 0.0, 0.5)));
+    EXPECT_EQ(report.status, LinkageStatus::Reached);
+    EXPECT_LE(report.residual, 1e-6);
+    EXPECT_LE(glm::length(machine.point("P") - tilted(flat.point("P"))), 1e-6);
 }
 
 TEST(Linkage, exact_targets_come_before_weighted_ones_and_drivers_before_both) {
@@ -483,7 +458,7 @@ TEST(Linkage, exact_targets_come_before_weighted_ones_and_drivers_before_both) {
     double nearest = 1e9;
     const double two = glm::length(glm::dvec2(1.0, 0.2));
     for (int i = 0; i < 36000; ++i) {
-        const glm::dvec2 a(std::cos(radians(0.01 * i)), std::sin(radians(0.01 * i)));
+        const glm::dvec2 a(std::cos(deg(0.01 * i)), std::sin(deg(0.01 * i)));
         const double apart = glm::length(a - glm::dvec2(1.5, 1.5));
         if (apart <= 2.0 * two) nearest = std::min(nearest, glm::length(a - glm::dvec2(-2.0, 2.0)));
     }
@@ -560,8 +535,8 @@ TEST(Linkage, a_sketch_knows_its_linkage_through_edits) {
     EXPECT_NEAR(glm::length(arm.point("B")), 0.0, 1e-9);
     std::swap(elbow.motors[0].bar, elbow.motors[0].against);
     Machine reversed{Expected<LinkageSketch>(elbow)};
-    EXPECT_NEAR(reversed.value("elbow"), radians(90), 1e-12);
-    EXPECT_EQ(reversed.drive("elbow", radians(135)).status, LinkageStatus::Reached);
+    EXPECT_NEAR(reversed.value("elbow"), deg(90), 1e-12);
+    EXPECT_EQ(reversed.drive("elbow", deg(135)).status, LinkageStatus::Reached);
     EXPECT_NEAR(reversed.point("B").x, 1.0 + std::sqrt(0.5), 1e-9);
 }
 
@@ -574,7 +549,8 @@ TEST(Linkage, what_cannot_be_a_linkage_is_refused_by_name_and_place) {
         ASSERT_FALSE(linkage) << words;
         EXPECT_TRUE(says(linkage.message(), words)) << linkage.message();
     };
-    refused([](auto& s) { s.bars[1].points = {1}; }, "bar \"coupler\" 2 points");
+    refused([](auto& s) { s.bars[1].points = {1}; }, "bar \"coupler\" 2 to 512 points 1");
+    refused([](auto& l) { l.bars.resize(100000, l.bars[0]); }, "points bars and motors at most 512 100000");
     refused([](auto& s) { s.bars[1].points = {1, 77}; }, "bar \"coupler\" points of the sketch 77");
     refused([](auto& s) { s.bars[1].points = {1, 1}; }, "bar \"coupler\" length");
     refused([](auto& s) { s.points[2].at = s.points[1].at; }, "bar \"coupler\" length");

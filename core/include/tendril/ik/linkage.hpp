@@ -18,13 +18,13 @@
 // managing multiple tasks in highly redundant robotic systems", 1991); targets by damped Gauss-Newton steps
 // (Levenberg 1944, Marquardt 1963) in the null space of these, each followed by a return to the closures;
 // ranges by an active set. A driver goes to its value in substeps: one is taken only if it ends where the
-// tangent led (K. Georg, E. Allgower, "Introduction to Numerical Continuation Methods", 2003, on step
+// tangent led (E. Allgower, K. Georg, "Introduction to Numerical Continuation Methods", 2003, on step
 // control). So a linkage stays in its assembly mode while a driver or target glides, and stops at a dead
 // point.
 //
-// Cost: O(m^2 n) an iteration with m equations of closures and n degrees of freedom of the joints; a frame
-// takes two to four. A four-bar takes about 1 us, Jansen's leg 6 us, a Stewart platform 30 us. Solving does
-// not allocate or throw; same input, same bits.
+// Cost: O(m^2 n) an iteration with m equations of closures and n degrees of freedom of the joints; a frame of
+// a glide takes two or three: a four-bar 1 us, Jansen's leg 4 us, a Stewart platform 14 us. A target out of
+// reach takes ten to a hundred. Solving does not allocate or throw; same input, same bits.
 #pragma once
 
 #include <cstddef>

@@ -78,6 +78,10 @@ class SketchTree {
     }
 
     Result check_parts() const {
+        for (const std::size_t count : {sketch_.points.size(), sketch_.bars.size(), sketch_.motors.size()})
+            if (count > max_links)
+                return sketch_refused("points, bars and motors must be at most " + std::to_string(max_links) +
+                                      " each, got " + std::to_string(count));
         for (std::size_t i = 0; i < sketch_.points.size(); ++i) {
             const SketchPoint& each = sketch_.points[i];
             const double limit = static_cast<double>(max_magnitude);
@@ -96,8 +100,8 @@ class SketchTree {
         return {};
     }
     Result check_bar(const SketchBar& bar, const std::string& who) const {
-        if (bar.points.size() < 2)
-            return sketch_refused(who + " must have 2 points or more, got " +
+        if (bar.points.size() < 2 || bar.points.size() > max_links)
+            return sketch_refused(who + " must have 2 to 512 points, got " +
                                   std::to_string(bar.points.size()));
         for (const std::size_t each : bar.points)
             if (each >= sketch_.points.size())

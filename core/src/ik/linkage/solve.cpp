@@ -158,23 +158,45 @@ bool LinkageSolve::return_to_closures(double allowed) noexcept {
 }
 
 void LinkageSolve::assemble() noexcept {
+    constexpr int restarts = 16;
+    work_.nearest = work_.joints;
     if (return_to_closures(1e9)) return;
-    close_from_here();
+    put_back(work_.nearest);
+    if (close_from_here()) return;
+    // Where the last solve left it: nothing new to find.
+    if (!descended_) return;
+    work_.nearest = work_.joints;
+    double least = cost();
+    std::uint64_t random = 1;
+    for (int i = 0; i < restarts && !out_of_iterations_; ++i) {
+        work_.scatter(random, math::pi);
+        work_.take_step(1.0);
+        work_.move_links();
+        if (close_from_here()) {
+            out_of_iterations_ = false;
+            return;
+        }
+        if (cost() >= 0.999 * least) continue;
+        least = cost();
+        work_.nearest = work_.joints;
+    }
+    put_back(work_.nearest);
 }
 
 bool LinkageSolve::close_from_here() noexcept {
     closes_ = false;
     descend(Aim::Closures);
     closes_ = true;
+    if (closed()) return true;
     work_.kept = work_.joints;
     // Where no pose closes it, Newton's steps lead nowhere.
-    if (return_to_closures(0.1)) return true;
-    put_back();
-    return closed();
+    if (cost() < 1e-4 * work_.size * work_.size && return_to_closures(0.1)) return true;
+    put_back(work_.kept);
+    return false;
 }
 
-void LinkageSolve::put_back() noexcept {
-    work_.joints = work_.kept;
+void LinkageSolve::put_back(const std::vector<JointPlace>& joints) noexcept {
+    work_.joints = joints;
     work_.move_links();
 }
 
@@ -221,9 +243,13 @@ bool LinkageSolve::glide_by(double from, double to, bool as_before) noexcept {
     const bool wide = !(largest_of(work_.step) <= widest_step);
     if (!wide) {
         work_.take_step(1.0);
-        for (const LinkDriver& each : goals_.drivers)
-            work_.joints[each.link].value =
-                work_.driver_starts[each.link] + to * driver_distance(each) * work_.unit_of(each.link);
+        for (const LinkDriver& each : goals_.drivers) {
+            const Link& link = work_.linkage.links[each.link];
+            const double start = work_.driver_starts[each.link];
+            const double value =
+                to < 1.0 ? start + to * driver_distance(each) * work_.unit_of(each.link) : each.value;
+            work_.joints[each.link].value = std::clamp(value, link.minimum, link.maximum);
+        }
         work_.move_links();
         // It ends where the tangent led, and not on another branch.
         if (return_to_closures(0.5 * predicted)) {
@@ -233,7 +259,7 @@ bool LinkageSolve::glide_by(double from, double to, bool as_before) noexcept {
         }
     }
     note_active();
-    put_back();
+    put_back(work_.kept);
     return false;
 }
 
@@ -402,20 +428,32 @@ bool LinkageSolve::descent_step(double damping) noexcept {
     ++iterations_;
     const bool kept = !closes_ || return_to_closures(0.5 * predicted + 1e-9);
     if (kept && cost() < before) return true;
-    put_back();
+    put_back(work_.kept);
     return false;
 }
 
-void LinkageSolve::descend(Aim aim) noexcept {
-    aim_ = aim;
-    heaviest_ = 0.0;
-    for (const LinkTarget& each : goals_.targets)
-        if (each.exact == (aim == Aim::ExactTargets)) heaviest_ = std::max(heaviest_, each.weight);
+/// A small step that the closures allow.
+bool LinkageSolve::perturb() noexcept {
+    std::uint64_t random = 1;
+    work_.release();
+    std::ranges::fill(work_.step, 0.0);
+    find_return();
+    work_.scatter(random, 0.02);
+    work_.basis.remove_from(work_.step);
+    work_.kept = work_.joints;
+    work_.take_step(1.0);
+    work_.move_links();
+    if (!closes_ || return_to_closures(0.1)) return true;
+    put_back(work_.kept);
+    return false;
+}
+
+/// Whether it took a step.
+bool LinkageSolve::descend_from_here() noexcept {
     const double enough = 1e-20 * work_.size * work_.size;
-    double damping = 1e-9;
-    double before = cost();
-    int slow = 0;
-    while (before > enough && damping < 1e9) {
+    double damping = 1e-9, before = cost();
+    bool moved = false;
+    for (int slow = 0; before > enough && damping < 1e9 && slow < 3;) {
         if (iterations_ >= options_.max_iterations) {
             out_of_iterations_ = true;
             break;
@@ -425,12 +463,31 @@ void LinkageSolve::descend(Aim aim) noexcept {
             damping = std::max(damping * 16.0, 1e-6);
             continue;
         }
+        moved = true;
         damping = std::max(damping * 0.25, 1e-9);
         const double after = cost();
         slow = before - after <= 1e-10 * before ? slow + 1 : 0;
         before = after;
-        if (slow >= 3) break;
     }
+    return moved;
+}
+
+void LinkageSolve::descend(Aim aim) noexcept {
+    aim_ = aim;
+    heaviest_ = 0.0;
+    for (const LinkTarget& each : goals_.targets)
+        if (each.exact == (aim == Aim::ExactTargets)) heaviest_ = std::max(heaviest_, each.weight);
+    const double start = cost();
+    descended_ = descend_from_here();
+    if (descended_ || out_of_iterations_ || start <= 1e-12 * work_.size * work_.size) return;
+    // It is at a minimum, or stretched out on one line with the target, where descent has no direction.
+    work_.best = work_.joints;
+    if (perturb()) {
+        descended_ = descend_from_here() && cost() < 0.999 * start;
+        if (descended_) return;
+        put_back(work_.best);
+    }
+    descent_step(1.0);
 }
 
 // --------------------------------------------------------------------------------------------- the report
@@ -600,18 +657,10 @@ bool find_other_mode(LinkageWork& work, LinkageState& state, std::span<const Lin
     const std::vector<JointPlace> here = work.joints;
     double nearest = 1e300;
     std::uint64_t random = 1;
-    // SplitMix64 (Steele, Lea, Flood 2014); -1 to 1.
-    const auto next = [&] {
-        std::uint64_t z = (random += 0x9e3779b97f4a7c15u);
-        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-        z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-        return static_cast<double>(static_cast<std::int64_t>(z ^ (z >> 31)) >> 11) * 0x1p-52;
-    };
     for (int start = 0; start < starts; ++start) {
         work.joints = here;
         work.move_links();
-        for (std::size_t i = 0; i < work.columns; ++i)
-            work.step[i] = work.driven[i] ? 0.0 : math::pi * next();
+        work.scatter(random, math::pi);
         work.take_step(1.0);
         work.move_links();
         LinkageSolve solve(work, goals, options);

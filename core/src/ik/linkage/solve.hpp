@@ -13,6 +13,7 @@ class LinkageSolve {
     LinkageReport run() noexcept;
 
     /// Closes the linkage by descent with the drivers where they are, from where it is.
+    /// Otherwise it ends with its closures as near as descent brings them.
     bool close_from_here() noexcept;
     /// The sign of the determinant of the closures by the joints that `by` does not hold: it changes at a
     /// dead point of the held ones, and only there. 0 if these do not determine the pose.
@@ -47,13 +48,15 @@ class LinkageSolve {
     double driver_distance(const LinkDriver& driver) const noexcept;
 
     void descend(Aim aim) noexcept;
+    bool descend_from_here() noexcept;
+    bool perturb() noexcept;
     bool descent_step(double damping) noexcept;
     void add_equation(std::span<double> row, double error, double weight) noexcept;
     void find_equations() noexcept;
     void solve_equations(double damping) noexcept;
     double cost() noexcept;
     double target_weight(const LinkTarget& target) const noexcept;
-    void put_back() noexcept;
+    void put_back(const std::vector<JointPlace>& joints) noexcept;
     int watched_mode(bool at_start) noexcept;
     std::size_t free_columns() const noexcept;
     void note_active() noexcept;
@@ -68,6 +71,7 @@ class LinkageSolve {
     bool closes_ = true;        ///< closures are kept, not approached
     bool keeps_exact_ = false;  ///< exact targets are, too
     double heaviest_ = 0.0;     ///< of the weights of the aim's targets
+    bool descended_ = false;    ///< the last descent took a step
     bool stopped_ = false, out_of_iterations_ = false, beyond_range_ = false;
 };
 

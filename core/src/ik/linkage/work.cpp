@@ -103,6 +103,7 @@ int RowBasis::orientation(std::span<const std::uint8_t> held, std::span<double> 
         if (scratch[k * count_ + k] < 0.0) sign = -sign;
         for (std::size_t i = k + 1; i < count_; ++i) {
             const double by = scratch[i * count_ + k] / scratch[k * count_ + k];
+            if (by == 0.0) continue;
             for (std::size_t j = k + 1; j < count_; ++j)
                 scratch[i * count_ + j] -= by * scratch[k * count_ + j];
         }
@@ -157,7 +158,7 @@ LinkageWork::LinkageWork(const Linkage& from) : linkage(from) {
     step.resize(columns);
     block_rows.resize(6 * columns);
     moved.resize(columns);
-    kept = joints;
+    kept = best = nearest = joints;
     basis.reserve(columns);
     mode_at.reserve(count);
     mode_held.reserve(columns);
@@ -200,6 +201,17 @@ void LinkageWork::move_links() noexcept {
         }
         origins[i] = origin;
         place.shift = minus(origin, rotated(place.rotation, link.at));
+    }
+}
+
+void LinkageWork::scatter(std::uint64_t& random, double range) noexcept {
+    for (std::size_t i = 0; i < columns; ++i) {
+        // SplitMix64 (Steele, Lea, Flood 2014).
+        std::uint64_t z = (random += 0x9e3779b97f4a7c15u);
+        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+        z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+        const double part = static_cast<double>(static_cast<std::int64_t>(z ^ (z >> 31)) >> 11) * 0x1p-52;
+        step[i] = driven[i] ? 0.0 : range * part;
     }
 }
 

@@ -73,10 +73,14 @@ struct LinkageWork {
     std::vector<std::uint8_t> held;     ///< these, and columns at the end of their range
     std::vector<std::uint8_t> blocked;  ///< balls at their maximum: they turn no further outward
     std::vector<double> step;
-    std::vector<double> moved;     ///< the sum of the steps of a return to the closures
-    std::vector<JointPlace> kept;  ///< where a step began, to go back
+    std::vector<double> moved;        ///< the sum of the steps of a return to the closures
+    std::vector<JointPlace> kept;     ///< where a step began, to go back
+    std::vector<JointPlace> best;     ///< before a perturbation
+    std::vector<JointPlace> nearest;  ///< of several restarts
     /// Goes by `part` of the step, within the ranges.
     void take_step(double part) noexcept;
+    /// Fills the step with pseudo-random numbers up to `range`; drivers' stay 0.
+    void scatter(std::uint64_t& random, double range) noexcept;
     /// Only the drivers' columns are held.
     void release() noexcept;
     /// Brings the joints into their ranges, and balls to unit rotations.

@@ -1,0 +1,173 @@
+// Random linkages: closed wherever they are driven and drawn, from any state, there and back; and hostile
+// ones.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "ik_linkage_support.hpp"
+#include "random.hpp"
+#include "tendril/ik/mechanisms.hpp"
+
+namespace tendril::test::ik_linkage_random_test {
+namespace {
+
+using namespace linkage;
+
+/// How much the sketch's bars have changed their lengths, and its pins their places.
+double distortion(const LinkageSketch& sketch, const LinkageSolver& solver) {
+    double largest = 0.0;
+    const auto length_of = [&](std::size_t a, std::size_t b) {
+        return glm::length(solver.point(a) - solver.point(b));
+    };
+    for (const SketchBar& bar : sketch.bars)
+        for (const std::size_t each : bar.points)
+            largest = std::max(
+                largest, std::abs(length_of(bar.points[0], each) -
+                                  glm::length(sketch.points[bar.points[0]].at - sketch.points[each].at)));
+    for (std::size_t i = 0; i < sketch.points.size(); ++i)
+        if (sketch.points[i].hold == SketchHold::Pinned)
+            largest = std::max(largest, glm::length(glm::dvec2(solver.point(i)) - sketch.points[i].at));
+    return largest;
+}
+
+// 10^5 poses were run once, with `linkages` 2000.
+TEST(Linkage, random_ones_stay_closed_wherever_they_are_driven_and_drawn) {
+    constexpr int linkages = 20;
+    Random random(21);
+    int poses = 0, reached = 0;
+    for (int trial = 0; trial < linkages; ++trial) {
+        const LinkageSketch sketch = random_sketch(random);
+        const Expected<Linkage> linkage = linkage_from(sketch);
+        ASSERT_TRUE(linkage) << linkage.message();
+        Machine machine(linkage);
+        for (int i = 0; i < 50; ++i) {
+            const bool drive = random.chance(2);
+            const LinkTarget target{1 + random.below(sketch.points.size() - 1), random_place(random, 3.0f)};
+            const LinkageReport report =
+                drive ? machine.drive("motor",
+                                      machine.value("motor") + static_cast<double>(random.around(1.0f)))
+                      : machine.solver.solve(machine.state, {{}, {&target, 1}});
+            ASSERT_NE(report.status, LinkageStatus::Open) << trial << " " << i;
+            ASSERT_LE(report.closed_to, 1e-6 * machine.solver.size()) << trial << " " << i;
+            ASSERT_LE(distortion(sketch, machine.solver), 1e-6 * machine.solver.size());
+            ++poses;
+            reached += report.status == LinkageStatus::Reached;
+        }
+    }
+    EXPECT_GE(reached, poses / 4);
+}
+
+TEST(Linkage, closes_from_any_state_where_a_pose_exists) {
+    Random random(4);
+    int closed = 0;
+    constexpr int trials = 100;
+    for (int trial = 0; trial < trials; ++trial) {
+        Machine machine(linkage_from(random_sketch(random)));
+        for (std::size_t i = 0; i < machine.state.joints.size(); ++i)
+            machine.state.joints[i].value += 3.0 * static_cast<double>(random.around(1.0f));
+        closed += machine.solver.solve(machine.state).status == LinkageStatus::Reached;
+    }
+    EXPECT_GE(closed, trials - 1);
+}
+
+// Forward and back again, at any pace: the pose is the same, unless a dead point or another end came between.
+TEST(Linkage, random_ones_come_back_the_way_they_went) {
+    Random random(33);
+    int compared = 0;
+    for (int trial = 0; trial < 100; ++trial) {
+        Machine machine(linkage_from(random_sketch(random)));
+        const double from = machine.value("motor"), by = static_cast<double>(random.around(2.0f));
+        if (machine.drive("motor", from).freedom != 0) continue;
+        const LinkageState before = machine.state;
+        bool reached = true;
+        for (int i = 1; i <= 8; ++i)
+            reached = machine.drive("motor", from + by * i / 8.0).status == LinkageStatus::Reached && reached;
+        for (const double part : {0.7, 0.0})
+            reached = machine.drive("motor", from + by * part).status == LinkageStatus::Reached && reached;
+        if (!reached) continue;
+        ++compared;
+        for (std::size_t i = 0; i < before.joints.size(); ++i)
+            ASSERT_NEAR(machine.state.joints[i].value, before.joints[i].value, 1e-5) << trial << " " << i;
+    }
+    EXPECT_GE(compared, 25);
+}
+
+/// In space, of all kinds, with ranges, far away or tiny; closures that may contradict each other.
+Linkage random_linkage(Random& random) {
+    constexpr float scales[] = {1.0f, 1.0f, 1e-4f, 1e6f};
+    const float scale = scales[random.below(4)];
+    const auto place = [&] { return glm::dvec3(random.point(scale)); };
+    Linkage linkage;
+    const std::size_t count = 1 + random.below(8);
+    for (std::size_t i = 0; i < count; ++i) {
+        Link link;
+        link.parent = i > 0 && !random.chance(3) ? random.below(i) : ground_link;
+        link.joint = static_cast<LinkJoint>(random.below(3));
+        link.at = random.chance(6) ? glm::dvec3(0.0) : place();
+        link.axis = glm::dvec3(random.point(1.0f)) + glm::dvec3(0.0, 0.0, 1e-3);
+        if (random.chance(3)) {
+            const double width = random.chance(4) ? 0.0 : static_cast<double>(random.part());
+            link.minimum = -width;
+            link.maximum = width;
+        }
+        linkage.links.push_back(link);
+        linkage.points.push_back({"", i, place()});
+    }
+    for (std::size_t i = random.below(4); i-- > 0 && count > 1;) {
+        const std::size_t first = 1 + random.below(count - 1);
+        Closure closure;
+        closure.kind = random.chance(3) ? ClosureKind::Frame : ClosureKind::Point;
+        closure.first = first;
+        closure.second = random.chance(2) ? ground_link : random.below(first);
+        closure.first_at = closure.second_at = place();
+        if (random.chance(2)) closure.second_at = place();
+        linkage.closures.push_back(closure);
+    }
+    return linkage;
+}
+
+void in_range(const Linkage& linkage, const LinkageState& state) {
+    for (std::size_t k = 0; k < linkage.links.size(); ++k) {
+        const JointPlace& joint = state.joints[k];
+        ASSERT_TRUE(std::isfinite(joint.value) && std::isfinite(joint.turn.w));
+        if (linkage.links[k].joint == LinkJoint::Ball) {
+            const double sine = glm::length(glm::dvec3(joint.turn.x, joint.turn.y, joint.turn.z));
+            ASSERT_LE(2.0 * std::atan2(sine, std::abs(joint.turn.w)), linkage.links[k].maximum + 1e-6);
+        } else {
+            ASSERT_TRUE(joint.value >= linkage.links[k].minimum && joint.value <= linkage.links[k].maximum);
+        }
+    }
+}
+
+TEST(Linkage, whatever_it_is_and_is_asked_for_it_stays_finite_and_in_range) {
+    constexpr int linkages = 60;  // 5000 were run once
+    Random random(44);
+    for (int trial = 0; trial < linkages; ++trial) {
+        const Linkage linkage = random_linkage(random);
+        ASSERT_TRUE(check(linkage)) << check(linkage).message();
+        Machine machine{Expected<Linkage>(linkage)};
+        for (int i = 0; i < 10; ++i) {
+            const std::size_t link = random.below(linkage.links.size());
+            const LinkDriver driver{link, static_cast<double>(random.around(random.chance(4) ? 1e6f : 2.0f))};
+            const LinkTarget target{random.below(linkage.points.size()),
+                                    machine.solver.size() * glm::dvec3(random.point(2.0f)), 1.0,
+                                    random.chance(2)};
+            const bool drive = linkage.links[link].joint != LinkJoint::Ball && random.chance(2);
+            const std::size_t draw = random.below(2);
+            const LinkageReport report = machine.solver.solve(
+                machine.state, {{&driver, drive ? 1u : 0u}, {&target, draw}}, {.max_iterations = 200});
+            ASSERT_NE(report.status, LinkageStatus::InvalidInput) << trial;
+            const bool open = report.status == LinkageStatus::Open;
+            ASSERT_EQ(machine.solver.open_closures().empty(), !open);
+            ASSERT_TRUE(open || report.closed_to <= 1e-6 * machine.solver.size()) << trial << " " << i;
+            ASSERT_TRUE(std::isfinite(report.residual) && std::isfinite(report.closed_to));
+            ASSERT_GE(report.freedom, 0);
+            in_range(linkage, machine.state);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace tendril::test::ik_linkage_random_test
