@@ -38,12 +38,17 @@ std::string sketch_text(const ik::LinkageSketch& sketch) {
     return text + "};\n";
 }
 
-/// "ik::four_bar({.ground = 3, ...})", or the sketch's name.
-std::string making_text(const LinkagePart& part) {
-    const MechanismKind* const kind = kind_of(part.shape->mechanism);
-    if (kind == nullptr) return "sketch";
-    return "ik::" + std::string(kind->name) + "({" +
-           joined(member_texts(mechanism_fields(part.shape->mechanism))) + "})";
+/// "ik::four_bar({.ground = 3.0, ...})"
+std::string call_text(const Mechanism& mechanism) {
+    const bool walker = std::holds_alternative<JansenWalker>(mechanism);
+    return "ik::" + std::string(walker ? "jansen" : kind_of(mechanism)->name) + "({" +
+           joined(member_texts(mechanism_fields(mechanism))) + "})";
+}
+
+/// A declaration of `what`, which may have been refused.
+std::string expected_text(const std::string& type, const std::string& what, const std::string& from) {
+    return "    const Expected<ik::" + type + "> " + what + " = " + from + ";\n    if (!" + what +
+           ") return std::puts(" + what + ".message()), 1;\n";
 }
 
 }  // namespace
@@ -60,12 +65,13 @@ std::string linkage_code(const LinkagePart& part) {
         "#include <vector>\n\n"
         "using namespace tendril;\n\n"
         "int main() {\n";
-    const bool plane = part.shape->in_plane();
-    if (kind_of(part.shape->mechanism) == nullptr) text += sketch_text(part.shape->sketch);
-    text += "    const Expected<ik::Linkage> linkage = ";
-    text += plane ? "ik::linkage_from(" + making_text(part) + ");\n" : making_text(part) + ";\n";
+    const Mechanism& mechanism = part.shape->mechanism;
+    const bool drawn = kind_of(mechanism) == nullptr, plane = part.shape->in_plane();
+    if (drawn) text += sketch_text(part.shape->sketch);
+    if (!drawn && plane) text += expected_text("LinkageSketch", "sketch", call_text(mechanism));
+    const std::string sketch = drawn ? "ik::linkage_from(sketch)" : "ik::linkage_from(*sketch)";
+    text += expected_text("Linkage", "linkage", plane ? sketch : call_text(mechanism));
     text +=
-        "    if (!linkage) return std::puts(linkage.message()), 1;\n"
         "    Expected<ik::LinkageSolver> made = ik::LinkageSolver::make(*linkage);\n"
         "    if (!made) return std::puts(made.message()), 1;\n"
         "    ik::LinkageSolver& solver = *made;\n"

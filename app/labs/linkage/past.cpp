@@ -86,15 +86,14 @@ PoseLines linkage_lines(const SharedPart& shared) {
     return lines;
 }
 
-std::vector<std::size_t> joints_in_line(const LinkagePart& part) {
-    constexpr double in_line = 4.0;  // degrees
+std::vector<std::size_t> joints_in_line(const LinkagePart& part, double within) {
     const ik::LinkageSketch& sketch = part.shape->sketch;
     const auto bars_at = [&](std::size_t point) {
         return std::ranges::count_if(sketch.bars, [&](const ik::SketchBar& each) {
             return std::ranges::count(each.points, point) > 0;
         });
     };
-    double best = in_line;
+    double best = within;
     std::vector<std::size_t> line;
     for (std::size_t p = 0; p < sketch.points.size(); ++p) {
         if (sketch.points[p].hold == ik::SketchHold::Pinned) continue;
@@ -119,8 +118,8 @@ std::vector<std::size_t> joints_in_line(const LinkagePart& part) {
     return line;
 }
 
-std::string dead_point_reason(const LinkagePart& part) {
-    const std::vector<std::size_t> line = joints_in_line(part);
+std::string dead_point_reason(const LinkagePart& part, double within) {
+    const std::vector<std::size_t> line = joints_in_line(part, within);
     if (line.empty()) return {};
     const auto& points = part.shape->sketch.points;
     return points[line[0]].name + ", " + points[line[1]].name + " and " + points[line[2]].name +
@@ -134,16 +133,16 @@ std::vector<Incident> linkage_incidents(const LinkagePart& before, const Linkage
     std::vector<Incident> incidents;
     const std::string reason = dead_point_reason(after);
     if (is.passed_dead_point) {
-        incidents.push_back(
-            {.kind = Incident::Kind::Limit,
-             .joint = 0,
-             .name = after.drives.empty() ? "linkage" : after.drives.front().joint,
-             .cause = "passed a dead point: " +
-                      (reason.empty() ? "the linkage went over into its other assembly mode"
-                                      : reason + ", and it went on in the other assembly mode"),
-             .buttons = {{"Other mode",
-                          "Runs linkage.other_mode: back into the mode before",
-                          {{"linkage.other_mode", {}}}}}});
+        constexpr double about_in_line = 20.0;  // a tick later
+        const std::string line = dead_point_reason(after, about_in_line);
+        incidents.push_back({.kind = Incident::Kind::Limit,
+                             .joint = 0,
+                             .name = after.drives.empty() ? "linkage" : after.drives.front().joint,
+                             .cause = "passed a dead point: " + (line.empty() ? "" : line + "; ") +
+                                      "the linkage went over into its other assembly mode",
+                             .buttons = {{"Other mode",
+                                          "Runs linkage.other_mode: back into the mode before",
+                                          {{"linkage.other_mode", {}}}}}});
     }
     if (is.stopped && is.stopped != was.stopped) {
         const std::string& joint = after.linkage().links[*is.stopped].name;

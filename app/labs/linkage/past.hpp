@@ -13,9 +13,10 @@ PoseLines linkage_lines(const SharedPart& part);
 
 /// Dead points, ranges, and bars that do not meet, between two ticks.
 std::vector<Incident> linkage_incidents(const LinkagePart& before, const LinkagePart& after);
-/// The three joints of two bars that are most nearly in line, the middle one between; empty: none are.
-std::vector<std::size_t> joints_in_line(const LinkagePart& part);
+/// The three joints of two bars that are most nearly in line, the middle one between; empty: none are within
+/// so many degrees.
+std::vector<std::size_t> joints_in_line(const LinkagePart& part, double within = 4.0);
 /// "B, C and D are in line": why a motor stops there. Empty if no joint shows it.
-std::string dead_point_reason(const LinkagePart& part);
+std::string dead_point_reason(const LinkagePart& part, double within = 4.0);
 
 }  // namespace tendril::app

@@ -223,7 +223,7 @@ void add_sketch_commands(CommandTable& table) {
                              {point, switch_argument("on", "toggles if omitted")},
                              "Pins a joint to the ground, or lets it move again", pin));
     table.add(
-        sketch_command("linkage.guide", "Let a joint slide on a line",
+        sketch_command("linkage.guide", "Slide a joint on a line",
                        {point, number_argument("angle_deg", "of the line, from +X; 0 if omitted", -360, 360)},
                        "Holds a joint on a straight line through where it is", guide));
     table.add(sketch_command("linkage.move", "Move a joint of the drawing", {point, place_argument("to")},
