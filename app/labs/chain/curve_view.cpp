@@ -1,4 +1,5 @@
 // Mode Curve in the picture and in the panels.
+#include <imgui.h>
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -8,6 +9,7 @@
 #include "app/fields/field_rows.hpp"
 #include "app/labs/chain/draw.hpp"
 #include "app/labs/chain/panel.hpp"
+#include "app/labs/chain/presets.hpp"
 #include "app/widgets/fields.hpp"
 
 namespace tendril::app {
@@ -127,6 +129,17 @@ LabSetting curve_frames() {
 // The panels.
 
 void curve_rows(const ChainPart& part, MoreRows& more, Emit& emit) {
+    ImGui::PushID("along a curve");  // a tentacle is among the other presets too
+    for (const char* const name : {"spine", "tail", "tentacle"}) {
+        const Preset& preset = named(
+            presets(), [](const Preset& each) { return each.name; }, std::string(name), "preset");
+        if (!row_button(preset.title, 3, true, (count_text(preset.count, "joint") + preset.what).c_str()))
+            continue;
+        emit("chain.preset", {{"name", name}});
+        emit("camera.frame", {{"what", "all"}});
+    }
+    ImGui::PopID();
+    end_row();
     FieldRows(part.curve, "chain.curve", emit)
         .under(more)
         .rows("kind", "weight", "roll_start_deg", "roll_end_deg", "fit", "max_factor", "falloff", "up");

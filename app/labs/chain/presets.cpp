@@ -139,8 +139,8 @@ const std::vector<Preset>& presets() {
         {reaching_arm, "Reach", 4, 3, ": an arm in mode reach, with a hinge and a pole target"},
         {straight_chain_preset, "Straight", 5, 3,
          " in a line, the target on that line: FABRIK (2011) cannot bend it"},
-        {"spine", "Spine", 9, 3, " along a curve with a roll from hips to neck, in mode curve"},
-        {"tail", "Tail", 31, 3, " along a curve with a loop, in mode curve"}};
+        {"spine", "Spine", 9, 0, " along a curve with a roll from hips to neck, in mode curve"},
+        {"tail", "Tail", 31, 0, " along a curve with a loop, in mode curve"}};
     return list;
 }
 

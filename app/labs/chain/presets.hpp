@@ -15,7 +15,7 @@ struct Preset {
     const char* name;
     const char* title;
     std::size_t count;      ///< default number of segments
-    int of;                 ///< buttons in its row of the panel
+    int of;                 ///< buttons in its row of the panel; 0: among the rows of mode Curve
     const char* what = "";  ///< after the number of joints, in its tooltip
 };
 
