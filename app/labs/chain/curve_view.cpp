@@ -15,8 +15,8 @@
 namespace tendril::app {
 namespace {
 
-/// A curve of many pieces takes fewer strokes for each.
-std::size_t strokes_per_piece(const CurveSettings& curve) {
+/// A curve of many control points takes fewer strokes between two of them.
+std::size_t strokes_per_span(const CurveSettings& curve) {
     return std::clamp<std::size_t>(2048 / std::max<std::size_t>(curve.points.size() - 1, 1), 2, 24);
 }
 
@@ -35,7 +35,7 @@ class CurveDrawing {
     float px(float pixels) const { return pixels * view_.scale; }
 
     void line() {
-        const std::size_t each = strokes_per_piece(curve_), all = each * (curve_.points.size() - 1);
+        const std::size_t each = strokes_per_span(curve_), all = each * (curve_.points.size() - 1);
         const bool hovered = view_.hovered >= first_curve_pick && view_.hovered < first_gizmo_pick;
         const glm::vec4 colour = faded(view_.palette, pole_colour(view_.palette), hovered ? 1.0f : 0.75f);
         const auto place = [&](std::size_t i) {
@@ -107,7 +107,7 @@ class CurveDrawing {
 
 std::optional<float> picked_on_curve(const ChainPart& part, PickId pick) {
     if (pick < first_curve_pick || part.curve.points.size() < 2) return std::nullopt;
-    const std::size_t each = strokes_per_piece(part.curve),
+    const std::size_t each = strokes_per_span(part.curve),
                       stroke = static_cast<std::size_t>(pick - first_curve_pick);
     if (stroke >= each * (part.curve.points.size() - 1)) return std::nullopt;
     return (static_cast<float>(stroke) + 0.5f) / static_cast<float>(each);

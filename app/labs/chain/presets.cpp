@@ -173,7 +173,7 @@ void make_it_reach(ChainPart& part, ChainRuntime& runtime) {
     reach_for(part, {2.25f, 0.9f, 0.2f}, runtime);
 }
 
-void lay_along_curve(ChainPart& part, const std::string& preset) {
+void put_on_curve(ChainPart& part, const std::string& preset) {
     part.mode = ChainMode::Curve;
     part.curve = {};
     if (preset == "spine") {

@@ -34,7 +34,7 @@ Chain make_preset(const std::string& name, std::size_t count, std::uint32_t seed
 void make_it_reach(ChainPart& part, ChainRuntime& runtime);
 
 /// Completes the presets spine and tail: mode Curve, with control points of their own.
-void lay_along_curve(ChainPart& part, const std::string& preset);
+void put_on_curve(ChainPart& part, const std::string& preset);
 
 /// Completes the preset straight: mode Reach, solver FABRIK (2011), and the target on the chain's own line,
 /// three quarters of a bone before the tip. Both passes then shift the joints along the line and back: the
