@@ -19,7 +19,7 @@ inline std::optional<std::size_t> picked_control(PickId pick) {
     if (pick < first_control_pick || pick >= first_curve_pick) return std::nullopt;
     return static_cast<std::size_t>(pick - first_control_pick);
 }
-/// The middle of the stroke of the curve with that pick, if any, in pieces along the curve.
+/// The middle of the stroke of the curve with that pick, if any, as a place of ik::curve_point().
 std::optional<float> picked_on_curve(const ChainPart& part, PickId pick);
 inline PickId segment_pick(std::size_t index) {
     return static_cast<PickId>(index) + 1;

@@ -24,8 +24,8 @@ const ik::Options plain_options;
 class ChainProgram {
   public:
     explicit ChainProgram(const ChainPart& part) : part_(part) {
+        if (part_.mode == ChainMode::Curve) part_.chain = Chain(part_.along.given);
         part_.study.rewind(part_.chain, part_.reach);
-        part_.chain = Chain(own_chain(part));
     }
     std::string text();
 

@@ -34,7 +34,7 @@ std::span<const FieldText> field_texts<CurveSettings>() {
     static constexpr FieldText texts[] = {
         {.name = "kind",
          .label = "curve",
-         .help = "How the curve is laid through its control points.",
+         .help = "How the curve passes its control points.",
          .listed = true,
          .choices = curve_kinds.rows},
         {.name = "fit",
@@ -102,9 +102,9 @@ namespace {
 
 /// Five joints of the chain, evenly spread, or all of a shorter one.
 std::vector<glm::vec3> points_through(const Chain& chain) {
-    const std::size_t bones = chain.size() - 1, pieces = std::min<std::size_t>(bones, 4);
+    const std::size_t bones = chain.size() - 1, spans = std::min<std::size_t>(bones, 4);
     std::vector<glm::vec3> points;
-    for (std::size_t i = 0; i <= pieces; ++i) points.push_back(chain.position(i * bones / pieces));
+    for (std::size_t i = 0; i <= spans; ++i) points.push_back(chain.position(i * bones / spans));
     return points;
 }
 
@@ -166,8 +166,8 @@ void keep_on_curve(ChainPart& part, const ChainPart& before) {
 
 std::vector<glm::vec3> with_point_at(const CurveSettings& settings, float at) {
     std::vector<glm::vec3> points = settings.points;
-    const auto piece = static_cast<std::ptrdiff_t>(at);
-    points.insert(points.begin() + piece + 1, ik::curve_point(settings.points, settings.kind, at));
+    const auto before = static_cast<std::ptrdiff_t>(at);
+    points.insert(points.begin() + before + 1, ik::curve_point(settings.points, settings.kind, at));
     return points;
 }
 

@@ -56,7 +56,7 @@ struct AlongCurve {
 
 /// The chain that is edited and saved: in mode Curve the given one.
 const Chain& own_chain(const ChainPart& part);
-/// Places the given chain along the curve, which is laid through it if it has no control points yet. Throws
+/// Places the given chain along the curve, which is drawn through it if it has no control points yet. Throws
 /// std::invalid_argument if the library refuses.
 void follow_curve(ChainPart& part);
 /// After an edit that began with the given chain in place of the chain: places it again if need be, and
@@ -66,7 +66,8 @@ void keep_on_curve(ChainPart& part, const ChainPart& before);
 std::vector<float> curve_weights(const CurveSettings& settings, std::size_t bones);
 ik::CurveOptions curve_options(const CurveSettings& settings, std::span<const float> weights);
 
-/// A control point more, `at` pieces along the curve: the shape stays nearly as it is.
+/// A control point more, at place `at` of ik::curve_point(): the shape stays nearly as it
+/// is.
 std::vector<glm::vec3> with_point_at(const CurveSettings& settings, float at);
 /// Removes the selected control points. Throws Refused if fewer than two would be left.
 void remove_selected_points(ChainPart& part);

@@ -1,4 +1,5 @@
 // Mode Curve in the picture and in the panels.
+#include <imgui.h>
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -8,13 +9,14 @@
 #include "app/fields/field_rows.hpp"
 #include "app/labs/chain/draw.hpp"
 #include "app/labs/chain/panel.hpp"
+#include "app/labs/chain/presets.hpp"
 #include "app/widgets/fields.hpp"
 
 namespace tendril::app {
 namespace {
 
-/// A curve of many pieces takes fewer strokes for each.
-std::size_t strokes_per_piece(const CurveSettings& curve) {
+/// A curve of many control points takes fewer strokes between two of them.
+std::size_t strokes_per_span(const CurveSettings& curve) {
     return std::clamp<std::size_t>(2048 / std::max<std::size_t>(curve.points.size() - 1, 1), 2, 24);
 }
 
@@ -33,7 +35,7 @@ class CurveDrawing {
     float px(float pixels) const { return pixels * view_.scale; }
 
     void line() {
-        const std::size_t each = strokes_per_piece(curve_), all = each * (curve_.points.size() - 1);
+        const std::size_t each = strokes_per_span(curve_), all = each * (curve_.points.size() - 1);
         const bool hovered = view_.hovered >= first_curve_pick && view_.hovered < first_gizmo_pick;
         const glm::vec4 colour = faded(view_.palette, pole_colour(view_.palette), hovered ? 1.0f : 0.75f);
         const auto place = [&](std::size_t i) {
@@ -105,7 +107,7 @@ class CurveDrawing {
 
 std::optional<float> picked_on_curve(const ChainPart& part, PickId pick) {
     if (pick < first_curve_pick || part.curve.points.size() < 2) return std::nullopt;
-    const std::size_t each = strokes_per_piece(part.curve),
+    const std::size_t each = strokes_per_span(part.curve),
                       stroke = static_cast<std::size_t>(pick - first_curve_pick);
     if (stroke >= each * (part.curve.points.size() - 1)) return std::nullopt;
     return (static_cast<float>(stroke) + 0.5f) / static_cast<float>(each);
@@ -127,6 +129,17 @@ LabSetting curve_frames() {
 // The panels.
 
 void curve_rows(const ChainPart& part, MoreRows& more, Emit& emit) {
+    ImGui::PushID("along a curve");  // a tentacle is among the other presets too
+    for (const char* const name : {"spine", "tail", "tentacle"}) {
+        const Preset& preset = named(
+            presets(), [](const Preset& each) { return each.name; }, std::string(name), "preset");
+        if (!row_button(preset.title, 3, true, (count_text(preset.count, "joint") + preset.what).c_str()))
+            continue;
+        emit("chain.preset", {{"name", name}});
+        emit("camera.frame", {{"what", "all"}});
+    }
+    ImGui::PopID();
+    end_row();
     FieldRows(part.curve, "chain.curve", emit)
         .under(more)
         .rows("kind", "weight", "roll_start_deg", "roll_end_deg", "fit", "max_factor", "falloff", "up");

@@ -569,10 +569,10 @@ ModePicture picture_of(ChainMode mode) {
 
 }  // namespace
 
-void draw_mode(ChainMode mode, const Palette& colours) {
-    const float high = ImGui::GetTextLineHeight(), wide = 3.0f * high;
+void draw_mode(ChainMode mode, const Palette& colours, float short_of, float scale) {
+    const float high = scale * ImGui::GetTextLineHeight(), wide = 3.0f * high;
     const ImVec2 low = ImGui::GetItemRectMin(), top = ImGui::GetItemRectMax();
-    const float right = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
+    const float right = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x - short_of;
     if (right - wide < top.x + 0.5f * high) return;  // text takes precedence
     const ImVec2 corner{right - wide, 0.5f * (low.y + top.y) - 0.5f * high};
     const auto at = [&](glm::vec2 place) {

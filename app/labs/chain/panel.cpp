@@ -45,10 +45,15 @@ constexpr std::array modes_in_panel{ChainMode::Reach,    ChainMode::Curve, Chain
                                     ChainMode::Backward, ChainMode::Fixed, ChainMode::WithIndex};
 
 void mode_rows(const ChainPart& part, const Palette& colours, MoreRows& more, Emit& emit) {
+    // The two that solve share a row.
+    const float left = ImGui::GetCursorPosX(), half = 0.5f * ImGui::GetContentRegionAvail().x;
     for (const ChainMode mode : modes_in_panel) {
+        const bool first = mode == modes_in_panel[0], second = mode == modes_in_panel[1];
+        if (second) ImGui::SameLine(left + half);
         if (option_button(chain_modes.title(mode), part.mode == mode, chain_modes.help(mode)))
             emit("chain.mode", {{"mode", chain_modes.name(mode)}});
-        draw_mode(mode, colours);
+        draw_mode(mode, colours, first ? half + ImGui::GetStyle().ItemSpacing.x : 0.0f,
+                  first || second ? 0.62f : 1.0f);
     }
     study_rows(part, emit);  // above the rows that depend on the mode: opening either changes it to Reach
 
@@ -158,6 +163,7 @@ constexpr PastHelp past_help{
 void preset_rows(Emit& emit) {
     std::vector<PresetButton> buttons;
     for (const Preset& preset : presets()) {
+        if (preset.of == 0) continue;
         buttons.push_back(
             {preset.name, preset.title, count_text(preset.count, "joint") + preset.what, preset.of});
     }

@@ -8,8 +8,8 @@
 
 namespace tendril::app {
 
-/// A small sketch of what a mode does, right-aligned beside the last item.
-void draw_mode(ChainMode mode, const Palette& colours);
+/// A small sketch of what a mode does, beside the last item, right-aligned but for `short_of` pixels.
+void draw_mode(ChainMode mode, const Palette& colours, float short_of, float scale);
 /// Panel: the solver and its options.
 void solver_rows(const ChainPart& part, MoreRows& more, Emit& emit);
 /// Panel: the curve of mode Curve.

@@ -147,8 +147,8 @@ const std::vector<Preset>& presets() {
         {reaching_arm, "Reach", 4, 3, ": an arm in mode reach, with a hinge and a pole target"},
         {straight_chain_preset, "Straight", 5, 3,
          " in a line, the target on that line: FABRIK (2011) cannot bend it"},
-        {"spine", "Spine", 9, 3, " along a curve with a roll from hips to neck, in mode curve"},
-        {"tail", "Tail", 31, 3, " along a curve with a loop, in mode curve"},
+        {"spine", "Spine", 9, 0, " along a curve with a roll from hips to neck, in mode curve"},
+        {"tail", "Tail", 31, 0, " along a curve with a loop, in mode curve"},
         {"flat_arm", "2D arm", 4, 3, " in a plane: an elbow that bends one way"},
         {"flat_tail", "2D tail", 16, 3, " in a plane: each may turn by 25 degrees"},
         {"flat_mixed", "2D crane", 6, 3,
@@ -189,7 +189,7 @@ void make_it_reach(ChainPart& part, ChainRuntime& runtime) {
     reach_for(part, {2.25f, 0.9f, 0.2f}, runtime);
 }
 
-void lay_along_curve(ChainPart& part, const std::string& preset) {
+void put_on_curve(ChainPart& part, const std::string& preset) {
     part.mode = ChainMode::Curve;
     part.curve = {};
     if (preset == "spine") {

@@ -15,7 +15,7 @@ struct Preset {
     const char* name;
     const char* title;
     std::size_t count;      ///< default number of segments
-    int of;                 ///< buttons in its row of the panel
+    int of;                 ///< buttons in its row of the panel; 0: among the rows of mode Curve
     const char* what = "";  ///< after the number of joints, in its tooltip
 };
 
@@ -39,7 +39,7 @@ void make_it_planar(ChainPart& part, const std::string& name, ChainRuntime& runt
 void make_it_reach(ChainPart& part, ChainRuntime& runtime);
 
 /// Completes the presets spine and tail: mode Curve, with control points of their own.
-void lay_along_curve(ChainPart& part, const std::string& preset);
+void put_on_curve(ChainPart& part, const std::string& preset);
 
 /// Completes the preset straight: mode Reach, solver FABRIK (2011), and the target on the chain's own line,
 /// three quarters of a bone before the tip. Both passes then shift the joints along the line and back: the

@@ -143,7 +143,7 @@ void take_preset(ChainPart& part, const Arguments& given, ChainRuntime& runtime)
     take_chain(part, make_preset(name, count, seed));
     if (name == reaching_arm) make_it_reach(part, runtime);
     if (name == straight_chain_preset) make_it_stall(part, runtime);
-    if (name == "spine" || name == "tail") lay_along_curve(part, name);
+    if (name == "spine" || name == "tail") put_on_curve(part, name);
     if (is_planar(name)) make_it_planar(part, name, runtime);
 }
 
@@ -161,7 +161,7 @@ void take_chain(ChainPart& part, Chain chain) {
     part.reach.plane.reset();
     part.reach_target.reset();
     part.reach.state = {};
-    part.curve.points.clear();  // mode Curve lays it through the new chain
+    part.curve.points.clear();  // mode Curve draws it through the new chain
     part.along.selection.clear();
     shape_changed(part);
     put_target_on_led_joint(part);
