@@ -88,16 +88,30 @@ void look_at_plane(const ChainPlane& plane, Emit& emit) {
                         {"orthographic", true}});
 }
 
-void plane_rows(const ChainPart& part, MoreRows& more, Emit& emit) {
+void plane_switch(const ChainPart& part, Emit& emit) {
     bool on = part.reach.plane.has_value();
     if (ImGui::Checkbox("In a plane", &on))
         emit("chain.plane", on ? ArgumentList{{"normal", glm::vec3(0, 0, 1)}} : ArgumentList{{"off", true}});
-    explain("Keeps the chain in a plane through its root, in every mode: the XY plane at first.");
+    explain("Keeps the chain in a plane through its root, in all modes but Curve: the XY plane at first.");
+}
+
+void preset_button(const Preset& preset, Emit& emit) {
+    const std::string what = count_text(preset.count, "joint") + preset.what;
+    if (!row_button(preset.title, preset.of, true, what.c_str())) return;
+    emit("chain.preset", {{"name", preset.name}});
+    emit("camera.frame", {{"what", "all"}});
+}
+
+void plane_rows(const ChainPart& part, MoreRows& more, Emit& emit) {
+    if (part.mode != ChainMode::Reach) plane_switch(part, emit);  // in Reach beside the pole target's
     if (!part.reach.plane) return;
     const ChainPlane& plane = *part.reach.plane;
-    ImGui::SameLine();
-    if (ImGui::Button("2D")) look_at_plane(plane, emit);
-    explain("Looks square on to the plane, without perspective: drags stay in it.");
+    if (row_button("2D view", 1, true, "Looks square on to the plane, without perspective: drags stay in it"))
+        look_at_plane(plane, emit);
+    end_row();
+    for (const Preset& preset : presets())
+        if (is_planar(preset.name)) preset_button(preset, emit);
+    end_row();
     more.add("normal", {"chain.plane", {"normal"}}, plane.normal != ChainPlane().normal, [&plane, &emit] {
         glm::vec3 normal = plane.normal;
         if (point_field("normal", normal, 0.01f) && glm::length(normal) > 1e-6f)
@@ -163,7 +177,8 @@ constexpr PastHelp past_help{
 void preset_rows(Emit& emit) {
     std::vector<PresetButton> buttons;
     for (const Preset& preset : presets()) {
-        if (preset.of == 0) continue;
+        // Below the mode, or the switch, that they come with.
+        if (preset.of == 0 || is_planar(preset.name)) continue;
         buttons.push_back(
             {preset.name, preset.title, count_text(preset.count, "joint") + preset.what, preset.of});
     }
@@ -425,6 +440,8 @@ void pole_rows(const ChainPart& part, MoreRows& more, Emit& emit) {
     ImGui::EndDisabled();
     explain(
         "Turns the chain about the line from root to tip until the elbow points at a ball that you place.");
+    ImGui::SameLine();
+    plane_switch(part, emit);
     if (!part.reach.pole || part.chain.empty()) return;
     more.add("pole", {"chain.pole", {"to"}}, false, [&part, &emit] {
         glm::vec3 pole = *part.reach.pole;

@@ -130,7 +130,7 @@ void bone_inserted(ReachSettings& settings, std::size_t index, std::size_t segme
     if (segments_now < 2) return;
     change_limits(settings, [&](auto& limits) {
         const auto at = static_cast<std::ptrdiff_t>(std::min(index, limits.size()));
-        limits.insert(limits.begin() + at, {});
+        limits.emplace(limits.begin() + at);
         limits.resize(segments_now - 1);
     });
 }

@@ -82,6 +82,17 @@ TEST_F(ChainPlaneTest, AnglesAreLimitedFromTheBoneBeforeAndFromTheBase) {
     EXPECT_TRUE(part().reach.plane->limits.empty());
 }
 
+TEST_F(ChainPlaneTest, LimitsStayWithTheirBones) {
+    flat_with(4);
+    run("chain.angle_limit", {{"index", 2}, {"min_deg", -20}, {"max_deg", 30}});
+    const ik::AngleLimit limit = part().reach.plane->limits[2];
+    run("chain.insert", {{"index", 1}, {"length", 0.5}});
+    EXPECT_EQ(angle_limit_of(*part().reach.plane, 3), limit);
+    run("chain.remove", {{"index", 0}});
+    EXPECT_EQ(angle_limit_of(*part().reach.plane, 2), limit);
+    EXPECT_EQ(part().reach.plane->limits.size(), part().chain.size() - 1);
+}
+
 TEST_F(ChainPlaneTest, WhatIsWrongIsSaid) {
     reach_with(3);
     expect_refused("chain.bend", {{"side", "left"}}, {"not in a plane"});
