@@ -286,7 +286,7 @@ void add_reach_commands(CommandTable& table) {
           .required = false,
           .help = "at right angles to the plane, which goes through the root"},
          switch_argument("off", "true: no plane")},
-        "Keeps the chain in a plane, in every mode, without its other limits; the 2D view looks along its "
+        "Keeps the chain in a plane, in every mode but curve, without its other limits; the 2D view looks along its "
         "normal",
         set_plane));
     table.add(chain_command(
