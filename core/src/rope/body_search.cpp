@@ -106,7 +106,7 @@ double BodyContacts::both(const Candidate& pair, double Scratch::Listed::*way) c
         double& most = k < pair.split ? a : b;
         most = std::max(most, scratch_.listed[pair.points[k]].*way);
     }
-    return a + b;
+    return std::sqrt(a) + std::sqrt(b);
 }
 
 /// Notes how far particles go in the substep; false if candidates must be listed again.
@@ -128,9 +128,10 @@ bool BodyContacts::stay_listed(const std::vector<dvec3>& ends) {
         s_.radii[k] = radius;
     }
     each_listed([&](std::size_t i, Scratch::Listed& it, double) {
-        it.way = detail::length(ends[i] - state_.position[i] - s_.mean);
-        it.roamed = detail::length(state_.position[i] - it.at - drift);
-        stay = stay && it.way <= it.reach - off_path && it.roamed <= it.roam;
+        it.way = square(ends[i] - state_.position[i] - s_.mean);
+        it.roamed = square(state_.position[i] - it.at - drift);
+        const double most = it.reach - off_path;
+        stay = stay && it.way <= most * most && it.roamed <= it.roam * it.roam;
     });
     return stay;
 }
@@ -139,14 +140,17 @@ bool BodyContacts::stay_listed(const std::vector<dvec3>& ends) {
 bool BodyContacts::outran() {
     note_moves();
     bool farther = false;
-    each_listed(
-        [&](std::size_t, const Scratch::Listed& it, double) { farther |= !(it.moved <= it.way + off_path); });
+    each_listed([&](std::size_t, const Scratch::Listed& it, double) {
+        if (farther || it.moved <= it.way + off_path * off_path) return;
+        const double most = std::sqrt(it.way) + off_path;
+        farther = !(it.moved <= most * most);
+    });
     return farther;
 }
 
 void BodyContacts::note_moves() {
     each_listed([&](std::size_t i, Scratch::Listed& it, double) {
-        it.moved = detail::length(scratch_.place[i] - state_.position[i] - s_.mean);
+        it.moved = square(scratch_.place[i] - state_.position[i] - s_.mean);
     });
 }
 
@@ -156,9 +160,10 @@ void BodyContacts::list_candidates() {
     s_.features.clear();
     s_.chunks.clear();
     each_listed([&](std::size_t i, Scratch::Listed& it, double radius) {
+        const double way = std::sqrt(it.way);
         it.at = state_.position[i], it.roamed = 0.0;
-        it.roam = roamed_ways * it.way + roamed_radii * radius;
-        it.reach = off_path + grown_way * it.way + grown_radii * radius;
+        it.roam = roamed_ways * way + roamed_radii * radius;
+        it.reach = off_path + grown_way * way + grown_radii * radius;
     });
     for (std::uint32_t c = island_.chunks.first; c < island_.chunks.first + island_.chunks.count; ++c)
         if (plan_.collides[plan_.chunks[c].body] != Plan::Collides::None) add_features(plan_.chunks[c]);

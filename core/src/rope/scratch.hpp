@@ -201,8 +201,8 @@ struct Scratch {
     std::vector<Slowed> chain_slowed;
     std::vector<BodyContactScratch> body_contacts;  ///< of the plan's islands with collisions
     /// A particle that may collide: where it was when candidates were listed, how far it may roam from there
-    /// until they are listed again, and how far it may go in a substep; how far it has roamed; how far it
-    /// goes in this one, and how far the solver has moved it so far.
+    /// until they are listed again, and how far it may go in a substep. Squared: how far it has roamed, how
+    /// far it goes in this one, and how far the solver has moved it so far.
     struct Listed {
         glm::dvec3 at{0.0};
         double roam = 0.0, reach = 0.0, roamed = 0.0, way = 0.0, moved = 0.0;

@@ -21,8 +21,8 @@
 // bodies that collide with each other, pins included (Advance::held_back). A collider may then overlap a body
 // for a while. Edits (set_radius, move, pins dragged while paused) are not checked.
 //
-// Ropes that collide but are apart cost a tenth more. A heap of cloth costs several times what it would cost
-// without.
+// Ropes that collide but are apart cost a tenth to a fifth more. Ropes in contact cost four to seven times
+// what they would cost without, and a heap of cloth five to eight times.
 #pragma once
 
 #include <cstdint>
