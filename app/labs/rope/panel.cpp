@@ -219,6 +219,7 @@ void body_rows(const NamedWorld& world, const rope::Body& body, Emit& emit) {
     rows.row("mass");
     if (settings.density) rows.row("density", {.unit = cloth ? "kg/m^2" : "kg/m"});
     rows.rows("radius", "friction", "stretch");
+    if (settings.bending) rows.row("bending");
     if (settings.shear) rows.row("shear");
     if (settings.bend) rows.row("bend");
     if (settings.tear) rows.row("tear");
