@@ -5,8 +5,9 @@
 //     tendril_bench_rope_step --check    the same, and exit code 1 if a claim does not hold
 //
 // Claims: a rope of 1024 segments among 16 colliders takes under 1 ms per frame of 1/60 s; with 256 distant
-// colliders it takes at most 1.5 times as long as with none; vector units pay off for 200 ropes of 32
-// segments. Times are processor time, except for threads, whose gain needs an idle machine.
+// colliders it takes at most 1.5 times as long as with none; one that resists bending takes at most 6 times
+// as long as one that does not; vector units pay off for 200 ropes of 32 segments. Times are processor time,
+// except for threads, whose gain needs an idle machine.
 #include <cmath>
 #include <string>
 
@@ -121,6 +122,31 @@ void solver_table() {
     }
 }
 
+/// A rope that resists bending over one that does not: at rest, and swinging by one end.
+double bending_table() {
+    const auto stage_of = [](float bending, bool swings) {
+        Stage stage = hung(1024);
+        const rope::BodyId id = stage.world.state().bodies.front().id;
+        require(stage.world.set_bending(id, bending));
+        if (swings) require(stage.world.unpin(1024));
+        stage.advance(0.1);
+        return stage;
+    };
+    std::printf("\nus a substep, 1024 segments, by bending stiffness\n");
+    std::printf("%-12s%12s%12s%12s\n", "", "0", "0.01 N m^2", "ratio");
+    double most = 0.0;
+    for (const bool swings : {false, true}) {
+        Stage limp = stage_of(0.0f, swings), stiff = stage_of(0.01f, swings);
+        const std::vector<double> seconds =
+            race({[&] { run_frames(limp, 8); }, [&] { run_frames(stiff, 8); }}, repetitions);
+        const double ratio = seconds[1] / seconds[0];
+        std::printf("%-12s%12.2f%12.2f%12.2f\n", swings ? "swinging" : "at rest", seconds[0] * 1e6 / 32.0,
+                    seconds[1] * 1e6 / 32.0, ratio);
+        most = std::max(most, ratio);
+    }
+    return most;
+}
+
 /// Hung by one end, in rows of 20.
 rope::World hung_ropes(int ropes, int segments) {
     rope::World world;
@@ -194,11 +220,13 @@ double crowd_table() {
 int main(int count, char** arguments) {
     const Gains gains = particle_table();
     solver_table();
+    const double bending = bending_table();
     const double units = crowd_table();
     thread_table();
     std::printf("\n");
     bool all = claim("1 ms over a frame of 1024 segments among 16 colliders", gains.frame_budget, 1.0);
     all &= claim("time without colliders over that with 256 far ones", gains.far, 0.67);
     all &= claim("200 ropes without vector units over with", units, 1.5);
+    all &= claim("6 times a limp rope over one that resists bending", 6.0 / bending, 1.0);
     return all || !has_flag(count, arguments, "--check") ? 0 : 1;
 }

@@ -279,16 +279,16 @@ void add_reach_commands(CommandTable& table) {
     table.add(chain_command("chain.limit", "Limit joints", limit_arguments<ik::Limit>(),
                             "Limits how far a joint turns in mode reach; kind free removes the limit",
                             limit_joints));
-    table.add(chain_command(
-        "chain.plane", "Keep the chain in a plane",
-        {{.name = "normal",
-          .type = ArgumentType::Point,
-          .required = false,
-          .help = "at right angles to the plane, which goes through the root"},
-         switch_argument("off", "true: no plane")},
-        "Keeps the chain in a plane, in every mode but curve, without its other limits; the 2D view looks along its "
-        "normal",
-        set_plane));
+    table.add(chain_command("chain.plane", "Keep the chain in a plane",
+                            {{.name = "normal",
+                              .type = ArgumentType::Point,
+                              .required = false,
+                              .help = "at right angles to the plane, which goes through the root"},
+                             switch_argument("off", "true: no plane")},
+                            "Keeps the chain in a plane, in every mode but curve, without its other limits; "
+                            "the 2D view looks along its "
+                            "normal",
+                            set_plane));
     table.add(chain_command(
         "chain.bend", "Bend the planar chain left or right",
         {choice_argument("side", true, "of the line from root to tip, in the 2D view", bend_sides.names())},

@@ -172,6 +172,9 @@ void NamedWorld::set_compliance(std::string_view body, rope::Link::Kind kind, fl
 void NamedWorld::set_friction(std::string_view body, std::optional<float> friction) {
     require_ok(world_.set_friction(id(body), friction));
 }
+void NamedWorld::set_bending(std::string_view rope, float stiffness) {
+    require_ok(world_.set_bending(id(rope), stiffness));
+}
 void NamedWorld::set_tear(std::string_view body, float tear) {
     require_ok(world_.set_tear(id(body), tear));
 }

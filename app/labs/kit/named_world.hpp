@@ -94,6 +94,7 @@ class NamedWorld {
     void set_radius(std::string_view body, float metres);
     void set_compliance(std::string_view body, rope::Link::Kind kind, float compliance);
     void set_friction(std::string_view body, std::optional<float> friction);
+    void set_bending(std::string_view rope, float stiffness);
     void set_tear(std::string_view body, float tear);
     void rename(std::string_view body, const std::string& name);
     void set_colour(std::string_view body, BodyColour colour);

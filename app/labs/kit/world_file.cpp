@@ -95,6 +95,7 @@ Json save_body(const NamedWorld& world, const rope::Body& body) {
               {"row", body.row},          {"radius", number(body.radius)}};
     if (!body.cells.empty()) json["cells"] = body.cells;
     if (body.tear != 0.0f) json["tear"] = number(body.tear);
+    if (body.bending != 0.0f) json["bending"] = number(body.bending);
     if (body.friction) json["friction"] = number(*body.friction);
     if (body.stretch != 0.0f) json["stretch"] = number(body.stretch);
     if (const BodyColour colour = world.colour(body); colour != BodyColour::ByKind)
@@ -120,6 +121,7 @@ rope::Body load_body(const JsonPlace& place) {
             body.cells.push_back(static_cast<std::uint32_t>(each.index(rope::max_particles - 1)));
         });
     if (const auto tear = place.optional("tear")) body.tear = tear->number();
+    if (const auto bending = place.optional("bending")) body.bending = bending->number();
     if (const auto friction = place.optional("friction")) body.friction = friction->number();
     if (const auto stretch = place.optional("stretch")) body.stretch = stretch->number();
     return body;

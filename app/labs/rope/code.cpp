@@ -147,6 +147,7 @@ class RopeProgram {
             }
             members.push_back(".radius = " + literal(body.radius));
             members.push_back(".tear = " + literal(body.tear));
+            if (body.bending > 0.0f) members.push_back(".bending = " + literal(body.bending));
             if (body.friction) members.push_back(".friction = " + literal(*body.friction));
             members.push_back(".stretch = " + literal(body.stretch));
             add("bodies", members);

@@ -23,6 +23,7 @@ struct BodySettings {
     float friction = 0.0f;                 ///< the world's, unless it has its own
     /// Strain per newton: of a rope, a strand, or a strip of cloth a metre wide.
     std::optional<float> stretch{};
+    std::optional<float> bending{};  ///< bending stiffness of a rope, N m^2
     /// Compliance of its links, m/N.
     std::optional<float> shear{}, bend{};
     std::optional<float> tear{};  ///< strain at which its links tear; 0: never

@@ -59,7 +59,7 @@ bool fill_grid(const State& state, const Plan::Island& island, std::uint32_t num
 
 /// What ties of grids cost grows with the cube of their number; elimination, of the side of a cloth. From
 /// this many a side, elimination costs less.
-constexpr std::size_t most_ties_a_side = 4;
+constexpr std::size_t max_ties_a_side = 4;
 
 /// Adds the grids of bodies that ties join, unless there are so many ties that elimination costs less.
 void fill_tied_grids(const State& state, Plan::Island& island, Plan& plan) {
@@ -79,7 +79,7 @@ void fill_tied_grids(const State& state, Plan::Island& island, Plan& plan) {
             for (const std::uint32_t end : {state.ties[i].a, state.ties[i].b})
                 ties += end - body.first < body.count ? 1 : 0;
     }
-    if (ties * ties <= most_ties_a_side * most_ties_a_side * cells) return;
+    if (ties * ties <= max_ties_a_side * max_ties_a_side * cells) return;
     for (const Plan::Grid& grid : Plan::part(plan.grids, grids)) plan.grid_of[grid.body] = 0;
     plan.grids.resize(grids.first);
     plan.grid_links.resize(links);

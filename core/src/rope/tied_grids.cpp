@@ -1,15 +1,15 @@
-// Bodies of which some are grids, solved as one system. Its unknowns are the grids' particles, the others',
-// and the forces of the ties that join grids to anything:
+// Solves grids, and the bodies tied to them, as one system. The unknowns are the displacements x of all
+// particles and the forces t of the ties that end on a grid:
 //
 //     A x + J^T t = right        J x - C t = -gap
 //
-// with J x how far b of a tie moves from a, and C how far the tie gives.
+// J x is how far the ties' ends separate, C the ties' compliance.
 //
-// Conjugate gradients run over the grids alone. Their preconditioner solves the same system, with the A of
-// grids replaced by a sum over the levels of their blocks (grid_system.hpp): what is left for t is small and
-// dense, and what is not a grid is eliminated exactly (N. Gould, M. Hribar, J. Nocedal, "On the Solution of
-// Equality Constrained Quadratic Programming Problems Arising in Optimization", 2001). So a tie costs nothing
-// in iterations, however stiff; no stiffness of a tie is ever seen in single precision.
+// Conjugate gradients iterate over the grids only. The preconditioner solves the same system with each grid's
+// A replaced by its multilevel approximation (grid_system.hpp). Other bodies are eliminated exactly, which
+// leaves a small dense system for t (N. Gould, M. Hribar, J. Nocedal, "On the Solution of Equality
+// Constrained Quadratic Programming Problems Arising in Optimization", 2001). Stiff ties therefore cost no
+// extra iterations, and their stiffness never enters single precision.
 #include <algorithm>
 #include <cmath>
 
@@ -22,7 +22,7 @@ namespace tendril::rope {
 namespace detail {
 namespace {
 
-/// The cell of a coarser level that a cell is part of.
+/// The coarser level's cell that contains a cell.
 std::size_t part_of_cell(const GridLevel& fine, const GridLevel& coarse, std::size_t cell) {
     return cell / fine.stride / 2 * coarse.stride + cell % fine.stride / 2;
 }
@@ -31,7 +31,7 @@ void add_at(const GridVector& vector, std::size_t cell, const dvec3& value) {
     vector[1][cell] += static_cast<float>(value.y);
     vector[2][cell] += static_cast<float>(value.z);
 }
-/// What the smoother makes of a right side.
+/// The smoother's response to a force on one cell.
 dvec3 smoothed(const GridLevel& level, std::size_t cell, const dvec3& right) {
     const auto of = [&](std::size_t k) { return static_cast<double>(level.factor[k][cell]); };
     const double y = right.y - of(1) * right.x, z = right.z - of(2) * right.x - of(4) * y;
@@ -174,11 +174,11 @@ void TieForces::solve() {
 
 namespace {
 
-constexpr double most_compliance = 1e3;  ///< sideways: a slack tie, where there is no stiffness at all
+constexpr double max_compliance_across = 1e3;  ///< of a slack tie, which resists nothing sideways
 
 }  // namespace
 
-/// What joins each tie, how far it is from its length, and what moves it.
+/// Loads the ends, gap and compliance of each tie.
 void TiedSolver::load_ties() {
     TieForces& forces = scratch_.tie_forces[island_.tied - 1];
     const std::size_t n = 3 * forces.ends.size();
@@ -204,7 +204,7 @@ void TiedSolver::load_ties() {
             if (length > 1e-30) n_of = (1.0 / length) * apart;
             forces.gap[i] = (length - rest) * n_of;
             const double taut = std::max(scratch_.tie_multiplier[number], 0.0) / mass_;
-            across = std::clamp(std::max(length, 1e-9) / std::max(taut, 1e-30), along, most_compliance);
+            across = std::clamp(std::max(length, 1e-9) / std::max(taut, 1e-30), along, max_compliance_across);
         }
         for (glm::length_t r = 0; r < 3; ++r)
             for (glm::length_t c = 0; c < 3; ++c)
@@ -214,7 +214,7 @@ void TiedSolver::load_ties() {
     }
 }
 
-/// Adds to the matrix how far forces move the ends of ties.
+/// Adds how far the force of each tie moves the ends of all.
 void TiedSolver::add_responses() {
     TieForces& forces = scratch_.tie_forces[island_.tied - 1];
     using Of = TieForces::End::Of;
@@ -251,7 +251,7 @@ void TiedSolver::add_responses() {
     }
 }
 
-/// Solves the system that assemble() built: what is not a grid in system_.x, grids in their solutions.
+/// Solves the system that assemble() built. Grids store their own solutions; the rest is in system_.x.
 void TiedSolver::solve_with_grids(const detail::GridSystem::Tolerance& tolerance, int iterations) {
     using Of = TieForces::End::Of;
     TieForces& forces = scratch_.tie_forces[island_.tied - 1];
@@ -275,14 +275,14 @@ void TiedSolver::solve_with_grids(const detail::GridSystem::Tolerance& tolerance
     add_responses();
     forces.system.factorize(forces.system.size);
 
-    // Where the rest goes without these ties.
+    // Displacements of the other bodies without these ties.
     std::copy(system_.x.begin() + late, system_.x.end(), forces.local.begin() + late);
     system_.substitute(tied_.order, forces.local, late);
     forces.now = forces.gap;
     each_end(Of::Rest, [&](std::size_t i, const TieForces::End& end) {
         forces.now[i] += end.sign * forces.local[end.at];
     });
-    /// Solves for the residual of grids, and ways in `now`.
+    /// Solves for the grids' residuals and the gaps in `now`, which become forces.
     const auto precondition = [&] {
         each_grid([&](detail::GridSystem& grid) { grid.spread(unit); });
         each_end(Of::Grid, [&](std::size_t i, const TieForces::End& end) {
@@ -308,7 +308,7 @@ void TiedSolver::solve_with_grids(const detail::GridSystem::Tolerance& tolerance
             forces.total[i] += static_cast<double>(part) * forces.direction[i];
     };
     precondition();
-    double size = 0.0;  // of the residual, less what ties hold
+    double size = 0.0;  // of the residual, less the ties' part
     each_grid([&](detail::GridSystem& grid) { size += grid.residual_dot_x(unit); });
     each_end(Of::Grid, [&](std::size_t i, const TieForces::End& end) {
         size -= end.sign * detail::dot(forces.now[i], detail::value_at(grid_of(end).finest().x, end.at));
@@ -331,7 +331,7 @@ void TiedSolver::solve_with_grids(const detail::GridSystem::Tolerance& tolerance
         if (!(curvature > 0.0)) break;
         advance(static_cast<float>(now / curvature));
     }
-    // What is left, as well as it is known.
+    // One more preconditioned correction by the final residual.
     each_grid([&](detail::GridSystem& grid) { grid.add_x(unit); });
     for (std::size_t i = 0; i < forces.ends.size(); ++i) forces.total[i] += forces.now[i];
 

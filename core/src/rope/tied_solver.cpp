@@ -232,7 +232,7 @@ void TiedSolver::go(double part) {
     each_particle([&](std::size_t i) { scratch_.place[i] += part * scratch_.tied_by[i]; });
 }
 
-/// The force that each link and tie contributed to the step, to first order, or has at its end.
+/// Stores the tension of links and ties: to first order over the step, or exactly at its end.
 void TiedSolver::note_tensions(bool at_end) {
     double turned = 0.0;  // squared
     each_spring([&](const Spring& spring, double& multiplier) {
@@ -332,15 +332,15 @@ void TiedSolver::step(bool first, int iterations, double enough) {
     turned_ = turned;
 }
 
-/// Without pins and contacts.
+/// Whether nothing external acts: no pins, no contacts.
 bool TiedSolver::is_free() const {
     bool free = local_.cloth_contacts.empty();
     each_particle([&](std::size_t i) { free = free && scratch_.weight[i] > 0.0; });
     return free;
 }
 
-/// Without pins and contacts nothing moves the centre of mass; what the solve did to it is rounding, of a
-/// system in which links are ten million times as stiff as particles are heavy.
+/// Internal forces cannot move the centre of mass. If nothing external acts, removes the drift that rounding
+/// caused: links are ten million times stiffer than particles are heavy.
 void TiedSolver::keep_centre() {
     if (!is_free()) return;
     double mass = 0.0;
@@ -353,8 +353,8 @@ void TiedSolver::keep_centre() {
     if (tied_.grids.count > 0) keep_spin();
 }
 
-/// Nor does anything turn the whole then: forces between particles act along the lines that join them. Grids
-/// are not solved so well, so what is left of a turn is taken back.
+/// Internal forces cannot change angular momentum either. Grids are solved only approximately; this removes
+/// the rotation that the error leaves.
 void TiedSolver::keep_spin() {
     double mass = 0.0;
     dvec3 centre(0.0), turn(0.0);
@@ -371,7 +371,7 @@ void TiedSolver::keep_spin() {
         trace += state_.mass[i] * detail::dot(from, from);
         inertia.add(-state_.mass[i], from, from);
     });
-    constexpr double thin = 1e-9;  // of what lies on one line
+    constexpr double thin = 1e-9;  // keeps the inertia of collinear particles invertible
     const double all = (1.0 + thin) * trace;
     const dvec3 a(inertia.xx + all, inertia.xy, inertia.xz), b(inertia.xy, inertia.yy + all, inertia.yz),
         c(inertia.xz, inertia.yz, inertia.zz + all);
@@ -383,7 +383,7 @@ void TiedSolver::keep_spin() {
     each_particle([&](std::size_t i) { scratch_.place[i] += detail::cross(by, scratch_.place[i] - centre); });
 }
 
-/// Starts as if nothing had changed since the previous substep: at rest a single step is then enough.
+/// Starts from unchanged velocities: at rest a single step then suffices.
 void TiedSolver::start() {
     for (const std::uint32_t number : Plan::part(plan_.bodies, island_.bodies)) {
         const Body& body = state_.bodies[number];

@@ -1,11 +1,10 @@
 // Solves bodies that ties join as a whole, together with their contacts, in one implicit step: ropes, hair
 // and cloth, their links and their ties are one system. Not installed.
 //
-// As for a cloth (cloth_grid.hpp) the step minimises an incremental potential by Newton's method, from where
-// particles would be without forces, but each step of Newton's method is solved exactly (elimination.hpp) and
-// in double precision. Links and ties are springs so stiff that what they carry does not show; the tension of
-// the previous substep makes them stiff sideways. Only cloth that is a grid keeps its system, as soft and as
-// nearly solved as if it were alone; its ties are exact all the same (tied_grids.cpp).
+// As for a cloth (cloth_grid.hpp) Newton's method minimises an incremental potential, but each of its steps
+// is solved exactly (elimination.hpp), in double precision. Links and ties are springs too stiff to stretch
+// visibly; the previous substep's tension makes them stiff sideways. A cloth that is a grid keeps its own
+// system, stiffness and tolerance; its ties still hold exactly (tied_grids.cpp).
 #pragma once
 
 #include "rope/cloth_solver.hpp"
@@ -23,12 +22,12 @@ class TiedSolver : ImplicitStep {
     bool shortened() const { return taken_ < 1.0; }  ///< the last step was not taken as a whole
 
   private:
-    /// Of two particles: the force of a spring between them, over its stiffness, and what it resists.
+    /// A spring between two particles.
     struct Spring {
         std::uint32_t a, b, block;
         double rest, stiffness, multiplier;
         bool stiff;
-        bool across = false;  ///< a tie of a grid: its force is solved for
+        bool across = false;  ///< a tie that ends on a grid: its force is an unknown
     };
     /// A cloth that is a grid, in the island's units.
     struct Cloth : ClothSolver {

@@ -1,10 +1,15 @@
 // Editing the material of ropes, cloth and hair while they hang.
 #include <cmath>
 
+#include "app/document/json_place.hpp"
 #include "app/labs/kit/race.hpp"
 #include "app/labs/kit/world_drawing.hpp"
+#include "app/labs/kit/world_file.hpp"
+#include "app/labs/rope/code.hpp"
 #include "app/labs/rope/rope_fields.hpp"
+#include "app/labs/rope/rope_lab.hpp"
 #include "tests/app/labs/rope_support.hpp"
+#include "tests/app/support/panel_text.hpp"
 #include "tests/says.hpp"
 
 namespace tendril::app {
@@ -59,10 +64,10 @@ TEST_F(RopeSet, EveryPropertyOfEveryKind) {
     } cases[] = {{"rope", "width columns rows shear"},
                  {"rope 2", "width columns rows shear"},
                  {"bit", "length width segments columns rows density stretch shear"},  // a single particle
-                 {"cloth", "segments"},
-                 {"cloth 2", "segments"},                           // with gaps
-                 {"cloth 3", "width segments rows density shear"},  // a thread
-                 {"hair", "width columns rows shear tear"}};
+                 {"cloth", "segments bending"},
+                 {"cloth 2", "segments bending"},                           // with gaps
+                 {"cloth 3", "width segments rows density bending shear"},  // a thread
+                 {"hair", "width columns rows bending shear tear"}};
     const Json start = save_scene(workspace);
     std::vector<Json> done;
     for (const auto& each : cases)
@@ -107,6 +112,29 @@ TEST_F(RopeSet, EveryPropertyOfEveryKind) {
     load_scene(again, start);
     for (const Json& each : done) run_in(again, "rope.set", each);
     EXPECT_EQ(save_scene(again).at("labs"), save_scene(workspace).at("labs"));
+}
+
+/// A rope that is pinned by its first two particles stands out like a rod; a limp one hangs. Its file, its
+/// copy in code and its past have the stiffness too.
+TEST_F(RopeSet, ARopeResistsBending) {
+    run("rope.clear");
+    run("rope.add", {{"from", {0, 2, 0}}, {"to", {1, 2, 0}}, {"segments", 16}, {"pin_start", true}});
+    run("rope.pin", {{"rope", "rope"}, {"particle", 1}});
+    EXPECT_EQ(made_of("rope").bending, 0.0f);
+    run("rope.set", {{"rope", "rope"}, {"bending", 50}});
+    EXPECT_EQ(made_of("rope").bending, 50.0f);
+    tick(60);
+    EXPECT_GT(lowest(), 1.9);
+    EXPECT_TRUE(test::says(test::PanelReader().inspector(lab(), workspace), "bending 50.0000 N"));
+    const NamedWorld again = load_world(JsonPlace(save_world(world()), "world"));
+    EXPECT_EQ(again.state(), world().state());
+    EXPECT_TRUE(test::says(rope_code(rope_part(workspace)), ".bending"));
+    run("undo");
+    EXPECT_EQ(made_of("rope").bending, 0.0f);
+    tick(60);
+    EXPECT_LT(lowest(), 1.5);
+    EXPECT_TRUE(test::says(refused("rope.set", {{"rope", "rope"}, {"bending", -1}}), "rope.set bending -1"));
+    EXPECT_TRUE(test::says(refused("rope.set", {{"rope", "rope"}, {"bend", 1}}), "rope.set rope bend"));
 }
 
 /// Mass follows length at constant density, and stretch is the material's.

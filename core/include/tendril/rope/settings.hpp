@@ -15,17 +15,18 @@
 //   before and after, which neither adds energy nor removes it (O. Gonzalez, "Mechanical systems subject to
 //   holonomic constraints", 1999). A rope that touches colliders is solved together with its contacts and
 //   their friction, by Newton's method: it keeps its length on a ball as it does in the air, with any number
-//   of segments. A cloth is one system with its contacts: a backward Euler step (D. Baraff, A. Witkin, "Large
-//   Steps in Cloth Simulation", 1998) in which the weight of the whole cloth stretches a link by 0.2 %. Each
-//   step of Newton's method is solved by conjugate gradients with a multigrid cycle, so the iterations hardly
-//   grow with its resolution. A step that strains links is halved until the incremental potential does not
-//   rise (M. Li et al., "Incremental Potential Contact", 2020). Hair is solved strand by strand, and its
-//   contacts and bending between the passes. Bodies that ties join are one such step together: ropes are
-//   solved exactly by elimination (A. George, J. Liu, "The Evolution of the Minimum Degree Ordering
-//   Algorithm", 1989), cloths as before, with the forces of their ties as further unknowns. Tied bodies cost
-//   at most twice as much as untied ones; but a cloth with more than about four ties for each particle of a
-//   side is eliminated too, at a cost that grows with the cube of its side. The swing of tied bodies dies
-//   away sooner.
+//   of segments. So is one that resists bending, anywhere: forces then reach the next particle but one, which
+//   costs about five times as much, and it swings out sooner. A cloth is one system with its contacts: a
+//   backward Euler step (D. Baraff, A. Witkin, "Large Steps in Cloth Simulation", 1998) in which the weight
+//   of the whole cloth stretches a link by 0.2 %. Each step of Newton's method is solved by conjugate
+//   gradients with a multigrid cycle, so the iterations hardly grow with its resolution. A step that strains
+//   links is halved until the incremental potential does not rise (M. Li et al., "Incremental Potential
+//   Contact", 2020). Hair is solved strand by strand, and its contacts and bending between the passes. Bodies
+//   that ties join are one such step together: ropes are solved exactly by elimination (A. George, J. Liu,
+//   "The Evolution of the Minimum Degree Ordering Algorithm", 1989), cloths as before, with the forces of
+//   their ties as further unknowns. Tied bodies cost at most twice as much as untied ones; but a cloth with
+//   more than about four ties for each particle of a side is eliminated too, at a cost that grows with the
+//   cube of its side. The swing of tied bodies dies away sooner.
 //
 // Direct adds no energy: a body that gained some in a substep is slowed down until the gain is gone, in its
 // relative motion first, so that it keeps falling freely. Only moving colliders, pins and wind do work. Near
