@@ -241,8 +241,8 @@ std::vector<TestScene> LinkageLab::test_scenes() const {
           {"linkage.motor", {{"joint", "motor 1"}}}},
          words},
         {"empty", {{"linkage.clear", {}}}, words}};
-    for (const MechanismKind& kind : mechanism_kinds())
-        scenes.push_back({kind.name, {{"linkage.preset", {{"name", kind.name}}}}, words});
+    for (const char* name : {"slider_crank", "walker", "stewart"})
+        scenes.push_back({name, {{"linkage.preset", {{"name", name}}}}, words});
     return scenes;
 }
 
