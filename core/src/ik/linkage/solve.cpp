@@ -15,7 +15,7 @@ constexpr double widest_step = 0.5;  ///< of a joint in one step, radians: the t
 constexpr double finest_substep = 1e-7;
 constexpr double bound_width = 1e-9;     ///< a joint so near to the end of its range is at it
 constexpr double shortest_step = 1e-10;  ///< of a descent: it has ended
-constexpr double reached = 1e-6;         ///< of the size: a target's tolerance
+constexpr double reached = 1e-6;         ///< a driver's or target's tolerance
 
 /// As a multiple of whole turns, radians.
 double whole_turns(double radians) noexcept {
@@ -545,7 +545,7 @@ void LinkageSolve::finish(LinkageReport& report) noexcept {
         report.residual = std::max(report.residual, gap);
         missed = missed || gap > reached * work_.size;
     }
-    double furthest = 0.0;
+    double furthest = -1.0;
     for (const LinkDriver& each : goals_.drivers) {
         const double left = std::abs(each.value - work_.joints[each.link].value);
         report.driver_residual = std::max(report.driver_residual, left);
@@ -599,10 +599,16 @@ LinkageReport LinkageSolve::run() noexcept {
     const bool targets = !goals_.targets.empty();
     const int mode_before = watched_mode(true);
     glide();
-    if (stopped_ && goals_.drivers.size() > 1) {
-        std::ranges::fill(work_.driven, std::uint8_t{0});
-        descend(Aim::Drivers);
-        hold_drivers();
+    if (stopped_) {
+        if (goals_.drivers.size() > 1) {
+            std::ranges::fill(work_.driven, std::uint8_t{0});
+            descend(Aim::Drivers);
+            hold_drivers();
+        }
+        // The straight way was barred, and it went another.
+        stopped_ = std::ranges::any_of(goals_.drivers, [&](const LinkDriver& each) {
+            return !(std::abs(work_.driver_error(each)) <= reached);
+        });
     }
     if (targets) {
         descend(Aim::ExactTargets);
