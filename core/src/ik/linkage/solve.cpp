@@ -511,11 +511,10 @@ std::size_t LinkageSolve::free_columns() const noexcept {
 }
 
 /// mode(), with what is watched held if nothing is driven. Where the last solve ended it is known.
-int LinkageSolve::watched_mode(bool at_start) noexcept {
-    hold_drivers();
+int LinkageSolve::watched_mode() noexcept {
     if (goals_.drivers.empty())
         for (const std::size_t each : options_.watched) work_.driven[work_.column[each]] = 1;
-    if (!at_start || work_.mode_held != work_.driven || work_.mode_at != work_.joints) {
+    if (work_.mode_held != work_.driven || work_.mode_at != work_.joints) {
         work_.mode = mode();
         work_.mode_held = work_.driven;
         work_.mode_at = work_.joints;
@@ -579,12 +578,7 @@ void LinkageSolve::finish(LinkageReport& report) noexcept {
     for (const std::size_t each : work_.active)
         (work_.linkage.links[each].joint == LinkJoint::Ball ? work_.blocked[each]
                                                             : work_.held[work_.column[each]]) = 1;
-    // If nothing more is held, watched_mode() has just found it.
-    const std::size_t rank =
-        work_.held == work_.mode_held && work_.active.empty() && work_.mode_at == work_.joints
-            ? work_.basis.rank()
-            : closure_rank();
-    report.freedom = static_cast<int>(free_columns() - rank);
+    report.freedom = static_cast<int>(free_columns() - closure_rank());
 }
 
 LinkageReport LinkageSolve::run() noexcept {
@@ -596,8 +590,7 @@ LinkageReport LinkageSolve::run() noexcept {
         finish(report);
         return report;
     }
-    const bool targets = !goals_.targets.empty();
-    const int mode_before = watched_mode(true);
+    hold_drivers();
     glide();
     if (stopped_) {
         if (goals_.drivers.size() > 1) {
@@ -610,7 +603,9 @@ LinkageReport LinkageSolve::run() noexcept {
             return !(std::abs(work_.driver_error(each)) <= reached);
         });
     }
-    if (targets) {
+    if (!goals_.targets.empty()) {
+        // A glide goes on along its branch; it is targets that draw it into another mode.
+        const int mode_before = watched_mode();
         descend(Aim::ExactTargets);
         for (std::size_t i = 0; i < goals_.targets.size(); ++i) {
             const LinkPoint& point = work_.linkage.points[goals_.targets[i].point];
@@ -619,8 +614,8 @@ LinkageReport LinkageSolve::run() noexcept {
         keeps_exact_ = true;
         descend(Aim::Targets);
         keeps_exact_ = false;
+        report.passed_dead_point = mode_before * watched_mode() < 0;
     }
-    report.passed_dead_point = mode_before * watched_mode(false) < 0;
     finish(report);
     return report;
 }

@@ -57,7 +57,7 @@ class LinkageSolve {
     double cost() noexcept;
     double target_weight(const LinkTarget& target) const noexcept;
     void put_back(const std::vector<JointPlace>& joints) noexcept;
-    int watched_mode(bool at_start) noexcept;
+    int watched_mode() noexcept;
     std::size_t free_columns() const noexcept;
     void note_active() noexcept;
     void finish(LinkageReport& report) noexcept;
