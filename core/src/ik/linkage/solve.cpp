@@ -66,15 +66,21 @@ bool LinkageSolve::closed() const noexcept {
     return true;
 }
 
-void LinkageSolve::take_row(std::span<double> row, double error) noexcept {
+void LinkageSolve::take_row(std::span<double> row, double error, double scale) noexcept {
     for (std::size_t i = 0; i < row.size(); ++i) {
         error -= row[i] * work_.step[i];
         if (work_.held[i]) row[i] = 0.0;
     }
-    const double size = work_.basis.add(row);
+    const double size = work_.basis.add(row, scale);
     if (size == 0.0) return;
     const double by = error / size;
     for (std::size_t i = 0; i < row.size(); ++i) work_.step[i] += by * row[i];
+}
+
+void LinkageSolve::take_rows(const LinkageWork::Block& block) noexcept {
+    double scale = 0.0;
+    for (std::size_t r = 0; r < block.count; ++r) scale = std::max(scale, norm_of(work_.row(r)));
+    for (std::size_t r = 0; r < block.count; ++r) take_row(work_.row(r), block.errors[r], scale);
 }
 
 void LinkageSolve::find_return() noexcept {
@@ -86,12 +92,12 @@ void LinkageSolve::find_return() noexcept {
         std::ranges::fill(row, 0.0);
         const glm::dvec3 outward = work_.outward_of(i);
         for (std::size_t k = 0; k < 3; ++k) row[work_.column[i] + k] = outward[static_cast<int>(k)];
-        work_.basis.add(row);
+        work_.basis.add(row, 1.0);
     }
     if (!closes_) return;
     for (std::size_t i = 0; i < work_.linkage.closures.size(); ++i) {
         const LinkageWork::Block block = work_.closure_block(i);
-        for (std::size_t r = 0; r < block.count; ++r) take_row(work_.row(r), block.errors[r]);
+        take_rows(block);
     }
     if (!keeps_exact_) return;
     for (std::size_t i = 0; i < goals_.targets.size(); ++i) {
@@ -99,7 +105,7 @@ void LinkageSolve::find_return() noexcept {
         LinkTarget kept = goals_.targets[i];
         kept.to = work_.exact_places[i];
         const LinkageWork::Block block = work_.target_block(kept);
-        for (std::size_t r = 0; r < block.count; ++r) take_row(work_.row(r), block.errors[r]);
+        take_rows(block);
     }
 }
 
@@ -208,37 +214,52 @@ double LinkageSolve::driver_distance(const LinkDriver& driver) const noexcept {
     return (to - work_.driver_starts[driver.link]) / work_.unit_of(driver.link);
 }
 
-/// As the joints last moved; false if that was not along what the drivers want.
+/// As the joints last moved; false if the drivers want another direction than that, or its reverse.
 bool LinkageSolve::repeat_last_move(double part) noexcept {
-    double along = 0.0, square = 0.0;
+    double along = 0.0, square = 0.0, wanted = 0.0;
     for (const LinkDriver& each : goals_.drivers) {
-        const double last = work_.joints[each.link].last / work_.unit_of(each.link);
-        along += part * driver_distance(each) * last;
+        const double last = work_.joints[each.link].last / work_.unit_of(each.link),
+                     by = part * driver_distance(each);
+        along += by * last;
         square += last * last;
+        wanted += by * by;
     }
-    if (!(square > 0.0)) return false;
+    if (!(square > 0.0 && along * along >= 0.9 * square * wanted)) return false;
     for (std::size_t i = 0; i < work_.joints.size(); ++i)
         if (work_.linkage.links[i].joint != LinkJoint::Ball)
             work_.step[work_.column[i]] = along / square * work_.joints[i].last / work_.unit_of(i);
     return true;
 }
 
-/// One substep, between two parts of the way. Along the tangent, or where there is none, as before.
-bool LinkageSolve::glide_by(double from, double to, bool as_before) noexcept {
-    work_.kept = work_.joints;
+/// The step of a substep, between two parts of the way, along the tangent.
+void LinkageSolve::find_tangent(double from, double to) noexcept {
     work_.release();
     std::ranges::fill(work_.step, 0.0);
-    ++iterations_;
-    if (as_before) {
-        if (!repeat_last_move(to - from)) return false;
-    } else {
-        for (const LinkDriver& each : goals_.drivers)
-            work_.step[work_.column[each.link]] = (to - from) * driver_distance(each);
-        do {
-            clear_step();
-            find_return();
-        } while (hold_overstepped());
+    for (const LinkDriver& each : goals_.drivers)
+        work_.step[work_.column[each.link]] = (to - from) * driver_distance(each);
+    do {
+        clear_step();
+        find_return();
+    } while (hold_overstepped());
+}
+
+/// One substep. Along the tangent; where branches may cross there is none, and it goes on as before.
+bool LinkageSolve::glide_by(double from, double to) noexcept {
+    constexpr double crossing = 1e-2;
+    find_tangent(from, to);
+    if (work_.basis.least_kept() < crossing) {
+        work_.release();
+        std::ranges::fill(work_.step, 0.0);
+        if (repeat_last_move(to - from) && take_glide_step(to)) return true;
+        find_tangent(from, to);
     }
+    return take_glide_step(to);
+}
+
+/// Takes the step, and returns to the closures with the drivers where they are at `to`.
+bool LinkageSolve::take_glide_step(double to) noexcept {
+    work_.kept = work_.joints;
+    ++iterations_;
     const double predicted = norm_of(work_.step);
     const bool wide = !(largest_of(work_.step) <= widest_step);
     if (!wide) {
@@ -280,7 +301,7 @@ void LinkageSolve::glide() noexcept {
             return;
         }
         const double to = by >= 1.0 - at ? 1.0 : at + by;
-        if (glide_by(at, to, false) || glide_by(at, to, true)) {
+        if (glide_by(at, to)) {
             at = to;
             by = std::min(2.0 * by, 0.9 * widest_step / longest);
             work_.active.clear();

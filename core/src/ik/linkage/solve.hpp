@@ -35,7 +35,8 @@ class LinkageSolve {
     /// Newton's step on the closures, and on exact targets once they are there; leaves the basis of their
     /// rows. Held columns of the step are given.
     void find_return() noexcept;
-    void take_row(std::span<double> row, double error) noexcept;
+    void take_rows(const LinkageWork::Block& block) noexcept;
+    void take_row(std::span<double> row, double error, double scale) noexcept;
     void clear_step() noexcept;
     bool hold_overstepped() noexcept;
     /// Newton's steps to the closures. False if they go further than `allowed`, or do not get there.
@@ -43,7 +44,9 @@ class LinkageSolve {
 
     void assemble() noexcept;
     void glide() noexcept;
-    bool glide_by(double from, double to, bool as_before) noexcept;
+    void find_tangent(double from, double to) noexcept;
+    bool glide_by(double from, double to) noexcept;
+    bool take_glide_step(double to) noexcept;
     bool repeat_last_move(double part) noexcept;
     double driver_distance(const LinkDriver& driver) const noexcept;
 

@@ -22,12 +22,17 @@ namespace tendril::ik::detail {
 class RowBasis {
   public:
     void reserve(std::size_t columns);
-    void clear() noexcept { count_ = 0; }
+    void clear() noexcept {
+        count_ = 0;
+        least_kept_ = 1.0;
+    }
     std::size_t rank() const noexcept { return count_; }
+    /// The least that was left of a row, as a part of its scale: near 0 where the rank is about to fall, or has fallen.
+    double least_kept() const noexcept { return least_kept_; }
 
     /// Makes `row` the unit vector in its new direction, and keeps that. Returns its length before, or 0, and
-    /// keeps nothing, if the rows before span it.
-    double add(std::span<double> row) noexcept;
+    /// keeps nothing, if the rows before span it: if what is left is rounding beside `scale`.
+    double add(std::span<double> row, double scale) noexcept;
     /// Removes what the rows span.
     void remove_from(std::span<double> row) const noexcept;
     /// The sign of the determinant of the rows' columns that are not `held`, as many as there are rows.
@@ -41,6 +46,7 @@ class RowBasis {
     void subtract_from(double* row, Window& window) const noexcept;
 
     std::size_t columns_ = 0, count_ = 0;
+    double least_kept_ = 1.0;
     std::vector<double> rows_;
     std::vector<Window> windows_;
 };
