@@ -1,7 +1,9 @@
 #include "ik/linkage/solve.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 
 #include "math/elementary.hpp"
 
@@ -66,25 +68,30 @@ bool LinkageSolve::closed() const noexcept {
     return true;
 }
 
-void LinkageSolve::take_row(std::span<double> row, double error, double scale) noexcept {
+double LinkageSolve::take_row(std::span<double> row, double error, double scale) noexcept {
     for (std::size_t i = 0; i < row.size(); ++i) {
         error -= row[i] * work_.step[i];
         if (work_.held[i]) row[i] = 0.0;
     }
     const double size = work_.basis.add(row, scale);
-    if (size == 0.0) return;
+    if (size == 0.0) return 0.0;
     const double by = error / size;
     for (std::size_t i = 0; i < row.size(); ++i) work_.step[i] += by * row[i];
+    return size / scale;
 }
 
-void LinkageSolve::take_rows(const LinkageWork::Block& block) noexcept {
+void LinkageSolve::take_rows(const LinkageWork::Block& block, std::size_t equations) noexcept {
     double scale = 0.0;
     for (std::size_t r = 0; r < block.count; ++r) scale = std::max(scale, norm_of(work_.row(r)));
-    for (std::size_t r = 0; r < block.count; ++r) take_row(work_.row(r), block.errors[r], scale);
+    std::array<double, 6> left{};
+    for (std::size_t r = 0; r < block.count; ++r) left[r] = take_row(work_.row(r), block.errors[r], scale);
+    std::sort(left.begin(), left.end(), std::greater<>());
+    least_left_ = std::min(least_left_, left[equations - 1]);
 }
 
 void LinkageSolve::find_return() noexcept {
     work_.basis.clear();
+    least_left_ = 1.0;
     for (std::size_t i = 0; i < work_.joints.size(); ++i) {
         if (!work_.blocked[i]) continue;
         // A ball at its maximum turns no further outward: its columns stay free, but for this direction.
@@ -96,16 +103,14 @@ void LinkageSolve::find_return() noexcept {
     }
     if (!closes_) return;
     for (std::size_t i = 0; i < work_.linkage.closures.size(); ++i) {
-        const LinkageWork::Block block = work_.closure_block(i);
-        take_rows(block);
+        take_rows(work_.closure_block(i), work_.equations_of(work_.linkage.closures[i]));
     }
     if (!keeps_exact_) return;
     for (std::size_t i = 0; i < goals_.targets.size(); ++i) {
         if (!goals_.targets[i].exact) continue;
         LinkTarget kept = goals_.targets[i];
         kept.to = work_.exact_places[i];
-        const LinkageWork::Block block = work_.target_block(kept);
-        take_rows(block);
+        take_rows(work_.target_block(kept), work_.planar ? 2 : 3);
     }
 }
 
@@ -247,7 +252,7 @@ void LinkageSolve::find_tangent(double from, double to) noexcept {
 bool LinkageSolve::glide_by(double from, double to) noexcept {
     constexpr double crossing = 1e-2;
     find_tangent(from, to);
-    if (work_.basis.least_kept() < crossing) {
+    if (least_left_ < crossing) {
         work_.release();
         std::ranges::fill(work_.step, 0.0);
         if (repeat_last_move(to - from) && take_glide_step(to)) return true;

@@ -66,7 +66,6 @@ double RowBasis::add(std::span<double> row, double scale) noexcept {
         if (left > 0.25 * start) break;
     }
     const double size = std::sqrt(left);
-    least_kept_ = std::min(least_kept_, size / scale);
     if (!(size > 1e-9 * scale)) return 0.0;
     const double inverse = 1.0 / size;
     double* kept = rows_.data() + count_ * columns_;

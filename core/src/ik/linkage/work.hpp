@@ -22,13 +22,8 @@ namespace tendril::ik::detail {
 class RowBasis {
   public:
     void reserve(std::size_t columns);
-    void clear() noexcept {
-        count_ = 0;
-        least_kept_ = 1.0;
-    }
+    void clear() noexcept { count_ = 0; }
     std::size_t rank() const noexcept { return count_; }
-    /// The least that was left of a row, as a part of its scale: near 0 where the rank is about to fall, or has fallen.
-    double least_kept() const noexcept { return least_kept_; }
 
     /// Makes `row` the unit vector in its new direction, and keeps that. Returns its length before, or 0, and
     /// keeps nothing, if the rows before span it: if what is left is rounding beside `scale`.
@@ -46,7 +41,6 @@ class RowBasis {
     void subtract_from(double* row, Window& window) const noexcept;
 
     std::size_t columns_ = 0, count_ = 0;
-    double least_kept_ = 1.0;
     std::vector<double> rows_;
     std::vector<Window> windows_;
 };
@@ -111,6 +105,10 @@ struct LinkageWork {
     }
     std::vector<double> block_rows;  ///< six rows
     Block closure_block(std::size_t index) noexcept;
+    /// How many equations a closure has: those across the plane of a planar linkage are 0 = 0.
+    std::size_t equations_of(const Closure& closure) const noexcept {
+        return (planar ? 2u : 3u) + (closure.kind == ClosureKind::Point ? 0u : planar ? 1u : 3u);
+    }
     Block target_block(const LinkTarget& target) noexcept;
     /// Metres; a frame's rotation counts by the size.
     double gap_of(const Closure& closure) const noexcept;
