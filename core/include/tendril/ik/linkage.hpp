@@ -168,8 +168,8 @@ struct LinkageReport {
     /// The driver that cannot go on, a link, and the value where it stopped.
     std::optional<std::size_t> stopped{};
     double stopped_at = 0.0;
-    /// The linkage passed a dead point of its drivers (of `watched`, if nothing is driven): it went over into
-    /// another assembly mode, as it may when a target moves it.
+    /// A target pulled the linkage past a dead point of its drivers (of `watched`, if nothing is driven): it
+    /// switched to another assembly mode. Drivers alone never do that.
     bool passed_dead_point = false;
 
     bool operator==(const LinkageReport&) const = default;

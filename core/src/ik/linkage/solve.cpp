@@ -1,7 +1,9 @@
 #include "ik/linkage/solve.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 
 #include "math/elementary.hpp"
 
@@ -15,7 +17,7 @@ constexpr double widest_step = 0.5;  ///< of a joint in one step, radians: the t
 constexpr double finest_substep = 1e-7;
 constexpr double bound_width = 1e-9;     ///< a joint so near to the end of its range is at it
 constexpr double shortest_step = 1e-10;  ///< of a descent: it has ended
-constexpr double reached = 1e-6;         ///< of the size: a target's tolerance
+constexpr double reached = 1e-6;         ///< a driver's or target's tolerance
 
 /// As a multiple of whole turns, radians.
 double whole_turns(double radians) noexcept {
@@ -66,19 +68,30 @@ bool LinkageSolve::closed() const noexcept {
     return true;
 }
 
-void LinkageSolve::take_row(std::span<double> row, double error) noexcept {
+double LinkageSolve::take_row(std::span<double> row, double error, double scale) noexcept {
     for (std::size_t i = 0; i < row.size(); ++i) {
         error -= row[i] * work_.step[i];
         if (work_.held[i]) row[i] = 0.0;
     }
-    const double size = work_.basis.add(row);
-    if (size == 0.0) return;
+    const double size = work_.basis.add(row, scale);
+    if (size == 0.0) return 0.0;
     const double by = error / size;
     for (std::size_t i = 0; i < row.size(); ++i) work_.step[i] += by * row[i];
+    return size / scale;
+}
+
+void LinkageSolve::take_rows(const LinkageWork::Block& block, std::size_t equations) noexcept {
+    double scale = 0.0;
+    for (std::size_t r = 0; r < block.count; ++r) scale = std::max(scale, norm_of(work_.row(r)));
+    std::array<double, 6> left{};
+    for (std::size_t r = 0; r < block.count; ++r) left[r] = take_row(work_.row(r), block.errors[r], scale);
+    std::sort(left.begin(), left.end(), std::greater<>());
+    least_left_ = std::min(least_left_, left[equations - 1]);
 }
 
 void LinkageSolve::find_return() noexcept {
     work_.basis.clear();
+    least_left_ = 1.0;
     for (std::size_t i = 0; i < work_.joints.size(); ++i) {
         if (!work_.blocked[i]) continue;
         // A ball at its maximum turns no further outward: its columns stay free, but for this direction.
@@ -86,20 +99,18 @@ void LinkageSolve::find_return() noexcept {
         std::ranges::fill(row, 0.0);
         const glm::dvec3 outward = work_.outward_of(i);
         for (std::size_t k = 0; k < 3; ++k) row[work_.column[i] + k] = outward[static_cast<int>(k)];
-        work_.basis.add(row);
+        work_.basis.add(row, 1.0);
     }
     if (!closes_) return;
     for (std::size_t i = 0; i < work_.linkage.closures.size(); ++i) {
-        const LinkageWork::Block block = work_.closure_block(i);
-        for (std::size_t r = 0; r < block.count; ++r) take_row(work_.row(r), block.errors[r]);
+        take_rows(work_.closure_block(i), work_.equations_of(work_.linkage.closures[i]));
     }
     if (!keeps_exact_) return;
     for (std::size_t i = 0; i < goals_.targets.size(); ++i) {
         if (!goals_.targets[i].exact) continue;
         LinkTarget kept = goals_.targets[i];
         kept.to = work_.exact_places[i];
-        const LinkageWork::Block block = work_.target_block(kept);
-        for (std::size_t r = 0; r < block.count; ++r) take_row(work_.row(r), block.errors[r]);
+        take_rows(work_.target_block(kept), work_.planar ? 2 : 3);
     }
 }
 
@@ -208,37 +219,52 @@ double LinkageSolve::driver_distance(const LinkDriver& driver) const noexcept {
     return (to - work_.driver_starts[driver.link]) / work_.unit_of(driver.link);
 }
 
-/// As the joints last moved; false if that was not along what the drivers want.
+/// As the joints last moved; false if the drivers want another direction than that, or its reverse.
 bool LinkageSolve::repeat_last_move(double part) noexcept {
-    double along = 0.0, square = 0.0;
+    double along = 0.0, square = 0.0, wanted = 0.0;
     for (const LinkDriver& each : goals_.drivers) {
-        const double last = work_.joints[each.link].last / work_.unit_of(each.link);
-        along += part * driver_distance(each) * last;
+        const double last = work_.joints[each.link].last / work_.unit_of(each.link),
+                     by = part * driver_distance(each);
+        along += by * last;
         square += last * last;
+        wanted += by * by;
     }
-    if (!(square > 0.0)) return false;
+    if (!(square > 0.0 && along * along >= 0.9 * square * wanted)) return false;
     for (std::size_t i = 0; i < work_.joints.size(); ++i)
         if (work_.linkage.links[i].joint != LinkJoint::Ball)
             work_.step[work_.column[i]] = along / square * work_.joints[i].last / work_.unit_of(i);
     return true;
 }
 
-/// One substep, between two parts of the way. Along the tangent, or where there is none, as before.
-bool LinkageSolve::glide_by(double from, double to, bool as_before) noexcept {
-    work_.kept = work_.joints;
+/// The step of a substep, between two parts of the way, along the tangent.
+void LinkageSolve::find_tangent(double from, double to) noexcept {
     work_.release();
     std::ranges::fill(work_.step, 0.0);
-    ++iterations_;
-    if (as_before) {
-        if (!repeat_last_move(to - from)) return false;
-    } else {
-        for (const LinkDriver& each : goals_.drivers)
-            work_.step[work_.column[each.link]] = (to - from) * driver_distance(each);
-        do {
-            clear_step();
-            find_return();
-        } while (hold_overstepped());
+    for (const LinkDriver& each : goals_.drivers)
+        work_.step[work_.column[each.link]] = (to - from) * driver_distance(each);
+    do {
+        clear_step();
+        find_return();
+    } while (hold_overstepped());
+}
+
+/// One substep. Along the tangent; where branches may cross there is none, and it goes on as before.
+bool LinkageSolve::glide_by(double from, double to) noexcept {
+    constexpr double crossing = 1e-2;
+    find_tangent(from, to);
+    if (least_left_ < crossing) {
+        work_.release();
+        std::ranges::fill(work_.step, 0.0);
+        if (repeat_last_move(to - from) && take_glide_step(to)) return true;
+        find_tangent(from, to);
     }
+    return take_glide_step(to);
+}
+
+/// Takes the step, and returns to the closures with the drivers where they are at `to`.
+bool LinkageSolve::take_glide_step(double to) noexcept {
+    work_.kept = work_.joints;
+    ++iterations_;
     const double predicted = norm_of(work_.step);
     const bool wide = !(largest_of(work_.step) <= widest_step);
     if (!wide) {
@@ -280,7 +306,7 @@ void LinkageSolve::glide() noexcept {
             return;
         }
         const double to = by >= 1.0 - at ? 1.0 : at + by;
-        if (glide_by(at, to, false) || glide_by(at, to, true)) {
+        if (glide_by(at, to)) {
             at = to;
             by = std::min(2.0 * by, 0.9 * widest_step / longest);
             work_.active.clear();
@@ -511,11 +537,10 @@ std::size_t LinkageSolve::free_columns() const noexcept {
 }
 
 /// mode(), with what is watched held if nothing is driven. Where the last solve ended it is known.
-int LinkageSolve::watched_mode(bool at_start) noexcept {
-    hold_drivers();
+int LinkageSolve::watched_mode() noexcept {
     if (goals_.drivers.empty())
         for (const std::size_t each : options_.watched) work_.driven[work_.column[each]] = 1;
-    if (!at_start || work_.mode_held != work_.driven || work_.mode_at != work_.joints) {
+    if (work_.mode_held != work_.driven || work_.mode_at != work_.joints) {
         work_.mode = mode();
         work_.mode_held = work_.driven;
         work_.mode_at = work_.joints;
@@ -545,7 +570,7 @@ void LinkageSolve::finish(LinkageReport& report) noexcept {
         report.residual = std::max(report.residual, gap);
         missed = missed || gap > reached * work_.size;
     }
-    double furthest = 0.0;
+    double furthest = -1.0;
     for (const LinkDriver& each : goals_.drivers) {
         const double left = std::abs(each.value - work_.joints[each.link].value);
         report.driver_residual = std::max(report.driver_residual, left);
@@ -579,12 +604,7 @@ void LinkageSolve::finish(LinkageReport& report) noexcept {
     for (const std::size_t each : work_.active)
         (work_.linkage.links[each].joint == LinkJoint::Ball ? work_.blocked[each]
                                                             : work_.held[work_.column[each]]) = 1;
-    // If nothing more is held, watched_mode() has just found it.
-    const std::size_t rank =
-        work_.held == work_.mode_held && work_.active.empty() && work_.mode_at == work_.joints
-            ? work_.basis.rank()
-            : closure_rank();
-    report.freedom = static_cast<int>(free_columns() - rank);
+    report.freedom = static_cast<int>(free_columns() - closure_rank());
 }
 
 LinkageReport LinkageSolve::run() noexcept {
@@ -596,15 +616,22 @@ LinkageReport LinkageSolve::run() noexcept {
         finish(report);
         return report;
     }
-    const bool targets = !goals_.targets.empty();
-    const int mode_before = watched_mode(true);
+    hold_drivers();
     glide();
-    if (stopped_ && goals_.drivers.size() > 1) {
-        std::ranges::fill(work_.driven, std::uint8_t{0});
-        descend(Aim::Drivers);
-        hold_drivers();
+    if (stopped_) {
+        if (goals_.drivers.size() > 1) {
+            std::ranges::fill(work_.driven, std::uint8_t{0});
+            descend(Aim::Drivers);
+            hold_drivers();
+        }
+        // The straight way was barred, and it went another.
+        stopped_ = std::ranges::any_of(goals_.drivers, [&](const LinkDriver& each) {
+            return !(std::abs(work_.driver_error(each)) <= reached);
+        });
     }
-    if (targets) {
+    if (!goals_.targets.empty()) {
+        // A glide goes on along its branch; it is targets that draw it into another mode.
+        const int mode_before = watched_mode();
         descend(Aim::ExactTargets);
         for (std::size_t i = 0; i < goals_.targets.size(); ++i) {
             const LinkPoint& point = work_.linkage.points[goals_.targets[i].point];
@@ -613,8 +640,8 @@ LinkageReport LinkageSolve::run() noexcept {
         keeps_exact_ = true;
         descend(Aim::Targets);
         keeps_exact_ = false;
+        report.passed_dead_point = mode_before * watched_mode() < 0;
     }
-    report.passed_dead_point = mode_before * watched_mode(false) < 0;
     finish(report);
     return report;
 }

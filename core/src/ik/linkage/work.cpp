@@ -48,7 +48,7 @@ void RowBasis::subtract_from(double* row, Window& window) const noexcept {
     }
 }
 
-double RowBasis::add(std::span<double> row) noexcept {
+double RowBasis::add(std::span<double> row, double scale) noexcept {
     Window window{columns_, 0};
     double before = 0.0;
     for (std::size_t i = 0; i < columns_; ++i) {
@@ -65,9 +65,9 @@ double RowBasis::add(std::span<double> row) noexcept {
         for (std::size_t i = window.first; i < window.last; ++i) left += row[i] * row[i];
         if (left > 0.25 * start) break;
     }
-    // The rows before span it, to rounding.
-    if (!(left > 1e-18 * before)) return 0.0;
-    const double size = std::sqrt(left), inverse = 1.0 / size;
+    const double size = std::sqrt(left);
+    if (!(size > 1e-9 * scale)) return 0.0;
+    const double inverse = 1.0 / size;
     double* kept = rows_.data() + count_ * columns_;
     std::fill(kept, kept + columns_, 0.0);
     for (std::size_t i = window.first; i < window.last; ++i) kept[i] = row[i] *= inverse;

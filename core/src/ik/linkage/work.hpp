@@ -26,8 +26,8 @@ class RowBasis {
     std::size_t rank() const noexcept { return count_; }
 
     /// Makes `row` the unit vector in its new direction, and keeps that. Returns its length before, or 0, and
-    /// keeps nothing, if the rows before span it.
-    double add(std::span<double> row) noexcept;
+    /// keeps nothing, if the rows before span it: if what is left is rounding beside `scale`.
+    double add(std::span<double> row, double scale) noexcept;
     /// Removes what the rows span.
     void remove_from(std::span<double> row) const noexcept;
     /// The sign of the determinant of the rows' columns that are not `held`, as many as there are rows.
@@ -105,6 +105,10 @@ struct LinkageWork {
     }
     std::vector<double> block_rows;  ///< six rows
     Block closure_block(std::size_t index) noexcept;
+    /// How many equations a closure has: those across the plane of a planar linkage are 0 = 0.
+    std::size_t equations_of(const Closure& closure) const noexcept {
+        return (planar ? 2u : 3u) + (closure.kind == ClosureKind::Point ? 0u : planar ? 1u : 3u);
+    }
     Block target_block(const LinkTarget& target) noexcept;
     /// Metres; a frame's rotation counts by the size.
     double gap_of(const Closure& closure) const noexcept;
