@@ -98,7 +98,9 @@ void motor(LinkagePart& part, const Arguments& given, LinkageRuntime& runtime) {
     if (given.has("deg_per_s") && given.has("per_s")) throw Refused("give deg_per_s or per_s, and not both");
     if (given.has("deg_per_s") && !angular)
         throw Refused("joint \"" + joint + "\" is a slider: give per_s, in metres a second");
-    double rate = angular ? glm::radians(usual_motor_rate) : 0.1 * runtime.solver(part.shape).size();
+    if (given.has("per_s") && angular) throw Refused("joint \"" + joint + "\" is a hinge: give deg_per_s");
+    double rate = angular ? glm::radians(usual_motor_rate)
+                          : std::min(0.1 * runtime.solver(part.shape).size(), max_motor_rate);
     if (given.has("deg_per_s")) rate = glm::radians(given.real("deg_per_s"));
     if (given.has("per_s")) rate = given.real("per_s");
     drive.rate = rate;
@@ -139,9 +141,10 @@ void let_go(LinkagePart& part, const Arguments&, LinkageRuntime& runtime) {
 void other_mode(LinkagePart& part, const Arguments&, LinkageRuntime& runtime) {
     std::vector<ik::LinkDriver> drivers;
     for (const LinkageDrive& each : part.drives)
-        drivers.push_back({part.linkage().find_link(each.joint), each.value});
+        drivers.push_back({part.linkage().find_link(each.joint), part.value_of(each.joint)});
     if (!runtime.solver(part.shape).other_mode(part.state, drivers))
         throw Refused("no other assembly mode is found with the drivers where they are");
+    part.copies = copies_of(*part.shape, part.state);
     solve_linkage(part, runtime);
 }
 
@@ -191,9 +194,11 @@ Command linkage_command(const char* name, const char* title, std::vector<Argumen
             .arguments = std::move(arguments),
             .help = help,
             .effect = effect,
-            .apply = [change](Workspace& workspace, const Arguments& given) {
+            .apply = [change, effect](Workspace& workspace, const Arguments& given) {
                 auto& runtime = workspace.runtimes.of<LinkageRuntime>(linkage_lab);
                 change_part<LinkagePart>(workspace, linkage_lab, [&](LinkagePart& part, const LinkagePart&) {
+                    // Whatever else is asked for ends a drag.
+                    if (effect == Effect::Edit) part.drag.reset();
                     change(part, given, runtime);
                 });
             }};
@@ -214,6 +219,13 @@ std::size_t require_linkage_point(const LinkagePart& part, const std::string& na
 bool turns(const LinkagePart& part, std::string_view joint) {
     const std::size_t link = part.linkage().find_link(joint);
     return link != ik::ground_link && part.linkage().links[link].joint == ik::LinkJoint::Hinge;
+}
+
+bool goes_on(const LinkagePart& part) {
+    return part.result.report.status == ik::LinkageStatus::IterationLimit &&
+           std::ranges::any_of(part.drives, [&](const LinkageDrive& each) {
+               return each.held && each.value != part.value_of(each.joint);
+           });
 }
 
 bool is_stalled(const LinkagePart& part, const LinkageDrive& drive) {
@@ -279,7 +291,7 @@ void add_linkage_commands(CommandTable& table) {
         "linkage.motor", "Run a motor",
         {joint_argument(),
          number_argument("deg_per_s", "of a hinge; 0 stops it", -max_motor_rate, max_motor_rate),
-         number_argument("per_s", "of a slider, metres a second", -1e6, 1e6)},
+         number_argument("per_s", "of a slider, metres a second", -max_motor_rate, max_motor_rate)},
         "Runs a joint at this speed while time passes; at the usual one if none is given", motor));
     table.add(linkage_command("linkage.target", "Draw a point to a place",
                               {linkage_point_argument("point", true, "which point"), to,

@@ -18,6 +18,8 @@ inline constexpr double usual_motor_rate = 90.0;
 bool turns(const LinkagePart& part, std::string_view joint);
 /// One tick of all motors.
 void run_motors(LinkagePart& part, double seconds, LinkageRuntime& runtime);
+/// A driver is on its way to a value that one solve did not get to: the next one goes on.
+bool goes_on(const LinkagePart& part);
 /// A motor that cannot go on: at a dead point, or at the end of a range.
 bool is_stalled(const LinkagePart& part, const LinkageDrive& drive);
 

@@ -76,7 +76,8 @@ std::string bar_at(const LinkagePart& part, const Camera& camera, glm::vec2 pixe
 }
 
 Json drive_state(const LinkagePart& part, const LinkageDrive& drive) {
-    return turns(part, drive.joint) ? Json(glm::degrees(drive.value)) : Json(drive.value);
+    const double value = part.value_of(drive.joint);
+    return turns(part, drive.joint) ? Json(glm::degrees(value)) : Json(value);
 }
 
 }  // namespace
@@ -96,8 +97,9 @@ void LinkageLab::add_commands(CommandTable& table) const {
 
 bool LinkageLab::moving(const Workspace& workspace) const {
     const LinkagePart& part = linkage_part(workspace);
-    return std::ranges::any_of(
-        part.drives, [&](const LinkageDrive& each) { return each.rate != 0.0 && !is_stalled(part, each); });
+    return goes_on(part) || std::ranges::any_of(part.drives, [&](const LinkageDrive& each) {
+               return each.rate != 0.0 && !is_stalled(part, each);
+           });
 }
 
 void LinkageLab::step(Workspace& workspace) const {

@@ -2,6 +2,7 @@
 #include "app/labs/linkage/linkage_part.hpp"
 
 #include <algorithm>
+#include <glm/trigonometric.hpp>
 
 #include "app/document/json_complete.hpp"
 #include "app/document/json_place.hpp"
@@ -165,6 +166,8 @@ LinkageTarget load_target(const JsonPlace& place, const LinkagePart& part) {
     const std::string point = place["point"].text();
     if (part.linkage().find_point(point) == ik::ground_link)
         place["point"].fail("there is no point \"" + point + "\"");
+    if (std::ranges::count(part.targets, point, &LinkageTarget::point) > 0)
+        place["point"].fail(point + " has a target already");
     return {point, place["to"].dpoint(), place["weight"].real(1e-6, 1e6), place["exact"].flag()};
 }
 
@@ -174,8 +177,10 @@ void load_drive(const JsonPlace& place, LinkagePart& part) {
     if (link == ik::ground_link || part.linkage().links[link].joint == ik::LinkJoint::Ball)
         place["joint"].fail("there is no hinge or slider \"" + joint + "\"");
     if (part.find_drive(joint) != nullptr) place["joint"].fail("it is driven twice");
-    part.drives.push_back(
-        {joint, part.state.joints[link].value, place["rate"].real(-1e6, 1e6), place["held"].flag()});
+    const double fastest = turns(part, joint) ? glm::radians(max_motor_rate) : max_motor_rate;
+    const auto value = place.optional("value");  // older files: where the joint is
+    part.drives.push_back({joint, value ? value->real() : part.state.joints[link].value,
+                           place["rate"].real(-fastest, fastest), place["held"].flag()});
 }
 
 }  // namespace
@@ -195,7 +200,8 @@ Json LinkagePart::save() const {
     }
     json["drivers"] = Json::array();
     for (const LinkageDrive& each : drives)
-        json["drivers"].push_back({{"joint", each.joint}, {"rate", each.rate}, {"held", each.held}});
+        json["drivers"].push_back(
+            {{"joint", each.joint}, {"value", each.value}, {"rate", each.rate}, {"held", each.held}});
     json["targets"] = Json::array();
     for (const LinkageTarget& each : targets)
         json["targets"].push_back(

@@ -44,7 +44,7 @@ struct LinkageShape {
 /// A joint that is driven, by the name of its link.
 struct LinkageDrive {
     std::string joint;
-    double value = 0.0;  ///< radians or metres
+    double value = 0.0;  ///< radians or metres: asked for, if it is held, else where the joint is
     double rate = 0.0;   ///< of a motor, a second
     bool held = false;   ///< at this value; else it follows the others
     bool operator==(const LinkageDrive&) const = default;
@@ -107,6 +107,10 @@ struct LinkagePart final : Part {
     /// The height of a walker's lowest foot; 0 of others.
     double lowest_foot() const;
     const LinkageDrive* find_drive(std::string_view joint) const;
+    /// Where a joint is: at a dead point not where it is asked to be.
+    double value_of(std::string_view joint) const {
+        return state.joints[linkage().find_link(joint)].value;
+    }
 };
 
 /// The lab begins with a four-bar.
@@ -149,7 +153,8 @@ void take_shape(LinkagePart& part, LinkageShape shape, LinkageRuntime& runtime);
 LinkageShape shape_of(ik::LinkageSketch sketch);
 /// The shape of a mechanism. Throws std::invalid_argument as the library refuses its lengths.
 LinkageShape shape_of(const Mechanism& mechanism);
-/// The other legs of a walker, all in this state; none of others.
+/// The other legs of a walker, all in this state, each a few steps of its motor from where it belongs; none
+/// of others.
 std::vector<LinkageCopy> copies_of(const LinkageShape& shape, const ik::LinkageState& state);
 /// A mechanism at rest. The tool stays.
 void open_mechanism(LinkagePart& part, const Mechanism& mechanism, LinkageRuntime& runtime);

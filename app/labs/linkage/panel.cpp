@@ -24,13 +24,15 @@ std::string angle_text(double degrees) {
     return fixed_text(degrees, 1) + " degrees";
 }
 
-/// "crank at 43.0 degrees"
+/// "Crank at 43.0 degrees cannot go on"
 std::string stop_text(const LinkagePart& part) {
     const ik::LinkageReport& report = part.result.report;
+    if (!report.stopped) return "The drivers cannot go on";
     const std::string& joint = part.linkage().links[*report.stopped].name;
-    return joint + " at " +
+    return capitalised(joint) + " at " +
            (turns(part, joint) ? angle_text(glm::degrees(report.stopped_at))
-                               : fixed_text(report.stopped_at, 3) + " m");
+                               : fixed_text(report.stopped_at, 3) + " m") +
+           " cannot go on";
 }
 
 std::string closure_names(const LinkagePart& part) {
@@ -70,22 +72,22 @@ Verdict linkage_verdict(const LinkagePart& part) {
     switch (report.status) {
         case Open:
             return {"Does not close: " + length_text(report.closed_to) + " apart", Verdict::Kind::Bad,
-                    "No pose has these lengths. Apart: " + closure_names(part) + "."};
+                    "No pose was found with these lengths. Apart: " + closure_names(part) + "."};
         case DeadPoint: {
             const std::string reason = dead_point_reason(part);
             return {"Dead point", Verdict::Kind::Bad,
-                    capitalised(stop_text(part)) + " cannot go on" +
-                        (reason.empty() ? "." : ": " + reason + ".")};
+                    stop_text(part) + (reason.empty() ? "." : ": " + reason + ".")};
         }
         case Limited:
             return {
                 "At the end of a range", Verdict::Kind::Bad,
-                report.stopped ? capitalised(stop_text(part)) + " cannot go on." : "A target is beyond it."};
+                report.stopped ? stop_text(part) + "." : "A target is beyond it."};
         case TargetMissed:
             return {"Out of reach: " + length_text(report.residual) + " short", Verdict::Kind::Bad,
-                    "No pose brings the point to its target."};
+                    "No pose was found that brings the point to its target."};
         case IterationLimit:
-            return {"Not solved yet", Verdict::Kind::Open, "The solver ran out of iterations."};
+            return {"Not solved yet", Verdict::Kind::Open,
+                    goes_on(part) ? "It goes on while time passes." : "The solver ran out of iterations."};
         case InvalidInput:
             return {"Too large", Verdict::Kind::Bad, "A number is beyond what can be solved."};
         case Reached:
@@ -131,7 +133,8 @@ void speed_row(const LinkagePart& part, const LinkageDrive& drive, const std::st
 
 void value_row(const LinkagePart& part, const LinkageDrive& drive, Emit& emit) {
     const bool angular = turns(part, drive.joint);
-    auto value = static_cast<float>(angular ? glm::degrees(drive.value) : drive.value);
+    const double now = part.value_of(drive.joint);
+    auto value = static_cast<float>(angular ? glm::degrees(now) : now);
     const char* const format = angular ? "%.1f deg" : "%.3f m";
     if (number_field(drive.joint.c_str(), value, angular ? 0.5f : 0.002f, -1e6f, 1e6f, format))
         emit.continuously("linkage.drive",
@@ -148,7 +151,7 @@ void motor_buttons(const Workspace& workspace, Emit& emit) {
                    runs ? "Stops the motor and holds the joint" : "Runs the motor while time passes")) {
         for (const LinkageDrive& each : part.drives)
             if (runs)
-                emit.continuously("linkage.drive", {{"joint", each.joint}, {"value", each.value}});
+                emit.continuously("linkage.drive", {{"joint", each.joint}, {"value", part.value_of(each.joint)}});
             else
                 emit.continuously("linkage.motor", {{"joint", each.joint}});
         if (!runs && !workspace.clock.playing) emit("time.play");

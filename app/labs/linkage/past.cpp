@@ -20,7 +20,8 @@ const LinkagePart& linkage_of(const SharedPart& part) {
 }
 
 double shown_value(const LinkagePart& part, const LinkageDrive& drive) {
-    return turns(part, drive.joint) ? glm::degrees(drive.value) : drive.value;
+    const double value = part.value_of(drive.joint);
+    return turns(part, drive.joint) ? glm::degrees(value) : value;
 }
 
 }  // namespace
@@ -170,7 +171,7 @@ std::vector<Incident> linkage_incidents(const LinkagePart& before, const Linkage
         incidents.push_back(
             {.kind = Incident::Kind::Status,
              .joint = 0,
-             .cause = "no pose closes it: the bars are " + length_text(is.closed_to) + " apart"});
+             .cause = "no pose was found that closes it: the bars are " + length_text(is.closed_to) + " apart"});
     }
     return incidents;
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <numbers>
 
 #include "app/labs/linkage/linkage_part.hpp"
 
@@ -68,7 +69,7 @@ const std::vector<PathPoint>& LinkageRuntime::path(const LinkagePart& part) {
     path_of_ = part.shape;
     path_point_ = part.selected;
     const bool hinge = part.linkage().links[joint].joint == ik::LinkJoint::Hinge;
-    const double step = hinge ? 2.0 * M_PI / turn_steps : 2.0 * of.size() / turn_steps;
+    const double step = hinge ? 2.0 * std::numbers::pi / turn_steps : 2.0 * of.size() / turn_steps;
     path_ = swept(of, part.state, joint, point, step);
     if (!hinge || path_.size() < turn_steps) {
         std::vector<PathPoint> back = swept(of, part.state, joint, point, -step);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
 
 #include "app/document/refused.hpp"
 #include "app/labs/kit/arguments.hpp"
@@ -34,6 +35,12 @@ ik::LinkageSketch held_part(const ik::LinkageSketch& sketch, const std::vector<b
     for (std::size_t b = floats.size(); b-- > 0;)
         if (floats[b]) require_ok(ik::remove_bar(held, b));
     return held;
+}
+
+/// The angle at which a leg's own motor is while the walker's is at `angle`; or the walker's from the leg's.
+double motor_of(const LinkageCopy& copy, double angle, bool back = false) {
+    if (back) return (copy.mirrored ? std::numbers::pi - angle : angle) - copy.phase;
+    return copy.mirrored ? std::numbers::pi - angle - copy.phase : angle + copy.phase;
 }
 
 std::vector<std::string> driven_joints(const LinkageShape& shape) {
@@ -106,15 +113,21 @@ void solve_linkage(LinkagePart& part, LinkageRuntime& runtime) {
     result.freedom = solver.freedom(part.state);
     result.active.assign(solver.active().begin(), solver.active().end());
     result.open_closures.assign(solver.open_closures().begin(), solver.open_closures().end());
+    // A motor goes on from where it is; what is held is still asked for.
     for (LinkageDrive& each : part.drives)
-        each.value = part.state.joints[linkage.find_link(each.joint)].value;
+        if (!each.held || each.rate != 0.0 || part.drag) each.value = part.value_of(each.joint);
     part.links.assign(solver.links().begin(), solver.links().end());
     for (LinkageCopy& each : part.copies) {
-        const LinkageDrive& motor = part.drives.front();
-        const double turned = motor.value + each.phase;
-        const ik::LinkDriver driver{linkage.find_link(motor.joint), each.mirrored ? M_PI - turned : turned};
-        static_cast<void>(solver.solve(each.state, {{&driver, 1}, {}}));
+        const std::string& motor = part.drives.front().joint;
+        const ik::LinkDriver driver{linkage.find_link(motor), motor_of(each, part.value_of(motor))};
+        const ik::LinkageReport report = solver.solve(each.state, {{&driver, 1}, {}});
         each.links.assign(solver.links().begin(), solver.links().end());
+        if (report.status <= result.report.status) continue;
+        // The worst leg speaks for all, by the angle of the motor that they share.
+        result.report.status = report.status;
+        result.report.stopped = report.stopped;
+        result.report.stopped_at = motor_of(each, report.stopped_at, true);
+        result.report.closed_to = std::max(result.report.closed_to, report.closed_to);
     }
 }
 
@@ -162,14 +175,19 @@ std::vector<LinkageCopy> copies_of(const LinkageShape& shape, const ik::LinkageS
     const auto* const walker = std::get_if<JansenWalker>(&shape.mechanism);
     if (walker == nullptr) return copies;
     constexpr int pairs = 6;
+    constexpr double turn = 2.0 * std::numbers::pi;
+    const std::size_t motor = shape.linkage.find_link(driven_joints(shape).front());
     for (int i = 0; i < 2 * pairs; ++i) {
         const int pair = i / 2;
         // The first is the linkage itself.
-        if (i > 0)
-            copies.push_back({.phase = pair * 2.0 * M_PI / pairs,
-                              .mirrored = i % 2 == 1,
-                              .depth = -walker->m * pair,
-                              .state = state});
+        if (i == 0) continue;
+        LinkageCopy& copy = copies.emplace_back(LinkageCopy{.phase = pair * turn / pairs,
+                                                            .mirrored = i % 2 == 1,
+                                                            .depth = -walker->m * pair,
+                                                            .state = state});
+        // Whole turns are the same pose.
+        double& value = copy.state.joints[motor].value;
+        value += turn * std::round((motor_of(copy, value) - value) / turn);
     }
     return copies;
 }
@@ -186,7 +204,7 @@ void take_shape(LinkagePart& part, LinkageShape shape, LinkageRuntime& runtime) 
         const std::size_t link = part.linkage().find_link(joint);
         const double drawn = part.state.joints[link].value, held = drive.value;
         const bool hinge = part.linkage().links[link].joint == ik::LinkJoint::Hinge;
-        drive.value = !drive.held ? drawn : hinge ? drawn + std::remainder(held - drawn, 2.0 * M_PI) : held;
+        drive.value = !drive.held ? drawn : hinge ? drawn + std::remainder(held - drawn, 2.0 * std::numbers::pi) : held;
     }
     part.drives = std::move(drives);
     const auto gone = [&](const std::string& point) {
