@@ -7,6 +7,7 @@
 
 #include "app/document/json_complete.hpp"
 #include "app/document/refused.hpp"
+#include "app/document/units.hpp"
 #include "app/labs/kit/arguments.hpp"
 #include "app/labs/lab.hpp"
 #include "app/labs/linkage/code.hpp"
@@ -27,14 +28,19 @@ Argument joint_argument() {
                     [](const Workspace& workspace) { return joints_here(linkage_part(workspace)); });
 }
 
-/// The drive of a hinge or slider; a new one if it has none. Throws Refused.
-LinkageDrive& drive_of(LinkagePart& part, const std::string& joint) {
+/// Throws Refused for anything but a hinge or slider.
+void require_joint(const LinkagePart& part, const std::string& joint) {
     const std::size_t link = part.linkage().find_link(joint);
     if (link == ik::ground_link) throw Refused("there is no joint \"" + joint + "\"");
     if (part.linkage().links[link].joint == ik::LinkJoint::Ball)
         throw Refused("joint \"" + joint + "\" is a ball: it has no single value");
+}
+
+/// The drive of a hinge or slider; a new one if it has none. Throws Refused.
+LinkageDrive& drive_of(LinkagePart& part, const std::string& joint) {
+    require_joint(part, joint);
     if (part.find_drive(joint) == nullptr)
-        part.drives.push_back({.joint = joint, .value = part.state.joints[link].value});
+        part.drives.push_back({.joint = joint, .value = part.value_of(joint)});
     return *std::ranges::find(part.drives, joint, &LinkageDrive::joint);
 }
 
@@ -106,6 +112,36 @@ void motor(LinkagePart& part, const Arguments& given, LinkageRuntime& runtime) {
     drive.rate = rate;
     drive.held = true;
     solve_linkage(part, runtime);
+}
+
+void set_range(LinkagePart& part, const Arguments& given, LinkageRuntime& runtime) {
+    const std::string joint = given.text("joint");
+    require_joint(part, joint);
+    const bool off = given.has("off") && given.boolean("off");
+    if (off == (given.has("min") || given.has("max"))) throw Refused("give min, max or both, or off: true");
+    std::vector<LinkageRange> ranges = part.shape->ranges;
+    auto range = std::ranges::find(ranges, joint, &LinkageRange::joint);
+    if (off) {
+        if (range == ranges.end()) throw Refused("\"" + joint + "\" has no range");
+        ranges.erase(range);
+    } else {
+        if (range == ranges.end()) range = ranges.insert(range, LinkageRange{.joint = joint});
+        const auto value = [&](const char* name) {
+            return turns(part, joint) ? glm::radians(given.real(name)) : given.real(name);
+        };
+        if (given.has("min")) range->minimum = value("min");
+        if (given.has("max")) range->maximum = value("max");
+        if (range->minimum > range->maximum) {
+            const auto text = [&](double each) {
+                return fixed_text(turns(part, joint) ? glm::degrees(each) : each, 3);
+            };
+            throw Refused("min must be at most max, got " + text(range->minimum) + " and " +
+                          text(range->maximum));
+        }
+    }
+    const bool drawn = kind_of(part.shape->mechanism) == nullptr;
+    LinkageShape shape = drawn ? shape_of(present_sketch(part)) : shape_of(part.shape->mechanism);
+    take_shape(part, std::move(shape), std::move(ranges), runtime);
 }
 
 void target(LinkagePart& part, const Arguments& given, LinkageRuntime& runtime) {
@@ -287,6 +323,12 @@ void add_linkage_commands(CommandTable& table) {
                         "Turns a hinge or moves a slider, and holds it there", drive));
     table.add(linkage_command("linkage.release", "Let a joint move freely", {joint_argument()},
                               "Stops the joint's motor and lets it follow the others", release));
+    table.add(linkage_command(
+        "linkage.range", "Limit how far a joint goes",
+        {joint_argument(), number_argument("min", "degrees of a hinge, metres of a slider", -1e6, 1e6),
+         number_argument("max", "likewise; one that is omitted is kept", -1e6, 1e6),
+         switch_argument("off", "true: no range of its own")},
+        "Limits a hinge or slider to a range", set_range));
     table.add(linkage_command(
         "linkage.motor", "Run a motor",
         {joint_argument(),

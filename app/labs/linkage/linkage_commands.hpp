@@ -14,6 +14,8 @@ void add_sketch_commands(CommandTable& table);
 /// A motor that does not say turns this fast, degrees a second; a slider's moves a tenth of the linkage.
 inline constexpr double usual_motor_rate = 90.0;
 
+/// Whether a bar, a motor or a sliding joint has the name: all are links.
+bool is_link_name(const ik::LinkageSketch& sketch, const std::string& name);
 /// Whether the joint of that link turns: its values are angles.
 bool turns(const LinkagePart& part, std::string_view joint);
 /// One tick of all motors.

@@ -52,7 +52,7 @@ std::optional<StrokeEnd> end_at(const LinkagePart& part, const Camera& camera, g
     if (!end.joint.empty()) return end;
     const auto place = camera.on_plane(pixel, glm::vec3(0.0f), {0, 0, 1});
     if (!place) return std::nullopt;
-    end.place = *place;
+    end.place = from_scene(part, *place);
     return end;
 }
 

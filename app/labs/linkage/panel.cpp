@@ -79,9 +79,8 @@ Verdict linkage_verdict(const LinkagePart& part) {
                     stop_text(part) + (reason.empty() ? "." : ": " + reason + ".")};
         }
         case Limited:
-            return {
-                "At the end of a range", Verdict::Kind::Bad,
-                report.stopped ? stop_text(part) + "." : "A target is beyond it."};
+            return {"At the end of a range", Verdict::Kind::Bad,
+                    report.stopped ? stop_text(part) + "." : "A target is beyond it."};
         case TargetMissed:
             return {"Out of reach: " + length_text(report.residual) + " short", Verdict::Kind::Bad,
                     "No pose was found that brings the point to its target."};
@@ -151,7 +150,8 @@ void motor_buttons(const Workspace& workspace, Emit& emit) {
                    runs ? "Stops the motor and holds the joint" : "Runs the motor while time passes")) {
         for (const LinkageDrive& each : part.drives)
             if (runs)
-                emit.continuously("linkage.drive", {{"joint", each.joint}, {"value", part.value_of(each.joint)}});
+                emit.continuously("linkage.drive",
+                                  {{"joint", each.joint}, {"value", part.value_of(each.joint)}});
             else
                 emit.continuously("linkage.motor", {{"joint", each.joint}});
         if (!runs && !workspace.clock.playing) emit("time.play");

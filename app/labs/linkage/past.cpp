@@ -168,10 +168,10 @@ std::vector<Incident> linkage_incidents(const LinkagePart& before, const Linkage
         }
         incidents.push_back(std::move(incident));
     } else if (is.status == Open && was.status != Open) {
-        incidents.push_back(
-            {.kind = Incident::Kind::Status,
-             .joint = 0,
-             .cause = "no pose was found that closes it: the bars are " + length_text(is.closed_to) + " apart"});
+        incidents.push_back({.kind = Incident::Kind::Status,
+                             .joint = 0,
+                             .cause = "no pose was found that closes it: the bars are " +
+                                      length_text(is.closed_to) + " apart"});
     }
     return incidents;
 }

@@ -2,9 +2,11 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 #include <numbers>
 
 #include "app/document/refused.hpp"
+#include "app/document/units.hpp"
 #include "app/labs/kit/arguments.hpp"
 #include "app/labs/linkage/linkage_part.hpp"
 
@@ -192,9 +194,118 @@ std::vector<LinkageCopy> copies_of(const LinkageShape& shape, const ik::LinkageS
     return copies;
 }
 
+std::size_t link_of_bar(const ik::Linkage& linkage, const ik::LinkageSketch& sketch, std::size_t bar) {
+    for (const ik::SketchMotor& motor : sketch.motors) {
+        const std::size_t link = linkage.find_link(motor.name);
+        if (link == ik::ground_link) continue;
+        // Of two bars that a motor turns against each other, the later one hangs on the other.
+        const bool turned_round = motor.against != ik::ground_link && linkage.links[link].axis.z < 0.0;
+        if (bar == (turned_round ? motor.against : motor.bar)) return link;
+    }
+    return linkage.find_link(sketch.bars[bar].name);
+}
+
+namespace {
+
+constexpr double whole_turn = 2.0 * std::numbers::pi;
+
+bool is_hinge(const ik::Link& link) {
+    return link.joint == ik::LinkJoint::Hinge;
+}
+
+/// A hinge's value, by whole turns nearest to another, or in its range.
+double turned_near(double value, double other, const ik::Link& link) {
+    value += whole_turn * std::round((other - value) / whole_turn);
+    if (value > link.maximum) value -= whole_turn * std::ceil((value - link.maximum) / whole_turn);
+    if (value < link.minimum) value += whole_turn * std::ceil((link.minimum - value) / whole_turn);
+    return value;
+}
+
+/// The direction of a bar, from its first joint to its second.
+double bar_direction(const ik::SketchBar& bar, auto at) {
+    const glm::dvec2 way = glm::dvec2(at(bar.points[1])) - glm::dvec2(at(bar.points[0]));
+    return std::atan2(way.y, way.x);
+}
+
+/// How far a bar of the new shape turns from where it is drawn to where the old part has it. Nothing: the old
+/// part has no such bar.
+std::optional<double> turn_of_bar(const LinkagePart& old, const ik::LinkageSketch& sketch, std::size_t bar) {
+    const ik::LinkageSketch& was = old.shape->sketch;
+    const std::size_t same = was.find_bar(sketch.bars[bar].name);
+    if (same == ik::ground_link) return std::nullopt;
+    return bar_direction(was.bars[same], [&](std::size_t i) { return old.at(i); }) -
+           bar_direction(sketch.bars[bar], [&](std::size_t i) { return sketch.points[i].at; });
+}
+
+/// The pose of another part, for a mechanism of the same kind: in the plane its bars keep their directions,
+/// in space its joints keep their values. It closes when it is solved.
+void pose_like(const LinkagePart& old, const LinkageShape& shape, ik::LinkageState& state) {
+    std::vector<double> turns(shape.linkage.links.size());
+    const auto turn_of = [&](std::size_t link) { return link == ik::ground_link ? 0.0 : turns[link]; };
+    for (std::size_t i = 0; i < turns.size(); ++i) {
+        const ik::Link& link = shape.linkage.links[i];
+        ik::JointPlace& place = state.joints[i];
+        const std::size_t before = old.linkage().find_link(link.name);
+        if (before != ik::ground_link) {
+            const double drawn = place.value;
+            place = old.state.joints[before];
+            if (is_hinge(link) && !shape.in_plane())
+                place.value = turned_near(place.value, place.value, link);
+            if (is_hinge(link) && shape.in_plane()) place.value = drawn;
+        }
+        turns[i] = turn_of(link.parent);
+        if (!shape.in_plane() || !is_hinge(link)) continue;
+        for (std::size_t bar = 0; bar < shape.sketch.bars.size(); ++bar) {
+            if (link_of_bar(shape.linkage, shape.sketch, bar) != i) continue;
+            const std::optional<double> turn = turn_of_bar(old, shape.sketch, bar);
+            if (!turn) continue;
+            turns[i] = *turn;
+            const double value =
+                link.rest + (link.axis.z < 0.0 ? -1.0 : 1.0) * (*turn - turn_of(link.parent));
+            const double near = before != ik::ground_link ? old.state.joints[before].value : link.rest;
+            place.value = turned_near(value, near, link);
+        }
+    }
+}
+
+}  // namespace
+
+void set_ranges(LinkageShape& shape, std::vector<LinkageRange> ranges) {
+    std::erase_if(ranges, [&](const LinkageRange& each) {
+        const std::size_t link = shape.linkage.find_link(each.joint);
+        return link == ik::ground_link || shape.linkage.links[link].joint == ik::LinkJoint::Ball;
+    });
+    for (const LinkageRange& each : ranges) {
+        ik::Link& link = shape.linkage.links[shape.linkage.find_link(each.joint)];
+        link.minimum = each.minimum;
+        link.maximum = each.maximum;
+        if (is_hinge(link)) link.rest = turned_near(link.rest, link.rest, link);
+        if (link.rest >= link.minimum && link.rest <= link.maximum) continue;
+        const auto text = [&](double value) {
+            return is_hinge(link) ? fixed_text(glm::degrees(value), 1) + " degrees"
+                                  : fixed_text(value, 3) + " m";
+        };
+        throw std::invalid_argument("the range of \"" + each.joint + "\" must hold " + text(link.rest) +
+                                    ", where it is drawn, got " + text(each.minimum) + " to " +
+                                    text(each.maximum));
+    }
+    shape.ranges = std::move(ranges);
+}
+
 void take_shape(LinkagePart& part, LinkageShape shape, LinkageRuntime& runtime) {
-    part.shape = std::make_shared<const LinkageShape>(std::move(shape));
-    part.state = runtime.solver(part.shape).initial_state();
+    take_shape(part, std::move(shape), part.shape->ranges, runtime);
+}
+
+void take_shape(LinkagePart& part, LinkageShape shape, std::vector<LinkageRange> ranges,
+                LinkageRuntime& runtime) {
+    set_ranges(shape, std::move(ranges));
+    const bool same_kind =
+        kind_of(shape.mechanism) != nullptr && shape.mechanism.index() == part.shape->mechanism.index();
+    const auto made = std::make_shared<const LinkageShape>(std::move(shape));
+    ik::LinkageState state = runtime.solver(made).initial_state();
+    if (same_kind) pose_like(part, *made, state);
+    part.shape = made;
+    part.state = std::move(state);
     part.copies = copies_of(*part.shape, part.state);
     part.walked = 0.0;
     std::vector<LinkageDrive> drives;
@@ -203,8 +314,11 @@ void take_shape(LinkagePart& part, LinkageShape shape, LinkageRuntime& runtime) 
         LinkageDrive& drive = drives.emplace_back(before != nullptr ? *before : LinkageDrive{.joint = joint});
         const std::size_t link = part.linkage().find_link(joint);
         const double drawn = part.state.joints[link].value, held = drive.value;
-        const bool hinge = part.linkage().links[link].joint == ik::LinkJoint::Hinge;
-        drive.value = !drive.held ? drawn : hinge ? drawn + std::remainder(held - drawn, 2.0 * std::numbers::pi) : held;
+        const bool hinge = is_hinge(part.linkage().links[link]);
+        const bool counted = same_kind && before != nullptr;  // its turns are those from before
+        drive.value = !drive.held         ? drawn
+                      : hinge && !counted ? drawn + std::remainder(held - drawn, whole_turn)
+                                          : held;
     }
     part.drives = std::move(drives);
     const auto gone = [&](const std::string& point) {

@@ -39,9 +39,7 @@ std::string free_point_name(const LinkageSketch& sketch) {
 std::string free_link_name(const LinkageSketch& sketch, const std::string& what) {
     for (std::size_t i = 1;; ++i) {
         std::string name = what + " " + std::to_string(i);
-        if (sketch.find_bar(name) == ik::ground_link &&
-            std::ranges::count(sketch.motors, name, &ik::SketchMotor::name) == 0)
-            return name;
+        if (!is_link_name(sketch, name)) return name;
     }
 }
 
@@ -79,7 +77,7 @@ void add_bar(LinkageSketch& sketch, const Arguments& given) {
         throw Refused("a linkage has at most " + std::to_string(max_linkage_bars) + " bars");
     const std::string name = given.has("name") ? given.text("name") : free_link_name(sketch, "bar");
     if (name.empty()) throw Refused("name: a bar needs one");
-    if (sketch.find_bar(name) != ik::ground_link) throw Refused("there is a bar \"" + name + "\" already");
+    if (is_link_name(sketch, name)) throw Refused("name: \"" + name + "\" is taken");
     const std::size_t from = end_of_bar(sketch, given, "from"), to = end_of_bar(sketch, given, "to");
     if (from == to || sketch.points[from].at == sketch.points[to].at)
         throw Refused("a bar needs two different joints");
@@ -109,6 +107,8 @@ void pin(LinkageSketch& sketch, const Arguments& given) {
 
 void guide(LinkageSketch& sketch, const Arguments& given) {
     const std::size_t index = require_in_sketch(sketch, given.text("point"));
+    if (sketch.points[index].hold != SketchHold::Guided && is_link_name(sketch, sketch.points[index].name))
+        throw Refused("\"" + sketch.points[index].name + "\" is a bar's or motor's name: it cannot slide");
     sketch.points[index].hold = SketchHold::Guided;
     sketch.points[index].guide = glm::radians(given.has("angle_deg") ? given.real("angle_deg") : 0.0);
     remove_motors_at(sketch, index);
@@ -152,9 +152,7 @@ void add_motor(LinkageSketch& sketch, const Arguments& given) {
         if (bar == ik::ground_link) throw Refused("there is no bar on " + at + " that a motor could turn");
     }
     const std::string name = given.has("name") ? given.text("name") : free_link_name(sketch, "motor");
-    if (name.empty() || sketch.find_bar(name) != ik::ground_link ||
-        std::ranges::count(sketch.motors, name, &ik::SketchMotor::name) > 0)
-        throw Refused("name: \"" + name + "\" is taken");
+    if (name.empty() || is_link_name(sketch, name)) throw Refused("name: \"" + name + "\" is taken");
     sketch.motors.push_back({.name = name, .point = point, .bar = bar});
 }
 
@@ -170,6 +168,14 @@ void remove_bar_or_joint(LinkageSketch& sketch, const Arguments& given) {
         require_ok(ik::remove_point(sketch, require_in_sketch(sketch, given.text("point"))));
     else
         require_ok(ik::remove_bar(sketch, require_bar(sketch, given.text("bar"))));
+}
+
+/// Says so where a mechanism loses its named lengths by it.
+void edit_by_hand(Workspace& workspace, const auto& change) {
+    const MechanismKind* const was = kind_of(linkage_part(workspace).shape->mechanism);
+    change_part<LinkagePart>(workspace, linkage_lab, change);
+    if (was != nullptr && kind_of(linkage_part(workspace).shape->mechanism) == nullptr)
+        workspace.toast(std::string(was->title) + ": drawn by hand from here on, without named lengths");
 }
 
 /// A command that edits the sketch in the present pose.
@@ -188,7 +194,7 @@ Command sketch_command(const char* name, const char* title, std::vector<Argument
                     edit(sketch, given);
                     if (!(sketch == before)) take_shape(part, shape_of(std::move(sketch)), runtime);
                 };
-                change_part<LinkagePart>(workspace, linkage_lab, change);
+                edit_by_hand(workspace, change);
             }};
 }
 
@@ -209,6 +215,13 @@ Argument end_argument(const char* name) {
 }
 
 }  // namespace
+
+bool is_link_name(const LinkageSketch& sketch, const std::string& name) {
+    const std::size_t point = sketch.find_point(name);
+    return sketch.find_bar(name) != ik::ground_link ||
+           std::ranges::count(sketch.motors, name, &ik::SketchMotor::name) > 0 ||
+           (point != ik::ground_link && sketch.points[point].hold == SketchHold::Guided);
+}
 
 void add_sketch_commands(CommandTable& table) {
     const Argument point = linkage_point_argument("point", true, "which joint");
@@ -256,7 +269,7 @@ void add_sketch_commands(CommandTable& table) {
                        require_ok(ik::remove_point(sketch, require_in_sketch(sketch, part.selected)));
                        take_shape(part, shape_of(std::move(sketch)), runtime);
                    };
-                   change_part<LinkagePart>(workspace, linkage_lab, change);
+                   edit_by_hand(workspace, change);
                }});
 }
 
