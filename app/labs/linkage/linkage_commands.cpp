@@ -335,11 +335,11 @@ void add_linkage_commands(CommandTable& table) {
          number_argument("deg_per_s", "of a hinge; 0 stops it", -max_motor_rate, max_motor_rate),
          number_argument("per_s", "of a slider, metres a second", -max_motor_rate, max_motor_rate)},
         "Runs a joint at this speed while time passes; at the usual one if none is given", motor));
-    table.add(linkage_command("linkage.target", "Draw a point to a place",
+    table.add(linkage_command("linkage.target", "Pull a point to a position",
                               {linkage_point_argument("point", true, "which point"), to,
                                number_argument("weight", "relative to other targets", 1e-6, 1e6),
                                switch_argument("exact", "comes before all targets that are not")},
-                              "Draws a point to a place as far as the drivers let it", target));
+                              "Pulls a point to a position as far as the drivers let it", target));
     table.add(linkage_command("linkage.target.remove", "Remove a point's target",
                               {linkage_point_argument("point", true, "which point")}, "Lets the point go",
                               remove_target));
@@ -347,7 +347,7 @@ void add_linkage_commands(CommandTable& table) {
                               {linkage_point_argument("point", true, "which point"), to},
                               "Moves a point as the mouse does: drivers follow until it is let go", drag));
     table.add(linkage_command("linkage.let_go", "Let go of the linkage", {}, "Ends a drag", let_go));
-    table.add(linkage_command("linkage.other_mode", "Go to the other assembly mode", {},
+    table.add(linkage_command("linkage.other_mode", "Switch to the other assembly mode", {},
                               "Assembles the same bars the other way, with the drivers where they are",
                               other_mode));
     table.add(

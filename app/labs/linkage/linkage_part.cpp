@@ -19,12 +19,21 @@ bool LinkagePart::operator==(const LinkagePart& other) const {
 }
 
 std::size_t LinkagePart::bytes() const {
-    const std::size_t shared = linkage().links.size() * sizeof(ik::Link) +
-                               linkage().closures.size() * sizeof(ik::Closure) +
-                               linkage().points.size() * (sizeof(ik::LinkPoint) + sizeof(ik::SketchPoint));
-    return sizeof(*this) + shared + (1 + copies.size()) * state.joints.size() * sizeof(ik::JointPlace) +
-           links.size() * sizeof(ik::LinkPlace) + drives.size() * sizeof(LinkageDrive) +
-           targets.size() * sizeof(LinkageTarget);
+    const ik::LinkageSketch& sketch = shape->sketch;
+    std::size_t ends = 0;
+    for (const ik::SketchBar& each : sketch.bars) ends += each.points.size();
+    const std::size_t drawn = sizeof(LinkageShape) + sketch.points.size() * sizeof(ik::SketchPoint) +
+                              sketch.bars.size() * sizeof(ik::SketchBar) + ends * sizeof(std::size_t) +
+                              sketch.motors.size() * sizeof(ik::SketchMotor) +
+                              shape->ranges.size() * sizeof(LinkageRange);
+    const std::size_t made = linkage().links.size() * sizeof(ik::Link) +
+                             linkage().closures.size() * sizeof(ik::Closure) +
+                             linkage().points.size() * sizeof(ik::LinkPoint);
+    const std::size_t pose =
+        state.joints.size() * sizeof(ik::JointPlace) + links.size() * sizeof(ik::LinkPlace);
+    return sizeof(*this) + drawn + made + pose + copies.size() * (sizeof(LinkageCopy) + pose) +
+           drives.size() * sizeof(LinkageDrive) + targets.size() * sizeof(LinkageTarget) +
+           (result.active.size() + result.open_closures.size()) * sizeof(std::size_t);
 }
 
 std::shared_ptr<const Part> LinkagePart::after_undo() const {

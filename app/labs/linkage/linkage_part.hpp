@@ -132,6 +132,7 @@ inline const LinkagePart& linkage_part(const Workspace& workspace) {
 struct PathPoint {
     glm::dvec3 at{0.0};
     double speed = 0.0;
+    std::vector<double> joints{};  ///< the pose: values, one for each link
 };
 
 /// The solver of the lab's linkage, made once for each shape, and the path of a point.
@@ -164,6 +165,8 @@ void set_ranges(LinkageShape& shape, std::vector<LinkageRange> ranges);
 /// The link of a bar of the sketch: it has the bar's name, or that of the motor that turns it. ground_link:
 /// the bar floats.
 std::size_t link_of_bar(const ik::Linkage& linkage, const ik::LinkageSketch& sketch, std::size_t bar);
+/// Of a sketch's bars: whether neither a pin nor a guide reaches it, directly or through other bars.
+std::vector<bool> floating_bars(const ik::LinkageSketch& sketch);
 /// The shape of a sketch. Bars that nothing holds are left out of the linkage. Throws std::invalid_argument
 /// for a sketch that the library refuses.
 LinkageShape shape_of(ik::LinkageSketch sketch);

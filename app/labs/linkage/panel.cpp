@@ -141,6 +141,33 @@ void value_row(const LinkagePart& part, const LinkageDrive& drive, Emit& emit) {
     explain("The joint's value: drag or type it to drive the linkage.");
 }
 
+/// Its ends; or a button that gives it one about where it is.
+void range_rows(const LinkagePart& part, const std::string& joint, Emit& emit) {
+    const bool angular = turns(part, joint);
+    const auto shown = [&](double value) { return angular ? glm::degrees(value) : value; };
+    const auto range = std::ranges::find(part.shape->ranges, joint, &LinkageRange::joint);
+    if (range == part.shape->ranges.end()) {
+        if (row_button(("Limit " + joint).c_str(), 1, true, "Gives the joint a range about where it is")) {
+            const double now = shown(part.value_of(joint)), about = angular ? 45.0 : 0.5;
+            emit("linkage.range", {{"joint", joint}, {"min", now - about}, {"max", now + about}});
+        }
+        return end_row();
+    }
+    const char* const format = angular ? "%.1f deg" : "%.3f m";
+    const auto end = [&](const char* which, double now) {
+        if (!std::isfinite(now)) return;
+        auto value = static_cast<float>(shown(now));
+        if (number_field((joint + " " + which).c_str(), value, angular ? 0.5f : 0.002f, -1e6f, 1e6f, format))
+            emit.continuously("linkage.range", {{"joint", joint}, {which, value}});
+        explain("An end of the joint's range.");
+    };
+    end("min", range->minimum);
+    end("max", range->maximum);
+    if (row_button(("No limit of " + joint).c_str(), 1, true, "Takes the joint's range away"))
+        emit("linkage.range", {{"joint", joint}, {"off", true}});
+    end_row();
+}
+
 /// Runs, stops and frees all motors.
 void motor_buttons(const Workspace& workspace, Emit& emit) {
     const LinkagePart& part = linkage_part(workspace);
@@ -176,6 +203,9 @@ void driver_rows(const Workspace& workspace, MoreRows& more, Emit& emit) {
         if (several)
             more.add(name, {"linkage.motor", {"joint"}}, each.rate != 0.0,
                      [&part, &each, &emit, name] { speed_row(part, each, name, emit); });
+        const bool limited = std::ranges::count(part.shape->ranges, each.joint, &LinkageRange::joint) > 0;
+        more.add(each.joint + " range", {"linkage.range", {"joint"}}, limited,
+                 [&part, &each, &emit] { range_rows(part, each.joint, emit); });
     }
     if (part.drives.empty()) note("No motor yet: choose Motor, and click a pinned joint.");
     motor_buttons(workspace, emit);
@@ -250,8 +280,8 @@ void freedom_rows(const LinkagePart& part) {
     explain("Counted from the equations as they are here: what really can move, motors left out.");
     reading("Gruebler's count", "%d", part.result.freedom.counted);
     explain(
-        "Three for each link, less two for each joint, by number alone: it misses joints that repeat each "
-        "other, and poses where bars are in line.");
+        "Three for each link, less two for each joint, by number alone: it misses redundant joints, and "
+        "poses where bars are in line.");
     const double transmission = transmission_angle(part);
     if (std::isfinite(transmission)) {
         reading("transmission angle", "%s", angle_text(transmission).c_str());
@@ -270,7 +300,7 @@ void bar_rows(const LinkagePart& part, std::size_t at, Emit& emit) {
         auto length = static_cast<float>(glm::distance(part.at(bar.points[0]), part.at(bar.points[1])));
         if (number_field(bar.name.c_str(), length, 0.01f, 1e-6f, 1e6f, "%.3f m"))
             emit.continuously("linkage.length", {{"bar", bar.name}, {"length", length}});
-        explain("The bar's length. Setting it makes the linkage one drawn by hand.");
+        explain("The bar's length; the others keep theirs. Setting it makes the linkage one drawn by hand.");
     }
 }
 
@@ -304,6 +334,7 @@ void joint_rows(const LinkagePart& part, Emit& emit) {
         if (number_field("line", along, 0.5f, -360.0f, 360.0f, "%.1f deg"))
             emit.continuously("linkage.guide", {{"point", part.selected}, {"angle_deg", along}});
         explain("The direction of its line, from +X.");
+        if (part.linkage().find_link(part.selected) != ik::ground_link) range_rows(part, part.selected, emit);
     }
 }
 

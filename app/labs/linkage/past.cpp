@@ -140,9 +140,9 @@ std::vector<Incident> linkage_incidents(const LinkagePart& before, const Linkage
                              .joint = 0,
                              .name = after.drives.empty() ? "linkage" : after.drives.front().joint,
                              .cause = "passed a dead point: " + (line.empty() ? "" : line + "; ") +
-                                      "the linkage went over into its other assembly mode",
+                                      "the linkage switched to its other assembly mode",
                              .buttons = {{"Other mode",
-                                          "Runs linkage.other_mode: back into the mode before",
+                                          "Runs linkage.other_mode: back to the mode before",
                                           {{"linkage.other_mode", {}}}}}});
     }
     if (is.stopped && is.stopped != was.stopped) {

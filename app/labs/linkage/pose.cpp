@@ -11,9 +11,7 @@
 #include "app/labs/linkage/linkage_part.hpp"
 
 namespace tendril::app {
-namespace {
 
-/// Bars that neither a pin nor a guide reaches, directly or through other bars.
 std::vector<bool> floating_bars(const ik::LinkageSketch& sketch) {
     std::vector<bool> held(sketch.points.size()), floats(sketch.bars.size(), true);
     for (std::size_t i = 0; i < held.size(); ++i) held[i] = sketch.points[i].hold != ik::SketchHold::Free;
@@ -30,6 +28,8 @@ std::vector<bool> floating_bars(const ik::LinkageSketch& sketch) {
     }
     return floats;
 }
+
+namespace {
 
 /// The sketch without the bars that float.
 ik::LinkageSketch held_part(const ik::LinkageSketch& sketch, const std::vector<bool>& floats) {
