@@ -7,6 +7,7 @@
 
 #include "app/document/json_complete.hpp"
 #include "app/document/refused.hpp"
+#include "app/document/units.hpp"
 #include "app/labs/kit/arguments.hpp"
 #include "app/labs/lab.hpp"
 #include "app/labs/linkage/code.hpp"
@@ -27,14 +28,19 @@ Argument joint_argument() {
                     [](const Workspace& workspace) { return joints_here(linkage_part(workspace)); });
 }
 
-/// The drive of a hinge or slider; a new one if it has none. Throws Refused.
-LinkageDrive& drive_of(LinkagePart& part, const std::string& joint) {
+/// Throws Refused for anything but a hinge or slider.
+void require_joint(const LinkagePart& part, const std::string& joint) {
     const std::size_t link = part.linkage().find_link(joint);
     if (link == ik::ground_link) throw Refused("there is no joint \"" + joint + "\"");
     if (part.linkage().links[link].joint == ik::LinkJoint::Ball)
         throw Refused("joint \"" + joint + "\" is a ball: it has no single value");
+}
+
+/// The drive of a hinge or slider; a new one if it has none. Throws Refused.
+LinkageDrive& drive_of(LinkagePart& part, const std::string& joint) {
+    require_joint(part, joint);
     if (part.find_drive(joint) == nullptr)
-        part.drives.push_back({.joint = joint, .value = part.state.joints[link].value});
+        part.drives.push_back({.joint = joint, .value = part.value_of(joint)});
     return *std::ranges::find(part.drives, joint, &LinkageDrive::joint);
 }
 
@@ -98,12 +104,44 @@ void motor(LinkagePart& part, const Arguments& given, LinkageRuntime& runtime) {
     if (given.has("deg_per_s") && given.has("per_s")) throw Refused("give deg_per_s or per_s, and not both");
     if (given.has("deg_per_s") && !angular)
         throw Refused("joint \"" + joint + "\" is a slider: give per_s, in metres a second");
-    double rate = angular ? glm::radians(usual_motor_rate) : 0.1 * runtime.solver(part.shape).size();
+    if (given.has("per_s") && angular) throw Refused("joint \"" + joint + "\" is a hinge: give deg_per_s");
+    double rate = angular ? glm::radians(usual_motor_rate)
+                          : std::min(0.1 * runtime.solver(part.shape).size(), max_motor_rate);
     if (given.has("deg_per_s")) rate = glm::radians(given.real("deg_per_s"));
     if (given.has("per_s")) rate = given.real("per_s");
     drive.rate = rate;
     drive.held = true;
     solve_linkage(part, runtime);
+}
+
+void set_range(LinkagePart& part, const Arguments& given, LinkageRuntime& runtime) {
+    const std::string joint = given.text("joint");
+    require_joint(part, joint);
+    const bool off = given.has("off") && given.boolean("off");
+    if (off == (given.has("min") || given.has("max"))) throw Refused("give min, max or both, or off: true");
+    std::vector<LinkageRange> ranges = part.shape->ranges;
+    auto range = std::ranges::find(ranges, joint, &LinkageRange::joint);
+    if (off) {
+        if (range == ranges.end()) throw Refused("\"" + joint + "\" has no range");
+        ranges.erase(range);
+    } else {
+        if (range == ranges.end()) range = ranges.insert(range, LinkageRange{.joint = joint});
+        const auto value = [&](const char* name) {
+            return turns(part, joint) ? glm::radians(given.real(name)) : given.real(name);
+        };
+        if (given.has("min")) range->minimum = value("min");
+        if (given.has("max")) range->maximum = value("max");
+        if (range->minimum > range->maximum) {
+            const auto text = [&](double each) {
+                return fixed_text(turns(part, joint) ? glm::degrees(each) : each, 3);
+            };
+            throw Refused("min must be at most max, got " + text(range->minimum) + " and " +
+                          text(range->maximum));
+        }
+    }
+    const bool drawn = kind_of(part.shape->mechanism) == nullptr;
+    LinkageShape shape = drawn ? shape_of(present_sketch(part)) : shape_of(part.shape->mechanism);
+    take_shape(part, std::move(shape), std::move(ranges), runtime);
 }
 
 void target(LinkagePart& part, const Arguments& given, LinkageRuntime& runtime) {
@@ -139,9 +177,10 @@ void let_go(LinkagePart& part, const Arguments&, LinkageRuntime& runtime) {
 void other_mode(LinkagePart& part, const Arguments&, LinkageRuntime& runtime) {
     std::vector<ik::LinkDriver> drivers;
     for (const LinkageDrive& each : part.drives)
-        drivers.push_back({part.linkage().find_link(each.joint), each.value});
+        drivers.push_back({part.linkage().find_link(each.joint), part.value_of(each.joint)});
     if (!runtime.solver(part.shape).other_mode(part.state, drivers))
         throw Refused("no other assembly mode is found with the drivers where they are");
+    part.copies = copies_of(*part.shape, part.state);
     solve_linkage(part, runtime);
 }
 
@@ -191,9 +230,11 @@ Command linkage_command(const char* name, const char* title, std::vector<Argumen
             .arguments = std::move(arguments),
             .help = help,
             .effect = effect,
-            .apply = [change](Workspace& workspace, const Arguments& given) {
+            .apply = [change, effect](Workspace& workspace, const Arguments& given) {
                 auto& runtime = workspace.runtimes.of<LinkageRuntime>(linkage_lab);
                 change_part<LinkagePart>(workspace, linkage_lab, [&](LinkagePart& part, const LinkagePart&) {
+                    // Whatever else is asked for ends a drag.
+                    if (effect == Effect::Edit) part.drag.reset();
                     change(part, given, runtime);
                 });
             }};
@@ -214,6 +255,13 @@ std::size_t require_linkage_point(const LinkagePart& part, const std::string& na
 bool turns(const LinkagePart& part, std::string_view joint) {
     const std::size_t link = part.linkage().find_link(joint);
     return link != ik::ground_link && part.linkage().links[link].joint == ik::LinkJoint::Hinge;
+}
+
+bool goes_on(const LinkagePart& part) {
+    return part.result.report.status == ik::LinkageStatus::IterationLimit &&
+           std::ranges::any_of(part.drives, [&](const LinkageDrive& each) {
+               return each.held && each.value != part.value_of(each.joint);
+           });
 }
 
 bool is_stalled(const LinkagePart& part, const LinkageDrive& drive) {
@@ -276,16 +324,22 @@ void add_linkage_commands(CommandTable& table) {
     table.add(linkage_command("linkage.release", "Let a joint move freely", {joint_argument()},
                               "Stops the joint's motor and lets it follow the others", release));
     table.add(linkage_command(
+        "linkage.range", "Limit how far a joint goes",
+        {joint_argument(), number_argument("min", "degrees of a hinge, metres of a slider", -1e6, 1e6),
+         number_argument("max", "likewise; one that is omitted is kept", -1e6, 1e6),
+         switch_argument("off", "true: no range of its own")},
+        "Limits a hinge or slider to a range", set_range));
+    table.add(linkage_command(
         "linkage.motor", "Run a motor",
         {joint_argument(),
          number_argument("deg_per_s", "of a hinge; 0 stops it", -max_motor_rate, max_motor_rate),
-         number_argument("per_s", "of a slider, metres a second", -1e6, 1e6)},
+         number_argument("per_s", "of a slider, metres a second", -max_motor_rate, max_motor_rate)},
         "Runs a joint at this speed while time passes; at the usual one if none is given", motor));
-    table.add(linkage_command("linkage.target", "Draw a point to a place",
+    table.add(linkage_command("linkage.target", "Pull a point to a position",
                               {linkage_point_argument("point", true, "which point"), to,
                                number_argument("weight", "relative to other targets", 1e-6, 1e6),
                                switch_argument("exact", "comes before all targets that are not")},
-                              "Draws a point to a place as far as the drivers let it", target));
+                              "Pulls a point to a position as far as the drivers let it", target));
     table.add(linkage_command("linkage.target.remove", "Remove a point's target",
                               {linkage_point_argument("point", true, "which point")}, "Lets the point go",
                               remove_target));
@@ -293,7 +347,7 @@ void add_linkage_commands(CommandTable& table) {
                               {linkage_point_argument("point", true, "which point"), to},
                               "Moves a point as the mouse does: drivers follow until it is let go", drag));
     table.add(linkage_command("linkage.let_go", "Let go of the linkage", {}, "Ends a drag", let_go));
-    table.add(linkage_command("linkage.other_mode", "Go to the other assembly mode", {},
+    table.add(linkage_command("linkage.other_mode", "Switch to the other assembly mode", {},
                               "Assembles the same bars the other way, with the drivers where they are",
                               other_mode));
     table.add(

@@ -14,10 +14,14 @@ void add_sketch_commands(CommandTable& table);
 /// A motor that does not say turns this fast, degrees a second; a slider's moves a tenth of the linkage.
 inline constexpr double usual_motor_rate = 90.0;
 
+/// Whether a bar, a motor or a sliding joint has the name: all are links.
+bool is_link_name(const ik::LinkageSketch& sketch, const std::string& name);
 /// Whether the joint of that link turns: its values are angles.
 bool turns(const LinkagePart& part, std::string_view joint);
 /// One tick of all motors.
 void run_motors(LinkagePart& part, double seconds, LinkageRuntime& runtime);
+/// A driver is on its way to a value that one solve did not get to: the next one goes on.
+bool goes_on(const LinkagePart& part);
 /// A motor that cannot go on: at a dead point, or at the end of a range.
 bool is_stalled(const LinkagePart& part, const LinkageDrive& drive);
 

@@ -52,7 +52,7 @@ std::optional<StrokeEnd> end_at(const LinkagePart& part, const Camera& camera, g
     if (!end.joint.empty()) return end;
     const auto place = camera.on_plane(pixel, glm::vec3(0.0f), {0, 0, 1});
     if (!place) return std::nullopt;
-    end.place = *place;
+    end.place = from_scene(part, *place);
     return end;
 }
 
@@ -76,7 +76,8 @@ std::string bar_at(const LinkagePart& part, const Camera& camera, glm::vec2 pixe
 }
 
 Json drive_state(const LinkagePart& part, const LinkageDrive& drive) {
-    return turns(part, drive.joint) ? Json(glm::degrees(drive.value)) : Json(drive.value);
+    const double value = part.value_of(drive.joint);
+    return turns(part, drive.joint) ? Json(glm::degrees(value)) : Json(value);
 }
 
 }  // namespace
@@ -96,8 +97,9 @@ void LinkageLab::add_commands(CommandTable& table) const {
 
 bool LinkageLab::moving(const Workspace& workspace) const {
     const LinkagePart& part = linkage_part(workspace);
-    return std::ranges::any_of(
-        part.drives, [&](const LinkageDrive& each) { return each.rate != 0.0 && !is_stalled(part, each); });
+    return goes_on(part) || std::ranges::any_of(part.drives, [&](const LinkageDrive& each) {
+               return each.rate != 0.0 && !is_stalled(part, each);
+           });
 }
 
 void LinkageLab::step(Workspace& workspace) const {
@@ -137,7 +139,7 @@ void LinkageLab::drag(const Workspace& workspace, PickId pick, const Handle::Fra
     const ik::LinkPoint* const point = picked_point(part, pick);
     if (point == nullptr) return;
     const bool stays = point->link == ik::ground_link;
-    if (stays && !part.shape->in_plane()) return;
+    if (stays && kind_of(part.shape->mechanism) != nullptr) return;  // its lengths say where it is
     emit.continuously(stays ? "linkage.move" : "linkage.drag",
                       {{"point", point->name}, {"to", from_scene(part, frame.position)}});
 }
@@ -182,7 +184,7 @@ void LinkageLab::stroke(const Workspace& workspace, std::size_t, const Camera& c
 std::string LinkageLab::hint(const Workspace& workspace, PickId pick) const {
     const LinkagePart& part = linkage_part(workspace);
     if (const LinkageTarget* const target = picked_linkage_target(part, pick))
-        return "Where " + target->point + " is drawn to: drag moves it.";
+        return "Where " + target->point + " is pulled to: drag moves it.";
     const ik::LinkPoint* const point = picked_point(part, pick);
     const std::string name = point != nullptr ? point->name : "";
     const bool stays = point != nullptr && point->link == ik::ground_link;
@@ -200,8 +202,10 @@ std::string LinkageLab::hint(const Workspace& workspace, PickId pick) const {
             break;
     }
     if (point == nullptr) return {};
-    return name + (stays ? ": drag moves it, and its bars change their lengths. Click selects it."
-                         : ": drag moves the linkage. Click selects it and draws its path.");
+    const bool named = kind_of(part.shape->mechanism) != nullptr;
+    return name + (stays && named ? ": pinned where the mechanism's lengths put it. Click selects it."
+                   : stays        ? ": drag moves it, and its bars change their lengths. Click selects it."
+                                  : ": drag moves the linkage. Click selects it and draws its path.");
 }
 
 std::vector<LabSetting> LinkageLab::settings() const {

@@ -2,6 +2,8 @@
 #include "app/labs/linkage/linkage_part.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <glm/trigonometric.hpp>
 
 #include "app/document/json_complete.hpp"
 #include "app/document/json_place.hpp"
@@ -17,12 +19,21 @@ bool LinkagePart::operator==(const LinkagePart& other) const {
 }
 
 std::size_t LinkagePart::bytes() const {
-    const std::size_t shared = linkage().links.size() * sizeof(ik::Link) +
-                               linkage().closures.size() * sizeof(ik::Closure) +
-                               linkage().points.size() * (sizeof(ik::LinkPoint) + sizeof(ik::SketchPoint));
-    return sizeof(*this) + shared + (1 + copies.size()) * state.joints.size() * sizeof(ik::JointPlace) +
-           links.size() * sizeof(ik::LinkPlace) + drives.size() * sizeof(LinkageDrive) +
-           targets.size() * sizeof(LinkageTarget);
+    const ik::LinkageSketch& sketch = shape->sketch;
+    std::size_t ends = 0;
+    for (const ik::SketchBar& each : sketch.bars) ends += each.points.size();
+    const std::size_t drawn = sizeof(LinkageShape) + sketch.points.size() * sizeof(ik::SketchPoint) +
+                              sketch.bars.size() * sizeof(ik::SketchBar) + ends * sizeof(std::size_t) +
+                              sketch.motors.size() * sizeof(ik::SketchMotor) +
+                              shape->ranges.size() * sizeof(LinkageRange);
+    const std::size_t made = linkage().links.size() * sizeof(ik::Link) +
+                             linkage().closures.size() * sizeof(ik::Closure) +
+                             linkage().points.size() * sizeof(ik::LinkPoint);
+    const std::size_t pose =
+        state.joints.size() * sizeof(ik::JointPlace) + links.size() * sizeof(ik::LinkPlace);
+    return sizeof(*this) + drawn + made + pose + copies.size() * (sizeof(LinkageCopy) + pose) +
+           drives.size() * sizeof(LinkageDrive) + targets.size() * sizeof(LinkageTarget) +
+           (result.active.size() + result.open_closures.size()) * sizeof(std::size_t);
 }
 
 std::shared_ptr<const Part> LinkagePart::after_undo() const {
@@ -56,10 +67,12 @@ Json save_sketch(const ik::LinkageSketch& sketch) {
         for (const std::size_t point : each.points) ends.push_back(sketch.points[point].name);
         json["bars"].push_back({{"name", each.name}, {"points", std::move(ends)}});
     }
-    for (const ik::SketchMotor& each : sketch.motors)
-        json["motors"].push_back({{"name", each.name},
-                                  {"point", sketch.points[each.point].name},
-                                  {"bar", sketch.bars[each.bar].name}});
+    for (const ik::SketchMotor& each : sketch.motors) {
+        Json& motor = json["motors"].emplace_back(Json{{"name", each.name},
+                                                       {"point", sketch.points[each.point].name},
+                                                       {"bar", sketch.bars[each.bar].name}});
+        if (each.against != ik::ground_link) motor["against"] = sketch.bars[each.against].name;
+    }
     return json;
 }
 
@@ -68,6 +81,11 @@ std::size_t load_index(const JsonPlace& place, const char* what, auto find) {
     if (found == ik::ground_link)
         place.fail("there is no " + std::string(what) + " \"" + place.text() + "\"");
     return found;
+}
+
+void check_link_name(const JsonPlace& place, const ik::LinkageSketch& sketch, const std::string& name) {
+    if (name.empty()) place.fail("it needs a name");
+    if (is_link_name(sketch, name)) place.fail("there is another \"" + name + "\"");
 }
 
 ik::LinkageSketch load_sketch(const JsonPlace& place) {
@@ -94,17 +112,21 @@ ik::LinkageSketch load_sketch(const JsonPlace& place) {
     });
     place["bars"].for_each("bars", max_linkage_bars, [&](const JsonPlace& each) {
         ik::SketchBar bar{.name = each["name"].text()};
+        check_link_name(each["name"], sketch, bar.name);
         each["points"].for_each("points", max_linkage_points,
                                 [&](const JsonPlace& end) { bar.points.push_back(point_of(end)); });
         if (bar.points.size() < 2) each["points"].fail("a bar needs two points");
         sketch.bars.push_back(std::move(bar));
     });
+    const auto bar_of = [&](const JsonPlace& each) {
+        return load_index(each, "bar", [&](const std::string& name) { return sketch.find_bar(name); });
+    };
     place["motors"].for_each("motors", max_linkage_bars, [&](const JsonPlace& each) {
-        sketch.motors.push_back({.name = each["name"].text(),
-                                 .point = point_of(each["point"]),
-                                 .bar = load_index(each["bar"], "bar", [&](const std::string& name) {
-                                     return sketch.find_bar(name);
-                                 })});
+        ik::SketchMotor motor{
+            .name = each["name"].text(), .point = point_of(each["point"]), .bar = bar_of(each["bar"])};
+        if (const auto against = each.optional("against")) motor.against = bar_of(*against);
+        check_link_name(each["name"], sketch, motor.name);
+        sketch.motors.push_back(std::move(motor));
     });
     return sketch;
 }
@@ -165,7 +187,30 @@ LinkageTarget load_target(const JsonPlace& place, const LinkagePart& part) {
     const std::string point = place["point"].text();
     if (part.linkage().find_point(point) == ik::ground_link)
         place["point"].fail("there is no point \"" + point + "\"");
+    if (std::ranges::count(part.targets, point, &LinkageTarget::point) > 0)
+        place["point"].fail(point + " has a target already");
     return {point, place["to"].dpoint(), place["weight"].real(1e-6, 1e6), place["exact"].flag()};
+}
+
+void load_ranges(const JsonPlace& place, LinkageShape& shape) {
+    std::vector<LinkageRange> all;
+    place.for_each("ranges", ik::max_links, [&](const JsonPlace& each) {
+        LinkageRange range{.joint = each["joint"].text()};
+        const std::size_t link = shape.linkage.find_link(range.joint);
+        if (link == ik::ground_link || shape.linkage.links[link].joint == ik::LinkJoint::Ball)
+            each["joint"].fail("there is no hinge or slider \"" + range.joint + "\"");
+        if (std::ranges::count(all, range.joint, &LinkageRange::joint) > 0)
+            each["joint"].fail(range.joint + " has a range already");
+        if (const auto minimum = each.optional("min")) range.minimum = minimum->real(-1e6, 1e6);
+        if (const auto maximum = each.optional("max")) range.maximum = maximum->real(-1e6, 1e6);
+        if (range.minimum > range.maximum) each["min"].fail("is over max");
+        all.push_back(std::move(range));
+    });
+    try {
+        set_ranges(shape, std::move(all));
+    } catch (const std::invalid_argument& error) {
+        place.fail(error.what());
+    }
 }
 
 void load_drive(const JsonPlace& place, LinkagePart& part) {
@@ -174,8 +219,10 @@ void load_drive(const JsonPlace& place, LinkagePart& part) {
     if (link == ik::ground_link || part.linkage().links[link].joint == ik::LinkJoint::Ball)
         place["joint"].fail("there is no hinge or slider \"" + joint + "\"");
     if (part.find_drive(joint) != nullptr) place["joint"].fail("it is driven twice");
-    part.drives.push_back(
-        {joint, part.state.joints[link].value, place["rate"].real(-1e6, 1e6), place["held"].flag()});
+    const double fastest = turns(part, joint) ? glm::radians(max_motor_rate) : max_motor_rate;
+    const auto value = place.optional("value");  // older files: where the joint is
+    part.drives.push_back({joint, value ? value->real() : part.state.joints[link].value,
+                           place["rate"].real(-fastest, fastest), place["held"].flag()});
 }
 
 }  // namespace
@@ -187,6 +234,11 @@ Json LinkagePart::save() const {
                              {"lengths", save_fields(mechanism_fields(shape->mechanism))}};
     else
         json["sketch"] = save_sketch(shape->sketch);
+    for (const LinkageRange& each : shape->ranges) {
+        const auto end = [](double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); };
+        json["ranges"].push_back(
+            {{"joint", each.joint}, {"min", end(each.minimum)}, {"max", end(each.maximum)}});
+    }
     json["joints"] = save_state(state, linkage());
     if (!copies.empty()) {
         json["legs"] = Json::array();
@@ -195,7 +247,8 @@ Json LinkagePart::save() const {
     }
     json["drivers"] = Json::array();
     for (const LinkageDrive& each : drives)
-        json["drivers"].push_back({{"joint", each.joint}, {"rate", each.rate}, {"held", each.held}});
+        json["drivers"].push_back(
+            {{"joint", each.joint}, {"value", each.value}, {"rate", each.rate}, {"held", each.held}});
     json["targets"] = Json::array();
     for (const LinkageTarget& each : targets)
         json["targets"].push_back(
@@ -209,7 +262,9 @@ Json LinkagePart::save() const {
 std::shared_ptr<Part> LinkagePart::load(const Json& json, const std::string& where) const {
     const JsonPlace place(json, where);
     auto part = std::make_shared<LinkagePart>();
-    part->shape = std::make_shared<const LinkageShape>(load_shape(place));
+    LinkageShape shape = load_shape(place);
+    if (const auto ranges = place.optional("ranges")) load_ranges(*ranges, shape);
+    part->shape = std::make_shared<const LinkageShape>(std::move(shape));
     part->state = load_state(place["joints"], part->linkage());
     part->copies = copies_of(*part->shape, part->state);
     if (!part->copies.empty()) {

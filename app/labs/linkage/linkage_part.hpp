@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -31,12 +32,21 @@ inline constexpr EnumNames<LinkageTool, 4> linkage_tools{
      {"pin", "Pin", "A click on a joint pins it to the ground, or lets it move again."},
      {"motor", "Motor", "A click on a pinned joint gives its bar a motor, or takes it away."}}};
 
+/// How far a hinge or slider may go, by the name of its link.
+struct LinkageRange {
+    std::string joint;
+    double minimum = -std::numeric_limits<double>::infinity();  ///< radians or metres
+    double maximum = std::numeric_limits<double>::infinity();
+    bool operator==(const LinkageRange&) const = default;
+};
+
 /// A linkage as drawn. Never changed in place: parts and their history share it.
 struct LinkageShape {
-    Mechanism mechanism{};         ///< what it was made from; none once it is edited by hand
-    ik::LinkageSketch sketch{};    ///< empty for a mechanism in space
-    std::vector<bool> floating{};  ///< of the sketch's bars: nothing holds it yet
-    ik::Linkage linkage{};         ///< of the others
+    Mechanism mechanism{};               ///< what it was made from; none once it is edited by hand
+    ik::LinkageSketch sketch{};          ///< empty for a mechanism in space
+    std::vector<bool> floating{};        ///< of the sketch's bars: nothing holds it yet
+    std::vector<LinkageRange> ranges{};  ///< set by hand; the mechanism may have its own
+    ik::Linkage linkage{};               ///< of the bars that are held, with all ranges
 
     bool in_plane() const { return !sketch.points.empty() || linkage.links.empty(); }
 };
@@ -44,7 +54,7 @@ struct LinkageShape {
 /// A joint that is driven, by the name of its link.
 struct LinkageDrive {
     std::string joint;
-    double value = 0.0;  ///< radians or metres
+    double value = 0.0;  ///< radians or metres: asked for, if it is held, else where the joint is
     double rate = 0.0;   ///< of a motor, a second
     bool held = false;   ///< at this value; else it follows the others
     bool operator==(const LinkageDrive&) const = default;
@@ -107,6 +117,8 @@ struct LinkagePart final : Part {
     /// The height of a walker's lowest foot; 0 of others.
     double lowest_foot() const;
     const LinkageDrive* find_drive(std::string_view joint) const;
+    /// Where a joint is: at a dead point not where it is asked to be.
+    double value_of(std::string_view joint) const { return state.joints[linkage().find_link(joint)].value; }
 };
 
 /// The lab begins with a four-bar.
@@ -120,6 +132,7 @@ inline const LinkagePart& linkage_part(const Workspace& workspace) {
 struct PathPoint {
     glm::dvec3 at{0.0};
     double speed = 0.0;
+    std::vector<double> joints{};  ///< the pose: values, one for each link
 };
 
 /// The solver of the lab's linkage, made once for each shape, and the path of a point.
@@ -141,15 +154,26 @@ std::size_t leading_joint(const LinkagePart& part);
 
 /// Moves the linkage to what is asked of it: held drivers and targets, or the mouse's drag alone.
 void solve_linkage(LinkagePart& part, LinkageRuntime& runtime);
-/// A shape as drawn, with its own state; drivers, targets and selection stay where their names do, and held
-/// drivers at their values.
+/// A new shape: what was drawn by hand in its own pose, a mechanism in the present one as far as its names
+/// go. Drivers, targets, ranges and selection stay where their names do, and held drivers at their values.
 void take_shape(LinkagePart& part, LinkageShape shape, LinkageRuntime& runtime);
+void take_shape(LinkagePart& part, LinkageShape shape, std::vector<LinkageRange> ranges,
+                LinkageRuntime& runtime);
+/// Sets the ranges of the joints that there are. Throws std::invalid_argument if one leaves out the pose in
+/// which the linkage is drawn.
+void set_ranges(LinkageShape& shape, std::vector<LinkageRange> ranges);
+/// The link of a bar of the sketch: it has the bar's name, or that of the motor that turns it. ground_link:
+/// the bar floats.
+std::size_t link_of_bar(const ik::Linkage& linkage, const ik::LinkageSketch& sketch, std::size_t bar);
+/// Of a sketch's bars: whether neither a pin nor a guide reaches it, directly or through other bars.
+std::vector<bool> floating_bars(const ik::LinkageSketch& sketch);
 /// The shape of a sketch. Bars that nothing holds are left out of the linkage. Throws std::invalid_argument
 /// for a sketch that the library refuses.
 LinkageShape shape_of(ik::LinkageSketch sketch);
 /// The shape of a mechanism. Throws std::invalid_argument as the library refuses its lengths.
 LinkageShape shape_of(const Mechanism& mechanism);
-/// The other legs of a walker, all in this state; none of others.
+/// The other legs of a walker, all in this state, each a few steps of its motor from where it belongs; none
+/// of others.
 std::vector<LinkageCopy> copies_of(const LinkageShape& shape, const ik::LinkageState& state);
 /// A mechanism at rest. The tool stays.
 void open_mechanism(LinkagePart& part, const Mechanism& mechanism, LinkageRuntime& runtime);

@@ -24,13 +24,15 @@ std::string angle_text(double degrees) {
     return fixed_text(degrees, 1) + " degrees";
 }
 
-/// "crank at 43.0 degrees"
+/// "Crank at 43.0 degrees cannot go on"
 std::string stop_text(const LinkagePart& part) {
     const ik::LinkageReport& report = part.result.report;
+    if (!report.stopped) return "The drivers cannot go on";
     const std::string& joint = part.linkage().links[*report.stopped].name;
-    return joint + " at " +
+    return capitalised(joint) + " at " +
            (turns(part, joint) ? angle_text(glm::degrees(report.stopped_at))
-                               : fixed_text(report.stopped_at, 3) + " m");
+                               : fixed_text(report.stopped_at, 3) + " m") +
+           " cannot go on";
 }
 
 std::string closure_names(const LinkagePart& part) {
@@ -70,22 +72,21 @@ Verdict linkage_verdict(const LinkagePart& part) {
     switch (report.status) {
         case Open:
             return {"Does not close: " + length_text(report.closed_to) + " apart", Verdict::Kind::Bad,
-                    "No pose has these lengths. Apart: " + closure_names(part) + "."};
+                    "No pose was found with these lengths. Apart: " + closure_names(part) + "."};
         case DeadPoint: {
             const std::string reason = dead_point_reason(part);
             return {"Dead point", Verdict::Kind::Bad,
-                    capitalised(stop_text(part)) + " cannot go on" +
-                        (reason.empty() ? "." : ": " + reason + ".")};
+                    stop_text(part) + (reason.empty() ? "." : ": " + reason + ".")};
         }
         case Limited:
-            return {
-                "At the end of a range", Verdict::Kind::Bad,
-                report.stopped ? capitalised(stop_text(part)) + " cannot go on." : "A target is beyond it."};
+            return {"At the end of a range", Verdict::Kind::Bad,
+                    report.stopped ? stop_text(part) + "." : "A target is beyond it."};
         case TargetMissed:
             return {"Out of reach: " + length_text(report.residual) + " short", Verdict::Kind::Bad,
-                    "No pose brings the point to its target."};
+                    "No pose was found that brings the point to its target."};
         case IterationLimit:
-            return {"Not solved yet", Verdict::Kind::Open, "The solver ran out of iterations."};
+            return {"Not solved yet", Verdict::Kind::Open,
+                    goes_on(part) ? "It goes on while time passes." : "The solver ran out of iterations."};
         case InvalidInput:
             return {"Too large", Verdict::Kind::Bad, "A number is beyond what can be solved."};
         case Reached:
@@ -131,12 +132,40 @@ void speed_row(const LinkagePart& part, const LinkageDrive& drive, const std::st
 
 void value_row(const LinkagePart& part, const LinkageDrive& drive, Emit& emit) {
     const bool angular = turns(part, drive.joint);
-    auto value = static_cast<float>(angular ? glm::degrees(drive.value) : drive.value);
+    const double now = part.value_of(drive.joint);
+    auto value = static_cast<float>(angular ? glm::degrees(now) : now);
     const char* const format = angular ? "%.1f deg" : "%.3f m";
     if (number_field(drive.joint.c_str(), value, angular ? 0.5f : 0.002f, -1e6f, 1e6f, format))
         emit.continuously("linkage.drive",
                           {{"joint", drive.joint}, {angular ? "angle_deg" : "value", value}});
     explain("The joint's value: drag or type it to drive the linkage.");
+}
+
+/// Its ends; or a button that gives it one about where it is.
+void range_rows(const LinkagePart& part, const std::string& joint, Emit& emit) {
+    const bool angular = turns(part, joint);
+    const auto shown = [&](double value) { return angular ? glm::degrees(value) : value; };
+    const auto range = std::ranges::find(part.shape->ranges, joint, &LinkageRange::joint);
+    if (range == part.shape->ranges.end()) {
+        if (row_button(("Limit " + joint).c_str(), 1, true, "Gives the joint a range about where it is")) {
+            const double now = shown(part.value_of(joint)), about = angular ? 45.0 : 0.5;
+            emit("linkage.range", {{"joint", joint}, {"min", now - about}, {"max", now + about}});
+        }
+        return end_row();
+    }
+    const char* const format = angular ? "%.1f deg" : "%.3f m";
+    const auto end = [&](const char* which, double now) {
+        if (!std::isfinite(now)) return;
+        auto value = static_cast<float>(shown(now));
+        if (number_field((joint + " " + which).c_str(), value, angular ? 0.5f : 0.002f, -1e6f, 1e6f, format))
+            emit.continuously("linkage.range", {{"joint", joint}, {which, value}});
+        explain("An end of the joint's range.");
+    };
+    end("min", range->minimum);
+    end("max", range->maximum);
+    if (row_button(("No limit of " + joint).c_str(), 1, true, "Takes the joint's range away"))
+        emit("linkage.range", {{"joint", joint}, {"off", true}});
+    end_row();
 }
 
 /// Runs, stops and frees all motors.
@@ -148,7 +177,8 @@ void motor_buttons(const Workspace& workspace, Emit& emit) {
                    runs ? "Stops the motor and holds the joint" : "Runs the motor while time passes")) {
         for (const LinkageDrive& each : part.drives)
             if (runs)
-                emit.continuously("linkage.drive", {{"joint", each.joint}, {"value", each.value}});
+                emit.continuously("linkage.drive",
+                                  {{"joint", each.joint}, {"value", part.value_of(each.joint)}});
             else
                 emit.continuously("linkage.motor", {{"joint", each.joint}});
         if (!runs && !workspace.clock.playing) emit("time.play");
@@ -173,6 +203,9 @@ void driver_rows(const Workspace& workspace, MoreRows& more, Emit& emit) {
         if (several)
             more.add(name, {"linkage.motor", {"joint"}}, each.rate != 0.0,
                      [&part, &each, &emit, name] { speed_row(part, each, name, emit); });
+        const bool limited = std::ranges::count(part.shape->ranges, each.joint, &LinkageRange::joint) > 0;
+        more.add(each.joint + " range", {"linkage.range", {"joint"}}, limited,
+                 [&part, &each, &emit] { range_rows(part, each.joint, emit); });
     }
     if (part.drives.empty()) note("No motor yet: choose Motor, and click a pinned joint.");
     motor_buttons(workspace, emit);
@@ -247,8 +280,8 @@ void freedom_rows(const LinkagePart& part) {
     explain("Counted from the equations as they are here: what really can move, motors left out.");
     reading("Gruebler's count", "%d", part.result.freedom.counted);
     explain(
-        "Three for each link, less two for each joint, by number alone: it misses joints that repeat each "
-        "other, and poses where bars are in line.");
+        "Three for each link, less two for each joint, by number alone: it misses redundant joints, and "
+        "poses where bars are in line.");
     const double transmission = transmission_angle(part);
     if (std::isfinite(transmission)) {
         reading("transmission angle", "%s", angle_text(transmission).c_str());
@@ -267,7 +300,7 @@ void bar_rows(const LinkagePart& part, std::size_t at, Emit& emit) {
         auto length = static_cast<float>(glm::distance(part.at(bar.points[0]), part.at(bar.points[1])));
         if (number_field(bar.name.c_str(), length, 0.01f, 1e-6f, 1e6f, "%.3f m"))
             emit.continuously("linkage.length", {{"bar", bar.name}, {"length", length}});
-        explain("The bar's length. Setting it makes the linkage one drawn by hand.");
+        explain("The bar's length; the others keep theirs. Setting it makes the linkage one drawn by hand.");
     }
 }
 
@@ -301,6 +334,7 @@ void joint_rows(const LinkagePart& part, Emit& emit) {
         if (number_field("line", along, 0.5f, -360.0f, 360.0f, "%.1f deg"))
             emit.continuously("linkage.guide", {{"point", part.selected}, {"angle_deg", along}});
         explain("The direction of its line, from +X.");
+        if (part.linkage().find_link(part.selected) != ik::ground_link) range_rows(part, part.selected, emit);
     }
 }
 

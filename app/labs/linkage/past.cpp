@@ -20,7 +20,8 @@ const LinkagePart& linkage_of(const SharedPart& part) {
 }
 
 double shown_value(const LinkagePart& part, const LinkageDrive& drive) {
-    return turns(part, drive.joint) ? glm::degrees(drive.value) : drive.value;
+    const double value = part.value_of(drive.joint);
+    return turns(part, drive.joint) ? glm::degrees(value) : value;
 }
 
 }  // namespace
@@ -139,9 +140,9 @@ std::vector<Incident> linkage_incidents(const LinkagePart& before, const Linkage
                              .joint = 0,
                              .name = after.drives.empty() ? "linkage" : after.drives.front().joint,
                              .cause = "passed a dead point: " + (line.empty() ? "" : line + "; ") +
-                                      "the linkage went over into its other assembly mode",
+                                      "the linkage switched to its other assembly mode",
                              .buttons = {{"Other mode",
-                                          "Runs linkage.other_mode: back into the mode before",
+                                          "Runs linkage.other_mode: back to the mode before",
                                           {{"linkage.other_mode", {}}}}}});
     }
     if (is.stopped && is.stopped != was.stopped) {
@@ -167,10 +168,10 @@ std::vector<Incident> linkage_incidents(const LinkagePart& before, const Linkage
         }
         incidents.push_back(std::move(incident));
     } else if (is.status == Open && was.status != Open) {
-        incidents.push_back(
-            {.kind = Incident::Kind::Status,
-             .joint = 0,
-             .cause = "no pose closes it: the bars are " + length_text(is.closed_to) + " apart"});
+        incidents.push_back({.kind = Incident::Kind::Status,
+                             .joint = 0,
+                             .cause = "no pose was found that closes it: the bars are " +
+                                      length_text(is.closed_to) + " apart"});
     }
     return incidents;
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <numbers>
 
 #include "app/labs/linkage/linkage_part.hpp"
 
@@ -10,6 +11,12 @@ namespace tendril::app {
 namespace {
 
 constexpr int turn_steps = 120;  ///< of a whole turn, or along a slider
+
+std::vector<double> values_of(const ik::LinkageState& state) {
+    std::vector<double> values;
+    for (const ik::JointPlace& each : state.joints) values.push_back(each.value);
+    return values;
+}
 
 /// Drives the joint on from the present pose until it is round, or cannot go on.
 std::vector<PathPoint> swept(ik::LinkageSolver& solver, ik::LinkageState state, std::size_t joint,
@@ -26,7 +33,7 @@ std::vector<PathPoint> swept(ik::LinkageSolver& solver, ik::LinkageState state, 
         const bool ends = report.status != ik::LinkageStatus::Reached;
         if (std::abs(gone) > 1e-9) {
             const glm::dvec3 at = solver.point(point);
-            path.push_back({at, glm::distance(at, before) / std::abs(gone)});
+            path.push_back({at, glm::distance(at, before) / std::abs(gone), values_of(state)});
             before = at;
         }
         if (ends) break;
@@ -34,9 +41,26 @@ std::vector<PathPoint> swept(ik::LinkageSolver& solver, ik::LinkageState state, 
     return path;
 }
 
-bool is_on(const std::vector<PathPoint>& path, const glm::dvec3& at, double within) {
-    return std::ranges::any_of(path,
-                               [&](const PathPoint& each) { return glm::distance(each.at, at) < within; });
+/// Whether a pose is between two neighbours of the path. Points alone do not tell: the paths of two assembly
+/// modes may cross.
+bool is_on(const std::vector<PathPoint>& path, const ik::LinkageState& state, const ik::Linkage& linkage,
+           double size) {
+    const auto between = [&](const PathPoint& a, const PathPoint& b) {
+        for (std::size_t i = 0; i < linkage.links.size(); ++i) {
+            const bool hinge = linkage.links[i].joint == ik::LinkJoint::Hinge;
+            const double margin = hinge ? 0.02 : 0.01 * size;
+            const auto from_a = [&](double value) {
+                const double by = value - a.joints[i];
+                return hinge ? std::remainder(by, 2.0 * std::numbers::pi) : by;
+            };
+            const double end = from_a(b.joints[i]), at = from_a(state.joints[i].value);
+            if (at < std::min(end, 0.0) - margin || at > std::max(end, 0.0) + margin) return false;
+        }
+        return true;
+    };
+    for (std::size_t i = 0; i < path.size(); ++i)
+        if (between(path[i], path[(i + 1) % path.size()])) return true;
+    return false;
 }
 
 }  // namespace
@@ -63,17 +87,17 @@ const std::vector<PathPoint>& LinkageRuntime::path(const LinkagePart& part) {
     ik::LinkageSolver& of = solver(part.shape);
     // The other assembly mode has a path of its own.
     if (path_of_ == part.shape && path_point_ == part.selected &&
-        is_on(path_, part.at(point), 0.05 * of.size()))
+        is_on(path_, part.state, part.linkage(), of.size()))
         return path_;
     path_of_ = part.shape;
     path_point_ = part.selected;
     const bool hinge = part.linkage().links[joint].joint == ik::LinkJoint::Hinge;
-    const double step = hinge ? 2.0 * M_PI / turn_steps : 2.0 * of.size() / turn_steps;
+    const double step = hinge ? 2.0 * std::numbers::pi / turn_steps : 2.0 * of.size() / turn_steps;
     path_ = swept(of, part.state, joint, point, step);
     if (!hinge || path_.size() < turn_steps) {
         std::vector<PathPoint> back = swept(of, part.state, joint, point, -step);
         std::ranges::reverse(back);
-        back.push_back({part.at(point), path_.empty() ? 0.0 : path_.front().speed});
+        back.push_back({part.at(point), path_.empty() ? 0.0 : path_.front().speed, values_of(part.state)});
         path_.insert(path_.begin(), back.begin(), back.end());
     }
     return path_;

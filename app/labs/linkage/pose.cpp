@@ -2,15 +2,16 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+#include <numbers>
 
 #include "app/document/refused.hpp"
+#include "app/document/units.hpp"
 #include "app/labs/kit/arguments.hpp"
 #include "app/labs/linkage/linkage_part.hpp"
 
 namespace tendril::app {
-namespace {
 
-/// Bars that neither a pin nor a guide reaches, directly or through other bars.
 std::vector<bool> floating_bars(const ik::LinkageSketch& sketch) {
     std::vector<bool> held(sketch.points.size()), floats(sketch.bars.size(), true);
     for (std::size_t i = 0; i < held.size(); ++i) held[i] = sketch.points[i].hold != ik::SketchHold::Free;
@@ -28,12 +29,20 @@ std::vector<bool> floating_bars(const ik::LinkageSketch& sketch) {
     return floats;
 }
 
+namespace {
+
 /// The sketch without the bars that float.
 ik::LinkageSketch held_part(const ik::LinkageSketch& sketch, const std::vector<bool>& floats) {
     ik::LinkageSketch held = sketch;
     for (std::size_t b = floats.size(); b-- > 0;)
         if (floats[b]) require_ok(ik::remove_bar(held, b));
     return held;
+}
+
+/// The angle at which a leg's own motor is while the walker's is at `angle`; or the walker's from the leg's.
+double motor_of(const LinkageCopy& copy, double angle, bool back = false) {
+    if (back) return (copy.mirrored ? std::numbers::pi - angle : angle) - copy.phase;
+    return copy.mirrored ? std::numbers::pi - angle - copy.phase : angle + copy.phase;
 }
 
 std::vector<std::string> driven_joints(const LinkageShape& shape) {
@@ -106,15 +115,21 @@ void solve_linkage(LinkagePart& part, LinkageRuntime& runtime) {
     result.freedom = solver.freedom(part.state);
     result.active.assign(solver.active().begin(), solver.active().end());
     result.open_closures.assign(solver.open_closures().begin(), solver.open_closures().end());
+    // A motor goes on from where it is; what is held is still asked for.
     for (LinkageDrive& each : part.drives)
-        each.value = part.state.joints[linkage.find_link(each.joint)].value;
+        if (!each.held || each.rate != 0.0 || part.drag) each.value = part.value_of(each.joint);
     part.links.assign(solver.links().begin(), solver.links().end());
     for (LinkageCopy& each : part.copies) {
-        const LinkageDrive& motor = part.drives.front();
-        const double turned = motor.value + each.phase;
-        const ik::LinkDriver driver{linkage.find_link(motor.joint), each.mirrored ? M_PI - turned : turned};
-        static_cast<void>(solver.solve(each.state, {{&driver, 1}, {}}));
+        const std::string& motor = part.drives.front().joint;
+        const ik::LinkDriver driver{linkage.find_link(motor), motor_of(each, part.value_of(motor))};
+        const ik::LinkageReport report = solver.solve(each.state, {{&driver, 1}, {}});
         each.links.assign(solver.links().begin(), solver.links().end());
+        if (report.status <= result.report.status) continue;
+        // The worst leg speaks for all, by the angle of the motor that they share.
+        result.report.status = report.status;
+        result.report.stopped = report.stopped;
+        result.report.stopped_at = motor_of(each, report.stopped_at, true);
+        result.report.closed_to = std::max(result.report.closed_to, report.closed_to);
     }
 }
 
@@ -162,21 +177,135 @@ std::vector<LinkageCopy> copies_of(const LinkageShape& shape, const ik::LinkageS
     const auto* const walker = std::get_if<JansenWalker>(&shape.mechanism);
     if (walker == nullptr) return copies;
     constexpr int pairs = 6;
+    constexpr double turn = 2.0 * std::numbers::pi;
+    const std::size_t motor = shape.linkage.find_link(driven_joints(shape).front());
     for (int i = 0; i < 2 * pairs; ++i) {
         const int pair = i / 2;
         // The first is the linkage itself.
-        if (i > 0)
-            copies.push_back({.phase = pair * 2.0 * M_PI / pairs,
-                              .mirrored = i % 2 == 1,
-                              .depth = -walker->m * pair,
-                              .state = state});
+        if (i == 0) continue;
+        LinkageCopy& copy = copies.emplace_back(LinkageCopy{.phase = pair * turn / pairs,
+                                                            .mirrored = i % 2 == 1,
+                                                            .depth = -walker->m * pair,
+                                                            .state = state});
+        // Whole turns are the same pose.
+        double& value = copy.state.joints[motor].value;
+        value += turn * std::round((motor_of(copy, value) - value) / turn);
     }
     return copies;
 }
 
+std::size_t link_of_bar(const ik::Linkage& linkage, const ik::LinkageSketch& sketch, std::size_t bar) {
+    for (const ik::SketchMotor& motor : sketch.motors) {
+        const std::size_t link = linkage.find_link(motor.name);
+        if (link == ik::ground_link) continue;
+        // Of two bars that a motor turns against each other, the later one hangs on the other.
+        const bool turned_round = motor.against != ik::ground_link && linkage.links[link].axis.z < 0.0;
+        if (bar == (turned_round ? motor.against : motor.bar)) return link;
+    }
+    return linkage.find_link(sketch.bars[bar].name);
+}
+
+namespace {
+
+constexpr double whole_turn = 2.0 * std::numbers::pi;
+
+bool is_hinge(const ik::Link& link) {
+    return link.joint == ik::LinkJoint::Hinge;
+}
+
+/// A hinge's value, by whole turns nearest to another, or in its range.
+double turned_near(double value, double other, const ik::Link& link) {
+    value += whole_turn * std::round((other - value) / whole_turn);
+    if (value > link.maximum) value -= whole_turn * std::ceil((value - link.maximum) / whole_turn);
+    if (value < link.minimum) value += whole_turn * std::ceil((link.minimum - value) / whole_turn);
+    return value;
+}
+
+/// The direction of a bar, from its first joint to its second.
+double bar_direction(const ik::SketchBar& bar, auto at) {
+    const glm::dvec2 way = glm::dvec2(at(bar.points[1])) - glm::dvec2(at(bar.points[0]));
+    return std::atan2(way.y, way.x);
+}
+
+/// How far a bar of the new shape turns from where it is drawn to where the old part has it. Nothing: the old
+/// part has no such bar.
+std::optional<double> turn_of_bar(const LinkagePart& old, const ik::LinkageSketch& sketch, std::size_t bar) {
+    const ik::LinkageSketch& was = old.shape->sketch;
+    const std::size_t same = was.find_bar(sketch.bars[bar].name);
+    if (same == ik::ground_link) return std::nullopt;
+    return bar_direction(was.bars[same], [&](std::size_t i) { return old.at(i); }) -
+           bar_direction(sketch.bars[bar], [&](std::size_t i) { return sketch.points[i].at; });
+}
+
+/// The pose of another part, for a mechanism of the same kind: in the plane its bars keep their directions,
+/// in space its joints keep their values. It closes when it is solved.
+void pose_like(const LinkagePart& old, const LinkageShape& shape, ik::LinkageState& state) {
+    std::vector<double> turns(shape.linkage.links.size());
+    const auto turn_of = [&](std::size_t link) { return link == ik::ground_link ? 0.0 : turns[link]; };
+    for (std::size_t i = 0; i < turns.size(); ++i) {
+        const ik::Link& link = shape.linkage.links[i];
+        ik::JointPlace& place = state.joints[i];
+        const std::size_t before = old.linkage().find_link(link.name);
+        if (before != ik::ground_link) {
+            const double drawn = place.value;
+            place = old.state.joints[before];
+            if (is_hinge(link) && !shape.in_plane())
+                place.value = turned_near(place.value, place.value, link);
+            if (is_hinge(link) && shape.in_plane()) place.value = drawn;
+        }
+        turns[i] = turn_of(link.parent);
+        if (!shape.in_plane() || !is_hinge(link)) continue;
+        for (std::size_t bar = 0; bar < shape.sketch.bars.size(); ++bar) {
+            if (link_of_bar(shape.linkage, shape.sketch, bar) != i) continue;
+            const std::optional<double> turn = turn_of_bar(old, shape.sketch, bar);
+            if (!turn) continue;
+            turns[i] = *turn;
+            const double value =
+                link.rest + (link.axis.z < 0.0 ? -1.0 : 1.0) * (*turn - turn_of(link.parent));
+            const double near = before != ik::ground_link ? old.state.joints[before].value : link.rest;
+            place.value = turned_near(value, near, link);
+        }
+    }
+}
+
+}  // namespace
+
+void set_ranges(LinkageShape& shape, std::vector<LinkageRange> ranges) {
+    std::erase_if(ranges, [&](const LinkageRange& each) {
+        const std::size_t link = shape.linkage.find_link(each.joint);
+        return link == ik::ground_link || shape.linkage.links[link].joint == ik::LinkJoint::Ball;
+    });
+    for (const LinkageRange& each : ranges) {
+        ik::Link& link = shape.linkage.links[shape.linkage.find_link(each.joint)];
+        link.minimum = each.minimum;
+        link.maximum = each.maximum;
+        if (is_hinge(link)) link.rest = turned_near(link.rest, link.rest, link);
+        if (link.rest >= link.minimum && link.rest <= link.maximum) continue;
+        const auto text = [&](double value) {
+            return is_hinge(link) ? fixed_text(glm::degrees(value), 1) + " degrees"
+                                  : fixed_text(value, 3) + " m";
+        };
+        throw std::invalid_argument("the range of \"" + each.joint + "\" must hold " + text(link.rest) +
+                                    ", where it is drawn, got " + text(each.minimum) + " to " +
+                                    text(each.maximum));
+    }
+    shape.ranges = std::move(ranges);
+}
+
 void take_shape(LinkagePart& part, LinkageShape shape, LinkageRuntime& runtime) {
-    part.shape = std::make_shared<const LinkageShape>(std::move(shape));
-    part.state = runtime.solver(part.shape).initial_state();
+    take_shape(part, std::move(shape), part.shape->ranges, runtime);
+}
+
+void take_shape(LinkagePart& part, LinkageShape shape, std::vector<LinkageRange> ranges,
+                LinkageRuntime& runtime) {
+    set_ranges(shape, std::move(ranges));
+    const bool same_kind =
+        kind_of(shape.mechanism) != nullptr && shape.mechanism.index() == part.shape->mechanism.index();
+    const auto made = std::make_shared<const LinkageShape>(std::move(shape));
+    ik::LinkageState state = runtime.solver(made).initial_state();
+    if (same_kind) pose_like(part, *made, state);
+    part.shape = made;
+    part.state = std::move(state);
     part.copies = copies_of(*part.shape, part.state);
     part.walked = 0.0;
     std::vector<LinkageDrive> drives;
@@ -185,8 +314,11 @@ void take_shape(LinkagePart& part, LinkageShape shape, LinkageRuntime& runtime) 
         LinkageDrive& drive = drives.emplace_back(before != nullptr ? *before : LinkageDrive{.joint = joint});
         const std::size_t link = part.linkage().find_link(joint);
         const double drawn = part.state.joints[link].value, held = drive.value;
-        const bool hinge = part.linkage().links[link].joint == ik::LinkJoint::Hinge;
-        drive.value = !drive.held ? drawn : hinge ? drawn + std::remainder(held - drawn, 2.0 * M_PI) : held;
+        const bool hinge = is_hinge(part.linkage().links[link]);
+        const bool counted = same_kind && before != nullptr;  // its turns are those from before
+        drive.value = !drive.held         ? drawn
+                      : hinge && !counted ? drawn + std::remainder(held - drawn, whole_turn)
+                                          : held;
     }
     part.drives = std::move(drives);
     const auto gone = [&](const std::string& point) {

@@ -6,6 +6,7 @@
 
 #include "app/document/json_complete.hpp"
 #include "app/document/refused.hpp"
+#include "app/document/units.hpp"
 #include "app/labs/kit/arguments.hpp"
 #include "app/labs/linkage/linkage_commands.hpp"
 
@@ -39,9 +40,7 @@ std::string free_point_name(const LinkageSketch& sketch) {
 std::string free_link_name(const LinkageSketch& sketch, const std::string& what) {
     for (std::size_t i = 1;; ++i) {
         std::string name = what + " " + std::to_string(i);
-        if (sketch.find_bar(name) == ik::ground_link &&
-            std::ranges::count(sketch.motors, name, &ik::SketchMotor::name) == 0)
-            return name;
+        if (!is_link_name(sketch, name)) return name;
     }
 }
 
@@ -79,7 +78,7 @@ void add_bar(LinkageSketch& sketch, const Arguments& given) {
         throw Refused("a linkage has at most " + std::to_string(max_linkage_bars) + " bars");
     const std::string name = given.has("name") ? given.text("name") : free_link_name(sketch, "bar");
     if (name.empty()) throw Refused("name: a bar needs one");
-    if (sketch.find_bar(name) != ik::ground_link) throw Refused("there is a bar \"" + name + "\" already");
+    if (is_link_name(sketch, name)) throw Refused("name: \"" + name + "\" is taken");
     const std::size_t from = end_of_bar(sketch, given, "from"), to = end_of_bar(sketch, given, "to");
     if (from == to || sketch.points[from].at == sketch.points[to].at)
         throw Refused("a bar needs two different joints");
@@ -109,6 +108,8 @@ void pin(LinkageSketch& sketch, const Arguments& given) {
 
 void guide(LinkageSketch& sketch, const Arguments& given) {
     const std::size_t index = require_in_sketch(sketch, given.text("point"));
+    if (sketch.points[index].hold != SketchHold::Guided && is_link_name(sketch, sketch.points[index].name))
+        throw Refused("\"" + sketch.points[index].name + "\" is a bar's or motor's name: it cannot slide");
     sketch.points[index].hold = SketchHold::Guided;
     sketch.points[index].guide = glm::radians(given.has("angle_deg") ? given.real("angle_deg") : 0.0);
     remove_motors_at(sketch, index);
@@ -118,16 +119,48 @@ void move(LinkageSketch& sketch, const Arguments& given) {
     sketch.points[require_in_sketch(sketch, given.text("point"))].at = place_in_plane(given.json("to"), "to");
 }
 
+/// The linkage with one link a telescope: a slider, after it, carries what it has at its far end.
+ik::Linkage with_telescope(ik::Linkage linkage, std::size_t link, const glm::dvec3& far) {
+    const glm::dvec3 near = linkage.links[link].at;
+    const std::size_t slider = link + 1;
+    const auto renumber = [&](std::size_t& index, const glm::dvec3& at) {
+        if (index == ik::ground_link || index < link) return;
+        if (index > link || glm::distance(at, far) < glm::distance(at, near)) ++index;
+    };
+    for (ik::Link& each : linkage.links)
+        if (each.parent != ik::ground_link) renumber(each.parent, each.at);
+    for (ik::LinkPoint& each : linkage.points) renumber(each.link, each.at);
+    for (ik::Closure& each : linkage.closures) {
+        renumber(each.first, each.first_at);
+        renumber(each.second, each.second_at);
+    }
+    linkage.links.insert(linkage.links.begin() + static_cast<std::ptrdiff_t>(slider),
+                         {.parent = link, .joint = ik::LinkJoint::Slider, .at = near, .axis = far - near});
+    return linkage;
+}
+
+/// The bar grows or shrinks until it has its length; motors and held joints stay, if they can.
 void set_length(LinkageSketch& sketch, const Arguments& given) {
-    const ik::SketchBar& bar = sketch.bars[require_bar(sketch, given.text("bar"))];
+    const std::size_t index = require_bar(sketch, given.text("bar"));
+    const ik::SketchBar& bar = sketch.bars[index];
     if (bar.points.size() != 2)
         throw Refused("bar \"" + bar.name + "\" has more than two joints: move those");
-    // The end that nothing else holds moves; of two free ones, the second.
-    auto a = bar.points[0], b = bar.points[1];
-    if (sketch.points[b].hold != SketchHold::Free && sketch.points[a].hold == SketchHold::Free)
-        std::swap(a, b);
-    const glm::dvec2 way = sketch.points[b].at - sketch.points[a].at;
-    sketch.points[b].at = sketch.points[a].at + given.real("length") / glm::length(way) * way;
+    LinkageSketch held = sketch;
+    if (floating_bars(held)[index]) held.points[bar.points[0]].hold = SketchHold::Pinned;
+    const ik::Linkage linkage = shape_of(held).linkage;
+    const std::size_t link = link_of_bar(linkage, held, index);
+    glm::dvec3 near(sketch.points[bar.points[0]].at, 0.0), far(sketch.points[bar.points[1]].at, 0.0);
+    if (glm::distance(linkage.links[link].at, far) < glm::distance(linkage.links[link].at, near))
+        std::swap(near, far);
+    auto solver = require_value(ik::LinkageSolver::make(with_telescope(linkage, link, far)));
+    ik::LinkageState state = solver.initial_state();
+    const double wanted = given.real("length"), now = glm::distance(near, far);
+    const ik::LinkDriver grow{link + 1, wanted - now};
+    if (solver.solve(state, {{&grow, 1}, {}}).status != ik::LinkageStatus::Reached)
+        throw Refused("bar \"" + bar.name + "\" gets to " +
+                      app::length_text(now + state.joints[link + 1].value) +
+                      " with the others as they are, not " + app::length_text(wanted));
+    for (std::size_t i = 0; i < sketch.points.size(); ++i) sketch.points[i].at = glm::dvec2(solver.point(i));
 }
 
 void add_motor(LinkageSketch& sketch, const Arguments& given) {
@@ -152,9 +185,7 @@ void add_motor(LinkageSketch& sketch, const Arguments& given) {
         if (bar == ik::ground_link) throw Refused("there is no bar on " + at + " that a motor could turn");
     }
     const std::string name = given.has("name") ? given.text("name") : free_link_name(sketch, "motor");
-    if (name.empty() || sketch.find_bar(name) != ik::ground_link ||
-        std::ranges::count(sketch.motors, name, &ik::SketchMotor::name) > 0)
-        throw Refused("name: \"" + name + "\" is taken");
+    if (name.empty() || is_link_name(sketch, name)) throw Refused("name: \"" + name + "\" is taken");
     sketch.motors.push_back({.name = name, .point = point, .bar = bar});
 }
 
@@ -170,6 +201,14 @@ void remove_bar_or_joint(LinkageSketch& sketch, const Arguments& given) {
         require_ok(ik::remove_point(sketch, require_in_sketch(sketch, given.text("point"))));
     else
         require_ok(ik::remove_bar(sketch, require_bar(sketch, given.text("bar"))));
+}
+
+/// Says so where a mechanism loses its named lengths by it.
+void edit_by_hand(Workspace& workspace, const auto& change) {
+    const MechanismKind* const was = kind_of(linkage_part(workspace).shape->mechanism);
+    change_part<LinkagePart>(workspace, linkage_lab, change);
+    if (was != nullptr && kind_of(linkage_part(workspace).shape->mechanism) == nullptr)
+        workspace.toast(std::string(was->title) + ": drawn by hand from here on, without named lengths");
 }
 
 /// A command that edits the sketch in the present pose.
@@ -188,7 +227,7 @@ Command sketch_command(const char* name, const char* title, std::vector<Argument
                     edit(sketch, given);
                     if (!(sketch == before)) take_shape(part, shape_of(std::move(sketch)), runtime);
                 };
-                change_part<LinkagePart>(workspace, linkage_lab, change);
+                edit_by_hand(workspace, change);
             }};
 }
 
@@ -209,6 +248,13 @@ Argument end_argument(const char* name) {
 }
 
 }  // namespace
+
+bool is_link_name(const LinkageSketch& sketch, const std::string& name) {
+    const std::size_t point = sketch.find_point(name);
+    return sketch.find_bar(name) != ik::ground_link ||
+           std::ranges::count(sketch.motors, name, &ik::SketchMotor::name) > 0 ||
+           (point != ik::ground_link && sketch.points[point].hold == SketchHold::Guided);
+}
 
 void add_sketch_commands(CommandTable& table) {
     const Argument point = linkage_point_argument("point", true, "which joint");
@@ -231,7 +277,7 @@ void add_sketch_commands(CommandTable& table) {
     table.add(sketch_command(
         "linkage.length", "Set a bar's length",
         {bar_argument(true, "which bar"), {.name = "length", .help = "metres", .low = 1e-6, .high = 1e6}},
-        "Makes a bar longer or shorter", set_length));
+        "Makes a bar longer or shorter; the others keep their lengths", set_length));
     table.add(sketch_command("linkage.motor.add", "Add a motor",
                              {point, bar_argument(false, "which of its bars; the first if omitted"), name},
                              "Puts a motor at a pinned joint: it turns a bar", add_motor));
@@ -256,7 +302,7 @@ void add_sketch_commands(CommandTable& table) {
                        require_ok(ik::remove_point(sketch, require_in_sketch(sketch, part.selected)));
                        take_shape(part, shape_of(std::move(sketch)), runtime);
                    };
-                   change_part<LinkagePart>(workspace, linkage_lab, change);
+                   edit_by_hand(workspace, change);
                }});
 }
 
