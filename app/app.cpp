@@ -110,7 +110,7 @@ void App::start_recording(bool live) {
 void App::tick(const Event* event) {
     if (recorder_) event != nullptr ? recorder_->event(*event) : recorder_->idle_tick();
     input_.take(event);
-    const bool worked = lab().working(workspace_);
+    const bool active = lab().working(workspace_) || moves();
     compose(event, Pass::Tick);
     input_.end_tap();
     // A window that the event opened can only have the keyboard after a second pass; run it before the next
@@ -118,7 +118,7 @@ void App::tick(const Event* event) {
     if (event != nullptr && !std::holds_alternative<MouseMove>(*event)) compose(nullptr, Pass::Settle);
     const bool pressed = event != nullptr && std::holds_alternative<MousePress>(*event);
     settling_ = pressed ? double_click_ticks : std::max(event != nullptr ? settling_ticks : 0, settling_ - 1);
-    if (worked) settling_ = std::max(settling_, 1);  // the panels have yet to show the end of the work
+    if (active) settling_ = std::max(settling_, 1);  // the panels have yet to show the end of work or motion
     update_window();
 }
 
@@ -401,9 +401,12 @@ bool App::busy() const {
     return pointer_.busy() || ImGui::IsAnyItemActive();
 }
 
+bool App::moves() const {
+    return workspace_.clock.playing && lab().moving(workspace_);
+}
+
 bool App::needs_ticks() const {
-    const bool moving = workspace_.clock.playing && lab().moving(workspace_);
-    return moving || workspace_.clock.replaying || card_is_due() || lab().working(workspace_) || video_ ||
+    return moves() || workspace_.clock.replaying || card_is_due() || lab().working(workspace_) || video_ ||
            settling_ > 0 || !workspace_.ui.toasts.empty();
 }
 

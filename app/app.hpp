@@ -73,6 +73,7 @@ class App final : public Stage {
   private:
     const Lab& lab() const { return *labs_.find(workspace_.lab); }
     float ui_scale() const { return base_scale_ * workspace_.settings.text_scale; }
+    bool moves() const;
     /// A pass of the user interface. Tick: takes an event and advances time. Settle: a second pass, for what
     /// the event opened. Picture: draws the present state and changes nothing.
     enum class Pass { Tick, Settle, Picture };

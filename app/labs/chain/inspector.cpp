@@ -32,9 +32,12 @@ void chain_rows(const ShownChain& shown, const Joints& joints) {
     const bool reaches = part.mode == ChainMode::Reach;  // the report already shows "tip to target"
     if (part.reach.plane)
         reading("target off plane", "%.3f m", static_cast<double>(off_plane(chain, part.reach, part.target)));
-    reading(reaches ? "root to target" : "head to target", "%.3f m",
-            static_cast<double>(glm::distance(joints.front(), part.target)));
-    if (!reaches) reading("tail to target", "%.3f m", static_cast<double>(shown_residual(part, joints)));
+    const auto to_target = [&](std::size_t joint, double metres) {
+        reading((std::string(end_name(part, joint)) + " to target").c_str(), "%.3f m", metres);
+    };
+    to_target(0, static_cast<double>(glm::distance(joints.front(), part.target)));
+    if (!reaches && chain.size() > 1)
+        to_target(chain.size() - 1, static_cast<double>(shown_residual(part, joints)));
     reading("length error", "%s", error_text(static_cast<double>(worst_error(shown, joints))).c_str());
     explain("How far the worst bone is from its length, wherever the tip is; none: less than 0.01 mm.");
 }

@@ -329,7 +329,9 @@ std::string stalled_text(const ChainPart& part) {
 std::string status_text(const ChainPart& part) {
     switch (part.result->report.status) {
         case ik::Status::Converged:
-            return "The tip is on the target.";
+            return part.result->report.off_plane > 1e-3f * part.chain.reach()
+                       ? "The tip is as near as it can be in the plane."
+                       : "The tip is on the target.";
         case ik::Status::Stretched:
             return "The chain lies straight towards it.";
         case ik::Status::TooClose:

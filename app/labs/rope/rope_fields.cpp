@@ -122,7 +122,7 @@ std::span<const FieldText> field_texts<BodySettings>() {
          .label = "bending",
          .help =
              "How hard a rope is to bend: Young's modulus times the second moment of its cross-section. "
-             "A shoelace has 0.00001, a garden hose 0.1, a steel wire of 3 mm 0.8. Only the direct solver "
+             "A shoelace has 1e-5, a garden hose 0.1, a steel wire of 3 mm 0.8. Only the direct solver "
              "bends.",
          .step = 0.001f,
          .decimals = 4,

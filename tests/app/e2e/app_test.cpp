@@ -62,6 +62,20 @@ TEST_F(AppTest, rests_when_nothing_moves_and_not_while_something_does) {
     EXPECT_FALSE(app_.needs_ticks());
 }
 
+TEST_F(AppTest, shows_how_a_motion_ended_before_it_rests) {
+    run("lab.open", {{"name", "linkage"}});
+    run("linkage.set", {{"crank", 2.2}});
+    run("linkage.motor", {{"joint", "crank"}, {"deg_per_s", 360}});
+    run("time.play", Json::object());
+    int after = 0;
+    for (int i = 0; i < 600 && app_.needs_ticks(); ++i) {
+        app_.tick(nullptr);
+        after += app_.state().at("status") == "DeadPoint";
+    }
+    EXPECT_FALSE(app_.needs_ticks());
+    EXPECT_GE(after, 2) << "the panels of a tick show what the tick before it ended with";
+}
+
 TEST_F(AppTest, losing_the_focus_in_mid_drag_ends_the_drag) {
     begin_drag();
     take(Focus{false});
