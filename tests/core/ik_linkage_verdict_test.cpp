@@ -133,11 +133,11 @@ TEST(Linkage, what_moves_freely_has_no_other_mode) {
 TEST(Linkage, a_motors_range_may_be_any_turn_of_its_angle) {
     LinkageSketch sketch;
     sketch.points = {{"O", {0, 0}, pinned},
-                     {"A", {-1, -0.1}},
-                     {"B", {-1 + std::cos(deg(172)), -0.1 + std::sin(deg(172))}}};
+                     {"A", {-std::cos(deg(172)), -std::sin(deg(172))}},
+                     {"B", {0, -2 * std::sin(deg(172))}}};
     sketch.bars = {{"upper", {0, 1}}, {"lower", {1, 2}}};
-    // 172 degrees less -174.3: -13.7 as a hinge turns.
-    const double bend = deg(172) - std::atan2(-0.1, -1.0) - deg(360);
+    // From O, at 172 degrees, to B, at -172.
+    const double bend = deg(16);
     sketch.motors = {{"elbow", 1, 1, 0, -0.5, 0.5}};
     const Expected<Linkage> elbow = linkage_from(sketch);
     ASSERT_TRUE(elbow) << elbow.message();

@@ -42,10 +42,11 @@ struct Named {
 Result check_lengths(const char* mechanism, std::initializer_list<Named> lengths) noexcept {
     for (const auto& [name, value, minimum] : lengths)
         if (!(value >= minimum && value <= static_cast<double>(max_magnitude)))
-            return refused(
-                mechanism, name,
-                minimum > 0.0 ? "a length over 0, at most 1e9 m" : "a number of magnitude at most 1e9",
-                value);
+            return refused(mechanism, name,
+                           minimum > 0.0    ? "a length over 0, at most 1e9 m"
+                           : minimum == 0.0 ? "a length from 0 to 1e9 m"
+                                            : "a number of magnitude at most 1e9",
+                           value);
     return {};
 }
 constexpr double any_number = -static_cast<double>(max_magnitude);
@@ -358,6 +359,8 @@ Expected<Linkage> stewart(const Stewart& lengths) {
                                                      {"maximum", lengths.maximum}});
         !bad)
         return bad;
+    if (!(lengths.minimum <= lengths.maximum))
+        return refused("stewart", "minimum", "at most the maximum", lengths.minimum);
     Linkage linkage;
     std::size_t platform = ground_link;
     const glm::dvec3 centre{0.0, 0.0, lengths.height};

@@ -43,7 +43,7 @@ LinkageSolve::LinkageSolve(LinkageWork& work, const LinkageGoals& goals,
       options_(options),
       tolerance_(options.tolerance.value_or(std::max(1e-10 * work.size, work.rounding))) {
     std::ranges::fill(work_.driven, std::uint8_t{0});
-    std::ranges::fill(work_.held, std::uint8_t{0});
+    work_.release();
     work_.active.clear();
     work_.open.clear();
 }
@@ -163,7 +163,7 @@ bool LinkageSolve::return_to_closures(double allowed) noexcept {
         for (std::size_t k = 0; k < work_.columns; ++k) work_.moved[k] += work_.step[k];
         // NaN is not within either.
         if (!(norm_of(work_.moved) <= allowed)) return false;
-        work_.take_step(std::min(1.0, widest_step / largest_of(work_.step)));
+        work_.take_step(std::min(1.0, widest_step / work_.widest()));
         work_.move_links();
     }
 }
@@ -174,10 +174,11 @@ void LinkageSolve::assemble() noexcept {
     if (return_to_closures(1e9)) return;
     put_back(work_.nearest);
     if (close_from_here()) return;
-    // Where the last solve left it: nothing new to find.
-    if (!descended_) return;
+    // Where the last solve left it: nothing new to find. Cut short: the next one goes on.
+    if (!descended_ || out_of_iterations_) return;
     work_.nearest = work_.joints;
     double least = cost();
+    bool cut_short = false;  // the descent to the nearest pose
     std::uint64_t random = 1;
     for (int i = 0; i < restarts && !out_of_iterations_; ++i) {
         work_.scatter(random, math::pi);
@@ -190,7 +191,9 @@ void LinkageSolve::assemble() noexcept {
         if (cost() >= 0.999 * least) continue;
         least = cost();
         work_.nearest = work_.joints;
+        cut_short = out_of_iterations_;
     }
+    out_of_iterations_ = cut_short;
     put_back(work_.nearest);
 }
 
@@ -266,7 +269,7 @@ bool LinkageSolve::take_glide_step(double to) noexcept {
     work_.kept = work_.joints;
     ++iterations_;
     const double predicted = norm_of(work_.step);
-    const bool wide = !(largest_of(work_.step) <= widest_step);
+    const bool wide = !(work_.widest() <= widest_step);
     if (!wide) {
         work_.take_step(1.0);
         for (const LinkDriver& each : goals_.drivers) {
@@ -296,10 +299,15 @@ void LinkageSolve::glide() noexcept {
         const Link& link = work_.linkage.links[each.link];
         if (!(each.value >= link.minimum && each.value <= link.maximum)) beyond_range_ = true;
     }
-    for (const LinkDriver& each : goals_.drivers)
-        longest = std::max(longest, std::abs(driver_distance(each)));
+    double longest_turn = 0.0;
+    for (const LinkDriver& each : goals_.drivers) {
+        const double distance = std::abs(driver_distance(each));
+        longest = std::max(longest, distance);
+        if (!work_.straight[work_.column[each.link]]) longest_turn = std::max(longest_turn, distance);
+    }
     if (longest == 0.0) return;
-    double at = 0.0, by = std::min(1.0, 0.9 * widest_step / longest);
+    const double furthest = std::min(1.0, 0.9 * widest_step / longest_turn);
+    double at = 0.0, by = furthest;
     while (at < 1.0) {
         if (iterations_ >= options_.max_iterations) {
             out_of_iterations_ = true;
@@ -308,7 +316,7 @@ void LinkageSolve::glide() noexcept {
         const double to = by >= 1.0 - at ? 1.0 : at + by;
         if (glide_by(at, to)) {
             at = to;
-            by = std::min(2.0 * by, 0.9 * widest_step / longest);
+            by = std::min(2.0 * by, furthest);
             work_.active.clear();
             continue;
         }
@@ -436,9 +444,8 @@ bool LinkageSolve::descent_step(double damping) noexcept {
         }
     }
     note_active();
-    const double widest = largest_of(work_.step);
-    if (!(widest > shortest_step)) return false;
-    double part = std::min(1.0, widest_step / widest);
+    if (!(largest_of(work_.step) > shortest_step)) return false;
+    double part = std::min(1.0, widest_step / work_.widest());
     for (std::size_t i = 0; i < work_.joints.size(); ++i) {
         const Link& link = work_.linkage.links[i];
         const double by = work_.step[work_.column[i]];
@@ -595,8 +602,8 @@ void LinkageSolve::finish(LinkageReport& report) noexcept {
             if (work_.gap_of(work_.linkage.closures[i]) > open_from()) work_.open.push_back(i);
     using enum LinkageStatus;
     if (!open && !missed && !stopped_ && !beyond_range_) work_.active.clear();
-    report.status = open                        ? Open
-                    : out_of_iterations_        ? IterationLimit
+    report.status = out_of_iterations_          ? IterationLimit
+                    : open                      ? Open
                     : stopped_ || beyond_range_ ? (work_.active.empty() ? DeadPoint : Limited)
                     : missed                    ? (work_.active.empty() ? TargetMissed : Limited)
                                                 : Reached;
@@ -681,6 +688,7 @@ bool find_other_mode(LinkageWork& work, LinkageState& state, std::span<const Lin
     LinkageSolve from(work, goals, options);
     from.hold_drivers();
     const int mode = from.mode();
+    if (mode == 0) return false;
     const std::vector<JointPlace> here = work.joints;
     double nearest = 1e300;
     std::uint64_t random = 1;
@@ -694,7 +702,7 @@ bool find_other_mode(LinkageWork& work, LinkageState& state, std::span<const Lin
         solve.hold_drivers();
         if (!solve.close_from_here()) continue;
         const double far = distance_of_modes(work, here);
-        if (far < same || far >= nearest || (mode != 0 && solve.mode() == 0)) continue;
+        if (far < same || far >= nearest || solve.mode() == 0) continue;
         nearest = far;
         for (std::size_t i = 0; i < here.size(); ++i) {
             if (work.linkage.links[i].joint == LinkJoint::Hinge)

@@ -71,7 +71,7 @@ class LinkageSolve {
     double tolerance_;
     int iterations_ = 0;
     Aim aim_ = Aim::Closures;
-    bool closes_ = true;        ///< closures are kept, not approached
+    bool closes_ = true;  ///< closures are kept, not approached
     /// The least that was left of a closure's equations by those before, as a part: near 0 where the rank is
     /// about to fall, or has fallen.
     double least_left_ = 1.0;

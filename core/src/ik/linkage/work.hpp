@@ -54,7 +54,8 @@ struct LinkageWork {
     std::vector<std::size_t> column;     ///< the first of each link
     std::size_t columns = 0;
     double size = 0.0;
-    double rounding = 0.0;  ///< metres: what a closure cannot be closer to, far from the origin
+    double rounding = 0.0;               ///< metres: what a closure cannot be closer to, far from the origin
+    std::vector<std::uint8_t> straight;  ///< columns of sliders on no loop: a step of any length is as good
     bool planar = false;
     glm::dvec3 normal{0.0, 0.0, 1.0};  ///< of a planar one
 
@@ -94,6 +95,8 @@ struct LinkageWork {
         return linkage.links[link].joint == LinkJoint::Slider ? size : 1.0;
     }
     bool ranged(std::size_t link) const noexcept;
+    /// The largest of the step, but for straight columns.
+    double widest() const noexcept;
 
     // Equations. A block of rows has columns of the derivatives of what its errors are to add.
     struct Block {
@@ -137,6 +140,7 @@ struct LinkageWork {
   private:
     void add_point(std::size_t link, const glm::dvec3& at, double sign) noexcept;
     void add_turn(std::size_t link, double sign) noexcept;
+    double size_of_travel() const noexcept;
     glm::dvec3 turn_between(const Closure& closure) const noexcept;
 };
 
