@@ -115,7 +115,7 @@ class Maker {
 
     Unit unit(const std::string& name, bool in_body) {
         Unit made{.name = name};
-        switch (random_.below(in_body ? 14 : 17)) {
+        switch (random_.below(in_body ? 14 : 18)) {
             case 0:
                 made.operation =
                     Aim{.item = item(in_body), .primary = aim_part(in_body), .secondary = aim_part(in_body)};
@@ -188,6 +188,16 @@ class Maker {
                                          .tip = element(),
                                          .target = input(in_body, vector()),
                                          .pole_target = input(in_body, vector())};
+                break;
+            case 16:
+                made.operation = Spline{.root = element(),
+                                        .tip = element(),
+                                        .points = {element(), element(), element()},
+                                        .b_spline = random_.chance(2),
+                                        .fit = random_.chance(2),
+                                        .up = vector(),
+                                        .roll_start_deg = number(),
+                                        .roll_end_deg = input(in_body, number())};
                 break;
             default: {
                 ForEach loop{

@@ -120,6 +120,8 @@ class NaiveRig {
                 if (pose) return pose->translation;
             if constexpr (std::is_same_v<T, glm::dquat>)
                 if (pose) return pose->rotation;
+            if constexpr (std::is_same_v<T, double>)
+                if (const bool* on = std::get_if<bool>(&value)) return *on ? 1.0 : 0.0;
             return std::get<T>(value);
         }
     }
@@ -292,6 +294,7 @@ class NaiveRig {
     }
     void operate(const TwoBone&) { ADD_FAILURE(); }
     void operate(const Fabrik&) { ADD_FAILURE(); }
+    void operate(const Spline&) { ADD_FAILURE(); }
 
     Definition definition_;
     Here here_{};

@@ -30,7 +30,9 @@ double apart(const Value& a, const Value& b) {
 bool is_plain(const std::vector<Unit>& units) {
     return std::ranges::all_of(units, [](const Unit& unit) {
         const Operation& what = unit.operation;
-        if (std::holds_alternative<TwoBone>(what) || std::holds_alternative<Fabrik>(what)) return false;
+        if (std::holds_alternative<TwoBone>(what) || std::holds_alternative<Fabrik>(what) ||
+            std::holds_alternative<Spline>(what))
+            return false;
         if (const auto* aim = std::get_if<AimMath>(&what)) return aim->max_speed == Input<double>(0.0);
         if (const auto* loop = std::get_if<ForEach>(&what)) return is_plain(loop->body.units());
         return true;

@@ -5,6 +5,8 @@
 
 #include "memory.hpp"
 #include "rig_rigs.hpp"
+#include "tendril/ik/curve.hpp"
+#include "tests/says.hpp"
 
 namespace tendril::rig {
 namespace {
@@ -143,7 +145,8 @@ TEST(RigSolve, AWeightOfZeroLeavesEverythingToTheBit) {
         SetTransform{.item = "head", .transform = at(3, 3, 3)},
         SetRotation{.item = "head", .rotation = turned(50, {1, 1, 0}).rotation},
         Fabrik{.root = "neck", .tip = "tip", .target = FromElement{"look"}},
-        TwoBone{.root = "neck", .tip = "tip", .target = FromElement{"look"}}};
+        TwoBone{.root = "neck", .tip = "tip", .target = FromElement{"look"}},
+        Spline{.root = "neck", .tip = "tip", .points = {"neck", "look"}}};
     for (const Operation& operation : operations) {
         definition.units = {{.name = "unit", .operation = operation, .weight = 0.0}};
         Held rig(definition);
@@ -209,6 +212,132 @@ TEST(RigSolve, ChainsReachTheirTargets) {
         rig.solve();
         expect_near(rig.global("c").translation, {1e4 + 1, 0.8, 1e4 + 0.3}, 2e-3);
     }
+}
+
+// Three bones along +Y, and a curve through three controls.
+Definition spline_rig() {
+    Definition definition;
+    definition.elements = {{.name = "a", .initial = at(0, 0, 0)},
+                           {.name = "b", .parent = "a", .initial = turned(30, {0, 1, 0})},
+                           {.name = "c", .parent = "b", .initial = at(0, 1, 0)},
+                           {.name = "d", .parent = "c", .initial = at(0, 1, 0)}};
+    definition.elements[1].initial.translation = {0, 1, 0};
+    for (const auto& [name, place] :
+         {std::pair("p", at(2, 0, 0)), std::pair("q", at(3, 1, 0.5)), std::pair("r", at(5, 1, 0))})
+        definition.elements.push_back({.name = name,
+                                       .kind = ElementKind::Control,
+                                       .initial = place,
+                                       .control = Control{.kind = ControlKind::Position}});
+    definition.units = {
+        {.name = "spline", .operation = Spline{.root = "a", .tip = "d", .points = {"p", "q", "r"}}}};
+    return definition;
+}
+
+TEST(RigSolve, ASplineLaysBonesAlongACurveAndRollsThemWithIt) {
+    Definition definition = spline_rig();
+    Held rig(definition);
+    rig.solve();
+    const std::vector<glm::vec3> points{{2, 0, 0}, {3, 1, 0.5}, {5, 1, 0}};
+    const std::vector<float> lengths(3, 1.0f);
+    const std::vector<glm::vec3> rest(3, glm::vec3(0, 1, 0));
+    std::vector<glm::vec3> joints(4);
+    ik::State state(3);
+    ik::CurveMemory memory;
+    ik::place_along(points, {lengths, rest}, joints, state, memory);
+    for (int i = 0; i < 4; ++i)
+        expect_near(rig.global(std::string(1, static_cast<char>('a' + i)).c_str()).translation, joints[i],
+                    1e-5);
+    const glm::dquat b = rig.global("b").rotation,
+                     expected = glm::dquat(state.rotations[1]) * turned(30, {0, 1, 0}).rotation;
+    EXPECT_NEAR(std::abs(glm::dot(b, expected)), 1.0, 1e-6) << "the rest twist is kept";
+    EXPECT_NEAR(std::get<double>(rig.unit("spline").outputs[0]),
+                static_cast<double>(glm::distance(joints[3], points[2])), 1e-5);
+
+    std::get<Spline>(definition.units[0].operation).roll_end_deg = 90.0;
+    Held rolled(definition);
+    rolled.solve();
+    expect_near(rolled.global("d").translation, rig.global("d").translation, 1e-5);
+    const glm::dquat turn = rolled.global("c").rotation * glm::conjugate(rig.global("c").rotation);
+    EXPECT_NEAR(std::abs(turn.w), std::sqrt(0.5), 1e-6);
+
+    definition.units[0].weight = 0.5;
+    Held half(definition);
+    half.solve();
+    expect_near(half.global("a").translation, {1, 0, 0}, 1e-9);
+}
+
+TEST(RigSolve, ASplineFitsItsBonesToTheCurve) {
+    Definition definition = spline_rig();
+    auto& spline = std::get<Spline>(definition.units[0].operation);
+    spline.fit = true;
+    Held rig(definition);
+    rig.solve();
+    const auto output = [&](std::size_t at) { return std::get<double>(rig.unit("spline").outputs[at]); };
+    EXPECT_LE(output(0), 1e-5) << "the tip is on the last point";
+    const double factor = output(3);
+    EXPECT_GT(std::abs(factor - 1.0), 0.05);
+    EXPECT_EQ(output(1), 0.0);
+    for (const auto& [from, to] : {std::pair("a", "b"), std::pair("b", "c"), std::pair("c", "d")})
+        EXPECT_NEAR(glm::distance(rig.global(from).translation, rig.global(to).translation), factor, 1e-5);
+    EXPECT_EQ(rig.global("d").scale, glm::dvec3(1.0));
+    rig.solve();
+    EXPECT_EQ(output(3), factor) << "the bones begin at their own lengths again";
+
+    spline.max_factor = 0.0;  // no fit
+    Held loose(definition);
+    loose.solve();
+    EXPECT_EQ(std::get<double>(loose.unit("spline").outputs[3]), 1.0);
+    EXPECT_GT(std::get<double>(loose.unit("spline").outputs[0]), 0.1);
+}
+
+TEST(RigSolve, ASplineWithOtherPointsFollowsThose) {
+    Definition definition = spline_rig();
+    const Rig rig = *Rig::make(definition);
+    std::get<Spline>(definition.units[0].operation).points = {"r", "q", "p"};
+    Held changed(definition);
+    changed.rig = *rig.with_unit(definition.units[0]);
+    changed.workspace = Workspace(changed.rig);
+    changed.solve();
+    expect_near(changed.global("a").translation, {5, 1, 0}, 1e-9);
+}
+
+TEST(RigSolve, ASplineSaysHowMuchLiesPastItsCurve) {
+    Definition definition = spline_rig();
+    std::get<Spline>(definition.units[0].operation).points = {"p", "q"};
+    Held rig(definition);
+    rig.solve();
+    const std::vector<Value>& outputs = rig.unit("spline").outputs;
+    EXPECT_EQ(std::get<double>(outputs[1]), 2.0) << "bones";
+    EXPECT_NEAR(std::get<double>(outputs[2]), 1.5, 1e-5) << "metres";
+    EXPECT_NEAR(std::get<double>(outputs[0]), 1.5, 1e-5);
+}
+
+// A roll of 2e8 degrees is beyond what the library takes; a bone of no length is not.
+TEST(RigSolve, ASplineThatCannotBeLaidLeavesItsBonesAndSaysSo) {
+    Definition definition = spline_rig();
+    std::get<Spline>(definition.units[0].operation).roll_end_deg = 2e8;
+    Held rig(definition);
+    rig.solve();
+    EXPECT_EQ(rig.unit("spline").warning, Warning::CannotSolve);
+    EXPECT_EQ(rig.global("b").translation, glm::dvec3(0, 1, 0));
+    std::get<Spline>(definition.units[0].operation).roll_end_deg = 0.0;
+    definition.elements[2].initial.translation = glm::dvec3(0.0);
+    Held pointed(definition);
+    pointed.solve();
+    EXPECT_EQ(pointed.unit("spline").warning, Warning::None);
+    EXPECT_NEAR(glm::distance(pointed.global("c").translation, pointed.global("d").translation), 1.0, 1e-9);
+}
+
+TEST(RigSolve, ASplineNeedsTwoPointsThatExist) {
+    Definition definition = spline_rig();
+    auto& spline = std::get<Spline>(definition.units[0].operation);
+    spline.points = {"p"};
+    EXPECT_TRUE(test::says(Rig::make(definition).message(), "spline points 2 to 4096 1"));
+    spline.points = {"p", "x"};
+    EXPECT_TRUE(test::says(Rig::make(definition).message(), "spline points no element x"));
+    spline.points = {"p", "q"};
+    spline.max_factor = 101.0;
+    EXPECT_TRUE(test::says(Rig::make(definition).message(), "spline max_factor 0 to 100 101"));
 }
 
 TEST(RigSolve, AChainOfHalfWeightTurnsHalfTheWay) {

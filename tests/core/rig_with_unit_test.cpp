@@ -35,7 +35,7 @@ void expect_same(const Rig& rig, const Rig& made, const Rig& before, const State
 
 TEST(RigWithUnit, IsTheRigThatMakeReturns) {
     int taken = 0, refused = 0, loops = 0;
-    for (std::uint64_t seed = 0; seed < 4000; ++seed) {
+    for (std::uint64_t seed = 0; seed < 4500; ++seed) {
         const Definition definition = Maker(seed, true).definition();
         const Rig rig = *Rig::make(definition);
         State state = rig.initial_state();

@@ -79,6 +79,9 @@ Definition every_unit() {
                               .tip = "d",
                               .target = FromElement{"look"},
                               .pole_target = FromElement{"hand"}},
+         .weight = 0.5},
+        {.name = "lay",
+         .operation = Spline{.root = "b", .tip = "d", .points = {"b", "hand", "look"}, .fit = true},
          .weight = 0.5}};
     return made;
 }

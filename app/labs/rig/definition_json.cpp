@@ -218,7 +218,8 @@ class Reader {
         axes("scale", filter.scale);
     }
     static void read(const JsonPlace& place, std::vector<std::string>& roots) {
-        place.for_each("roots", max_roots, [&](const JsonPlace& each) { roots.push_back(each.text()); });
+        roots.clear();
+        place.for_each("elements", max_roots, [&](const JsonPlace& each) { roots.push_back(each.text()); });
     }
     static void read(const JsonPlace& place, rig::Body& body) { body.units() = read_units(place); }
     static void read(const JsonPlace& place, bool& flag) { flag = place.flag(); }

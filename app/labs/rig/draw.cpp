@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <memory>
+#include <tendril/ik/curve.hpp>
 
 #include "app/document/units.hpp"
 #include "app/labs/kit/past_view.hpp"
@@ -16,6 +17,7 @@
 #include "app/labs/rig/rig_lab.hpp"
 #include "app/labs/rig/rig_runtime.hpp"
 #include "app/labs/rig/take.hpp"
+#include "app/labs/rig/unit_inputs.hpp"
 #include "app/view/globe.hpp"
 #include "app/view/surface_support.hpp"
 
@@ -64,6 +66,7 @@ class Drawing {
             }
             if (pending_) pending(i);
         }
+        curves();
         if (const auto element = p_.part.selected.only_element()) input_pose(*element);
         labels();
     }
@@ -130,6 +133,36 @@ class Drawing {
                                                   : glm::vec4(p_.view.palette.text, 0.55f);
         const float width = p_.px(p_.is_active(i) ? 2.5f : 1.5f);
         p_.list.ring(at, clear + p_.px(4.0f), width, paint).layer = Layer::Overlay;
+    }
+
+    /// Those that splines follow: where their points are after the last unit.
+    void curves() {
+        for (const UnitRow& row : unit_rows(p_.part)) {
+            const auto* spline = std::get_if<rig::Spline>(&row.unit->operation);
+            if (spline == nullptr || !row.unit->enabled) continue;
+            std::vector<glm::vec3> points;
+            for (const std::string& each : spline->points)
+                points.push_back(p_.point(*p_.part.rig.element(each)));
+            const bool chosen = p_.part.selected.unit == row.unit->name;
+            curve(points, is_b_spline(*row.unit), chosen ? 2.5f : 1.5f);
+        }
+    }
+    bool is_b_spline(const rig::Unit& unit) const {
+        for (const UnitInput& input : unit_inputs(p_.part, p_.elements, unit))
+            if (const auto* now = std::get_if<rig::Value>(&input.value); now && input.path == "/b_spline")
+                return *now == rig::Value(true);
+        return false;
+    }
+    void curve(const std::vector<glm::vec3>& points, bool b_spline, float width) {
+        const ik::CurveKind kind = b_spline ? ik::CurveKind::BSpline : ik::CurveKind::Hermite;
+        const std::size_t pieces = points.size() - 1, each = std::clamp<std::size_t>(512 / pieces, 1, 24);
+        glm::vec3 from = points.front();
+        for (std::size_t i = 1; i <= each * pieces; ++i) {
+            const glm::vec3 to =
+                ik::curve_point(points, kind, static_cast<float>(i) / static_cast<float>(each));
+            p_.line(from, to, width, p_.view.palette.target).layer = Layer::Overlay;
+            from = to;
+        }
     }
 
     /// Marks the stored state; the drawing itself uses a copy with nothing pending.

@@ -533,6 +533,27 @@ UnitOffer chain(const RigPart& part, Json unit) {
     return {SharedJson(std::move(unit))};
 }
 
+/// Whole chains, unlike the other solvers: through the selected elements in order, or else from where the
+/// root is through all controls.
+UnitOffer along_points(const RigPart& part, Json unit) {
+    UnitOffer offer = chain(part, std::move(unit));
+    if (!offer.unit) return offer;
+    const rig::Element* tip = item_of(part);
+    const rig::Element* root = bones_above(part, *tip, 2);
+    for (const rig::Element* above = parent_of(part, *root);
+         above != nullptr && above->kind == rig::ElementKind::Bone; above = parent_of(part, *above))
+        root = above;
+    std::vector<std::string> points = selected_but(part, *tip);
+    if (points.size() < 2) {
+        points = {root->name};
+        for (const rig::Element& each : part.rig.definition().elements)
+            if (each.kind == rig::ElementKind::Control) points.push_back(each.name);
+    }
+    if (points.size() < 2) return {{}, "add a control for the curve first"};
+    return {
+        SharedJson(Json{{"unit", "spline"}, {"root", root->name}, {"tip", tip->name}, {"points", points}})};
+}
+
 }  // namespace
 
 std::string free_element_name(const RigPart& part, const std::string& base) {
@@ -551,6 +572,7 @@ UnitOffer offered_unit(const RigPart& part, std::size_t operation) {
     if (kind == "aim" || kind == "parent_constraint" || kind == "project_to_parent")
         return follower(part, std::move(unit));
     if (kind == "two_bone" || kind == "fabrik") return chain(part, std::move(unit));
+    if (kind == "spline") return along_points(part, std::move(unit));
     if (kind == "offset_transform" || kind == "set_transform" || kind == "set_rotation")
         return with_item(part, std::move(unit));
     if (kind == "for_each") {

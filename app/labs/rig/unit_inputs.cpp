@@ -42,10 +42,16 @@ rig::Value part_of(const rig::Transform& pose, rig::Of of) {
 }
 
 const char* unit_of(std::string_view field) {
-    constexpr std::pair<std::string_view, const char*> units[] = {
-        {"max_speed", "\xC2\xB0/s"}, {"strength", "Hz"},        {"speed_increasing", "/s"},
-        {"speed_decreasing", "/s"},  {"target", "m"},           {"pole_target", "m"},
-        {"location", "m"},           {"interpolated_value", ""}};
+    constexpr std::pair<std::string_view, const char*> units[] = {{"max_speed", "\xC2\xB0/s"},
+                                                                  {"strength", "Hz"},
+                                                                  {"speed_increasing", "/s"},
+                                                                  {"speed_decreasing", "/s"},
+                                                                  {"target", "m"},
+                                                                  {"pole_target", "m"},
+                                                                  {"location", "m"},
+                                                                  {"roll_start_deg", "\xC2\xB0"},
+                                                                  {"roll_end_deg", "\xC2\xB0"},
+                                                                  {"interpolated_value", ""}};
     for (const auto& [name, unit] : units)
         if (name == field) return unit;
     return "";
@@ -126,10 +132,10 @@ class Lister {
     void list(const rig::TransformFilter& filter, const std::string& path, const std::string& title) {
         add(path, title).value = InputFilter{filter};
     }
-    void list(const std::vector<std::string>& roots, const std::string& path, const std::string& title) {
+    void list(const std::vector<std::string>& names, const std::string& path, const std::string& title) {
         UnitInput& row = add(path, title);
-        row.value = InputNames{roots, true};
-        row.takes = UnitInput::Takes::Roots;
+        row.value = InputNames{names, true};
+        row.takes = UnitInput::Takes::Names;
     }
     void list(const rig::Body&, const std::string&, const std::string&) {}  // body units have their own rows
     void list(bool flag, const std::string& path, const std::string& title) {
@@ -196,6 +202,11 @@ std::vector<UnitInput> unit_inputs(const RigPart& part, const rig::Hierarchy& no
 
 bool is_speed_limit(const UnitInput& input) {
     return input.path.ends_with("max_speed");
+}
+
+std::string one_of(std::string title) {
+    title.pop_back();
+    return title;
 }
 
 std::string input_text(const UnitInput& input, const rig::Value& value) {
@@ -292,8 +303,8 @@ class Offers {
             case UnitInput::Takes::Bone:
                 elements(true);
                 break;
-            case UnitInput::Takes::Roots:
-                roots(index);
+            case UnitInput::Takes::Names:
+                one_of_names(index);
                 break;
             case UnitInput::Takes::Curve:
                 for (const rig::NamedCurve& curve : definition().curves) offer(curve.name, curve.name);
@@ -404,7 +415,7 @@ class Offers {
             if (!bones || each.kind == rig::ElementKind::Bone) offer(each.name, each.name);
     }
 
-    void roots(std::size_t index) {
+    void one_of_names(std::size_t index) {
         const std::vector<std::string>& names = std::get<InputNames>(input_.value).names;
         for (const rig::Element& each : definition().elements) {
             if (std::ranges::count(names, each.name) > 0 &&
@@ -415,10 +426,11 @@ class Offers {
             offers_.push_back(
                 {each.name, SharedJson(std::move(all)), index < names.size() && names[index] == each.name});
         }
-        if (index >= names.size() || names.size() < 2) return;
+        const std::size_t fewest = input_.path == "/points" ? 2 : 1;
+        if (index >= names.size() || names.size() <= fewest) return;
         Json fewer = names;
         fewer.erase(index);
-        offers_.push_back({"none: remove this root", SharedJson(std::move(fewer)), false});
+        offers_.push_back({"none: remove this " + one_of(input_.title), SharedJson(std::move(fewer)), false});
     }
 
     const RigPart& part_;
@@ -509,7 +521,15 @@ constexpr Help helps[] = {
     {"evaluate_curve", "value", "Where the curve is read."},
     {"", "value", "The number that goes in."},
     {"", "root", "The first bone of the chain."},
+    {"spline", "tip", "The last bone of the chain."},
     {"", "tip", "The last bone of the chain: it goes to the target."},
+    {"", "points", "The elements that the curve passes through, in order. The root goes to the first."},
+    {"", "b_spline", "A smoother curve, which passes only near the points between the first and the last."},
+    {"", "fit", "Makes all bones longer or shorter by one factor, so that the tip is on the last point."},
+    {"", "max_factor", "How far fit may go: 2 lets the bones be twice or half as long."},
+    {"", "up", "Where the upper side of the bones faces where the curve begins."},
+    {"", "roll_start_deg", "How many degrees the first bone is rolled about itself."},
+    {"", "roll_end_deg", "How many degrees the last bone is rolled; between them the roll is spread."},
     {"", "target", "Where the tip of the chain goes: a point in the scene."},
     {"", "pole_target", "A point that the elbow or knee points at. None: the chain bends as before."},
 };
@@ -543,6 +563,7 @@ constexpr struct {
     {"set_curve", "Writes a number into a named curve."},
     {"two_bone", "Turns two bones so that the tip reaches a target."},
     {"fabrik", "Turns a chain of bones so that its tip reaches a target."},
+    {"spline", "Lays a chain of bones along a curve through points."},
 };
 
 }  // namespace

@@ -48,7 +48,7 @@ struct UnitInput {
     bool count = false;  ///< a whole number, such as a number of elements
 
     /// What input_offers() can replace it with. For values: of `type`, or of any type if that is empty.
-    enum class Takes : std::uint8_t { Nothing, Value, Element, Bone, Roots, Curve } takes = Takes::Nothing;
+    enum class Takes : std::uint8_t { Nothing, Value, Element, Bone, Names, Curve } takes = Takes::Nothing;
     std::optional<rig::Type> type{};
 
     bool literal() const { return from.empty(); }
@@ -56,6 +56,8 @@ struct UnitInput {
 
 /// The speed limit of an aim, for which 0 means no limit.
 bool is_speed_limit(const UnitInput& input);
+/// "roots" becomes "root".
+std::string one_of(std::string title);
 /// `value` on one line; counts have no decimals, a missing limit reads "no limit".
 std::string input_text(const UnitInput& input, const rig::Value& value);
 
@@ -85,8 +87,8 @@ struct InputOffer {
     SharedJson value;   ///< for with_input()
     bool now = false;   ///< the input has this value now
 };
-/// For an input whose `takes` is not Nothing. An input of values is also offered a literal. For roots,
-/// `index` says which root to replace; an index equal to their number appends one. Cost: O(elements + units).
+/// For an input whose `takes` is not Nothing. An input of values is also offered a literal. For names,
+/// `index` says which one to replace; an index equal to their number appends one. Cost: O(elements + units).
 std::vector<InputOffer> input_offers(const RigPart& part, const UnitRow& row, const UnitInput& input,
                                      std::size_t index = 0);
 

@@ -309,11 +309,11 @@ class Fields {
     }
     void field(const InputNames& names) const {
         const std::string& title = input_->title;
-        if (input_->takes != UnitInput::Takes::Roots) return chooser(title, &names.names.front());
+        if (input_->takes != UnitInput::Takes::Names) return chooser(title, &names.names.front());
+        const std::string one = one_of(title), another = "another";
         for (std::size_t i = 0; i < names.names.size(); ++i)
-            chooser(names.names.size() > 1 ? "root " + std::to_string(i + 1) : "root", &names.names[i], i);
-        const std::string another = "another";
-        chooser("add a root", &another, names.names.size());
+            chooser(names.names.size() > 1 ? one + ' ' + std::to_string(i + 1) : one, &names.names[i], i);
+        chooser("add a " + one, &another, names.names.size());
     }
     void field(const InputCurve& curve) const {
         signal::Curve edited = curve.curve;
@@ -349,12 +349,17 @@ class Fields {
         float shown = static_cast<float>(value);
         const bool weight = is_weight(*input_);
         const std::string unit = input_->unit;
+        const bool angle = unit == "\xC2\xB0";
         const std::string format = is_speed_limit(*input_) ? "%.1f" + unit
                                    : unit.empty()          ? "%.3f"
                                                            : "%.3f " + unit;
-        if (number_field(input_->title.c_str(), shown, weight ? 0.005f : 0.01f,
-                         weight || *input_->unit != '\0' ? 0.0f : -max_literal, weight ? 1.0f : max_literal,
-                         format.c_str(), is_speed_limit(*input_) ? "no limit" : nullptr))
+        const bool signed_number = angle || (unit.empty() && !weight);
+        if (number_field(input_->title.c_str(), shown,
+                         weight  ? 0.005f
+                         : angle ? 0.5f
+                                 : 0.01f,
+                         signed_number ? -max_literal : 0.0f, weight ? 1.0f : max_literal, format.c_str(),
+                         is_speed_limit(*input_) ? "no limit" : nullptr))
             set(number(shown));
         explain(help().c_str());
     }

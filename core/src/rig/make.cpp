@@ -1,6 +1,7 @@
 #include <algorithm>
-#include <array>
 #include <string>
+#include <type_traits>
+#include <variant>
 
 #include "rig/checks.hpp"
 #include "rig/plan.hpp"
@@ -151,12 +152,23 @@ class Builder {
         for (const Output& output : *outputs) state.outputs.push_back(neutral(output.type));
         layout_.initial.units.push_back(std::move(state));
         layout_.unit_names.push_back(unit.name);
-        layout_.units.push_back({{}, {}, around, std::move(*outputs)});
+        layout_.units.push_back({{}, {}, {}, around, std::move(*outputs)});
         layout_.work += times * work_a_unit;
         if (const auto* two_bone = std::get_if<TwoBone>(&unit.operation))
             return add_chain(unit, two_bone->root, two_bone->tip, 3, times, layout_.units[index]);
         if (const auto* fabrik = std::get_if<Fabrik>(&unit.operation))
             return add_chain(unit, fabrik->root, fabrik->tip, 0, times, layout_.units[index]);
+        if (const auto* spline = std::get_if<Spline>(&unit.operation)) {
+            constexpr std::size_t most = 4096;  // of ik::place_along
+            if (spline->points.size() < 2 || spline->points.size() > most)
+                return invalid(place + ": points takes 2 to 4096 elements, got " +
+                               std::to_string(spline->points.size()));
+            for (const std::string& each : spline->points)
+                layout_.units[index].points.push_back(
+                    static_cast<std::uint32_t>(layout_.elements.find(each)->second));
+            layout_.work += times * spline->points.size() * work_a_bone;
+            return add_chain(unit, spline->root, spline->tip, 0, times, layout_.units[index]);
+        }
         auto* for_each = std::get_if<ForEach>(&unit.operation);
         if (!for_each) return {};
         for (const std::string& root : for_each->roots) collect(*for_each, root, layout_.units[index]);
@@ -233,13 +245,20 @@ Unit& unit_at(std::vector<Unit>& units, std::size_t index) {
     return units.back();  // not reached
 }
 
-/// The ends of the chain of bones that a unit solves; -1 for other units.
-std::array<std::int32_t, 2> chain_ends(const Unit& unit) {
-    if (const auto* two_bone = std::get_if<TwoBone>(&unit.operation))
-        return {two_bone->root.resolved.index, two_bone->tip.resolved.index};
-    if (const auto* fabrik = std::get_if<Fabrik>(&unit.operation))
-        return {fabrik->root.resolved.index, fabrik->tip.resolved.index};
-    return {-1, -1};
+/// Whether two units of the same operation lay the same elements, as far as the layout knows them.
+bool same_elements(const Unit& one, const Unit& other) {
+    return std::visit(
+        [&]<class Op>(const Op& op) {
+            [[maybe_unused]] const Op& as = std::get<Op>(other.operation);
+            if constexpr (std::is_same_v<Op, ForEach>) return false;
+            if constexpr (std::is_same_v<Op, Spline>)
+                if (op.points != as.points) return false;
+            if constexpr (requires { op.tip; })
+                return op.root.resolved.index == as.root.resolved.index &&
+                       op.tip.resolved.index == as.tip.resolved.index;
+            return true;
+        },
+        one.operation);
 }
 
 bool same_types(const std::vector<Output>& a, const std::vector<Output>& b) {
@@ -259,8 +278,7 @@ Expected<Rig> Rig::with_unit(Unit unit) const {
     const auto outputs = Resolver(changed, layout).resolve(unit, found->second, planned.for_each);
     if (!outputs) return outputs.error();
     const bool same_layout = unit.operation.index() == place.operation.index() &&
-                             !std::holds_alternative<ForEach>(unit.operation) &&
-                             chain_ends(unit) == chain_ends(place) && same_types(*outputs, planned.outputs);
+                             same_elements(unit, place) && same_types(*outputs, planned.outputs);
     place = std::move(unit);
     if (!same_layout) return make(std::move(changed));
     return Rig(new Plan(std::move(changed), plan_->layout));

@@ -21,7 +21,8 @@ struct Visit {
 /// The compiled data of one unit, including those in bodies.
 struct UnitPlan {
     std::vector<Visit> visits;            ///< for-each only: in order
-    std::vector<std::uint32_t> bones;     ///< chain solvers only: the elements from root to tip
+    std::vector<std::uint32_t> bones;     ///< units of a chain only: the elements from root to tip
+    std::vector<std::uint32_t> points;    ///< splines only: the elements that the curve passes through
     std::optional<std::size_t> for_each;  ///< units in a body only: the for-each around them
     std::vector<Output> outputs;
 };

@@ -224,6 +224,7 @@ void Resolver::check_literal(const std::string& name, const Value& value) {
                 refuse(name + " must be " + range + got);
         };
         check_up_to("strength", signal::max_strength, "0 to 1e4 Hz");
+        check_up_to("max_factor", 100.0, "0 to 100");
         check_up_to("critical_damping", signal::max_damping, "0 to 1000");
         check_up_to("target_velocity_amount", 1.0, "0 to 1");
     }

@@ -49,15 +49,14 @@ float Runner::bone_length(std::size_t bone) noexcept {
     return static_cast<float>(detail::length(scaled));
 }
 
-/// A solver for the current bone lengths: made at the first solve, and again whenever a length differs at
-/// all. Otherwise the result would depend on earlier solvers.
-bool Runner::prepare_chain(ChainScratch& chain) {
+/// Whether the lengths are those of the last time.
+bool Runner::measure_chain(ChainScratch& chain) {
     const std::size_t bones = plan_.layout->units[unit_].bones.size() - 1;
     const glm::dvec3 origin = bone_place(0);
     chain.joints.resize(bones + 1);
     chain.before.resize(bones);
     chain.lengths.resize(bones);
-    bool same = chain.solver.has_value();
+    bool same = true;
     chain.joints[0] = glm::vec3(0.0f);
     for (std::size_t i = 0; i < bones; ++i) {
         const float length = bone_length(i);
@@ -68,7 +67,13 @@ bool Runner::prepare_chain(ChainScratch& chain) {
             state_.elements.get(plan_.layout->ids[plan_.layout->units[unit_].bones[i]], Space::Local)
                 .rotation;
     }
-    if (same) return true;
+    return same;
+}
+
+/// A solver for the current bone lengths: made at the first solve, and again whenever a length differs at
+/// all. Otherwise the result would depend on earlier solvers.
+bool Runner::prepare_chain(ChainScratch& chain) {
+    if (measure_chain(chain) && chain.solver) return true;
     chain.solver.reset();
     auto solver = ik::Solver::make(chain.lengths);
     if (solver) chain.solver.emplace(std::move(*solver));
@@ -117,6 +122,85 @@ void Runner::solve_chain(ik::Method method, const Input<glm::dvec3>& target,
         }
     }
     hand_out(0, detail::length(detail::minus(to, bone_place(bones))));
+}
+
+/// The bones' initial directions; +X where two coincide.
+void Runner::measure_rest(ChainScratch& chain) {
+    const std::vector<std::uint32_t>& elements = plan_.layout->units[unit_].bones;
+    chain.rest.clear();
+    for (std::size_t i = 0; i + 1 < elements.size(); ++i) {
+        const auto at = [&](std::size_t k) {
+            return state_.elements.get(plan_.layout->ids[elements[k]], Space::Global, Pose::Initial)
+                .translation;
+        };
+        const glm::dvec3 along = detail::minus(at(i + 1), at(i));
+        const double length = detail::length(along);
+        chain.rest.push_back(
+            length > 0.0 ? math::narrow(glm::dvec3(along.x / length, along.y / length, along.z / length))
+                         : glm::vec3(1.0f, 0.0f, 0.0f));
+    }
+}
+
+/// The root goes to the first joint, the bones turn from their initial poses, and their lengths are scaled by
+/// the factor; all of it by the weight.
+void Runner::lay(const ChainScratch& chain, const glm::dvec3& first, double factor) noexcept {
+    Hierarchy& tree = state_.elements;
+    const std::vector<std::uint32_t>& elements = plan_.layout->units[unit_].bones;
+    Transform root = tree.get(plan_.layout->ids[elements[0]], Space::Global);
+    root.translation = weight_ >= 1.0 ? first : detail::mix(root.translation, first, weight_);
+    place(plan_.layout->ids[elements[0]], Space::Global, root, true);
+    for (std::size_t i = 0; i + 1 < elements.size(); ++i) {
+        const ElementId id = plan_.layout->ids[elements[i]], next = plan_.layout->ids[elements[i + 1]];
+        Transform pose = tree.get(id, Space::Global);
+        pose.rotation = normalised(math::compose(glm::dquat(chain.placed.rotations[i]),
+                                                 tree.get(id, Space::Global, Pose::Initial).rotation));
+        tree.put(id, Space::Global, pose);
+        if (factor == 1.0) continue;
+        pose = tree.get(next, Space::Local);
+        pose.translation = detail::times(pose.translation, 1.0 + weight_ * (factor - 1.0));
+        place(next, Space::Local, pose, true);
+    }
+    turn_bones(chain);  // where an element has moved within its parent since the initial pose
+}
+
+void Runner::operator()(const Spline& op) noexcept {
+    const detail::UnitPlan& unit = plan_.layout->units[unit_];
+    const auto point = [&](std::size_t i) {
+        return state_.elements.get(plan_.layout->ids[unit.points[i]], Space::Global).translation;
+    };
+    const std::size_t bones = unit.bones.size() - 1;
+    const glm::dvec3 origin = point(0), end = point(unit.points.size() - 1);
+    ik::CurveReport report;
+    if (weight_ > 0.0) {
+        ChainScratch& chain = workspace_.parts().chains[unit_];
+        measure_chain(chain);
+        measure_rest(chain);
+        chain.points.clear();
+        for (std::size_t i = 0; i < unit.points.size(); ++i)
+            chain.points.push_back(math::narrow(detail::minus(point(i), origin)));
+        if (chain.placed.bones() != bones) chain.placed = ik::State(bones);
+        constexpr double radian = math::pi / 180.0;
+        const auto most = static_cast<float>(parameter(op.max_factor, 100.0));
+        const ik::CurveOptions options{
+            .kind = read(op.b_spline) ? ik::CurveKind::BSpline : ik::CurveKind::Hermite,
+            .fit = read(op.fit) && most > 1.0f,
+            .max_factor = most > 1.0f ? most : 2.0f,
+            .up = math::narrow(read(op.up)),
+            .roll_start = static_cast<float>(read(op.roll_start_deg) * radian),
+            .roll_end = static_cast<float>(read(op.roll_end_deg) * radian)};
+        report = ik::place_along(chain.points, {chain.lengths, chain.rest}, chain.joints, chain.placed,
+                                 chain.none, options);
+        if (report.status == ik::Status::InvalidInput)
+            warn(Warning::CannotSolve);
+        else
+            lay(chain, origin, static_cast<double>(report.factor));
+    }
+    hand_out(0, detail::length(detail::minus(end, bone_place(bones))));
+    const bool past =
+        report.status == ik::Status::Stretched;  // otherwise the tip is past by rounding at most
+    hand_out(1, past ? static_cast<double>(report.bones_past_end) : 0.0);
+    hand_out(2, past ? static_cast<double>(report.past_end) : 0.0);
+    hand_out(3, static_cast<double>(report.factor));
 }
 
 }  // namespace tendril::rig

@@ -41,6 +41,7 @@ class Runner {
     void operator()(const SetCurve& op) noexcept;
     void operator()(const TwoBone& op) noexcept;
     void operator()(const Fabrik& op) noexcept;
+    void operator()(const Spline& op) noexcept;
 
   private:
     void put_back() noexcept;
@@ -72,7 +73,10 @@ class Runner {
     void spring(const SpringInterpolate& op, const T& target) noexcept;
     void solve_chain(ik::Method method, const Input<glm::dvec3>& target,
                      const std::optional<Input<glm::dvec3>>& pole_target) noexcept;
+    bool measure_chain(ChainScratch& chain);
     bool prepare_chain(ChainScratch& chain);
+    void measure_rest(ChainScratch& chain);
+    void lay(const ChainScratch& chain, const glm::dvec3& first, double factor) noexcept;
     float bone_length(std::size_t bone) noexcept;
     void turn_bones(const ChainScratch& chain) noexcept;
     glm::dvec3 bone_place(std::size_t bone) noexcept;

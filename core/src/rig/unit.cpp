@@ -40,7 +40,8 @@ const char* operation_name(std::size_t index) noexcept {
                                      "evaluate_curve",
                                      "set_curve",
                                      "two_bone",
-                                     "fabrik"};
+                                     "fabrik",
+                                     "spline"};
     static_assert(std::size(names) == std::variant_size_v<Operation::Variant>);
     return names[index];
 }
@@ -59,6 +60,7 @@ struct ResultType {
     Type operator()(const SetCurve&) const { return Type::Number; }
     Type operator()(const TwoBone&) const { return Type::Number; }
     Type operator()(const Fabrik&) const { return Type::Number; }
+    Type operator()(const Spline&) const { return Type::Number; }
     Type operator()(const auto&) const { return Type::Transform; }
 };
 
@@ -67,6 +69,9 @@ struct ResultType {
 std::vector<Output> outputs(const Operation& operation) {
     const Output result{"result", std::visit(ResultType(), operation)};
     if (std::holds_alternative<SpringInterpolate>(operation)) return {result, {"velocity", result.type}};
+    if (std::holds_alternative<Spline>(operation))
+        return {
+            result, {"bones_past_end", Type::Number}, {"past_end", Type::Number}, {"factor", Type::Number}};
     return {result};
 }
 

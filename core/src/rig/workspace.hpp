@@ -4,17 +4,22 @@
 #include <optional>
 #include <vector>
 
+#include "tendril/ik/curve.hpp"
 #include "tendril/ik/solver.hpp"
 #include "tendril/rig/workspace.hpp"
 
 namespace tendril::rig {
 
-/// Of a unit that solves a chain.
+/// Of a unit that solves or places a chain.
 struct ChainScratch {
     std::optional<ik::Solver> solver;
     std::vector<float> lengths;  ///< that the solver was made for
     std::vector<glm::vec3> joints;
     std::vector<glm::dquat> before;  ///< local rotations
+    // of a spline
+    std::vector<glm::vec3> points, rest;  ///< from the first point; the bones' initial directions
+    ik::State placed;
+    ik::CurveMemory none;
 };
 
 struct Workspace::Parts {

@@ -95,6 +95,16 @@ void fields(T& op, Visit&& visit) {
     } else if constexpr (std::is_same_v<Op, SetCurve>) {
         visit("curve", op.curve);
         visit("value", op.value);
+    } else if constexpr (std::is_same_v<Op, Spline>) {
+        visit("root", op.root);
+        visit("tip", op.tip);
+        visit("points", op.points);
+        visit("b_spline", op.b_spline);
+        visit("fit", op.fit);
+        visit("max_factor", op.max_factor);
+        visit("up", op.up);
+        visit("roll_start_deg", op.roll_start_deg);
+        visit("roll_end_deg", op.roll_end_deg);
     } else {
         static_assert(std::is_same_v<Op, TwoBone> || std::is_same_v<Op, Fabrik>, "list its fields here");
         visit("root", op.root);

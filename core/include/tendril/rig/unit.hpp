@@ -18,6 +18,8 @@
 //     EvaluateCurve        number; see signal/curve.hpp
 //     SetCurve             number written to a named curve: a morph weight, a material parameter
 //     TwoBone, Fabrik      rotate the bones from `root` to `tip`. Metres from the tip to the target
+//     Spline               lays them along a curve through `points`; see ik/curve.hpp. Metres from the tip to
+//                          the curve's end; "bones_past_end" and metres "past_end"; the "factor" of a fit
 //
 // Every unit has a weight in [0, 1]. At 0 the item is unchanged, bit for bit; an operation without an item
 // outputs its input unchanged (FromTwoVectors: the identity). A for-each's weight multiplies those of its
@@ -182,12 +184,24 @@ struct Fabrik {
     bool operator==(const Fabrik&) const = default;
 };
 
+/// The root goes to the first point. Each bone turns from its initial pose with the curve.
+struct Spline {
+    Item root{}, tip{};
+    std::vector<std::string> points{};  ///< elements, such as controls; at least two
+    Input<bool> b_spline = false;       ///< CurveKind::BSpline instead of Hermite
+    Input<bool> fit = false;            ///< scales the lengths by one factor, so that the tip is on the end
+    Input<double> max_factor = 2.0;     ///< of fit, in either direction; 0 to 100, below 1 as 1
+    Input<glm::dvec3> up = glm::dvec3(0, 1, 0);
+    Input<double> roll_start_deg = 0.0, roll_end_deg = 0.0;
+    bool operator==(const Spline&) const = default;
+};
+
 /// A variant of all of them. Its copying, comparing and destroying is compiled once, in the library: for
-/// seventeen structs that would slow down every file that uses a Unit.
+/// eighteen structs that would slow down every file that uses a Unit.
 struct Operation
     : std::variant<Aim, AimMath, ParentConstraint, OffsetTransform, SetTransform, SetRotation,
                    ProjectToParent, FromTwoVectors, TransformLocation, TransformDirection, ForEach,
-                   AlphaInterpolate, SpringInterpolate, EvaluateCurve, SetCurve, TwoBone, Fabrik> {
+                   AlphaInterpolate, SpringInterpolate, EvaluateCurve, SetCurve, TwoBone, Fabrik, Spline> {
     using Variant = variant;
     using variant::variant;
     using variant::operator=;

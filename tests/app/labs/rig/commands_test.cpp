@@ -1,5 +1,6 @@
 // The Rig lab's commands: their effects, when the lab solves, and --state.
 #include <glm/gtc/quaternion.hpp>
+#include <tuple>
 
 #include "rig_support.hpp"
 #include "tests/says.hpp"
@@ -36,6 +37,48 @@ TEST_F(RigCommands, ClearLeavesNothing) {
     EXPECT_TRUE(now.at("backward").is_null());
     run("undo");
     EXPECT_EQ(state().at("elements").size(), 3u);
+}
+
+TEST_F(RigCommands, ATailFollowsItsControlsAlongACurve) {
+    const std::vector<std::string> bones{"1", "2", "3", "4", "5"};
+    for (std::size_t i = 0; i < bones.size(); ++i)
+        element(bones[i].c_str(), i == 0 ? "" : bones[i - 1].c_str(), transform(i == 0 ? 0 : 0.5, 0, 0));
+    for (const auto& [name, x, y] : {std::tuple("p", 0.0, 1.0), {"q", 1.0, 1.5}, {"r", 2.5, 1.0}})
+        control(name, "position", {{"local", transform(x, y, 0)}});
+    run("rig.select", {{"element", "5"}});
+    unit({{"unit", "spline"}, {"name", "tail"}, {"root", "1"}, {"tip", "5"}, {"points", {"p", "q", "r"}}});
+    tick();
+    const auto apart = [&](std::size_t i) {
+        return glm::distance(translation(bones[i]), translation(bones[i + 1]));
+    };
+    expect_near(translation("1"), {0, 1, 0});
+    for (std::size_t i = 0; i + 1 < bones.size(); ++i) EXPECT_NEAR(apart(i), 0.5, 1e-6);
+    EXPECT_EQ(output("tail", "factor"), 1.0);
+
+    const glm::dvec3 third = translation("3"), tip = translation("5");
+    set("q", {1, 2, 0.5});
+    tick();
+    EXPECT_GT(translation("3").y, third.y + 0.2);
+    EXPECT_EQ(translation("q"), glm::dvec3(1, 2, 0.5));
+    run("undo");
+    tick();
+    EXPECT_EQ(translation("3"), third);
+    EXPECT_EQ(translation("5"), tip);
+
+    run("rig.unit.set", {{"name", "tail"}, {"roll_start_deg", -30}, {"roll_end_deg", 90}});
+    tick();
+    expect_near(translation("5"), tip, 1e-6);
+    run("rig.unit.set", {{"name", "tail"}, {"fit", true}});
+    tick();
+    EXPECT_LE(output("tail"), 1e-5);
+    EXPECT_NEAR(apart(0), 0.5 * output("tail", "factor").get<double>(), 1e-6);
+    EXPECT_TRUE(rig_part(reopened()) == part());
+
+    run("rig.element.rename", {{"name", "q"}, {"to", "hump"}});
+    EXPECT_EQ(saved().at("units").at(0).at("points"), (Json{"p", "hump", "r"}));
+    expect_refused("rig.element.remove", {{"name", "hump"}}, {"unit \"tail\"", "points"});
+    run("rig.unit.set", {{"name", "tail"}, {"points", {"p", "r"}}});
+    run("rig.element.remove", {{"name", "hump"}});
 }
 
 TEST_F(RigCommands, SetsInputsOfAUnitAndLeavesTheOthers) {

@@ -90,7 +90,17 @@ std::vector<Json> one_of_each() {
          {"tip", "tip"},
          {"target", "position"},
          {"pole_target", {0, 5, 0}}},
-        {{"unit", "fabrik"}, {"root", "root"}, {"tip", "tip"}, {"target", {1, 1, 0}}, {"enabled", false}}};
+        {{"unit", "fabrik"}, {"root", "root"}, {"tip", "tip"}, {"target", {1, 1, 0}}, {"enabled", false}},
+        {{"unit", "spline"},
+         {"root", "root"},
+         {"tip", "tip"},
+         {"points", {"root", "position"}},
+         {"b_spline", "bool"},
+         {"fit", true},
+         {"max_factor", 1.5},
+         {"up", {0, 0, 1}},
+         {"roll_start_deg", -30},
+         {"roll_end_deg", dial}}};
 }
 
 TEST_F(RigFile, EveryUnitIsAddedByCommandAndReadBack) {

@@ -203,6 +203,19 @@ TEST_F(RigHostile, UnitsThatAreNone) {
                         {"filter.rotation.1", "true or false"});
     expect_unit_refused({{"unit", "for_each"}, {"roots", {"root"}}, {"body", {{{"unit", "sing"}}}}},
                         {"body.0.unit", "\"sing\""});
+    const auto spline = [&](const char* member, const Json& value, std::vector<std::string> says) {
+        Json unit{{"unit", "spline"}, {"root", "root"}, {"tip", "hand"}, {"points", {"root", "dial"}}};
+        unit[member] = value;
+        expect_unit_refused(unit, std::move(says));
+    };
+    spline("points", {"root"}, {"points", "2 to 4096", "1"});
+    spline("points", {"root", "nobody"}, {"points", "\"nobody\""});
+    spline("points", {"root", 7}, {"points.1", "7"});
+    spline("points", "root", {"points", "\"root\""});
+    spline("points", std::vector<std::string>(1001, "root"), {"points", "1001 elements", "1000"});
+    spline("max_factor", 101, {"max_factor", "0 to 100"});
+    spline("roll_end_deg", nan, {"roll_end_deg"});
+    spline("tip", "root", {"tip", "below"});
     expect_unit_refused({{"unit", "from_two_vectors"}, {"at", 5}}, {"at", "0 to 0", "5"});
     expect_unit_refused({{"unit", "from_two_vectors"}, {"at", -1}}, {"at"});
     unit({{"unit", "from_two_vectors"}, {"name", "arc"}});

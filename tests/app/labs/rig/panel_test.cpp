@@ -171,7 +171,7 @@ class RigOffers : public RigPanels {
         const bool own = offer.title.starts_with("a value of") || offer.title.starts_with("a switch of");
         if (own) {
             EXPECT_TRUE(now.literal()) << unit << before.path;
-        } else if (before.takes != UnitInput::Takes::Roots) {
+        } else if (before.takes != UnitInput::Takes::Names) {
             EXPECT_EQ(names != nullptr ? names->names.front() : now.from, offer.title);
         }
         run("undo");
@@ -208,6 +208,11 @@ TEST_F(RigOffers, OneOfThemIsWhatItIsNow) {
     }
 }
 
+std::size_t operation_index(const std::string& name) {
+    const std::vector<std::string> names = operation_names();
+    return static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
+}
+
 TEST_F(RigPanels, OffersAreOfTheRightKind) {
     const auto titles = [&](const std::string& unit, const std::string& path, std::size_t index = 0) {
         std::set<std::string> all;
@@ -242,6 +247,13 @@ TEST_F(RigPanels, OffersAreOfTheRightKind) {
     EXPECT_FALSE(titles("trail", "/roots", 0).contains("right 1")) << "a root already";
     EXPECT_FALSE(titles("trail", "/roots", 2).contains("left 1"));
     EXPECT_TRUE(titles("trail", "/roots", 2).contains("left 2"));
+    run("rig.select", {{"element", "left 3"}});
+    run("rig.unit.add", *offered_unit(part(), operation_index("spline")).unit);
+    tick();
+    EXPECT_FALSE(titles("spline", "/points", 0).contains("none: remove this point")) << "a curve needs two";
+    EXPECT_TRUE(titles("spline", "/points", 2).contains("left 2"));
+    run("rig.unit.set", {{"name", "spline"}, {"points", {"head", "left 2", "left 3"}}});
+    EXPECT_TRUE(titles("spline", "/points", 0).contains("none: remove this point"));
 }
 
 TEST_F(RigPanels, UnitsMoveAmongTheirOwn) {
