@@ -4,6 +4,7 @@
 #include <cmath>
 #include <span>
 
+#include "rope/build.hpp"
 #include "rope/geometry.hpp"
 #include "rope/substep.hpp"
 #include "tendril/chain/segment.hpp"
@@ -153,30 +154,56 @@ bool bring_out(const Neighbours& neighbours, dvec3& place, double radius) {
 
 }  // namespace
 
-void Substep::depenetrate() {
-    if (state_.colliders.empty()) return;
-    find_near();
-    const std::span<const IslandScratch::Near> near(local_.near);
+/// Calls `visit` with each particle from `begin` to before `end` that is near a collider, its body, and its
+/// neighbours.
+template <class Visit>
+void Substep::each_near(std::size_t begin, std::size_t end, Visit visit) {
     std::uint64_t searches = searches_per_particle * island_.particles +
                              shared_searches * island_.particles / state_.position.size();
-    for (std::size_t first = 0, end = 0; first < near.size(); first = end) {
-        while (end < near.size() && near[end].chunk == near[first].chunk) ++end;
+    const auto is_before = [&](const IslandScratch::Near& each) {
+        return plan_.chunks[each.chunk].first + plan_.chunks[each.chunk].count <= begin;
+    };
+    const std::span<const IslandScratch::Near> near(
+        std::partition_point(local_.near.begin(), local_.near.end(), is_before), local_.near.end());
+    for (std::size_t first = 0, last = 0; first < near.size(); first = last) {
         const Plan::Chunk& chunk = plan_.chunks[near[first].chunk];
+        if (chunk.first >= end) break;
+        while (last < near.size() && near[last].chunk == near[first].chunk) ++last;
         const Neighbours neighbours{scratch_,
-                                    near.subspan(first, end - first),
+                                    near.subspan(first, last - first),
                                     scratch_.chunk_low[near[first].chunk],
                                     scratch_.chunk_high[near[first].chunk],
                                     searches,
                                     report_.work};
-        const double radius = state_.bodies[chunk.body].radius;
-        for (std::uint32_t i = chunk.first; i < chunk.first + chunk.count; ++i) {
-            dvec3& place = scratch_.place[i];
-            if (scratch_.weight[i] == 0.0 || neighbours.depth(place, radius) <= depth_tolerance) continue;
-            const dvec3 was = place;
-            if (!bring_out(neighbours, place, radius)) ++report_.unresolved;
-            strike(chunk.body, detail::length(place - was));
-        }
+        for (std::uint32_t i = chunk.first; i < chunk.first + chunk.count; ++i)
+            if (begin <= i && i < end && scratch_.weight[i] > 0.0) visit(i, chunk.body, neighbours);
     }
+}
+
+void Substep::depenetrate() {
+    if (state_.colliders.empty()) return;
+    find_near();
+    each_near(0, state_.position.size(),
+              [&](std::uint32_t i, std::uint32_t body, const Neighbours& neighbours) {
+                  const Body& of = state_.bodies[body];
+                  const double harmless = detail::bends(state_, of) ? harmless_depth : depth_tolerance;
+                  dvec3& place = scratch_.place[i];
+                  const dvec3 was = place;
+                  if (neighbours.depth(place, of.radius) <= harmless) return;
+                  if (!bring_out(neighbours, place, of.radius)) ++report_.unresolved;
+                  strike(body, detail::length(place - was));
+              });
+}
+
+/// How deep the deepest particle of a chain would be in a collider; 0 if none is.
+double Substep::depth_of(const Plan::Chain& chain, const std::vector<dvec3>& at) {
+    double deepest = 0.0;
+    const std::uint32_t first = plan_.nodes[chain.first_node];
+    each_near(first, first + chain.links + 1,
+              [&](std::uint32_t i, std::uint32_t body, const Neighbours& neighbours) {
+                  deepest = std::max(deepest, neighbours.depth(at[i], state_.bodies[body].radius));
+              });
+    return deepest;
 }
 
 }  // namespace tendril::rope

@@ -13,6 +13,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
+#include <utility>
 
 #include "rope/body_contacts.hpp"
 #include "rope/build.hpp"
@@ -68,9 +70,9 @@ int Substep::direct_alone() {
     };
     const auto solve = [&](std::uint32_t r) {
         newton.solve();
-        if (bends(r)) shorten_step(r);
         const bool falls = acceleration_ != dvec3(0.0);
-        if (falls && ledger_of(plan_.chains[r]).gains(accepted_gain)) slow_correction(plan_.chains[r]);
+        if (falls && !bends(r) && ledger_of(plan_.chains[r]).gains(accepted_gain))
+            slow_correction(plan_.chains[r]);
     };
     for (std::uint32_t r = first; r < end; ++r) {
         if (scratch_.chain_solved[r] != 0) continue;
@@ -91,8 +93,23 @@ int Substep::direct_alone() {
     return 1;
 }
 
-/// Halves a step that gains energy, or did not converge, until it stretches and gains little. What it gains
-/// by bending a chain, slowing it down would not remove.
+/// Shortens the steps of chains that resist bending. Chains that others touch gain from them.
+void Substep::shorten_steps() {
+    std::span<const std::uint32_t> together;
+    if (island_.contacts != 0) together = scratch_.body_contacts[island_.contacts - 1].chains;
+    bool found = false;
+    const std::uint32_t first = island_.chains.first, end = first + island_.chains.count;
+    for (std::uint32_t r = first; r < end; ++r) {
+        const Plan::Chain& chain = plan_.chains[r];
+        if (!chain.alone || !detail::bends(state_, state_.bodies[chain.body])) continue;
+        if (std::binary_search(together.begin(), together.end(), r)) continue;
+        if (!std::exchange(found, true)) find_near();
+        shorten_step(r);
+    }
+}
+
+/// Shortens a step that gains energy, ends in a collider, or did not converge: what it gains by bending a
+/// chain, slowing it down would not remove. The last resort is a step back, which gains nothing.
 void Substep::shorten_step(std::uint32_t number) {
     const Plan::Chain& chain = plan_.chains[number];
     const bool failed = !(scratch_.chain_error[number] <= fallback_error);
@@ -106,36 +123,55 @@ void Substep::shorten_step(std::uint32_t number) {
         return worst;
     };
     const double most = failed ? fallback_error + stretch(state_.position) : 0.0;
+    // A collider that moves must take the chain along.
+    const bool carried = scratch_.body_near[chain.body] == Scratch::Nearest::Moving;
+    double deepest = -1.0;
     const auto is_bad = [&] {
-        return (failed && !(stretch(scratch_.place) <= most)) || ledger_of(chain).gains(accepted_gain);
+        if (failed && !(stretch(scratch_.place) <= most)) return true;
+        const Ledger ledger = ledger_of(chain);
+        if (ledger.keeps(accepted_gain)) return true;
+        if (ledger.gains(accepted_gain) && bounded_correction(chain) < 1.0) return true;
+        if (carried || depth_of(chain, scratch_.place) <= harmless_depth) return false;
+        if (deepest < 0.0) deepest = std::max(harmless_depth, depth_of(chain, state_.position));
+        return depth_of(chain, scratch_.place) > deepest;
     };
-    for (int i = 0; i < max_step_halvings && is_bad(); ++i) {
-        report_.fallbacks += i == 0 ? 1 : 0;
+    const auto each = [&](auto move) {
         for (std::uint32_t k = 0; k <= chain.links; ++k) {
-            const std::uint32_t particle = plan_.nodes[chain.first_node + k];
-            dvec3& place = scratch_.place[particle];
-            if (scratch_.weight[particle] > 0.0) place = 0.5 * (state_.position[particle] + place);
+            const std::uint32_t i = plan_.nodes[chain.first_node + k];
+            if (scratch_.weight[i] > 0.0) scratch_.place[i] = move(i);
         }
+    };
+    if (!is_bad()) return;
+    ++report_.fallbacks;
+    for (int i = 0; i < max_step_halvings && is_bad(); ++i)
+        each([&](std::uint32_t p) { return 0.5 * (state_.position[p] + scratch_.place[p]); });
+    for (const double back : {0.0, 0.5, 1.0}) {
+        if (!is_bad()) break;
+        each([&](std::uint32_t p) { return state_.position[p] - back * state_.displacement[p]; });
     }
 }
 
-/// Scales down a solve that would throw a chain: nothing is corrected faster than the maximum of the speed of
-/// its fastest particle and correction_speed.
-void Substep::slow_correction(const Plan::Chain& chain) {
+/// The part of a chain's correction that throws nothing: none is corrected faster than the maximum of the
+/// speed of its fastest particle and correction_speed.
+double Substep::bounded_correction(const Plan::Chain& chain) const {
     double farthest = 0.0, most = correction_speed * h_;
-    const auto each = [&](auto visit) {
-        for (std::uint32_t k = 0; k <= chain.links; ++k) visit(plan_.nodes[chain.first_node + k]);
-    };
-    each([&](std::uint32_t i) {
+    for (std::uint32_t k = 0; k <= chain.links; ++k) {
+        const std::uint32_t i = plan_.nodes[chain.first_node + k];
         farthest = std::max(farthest, detail::length(scratch_.place[i] - scratch_.base[i]));
         most = std::max(most, detail::length(scratch_.base[i] - state_.position[i]));
-    });
-    if (farthest <= most) return;
+    }
+    return farthest > most ? most / farthest : 1.0;
+}
+
+/// Scales down a solve that would throw a chain.
+void Substep::slow_correction(const Plan::Chain& chain) {
+    const double part = bounded_correction(chain);
+    if (part == 1.0) return;
     ++report_.fallbacks;
-    each([&](std::uint32_t i) {
-        const dvec3 by = scratch_.place[i] - scratch_.base[i];
-        scratch_.place[i] = scratch_.base[i] + (most / farthest) * by;
-    });
+    for (std::uint32_t k = 0; k <= chain.links; ++k) {
+        const std::uint32_t i = plan_.nodes[chain.first_node + k];
+        scratch_.place[i] = scratch_.base[i] + part * (scratch_.place[i] - scratch_.base[i]);
+    }
 }
 
 int Substep::direct_grid() {

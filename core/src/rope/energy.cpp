@@ -1,6 +1,7 @@
 // The energy bound. A solve that falls short, or depenetration, can leave a body with more energy than it
 // had; its velocity is then scaled down until the gain is gone. The direct solver always keeps the bound; the
-// others keep it near a collider that strikes the body, or while its links hold their lengths.
+// others keep it near a collider that strikes the body, or while its links hold their lengths. What a chain
+// would gain by bending cannot be removed so; its step is shortened (direct.cpp).
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -64,6 +65,7 @@ void Substep::Ledger::add_particle(std::size_t i) {
     gained_ += moving - moved - half - it_.before_ * 0.5 * mass * detail::dot(it_.acceleration_, then);
     if (it_.blows_)  // what the wind did is no gain
         gained_ -= detail::dot(it_.scratch_.blown[i], now + then) * (0.5 * mass / (it_.h_ * it_.h_));
+    kinetic_before_ += moved;
     damped_ += (1.0 - it_.damping_ * it_.damping_) * moved;
 }
 
@@ -135,9 +137,15 @@ Substep::Slowed Substep::Ledger::slowed() const {
         slowed.whole = slower(whole, fallen_, left);
         left -= lost(whole, fallen_, slowed.whole);
     }
+    slowed.left = left;
     if (near_ != Scratch::Nearest::None && left > 0.0 && elastic_ > 0.0)
         slowed.tension = std::sqrt(std::max(0.0, 1.0 - left / elastic_));
     return slowed;
+}
+
+bool Substep::Ledger::keeps(double part) const {
+    return slowed().left >
+           part * std::max(kinetic_before_, mass_ * length_ * detail::length(it_.acceleration_));
 }
 
 double Substep::Ledger::contact_loss() const {

@@ -196,6 +196,7 @@ struct Scratch {
     struct Slowed {
         glm::dvec3 mean{0.0};  ///< of their displacements
         double whole = 1.0, apart = 1.0, tension = 1.0;
+        double left = 0.0;  ///< joules of gain that slowing leaves
         bool any() const { return whole != 1.0 || apart != 1.0 || tension != 1.0; }
     };
     std::vector<Slowed> chain_slowed;

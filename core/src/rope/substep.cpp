@@ -62,6 +62,7 @@ void Substep::run(bool measures) {
     if (island_.contacts != 0) BodyContacts(*this).find();
     const int passes = state_.settings.solver == Solver::Direct ? direct() : relax();
     report_.passes = std::max(report_.passes, passes);
+    shorten_steps();
     depenetrate();
     stay_in_the_world();
     if (island_.contacts != 0) BodyContacts(*this).keep_apart();

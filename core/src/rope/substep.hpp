@@ -34,6 +34,9 @@ class Substep : IslandStep {
 
     /// A contact that displaces a body faster than this, m/s, would throw it.
     static constexpr double correction_speed = 2.0;
+    /// How deep in a collider a particle of a chain that resists bending may stay, metres: to be brought out
+    /// alone it would have to bend the chain.
+    static constexpr double harmless_depth = 5e-5;
 
     // substep.cpp
     void move_particles();
@@ -71,6 +74,9 @@ class Substep : IslandStep {
 
     // depenetration.cpp: what is still inside after the last pass
     void depenetrate();
+    template <class Visit>
+    void each_near(std::size_t first, std::size_t end, Visit visit);
+    double depth_of(const Plan::Chain& chain, const std::vector<glm::dvec3>& at);
 
     // relax.cpp: one link after the other
     int relax();
@@ -91,7 +97,9 @@ class Substep : IslandStep {
     double solve_batch(const Batch& batch, int iteration);
     void solve_again(std::uint32_t chain);
     void relax_failed_bodies();
+    void shorten_steps();
     void shorten_step(std::uint32_t chain);
+    double bounded_correction(const Plan::Chain& chain) const;
     void slow_correction(const Plan::Chain& chain);
     void gather(const detail::Block& block, const Batch& batch) const;
     void scatter(const detail::Block& block, std::uint32_t lane, std::uint32_t chain);
@@ -132,6 +140,9 @@ class Substep::Ledger {
     double gained() const { return worked_on_ ? 0.0 : gained_; }
     /// Whether the gain exceeds this part of their weight times their length.
     bool gains(double part) const;
+    /// Whether slowed() leaves a gain of more than this part of their weight times their length, or of the
+    /// kinetic energy that they had.
+    bool keeps(double part) const;
     Slowed slowed() const;
     /// Joules lost to contact. The work of moving colliders cannot be separated from it.
     double contact_loss() const;
@@ -145,7 +156,8 @@ class Substep::Ledger {
   private:
     const Substep& it_;
     Scratch::Nearest near_;
-    double gained_ = 0.0, damped_ = 0.0, kinetic_ = 0.0, elastic_ = 0.0, mass_ = 0.0, length_ = 0.0;
+    double gained_ = 0.0, damped_ = 0.0, kinetic_ = 0.0, kinetic_before_ = 0.0, elastic_ = 0.0, mass_ = 0.0,
+           length_ = 0.0;
     glm::dvec3 momentum_{0.0};              ///< times the substep
     glm::dvec3 pushed_{0.0};                ///< momentum from all but gravity, times the substep
     double fallen_ = 0.0, released_ = 0.0;  ///< energy released by gravity and by links, since halfway
