@@ -182,7 +182,10 @@ class LinkageDrawing {
         Stroke& ball = list_.sphere(at(i), px(lit ? 7.5f : 6.0f), Unit::Pixels, opaque(colour));
         ball.pick = pick;
         ball.rank = held ? 1 : 2;
-        const bool named = lit || view_.workspace.settings.labels == LabelMode::Always;
+        // Messages and the card name joints: where there is room, the picture does too.
+        constexpr std::size_t few = 8;
+        const bool room = part_.copies.empty() && part_.linkage().points.size() <= few;
+        const bool named = lit || room || view_.workspace.settings.labels == LabelMode::Always;
         if (named)
             list_.labels.push_back({.at = at(i),
                                     .clearance = px(12.0f),
