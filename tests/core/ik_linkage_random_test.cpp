@@ -36,7 +36,7 @@ double distortion(const LinkageSketch& sketch, const LinkageSolver& solver) {
 TEST(Linkage, random_ones_stay_closed_wherever_they_are_driven_and_drawn) {
     constexpr int linkages = 20;
     Random random(21);
-    int poses = 0, reached = 0;
+    int poses = 0, driven = 0, reached = 0;
     for (int trial = 0; trial < linkages; ++trial) {
         const LinkageSketch sketch = random_sketch(random);
         const Expected<Linkage> linkage = linkage_from(sketch);
@@ -53,10 +53,17 @@ TEST(Linkage, random_ones_stay_closed_wherever_they_are_driven_and_drawn) {
             ASSERT_LE(report.closed_to, 1e-6 * machine.solver.size()) << trial << " " << i;
             ASSERT_LE(distortion(sketch, machine.solver), 1e-6 * machine.solver.size());
             ++poses;
+            if (!drive) continue;
+            ++driven;
             reached += report.status == LinkageStatus::Reached;
+            // No ranges: a driver that is not there is at a dead point, where no freedom is left.
+            if (report.status == LinkageStatus::Reached) continue;
+            ASSERT_EQ(report.status, LinkageStatus::DeadPoint) << trial << " " << i;
+            ASSERT_EQ(report.stopped, machine.link("motor"));
+            ASSERT_GT(report.driver_residual, 1e-6);
         }
     }
-    EXPECT_GE(reached, poses / 4);
+    EXPECT_GE(reached, driven / 2);
 }
 
 TEST(Linkage, closes_from_any_state_where_a_pose_exists) {
@@ -159,10 +166,11 @@ TEST(Linkage, whatever_it_is_and_is_asked_for_it_stays_finite_and_in_range) {
             const LinkageReport report = machine.solver.solve(
                 machine.state, {{&driver, drive ? 1u : 0u}, {&target, draw}}, {.max_iterations = 200});
             ASSERT_NE(report.status, LinkageStatus::InvalidInput) << trial;
-            const bool open =
-                report.status == LinkageStatus::Open || (report.status == LinkageStatus::IterationLimit &&
-                                                         report.closed_to > 1e-6 * machine.solver.size());
-            ASSERT_EQ(machine.solver.open_closures().empty(), !open);
+            const bool open = !machine.solver.open_closures().empty();
+            // Short of iterations it may be either.
+            if (report.status != LinkageStatus::IterationLimit) {
+                ASSERT_EQ(open, report.status == LinkageStatus::Open) << trial << " " << i;
+            }
             ASSERT_TRUE(open || report.closed_to <= 1e-6 * machine.solver.size()) << trial << " " << i;
             ASSERT_TRUE(std::isfinite(report.residual) && std::isfinite(report.closed_to));
             ASSERT_GE(report.freedom, 0);

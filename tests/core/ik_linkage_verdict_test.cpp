@@ -169,7 +169,7 @@ TEST(Linkage, four_bars_of_all_lengths_that_close_can_be_drawn) {
 TEST(Linkage, is_not_open_while_iterations_are_what_it_lacks) {
     Random random(4);
     int unfinished = 0;
-    for (int trial = 0; trial < 100; ++trial) {
+    for (int trial = 0; trial < 40; ++trial) {
         Machine machine(linkage_from(random_sketch(random)));
         for (JointPlace& each : machine.state.joints)
             each.value += 3.0 * static_cast<double>(random.around(1.0f));
@@ -185,7 +185,7 @@ TEST(Linkage, is_not_open_while_iterations_are_what_it_lacks) {
             EXPECT_FALSE(machine.solver.open_closures().empty());
         }
     }
-    EXPECT_GE(unfinished, 50);
+    EXPECT_GE(unfinished, 20);
 }
 
 TEST(Linkage, a_stage_whose_joints_and_points_coincide_moves) {

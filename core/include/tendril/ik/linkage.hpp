@@ -9,8 +9,8 @@
 //     draw(solver.point(linkage.find_point("P")));
 //
 // The links form a tree: each hangs on an earlier one, or on the ground, by one joint. Loops are closed by
-// closures, two points or two frames that coincide. Drivers give a joint a value; targets draw points to
-// places.
+// closures, two points or two frames that coincide. Drivers give a joint a value; targets pull points to
+// positions.
 //
 // A solve meets, in this order: closures and the joints' ranges; drivers; exact targets; the others,
 // weighted. What comes later gets what freedom is left. Method: Newton's steps of minimal norm on the
@@ -19,12 +19,17 @@
 // (Levenberg 1944, Marquardt 1963) in the null space of these, each followed by a return to the closures;
 // ranges by an active set. A driver goes to its value in substeps: one is taken only if it ends where the
 // tangent led (E. Allgower, K. Georg, "Introduction to Numerical Continuation Methods", 2003, on step
-// control). So a linkage stays in its assembly mode while a driver or target glides, and stops at a dead
-// point.
+// control). So a linkage stays in its assembly mode while a driver glides, and stops at a dead point. Where
+// branches cross, as in a parallelogram folded onto one line, it goes on as it last moved.
 //
-// Cost: O(m^2 n) an iteration with m equations of closures and n degrees of freedom of the joints; a frame of
-// a glide takes two or three: a four-bar 1 us, Jansen's leg 4 us, a Stewart platform 14 us. A target out of
-// reach takes ten to a hundred. Solving does not allocate or throw; same input, same bits.
+// Targets have no such guard. A small step of a target past the edge of its reach can need a large one of the
+// linkage: then the point jumps, with no dead point passed and none reported.
+//
+// Cost: O(m^2 n) an iteration with m equations of closures and n degrees of freedom of the joints, and with
+// targets O(n^3) more. A frame of a glide takes two or three: a four-bar 1 us, Jansen's leg 4 us, a Stewart
+// platform 14 us. A target out of reach takes a hundred in a linkage of ten bars, several hundred in one of
+// twenty, and from forty on may use up max_iterations: set that to what a frame allows. Solving does not
+// allocate or throw; same input, same bits.
 #pragma once
 
 #include <cstddef>
@@ -82,7 +87,7 @@ struct LinkPoint {
 
 enum class ClosureKind : std::uint8_t {
     Point,  ///< two points coincide
-    Frame   ///< and the links turn together from the pose as drawn
+    Frame   ///< and the links turn together: the angle between them stays as drawn
 };
 
 /// What closes a loop: a point of one link and one of another coincide. As drawn they may be apart.
@@ -118,8 +123,8 @@ inline constexpr std::size_t max_links = 512;
 struct JointPlace {
     double value = 0.0;
     glm::dquat turn{1.0, 0.0, 0.0, 0.0};
-    /// How far a driver last moved the value. A linkage goes on like that through poses in which its motion
-    /// is ambiguous: a parallelogram folded onto one line.
+    /// How far the value moved in the last substep of a drive, whether driven or not. A linkage goes on like
+    /// that through poses in which its motion is ambiguous: a parallelogram folded onto one line.
     double last = 0.0;
     bool operator==(const JointPlace&) const = default;
 };
@@ -134,21 +139,21 @@ struct LinkDriver {
     std::size_t link = 0;
     double value = 0.0;
 };
-/// Draws a point to a place. In a planar linkage only the part in its plane counts.
+/// Pulls a point to a position. In a planar linkage only the part in its plane counts.
 struct LinkTarget {
     std::size_t point = 0;
     glm::dvec3 to{0.0};   ///< metres
     double weight = 1.0;  ///< over 0 to max_magnitude; only ratios matter
     bool exact = false;   ///< before all that are not; the weight counts among exact ones
 };
-/// No link is driven twice.
+/// No link is driven twice, and no point has two targets.
 struct LinkageGoals {
     std::span<const LinkDriver> drivers{};
     std::span<const LinkTarget> targets{};
 };
 
 enum class LinkageStatus : std::uint8_t {
-    Reached,         ///< closed, drivers at their values, targets reached
+    Reached,         ///< closed, drivers at their values and targets reached, to 1e-6
     TargetMissed,    ///< closed and driven, but a target is out of reach
     Limited,         ///< a range stops a driver or target
     DeadPoint,       ///< a driver cannot go on
@@ -162,8 +167,10 @@ const char* name(LinkageStatus status) noexcept;
 struct LinkageReport {
     LinkageStatus status = LinkageStatus::Reached;
     int iterations = 0;
-    double closed_to = 0.0;        ///< metres, the largest distance between points that should coincide
-    double residual = 0.0;         ///< metres, the largest distance of a target's point from its place
+    /// Metres, the largest distance between points that should coincide; the angle between frames counts by
+    /// the size.
+    double closed_to = 0.0;
+    double residual = 0.0;         ///< metres, the largest distance of a point from its target
     double driver_residual = 0.0;  ///< radians or metres, how far a driver is from its value at most
     int freedom = 0;               ///< degrees of freedom that drivers and active ranges leave
     /// The driver that cannot go on, a link, and the value where it stopped.
@@ -186,7 +193,7 @@ struct LinkageOptions {
 };
 
 /// Gruebler's (Kutzbach's) count of the degrees of freedom, beside the true one in the given pose. They
-/// differ where closures repeat each other (a double parallelogram, Bennett's linkage) or the pose is
+/// differ where closures are redundant (a double parallelogram, Bennett's linkage) or the pose is
 /// singular.
 struct LinkageFreedom {
     int counted = 0;  ///< joints' freedoms less closures' equations; in the plane if the linkage is planar
@@ -221,7 +228,7 @@ class LinkageSolver {
 
     /// Moves the state to the best pose there is. InvalidInput, and nothing is changed, for a state of
     /// another linkage, a number that is not finite or out of range, a link or point that is not there, a
-    /// link that is driven twice or is a ball's.
+    /// link that is driven twice or is a ball's, two targets of one point.
     ///
     /// If it ends Open, the sum of squared distances of the closures is minimal; if at a dead point with
     /// several drivers, they are as near to their values as they can be from here.
@@ -253,8 +260,8 @@ class LinkageSolver {
     std::span<const double> residuals() const noexcept;
     /// Links whose joints are at the end of their range, and pressed against it.
     std::span<const std::size_t> active() const noexcept;
-    /// The closures that are apart, if it ended Open or short of iterations: all of these, since which of them
-    /// contradict each other is not known.
+    /// The closures that are apart, if it ended Open or short of iterations: all of these, since which of
+    /// them contradict each other is not known.
     std::span<const std::size_t> open_closures() const noexcept;
 
   private:

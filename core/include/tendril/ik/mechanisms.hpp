@@ -1,6 +1,7 @@
 // Well-known linkages from named lengths, in metres. Planar ones as sketches (linkage_from makes linkages of
-// them), for tests, benchmarks and presets alike. Each is drawn closed, with its driver at 0 if it can be
-// there. Lengths that close in no pose are refused, as are those of no length, by name.
+// them), for tests, benchmarks and presets alike. Each is drawn closed: with its driver at 0 where the
+// linkage closes there and is not flat, or where the struct says. Lengths that do not close as drawn are
+// refused by name, as are those of no length.
 #pragma once
 
 #include <array>
@@ -46,7 +47,7 @@ Expected<LinkageSketch> pantograph(const Pantograph& lengths = {});
 struct ScissorLift {
     std::size_t stages = 3;  ///< 1 to 32
     double bar = 1.0;
-    double angle = 0.6;  ///< as drawn, radians, over 0 to pi / 2
+    double angle = 0.6;  ///< of `lift` as drawn, radians, over 0 to pi / 2
 };
 Expected<LinkageSketch> scissor_lift(const ScissorLift& lengths = {});
 
@@ -61,13 +62,14 @@ Expected<LinkageSketch> jansen(const Jansen& lengths = {});
 /// R. Clavel's delta robot, 1988: base in z = 0, the platform hangs along -Z; arm i turns in the vertical
 /// plane at 120 i degrees about Z. Forearms are pairs of parallel bars, `width` apart, which keep the
 /// platform level. Drivers motor_0 to motor_2, radians below the base's plane. Point platform; also elbow_0
-/// to elbow_2 and wrist_0 to wrist_2.
+/// to elbow_2 and wrist_0 to wrist_2. Drawn with its motors at 30 degrees.
 struct Delta {
     double base_radius = 0.2, platform_radius = 0.05, upper_arm = 0.2, forearm = 0.5;
     double width = 0.06;
 };
 Expected<Linkage> delta(const Delta& lengths = {});
-/// The motors' angles for a place of the platform, in closed form: the elbows outside. none if out of reach.
+/// The motors' angles for a position of the platform, in closed form: the elbows outside. none if out of
+/// reach.
 std::optional<std::array<double, 3>> delta_motors(const Delta& lengths, const glm::dvec3& platform) noexcept;
 
 /// A platform on six legs (V. Gough 1954, D. Stewart 1965): base in z = 0, platform above it. Legs 2k and 2k
@@ -80,7 +82,7 @@ struct Stewart {
     double minimum = 0.5, maximum = 2.0;                            ///< lengths of the legs
 };
 Expected<Linkage> stewart(const Stewart& lengths = {});
-/// The legs' lengths for a place and rotation of the platform, in closed form.
+/// The legs' lengths for a position and rotation of the platform, in closed form.
 std::array<double, 6> stewart_legs(const Stewart& lengths, const glm::dvec3& platform,
                                    const glm::dquat& rotation) noexcept;
 

@@ -4,8 +4,8 @@
 // target: Report::off_plane is how far off it was, and the residual is measured in the plane. Every joint
 // stays in the plane to rounding: 1e-6 of the reach.
 //
-// A solve is the one for solid chains, in the plane's own coordinates: what it turns, it turns about the
-// normal. So it takes as many iterations, and an iteration costs the same; coordinates and sides cost about
+// A solve is the one for solid chains, in the plane's own coordinates: all rotation is about the normal.
+// So it takes as many iterations, and an iteration costs the same; coordinates and sides cost about
 // 70 ns per bone and solve besides.
 //
 // Sides. In a plane a chain has no swivel: it bends to the left or to the right of the line from root to tip,

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "math/elementary.hpp"
+#include "tendril/magnitude.hpp"
 
 namespace tendril::ik::detail {
 namespace {
@@ -247,7 +248,11 @@ void LinkageWork::enter_ranges() noexcept {
         const Link& link = linkage.links[i];
         glm::dquat& turn = joints[i].turn;
         if (link.joint != LinkJoint::Ball) {
-            joints[i].value = std::clamp(joints[i].value, link.minimum, link.maximum);
+            // Two sliders that are nearly parallel may go far apart; a state's values are within
+            // max_magnitude.
+            constexpr double furthest = static_cast<double>(max_magnitude);
+            joints[i].value = std::clamp(joints[i].value, std::max(link.minimum, -furthest),
+                                         std::min(link.maximum, furthest));
             continue;
         }
         turn = unit_quaternion(turn.w, turn.x, turn.y, turn.z);
