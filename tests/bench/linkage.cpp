@@ -62,18 +62,20 @@ Case twelve_legs() {
         const std::size_t points = all.points.size(), bars = all.bars.size();
         for (SketchBar& bar : one.bars) {
             for (std::size_t& each : bar.points) each += points;
+            bar.name += "_" + std::to_string(leg);
             all.bars.push_back(bar);
         }
         for (SketchMotor motor : one.motors) {
             motor.point += points;
             motor.bar += bars;
+            motor.name += "_" + std::to_string(leg);
             all.motors.push_back(motor);
         }
         for (const SketchPoint& point : one.points) all.points.push_back(point);
     }
     Case each{"twelve legs", need(linkage_from(all)), {}, {}};
     for (std::size_t i = 0; i < each.linkage.links.size(); ++i)
-        if (each.linkage.links[i].name == "motor") each.drivers.push_back(i);
+        if (each.linkage.links[i].name.starts_with("motor_")) each.drivers.push_back(i);
     for (int i = 1; i <= frames; ++i) {
         each.values.emplace_back();
         for (int leg = 0; leg < 12; ++leg)

@@ -159,7 +159,9 @@ TEST(Linkage, whatever_it_is_and_is_asked_for_it_stays_finite_and_in_range) {
             const LinkageReport report = machine.solver.solve(
                 machine.state, {{&driver, drive ? 1u : 0u}, {&target, draw}}, {.max_iterations = 200});
             ASSERT_NE(report.status, LinkageStatus::InvalidInput) << trial;
-            const bool open = report.status == LinkageStatus::Open;
+            const bool open =
+                report.status == LinkageStatus::Open || (report.status == LinkageStatus::IterationLimit &&
+                                                         report.closed_to > 1e-6 * machine.solver.size());
             ASSERT_EQ(machine.solver.open_closures().empty(), !open);
             ASSERT_TRUE(open || report.closed_to <= 1e-6 * machine.solver.size()) << trial << " " << i;
             ASSERT_TRUE(std::isfinite(report.residual) && std::isfinite(report.closed_to));

@@ -66,8 +66,8 @@ inline LinkageSketch random_sketch(Random& random) {
         if (other == one) other = 0;
         if (random.chance(4)) {
             // One bar, to a point that slides.
-            sketch.points.push_back(
-                {"S", place(), SketchHold::Guided, 3.0 * static_cast<double>(random.part())});
+            sketch.points.push_back({"S" + std::to_string(count), place(), SketchHold::Guided,
+                                     3.0 * static_cast<double>(random.part())});
             bar(one, sketch.points.size() - 1);
             continue;
         }

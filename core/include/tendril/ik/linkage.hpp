@@ -108,7 +108,8 @@ struct Linkage {
 };
 /// InvalidArgument, with the name of the list, the index and the value, for a parent that does not come
 /// before, a coordinate that is not finite or over max_magnitude, an axis of no length, an empty range, a
-/// rest outside it, a link that is not there, or more than max_links links, points or closures.
+/// rest outside it, a link that is not there, two links of one name (but ""), or more than max_links links,
+/// points or closures.
 Result check(const Linkage& linkage) noexcept;
 inline constexpr std::size_t max_links = 512;
 
@@ -151,7 +152,7 @@ enum class LinkageStatus : std::uint8_t {
     TargetMissed,    ///< closed and driven, but a target is out of reach
     Limited,         ///< a range stops a driver or target
     DeadPoint,       ///< a driver cannot go on
-    Open,            ///< no pose closes the linkage: the closures contradict each other
+    Open,            ///< no pose that closes the linkage was found: its closures contradict each other
     IterationLimit,  ///< not there when the iterations were used up; the next solve goes on
     InvalidInput     ///< a number is not finite or out of range: nothing was moved
 };
@@ -168,8 +169,8 @@ struct LinkageReport {
     /// The driver that cannot go on, a link, and the value where it stopped.
     std::optional<std::size_t> stopped{};
     double stopped_at = 0.0;
-    /// The linkage passed a dead point of its drivers (of `watched`, if nothing is driven): it went over into
-    /// another assembly mode, as it may when a target moves it.
+    /// A target pulled the linkage past a dead point of its drivers (of `watched`, if nothing is driven): it
+    /// switched to another assembly mode. Drivers alone never do that.
     bool passed_dead_point = false;
 
     bool operator==(const LinkageReport&) const = default;
@@ -212,7 +213,8 @@ class LinkageSolver {
     const Linkage& linkage() const noexcept;
     /// All hinges turn about one direction, all sliders are across it, and there are no balls.
     bool planar() const noexcept;
-    /// The largest extent of the linkage as drawn, metres.
+    /// The largest extent of the linkage as drawn, metres. If all is drawn in one place, that of a slider's
+    /// range, or 1.
     double size() const noexcept;
     /// As drawn. It need not be closed: the first solve closes it.
     LinkageState initial_state() const;
@@ -226,9 +228,10 @@ class LinkageSolver {
     LinkageReport solve(LinkageState& state, const LinkageGoals& goals = {},
                         const LinkageOptions& options = {}) noexcept;
 
-    /// Goes over into another assembly mode: another closed pose with the drivers where they are. False, and
-    /// nothing is changed, if none is found. Deterministic; called again, it finds the way back or a third.
-    bool other_mode(LinkageState& state, std::span<const LinkDriver> drivers = {}) noexcept;
+    /// Switches to another assembly mode: another closed pose with the drivers' joints where they are. False,
+    /// and nothing is changed, if none is found, or if the drivers leave freedom: what moves freely is in no
+    /// mode. Deterministic; called again, it finds the way back or a third.
+    bool other_mode(LinkageState& state, std::span<const LinkDriver> drivers) noexcept;
 
     /// In this pose, without drivers.
     LinkageFreedom freedom(const LinkageState& state) noexcept;
@@ -250,7 +253,8 @@ class LinkageSolver {
     std::span<const double> residuals() const noexcept;
     /// Links whose joints are at the end of their range, and pressed against it.
     std::span<const std::size_t> active() const noexcept;
-    /// If it ended Open: the closures that are apart.
+    /// The closures that are apart, if it ended Open or short of iterations: all of these, since which of them
+    /// contradict each other is not known.
     std::span<const std::size_t> open_closures() const noexcept;
 
   private:

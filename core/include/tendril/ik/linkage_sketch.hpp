@@ -57,6 +57,7 @@ struct SketchMotor {
     std::size_t point = 0;
     std::size_t bar = 0;
     std::size_t against = ground_link;  ///< another bar; by default the ground, to which the point is pinned
+    /// Of all turns of the angle as drawn, the joint starts with the nearest to 0 in this range.
     double minimum = -std::numeric_limits<double>::infinity();
     double maximum = std::numeric_limits<double>::infinity();
     bool operator==(const SketchMotor&) const = default;
@@ -83,8 +84,8 @@ Result remove_bar(LinkageSketch& sketch, std::size_t bar);
 /// how far it is from the origin along its line.
 ///
 /// Bars that no pin or guide reaches float: they cannot be placed, and are refused, as are bars of fewer than
-/// two points or of no length, points or bars that are not there, motors in a circle, and what check()
-/// refuses. Each message has the name.
+/// two points or of no length, points or bars that are not there, motors in a circle or drawn outside their
+/// range, two links of one name, and what check() refuses. Each message has the name.
 Expected<Linkage> linkage_from(const LinkageSketch& sketch);
 
 }  // namespace tendril::ik

@@ -2,9 +2,12 @@
 #include "tendril/ik/linkage.hpp"
 
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "ik/math.hpp"
 #include "math/checks.hpp"
+#include "math/elementary.hpp"
 
 namespace tendril::ik {
 
@@ -51,9 +54,12 @@ Result check_link_of(const Argument& argument, std::size_t link, const Linkage& 
 
 Result check_range(const Link& link, std::size_t at) noexcept {
     if (link.joint == LinkJoint::Ball) {
-        // By default a ball turns all the way; its minimum has no effect.
-        if (!(link.maximum >= 0.0))
-            return refused("linkage", {"links", at, "maximum"}, "0 to pi", link.maximum);
+        // By default a ball turns all the way; its rest and minimum have no effect.
+        for (const auto& [field, value] : {std::pair("rest", link.rest), std::pair("minimum", link.minimum)})
+            if (std::isnan(value)) return refused("linkage", {"links", at, field}, "a number", value);
+        if (!((link.maximum >= 0.0 && link.maximum <= math::pi) ||
+              link.maximum == std::numeric_limits<double>::infinity()))
+            return refused("linkage", {"links", at, "maximum"}, "0 to pi, or infinite", link.maximum);
         return {};
     }
     if (!(std::abs(link.rest) <= static_cast<double>(max_magnitude)))
@@ -95,8 +101,12 @@ Result check(const Linkage& linkage) noexcept {
     const std::size_t sizes[] = {linkage.links.size(), linkage.points.size(), linkage.closures.size()};
     for (std::size_t i = 0; i < 3; ++i)
         if (sizes[i] > max_links) return refused("linkage", lists[i], "at most 512 in number", sizes[i]);
-    for (std::size_t i = 0; i < linkage.links.size(); ++i)
+    for (std::size_t i = 0; i < linkage.links.size(); ++i) {
         if (const Result bad = check_one_link(linkage, i); !bad) return bad;
+        const std::string& name = linkage.links[i].name;
+        if (!name.empty() && linkage.find_link(name) < i)
+            return refused("linkage", {"links", i, "name"}, "that of no link before", std::string_view(name));
+    }
     for (std::size_t i = 0; i < linkage.points.size(); ++i) {
         const LinkPoint& each = linkage.points[i];
         if (const Result bad = check_link_of({"points", i, "link"}, each.link, linkage); !bad) return bad;
@@ -104,6 +114,9 @@ Result check(const Linkage& linkage) noexcept {
     }
     for (std::size_t i = 0; i < linkage.closures.size(); ++i) {
         const Closure& each = linkage.closures[i];
+        if (static_cast<std::uint8_t>(each.kind) > static_cast<std::uint8_t>(ClosureKind::Frame))
+            return refused("linkage", {"closures", i, "kind"}, "point or frame",
+                           static_cast<std::size_t>(each.kind));
         if (const Result bad = check_link_of({"closures", i, "first"}, each.first, linkage); !bad) return bad;
         if (const Result bad = check_link_of({"closures", i, "second"}, each.second, linkage); !bad)
             return bad;

@@ -42,10 +42,11 @@ struct Named {
 Result check_lengths(const char* mechanism, std::initializer_list<Named> lengths) noexcept {
     for (const auto& [name, value, minimum] : lengths)
         if (!(value >= minimum && value <= static_cast<double>(max_magnitude)))
-            return refused(
-                mechanism, name,
-                minimum > 0.0 ? "a length over 0, at most 1e9 m" : "a number of magnitude at most 1e9",
-                value);
+            return refused(mechanism, name,
+                           minimum > 0.0    ? "a length over 0, at most 1e9 m"
+                           : minimum == 0.0 ? "a length from 0 to 1e9 m"
+                                            : "a number of magnitude at most 1e9",
+                           value);
     return {};
 }
 constexpr double any_number = -static_cast<double>(max_magnitude);
@@ -71,8 +72,8 @@ Expected<LinkageSketch> four_bar(const FourBar& lengths) {
                                                       {"coupler_point.y", coupler_point.y, any_number}});
         !bad)
         return bad;
-    // B to D: what the crank can make it, and what coupler and rocker can. Where the crank cannot be at 0, it
-    // is drawn in the middle of its range.
+    // B to D: what the crank can make it, and what coupler and rocker can. Where the crank cannot be at 0, or
+    // the linkage would be flat there or B on D, it is drawn in the middle of its range.
     const double low = std::max(std::abs(ground - crank), std::abs(coupler - rocker)),
                  high = std::min(ground + crank, coupler + rocker);
     if (!(low <= high)) {
@@ -84,7 +85,8 @@ Expected<LinkageSketch> four_bar(const FourBar& lengths) {
         return refused("four_bar", name, "at most the other three together", longest);
     }
     double angle = 0.0;
-    if (!joins_over(std::abs(ground - crank), coupler, rocker)) {
+    const double at_0 = std::abs(ground - crank), slack = 1e-6 * (coupler + rocker);
+    if (!(at_0 > std::abs(coupler - rocker) + slack && at_0 < coupler + rocker - slack && at_0 > slack)) {
         const double apart = 0.5 * (low + high);
         const double cosine = (ground * ground + crank * crank - apart * apart) / (2.0 * ground * crank);
         angle = math::arctangent(std::sqrt(std::max(1.0 - cosine * cosine, 0.0)), cosine);
@@ -357,6 +359,8 @@ Expected<Linkage> stewart(const Stewart& lengths) {
                                                      {"maximum", lengths.maximum}});
         !bad)
         return bad;
+    if (!(lengths.minimum <= lengths.maximum))
+        return refused("stewart", "minimum", "at most the maximum", lengths.minimum);
     Linkage linkage;
     std::size_t platform = ground_link;
     const glm::dvec3 centre{0.0, 0.0, lengths.height};

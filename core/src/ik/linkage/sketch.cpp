@@ -35,6 +35,9 @@ std::string said(const char* kind, const std::string& name, std::size_t index) {
     return name.empty() ? std::string(kind) + " " + std::to_string(index)
                         : std::string(kind) + " \"" + name + "\"";
 }
+std::string sketch_number(double value) {
+    return std::string(tendril::detail::Shown(value).text());
+}
 Result sketch_refused(const std::string& what) {
     return {ErrorCode::InvalidArgument, "linkage_from: " + what};
 }
@@ -63,6 +66,12 @@ class SketchTree {
         for (std::size_t i = 0; i < sketch_.points.size(); ++i)
             linkage_.points.push_back(
                 {sketch_.points[i].name, owner_[i] == unplaced ? ground_link : owner_[i], at(i)});
+        for (std::size_t i = 0; i < linkage_.links.size(); ++i)
+            if (const std::string& name = linkage_.links[i].name;
+                !name.empty() && linkage_.find_link(name) < i)
+                return sketch_refused(
+                    "bars, motors and guided points must have a name each of their own, got two \"" + name +
+                    "\"");
         if (const Result bad = check(linkage_); !bad) return bad;
         return std::move(linkage_);
     }
@@ -84,11 +93,14 @@ class SketchTree {
                                       " each, got " + std::to_string(count));
         for (std::size_t i = 0; i < sketch_.points.size(); ++i) {
             const SketchPoint& each = sketch_.points[i];
-            const double limit = static_cast<double>(max_magnitude);
-            if (!(std::abs(each.at.x) <= limit && std::abs(each.at.y) <= limit &&
-                  std::abs(each.guide) <= limit))
-                return sketch_refused(said("point", each.name, i) +
-                                      " must have numbers of magnitude at most 1e9, got another");
+            for (const double number : {each.at.x, each.at.y, each.guide})
+                if (!(std::abs(number) <= static_cast<double>(max_magnitude)))
+                    return sketch_refused(said("point", each.name, i) +
+                                          " must have numbers of magnitude at most 1e9, got " +
+                                          sketch_number(number));
+            if (static_cast<std::uint8_t>(each.hold) > static_cast<std::uint8_t>(SketchHold::Guided))
+                return sketch_refused(said("point", each.name, i) + " must be free, pinned or guided, got " +
+                                      std::to_string(static_cast<int>(each.hold)));
         }
         for (std::size_t i = 0; i < sketch_.bars.size(); ++i)
             if (const Result bad = check_bar(sketch_.bars[i], said("bar", sketch_.bars[i].name, i)); !bad)
@@ -113,17 +125,31 @@ class SketchTree {
         return {};
     }
     Result check_motor(const SketchMotor& motor, const std::string& who) const {
-        if (motor.bar >= sketch_.bars.size() || motor.point >= sketch_.points.size())
-            return sketch_refused(who + " must name a bar and a point of the sketch, got another");
+        if (motor.bar >= sketch_.bars.size())
+            return sketch_refused(who + " must turn a bar of the sketch, got " + std::to_string(motor.bar));
+        if (motor.point >= sketch_.points.size())
+            return sketch_refused(who + " must be at a point of the sketch, got " +
+                                  std::to_string(motor.point));
+        const SketchPoint& point = sketch_.points[motor.point];
         if (!joins(sketch_.bars[motor.bar], motor.point))
-            return sketch_refused(who + " must be at a point of its bar, got another");
+            return sketch_refused(who + " must be at a point of its bar, got " +
+                                  said("point", point.name, motor.point));
+        if (!(motor.minimum <= motor.maximum))
+            return sketch_refused(who + " must have a minimum of at most its maximum, got " +
+                                  sketch_number(motor.minimum));
         if (motor.against == ground_link) {
-            if (sketch_.points[motor.point].hold != SketchHold::Pinned)
-                return sketch_refused(who + " must be at a pinned point or turn against a bar, got neither");
+            if (point.hold != SketchHold::Pinned)
+                return sketch_refused(who + " must be at a pinned point, or turn against a bar, got " +
+                                      said("point", point.name, motor.point));
         } else if (motor.against >= sketch_.bars.size() || motor.against == motor.bar ||
                    !joins(sketch_.bars[motor.against], motor.point)) {
-            return sketch_refused(who + " must turn against another bar at its point, got none");
+            return sketch_refused(who + " must turn against another bar at its point, got " +
+                                  (motor.against < sketch_.bars.size()
+                                       ? said("bar", sketch_.bars[motor.against].name, motor.against)
+                                       : std::to_string(motor.against)));
         }
+        if (const double angle = angle_of(motor); !(angle >= motor.minimum && angle <= motor.maximum))
+            return sketch_refused(who + " must be drawn within its range, got " + sketch_number(angle));
         return {};
     }
 
@@ -217,9 +243,21 @@ class SketchTree {
         link.name = motor.name;
         link.minimum = motor.minimum;
         link.maximum = motor.maximum;
-        if (motor.against == ground_link) return;
-        link.rest = direction_of_bar(motor.bar, motor.point) - direction_of_bar(motor.against, motor.point);
+        link.rest = angle_of(motor);
         if (bar == motor.against) link.axis = {0.0, 0.0, -1.0};  // it is the other that hangs on it
+    }
+    /// As drawn: of all its turns, the nearest to 0 that is in the range, if one is.
+    double angle_of(const SketchMotor& motor) const noexcept {
+        double angle = direction_of_bar(motor.bar, motor.point);
+        if (motor.against != ground_link) angle -= direction_of_bar(motor.against, motor.point);
+        constexpr double turn = 2.0 * math::pi, rounding = 1e-12;
+        angle -= turn * std::round(angle / turn);
+        if (angle < motor.minimum) angle += turn * std::ceil((motor.minimum - angle) / turn - rounding);
+        if (angle > motor.maximum) angle -= turn * std::ceil((angle - motor.maximum) / turn - rounding);
+        // At the end of its range, to rounding.
+        return std::abs(angle - motor.minimum) < rounding   ? motor.minimum
+               : std::abs(angle - motor.maximum) < rounding ? motor.maximum
+                                                            : angle;
     }
     bool driven(std::size_t motor) const noexcept {
         return std::ranges::find(driven_, motor) != driven_.end();

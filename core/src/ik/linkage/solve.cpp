@@ -1,7 +1,9 @@
 #include "ik/linkage/solve.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 
 #include "math/elementary.hpp"
 
@@ -15,7 +17,7 @@ constexpr double widest_step = 0.5;  ///< of a joint in one step, radians: the t
 constexpr double finest_substep = 1e-7;
 constexpr double bound_width = 1e-9;     ///< a joint so near to the end of its range is at it
 constexpr double shortest_step = 1e-10;  ///< of a descent: it has ended
-constexpr double reached = 1e-6;         ///< of the size: a target's tolerance
+constexpr double reached = 1e-6;         ///< a driver's or target's tolerance
 
 /// As a multiple of whole turns, radians.
 double whole_turns(double radians) noexcept {
@@ -41,7 +43,7 @@ LinkageSolve::LinkageSolve(LinkageWork& work, const LinkageGoals& goals,
       options_(options),
       tolerance_(options.tolerance.value_or(std::max(1e-10 * work.size, work.rounding))) {
     std::ranges::fill(work_.driven, std::uint8_t{0});
-    std::ranges::fill(work_.held, std::uint8_t{0});
+    work_.release();
     work_.active.clear();
     work_.open.clear();
 }
@@ -66,19 +68,30 @@ bool LinkageSolve::closed() const noexcept {
     return true;
 }
 
-void LinkageSolve::take_row(std::span<double> row, double error) noexcept {
+double LinkageSolve::take_row(std::span<double> row, double error, double scale) noexcept {
     for (std::size_t i = 0; i < row.size(); ++i) {
         error -= row[i] * work_.step[i];
         if (work_.held[i]) row[i] = 0.0;
     }
-    const double size = work_.basis.add(row);
-    if (size == 0.0) return;
+    const double size = work_.basis.add(row, scale);
+    if (size == 0.0) return 0.0;
     const double by = error / size;
     for (std::size_t i = 0; i < row.size(); ++i) work_.step[i] += by * row[i];
+    return size / scale;
+}
+
+void LinkageSolve::take_rows(const LinkageWork::Block& block, std::size_t equations) noexcept {
+    double scale = 0.0;
+    for (std::size_t r = 0; r < block.count; ++r) scale = std::max(scale, norm_of(work_.row(r)));
+    std::array<double, 6> left{};
+    for (std::size_t r = 0; r < block.count; ++r) left[r] = take_row(work_.row(r), block.errors[r], scale);
+    std::sort(left.begin(), left.end(), std::greater<>());
+    least_left_ = std::min(least_left_, left[equations - 1]);
 }
 
 void LinkageSolve::find_return() noexcept {
     work_.basis.clear();
+    least_left_ = 1.0;
     for (std::size_t i = 0; i < work_.joints.size(); ++i) {
         if (!work_.blocked[i]) continue;
         // A ball at its maximum turns no further outward: its columns stay free, but for this direction.
@@ -86,20 +99,18 @@ void LinkageSolve::find_return() noexcept {
         std::ranges::fill(row, 0.0);
         const glm::dvec3 outward = work_.outward_of(i);
         for (std::size_t k = 0; k < 3; ++k) row[work_.column[i] + k] = outward[static_cast<int>(k)];
-        work_.basis.add(row);
+        work_.basis.add(row, 1.0);
     }
     if (!closes_) return;
     for (std::size_t i = 0; i < work_.linkage.closures.size(); ++i) {
-        const LinkageWork::Block block = work_.closure_block(i);
-        for (std::size_t r = 0; r < block.count; ++r) take_row(work_.row(r), block.errors[r]);
+        take_rows(work_.closure_block(i), work_.equations_of(work_.linkage.closures[i]));
     }
     if (!keeps_exact_) return;
     for (std::size_t i = 0; i < goals_.targets.size(); ++i) {
         if (!goals_.targets[i].exact) continue;
         LinkTarget kept = goals_.targets[i];
         kept.to = work_.exact_places[i];
-        const LinkageWork::Block block = work_.target_block(kept);
-        for (std::size_t r = 0; r < block.count; ++r) take_row(work_.row(r), block.errors[r]);
+        take_rows(work_.target_block(kept), work_.planar ? 2 : 3);
     }
 }
 
@@ -152,7 +163,7 @@ bool LinkageSolve::return_to_closures(double allowed) noexcept {
         for (std::size_t k = 0; k < work_.columns; ++k) work_.moved[k] += work_.step[k];
         // NaN is not within either.
         if (!(norm_of(work_.moved) <= allowed)) return false;
-        work_.take_step(std::min(1.0, widest_step / largest_of(work_.step)));
+        work_.take_step(std::min(1.0, widest_step / work_.widest()));
         work_.move_links();
     }
 }
@@ -163,10 +174,11 @@ void LinkageSolve::assemble() noexcept {
     if (return_to_closures(1e9)) return;
     put_back(work_.nearest);
     if (close_from_here()) return;
-    // Where the last solve left it: nothing new to find.
-    if (!descended_) return;
+    // Where the last solve left it: nothing new to find. Cut short: the next one goes on.
+    if (!descended_ || out_of_iterations_) return;
     work_.nearest = work_.joints;
     double least = cost();
+    bool cut_short = false;  // the descent to the nearest pose
     std::uint64_t random = 1;
     for (int i = 0; i < restarts && !out_of_iterations_; ++i) {
         work_.scatter(random, math::pi);
@@ -179,7 +191,9 @@ void LinkageSolve::assemble() noexcept {
         if (cost() >= 0.999 * least) continue;
         least = cost();
         work_.nearest = work_.joints;
+        cut_short = out_of_iterations_;
     }
+    out_of_iterations_ = cut_short;
     put_back(work_.nearest);
 }
 
@@ -208,39 +222,54 @@ double LinkageSolve::driver_distance(const LinkDriver& driver) const noexcept {
     return (to - work_.driver_starts[driver.link]) / work_.unit_of(driver.link);
 }
 
-/// As the joints last moved; false if that was not along what the drivers want.
+/// As the joints last moved; false if the drivers want another direction than that, or its reverse.
 bool LinkageSolve::repeat_last_move(double part) noexcept {
-    double along = 0.0, square = 0.0;
+    double along = 0.0, square = 0.0, wanted = 0.0;
     for (const LinkDriver& each : goals_.drivers) {
-        const double last = work_.joints[each.link].last / work_.unit_of(each.link);
-        along += part * driver_distance(each) * last;
+        const double last = work_.joints[each.link].last / work_.unit_of(each.link),
+                     by = part * driver_distance(each);
+        along += by * last;
         square += last * last;
+        wanted += by * by;
     }
-    if (!(square > 0.0)) return false;
+    if (!(square > 0.0 && along * along >= 0.9 * square * wanted)) return false;
     for (std::size_t i = 0; i < work_.joints.size(); ++i)
         if (work_.linkage.links[i].joint != LinkJoint::Ball)
             work_.step[work_.column[i]] = along / square * work_.joints[i].last / work_.unit_of(i);
     return true;
 }
 
-/// One substep, between two parts of the way. Along the tangent, or where there is none, as before.
-bool LinkageSolve::glide_by(double from, double to, bool as_before) noexcept {
-    work_.kept = work_.joints;
+/// The step of a substep, between two parts of the way, along the tangent.
+void LinkageSolve::find_tangent(double from, double to) noexcept {
     work_.release();
     std::ranges::fill(work_.step, 0.0);
-    ++iterations_;
-    if (as_before) {
-        if (!repeat_last_move(to - from)) return false;
-    } else {
-        for (const LinkDriver& each : goals_.drivers)
-            work_.step[work_.column[each.link]] = (to - from) * driver_distance(each);
-        do {
-            clear_step();
-            find_return();
-        } while (hold_overstepped());
+    for (const LinkDriver& each : goals_.drivers)
+        work_.step[work_.column[each.link]] = (to - from) * driver_distance(each);
+    do {
+        clear_step();
+        find_return();
+    } while (hold_overstepped());
+}
+
+/// One substep. Along the tangent; where branches may cross there is none, and it goes on as before.
+bool LinkageSolve::glide_by(double from, double to) noexcept {
+    constexpr double crossing = 1e-2;
+    find_tangent(from, to);
+    if (least_left_ < crossing) {
+        work_.release();
+        std::ranges::fill(work_.step, 0.0);
+        if (repeat_last_move(to - from) && take_glide_step(to)) return true;
+        find_tangent(from, to);
     }
+    return take_glide_step(to);
+}
+
+/// Takes the step, and returns to the closures with the drivers where they are at `to`.
+bool LinkageSolve::take_glide_step(double to) noexcept {
+    work_.kept = work_.joints;
+    ++iterations_;
     const double predicted = norm_of(work_.step);
-    const bool wide = !(largest_of(work_.step) <= widest_step);
+    const bool wide = !(work_.widest() <= widest_step);
     if (!wide) {
         work_.take_step(1.0);
         for (const LinkDriver& each : goals_.drivers) {
@@ -270,19 +299,24 @@ void LinkageSolve::glide() noexcept {
         const Link& link = work_.linkage.links[each.link];
         if (!(each.value >= link.minimum && each.value <= link.maximum)) beyond_range_ = true;
     }
-    for (const LinkDriver& each : goals_.drivers)
-        longest = std::max(longest, std::abs(driver_distance(each)));
+    double longest_turn = 0.0;
+    for (const LinkDriver& each : goals_.drivers) {
+        const double distance = std::abs(driver_distance(each));
+        longest = std::max(longest, distance);
+        if (!work_.straight[work_.column[each.link]]) longest_turn = std::max(longest_turn, distance);
+    }
     if (longest == 0.0) return;
-    double at = 0.0, by = std::min(1.0, 0.9 * widest_step / longest);
+    const double furthest = std::min(1.0, 0.9 * widest_step / longest_turn);
+    double at = 0.0, by = furthest;
     while (at < 1.0) {
         if (iterations_ >= options_.max_iterations) {
             out_of_iterations_ = true;
             return;
         }
         const double to = by >= 1.0 - at ? 1.0 : at + by;
-        if (glide_by(at, to, false) || glide_by(at, to, true)) {
+        if (glide_by(at, to)) {
             at = to;
-            by = std::min(2.0 * by, 0.9 * widest_step / longest);
+            by = std::min(2.0 * by, furthest);
             work_.active.clear();
             continue;
         }
@@ -410,9 +444,8 @@ bool LinkageSolve::descent_step(double damping) noexcept {
         }
     }
     note_active();
-    const double widest = largest_of(work_.step);
-    if (!(widest > shortest_step)) return false;
-    double part = std::min(1.0, widest_step / widest);
+    if (!(largest_of(work_.step) > shortest_step)) return false;
+    double part = std::min(1.0, widest_step / work_.widest());
     for (std::size_t i = 0; i < work_.joints.size(); ++i) {
         const Link& link = work_.linkage.links[i];
         const double by = work_.step[work_.column[i]];
@@ -511,11 +544,10 @@ std::size_t LinkageSolve::free_columns() const noexcept {
 }
 
 /// mode(), with what is watched held if nothing is driven. Where the last solve ended it is known.
-int LinkageSolve::watched_mode(bool at_start) noexcept {
-    hold_drivers();
+int LinkageSolve::watched_mode() noexcept {
     if (goals_.drivers.empty())
         for (const std::size_t each : options_.watched) work_.driven[work_.column[each]] = 1;
-    if (!at_start || work_.mode_held != work_.driven || work_.mode_at != work_.joints) {
+    if (work_.mode_held != work_.driven || work_.mode_at != work_.joints) {
         work_.mode = mode();
         work_.mode_held = work_.driven;
         work_.mode_at = work_.joints;
@@ -545,7 +577,7 @@ void LinkageSolve::finish(LinkageReport& report) noexcept {
         report.residual = std::max(report.residual, gap);
         missed = missed || gap > reached * work_.size;
     }
-    double furthest = 0.0;
+    double furthest = -1.0;
     for (const LinkDriver& each : goals_.drivers) {
         const double left = std::abs(each.value - work_.joints[each.link].value);
         report.driver_residual = std::max(report.driver_residual, left);
@@ -570,8 +602,8 @@ void LinkageSolve::finish(LinkageReport& report) noexcept {
             if (work_.gap_of(work_.linkage.closures[i]) > open_from()) work_.open.push_back(i);
     using enum LinkageStatus;
     if (!open && !missed && !stopped_ && !beyond_range_) work_.active.clear();
-    report.status = open                        ? Open
-                    : out_of_iterations_        ? IterationLimit
+    report.status = out_of_iterations_          ? IterationLimit
+                    : open                      ? Open
                     : stopped_ || beyond_range_ ? (work_.active.empty() ? DeadPoint : Limited)
                     : missed                    ? (work_.active.empty() ? TargetMissed : Limited)
                                                 : Reached;
@@ -579,12 +611,7 @@ void LinkageSolve::finish(LinkageReport& report) noexcept {
     for (const std::size_t each : work_.active)
         (work_.linkage.links[each].joint == LinkJoint::Ball ? work_.blocked[each]
                                                             : work_.held[work_.column[each]]) = 1;
-    // If nothing more is held, watched_mode() has just found it.
-    const std::size_t rank =
-        work_.held == work_.mode_held && work_.active.empty() && work_.mode_at == work_.joints
-            ? work_.basis.rank()
-            : closure_rank();
-    report.freedom = static_cast<int>(free_columns() - rank);
+    report.freedom = static_cast<int>(free_columns() - closure_rank());
 }
 
 LinkageReport LinkageSolve::run() noexcept {
@@ -596,15 +623,22 @@ LinkageReport LinkageSolve::run() noexcept {
         finish(report);
         return report;
     }
-    const bool targets = !goals_.targets.empty();
-    const int mode_before = watched_mode(true);
+    hold_drivers();
     glide();
-    if (stopped_ && goals_.drivers.size() > 1) {
-        std::ranges::fill(work_.driven, std::uint8_t{0});
-        descend(Aim::Drivers);
-        hold_drivers();
+    if (stopped_) {
+        if (goals_.drivers.size() > 1) {
+            std::ranges::fill(work_.driven, std::uint8_t{0});
+            descend(Aim::Drivers);
+            hold_drivers();
+        }
+        // The straight way was barred, and it went another.
+        stopped_ = std::ranges::any_of(goals_.drivers, [&](const LinkDriver& each) {
+            return !(std::abs(work_.driver_error(each)) <= reached);
+        });
     }
-    if (targets) {
+    if (!goals_.targets.empty()) {
+        // A glide goes on along its branch; it is targets that draw it into another mode.
+        const int mode_before = watched_mode();
         descend(Aim::ExactTargets);
         for (std::size_t i = 0; i < goals_.targets.size(); ++i) {
             const LinkPoint& point = work_.linkage.points[goals_.targets[i].point];
@@ -613,8 +647,8 @@ LinkageReport LinkageSolve::run() noexcept {
         keeps_exact_ = true;
         descend(Aim::Targets);
         keeps_exact_ = false;
+        report.passed_dead_point = mode_before * watched_mode() < 0;
     }
-    report.passed_dead_point = mode_before * watched_mode(false) < 0;
     finish(report);
     return report;
 }
@@ -654,6 +688,7 @@ bool find_other_mode(LinkageWork& work, LinkageState& state, std::span<const Lin
     LinkageSolve from(work, goals, options);
     from.hold_drivers();
     const int mode = from.mode();
+    if (mode == 0) return false;
     const std::vector<JointPlace> here = work.joints;
     double nearest = 1e300;
     std::uint64_t random = 1;
@@ -667,7 +702,7 @@ bool find_other_mode(LinkageWork& work, LinkageState& state, std::span<const Lin
         solve.hold_drivers();
         if (!solve.close_from_here()) continue;
         const double far = distance_of_modes(work, here);
-        if (far < same || far >= nearest || (mode != 0 && solve.mode() == 0)) continue;
+        if (far < same || far >= nearest || solve.mode() == 0) continue;
         nearest = far;
         for (std::size_t i = 0; i < here.size(); ++i) {
             if (work.linkage.links[i].joint == LinkJoint::Hinge)

@@ -35,7 +35,8 @@ class LinkageSolve {
     /// Newton's step on the closures, and on exact targets once they are there; leaves the basis of their
     /// rows. Held columns of the step are given.
     void find_return() noexcept;
-    void take_row(std::span<double> row, double error) noexcept;
+    void take_rows(const LinkageWork::Block& block, std::size_t equations) noexcept;
+    double take_row(std::span<double> row, double error, double scale) noexcept;
     void clear_step() noexcept;
     bool hold_overstepped() noexcept;
     /// Newton's steps to the closures. False if they go further than `allowed`, or do not get there.
@@ -43,7 +44,9 @@ class LinkageSolve {
 
     void assemble() noexcept;
     void glide() noexcept;
-    bool glide_by(double from, double to, bool as_before) noexcept;
+    void find_tangent(double from, double to) noexcept;
+    bool glide_by(double from, double to) noexcept;
+    bool take_glide_step(double to) noexcept;
     bool repeat_last_move(double part) noexcept;
     double driver_distance(const LinkDriver& driver) const noexcept;
 
@@ -57,7 +60,7 @@ class LinkageSolve {
     double cost() noexcept;
     double target_weight(const LinkTarget& target) const noexcept;
     void put_back(const std::vector<JointPlace>& joints) noexcept;
-    int watched_mode(bool at_start) noexcept;
+    int watched_mode() noexcept;
     std::size_t free_columns() const noexcept;
     void note_active() noexcept;
     void finish(LinkageReport& report) noexcept;
@@ -68,7 +71,10 @@ class LinkageSolve {
     double tolerance_;
     int iterations_ = 0;
     Aim aim_ = Aim::Closures;
-    bool closes_ = true;        ///< closures are kept, not approached
+    bool closes_ = true;  ///< closures are kept, not approached
+    /// The least that was left of a closure's equations by those before, as a part: near 0 where the rank is
+    /// about to fall, or has fallen.
+    double least_left_ = 1.0;
     bool keeps_exact_ = false;  ///< exact targets are, too
     double heaviest_ = 0.0;     ///< of the weights of the aim's targets
     bool descended_ = false;    ///< the last descent took a step

@@ -124,7 +124,7 @@ LinkageFreedom LinkageSolver::freedom(const LinkageState& state) noexcept {
         static_cast<int>(work.columns - detail::LinkageSolve(work, none, options).closure_rank());
     freedom.counted = static_cast<int>(work.columns);
     for (const Closure& each : work.linkage.closures)
-        freedom.counted -= each.kind == ClosureKind::Frame ? (work.planar ? 3 : 6) : (work.planar ? 2 : 3);
+        freedom.counted -= static_cast<int>(work.equations_of(each));
     return freedom;
 }
 

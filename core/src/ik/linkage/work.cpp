@@ -48,7 +48,7 @@ void RowBasis::subtract_from(double* row, Window& window) const noexcept {
     }
 }
 
-double RowBasis::add(std::span<double> row) noexcept {
+double RowBasis::add(std::span<double> row, double scale) noexcept {
     Window window{columns_, 0};
     double before = 0.0;
     for (std::size_t i = 0; i < columns_; ++i) {
@@ -65,9 +65,9 @@ double RowBasis::add(std::span<double> row) noexcept {
         for (std::size_t i = window.first; i < window.last; ++i) left += row[i] * row[i];
         if (left > 0.25 * start) break;
     }
-    // The rows before span it, to rounding.
-    if (!(left > 1e-18 * before)) return 0.0;
-    const double size = std::sqrt(left), inverse = 1.0 / size;
+    const double size = std::sqrt(left);
+    if (!(size > 1e-9 * scale)) return 0.0;
+    const double inverse = 1.0 / size;
     double* kept = rows_.data() + count_ * columns_;
     std::fill(kept, kept + columns_, 0.0);
     for (std::size_t i = window.first; i < window.last; ++i) kept[i] = row[i] *= inverse;
@@ -150,7 +150,8 @@ LinkageWork::LinkageWork(const Linkage& from) : linkage(from) {
         extend(each.second_at);
     }
     const glm::dvec3 extent = minus(high, low);
-    size = std::max({extent.x, extent.y, extent.z, 1e-9});
+    size = count > 0 ? std::max({extent.x, extent.y, extent.z}) : 0.0;
+    if (!(size >= 1e-9)) size = size_of_travel();
     rounding = 1e-14 * std::max({largest_coordinate(low), largest_coordinate(high), size});
     driven.resize(columns);
     held.resize(columns);
@@ -159,6 +160,11 @@ LinkageWork::LinkageWork(const Linkage& from) : linkage(from) {
     block_rows.resize(6 * columns);
     moved.resize(columns);
     kept = best = nearest = joints;
+    straight.resize(columns);
+    for (std::size_t i = 0; i < count; ++i) straight[column[i]] = linkage.links[i].joint == LinkJoint::Slider;
+    for (const Closure& each : linkage.closures)
+        for (std::size_t link : {each.first, each.second})
+            for (; link != ground_link; link = linkage.links[link].parent) straight[column[link]] = 0;
     basis.reserve(columns);
     mode_at.reserve(count);
     mode_held.reserve(columns);
@@ -170,6 +176,22 @@ LinkageWork::LinkageWork(const Linkage& from) : linkage(from) {
     active.reserve(count);
     open.reserve(linkage.closures.size());
     move_links();
+}
+
+/// Of a linkage all of whose joints and points are in one place.
+double LinkageWork::size_of_travel() const noexcept {
+    double travel = 0.0;
+    for (const Link& each : linkage.links)
+        if (each.joint == LinkJoint::Slider && std::isfinite(each.maximum - each.minimum))
+            travel = std::max(travel, each.maximum - each.minimum);
+    return travel >= 1e-9 ? travel : 1.0;
+}
+
+double LinkageWork::widest() const noexcept {
+    double widest = 0.0;
+    for (std::size_t i = 0; i < columns; ++i)
+        if (!straight[i]) widest = std::max(widest, std::abs(step[i]));
+    return widest;
 }
 
 bool LinkageWork::ranged(std::size_t link) const noexcept {

@@ -26,8 +26,8 @@ class RowBasis {
     std::size_t rank() const noexcept { return count_; }
 
     /// Makes `row` the unit vector in its new direction, and keeps that. Returns its length before, or 0, and
-    /// keeps nothing, if the rows before span it.
-    double add(std::span<double> row) noexcept;
+    /// keeps nothing, if the rows before span it: if what is left is rounding beside `scale`.
+    double add(std::span<double> row, double scale) noexcept;
     /// Removes what the rows span.
     void remove_from(std::span<double> row) const noexcept;
     /// The sign of the determinant of the rows' columns that are not `held`, as many as there are rows.
@@ -54,7 +54,8 @@ struct LinkageWork {
     std::vector<std::size_t> column;     ///< the first of each link
     std::size_t columns = 0;
     double size = 0.0;
-    double rounding = 0.0;  ///< metres: what a closure cannot be closer to, far from the origin
+    double rounding = 0.0;               ///< metres: what a closure cannot be closer to, far from the origin
+    std::vector<std::uint8_t> straight;  ///< columns of sliders on no loop: a step of any length is as good
     bool planar = false;
     glm::dvec3 normal{0.0, 0.0, 1.0};  ///< of a planar one
 
@@ -94,6 +95,8 @@ struct LinkageWork {
         return linkage.links[link].joint == LinkJoint::Slider ? size : 1.0;
     }
     bool ranged(std::size_t link) const noexcept;
+    /// The largest of the step, but for straight columns.
+    double widest() const noexcept;
 
     // Equations. A block of rows has columns of the derivatives of what its errors are to add.
     struct Block {
@@ -105,6 +108,10 @@ struct LinkageWork {
     }
     std::vector<double> block_rows;  ///< six rows
     Block closure_block(std::size_t index) noexcept;
+    /// How many equations a closure has: those across the plane of a planar linkage are 0 = 0.
+    std::size_t equations_of(const Closure& closure) const noexcept {
+        return (planar ? 2u : 3u) + (closure.kind == ClosureKind::Point ? 0u : planar ? 1u : 3u);
+    }
     Block target_block(const LinkTarget& target) noexcept;
     /// Metres; a frame's rotation counts by the size.
     double gap_of(const Closure& closure) const noexcept;
@@ -133,6 +140,7 @@ struct LinkageWork {
   private:
     void add_point(std::size_t link, const glm::dvec3& at, double sign) noexcept;
     void add_turn(std::size_t link, double sign) noexcept;
+    double size_of_travel() const noexcept;
     glm::dvec3 turn_between(const Closure& closure) const noexcept;
 };
 

@@ -1,0 +1,221 @@
+// Linkages: what a report claims is so, whatever was driven; and every step leads on along its branch.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "ik_linkage_support.hpp"
+#include "random.hpp"
+#include "tendril/ik/mechanisms.hpp"
+#include "tests/says.hpp"
+
+namespace tendril::test::ik_linkage_verdict_test {
+namespace {
+
+using namespace linkage;
+constexpr SketchHold pinned = SketchHold::Pinned;
+
+// -------------------------------------------------------------------------------------- drivers that stop
+
+/// Two cranks of 1 m and an elbow between them.
+LinkageSketch five_bar() {
+    LinkageSketch sketch;
+    sketch.points = {
+        {"A", {0, 0}, pinned}, {"B", {0, 1}}, {"C", {1, 1.8}}, {"D", {2, 1}}, {"E", {2, 0}, pinned}};
+    sketch.bars = {{"left", {0, 1}}, {"BC", {1, 2}}, {"CD", {2, 3}}, {"right", {4, 3}}};
+    sketch.motors = {{"left", 0, 0}, {"right", 4, 3}};
+    return sketch;
+}
+
+// 20000 solves were run once.
+TEST(Linkage, a_dead_point_has_a_driver_that_is_not_at_its_value) {
+    Machine machine{Expected<LinkageSketch>(five_bar())};
+    Random random(7);
+    const std::size_t left = machine.link("left"), right = machine.link("right");
+    int stopped = 0, reached = 0;
+    for (int i = 0; i < 1500; ++i) {
+        const auto step = [&] { return static_cast<double>(random.around(1.5f)); };
+        const LinkDriver drivers[] = {{left, machine.value("left") + step()},
+                                      {right, machine.value("right") + step()}};
+        const LinkageReport report = machine.solver.solve(machine.state, {drivers, {}});
+        if (report.status == LinkageStatus::DeadPoint) {
+            ++stopped;
+            ASSERT_GT(report.driver_residual, 1e-6) << i;
+            ASSERT_TRUE(report.stopped) << i;
+        }
+        if (report.status != LinkageStatus::Reached) continue;
+        ++reached;
+        ASSERT_LE(report.driver_residual, 1e-6) << i;
+        ASSERT_FALSE(report.stopped) << i;
+    }
+    EXPECT_GE(stopped, 100);
+    EXPECT_GE(reached, 100);
+}
+
+// ----------------------------------------------------------------------------------------- change points
+
+/// From where it is drawn on, twice round.
+void stays_a_parallelogram(const FourBar& lengths, double step) {
+    Machine machine{four_bar(lengths)};
+    for (const double sign : {1.0, -1.0}) {
+        const double from = step * std::ceil(machine.value("crank") / step);
+        for (int i = 0; i * std::abs(step) <= deg(720); ++i) {
+            const LinkageReport report = machine.drive("crank", from + sign * i * step);
+            ASSERT_EQ(report.status, LinkageStatus::Reached) << step << " " << i;
+            ASSERT_FALSE(report.passed_dead_point) << step << " " << i;
+            const glm::dvec3 coupler = machine.point("C") - machine.point("B");
+            ASSERT_LE(glm::length(coupler - glm::dvec3(lengths.ground, 0, 0)), 1e-5)
+                << lengths.ground << " in steps of " << step / deg(1) << ", step " << i;
+        }
+    }
+}
+
+TEST(Linkage, a_parallelogram_stays_one_in_steps_of_any_length) {
+    for (const double ground : {1.0, 1.5, 2.0, 3.0})
+        for (const double degrees :
+             {1.0, 1.25, 2.0, 3.0, 5.0, 7.5, 10.0, 15.0, 20.0, 30.0, 45.0, 60.0, 90.0, 179.0, 180.0, 360.0})
+            stays_a_parallelogram({.ground = ground, .crank = 1.0, .coupler = ground, .rocker = 1.0},
+                                  deg(degrees));
+    // Steps that end near a flat pose, and not in it.
+    for (int exponent = -14; exponent <= -2; ++exponent)
+        for (const double sign : {-1.0, 1.0})
+            stays_a_parallelogram({.ground = 2.0, .crank = 1.0, .coupler = 2.0, .rocker = 1.0},
+                                  deg(15) + sign * std::pow(10.0, exponent) / 12.0);
+}
+
+// Where the shortest and the longest bar are as long as the others together, two branches cross: in large
+// steps the linkage takes the one that it takes in small ones.
+TEST(Linkage, at_a_change_point_large_steps_go_on_as_small_ones_do) {
+    const FourBar lengths{.ground = 3.0, .crank = 1.0, .coupler = 2.5, .rocker = 1.5};
+    for (const double degrees : {5.0, 10.0, 15.0, 30.0, 45.0}) {
+        Machine fine{four_bar(lengths)}, coarse{four_bar(lengths)};
+        const auto to_first = [&](Machine& machine) { machine.drive("crank", deg(45)); };
+        to_first(fine), to_first(coarse);
+        double at = deg(45);
+        for (int i = 1; i * degrees <= 720; ++i) {
+            const double to = deg(45) + deg(degrees) * i;
+            while (at < to - 1e-9) fine.drive("crank", at = std::min(at + deg(0.5), to));
+            ASSERT_EQ(coarse.drive("crank", to).status, LinkageStatus::Reached);
+            ASSERT_LE(glm::length(coarse.point("C") - fine.point("C")), 1e-4) << degrees << " " << i;
+        }
+    }
+}
+
+// ------------------------------------------------------------------------------------------- other modes
+
+TEST(Linkage, what_moves_freely_has_no_other_mode) {
+    Machine loose{four_bar()};
+    const LinkageState before = loose.state;
+    EXPECT_FALSE(loose.solver.other_mode(loose.state, {}));
+    EXPECT_EQ(loose.state, before);
+    LinkageSketch sketch;
+    sketch.points = {{"O", {0, 0}, pinned}, {"A", {1, 0}}};
+    sketch.bars = {{"arm", {0, 1}}};
+    Machine pendulum{Expected<LinkageSketch>(sketch)};
+    EXPECT_FALSE(pendulum.solver.other_mode(pendulum.state, {}));
+    const LinkDriver driver{0, 0.0};
+    EXPECT_FALSE(pendulum.solver.other_mode(pendulum.state, {&driver, 1}));
+    // A truss has one: its mirror image.
+    sketch.points = {{"A", {0, 0}, pinned}, {"B", {1, 2}}, {"C", {3, 0}, pinned}};
+    sketch.bars = {{"a", {0, 1}}, {"b", {1, 2}}};
+    Machine truss{Expected<LinkageSketch>(sketch)};
+    ASSERT_TRUE(truss.solver.other_mode(truss.state, {}));
+    truss.solver.solve(truss.state);
+    EXPECT_LE(glm::length(truss.point("B") - glm::dvec3(1, -2, 0)), 1e-6);
+}
+
+// ------------------------------------------------------------------------------------- ranges, size, freedom
+
+TEST(Linkage, a_motors_range_may_be_any_turn_of_its_angle) {
+    LinkageSketch sketch;
+    sketch.points = {{"O", {0, 0}, pinned},
+                     {"A", {-std::cos(deg(172)), -std::sin(deg(172))}},
+                     {"B", {0, -2 * std::sin(deg(172))}}};
+    sketch.bars = {{"upper", {0, 1}}, {"lower", {1, 2}}};
+    // From O, at 172 degrees, to B, at -172.
+    const double bend = deg(16);
+    sketch.motors = {{"elbow", 1, 1, 0, -0.5, 0.5}};
+    const Expected<Linkage> elbow = linkage_from(sketch);
+    ASSERT_TRUE(elbow) << elbow.message();
+    EXPECT_NEAR(elbow->links[elbow->find_link("elbow")].rest, bend, 1e-12);
+    for (const int turns : {-2, 0, 3}) {
+        LinkageSketch turned = *four_bar();
+        turned.motors[0].minimum = deg(360 * turns - 10);
+        turned.motors[0].maximum = deg(360 * turns + 200);
+        const Expected<Linkage> linkage = linkage_from(turned);
+        ASSERT_TRUE(linkage) << linkage.message();
+        EXPECT_NEAR(linkage->links[linkage->find_link("crank")].rest, deg(360 * turns), 1e-9);
+    }
+}
+
+TEST(Linkage, four_bars_of_all_lengths_that_close_can_be_drawn) {
+    for (const FourBar& lengths :
+         {FourBar{1, 1, 1, 1}, FourBar{1, 1, 2, 2}, FourBar{2, 1, 2, 1}, FourBar{2, 2, 1, 1}}) {
+        const Expected<LinkageSketch> sketch = four_bar(lengths);
+        ASSERT_TRUE(sketch) << sketch.message();
+        const Expected<Linkage> linkage = linkage_from(*sketch);
+        ASSERT_TRUE(linkage) << linkage.message();
+        Machine machine{linkage};
+        EXPECT_EQ(machine.drive("crank", machine.value("crank") + 0.1).status, LinkageStatus::Reached);
+        EXPECT_NEAR(glm::length(machine.point("C") - machine.point("D")), lengths.rocker, 1e-9);
+        EXPECT_NEAR(glm::length(machine.point("C") - machine.point("B")), lengths.coupler, 1e-9);
+    }
+}
+
+TEST(Linkage, is_not_open_while_iterations_are_what_it_lacks) {
+    Random random(4);
+    int unfinished = 0;
+    for (int trial = 0; trial < 100; ++trial) {
+        Machine machine(linkage_from(random_sketch(random)));
+        for (JointPlace& each : machine.state.joints)
+            each.value += 3.0 * static_cast<double>(random.around(1.0f));
+        LinkageState hasty = machine.state;
+        if (machine.solver.solve(machine.state).status != LinkageStatus::Reached) continue;
+        for (int i = 0; i < 400; ++i) {
+            const LinkageStatus status = machine.solver.solve(hasty, {}, {.max_iterations = 1}).status;
+            if (status == LinkageStatus::Reached) break;
+            // A minimum that is not closed ends in Open, and only that.
+            if (status == LinkageStatus::Open) break;
+            ASSERT_EQ(status, LinkageStatus::IterationLimit);
+            ++unfinished;
+            EXPECT_FALSE(machine.solver.open_closures().empty());
+        }
+    }
+    EXPECT_GE(unfinished, 50);
+}
+
+TEST(Linkage, a_stage_whose_joints_and_points_coincide_moves) {
+    Linkage linkage;
+    linkage.links = {{"x", ground_link, LinkJoint::Slider, {0, 0, 0}, {1, 0, 0}},
+                     {"y", 0, LinkJoint::Slider, {0, 0, 0}, {0, 1, 0}}};
+    linkage.points = {{"tool", 1, {0, 0, 0}}};
+    for (const double far : {1e-3, 1.0, 1e4}) {
+        Machine machine{Expected<Linkage>(linkage)};
+        EXPECT_EQ(machine.reach("tool", {far, -2.0 * far, 0.0}).status, LinkageStatus::Reached) << far;
+        EXPECT_LE(glm::length(machine.point("tool") - glm::dvec3(far, -2.0 * far, 0.0)), 1e-6);
+        EXPECT_EQ(machine.drive("x", -3.0 * far).status, LinkageStatus::Reached) << far;
+        EXPECT_EQ(machine.value("x"), -3.0 * far);
+    }
+    linkage.links[0].minimum = 0.0;
+    linkage.links[0].maximum = 4.0;
+    EXPECT_EQ(LinkageSolver::make(linkage)->size(), 4.0);
+}
+
+TEST(Linkage, freedom_is_the_poses_and_not_the_last_solves) {
+    Linkage linkage;
+    linkage.links = {{"arm", ground_link, LinkJoint::Ball, {0, 0, 0}}};
+    linkage.links[0].maximum = deg(60);
+    linkage.points = {{"hand", 0, {1, 0, 0}}};
+    Machine machine{Expected<Linkage>(linkage)};
+    EXPECT_EQ(machine.reach("hand", {-1.0, 0.5, 0.0}).status, LinkageStatus::Limited);
+    LinkageSolver fresh = std::move(*LinkageSolver::make(linkage));
+    EXPECT_EQ(machine.solver.freedom(machine.state), fresh.freedom(machine.state));
+    EXPECT_EQ(machine.solver.freedom(machine.state).actual, 3);
+}
+
+}  // namespace
+}  // namespace tendril::test::ik_linkage_verdict_test
