@@ -312,6 +312,9 @@ TEST_F(LinkageTest, AFileThatIsWrongIsRefusedWithItsPlace) {
     expect_place("/sketch/points/1/name", "A", "labs.linkage.sketch.points.1.name");
     expect_place("/sketch/points/1/hold", "glued", "labs.linkage.sketch.points.1.hold");
     expect_place("/sketch/bars/0/points/1", "Z", "labs.linkage.sketch.bars.0.points.1");
+    expect_place("/sketch/motors/0/against", "bar 7", "labs.linkage.sketch.motors.0.against");
+    expect_place("/ranges", Json::parse(R"([{"joint": "motor 1", "min": 2, "max": 1}])"),
+                 "labs.linkage.ranges.0.min");
     expect_place("/sketch/motors/0/bar", "bar 7", "labs.linkage.sketch.motors.0.bar");
     expect_place("/sketch/bars/0/points", Json::array(), "labs.linkage.sketch");
     expect_place("/joints", Json::array(), "labs.linkage.joints");
@@ -467,6 +470,16 @@ TEST_F(LinkageTest, APinOfAPresetIsNotDraggedByAccident) {
         if (points[i].link == ik::ground_link)
             lab().drag(workspace, static_cast<PickId>(i), {glm::vec3(1.0f)}, emit);
     EXPECT_TRUE(emit.take().empty());
+}
+
+TEST_F(LinkageTest, CodeHasPoseModeAndLegs) {
+    four_bar();
+    run("linkage.other_mode");
+    run("linkage.range", {{"joint", "crank"}, {"max", 90}});
+    const std::string code = lab().code(workspace);
+    EXPECT_TRUE(test::says(code, "links[0] maximum initial_state state joints[2]")) << code;
+    run("linkage.preset", {{"name", "walker"}});
+    EXPECT_TRUE(test::says(lab().code(workspace), "One of the twelve legs"));
 }
 
 TEST_F(LinkageTest, NamesAreUnique) {
