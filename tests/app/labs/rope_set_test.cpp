@@ -123,7 +123,7 @@ TEST_F(RopeSet, ARopeResistsBending) {
     EXPECT_EQ(made_of("rope").bending, 0.0f);
     run("rope.set", {{"rope", "rope"}, {"bending", 50}});
     EXPECT_EQ(made_of("rope").bending, 50.0f);
-    tick(60);
+    wait(60);
     EXPECT_GT(lowest(), 1.9);
     run("rope.select", {{"rope", "rope"}});
     EXPECT_TRUE(test::says(test::PanelReader().inspector(lab(), workspace), "bending 50.0000 N"));
@@ -132,7 +132,7 @@ TEST_F(RopeSet, ARopeResistsBending) {
     EXPECT_TRUE(test::says(rope_code(rope_part(workspace)), ".bending"));
     run("rope.set", {{"rope", "rope"}, {"bending", 0}});
     EXPECT_EQ(made_of("rope").bending, 0.0f);
-    tick(60);
+    wait(60);
     EXPECT_LT(lowest(), 1.5);
     EXPECT_TRUE(test::says(refused("rope.set", {{"rope", "rope"}, {"bending", -1}}), "rope.set bending -1"));
     EXPECT_TRUE(test::says(refused("rope.set", {{"rope", "rope"}, {"bend", 1}}), "rope.set rope bend"));
