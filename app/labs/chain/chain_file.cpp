@@ -134,7 +134,20 @@ std::optional<JsonPlace> bone_list(const JsonPlace& owner, const char* key, std:
     return list;
 }
 
-ChainPlane load_plane(const JsonPlace& place, std::size_t bones) {
+std::vector<ik::Limit> load_limits(const JsonPlace& owner, const char* key, const Chain& chain) {
+    std::vector<ik::Limit> limits;
+    const std::size_t bones = chain.size() < 2 ? 0 : chain.size() - 1;
+    const auto list = bone_list(owner, key, bones);
+    for (std::size_t i = 0; list && i < bones; ++i) {
+        const JsonPlace each = list->element(i);
+        limits.push_back(limit_from_json(each.json(), each.where()));
+        if (const char* why = ik::fault(limits.back(), chain.default_direction())) each.fail(why);
+    }
+    return limits;
+}
+
+ChainPlane load_plane(const JsonPlace& place, const Chain& chain) {
+    const std::size_t bones = chain.size() < 2 ? 0 : chain.size() - 1;
     ChainPlane plane;
     plane.normal = place["normal"].point();
     if (!(glm::length(plane.normal) > 1e-6f)) place["normal"].fail("must be longer than 1e-6");
@@ -146,6 +159,7 @@ ChainPlane load_plane(const JsonPlace& place, std::size_t bones) {
             if (const char* why = ik::fault(plane.limits.back())) each.fail(why);
         }
     }
+    plane.aside = load_limits(place, "aside", chain);
     return plane;
 }
 
@@ -176,6 +190,7 @@ Json save_reach(const ReachSettings& settings, const Chain& chain) {
                                        {"bend", bend_sides.name(settings.plane->bend)}};
         for (const ik::AngleLimit& limit : settings.plane->limits)
             plane["limits"].push_back(save_fields(limit));
+        for (const ik::Limit& limit : settings.plane->aside) plane["aside"].push_back(limit_json(limit));
     }
     for (const ik::Limit& limit : settings.limits) json["limits"].push_back(limit_json(limit));
     save_state(json, settings.state, positions(chain));
@@ -183,7 +198,6 @@ Json save_reach(const ReachSettings& settings, const Chain& chain) {
 }
 
 ReachSettings load_reach(const JsonPlace& place, const Chain& chain) {
-    const std::size_t bones = chain.size() < 2 ? 0 : chain.size() - 1;
     ReachSettings settings;
     const JsonPlace solver = place["solver"];
     const auto method = ik::method_named(solver.text());
@@ -191,16 +205,9 @@ ReachSettings load_reach(const JsonPlace& place, const Chain& chain) {
     settings.method = *method;
     load_fields(place, settings);
     if (const auto pole = place.optional("pole")) settings.pole = pole->point();
-    if (const auto plane = place.optional("plane")) settings.plane = load_plane(*plane, bones);
+    if (const auto plane = place.optional("plane")) settings.plane = load_plane(*plane, chain);
     if (settings.plane && place.has("limits")) place["limits"].fail("a chain in a plane has the plane's");
-    if (const auto limits = bone_list(place, "limits", bones)) {
-        for (std::size_t i = 0; i < bones; ++i) {
-            const JsonPlace each = limits->element(i);
-            settings.limits.push_back(limit_from_json(each.json(), each.where()));
-            if (const char* why = ik::fault(settings.limits.back(), chain.default_direction()))
-                each.fail(why);
-        }
-    }
+    settings.limits = load_limits(place, "limits", chain);
     settings.state = load_state(place, positions(chain));
     return settings;
 }

@@ -137,8 +137,11 @@ std::shared_ptr<const Part> ChainPart::at_moment(std::shared_ptr<const Part> the
 
 std::size_t ChainPart::bytes() const {
     return sizeof(*this) + chain.size() * sizeof(Segment) + reach.limits.size() * sizeof(ik::Limit) +
-           (reach.plane ? reach.plane->limits.size() * sizeof(ik::AngleLimit) : 0) + bytes_of(reach.state) +
-           along.given.size() * sizeof(Segment) + curve.points.size() * sizeof(glm::vec3) +
+           (reach.plane ? reach.plane->limits.size() * sizeof(ik::AngleLimit) +
+                              reach.plane->aside.size() * sizeof(ik::Limit)
+                        : 0) +
+           bytes_of(reach.state) + along.given.size() * sizeof(Segment) +
+           curve.points.size() * sizeof(glm::vec3) +
            along.memory.at.size() * (sizeof(double) + sizeof(glm::vec3)) + study.bytes() +
            selection.all().size() * sizeof(std::size_t);
 }

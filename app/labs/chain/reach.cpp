@@ -123,6 +123,7 @@ template <class Change>
 static void change_limits(ReachSettings& settings, const Change& change) {
     if (!settings.limits.empty()) change(settings.limits);
     if (settings.plane && !settings.plane->limits.empty()) change(settings.plane->limits);
+    if (settings.plane && !settings.plane->aside.empty()) change(settings.plane->aside);
 }
 
 void bone_inserted(ReachSettings& settings, std::size_t index, std::size_t segments_now) {
@@ -157,7 +158,7 @@ void bones_removed(ReachSettings& settings, const std::vector<std::size_t>& join
 
 void forget_limits(ReachSettings& settings) {
     settings.limits.clear();
-    if (settings.plane) settings.plane->limits.clear();
+    if (settings.plane) settings.plane->limits.clear(), settings.plane->aside.clear();
     settings.state.rotations.assign(settings.state.bones(), glm::quat(1, 0, 0, 0));
     settings.state.limits = {};
 }

@@ -39,6 +39,7 @@ struct ChainPlane {
     glm::vec3 normal{0.0f, 0.0f, 1.0f};
     ik::Side bend = ik::Side::Free;
     std::vector<ik::AngleLimit> limits;  ///< one per bone, or empty
+    std::vector<ik::Limit> aside{};      ///< those without a plane, one per bone, or empty
 
     bool operator==(const ChainPlane&) const = default;
 };

@@ -182,13 +182,18 @@ void set_plane(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
     if (!given.has("normal") && !off) throw Refused("needs either normal or off: true");
     part.reach.state = {};
     if (off) {
+        if (part.reach.plane) part.reach.limits = std::move(part.reach.plane->aside);
         part.reach.plane.reset();
     } else {
+        if (part.mode == ChainMode::Curve)
+            throw Refused("mode curve follows its control points: a plane holds in every other mode");
         const glm::vec3 normal = given.point("normal");
         if (!(glm::length(normal) > 1e-6f)) throw Refused("normal must be longer than 1e-6");
         if (!part.reach.plane) {
-            forget_limits(part.reach);  // a plane has limits of its own
-            part.reach.plane.emplace();
+            // A plane has limits of its own.
+            std::vector<ik::Limit> aside = std::move(part.reach.limits);
+            forget_limits(part.reach);
+            part.reach.plane.emplace().aside = std::move(aside);
         }
         part.reach.plane->normal = normal;
         keep_in_plane(part.chain, part.reach, runtime);
@@ -279,16 +284,17 @@ void add_reach_commands(CommandTable& table) {
     table.add(chain_command("chain.limit", "Limit joints", limit_arguments<ik::Limit>(),
                             "Limits how far a joint turns in mode reach; kind free removes the limit",
                             limit_joints));
-    table.add(chain_command("chain.plane", "Keep the chain in a plane",
-                            {{.name = "normal",
-                              .type = ArgumentType::Point,
-                              .required = false,
-                              .help = "at right angles to the plane, which goes through the root"},
-                             switch_argument("off", "true: no plane")},
-                            "Keeps the chain in a plane, in every mode but curve, without its other limits; "
-                            "the 2D view looks along its "
-                            "normal",
-                            set_plane));
+    table.add(
+        chain_command("chain.plane", "Keep the chain in a plane",
+                      {{.name = "normal",
+                        .type = ArgumentType::Point,
+                        .required = false,
+                        .help = "at right angles to the plane, which goes through the root"},
+                       switch_argument("off", "true: no plane")},
+                      "Keeps the chain in a plane, in every mode but curve, its other limits put aside; "
+                      "the 2D view looks along its "
+                      "normal",
+                      set_plane));
     table.add(chain_command(
         "chain.bend", "Bend the planar chain left or right",
         {choice_argument("side", true, "of the line from root to tip, in the 2D view", bend_sides.names())},

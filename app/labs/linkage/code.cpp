@@ -34,7 +34,8 @@ std::string sketch_text(const ik::LinkageSketch& sketch) {
     text += "    sketch.motors = {";
     for (const ik::SketchMotor& each : sketch.motors)
         text += "\n        {" + string_text(each.name) + ", " + std::to_string(each.point) + ", " +
-                std::to_string(each.bar) + "},";
+                std::to_string(each.bar) +
+                (each.against != ik::ground_link ? ", " + std::to_string(each.against) : "") + "},";
     return text + "};\n";
 }
 
@@ -45,9 +46,36 @@ std::string call_text(const Mechanism& mechanism) {
            joined(member_texts(mechanism_fields(mechanism))) + "})";
 }
 
+/// Pose and assembly mode: each joint's place.
+std::string state_text(const LinkagePart& part) {
+    std::string text;
+    for (std::size_t i = 0; i < part.state.joints.size(); ++i) {
+        const ik::JointPlace& each = part.state.joints[i];
+        const glm::dquat& turn = each.turn;
+        text += "    state.joints[" + std::to_string(i) + "] = {" + double_text(each.value) +
+                ", glm::dquat(" +
+                joined({double_text(turn.w), double_text(turn.x), double_text(turn.y), double_text(turn.z)}) +
+                "), " + double_text(each.last) + "};\n";
+    }
+    return text;
+}
+
+/// The ranges set by hand, before the solver is made.
+std::string ranges_text(const LinkagePart& part) {
+    std::string text;
+    for (const LinkageRange& each : part.shape->ranges) {
+        const std::size_t link = part.linkage().find_link(each.joint);
+        const std::string at = "    linkage->links[" + std::to_string(link) + "].";
+        if (std::isfinite(each.minimum)) text += at + "minimum = " + double_text(each.minimum) + ";\n";
+        if (std::isfinite(each.maximum)) text += at + "maximum = " + double_text(each.maximum) + ";\n";
+        text += at + "rest = " + double_text(part.linkage().links[link].rest) + ";\n";
+    }
+    return text;
+}
+
 /// A declaration of `what`, which may have been refused.
 std::string expected_text(const std::string& type, const std::string& what, const std::string& from) {
-    return "    const Expected<ik::" + type + "> " + what + " = " + from + ";\n    if (!" + what +
+    return "    Expected<ik::" + type + "> " + what + " = " + from + ";\n    if (!" + what +
            ") return std::puts(" + what + ".message()), 1;\n";
 }
 
@@ -71,12 +99,21 @@ std::string linkage_code(const LinkagePart& part) {
     if (!drawn && plane) text += expected_text("LinkageSketch", "sketch", call_text(mechanism));
     const std::string sketch = drawn ? "ik::linkage_from(sketch)" : "ik::linkage_from(*sketch)";
     text += expected_text("Linkage", "linkage", plane ? sketch : call_text(mechanism));
+    text += ranges_text(part);
     text +=
         "    Expected<ik::LinkageSolver> made = ik::LinkageSolver::make(*linkage);\n"
         "    if (!made) return std::puts(made.message()), 1;\n"
         "    ik::LinkageSolver& solver = *made;\n"
         "    // All that it remembers: copy it to save it.\n"
-        "    ik::LinkageState state = solver.initial_state();\n\n"
+        "    ik::LinkageState state = solver.initial_state();\n";
+    text += state_text(part);
+    if (!part.copies.empty())
+        text +=
+            "    // One of the twelve legs. The others are the same linkage, each with a state of its own, "
+            "its\n"
+            "    // motor a sixth of a turn further from pair to pair; half of them are mirrored.\n";
+    text +=
+        "\n"
         "    for (int frame = 0; frame <= 60; ++frame) {\n"
         "        std::vector<ik::LinkDriver> drivers;\n";
     for (const LinkageDrive& each : part.drives) {

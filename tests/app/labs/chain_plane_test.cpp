@@ -124,6 +124,25 @@ TEST_F(ChainPlaneTest, APlaneComesBackFromFileAndUndo) {
     EXPECT_EQ(part().reach, before);
 }
 
+TEST_F(ChainPlaneTest, LimitsComeBackWhenThePlaneGoes) {
+    reach_with(4);
+    run("chain.limit", {{"index", 2}, {"kind", "hinge"}});
+    const ik::Limit hinge = limit_of(part().reach, 2);
+    run("chain.plane", {{"normal", {0, 0, 1}}});
+    EXPECT_TRUE(part().reach.limits.empty());
+    const auto loaded = part().load(part().save(), "chain");
+    EXPECT_EQ(dynamic_cast<const ChainPart&>(*loaded).reach, part().reach);
+    run("chain.plane", {{"normal", {1, 0, 1}}});
+    run("chain.insert", {{"index", 1}, {"length", 0.5}});
+    run("chain.plane", {{"off", true}});
+    EXPECT_EQ(limit_of(part().reach, 3), hinge);
+}
+
+TEST_F(ChainPlaneTest, ACurveTakesNoPlane) {
+    run("chain.preset", {{"name", "tail"}});
+    expect_refused("chain.plane", {{"normal", {0, 0, 1}}}, {"curve", "control points"});
+}
+
 TEST_F(ChainPlaneTest, EveryModeAndDragStaysInThePlane) {
     run("chain.preset", {{"name", "tentacle"}, {"count", 8}});
     for (const char* const mode : {"forward", "backward", "fixed", "with_index", "reach"}) {
