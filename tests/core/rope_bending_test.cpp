@@ -25,19 +25,21 @@ TEST(RopeBendingTest, ACantileverDeflectsByItsClosedForm) {
     constexpr double gravity = 9.81, tip = 0.01, stiffness = 1.0;
     constexpr float density = 1e-3f;
     const double wanted = gravity * (tip / (3.0 * stiffness) + density / (8.0 * stiffness));
-    for (const double substep : {1.0 / 60.0, 1.0 / 240.0, 1.0 / 960.0})
-        for (const int segments : {16, 64, 256}) {
-            if (segments == 256 && substep < 1.0 / 240.0) continue;  // takes too long
-            World world = clamped(segments, {1, 0, 0}, 1.0f, density, tip, substep);
-            run(world, 3.0);
-            EXPECT_NEAR(-world.state().position.back().y, wanted, 0.01 * wanted)
-                << segments << " segments, substep " << substep;
-        }
+    const struct {
+        int segments;
+        double substep;
+    } cases[] = {{16, 1.0 / 60.0}, {64, 1.0 / 60.0}, {256, 1.0 / 60.0}, {16, 1.0 / 960.0}};
+    for (const auto& [segments, substep] : cases) {
+        World world = clamped(segments, {1, 0, 0}, 1.0f, density, tip, substep);
+        run(world, 3.0);
+        EXPECT_NEAR(-world.state().position.back().y, wanted, 0.01 * wanted)
+            << segments << " segments, substep " << substep;
+    }
 }
 
 /// A column of length L under its own weight q per metre buckles at q L^3 / EI = 7.837 (A. Greenhill, 1881).
 TEST(RopeBendingTest, AColumnBucklesUnderItsOwnWeight) {
-    for (const int segments : {16, 64, 256})
+    for (const int segments : {16, 256})
         for (const double load : {0.95, 1.05}) {
             const auto bending = static_cast<float>(9.81 / (7.837 * load));
             rope::State state = clamped(segments, {0, 1, 0}, bending, 1.0f, 0.0, 1.0 / 60.0).state();

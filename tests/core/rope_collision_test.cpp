@@ -376,6 +376,21 @@ World thrown(Random& random) {
     return world;
 }
 
+/// How deep anything is in a collider, metres: so high a resting one may lift it.
+double depth(const World& world) {
+    double deepest = 0.0;
+    const auto& at = world.state().position;
+    for (const rope::Body& body : world.state().bodies)
+        for (const rope::Link& link : world.state().links)
+            for (int i = 0; body.first <= link.a && link.a < body.first + body.count && i <= 10; ++i)
+                for (const rope::Collider& collider : world.state().colliders) {
+                    const dvec3 point = glm::mix(at[link.a], at[link.b], 0.1 * i);
+                    deepest =
+                        std::max(deepest, body.radius - surface_distance(collider.shape, point).distance);
+                }
+    return deepest;
+}
+
 void play_thrown(int seed) {
     SCOPED_TRACE(seed);
     Random random(static_cast<std::uint64_t>(seed));
@@ -389,7 +404,7 @@ void play_thrown(int seed) {
         return all;
     };
     std::vector<std::vector<dvec3>> before = ropes();
-    const double energy = world.energy(), all = weight(world);
+    const double energy = world.energy(), all = weight(world), deep = depth(world);
     for (int substep = 0; substep < 240; ++substep) {
         world.advance(world.settings().substep);
         ASSERT_TRUE(all_finite(world)) << "substep " << substep;
@@ -406,7 +421,7 @@ void play_thrown(int seed) {
         }
         // Ties that close do work.
         if (world.settings().solver != rope::Solver::Direct || !world.state().ties.empty()) continue;
-        ASSERT_LT(world.energy() - energy, 0.1 * all) << "substep " << substep;
+        ASSERT_LT(world.energy() - energy, (0.01 + deep) * all) << "substep " << substep;
     }
 }
 
