@@ -22,8 +22,8 @@ std::uint64_t solve_hash();
 /// The expected curve_hash().
 inline constexpr std::uint64_t golden_curve_hash = 0x6412e79709d604deu;
 
-/// Places 400 chains along moving curves of both kinds, fitted or not, rolled and half blended, and hashes the
-/// bits of every joint and rotation.
+/// Places 400 chains along moving curves of both kinds, fitted or not, rolled and half blended, and hashes
+/// the bits of every joint and rotation.
 std::uint64_t curve_hash();
 
 /// The expected linkage_hash().

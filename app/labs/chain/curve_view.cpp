@@ -164,7 +164,7 @@ void curve_report_rows(const ChainPart& part, const Palette& palette, Emit& emit
                      const std::size_t past = report.bones_past_end;
                      note(report.collapsed ? "The curve has no direction: drag a control point away."
                           : past == 0      ? "Every joint lies on the curve."
-                                      : count_text(past, "bone") + (past == 1 ? " goes" : " go") +
+                                           : count_text(past, "bone") + (past == 1 ? " goes" : " go") +
                                             " on straight past its last point.");
                      if (past == 0 || part.curve.fit) return;
                      cure_line("",

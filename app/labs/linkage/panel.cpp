@@ -231,6 +231,7 @@ void length_rows(const LinkagePart& part, MoreRows& more, Emit& emit) {
     const Mechanism& mechanism = part.shape->mechanism;
     const MechanismKind* const kind = kind_of(mechanism);
     if (kind == nullptr) return note("Drawn by hand: select a joint, and set its bars beside it.");
+    ImGui::PushID("lengths");  // a motor may have a length's name
     const FieldRows rows(mechanism_fields(mechanism), kind->texts, "linkage.set", emit);
     for (const FieldText& text : kind->texts) {
         const Field& field = *find_field(kind->fields, text.name);
@@ -243,6 +244,7 @@ void length_rows(const LinkagePart& part, MoreRows& more, Emit& emit) {
         else
             rows.row(field.name);
     }
+    ImGui::PopID();
 }
 
 constexpr PastHelp linkage_past_help{
@@ -289,8 +291,8 @@ void freedom_rows(const LinkagePart& part) {
             "Between the coupler and what it moves: near 90 degrees it pushes well, below 40 badly, at 0 it "
             "is at a dead point.");
     }
-    reading("closed to", "%s", si_text(part.result.report.closed_to, "m").c_str());
-    explain("The largest distance between two points that should be one.");
+    reading("loop error", "%s", error_text(part.result.report.closed_to).c_str());
+    explain("The largest distance between two points that should be one; none: less than 0.01 mm.");
 }
 
 void bar_rows(const LinkagePart& part, std::size_t at, Emit& emit) {

@@ -120,10 +120,9 @@ std::span<const FieldText> field_texts<BodySettings>() {
          .unit = "%/N"},
         {.name = "bending",
          .label = "bending",
-         .help =
-             "How hard a rope is to bend: Young's modulus times the second moment of its cross-section. "
-             "A shoelace has 1e-5, a garden hose 0.1, a steel wire of 3 mm 0.8. Only the direct solver "
-             "bends.",
+         .help = "How hard a rope is to bend: Young's modulus times the second moment of its cross-section. "
+                 "A shoelace has 1e-5, a garden hose 0.1, a steel wire of 3 mm 0.8. Only the direct solver "
+                 "bends.",
          .step = 0.001f,
          .decimals = 4,
          .at_zero = "limp"},

@@ -157,7 +157,7 @@ std::optional<glm::vec3> pole_of_limb(const Problem& problem) noexcept {
     const glm::dvec3 root = wide(problem.root()), to_target = minus(wide(problem.target), root);
     const glm::dvec3 line =
         limb_line({minus(wide(problem.joints[1]), root), minus(wide(problem.joints[2]), root), to_target,
-                 static_cast<double>(problem.scratch.reach)});
+                   static_cast<double>(problem.scratch.reach)});
     return narrow(plus(root, times(planar_side(problem, line), static_cast<double>(problem.scratch.reach))));
 }
 
