@@ -2,6 +2,9 @@
 // Single operations use the library's functions, which have tests of their own.
 #pragma once
 
+#include <gtest/gtest.h>
+
+#include <algorithm>
 #include <map>
 
 #include "rig_rigs.hpp"

@@ -91,7 +91,7 @@ std::shared_ptr<Part> ChainPart::load(const Json& json, const std::string& where
         part->index = static_cast<std::size_t>(place["index"].integer(0, last));
         // Scenes older than mode Reach have no such part.
         if (place.has("reach")) part->reach = load_reach(place["reach"], part->chain);
-        if (const auto along = place.optional("curve")) part->curve = load_curve(*along);
+        if (const auto drawn = place.optional("curve")) part->curve = load_curve(*drawn);
         if (part->mode == ChainMode::Curve) {
             std::swap(part->chain, part->along.given);
             follow_curve(*part);

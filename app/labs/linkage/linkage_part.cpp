@@ -262,9 +262,9 @@ Json LinkagePart::save() const {
 std::shared_ptr<Part> LinkagePart::load(const Json& json, const std::string& where) const {
     const JsonPlace place(json, where);
     auto part = std::make_shared<LinkagePart>();
-    LinkageShape shape = load_shape(place);
-    if (const auto ranges = place.optional("ranges")) load_ranges(*ranges, shape);
-    part->shape = std::make_shared<const LinkageShape>(std::move(shape));
+    LinkageShape loaded = load_shape(place);
+    if (const auto ranges = place.optional("ranges")) load_ranges(*ranges, loaded);
+    part->shape = std::make_shared<const LinkageShape>(std::move(loaded));
     part->state = load_state(place["joints"], part->linkage());
     part->copies = copies_of(*part->shape, part->state);
     if (!part->copies.empty()) {
@@ -286,21 +286,21 @@ std::shared_ptr<Part> LinkagePart::load(const Json& json, const std::string& whe
             selected_point->fail("there is no point \"" + part->selected + "\"");
     }
     // The pose stays as it was saved, to the bit; the report is that of a solve from there.
-    const std::vector<LinkageDrive> drives = part->drives;
-    std::vector<LinkageCopy> copies = part->copies;
+    const std::vector<LinkageDrive> saved_drives = part->drives;
+    std::vector<LinkageCopy> saved_copies = part->copies;
     const ik::LinkageState saved = part->state;
     LinkageRuntime runtime;
     solve_linkage(*part, runtime);
     ik::LinkageSolver& solver = runtime.solver(part->shape);
-    const auto put_back = [&](const ik::LinkageState& state, std::vector<ik::LinkPlace>& links) {
-        static_cast<void>(solver.place(state));
-        links.assign(solver.links().begin(), solver.links().end());
+    const auto put_back = [&](const ik::LinkageState& from, std::vector<ik::LinkPlace>& places) {
+        static_cast<void>(solver.place(from));
+        places.assign(solver.links().begin(), solver.links().end());
     };
     part->state = saved;
     put_back(saved, part->links);
-    for (LinkageCopy& each : copies) put_back(each.state, each.links);
-    part->copies = std::move(copies);
-    part->drives = drives;
+    for (LinkageCopy& each : saved_copies) put_back(each.state, each.links);
+    part->copies = std::move(saved_copies);
+    part->drives = saved_drives;
     return part;
 }
 
