@@ -296,7 +296,7 @@ void add_reach_commands(CommandTable& table) {
                       "normal",
                       set_plane));
     table.add(chain_command(
-        "chain.bend", "Bend the planar chain left or right",
+        "chain.bend", "Bend the chain in its plane",
         {choice_argument("side", true, "of the line from root to tip, in the 2D view", bend_sides.names())},
         "Bends a chain in a plane to one side; a pole target chooses its own", set_bend));
     table.add(

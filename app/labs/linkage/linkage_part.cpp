@@ -125,7 +125,8 @@ ik::LinkageSketch load_sketch(const JsonPlace& place) {
         ik::SketchMotor motor{
             .name = each["name"].text(), .point = point_of(each["point"]), .bar = bar_of(each["bar"])};
         if (const auto against = each.optional("against")) motor.against = bar_of(*against);
-        check_link_name(each["name"], sketch, motor.name);
+        // It may share its own bar's name, as in presets: they are one link.
+        if (motor.name != sketch.bars[motor.bar].name) check_link_name(each["name"], sketch, motor.name);
         sketch.motors.push_back(std::move(motor));
     });
     return sketch;
