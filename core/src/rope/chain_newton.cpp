@@ -23,7 +23,7 @@ constexpr int max_rejected = 3;     ///< consecutive steps that may be repeated
 /// its weight stretches by a millionth.
 constexpr double min_compliance = 1e-8;
 constexpr double accepted = 1e-5;  ///< relative length error
-/// So often steps become wild, or late ones worse, before links keep their resistance to turning: a fold that
+/// So often steps become wild before links keep their resistance to turning: a fold that
 /// runs along a rope would have them go wild again and again, and end so.
 constexpr int max_relapses = 2;
 constexpr double first_stiffer = 10.0;
@@ -189,7 +189,6 @@ bool ChainNewton::step(bool presses, bool more) {
     p.moved = true;
     p.used = p.stiffer;
     const double before = std::exchange(p.worst, system.largest_error());
-    if (p.taken > steps_to_let_go && p.worst > std::max(before, 100.0 * accepted)) p.relapses = max_relapses;
     if (p.relapses < max_relapses)
         p.stiffer = p.stiffer > first_stiffer ? 0.1 * p.stiffer : 0.0;
     else
