@@ -244,9 +244,8 @@ TEST(RigSolve, ASplineLaysBonesAlongACurveAndRollsThemWithIt) {
     ik::State state(3);
     ik::CurveMemory memory;
     ik::place_along(points, {lengths, rest}, joints, state, memory);
-    for (int i = 0; i < 4; ++i)
-        expect_near(rig.global(std::string(1, static_cast<char>('a' + i)).c_str()).translation, joints[i],
-                    1e-5);
+    const char* const names[] = {"a", "b", "c", "d"};
+    for (std::size_t i = 0; i < 4; ++i) expect_near(rig.global(names[i]).translation, joints[i], 1e-5);
     const glm::dquat b = rig.global("b").rotation,
                      expected = glm::dquat(state.rotations[1]) * turned(30, {0, 1, 0}).rotation;
     EXPECT_NEAR(std::abs(glm::dot(b, expected)), 1.0, 1e-6) << "the rest twist is kept";
