@@ -1,0 +1,237 @@
+#include "tendril/humanoid/bent_chain.hpp"
+
+#include <algorithm>
+
+#include "humanoid/input.hpp"
+#include "humanoid/limb.hpp"
+#include "ik/curve/path.hpp"
+#include "math/checks.hpp"
+
+namespace tendril::humanoid {
+namespace {
+
+using namespace rig::detail;
+using math::narrow;
+using math::wide;
+using tendril::detail::refused;
+
+constexpr double shortest_bone = 1e-9;
+
+glm::quat narrow_turn(const glm::dquat& q) noexcept {
+    return {static_cast<float>(q.w), static_cast<float>(q.x), static_cast<float>(q.y),
+            static_cast<float>(q.z)};
+}
+glm::dquat wide_turn(const glm::quat& q) noexcept {
+    return unit_quaternion(static_cast<double>(q.w), static_cast<double>(q.x), static_cast<double>(q.y),
+                           static_cast<double>(q.z));
+}
+
+/// The parent of a chain, seen from the space of the control points: there it is not turned.
+Placement seen_from_points(const Placement& above) noexcept {
+    return placement(rig::Transform{.rotation = conjugate(above.rotation())}) *
+           Placement{above.axes, glm::dvec3(0.0)};
+}
+
+float weight_of(const BendOptions& options, std::size_t bone) noexcept {
+    return options.weight * (options.weights.empty() ? 1.0f : options.weights[bone]);
+}
+
+}  // namespace
+
+struct BentChain::Plan {
+    std::size_t count = 0;             // of the skeleton's nodes
+    std::vector<std::int32_t> path{};  // from the root to the parent of the chain
+    std::vector<std::size_t> nodes{};
+    // Of each bone at rest, in the space of the points.
+    std::vector<glm::dvec3> directions{};
+    std::vector<glm::dquat> rotations{};
+    // Scratch. Joints and points are relative to the first joint.
+    std::vector<Placement> placed{};
+    std::vector<glm::vec3> joints{}, points{}, rest{};
+    std::vector<float> lengths{};
+    ik::State state{};
+
+    std::size_t bones() const noexcept { return nodes.size() - 1; }
+    Placement parent(std::span<const rig::Transform> pose) const noexcept {
+        Placement at;
+        for (const std::int32_t node : path) at = at * placement(pose[static_cast<std::size_t>(node)]);
+        return at;
+    }
+    /// Places the chain's nodes in the space of the points. False if a number is too large.
+    bool place_nodes(Placement at, std::span<const rig::Transform> pose,
+                     std::span<Placement> to) const noexcept {
+        for (std::size_t i = 0; i < nodes.size(); ++i) {
+            at = to[i] = at * placement(pose[nodes[i]]);
+            if (!detail::is_moderate(at)) return false;
+        }
+        return true;
+    }
+    bool take_rest(const Skeleton& skeleton);
+    ik::CurveReport bend(std::span<rig::Transform> pose, std::span<const glm::vec3> points,
+                         const BendOptions& options, ik::CurveMemory& memory) noexcept;
+    void lay(std::span<rig::Transform> pose, Placement at, const glm::dquat& swing,
+             const BendOptions& options, double factor) noexcept;
+};
+
+/// False if the chain has no length. A bone without length points as the one before it, or else the next.
+bool BentChain::Plan::take_rest(const Skeleton& skeleton) {
+    const std::vector<rig::Transform> pose = rest_pose(skeleton);
+    if (!place_nodes(seen_from_points(parent(pose)), pose, placed)) return false;
+    std::optional<glm::dvec3> last;
+    for (std::size_t i = 0; i < bones(); ++i) {
+        const glm::dvec3 way = minus(placed[i + 1].position, placed[i].position);
+        if (const auto direction = direction_of(way, shortest_bone)) {
+            if (!last) std::ranges::fill(directions, *direction);
+            last = direction;
+        }
+        if (last) directions[i] = *last;
+        rotations[i] = placed[i].rotation();
+    }
+    return last.has_value();
+}
+
+Expected<BentChain> BentChain::make(const Skeleton& skeleton, std::size_t first, std::size_t last) {
+    constexpr const char* operation = "BentChain";
+    for (const std::size_t node : {first, last})
+        if (node >= skeleton.size())
+            return tendril::detail::refused_index(operation, node, skeleton.size(), "the skeleton", "nodes");
+    if (first == last || !skeleton.is_below(last, first))
+        return refused(operation, "last", "a node below first", std::string_view(skeleton[last].name));
+    auto plan = std::make_unique<Plan>();
+    plan->count = skeleton.size();
+    for (std::size_t node = last; node != first; node = static_cast<std::size_t>(skeleton[node].parent))
+        plan->nodes.push_back(node);
+    plan->nodes.push_back(first);
+    std::ranges::reverse(plan->nodes);
+    for (std::int32_t node = skeleton[first].parent; node >= 0;
+         node = skeleton[static_cast<std::size_t>(node)].parent)
+        plan->path.push_back(node);
+    std::ranges::reverse(plan->path);
+
+    const std::size_t bones = plan->bones();
+    plan->directions.resize(bones);
+    plan->rotations.resize(bones);
+    plan->placed.resize(bones + 1);
+    plan->joints.resize(bones + 1);
+    plan->points.resize(max_points + 1);
+    plan->rest.resize(bones);
+    plan->lengths.resize(bones);
+    plan->state = ik::State(bones);
+    if (!plan->take_rest(skeleton))
+        return refused(operation, "first", "the start of a chain that has a length",
+                       std::string_view(skeleton[first].name));
+    return BentChain(std::move(plan));
+}
+
+BentChain::BentChain(std::unique_ptr<Plan> plan) noexcept : plan_(std::move(plan)) {}
+BentChain::~BentChain() = default;
+BentChain::BentChain(BentChain&&) noexcept = default;
+BentChain& BentChain::operator=(BentChain&&) noexcept = default;
+
+std::span<const std::size_t> BentChain::nodes() const noexcept {
+    return plan_->nodes;
+}
+
+Placement BentChain::space(std::span<const Placement> placed) const noexcept {
+    if (plan_->path.empty()) return {};
+    const Placement& at = placed[static_cast<std::size_t>(plan_->path.back())];
+    return placement(rig::Transform{.translation = at.position, .rotation = at.rotation()});
+}
+
+std::vector<glm::vec3> BentChain::points_through(std::span<const rig::Transform> pose,
+                                                 std::size_t count) const {
+    std::vector<glm::vec3> points;
+    std::vector<Placement> placed(plan_->nodes.size());
+    if (pose.size() != plan_->count || !detail::is_sane(pose) ||
+        !plan_->place_nodes(seen_from_points(plan_->parent(pose)), pose, placed))
+        return points;
+    count = std::min(std::min(count, max_points), bones());
+    for (std::size_t i = 1; i <= count; ++i) points.push_back(narrow(placed[i * bones() / count].position));
+    return points;
+}
+
+ik::CurveReport BentChain::Plan::bend(std::span<rig::Transform> pose, std::span<const glm::vec3> given,
+                                      const BendOptions& options, ik::CurveMemory& memory) noexcept {
+    constexpr auto refusal = ik::Status::InvalidInput;
+    if (pose.size() != count || !detail::is_sane(pose) || given.empty() || given.size() > max_points ||
+        !std::ranges::all_of(given, tendril::detail::is_point))
+        return {.status = refusal};
+    const Placement above = parent(pose);
+    if (!detail::is_moderate(above)) return {.status = refusal};
+    const Placement at = seen_from_points(above);
+    if (!place_nodes(at, pose, placed)) return {.status = refusal};
+
+    double reach = 0.0;
+    const glm::dvec3 root = placed[0].position;
+    joints[0] = glm::vec3(0.0f);
+    for (std::size_t i = 0; i < bones(); ++i) {
+        const double bone = length(minus(placed[i + 1].position, placed[i].position));
+        joints[i + 1] = narrow(minus(placed[i + 1].position, root));
+        lengths[i] = static_cast<float>(bone);
+        reach += bone;
+    }
+    // A point that was put on the first joint is a rounding away from it, which gives no direction.
+    const double nothing = 1e-6 * reach + 1e-7 * length(root);
+    const std::span<glm::vec3> curve = std::span(points).first(given.size() + 1);
+    curve[0] = glm::vec3(0.0f);
+    for (std::size_t i = 0; i < given.size(); ++i) {
+        const glm::dvec3 way = minus(wide(given[i]), root);
+        curve[i + 1] = length(way) > nothing ? narrow(way) : glm::vec3(0.0f);
+    }
+    ik::detail::Path along(curve, options.kind, directions[0]);
+    const glm::dquat swing = minimal_rotation(directions[0], along.tangent({}, directions[0]));
+    for (std::size_t i = 0; i < bones(); ++i) {
+        const glm::dquat straight = math::compose(swing, rotations[i]);
+        rest[i] = narrow(rotated(swing, directions[i]));
+        state.rotations[i] = narrow_turn(math::compose(placed[i].rotation(), conjugate(straight)));
+    }
+    const ik::CurveReport report =
+        ik::place_along(curve, {lengths, rest}, joints, state, memory,
+                        {.kind = options.kind,
+                         .fit = options.fit,
+                         .max_factor = options.max_factor,
+                         .up = narrow(rotated(swing, perpendicular(directions[0]))),
+                         .roll_start = options.roll_start,
+                         .roll_end = options.roll_end,
+                         .weight = options.weight,
+                         .weights = options.weights});
+    if (report.status != refusal) lay(pose, at, swing, options, static_cast<double>(report.factor));
+    return report;
+}
+
+/// Turns the nodes as the solve has turned the bones, and then each by the shortest arc to where its bone
+/// should point: a pose may move a node within its parent, and a scale may shear it.
+void BentChain::Plan::lay(std::span<rig::Transform> pose, Placement at, const glm::dquat& swing,
+                          const BendOptions& options, double factor) noexcept {
+    bool moved = false;  // the bones before the first one with a weight keep their bits
+    for (std::size_t i = 0; i < bones(); ++i) {
+        rig::Transform& local = pose[nodes[i]];
+        glm::dvec3& end = pose[nodes[i + 1]].translation;
+        const double weight = static_cast<double>(weight_of(options, i));
+        moved = moved || weight > 0.0;
+        if (moved) {
+            const glm::dquat turned =
+                math::compose(math::compose(wide_turn(state.rotations[i]), swing), rotations[i]);
+            detail::turn(local, at, math::compose(turned, conjugate((at * placement(local)).rotation())));
+            const Placement now = at * placement(local);
+            const auto is = direction_of(minus(now.apply(end), now.position), shortest_bone);
+            const auto should = direction_of(minus(wide(joints[i + 1]), wide(joints[i])), shortest_bone);
+            if (is && should) detail::turn(local, at, minimal_rotation(*is, *should));
+            if (factor != 1.0) end = times(end, 1.0 + weight * (factor - 1.0));
+        }
+        at = at * placement(local);
+    }
+}
+
+ik::CurveReport BentChain::bend(std::span<rig::Transform> pose, std::span<const glm::vec3> points,
+                                const BendOptions& options, ik::CurveMemory& memory) noexcept {
+    return plan_->bend(pose, points, options, memory);
+}
+
+ik::CurveReport BentChain::bend(std::span<rig::Transform> pose, std::span<const glm::vec3> points,
+                                const BendOptions& options) noexcept {
+    ik::CurveMemory none;
+    return plan_->bend(pose, points, options, none);
+}
+
+}  // namespace tendril::humanoid
