@@ -62,10 +62,10 @@ Result check_targets(std::span<const BodyTarget> targets) noexcept {
         if (!(target.weight >= 0.0 && target.weight <= 1e3))
             return refused("Body::solve", Argument("targets", i, "weight"), "from 0 to 1e3", target.weight);
         if (!target.rotation) continue;
-        const double size = std::sqrt(dot(*target.rotation, *target.rotation));
-        if (!(size > 1e-6 && size <= static_cast<double>(max_magnitude)))
-            return refused("Body::solve", Argument("targets", i, "rotation"), "a rotation",
-                           tendril::detail::Shown("a quaternion of length ", size));
+        if (const Result bad =
+                detail::check_rotation("Body::solve", Argument("targets", i, "rotation"), *target.rotation);
+            !bad)
+            return bad;
     }
     return {};
 }

@@ -6,7 +6,6 @@
 
 #include "humanoid/body_tuning.hpp"
 #include "humanoid/input.hpp"
-#include "humanoid/joint_turn.hpp"
 #include "rig/math.hpp"
 
 namespace tendril::humanoid::detail {
@@ -292,7 +291,7 @@ void BodySolve::turn_end(const Goal& goal) noexcept {
             link.turn = math::compose(rotation_about(*along, -twist), link.turn);
         }
     }
-    if (clamp_turn(link)) steps_[static_cast<std::size_t>(work_.ends[goal.effector])].blocked = 1;
+    if (clamp_turn(link)) steps_[static_cast<std::size_t>(work_.ends[goal.effector])].freedom.blocked = 1;
 }
 
 void BodySolve::report(std::span<const rig::Transform> pose, BodyReport& report) noexcept {
@@ -307,7 +306,8 @@ void BodySolve::report(std::span<const rig::Transform> pose, BodyReport& report)
     }
     report.penetration = deepest();
     for (std::size_t i = 0; i < work_.links.size(); ++i)
-        if (steps_[i].blocked > 0) report.at_limit[static_cast<std::size_t>(work_.links[i].bone)] = true;
+        if (steps_[i].freedom.blocked > 0)
+            report.at_limit[static_cast<std::size_t>(work_.links[i].bone)] = true;
 }
 
 }  // namespace tendril::humanoid::detail

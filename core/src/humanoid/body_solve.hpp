@@ -6,6 +6,7 @@
 #include "humanoid/balance.hpp"
 #include "humanoid/body_tuning.hpp"
 #include "humanoid/body_work.hpp"
+#include "humanoid/joint_turn.hpp"
 
 namespace tendril::humanoid::detail {
 
@@ -55,10 +56,8 @@ class BodySolve {
         unsigned rows = 0;        ///< a bit for each equation that its turn affects
         glm::dvec3 turn{0.0};     ///< a rotation vector in the character's space
         glm::dvec3 back{0.0};     ///< its part towards the clip's pose
-        glm::dvec3 hinge{0.0};    ///< axis in the character's space
         double compliance = 0.0;  ///< radians per unit torque
-        int blocked = 0;
-        std::array<glm::dvec3, 3> outward{};  ///< orthonormal directions blocked by the limit
+        TurnFreedom freedom{};
     };
 
     struct FootPlace {

@@ -3,8 +3,6 @@
 #include <cmath>
 
 #include "humanoid/body_solve.hpp"
-#include "humanoid/joint_turn.hpp"
-#include "ik/limits/clamp.hpp"
 #include "rig/math.hpp"
 
 namespace tendril::humanoid::detail {
@@ -38,15 +36,10 @@ void RowEquations::solve() noexcept {
     }
 }
 
-/// The part of a torque that can turn the link: about its hinge if it has one, and in no blocked direction.
 glm::dvec3 BodySolve::allowed_torque(std::size_t link, const glm::dvec3& torque) const noexcept {
     const Link& at = work_.links[link];
     if (at.parent < 0 && hips_given_) return glm::dvec3(0.0);
-    glm::dvec3 result = torque;
-    if (at.limit.hinge()) result = times(steps_[link].hinge, dot(steps_[link].hinge, torque));
-    for (int i = 0; i < steps_[link].blocked; ++i)
-        result = across(result, steps_[link].outward[static_cast<std::size_t>(i)]);
-    return result;
+    return steps_[link].freedom.allowed(at, torque);
 }
 
 void BodySolve::find_step(double damping, const Relaxation& relaxation) noexcept {
@@ -65,13 +58,12 @@ void BodySolve::find_step(double damping, const Relaxation& relaxation) noexcept
     for (std::size_t i = 0; i < work_.links.size(); ++i) {
         const Link& link = work_.links[i];
         Step& step = steps_[i];
-        step.blocked = 0;
         step.rows = 0;
         const glm::dquat before = link.parent < 0
                                       ? glm::dquat(1.0, 0.0, 0.0, 0.0)
                                       : work_.links[static_cast<std::size_t>(link.parent)].rotation;
+        step.freedom.begin(link, before);
         if (link.effectors == 0) continue;
-        if (link.limit.hinge()) step.hinge = rotated(before, link.hinge);
         double stiffness = damping / link.mobility;
         for (std::size_t k = 0; k < count_; ++k) {
             const Goal& goal = goals_[k];
@@ -163,36 +155,11 @@ bool BodySolve::block_limits() noexcept {
     bool changed = false;
     for (std::size_t i = 0; i < work_.links.size(); ++i) {
         const Link& link = work_.links[i];
-        Step& step = steps_[i];
-        if (link.effectors == 0 || link.limit.free() || step.blocked == 3) continue;
-        if (dot(step.turn, step.turn) < 1e-24) continue;
-        const glm::quat turn = narrow(link.turn);
-        if (!link.limit.hinge() && ik::detail::is_inside(link.limit, turn)) continue;
+        if (link.effectors == 0) continue;
         const glm::dquat before = link.parent < 0
                                       ? glm::dquat(1.0, 0.0, 0.0, 0.0)
                                       : work_.links[static_cast<std::size_t>(link.parent)].rotation;
-        const auto block = [&](const glm::dvec3& outward) {
-            glm::dvec3 left = outward;
-            for (int j = 0; j < step.blocked; ++j)
-                left = across(left, step.outward[static_cast<std::size_t>(j)]);
-            const auto direction = direction_of(left, 1e-6);
-            if (!direction || step.blocked == 3) return;
-            step.outward[static_cast<std::size_t>(step.blocked++)] = *direction;
-            changed = true;
-        };
-        if (link.limit.hinge()) {
-            const double angle = hinge_angle(link.hinge, link.turn), by = dot(step.hinge, step.turn);
-            const double low = static_cast<double>(link.limit.min),
-                         high = static_cast<double>(link.limit.max);
-            if ((by > 0.0 && angle >= high - 1e-6) || (by < 0.0 && angle <= low + 1e-6)) block(step.hinge);
-            continue;
-        }
-        const ik::detail::Bounds bounds = ik::detail::bounds_of(link.limit, turn);
-        for (int j = 0; j < bounds.count; ++j) {
-            const glm::dvec3 outward = rotated(before, math::wide(bounds.at[j].outward));
-            const double by = dot(outward, step.turn);
-            if (by > 1e-12 || (bounds.at[j].both && by < -1e-12)) block(outward);
-        }
+        changed |= steps_[i].freedom.block_limit(link, link.turn, before, steps_[i].turn);
     }
     return changed;
 }

@@ -42,4 +42,13 @@ inline bool is_sane(std::span<const rig::Transform> pose) noexcept {
     return first_insane(pose) == pose.size();
 }
 
+/// A quaternion that can be normalised.
+inline Result check_rotation(std::string_view operation, const tendril::detail::Argument& argument,
+                             const glm::dquat& q) noexcept {
+    const double size = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
+    if (size > 1e-6 && size <= static_cast<double>(max_magnitude)) return {};
+    return tendril::detail::refused(operation, argument, "a rotation",
+                                    tendril::detail::Shown("a quaternion of length ", size));
+}
+
 }  // namespace tendril::humanoid::detail

@@ -42,7 +42,7 @@ double hinge_angle(const glm::dvec3& axis, const glm::dquat& turn) noexcept {
     return turn.w < 0.0 ? 2.0 * arctangent(-along, -turn.w) : 2.0 * arctangent(along, turn.w);
 }
 
-bool clamp_turn(Link& link) noexcept {
+bool clamp_turn(Link& link, float slack) noexcept {
     if (link.limit.free()) return false;
     if (link.limit.hinge()) {
         const double angle = hinge_angle(link.hinge, link.turn);
@@ -53,7 +53,7 @@ bool clamp_turn(Link& link) noexcept {
         return true;
     }
     glm::quat turn = narrow(link.turn);
-    if (!ik::detail::clamp(link.limit, turn)) return false;
+    if (!ik::detail::clamp(link.limit, turn, slack)) return false;
     link.turn = wide(turn);
     return true;
 }
@@ -81,6 +81,47 @@ void widen(Link& link) noexcept {
     wider.twist_min = std::min(limit.twist_min, angles.twist),
     wider.twist_max = std::max(limit.twist_max, angles.twist);
     limit = ik::detail::solvable_joint(wider, limit.bone);
+}
+
+void TurnFreedom::begin(const Link& link, const glm::dquat& before) noexcept {
+    blocked = 0;
+    if (link.limit.hinge()) hinge = rotated(before, link.hinge);
+}
+
+glm::dvec3 TurnFreedom::allowed(const Link& link, const glm::dvec3& turn) const noexcept {
+    glm::dvec3 result = turn;
+    if (link.limit.hinge()) result = times(hinge, dot(hinge, turn));
+    for (int i = 0; i < blocked; ++i) result = across(result, outward[static_cast<std::size_t>(i)]);
+    return result;
+}
+
+bool TurnFreedom::block(const glm::dvec3& direction) noexcept {
+    glm::dvec3 left = direction;
+    for (int i = 0; i < blocked; ++i) left = across(left, outward[static_cast<std::size_t>(i)]);
+    const auto unit = direction_of(left, 1e-6);
+    if (!unit || blocked == 3) return false;
+    outward[static_cast<std::size_t>(blocked++)] = *unit;
+    return true;
+}
+
+bool TurnFreedom::block_limit(const Link& link, const glm::dquat& turn, const glm::dquat& before,
+                              const glm::dvec3& step) noexcept {
+    if (link.limit.free() || blocked == 3 || dot(step, step) < 1e-24) return false;
+    const glm::quat at = narrow(turn);
+    if (link.limit.hinge()) {
+        const double angle = hinge_angle(link.hinge, turn), by = dot(hinge, step);
+        const double low = static_cast<double>(link.limit.min), high = static_cast<double>(link.limit.max);
+        return ((by > 0.0 && angle >= high - 1e-6) || (by < 0.0 && angle <= low + 1e-6)) && block(hinge);
+    }
+    if (ik::detail::is_inside(link.limit, at)) return false;
+    bool changed = false;
+    const ik::detail::Bounds bounds = ik::detail::bounds_of(link.limit, at);
+    for (int i = 0; i < bounds.count; ++i) {
+        const glm::dvec3 out = rotated(before, math::wide(bounds.at[i].outward));
+        const double by = dot(out, step);
+        if (by > 1e-12 || (bounds.at[i].both && by < -1e-12)) changed |= block(out);
+    }
+    return changed;
 }
 
 }  // namespace tendril::humanoid::detail

@@ -117,7 +117,8 @@ struct BodyReport {
 
 namespace detail {
 class BodySolve;
-}
+class HoldSolve;
+}  // namespace detail
 
 class Body {
   public:
@@ -147,6 +148,7 @@ class Body {
   private:
     struct Work;  // precomputed data and scratch
     friend class detail::BodySolve;
+    friend class detail::HoldSolve;
     explicit Body(std::unique_ptr<Work> work) noexcept;
     static void find_tips(Work& work, const Skeleton& skeleton);
     std::unique_ptr<Work> work_;

@@ -1,0 +1,110 @@
+// Hands that hold one thing: a wheel, a rifle, a box.
+//
+//     const std::vector<Grip> grips{{Effector::LeftHand, {0.2, 0, 0}}, {Effector::RightHand, {-0.2, 0, 0}}};
+//     HoldState state;  // a value, kept from frame to frame, beside the body's
+//     sample(clip, skeleton, seconds, pose);
+//     const auto report = hold(*body, pose, {}, {.grips = grips, .asked = wheel}, body_state, state);
+//     draw(report->object);  // where the hands hold it
+//
+// The grips close first: each hand is on its grip, turned as the grip says, within the limits of the arm's
+// joints. The object goes where it was asked to be only as far as that allows. If the arms cannot follow, it
+// gives way, and takes the nearest pose that the hands can hold; the report says by how much, which arm is
+// straight and which joint is at its limit. If no pose closes the grips, because the object is longer than
+// both arms, the hands share what is left between them.
+//
+// Method: Body::solve() reaches for the grips with hips and trunk. Then the arms and the object are solved
+// together, with the trunk where it is: sequential quadratic programming, in which the grips are equality
+// constraints, kept by the proximal method of multipliers (R. T. Rockafellar, "Augmented Lagrangians and
+// applications of the proximal point algorithm in convex programming", Mathematics of Operations Research
+// 1(2), 1976). A joint at its limit loses the direction that leads out of it (active set). As in the body's
+// solve, an arm counts as straight 0.08 % before its full length, so that the elbow does not snap.
+//
+// Self-collision and balance act while the body reaches; closing the grips then moves the arms without them.
+//
+// Cost: some 2 to 4 times Body::solve() with the same targets, measured by tests/bench/humanoid_hands.cpp.
+#pragma once
+
+#include "tendril/humanoid/body.hpp"
+
+namespace tendril::humanoid {
+
+/// Where a hand holds an object, in the frame of the object.
+struct Grip {
+    Effector hand = Effector::LeftHand;  ///< LeftHand or RightHand
+    glm::dvec3 position{0.0};            ///< of the hand's joint, metres
+    /// Of the hand's node. Unset: the hand turns with the forearm.
+    std::optional<glm::dquat> rotation{};
+    /// The hand may turn about this axis in its grip, as round a bar; any length. Zero: it may not.
+    glm::dvec3 axis{0.0};
+    bool operator==(const Grip&) const = default;
+};
+
+/// How a palm lies on an object, in the frame of the object. Vectors may have any length over 0.
+struct Palm {
+    Effector hand = Effector::LeftHand;
+    glm::dvec3 middle{0.0};             ///< of the palm, metres
+    glm::dvec3 fingers{0.0, 0.0, 1.0};  ///< where they point
+    glm::dvec3 faces{0.0, -1.0, 0.0};   ///< where the palm faces; only the part across the fingers counts
+    glm::dvec3 axis{0.0};               ///< Grip::axis
+};
+/// `reach`: metres from the hand's joint to the middle of its palm. Refuses an effector that is no hand, and
+/// directions that are zero, parallel or not finite. In the T-pose, the body's palms face down.
+Expected<Grip> grip_of(const Body& body, const Palm& palm, double reach);
+
+/// Where an object is, in the character's space.
+struct ObjectPose {
+    glm::dvec3 position{0.0};                 ///< metres
+    glm::dquat rotation{1.0, 0.0, 0.0, 0.0};  ///< unit
+    bool operator==(const ObjectPose&) const = default;
+};
+
+struct HeldObject {
+    std::span<const Grip> grips{};  ///< one or two, of different hands
+    ObjectPose asked{};
+};
+
+struct HoldOptions {
+    BodyOptions body{};
+    /// Metres, over 0 to 1e3: turning the object by a radian counts as much as moving it so far.
+    double turn_length = 0.3;
+    int max_iterations = 80;  ///< 1 to 1000
+};
+
+/// Where the last solve ended, to tell jumps. Empty: there was none.
+struct HoldState {
+    std::optional<ObjectPose> asked{};
+    std::array<glm::dvec3, 2> shoulders{};  ///< joints of the upper arms; left, right
+    std::array<glm::dvec3, 2> elbows{}, hands{};
+    bool operator==(const HoldState&) const = default;
+};
+
+struct GripReport {
+    bool holds = false;     ///< this hand has a grip
+    double gap = 0.0;       ///< metres between the hand's joint and the grip; 0 if closed
+    double off = 0.0;       ///< radians between the hand's rotation and the grip's; 0 if closed
+    bool straight = false;  ///< the arm is at its full length, and the object would take it farther
+};
+
+struct HoldReport {
+    BodyReport body{};    ///< of the reach; `at_limit` has the arms' joints as they hold the object
+    ObjectPose object{};  ///< where it is held
+    double moved = 0.0;   ///< metres from where it was asked to be
+    double turned = 0.0;  ///< radians from how it was asked to be turned
+    std::array<GripReport, 2> grips{};  ///< left, right
+    int iterations = 0;
+    bool settled = true;  ///< false: stopped by max_iterations
+    /// An elbow or hand has moved over 20 times as far as the asked grips and the shoulders.
+    bool jumped = false;
+    /// Every gap and turn is closed, to 1e-5 m and 5e-4 radians.
+    bool closed() const noexcept;
+};
+
+/// `pose`, `targets` and `body_state` are those of Body::solve(); `targets` may have none of a hand that
+/// holds. What that refuses is refused, and so are grips: none, more than two, of the same hand, of an
+/// effector that is no hand, and numbers that are not finite or out of range. Nothing changes then. Allocates
+/// nothing once `body_state` has been used.
+Expected<HoldReport> hold(Body& body, std::span<rig::Transform> pose, std::span<const BodyTarget> targets,
+                          const HeldObject& object, BodyState& body_state, HoldState& state,
+                          const HoldOptions& options = {});
+
+}  // namespace tendril::humanoid

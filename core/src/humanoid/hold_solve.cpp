@@ -1,0 +1,452 @@
+#include "humanoid/hold_solve.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "humanoid/input.hpp"
+#include "rig/math.hpp"
+
+namespace tendril::humanoid::detail {
+
+using namespace rig::detail;
+
+namespace {
+
+// Tuned by the tests of tests/core/humanoid_hold_test.cpp; relative to a square metre of the object's way.
+
+/// Of a radian of an upper arm in one step: larger, and the object takes more steps to where it is asked to
+/// be.
+constexpr double joint_damping = 0.02;
+/// From step to step it falls to this part of the last step's size: large steps are careful, small ones
+/// exact.
+constexpr double damping_part = 0.1, min_joint_damping = 1e-6;
+/// How far a grip gives in one step, before its force has grown: larger, and grips close in more steps.
+constexpr double grip_give = 0.01;
+/// Metres, and per metre that the object has given way: the largest force of a grip that the next step begins
+/// with.
+constexpr double force_kept = 2.0;
+/// The second derivative of the grips, along their forces: as BodySolve's residual_stiffness.
+constexpr double force_stiffness = 2.0;
+/// Part of a step by which it may pass a limit.
+constexpr double limit_tolerance = 0.01;
+constexpr int closing_steps = 20;
+constexpr int max_hold_changes = 6;  ///< of the set of limits, per step
+/// Radians, metres: of one step.
+constexpr double max_hold_step = 0.4;
+/// A smaller step ends the solve, if the grips are closed as well as they can be.
+constexpr double hold_tolerance = 1e-7;
+constexpr double jump_per_metre = 20.0, jump_slack = 1e-3;
+/// A joint is at a limit if a force over this would turn it by this much, radians, and it cannot.
+constexpr double told_force = 1e-5, told_turn = 1e-3;
+/// Radians that a bend may be over its least for the arm to count as straight.
+constexpr double straight_slack = 0.03;
+
+}  // namespace
+
+void HoldSolve::find_arms() noexcept {
+    for (const Grip& grip : object_.grips) {
+        Arm& arm = arms_[arm_count_];
+        arm.grip = &grip;
+        arm.end = static_cast<std::size_t>(work_.ends[static_cast<std::size_t>(grip.hand)]);
+        int at = static_cast<int>(arm.end);
+        if (!grip.rotation) at = link(arm.end).parent;  // the hand turns with the forearm
+        for (; at >= 0; at = link(static_cast<std::size_t>(at)).parent) {
+            const Bone bone = link(static_cast<std::size_t>(at)).bone;
+            if (bone < Bone::LeftShoulder || bone > Bone::RightHand || joint_count_ == joints_.size()) break;
+            joints_[joint_count_++] = {.link = static_cast<std::size_t>(at), .arm = arm_count_};
+        }
+        for (const BodyLimb& limb : work_.limbs)
+            if (limb.end == static_cast<int>(arm.end)) arm.limb = &limb;
+        if (arm.limb && arm.limb->square > 0.0) {
+            glm::dvec3 about;
+            arm.least_bend =
+                std::min(arm.limb->even / (2.0 * arm.limb->square), std::max(bend(arm, about), 0.0));
+        } else {
+            arm.limb = nullptr;
+        }
+        arm.forearm = direction_of(link(arm.end).offset, 1e-9).value_or(glm::dvec3(0.0));
+        ++arm_count_;
+    }
+}
+
+double HoldSolve::bend(const Arm& arm, glm::dvec3& about) const noexcept {
+    const Link& upper = link(static_cast<std::size_t>(arm.limb->upper));
+    const Link& lower = link(static_cast<std::size_t>(arm.limb->lower));
+    const glm::dvec3 first = minus(lower.position, upper.position),
+                     second = minus(link(arm.end).position, lower.position);
+    const glm::dvec3 axis = cross(first, second);
+    const double sine = length(axis);
+    about = sine > 1e-9 * length(first) * length(second) ? times(axis, 1.0 / sine)
+                                                         : rotated(upper.rotation, arm.limb->axis);
+    return arctangent(sine, dot(first, second));
+}
+
+/// The hand's rotation, as a link, on its grip.
+glm::dquat HoldSolve::wanted(const Arm& arm) const noexcept {
+    return math::compose(math::compose(at_.rotation, rig::normalised(*arm.grip->rotation)),
+                         conjugate(link(arm.end).rest));
+}
+
+/// Turns the hands as the grips want them, within their limits, before anything else moves.
+void HoldSolve::face_grips() noexcept {
+    for (std::size_t i = 0; i < arm_count_; ++i) {
+        const Arm& arm = arms_[i];
+        if (!arm.grip->rotation) continue;
+        Link& hand = link(arm.end);
+        hand.turn = math::compose(conjugate(before(hand)), wanted(arm));
+        clamp_hand(arm);
+    }
+}
+
+double HoldSolve::shared_twist(const Arm& arm) const noexcept {
+    const Link& hand = link(arm.end);
+    return options_.body.twist_share *
+           (hinge_angle(arm.forearm, hand.turn) - hinge_angle(arm.forearm, hand.own));
+}
+
+bool HoldSolve::clamp(const Joint& joint) noexcept {
+    const Arm& arm = arms_[joint.arm];
+    return joint.link == arm.end ? clamp_hand(arm) : clamp_turn(link(joint.link), 0.0f);
+}
+
+bool HoldSolve::clamp_hand(const Arm& arm) noexcept {
+    Link& hand = link(arm.end);
+    double twist = shared_twist(arm);
+    hand.turn = math::compose(rotation_about(arm.forearm, -twist), hand.turn);
+    const bool clamped = clamp_turn(hand, 0.0f);
+    if (const double share = options_.body.twist_share; clamped && share < 1.0) {
+        const double left = hinge_angle(arm.forearm, hand.turn) - hinge_angle(arm.forearm, hand.own);
+        twist = left * share / (1.0 - share);
+    }
+    hand.turn = rig::normalised(math::compose(rotation_about(arm.forearm, twist), hand.turn));
+    return clamped;
+}
+
+void HoldSolve::measure() noexcept {
+    work_.place_links(glm::dvec3(0.0));
+    row_count_ = 0;
+    const auto add = [&](std::size_t arm, bool turns, const glm::dvec3& along) {
+        rows_[row_count_++] = {arm, turns, along};
+    };
+    for (std::size_t i = 0; i < arm_count_; ++i) {
+        Arm& arm = arms_[i];
+        const Link& hand = link(arm.end);
+        arm.from = rotated(at_.rotation, arm.grip->position);
+        arm.gap = minus(plus(at_.position, arm.from), hand.position);
+        for (int axis = 0; axis < 3; ++axis) {
+            glm::dvec3 along{0.0};
+            along[axis] = 1.0;
+            add(i, false, along);
+        }
+        if (!arm.grip->rotation) continue;
+        const glm::dquat off = math::compose(wanted(arm), conjugate(hand.rotation));
+        const auto axis = direction_of(arm.grip->axis, 1e-12);
+        if (!axis) {
+            arm.off = logarithm(off);
+            for (int each = 0; each < 3; ++each) {
+                glm::dvec3 along{0.0};
+                along[each] = 1.0;
+                add(i, true, along);
+            }
+            continue;
+        }
+        // Only the axes have to meet.
+        arm.axis = rotated(at_.rotation, *axis);
+        const glm::dvec3 held = rotated(conjugate(off), arm.axis), about = cross(held, arm.axis);
+        const double sine = length(about), angle = arctangent(sine, dot(held, arm.axis));
+        arm.off = sine > 1e-9 ? times(about, angle / sine) : times(perpendicular(arm.axis), angle);
+        const glm::dvec3 first = perpendicular(arm.axis);
+        add(i, true, first);
+        add(i, true, cross(arm.axis, first));
+    }
+}
+
+double HoldSolve::apart() const noexcept {
+    double most = 0.0;
+    for (std::size_t i = 0; i < arm_count_; ++i)
+        most = std::max({most, length(arms_[i].gap), options_.turn_length * length(arms_[i].off)});
+    return most;
+}
+
+glm::dvec3 HoldSolve::column(const Row& row, const Joint& joint) const noexcept {
+    if (joint.arm != row.arm) return glm::dvec3(0.0);
+    if (row.turns) return times(row.along, options_.turn_length);
+    return cross(minus(link(arms_[row.arm].end).position, link(joint.link).position), row.along);
+}
+
+glm::dvec3 HoldSolve::object_column(const Row& row) const noexcept {
+    if (row.turns) return times(row.along, -options_.turn_length);
+    return cross(row.along, arms_[row.arm].from);
+}
+
+/// A step that closes the grips and takes the object towards where it is asked to be. Its size: radians,
+/// metres.
+double HoldSolve::find_step() noexcept {
+    double object_stiffness = options_.turn_length * options_.turn_length;
+    for (std::size_t i = 0; i < arm_count_; ++i)
+        object_stiffness += force_stiffness * std::max(-dot(arms_[i].force, arms_[i].from), 0.0);
+    object_turns_ = 1.0 / object_stiffness;
+    for (std::size_t i = 0; i < joint_count_; ++i) {
+        Joint& joint = joints_[i];
+        const Link& at = link(joint.link);
+        const Arm& arm = arms_[joint.arm];
+        joint.freedom.begin(at, before(at));
+        joint.held = glm::dvec3(0.0);
+        const double outward = dot(arm.force, minus(link(arm.end).position, at.position));
+        joint.compliance = 1.0 / (damping_ / at.mobility + force_stiffness * std::max(outward, 0.0));
+    }
+    solve_rows();
+    for (int i = 0; i < max_hold_changes && block(); ++i) solve_rows();
+    double size = std::max(length(shift_), length(turn_));
+    for (std::size_t i = 0; i < joint_count_; ++i) size = std::max(size, length(joints_[i].turn));
+    return size;
+}
+
+void HoldSolve::solve_rows() noexcept {
+    RowEquations& e = equations_;
+    e.count = row_count_;
+    const glm::dvec3 way = times(minus(asked_.position, at_.position), pull_);
+    const glm::dvec3 round = times(logarithm(math::compose(asked_.rotation, conjugate(at_.rotation))),
+                                   pull_ * options_.turn_length * options_.turn_length * object_turns_);
+    // Where the grips cannot close, forces that are all kept would grow without end.
+    const double most = force_kept + force_kept * length(way);
+    const auto kept = [](const glm::dvec3& value, double largest) {
+        const double size = length(value);
+        return size > largest ? times(value, largest / size) : value;
+    };
+    for (std::size_t r = 0; r < row_count_; ++r) {
+        const Row& row = rows_[r];
+        const Arm& arm = arms_[row.arm];
+        const double size = row_length(row);
+        const glm::dvec3 force =
+            row.turns ? kept(arm.torque, options_.turn_length * most) : kept(arm.force, most);
+        const glm::dvec3 turned = object_column(row);
+        e.b[r] = size * dot(row.along, row.turns ? arm.off : arm.gap) - dot(turned, round) +
+                 grip_give * dot(row.along, force) / size;
+        if (!row.turns) e.b[r] += dot(row.along, way);
+        for (std::size_t q = 0; q <= r; ++q) {
+            const Row& other = rows_[q];
+            double sum = object_turns_ * dot(turned, object_column(other));
+            if (!row.turns && !other.turns) sum += dot(row.along, other.along);
+            e.a[r][q] = sum;
+        }
+        e.a[r][r] += grip_give;
+    }
+    for (std::size_t i = 0; i < joint_count_; ++i) {
+        const Joint& joint = joints_[i];
+        for (std::size_t r = 0; r < row_count_; ++r) {
+            if (rows_[r].arm != joint.arm) continue;
+            e.b[r] -= dot(column(rows_[r], joint), joint.held);
+            const glm::dvec3 moved =
+                times(joint.freedom.allowed(link(joint.link), column(rows_[r], joint)), joint.compliance);
+            for (std::size_t q = 0; q <= r; ++q) e.a[r][q] += dot(column(rows_[q], joint), moved);
+        }
+    }
+    if (e.factorise())
+        e.solve();
+    else
+        e.b.fill(0.0);
+    shift_ = way;
+    turn_ = round;
+    for (std::size_t r = 0; r < row_count_; ++r) {
+        if (!rows_[r].turns) shift_ = minus(shift_, times(rows_[r].along, e.b[r]));
+        turn_ = plus(turn_, times(object_column(rows_[r]), object_turns_ * e.b[r]));
+    }
+    for (std::size_t i = 0; i < joint_count_; ++i) {
+        Joint& joint = joints_[i];
+        glm::dvec3 torque{0.0};
+        for (std::size_t r = 0; r < row_count_; ++r)
+            if (rows_[r].arm == joint.arm) torque = plus(torque, times(column(rows_[r], joint), e.b[r]));
+        joint.turn =
+            plus(joint.held, joint.freedom.allowed(link(joint.link), times(torque, joint.compliance)));
+    }
+}
+
+/// How far beyond its limit a turn would take the joint, in the character's space; `there` is where it would
+/// stop.
+glm::dvec3 HoldSolve::excess(const Joint& joint, const glm::dvec3& turn, glm::dquat& there) noexcept {
+    Link& at = link(joint.link);
+    const glm::dquat was = at.turn, parent = before(at);
+    const glm::dquat tried = math::compose(exponential(rotated(conjugate(parent), turn)), was);
+    at.turn = tried;
+    const bool beyond = clamp(joint);
+    there = at.turn;
+    at.turn = was;
+    return beyond ? rotated(parent, logarithm(math::compose(tried, conjugate(there)))) : glm::dvec3(0.0);
+}
+
+/// Blocks the bounds that `turn` is at and `step` would pass.
+bool HoldSolve::block_bounds(Joint& joint, const glm::dquat& turn, const glm::dvec3& step) noexcept {
+    Link& at = link(joint.link);
+    const Arm& arm = arms_[joint.arm];
+    if (joint.link != arm.end) return joint.freedom.block_limit(at, turn, before(at), step);
+    // What the lower arm takes of the twist is not the hand's.
+    const glm::dquat was = std::exchange(at.turn, turn);
+    const glm::dquat share = rotation_about(arm.forearm, shared_twist(arm));
+    at.turn = was;
+    return joint.freedom.block_limit(at, math::compose(conjugate(share), turn),
+                                     math::compose(before(at), share), step);
+}
+
+/// Holds the joints that the step would take beyond a limit at that limit. False if nothing changed.
+bool HoldSolve::block() noexcept {
+    bool changed = false;
+    for (std::size_t i = 0; i < joint_count_; ++i) {
+        Joint& joint = joints_[i];
+        const Arm& arm = arms_[joint.arm];
+        if (block_bounds(joint, link(joint.link).turn, joint.turn)) {
+            changed = true;
+        } else {
+            glm::dquat there;
+            const glm::dvec3 beyond = excess(joint, joint.turn, there);
+            const int known = joint.freedom.blocked;
+            if (known == 0 && length(beyond) > limit_tolerance * length(joint.turn))
+                block_bounds(joint, there, beyond);
+            for (int k = known; k < joint.freedom.blocked; ++k) {
+                const glm::dvec3& out = joint.freedom.outward[static_cast<std::size_t>(k)];
+                joint.held = plus(joint.held, times(out, dot(out, minus(joint.turn, beyond))));
+                changed = true;
+            }
+        }
+        if (!arm.limb || static_cast<std::size_t>(arm.limb->lower) != joint.link) continue;
+        glm::dvec3 about;
+        const double left = arm.least_bend - bend(arm, about);
+        if (!(dot(about, joint.turn) < left - 1e-12)) continue;
+        glm::dvec3 direction = about;
+        if (link(joint.link).limit.hinge())
+            direction = times(joint.freedom.hinge, dot(joint.freedom.hinge, about) < 0.0 ? -1.0 : 1.0);
+        if (!joint.freedom.block(direction)) continue;
+        const glm::dvec3& out = joint.freedom.outward[static_cast<std::size_t>(joint.freedom.blocked - 1)];
+        joint.held = plus(joint.held, times(out, left));
+        changed = true;
+    }
+    return changed;
+}
+
+void HoldSolve::apply(double part) noexcept {
+    at_.position = plus(at_.position, times(shift_, part));
+    at_.rotation = rig::normalised(math::compose(exponential(times(turn_, part)), at_.rotation));
+    for (std::size_t i = 0; i < arm_count_; ++i) {
+        Arm& arm = arms_[i];
+        glm::dvec3 force{0.0}, torque{0.0};
+        for (std::size_t r = 0; r < row_count_; ++r) {
+            if (rows_[r].arm != i) continue;
+            glm::dvec3& sum = rows_[r].turns ? torque : force;
+            sum = plus(sum, times(rows_[r].along, row_length(rows_[r]) * equations_.b[r]));
+        }
+        arm.force = mix(arm.force, force, part), arm.torque = mix(arm.torque, torque, part);
+    }
+    for (std::size_t i = 0; i < joint_count_; ++i) {
+        const Joint& joint = joints_[i];
+        Link& at = link(joint.link);
+        const glm::dvec3 turn = rotated(conjugate(before(at)), times(joint.turn, part));
+        at.turn = math::compose(exponential(turn), at.turn);
+        clamp(joint);
+    }
+    work_.place_links(glm::dvec3(0.0));
+    for (std::size_t i = 0; i < arm_count_; ++i) {
+        if (!arms_[i].limb) continue;
+        glm::dvec3 about;
+        const double short_of = arms_[i].least_bend - bend(arms_[i], about);
+        if (!(short_of > 0.0)) continue;
+        Link& lower = link(static_cast<std::size_t>(arms_[i].limb->lower));
+        lower.turn =
+            math::compose(rotation_about(rotated(conjugate(before(lower)), about), short_of), lower.turn);
+    }
+}
+
+/// True once nothing changes any more.
+bool HoldSolve::step() noexcept {
+    const double size = find_step(), open = apart();
+    apply(std::min(1.0, max_hold_step / size));
+    damping_ = std::clamp(damping_part * size, min_joint_damping, joint_damping);
+    measure();
+    return size < hold_tolerance && std::abs(apart() - open) < hold_tolerance;
+}
+
+void HoldSolve::run(std::span<rig::Transform> pose, HoldReport& report, HoldState& state) noexcept {
+    work_.take(pose);
+    for (Link& each : work_.links) each.turn = each.own;
+    work_.place_links(glm::dvec3(0.0));
+    find_arms();
+    face_grips();
+    measure();
+    damping_ = joint_damping;
+    report.settled = false;
+    for (; report.iterations < options_.max_iterations && !report.settled; ++report.iterations)
+        report.settled = step();
+    for (Arm& arm : arms_) arm.pull = arm.force, arm.twist = arm.torque;
+    // What limits keep from settling is closed, if it can be, from where it is.
+    if (!report.settled && apart() > hold_tolerance) {
+        pull_ = 0.0;
+        for (Arm& arm : arms_) arm.force = arm.torque = glm::dvec3(0.0);
+        damping_ = joint_damping;
+        for (int i = 0; i < closing_steps && !step(); ++i, ++report.iterations) {
+        }
+    }
+    tell(report, state);
+    for (std::size_t i = 0; i < arm_count_; ++i) {
+        const Arm& arm = arms_[i];
+        Link& hand = link(arm.end);
+        if (!arm.grip->rotation || hand.parent < 0) continue;
+        // As BodySolve::turn_end(): the lower arm takes part of the twist, which moves no joint.
+        Link& lower = link(static_cast<std::size_t>(hand.parent));
+        const double twist = shared_twist(arm);
+        lower.turn = math::compose(lower.turn, rotation_about(arm.forearm, twist));
+        hand.turn = math::compose(rotation_about(arm.forearm, -twist), hand.turn);
+    }
+    work_.place_links(glm::dvec3(0.0));
+    for (const Link& each : work_.links)
+        if (!is_within(each.position)) return;  // stays as the body has reached
+    const TwistNodes::ArmTurns turns = work_.twist.turns(pose);
+    work_.give(pose, glm::dvec3(0.0));
+    work_.twist.follow(turns, pose);
+}
+
+void HoldSolve::tell(HoldReport& report, HoldState& state) noexcept {
+    report.object = at_;
+    report.moved = length(minus(asked_.position, at_.position));
+    report.turned = length(logarithm(math::compose(asked_.rotation, conjugate(at_.rotation))));
+    for (std::size_t i = 0; i < joint_count_; ++i) {
+        const Joint& joint = joints_[i];
+        const Arm& arm = arms_[joint.arm];
+        const glm::dvec3 lever = minus(link(arm.end).position, link(joint.link).position);
+        const glm::dvec3 torque = plus(cross(lever, arm.pull), arm.twist);
+        const auto direction = direction_of(torque, told_force);
+        glm::dquat there;
+        report.body.at_limit[static_cast<std::size_t>(link(joint.link).bone)] =
+            direction && length(excess(joint, times(*direction, told_turn), there)) > 0.1 * told_turn;
+    }
+    double cause = 0.0, travel = 0.0;
+    HoldState now;
+    now.asked = object_.asked;
+    for (std::size_t i = 0; i < arm_count_; ++i) {
+        const Arm& arm = arms_[i];
+        const std::size_t hand = arm.grip->hand == Effector::LeftHand ? 0 : 1;
+        GripReport& grip = report.grips[hand];
+        grip = {.holds = true, .gap = length(arm.gap), .off = length(arm.off)};
+        if (arm.limb) {
+            glm::dvec3 about;
+            const Link& upper = link(static_cast<std::size_t>(arm.limb->upper));
+            const glm::dvec3 way = minus(link(arm.end).position, upper.position);
+            grip.straight = bend(arm, about) < arm.least_bend + straight_slack &&
+                            dot(arm.pull, way) > told_force * length(way);
+            now.shoulders[hand] = upper.position;
+            now.elbows[hand] = link(static_cast<std::size_t>(arm.limb->lower)).position;
+        }
+        now.hands[hand] = link(arm.end).position;
+        if (!state.asked) continue;
+        const auto place = [&](const ObjectPose& at) {
+            return plus(at.position, rotated(rig::normalised(at.rotation), arm.grip->position));
+        };
+        cause = std::max({cause, length(minus(place(asked_), place(*state.asked))),
+                          length(minus(now.shoulders[hand], state.shoulders[hand]))});
+        travel = std::max({travel, length(minus(now.elbows[hand], state.elbows[hand])),
+                           length(minus(now.hands[hand], state.hands[hand]))});
+    }
+    report.jumped = travel > jump_per_metre * cause + jump_slack;
+    state = now;
+}
+
+}  // namespace tendril::humanoid::detail

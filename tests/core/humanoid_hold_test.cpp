@@ -1,0 +1,364 @@
+// Hands that hold one thing: the grips close within the limits, and the object gives way as little as it can.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <tendril/humanoid/hold.hpp>
+
+#include "humanoid_figure.hpp"
+#include "tests/says.hpp"
+
+namespace tendril::test {
+namespace {
+
+constexpr double arm_length = 0.54;
+
+struct Holder {
+    explicit Holder(bool limited = true, bool shoulders = true, double turn = 0.0)
+        : skeleton(make_figure(
+              shoulders ? std::map<std::string, std::string>{}
+                        : std::map<std::string, std::string>{{"LeftShoulder", ""}, {"RightShoulder", ""}},
+              turn)),
+          limits(limited ? default_limits(skeleton, map) : no_limits()) {}
+
+    HoldReport hold(const HeldObject& object, const HoldOptions& options = {}) {
+        pose = rest_pose(skeleton);
+        const auto report = humanoid::hold(body, pose, {}, object, body_state, state, options);
+        EXPECT_TRUE(report) << report.message();
+        placed.resize(skeleton.size());
+        place(skeleton, pose, placed);
+        return *report;
+    }
+    /// As often as frames do, until the body has arrived.
+    HoldReport settle(const HeldObject& object, int frames = 25) {
+        body_state = {}, state = {};
+        HoldReport report;
+        for (int i = 0; i < frames; ++i) report = hold(object);
+        return report;
+    }
+    const Placement& at(Bone bone) const { return placed[static_cast<std::size_t>(map[bone].node)]; }
+    /// The gap and the turn that the pose itself has, whatever the report says.
+    double gap(const Grip& grip, const ObjectPose& object) const {
+        return glm::distance(at(bone_of(grip.hand)).position,
+                             object.position + object.rotation * grip.position);
+    }
+    double off(const Grip& grip, const ObjectPose& object) const {
+        const glm::dquat hand = at(bone_of(grip.hand)).rotation();
+        const glm::dquat held = hand * glm::inverse(*grip.rotation);
+        if (grip.axis != glm::dvec3(0.0)) {
+            const glm::dvec3 axis = glm::normalize(grip.axis);
+            return std::acos(std::min(1.0, glm::dot(held * axis, object.rotation * axis)));
+        }
+        return 2.0 * std::acos(std::min(1.0, std::abs(glm::dot(held, object.rotation))));
+    }
+    double worst_excess() const {
+        float worst = 0.0f;
+        for (std::size_t i = 0; i < bone_count; ++i)
+            worst = std::max(worst, body.joints().excess(static_cast<Bone>(i), placed));
+        return static_cast<double>(worst);
+    }
+
+    Skeleton skeleton;
+    BoneMap map = match_bones(skeleton);
+    BodyLimits limits;
+    Body body = Body::make(skeleton, map, limits).value();
+    BodyState body_state;
+    HoldState state;
+    std::vector<rig::Transform> pose;
+    std::vector<Placement> placed;
+};
+
+class Randoms {
+  public:
+    double from(double low, double high) {
+        return std::uniform_real_distribution<double>(low, high)(engine_);
+    }
+    glm::dvec3 within(double size) {
+        const double x = from(-size, size), y = from(-size, size), z = from(-size, size);
+        return {x, y, z};
+    }
+    /// About a random axis, by up to `most`.
+    glm::dquat turn(double most) {
+        const double angle = from(0.0, most);
+        return glm::angleAxis(angle, glm::normalize(within(1.0) + glm::dvec3(0.0, 1e-3, 0.0)));
+    }
+
+  private:
+    std::mt19937 engine_{7};
+};
+
+/// Both hands on the rim, palms inward, free to turn about it.
+std::vector<Grip> rim(const Body& body, double radius) {
+    return {*grip_of(body, {Effector::LeftHand, {radius, 0, 0}, {0, 0, 1}, {-1, 0, 0}, {0, 1, 0}}, 0.08),
+            *grip_of(body, {Effector::RightHand, {-radius, 0, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}}, 0.08)};
+}
+
+TEST(HumanoidHold, ClosesTheGripsWithinTheLimits) {
+    Randoms random;
+    int there = 0, all = 0;
+    for (const bool shoulders : {true, false}) {
+        Holder holder(true, shoulders);
+        const std::vector<Grip> grips = rim(holder.body, 0.2);
+        for (int i = 0; i < 20; ++i) {
+            const double far = i % 2 == 0 ? 0.15 : 0.6;
+            const HeldObject wheel{grips,
+                                   {glm::dvec3(0.0, 1.25, 0.4) + random.within(far), random.turn(2.0 * far)}};
+            const HoldReport report = holder.settle(wheel);
+            EXPECT_TRUE(report.closed()) << i;
+            for (const Grip& grip : grips) {
+                EXPECT_LT(holder.gap(grip, report.object), 1e-4 * arm_length) << i;
+                EXPECT_LT(holder.off(grip, report.object), 1e-3) << i;
+            }
+            EXPECT_LT(holder.worst_excess(), 2e-3) << i;
+            EXPECT_NEAR(report.moved, glm::distance(report.object.position, wheel.asked.position), 1e-12);
+            ++all, there += report.moved < 1e-4 && report.turned < 1e-3;
+        }
+    }
+    EXPECT_GT(there, all / 2);  // the rest of the poses do not exist, or are not found
+    EXPECT_LT(there, all);
+}
+
+/// Objects that some pose of the arms holds: the object goes where it is asked to be.
+TEST(HumanoidHold, GoesWhereAPoseHoldsIt) {
+    Randoms random;
+    for (const double turn : {0.0, 0.7}) {
+        Holder holder(true, true, turn);
+        for (int i = 0; i < 60; ++i) {
+            std::vector<rig::Transform> made = rest_pose(holder.skeleton);
+            for (const Bone upper : {Bone::LeftUpperArm, Bone::RightUpperArm}) {
+                const double side = upper == Bone::LeftUpperArm ? 1.0 : -1.0;
+                const auto turned = [&](int bone, double angle, const glm::dvec3& axis) {
+                    const auto node = static_cast<std::size_t>(
+                        holder.map[static_cast<Bone>(static_cast<int>(upper) + bone)].node);
+                    const glm::dvec3 about = glm::angleAxis(turn, glm::dvec3(0, 1, 0)) * axis;
+                    made[node].rotation = glm::angleAxis(angle, about) * made[node].rotation;
+                };
+                turned(0, -side * random.from(0.4, 1.2), {0, 1, 0});
+                turned(0, -side * random.from(0.2, 0.8), {0, 0, 1});
+                turned(1, -side * random.from(0.3, 1.2), {0, 1, 0});
+            }
+            place(holder.skeleton, made, holder.placed = std::vector<Placement>(made.size()));
+            const ObjectPose asked{random.within(1.0), random.turn(3.0)};
+            std::vector<Grip> grips;
+            for (const Effector hand : {Effector::LeftHand, Effector::RightHand})
+                grips.push_back({.hand = hand,
+                                 .position = glm::inverse(asked.rotation) *
+                                             (holder.at(bone_of(hand)).position - asked.position)});
+            const HoldReport report = holder.settle({grips, asked});
+            EXPECT_TRUE(report.closed()) << i;
+            EXPECT_LT(report.moved, 1e-4) << i;
+            EXPECT_LT(report.turned, 1e-4) << i;
+            EXPECT_EQ(report.grips[0].straight || report.grips[1].straight, false) << i;
+        }
+    }
+}
+
+/// Half the square of how far a pose is from the asked one, as the solver counts it.
+double distance_from(const ObjectPose& asked, const ObjectPose& pose) {
+    const glm::dquat turn = asked.rotation * glm::inverse(pose.rotation);
+    const double angle = 2.0 * std::atan2(glm::length(glm::dvec3(turn.x, turn.y, turn.z)), std::abs(turn.w));
+    return std::hypot(glm::distance(asked.position, pose.position), HoldOptions{}.turn_length * angle);
+}
+
+/// Free arms: a pose is held where both hands are within reach of their shoulders. Random search, narrowing.
+TEST(HumanoidHold, GivesWayAsLittleAsItCan) {
+    Randoms random;
+    Holder holder(false, false);
+    const std::vector<Grip> grips{{Effector::LeftHand, {0.2, 0, 0}}, {Effector::RightHand, {-0.2, 0, 0}}};
+    int gave = 0;
+    for (int i = 0; i < 25; ++i) {
+        const HeldObject bar{
+            grips,
+            {glm::dvec3(random.from(-0.7, 0.7), random.from(0.8, 1.9), random.from(1.1, 1.8)),
+             random.turn(1.0)}};
+        const HoldReport report = holder.settle(bar);
+        EXPECT_TRUE(report.closed()) << i;
+        const double found = distance_from(bar.asked, report.object);
+        if (found < 0.02) continue;
+        ++gave;
+        EXPECT_TRUE(report.grips[0].straight || report.grips[1].straight) << i;
+        const auto holds = [&](const ObjectPose& pose) {
+            return std::ranges::all_of(grips, [&](const Grip& grip) {
+                const Bone shoulder =
+                    grip.hand == Effector::LeftHand ? Bone::LeftUpperArm : Bone::RightUpperArm;
+                return glm::distance(pose.position + pose.rotation * grip.position,
+                                     holder.at(shoulder).position) <= arm_length * 0.9992;
+            });
+        };
+        ObjectPose best = report.object;
+        double least = found, size = 0.3;
+        for (int k = 0; k < 20'000; ++k, size = std::max(size * 0.9996, 1e-3)) {
+            const glm::dvec3 to_asked = bar.asked.position - best.position;
+            ObjectPose tried = best;
+            tried.position += size * (random.within(0.3) + random.from(0.0, 0.3) * to_asked);
+            tried.rotation = glm::normalize(random.turn(size) * tried.rotation);
+            const double now = distance_from(bar.asked, tried);
+            if (now < least && holds(tried)) best = tried, least = now;
+        }
+        EXPECT_LT(found, 1.02 * least + 1e-3) << i;
+    }
+    EXPECT_GT(gave, 12);
+}
+
+TEST(HumanoidHold, SharesWhatIsTooLong) {
+    Holder holder(false);
+    const std::vector<Grip> grips{{Effector::LeftHand, {1.2, 0, 0}}, {Effector::RightHand, {-1.2, 0, 0}}};
+    const HoldReport report = holder.settle({grips, {{0.0, 1.4, 0.2}}});
+    EXPECT_FALSE(report.closed());
+    EXPECT_NEAR(report.grips[0].gap, report.grips[1].gap, 2e-3);
+    const double apart =
+        glm::distance(holder.at(Bone::LeftHand).position, holder.at(Bone::RightHand).position);
+    EXPECT_GT(apart, 1.4);  // both arms straight out
+    EXPECT_NEAR(report.grips[0].gap + report.grips[1].gap, 2.4 - apart, 5e-3);
+    EXPECT_TRUE(report.grips[0].straight && report.grips[1].straight);
+}
+
+TEST(HumanoidHold, SaysWhichArmIsStraight) {
+    Holder holder;
+    const std::vector<Grip> grips = rim(holder.body, 0.2);
+    for (const double side : {1.0, -1.0}) {
+        const HoldReport report = holder.settle({grips, {{1.2 * side, 1.3, 1.1}}});
+        EXPECT_TRUE(report.closed());
+        EXPECT_GT(report.moved, 0.02);
+        EXPECT_TRUE(report.grips[side > 0.0 ? 0 : 1].straight);
+        EXPECT_FALSE(report.grips[side > 0.0 ? 1 : 0].straight);
+    }
+}
+
+/// A wheel turned like one: the hands go round with the rim.
+TEST(HumanoidHold, HandsFollowAWheel) {
+    Holder holder;
+    const std::vector<Grip> grips = rim(holder.body, 0.19);
+    for (const double degrees : {-60.0, -30.0, 30.0, 60.0}) {
+        const ObjectPose asked{{0.0, 1.2, 0.4}, glm::angleAxis(glm::radians(degrees), glm::dvec3(0, 0, 1))};
+        const HoldReport report = holder.settle({grips, asked});
+        EXPECT_TRUE(report.closed()) << degrees;
+        EXPECT_LT(glm::degrees(report.turned), 3.0) << degrees;
+        EXPECT_LT(report.moved, 0.02) << degrees;
+    }
+}
+
+TEST(HumanoidHold, JumpsOnlyWhereItSaysSo) {
+    Holder holder;
+    Randoms random;
+    const std::vector<Grip> grips = rim(holder.body, 0.2);
+    int jumps = 0, steps = 0;
+    for (int way = 0; way < 4; ++way) {
+        ObjectPose asked{{0.0, 1.25, 0.35}};
+        holder.settle({grips, asked});
+        const glm::dvec3 along = 0.001 * glm::normalize(random.within(1.0));
+        for (int i = 0; i < 300; ++i, ++steps) {
+            asked.position += along;
+            const std::array before{holder.at(Bone::LeftLowerArm).position,
+                                    holder.at(Bone::RightLowerArm).position,
+                                    holder.at(Bone::LeftHand).position, holder.at(Bone::RightHand).position};
+            const HoldReport report = holder.hold({grips, asked});
+            const std::array now{holder.at(Bone::LeftLowerArm).position,
+                                 holder.at(Bone::RightLowerArm).position, holder.at(Bone::LeftHand).position,
+                                 holder.at(Bone::RightHand).position};
+            double most = 0.0;
+            for (std::size_t k = 0; k < 4; ++k) most = std::max(most, glm::distance(before[k], now[k]));
+            EXPECT_TRUE(report.jumped || most < 0.03) << way << ' ' << i << ' ' << most;
+            jumps += report.jumped;
+        }
+    }
+    EXPECT_LT(jumps, steps / 100);
+}
+
+TEST(HumanoidHold, SameInputSameBits) {
+    Holder one, other;
+    const std::vector<Grip> grips = rim(one.body, 0.2);
+    for (int i = 0; i < 20; ++i) {
+        const HeldObject wheel{
+            grips, {{0.02 * i, 1.2, 0.3 + 0.03 * i}, glm::angleAxis(0.05 * i, glm::dvec3(0, 0, 1))}};
+        one.hold(wheel);
+        other.hold(wheel);
+        ASSERT_EQ(one.pose, other.pose);
+        ASSERT_EQ(one.state, other.state);
+    }
+}
+
+TEST(HumanoidHold, OneHandHolds) {
+    Holder holder;
+    const std::vector<Grip> grips{
+        *grip_of(holder.body, {Effector::RightHand, {0, 0, 0}, {0, 0, 1}, {1, 0, 0}}, 0.08)};
+    const ObjectPose asked{{-0.25, 1.2, 0.45}};
+    const HoldReport report = holder.settle({grips, asked});
+    EXPECT_TRUE(report.closed());
+    EXPECT_LT(report.moved, 1e-3);
+    EXPECT_FALSE(report.grips[0].holds);
+    EXPECT_LT(holder.gap(grips[0], report.object), 1e-5);
+    // The palm is where it was put, and faces left.
+    const Placement& hand = holder.at(Bone::RightHand);
+    const glm::dvec3 palm = hand.rotation() * glm::dvec3(0, -1, 0),
+                     fingers = hand.rotation() * glm::dvec3(-1, 0, 0);
+    EXPECT_LT(glm::distance(hand.position + 0.08 * fingers, report.object.position), 1e-3);
+    EXPECT_GT(palm.x, 0.9);
+    EXPECT_GT(fingers.z, 0.9);
+}
+
+TEST(HumanoidHold, RefusesByName) {
+    Holder holder;
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const std::vector<rig::Transform> rest = rest_pose(holder.skeleton);
+    const auto refused = [&](const std::vector<Grip>& grips, const ObjectPose& asked = {},
+                             const std::vector<BodyTarget>& targets = {}, const HoldOptions& options = {}) {
+        std::vector<rig::Transform> pose = rest;
+        BodyState body_state;
+        HoldState state;
+        const auto report = hold(holder.body, pose, targets, {grips, asked}, body_state, state, options);
+        EXPECT_EQ(pose, rest);
+        EXPECT_EQ(body_state, BodyState());
+        EXPECT_EQ(state, HoldState());
+        return report ? std::string("not refused") : std::string(report.message());
+    };
+    const Grip left{Effector::LeftHand}, right{Effector::RightHand};
+    EXPECT_TRUE(says(refused({}), "hold object.grips one or two 0"));
+    EXPECT_TRUE(says(refused({left, right, left}), "hold object.grips one or two 3"));
+    EXPECT_TRUE(says(refused({left, left}), "object.grips 1 hand left_hand"));
+    EXPECT_TRUE(says(refused({{Effector::Head}}), "object.grips 0 hand left_hand right_hand head"));
+    EXPECT_TRUE(says(refused({{Effector::LeftHand, {0, nan, 0}}}), "object.grips.position y nan"));
+    EXPECT_TRUE(says(refused({{.axis = {1e300, 0, 0}}}), "object.grips.axis x"));
+    EXPECT_TRUE(says(refused({{.rotation = glm::dquat(0, 0, 0, 0)}}), "object.grips 0 rotation length 0"));
+    EXPECT_TRUE(says(refused({left}, {{nan, 0, 0}}), "object.asked.position x nan"));
+    EXPECT_TRUE(says(refused({left}, {{0, 0, 0}, glm::dquat(0, 0, 0, 0)}), "object.asked.rotation length 0"));
+    EXPECT_TRUE(says(refused({left}, {}, {{Effector::LeftHand}}), "targets 0 effector left_hand"));
+    EXPECT_TRUE(says(refused({left}, {}, {{Effector::Head, {0, nan, 0}}}), "targets.position y nan"));
+    EXPECT_TRUE(says(refused({left}, {}, {}, {.turn_length = 0.0}), "options.turn_length 0"));
+    EXPECT_TRUE(says(refused({left}, {}, {}, {.max_iterations = 0}), "options.max_iterations 1 1000 0"));
+    EXPECT_TRUE(says(refused({left}, {}, {}, {.body = {.twist_share = 2.0}}), "options.twist_share 2"));
+    HoldState bad;
+    bad.asked = ObjectPose{};
+    bad.hands[1].z = nan;
+    std::vector<rig::Transform> pose = rest;
+    const auto report = hold(holder.body, pose, {}, {std::span(&left, 1), {}}, holder.body_state, bad);
+    EXPECT_TRUE(says(report ? "" : report.message(), "state.hands z nan"));
+    EXPECT_TRUE(says(grip_of(holder.body, {Effector::Hips}, 0.1).message(), "palm.hand hips"));
+    EXPECT_TRUE(
+        says(grip_of(holder.body, {.fingers = {0, 0, 0}}, 0.1).message(), "palm.fingers direction 0"));
+    EXPECT_TRUE(says(grip_of(holder.body, {.fingers = {0, 1, 0}}, 0.1).message(), "palm.faces"));
+    EXPECT_TRUE(says(grip_of(holder.body, {}, nan).message(), "reach nan"));
+}
+
+/// Whatever is asked, nothing is NaN and every limit holds.
+TEST(HumanoidHold, StaysFinite) {
+    Randoms random;
+    Holder holder;
+    for (int i = 0; i < 60; ++i) {
+        const double size = std::pow(10.0, random.from(-6.0, 6.0));
+        std::vector<Grip> grips{{.hand = Effector::LeftHand, .position = random.within(size)},
+                                {.hand = Effector::RightHand, .position = random.within(i % 3 ? size : 0.0)}};
+        if (i % 2) grips[0].rotation = random.turn(3.0), grips[0].axis = random.within(1.0);
+        if (i % 5 == 0) grips.pop_back();
+        const HoldReport report = holder.hold({grips, {random.within(i % 7 ? 2.0 : size), random.turn(3.1)}});
+        for (const Placement& each : holder.placed)
+            ASSERT_TRUE(std::isfinite(glm::length(each.position))) << i;
+        ASSERT_TRUE(std::isfinite(report.moved + report.turned + report.grips[0].gap + report.grips[1].off));
+        EXPECT_LT(holder.worst_excess(), 2e-3) << i;
+    }
+}
+
+}  // namespace
+}  // namespace tendril::test
