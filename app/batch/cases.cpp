@@ -124,6 +124,13 @@ void read_plane(const Json& json, const std::string& where, Case& read) {
 
 Case case_from_json(const Json& json, const std::string& where, std::size_t index) {
     Case read;
+    if (json.is_object() && json.contains("linkage")) {
+        const JsonPlace place(json, where);
+        const auto name = place.optional("name");
+        read.name = name ? name->text() : std::to_string(index);
+        read.linkage = linkage_case_from_json(place);
+        return read;
+    }
     read.lengths = read_lengths(json_member(json, "lengths", where), where + ".lengths");
     const std::size_t bones = read.lengths.size();
     if (const auto curve = json.find("curve"); curve != json.end())

@@ -5,7 +5,8 @@
 // and optionally "curve" (control points, for a chain that lies along them instead of reaching for a target),
 // "start" and "rest" (a point per joint), "pole" (a point), "limits" (one per bone, for the
 // joint it starts at, in the format of solver_json.hpp; null for none), "plane" (its normal), "bend" ("left",
-// "right" or "free") and "angle_limits" (one per bone, in that plane). Other keys are ignored.
+// "right" or "free") and "angle_limits" (one per bone, in that plane). Other keys are ignored. A case with a
+// "linkage" is one: linkage_cases.hpp.
 #pragma once
 
 #include <functional>
@@ -17,7 +18,7 @@
 #include <tendril/ik/plane.hpp>
 #include <vector>
 
-#include "app/document/json.hpp"
+#include "app/batch/linkage_cases.hpp"
 
 namespace tendril::app {
 
@@ -33,6 +34,7 @@ struct Case {
     ik::Side bend = ik::Side::Free;
     std::vector<ik::AngleLimit> angle_limits;  ///< one per bone, or empty
     std::vector<glm::vec3> curve;              ///< control points; empty: it reaches for the target
+    std::optional<LinkageCase> linkage;        ///< instead of all these
 };
 
 /// Throws std::runtime_error that begins with the JSON path of the error: "cases.3.lengths.0".

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <memory>
 #include <tendril/ik/curve.hpp>
 #include <tendril/ik/solver.hpp>
@@ -12,8 +13,10 @@
 #include "app/batch/output.hpp"
 #include "app/batch/progress.hpp"
 #include "app/document/json_complete.hpp"
+#include "app/document/scene_file.hpp"
 #include "app/io/solver_json.hpp"
 #include "app/io/solver_text.hpp"
+#include "app/labs/labs.hpp"
 
 namespace tendril::app {
 namespace {
@@ -27,8 +30,15 @@ struct Row {
     double microseconds;
     const std::vector<glm::vec3>& joints;
     std::optional<ik::CurveReport> curve{};  ///< of a case that lies along a curve
+    const LinkageCase* linkage = nullptr;    ///< of one that is a linkage: where it is now
 
-    const char* solver() const { return curve ? "curve" : ik::name(method); }
+    const char* solver() const { return linkage ? "linkage" : curve ? "curve" : ik::name(method); }
+    /// "solver", "status", "iterations", "residual" and more.
+    Json json() const {
+        Json json = linkage ? linkage_row_json(linkage->part) : report_json(method, report);
+        json["solver"] = solver();
+        return json;
+    }
 };
 
 /// Rounds to nanoseconds, the clock's resolution.
@@ -49,17 +59,18 @@ class JsonRows final : public Rows {
   public:
     void add(Output& out, const Row& row) override {
         Json json{{"name", row.asked.name}};
-        json.update(report_json(row.method, row.report));
-        json["solver"] = row.solver();
+        json.update(row.json());
         if (row.curve)
             json["curve"] = {{"bones_past_end", row.curve->bones_past_end},
                              {"past_end", number(row.curve->past_end)}};
         if (row.asked.normal) json["off_plane"] = number(row.report.off_plane);
         json.erase("ran");  // scripts rely on the existing keys; the table has it
         json["microseconds"] = microseconds_json(row.microseconds);
-        Json positions = Json::array();
-        for (const glm::vec3& joint : row.joints) positions.push_back(point(joint));
-        json["positions"] = std::move(positions);
+        if (!row.linkage) {
+            Json positions = Json::array();
+            for (const glm::vec3& joint : row.joints) positions.push_back(point(joint));
+            json["positions"] = std::move(positions);
+        }
         out.write(any_ ? ",\n " : "[\n ");
         out.write(json.dump(-1, ' ', false, Json::error_handler_t::replace));
         any_ = true;
@@ -72,19 +83,30 @@ class JsonRows final : public Rows {
 
 class CsvRows final : public Rows {
   public:
-    void begin(Output& out) override { out.write("name,solver,status,iterations,residual,microseconds\n"); }
+    /// Columns that all cases have beyond the usual ones.
+    explicit CsvRows(std::vector<std::string> more) : more_(std::move(more)) {}
+    void begin(Output& out) override {
+        std::string line = "name,solver,status,iterations,residual,microseconds";
+        for (const std::string& each : more_) line += ',' + csv_field(each);
+        out.write(line + '\n');
+    }
     void add(Output& out, const Row& row) override {
         std::string line = csv_field(row.asked.name);
-        Json report = report_json(row.method, row.report);
-        report["solver"] = row.solver();
+        const Json report = row.json();
         for (const char* key : {"solver", "status", "iterations", "residual"}) {
             const Json& value = report[key];
             line += ',' + (value.is_string() ? value.get<std::string>()
                            : value.is_null() ? ""
                                              : value.dump());
         }
-        out.write(line + ',' + microseconds_json(row.microseconds).dump() + '\n');
+        line += ',' + microseconds_json(row.microseconds).dump();
+        if (!more_.empty())
+            for (const double each : row.linkage->column_values()) line += ',' + Json(each).dump();
+        out.write(line + '\n');
     }
+
+  private:
+    std::vector<std::string> more_;
 };
 
 class TableRows final : public Rows {
@@ -98,13 +120,16 @@ class TableRows final : public Rows {
             headed_ = true;
         }
         char rest[256], residual[32] = "-";  // refused input has no residual
-        if (row.report.status != ik::Status::InvalidInput) {
-            std::snprintf(residual, sizeof residual, "%.6g", static_cast<double>(row.report.residual));
-        }
-        std::snprintf(rest, sizeof rest, "  %-18s  %-14s  %10d  %14s  %10.2f  %s\n", row.solver(),
-                      ik::name(row.report.status), row.report.iterations, residual, row.microseconds,
-                      row.curve ? "" : ran_text(row.method, row.report).c_str());
-        out.write(column(row.asked.name, name_width_) + rest);
+        const Json report = row.json();
+        if (report["residual"].is_number())
+            std::snprintf(residual, sizeof residual, "%.6g", report["residual"].get<double>());
+        const std::string ran = row.linkage ? report["verdict"].get<std::string>()
+                                : row.curve ? ""
+                                            : ran_text(row.method, row.report);
+        std::snprintf(rest, sizeof rest, "  %-18s  %-14s  %10d  %14s  %10.2f  ", row.solver(),
+                      report["status"].get_ref<const std::string&>().c_str(), report["iterations"].get<int>(),
+                      residual, row.microseconds);
+        out.write(column(row.asked.name, name_width_) + rest + ran + '\n');
     }
 
   private:
@@ -115,14 +140,50 @@ class TableRows final : public Rows {
 struct Survey {
     std::size_t cases = 0;
     std::size_t name_width = 4;  // of "name"
+    /// Of CSV: what all cases have, if all are linkages with the same drivers and points.
+    std::optional<std::vector<std::string>> columns{};
 };
 
+/// Calls `take` with each case of a list, or with the one that an object is: a linkage, or a scene with one.
+void read_all(std::string_view text, const SolveOptions& options,
+              const std::function<bool(Case&, double)>& take) {
+    const Json goals = linkage_goals_from_arguments(options.drivers, options.targets);
+    const auto with_goals = [&](Case read, double done) {
+        if (!goals.empty() && !read.linkage)
+            throw std::runtime_error("--drive and --target are for linkages, case \"" + read.name +
+                                     "\" is none");
+        if (read.linkage) read_linkage_goals(JsonPlace(goals, "arguments"), *read.linkage);
+        return take(read, done);
+    };
+    const std::size_t first = text.find_first_not_of(" \t\r\n");
+    if (first == text.npos || text[first] != '{') return read_cases(text, with_goals);
+    const Json json = parse_json(text);
+    if (json.contains("linkage")) {
+        with_goals(case_from_json(json, "case", 0), 1.0);
+        return;
+    }
+    const Labs labs;
+    Workspace workspace = make_blank_workspace(labs);
+    load_scene(workspace, json);
+    if (workspace.lab != linkage_lab)
+        throw std::runtime_error(
+            "expected a list of cases or a scene of the lab linkage, found one of the lab " + workspace.lab);
+    Case scene;
+    scene.name = "scene";
+    scene.linkage = LinkageCase{linkage_part(workspace)};
+    with_goals(std::move(scene), 1.0);
+}
+
 /// Reads all cases once, so that errors are reported before anything is solved.
-Survey check(std::string_view text, Progress& progress, const std::atomic<bool>& ending) {
+Survey check(std::string_view text, const SolveOptions& options, Progress& progress,
+             const std::atomic<bool>& ending) {
     constexpr std::size_t widest = 40;
     Survey survey;
-    read_cases(text, [&](const Case& read, double done) {
-        ++survey.cases;
+    read_all(text, options, [&](const Case& read, double done) {
+        std::vector<std::string> columns;
+        if (read.linkage) columns = read.linkage->columns();
+        if (survey.cases++ == 0) survey.columns = columns;
+        if (survey.columns != columns) survey.columns = std::vector<std::string>{};
         survey.name_width = std::min(widest, std::max(survey.name_width, width_of(read.name)));
         progress.show("checking the cases", done);
         return !ending;
@@ -151,7 +212,7 @@ Row solve(const Case& asked, ik::Method method, const SolveOptions& options, std
     ik::State state = solver.initial_state();
     ik::Options told;
     told.tolerance = options.tolerance;
-    told.max_iterations = options.max_iterations;
+    told.max_iterations = options.max_iterations.value_or(told.max_iterations);
     told.pole = asked.pole;
     told.limits = asked.limits;
     if (asked.normal) told.plane = ik::Plane{*asked.normal, asked.bend, asked.angle_limits};
@@ -162,10 +223,23 @@ Row solve(const Case& asked, ik::Method method, const SolveOptions& options, std
     return {asked, method, report, taken.count(), joints};
 }
 
-std::unique_ptr<Rows> rows_of(RowFormat format, std::size_t name_width) {
+/// One row, from where the row before left it.
+Row move_linkage(Case& asked, std::size_t index, LinkageRuntime& runtime, const SolveOptions& options,
+                 const std::vector<glm::vec3>& joints) {
+    ik::LinkageOptions told;
+    told.max_iterations = options.max_iterations.value_or(told.max_iterations);
+    if (options.tolerance) told.tolerance = static_cast<double>(*options.tolerance);
+    const auto begin = Clock::now();
+    asked.linkage->solve(index, runtime, told);
+    const std::chrono::duration<double, std::micro> taken = Clock::now() - begin;
+    return {asked, ik::Method::Fabrik, {}, taken.count(), joints, std::nullopt, &*asked.linkage};
+}
+
+std::unique_ptr<Rows> rows_of(RowFormat format, const Survey& survey) {
     if (format == RowFormat::Json) return std::make_unique<JsonRows>();
-    if (format == RowFormat::Csv) return std::make_unique<CsvRows>();
-    return std::make_unique<TableRows>(name_width);
+    if (format == RowFormat::Csv)
+        return std::make_unique<CsvRows>(survey.columns.value_or(std::vector<std::string>{}));
+    return std::make_unique<TableRows>(survey.name_width);
 }
 
 }  // namespace
@@ -182,7 +256,7 @@ void solve_cases(const SolveOptions& options, const std::atomic<bool>& ending) {
     Progress progress;
     Survey survey;
     try {
-        survey = check(text, progress, ending);
+        survey = check(text, options, progress, ending);
     } catch (const std::runtime_error& error) {
         throw std::runtime_error(options.cases + ": " + error.what());
     }
@@ -190,9 +264,18 @@ void solve_cases(const SolveOptions& options, const std::atomic<bool>& ending) {
     Output out(progress);
     std::size_t done = 0;
     std::vector<glm::vec3> joints;
-    const auto rows = rows_of(options.format, survey.name_width);
+    const auto rows = rows_of(options.format, survey);
     rows->begin(out);
-    const auto each = [&](const Case& asked, double) {
+    const auto each = [&](Case& asked, double) {
+        LinkageRuntime runtime;
+        for (std::size_t i = 0; asked.linkage && i < asked.linkage->rows(); ++i) {
+            if (ending) return false;
+            rows->add(out, move_linkage(asked, i, runtime, options, joints));
+        }
+        if (asked.linkage) {
+            ++done;
+            return true;
+        }
         for (const ik::Method method : options.methods) {
             if (ending) return false;
             if (!asked.curve.empty()) {
@@ -204,7 +287,7 @@ void solve_cases(const SolveOptions& options, const std::atomic<bool>& ending) {
         progress.show("solving", static_cast<double>(++done) / static_cast<double>(survey.cases));
         return true;
     };
-    if (!ending) read_cases(text, each);
+    if (!ending) read_all(text, options, each);
     rows->end(out);
     out.finish();
     progress.clear();
@@ -231,6 +314,18 @@ const char* const solve_help =
     "saddle,\n"
     "            pivot, suture; free is no limit. Omitted keys take the usual values of that kind of joint.\n"
     "            All kinds may have a \"stiffness\", 0 to 0.99: how much the joint resists turning.\n"
+    "A linkage is a case as well: no solver takes part, and a row has what --state has, its points first.\n"
+    "  {\"linkage\": \"four_bar\", \"lengths\": {\"crank\": 0.8}, \"drivers\": {\"crank\": {\"from\": 0, "
+    "\"to\": "
+    "360, \"step\": 15}}}\n"
+    "  \"linkage\"  a preset by name, with the \"lengths\" that differ; or a linkage as a scene file has it\n"
+    "  \"drivers\"  degrees of a hinge, metres of a slider, by its name: a number, a list or a range\n"
+    "  \"targets\"  a point, or a list of them, for points of the linkage by name\n"
+    "A list makes a row for each value, each from the pose of the row before; --csv then has columns for "
+    "drivers\n"
+    "and points, where all cases have the same. CASES may be one such object, or a scene of the Linkage "
+    "lab;\n"
+    "--drive and --target stand in for what it asks for.\n"
     "Other keys are ignored. The whole file is checked first: a value of the wrong type or out of its range\n"
     "(1e9 m, a negative length, a wrong number of points, min over max) is reported with its line and\n"
     "place, and nothing is solved (exit code 2). So is a file of more than 64 MB. A case that a solver "

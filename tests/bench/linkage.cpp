@@ -44,7 +44,7 @@ auto need(Made made) {
 /// Once round, or as far as `range` up and down from where it is drawn.
 Case turning(const std::string& name, const LinkageSketch& sketch, const char* driver, double range) {
     Case each{name, need(linkage_from(sketch)), {}, {}};
-    const std::size_t link = each.linkage.find_link(driver);
+    const std::size_t link = *each.linkage.find_link(driver);
     each.drivers = {link};
     for (int i = 1; i <= frames; ++i) {
         const double part = 2.0 * std::numbers::pi * i / frames;
@@ -87,7 +87,7 @@ Case twelve_legs() {
 
 Case circling_stewart() {
     Case each{"Stewart platform", need(stewart()), {}, {}};
-    for (int k = 0; k < 6; ++k) each.drivers.push_back(each.linkage.find_link("leg_" + std::to_string(k)));
+    for (int k = 0; k < 6; ++k) each.drivers.push_back(*each.linkage.find_link("leg_" + std::to_string(k)));
     for (int i = 1; i <= frames; ++i) {
         const double part = 2.0 * std::numbers::pi * i / frames;
         const auto legs =
@@ -99,7 +99,7 @@ Case circling_stewart() {
 
 Case circling_delta() {
     Case each{"delta robot", need(delta()), {}, {}};
-    for (int k = 0; k < 3; ++k) each.drivers.push_back(each.linkage.find_link("motor_" + std::to_string(k)));
+    for (int k = 0; k < 3; ++k) each.drivers.push_back(*each.linkage.find_link("motor_" + std::to_string(k)));
     for (int i = 1; i <= frames; ++i) {
         const double part = 2.0 * std::numbers::pi * i / frames;
         const auto motors = delta_motors({}, {0.1 * std::sin(part), 0.1 * std::cos(part), -0.45});

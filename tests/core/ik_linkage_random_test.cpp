@@ -179,5 +179,35 @@ TEST(Linkage, whatever_it_is_and_is_asked_for_it_stays_finite_and_in_range) {
     }
 }
 
+// A net of 200 links, some of no length, held at places that no pose brings together, with ranges of nothing.
+TEST(Linkage, two_hundred_links_that_contradict_each_other_end_in_a_word) {
+    Random random(9);
+    for (const bool space : {false, true}) {
+        Linkage linkage;
+        for (std::size_t i = 0; i < 200; ++i) {
+            Link link;
+            link.parent = i % 10 == 0 ? ground_link : i - 1;
+            link.joint = space ? static_cast<LinkJoint>(random.below(3)) : LinkJoint::Hinge;
+            link.at = i % 7 == 3 ? linkage.links[i - 1].at : random_place(random, 2.0f);
+            if (random.chance(4) && link.joint != LinkJoint::Ball) link.minimum = link.maximum = 0.0;
+            if (random.chance(8)) link.maximum = 0.0;
+            linkage.links.push_back(link);
+            if (i % 10 != 9) continue;
+            linkage.points.push_back({"", i, random_place(random, 2.0f)});
+            linkage.closures.push_back({"", ClosureKind::Point, i, i > 10 ? i - 10 : ground_link,
+                                        random_place(random, 2.0f), random_place(random, 3.0f)});
+        }
+        ASSERT_TRUE(check(linkage)) << check(linkage).message();
+        Machine machine{Expected<Linkage>(linkage)};
+        const LinkTarget target{3, {50.0, -20.0, 0.0}, 1.0, true};
+        const LinkageReport report =
+            machine.solver.solve(machine.state, {{}, {&target, 1}}, {.max_iterations = 12});
+        EXPECT_NE(report.status, LinkageStatus::InvalidInput);
+        EXPECT_TRUE(std::isfinite(report.closed_to) && std::isfinite(report.residual));
+        EXPECT_EQ(report.closed_to > 1e-6 * machine.solver.size(), !machine.solver.open_closures().empty());
+        in_range(linkage, machine.state);
+    }
+}
+
 }  // namespace
 }  // namespace tendril::test::ik_linkage_random_test

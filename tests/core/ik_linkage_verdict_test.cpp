@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "ik_linkage_support.hpp"
+#include "memory.hpp"
 #include "random.hpp"
 #include "tendril/ik/mechanisms.hpp"
 #include "tests/says.hpp"
@@ -54,6 +55,119 @@ TEST(Linkage, a_dead_point_has_a_driver_that_is_not_at_its_value) {
     }
     EXPECT_GE(stopped, 100);
     EXPECT_GE(reached, 100);
+}
+
+TEST(Linkage, a_range_that_stops_drivers_is_named_whatever_the_pose) {
+    Random random(5);
+    int limited = 0;
+    for (int trial = 0; trial < 60; ++trial) {
+        Linkage linkage = *linkage_from(five_bar());
+        for (const char* name : {"BC", "CD"}) {
+            Link& link = linkage.links[linkage.find_link(name).value()];
+            link.minimum = link.rest - 0.4 * static_cast<double>(random.part());
+            link.maximum = link.rest + 0.4 * static_cast<double>(random.part());
+        }
+        Machine machine{Expected<Linkage>(linkage)};
+        const double left = static_cast<double>(random.around(0.1f)),
+                     right = static_cast<double>(random.around(0.1f));
+        for (int i = 0; i < 20; ++i) {
+            const LinkDriver drivers[] = {{machine.link("left"), machine.value("left") + left},
+                                          {machine.link("right"), machine.value("right") + right}};
+            const LinkageReport report = machine.solver.solve(machine.state, {drivers, {}});
+            if (report.status == LinkageStatus::Reached) continue;
+            ASSERT_EQ(report.status, LinkageStatus::Limited) << trial << " " << i;
+            ASSERT_FALSE(machine.solver.active().empty()) << trial << " " << i;
+            for (const std::size_t each : machine.solver.active()) {
+                const Link& link = linkage.links[each];
+                const double value = machine.state.joints[each].value;
+                ASSERT_LE(std::min(value - link.minimum, link.maximum - value), 1e-6) << trial << " " << i;
+            }
+            ++limited;
+        }
+    }
+    EXPECT_GE(limited, 100);
+}
+
+// ------------------------------------------------------------------------------------------------ targets
+
+struct Drag {
+    int jumps = 0;
+    double at = 0.0;             ///< part of the way
+    double jump = 0.0;           ///< metres
+    double largest_other = 0.0;  ///< move of the point in a frame without a jump, in steps of the target
+    int most_iterations = 0;     ///< without a jump
+};
+
+/// A point drawn in a straight line, in so many steps.
+Drag drag(Machine machine, const std::string& point, const glm::dvec3& from, const glm::dvec3& to,
+          int steps) {
+    Drag result;
+    machine.reach(point, from);
+    machine.reach(point, from);
+    for (int i = 1; i <= steps; ++i) {
+        const double part = static_cast<double>(i) / steps;
+        const glm::dvec3 before = machine.point(point);
+        const LinkageReport report = machine.reach(point, from + part * (to - from));
+        const double moved = glm::length(machine.point(point) - before);
+        if (report.jumped) {
+            ++result.jumps;
+            result.at = part;
+            result.jump = report.jump;
+            EXPECT_EQ(*report.jumped, 0u);
+            EXPECT_NEAR(report.jump, moved, 1e-9);
+            continue;
+        }
+        result.largest_other = std::max(result.largest_other, moved * steps / glm::length(to - from));
+        result.most_iterations = std::max(result.most_iterations, report.iterations);
+    }
+    return result;
+}
+
+// Where the target leaves the evolute of the coupler curve, the place that was nearest is none any more.
+TEST(Linkage, a_target_whose_point_jumps_is_named_once_however_finely_it_is_drawn) {
+    for (const int steps : {50, 200, 1000}) {
+        const Drag coupler = drag(Machine{four_bar()}, "P", {-1.5, 1.4, 0}, {3, 1.4, 0}, steps);
+        EXPECT_EQ(coupler.jumps, 1) << steps;
+        EXPECT_NEAR(coupler.at, 0.5555, 1.0 / steps) << steps;
+        EXPECT_GT(coupler.jump, 0.8) << steps;
+        const Drag foot = drag(Machine{jansen()}, "foot", {-60, -60, 0}, {20, -60, 0}, steps);
+        EXPECT_EQ(foot.jumps, 1) << steps;
+        EXPECT_GT(foot.jump, 15.0) << steps;
+        // The crank's end runs round where the target passes its axis, and does not jump.
+        for (const double beside : {0.2, -0.4}) {
+            const Drag crank = drag(Machine{slider_crank()}, "B", {1.5, beside, 0}, {-1.5, beside, 0}, steps);
+            EXPECT_EQ(crank.jumps, 0) << steps;
+            EXPECT_LE(crank.largest_other, 1.1 / std::abs(beside)) << steps;
+        }
+    }
+}
+
+TEST(Linkage, a_target_out_of_reach_takes_few_iterations_a_frame) {
+    const auto circles = [](Machine machine, const char* point, const glm::dvec3& centre, double radius) {
+        int most = 0;
+        for (int i = -5; i < 240; ++i) {
+            const double angle = deg(1.5 * i);
+            const LinkageReport report =
+                machine.reach(point, centre + radius * glm::dvec3(std::cos(angle), std::sin(angle), 0.0));
+            if (i >= 0) most = std::max(most, report.iterations);
+        }
+        return most;
+    };
+    EXPECT_LE(circles(Machine{four_bar()}, "P", {1, 1, 0}, 5.0), 12);
+    EXPECT_LE(circles(Machine{slider_crank()}, "B", {0, 0, 0}, 4.0), 12);
+    EXPECT_LE(circles(Machine{jansen()}, "crank", {0, 0, 0}, 60.0), 12);
+    for (const int bars : {3, 10, 40}) {
+        LinkageSketch chain;
+        chain.points = {{"P0", {0, 0}, pinned}};
+        for (std::size_t i = 1; i <= static_cast<std::size_t>(bars); ++i) {
+            chain.points.push_back(
+                {"P" + std::to_string(i), {static_cast<double>(i), i % 2 == 1 ? 0.3 : 0.0}});
+            chain.bars.push_back({"bar_" + std::to_string(i), {i - 1, i}});
+        }
+        const std::string tip = "P" + std::to_string(bars);
+        EXPECT_LE(circles(Machine{Expected<LinkageSketch>(chain)}, tip.c_str(), {0, 0, 0}, 1.5 * bars), 12)
+            << bars;
+    }
 }
 
 // ----------------------------------------------------------------------------------------- change points
@@ -128,6 +242,39 @@ TEST(Linkage, what_moves_freely_has_no_other_mode) {
     EXPECT_LE(glm::length(truss.point("B") - glm::dvec3(1, -2, 0)), 1e-6);
 }
 
+TEST(Linkage, other_modes_are_found_without_memory) {
+    for (const Expected<LinkageSketch>& sketch : {four_bar(), slider_crank({1.0, 3.0, 0.5}), jansen()}) {
+        Machine machine{sketch};
+        const std::size_t driven =
+            machine.solver.linkage().find_link("motor") ? machine.link("motor") : machine.link("crank");
+        machine.solver.solve(machine.state);
+        const LinkDriver driver{driven, machine.state.joints[driven].value};
+        const LinkageState before = machine.state;
+        bool found = false;
+        LinkageFreedom freedom;
+        without_memory([&] {
+            found = machine.solver.other_mode(machine.state, {&driver, 1});
+            freedom = machine.solver.freedom(machine.state);
+        });
+        EXPECT_TRUE(found);
+        EXPECT_NE(machine.state, before);
+        EXPECT_EQ(freedom.actual, 1);
+    }
+}
+
+TEST(Linkage, a_name_that_is_not_there_is_found_nowhere) {
+    const LinkageSketch sketch = *four_bar();
+    const Linkage linkage = *linkage_from(sketch);
+    for (const char* name : {"nobody", "", "Crank", "cran", "crank "}) {
+        EXPECT_EQ(linkage.find_link(name), std::nullopt) << name;
+        EXPECT_EQ(linkage.find_point(name), std::nullopt) << name;
+        EXPECT_EQ(sketch.find_point(name), std::nullopt) << name;
+        EXPECT_EQ(sketch.find_bar(name), std::nullopt) << name;
+    }
+    EXPECT_EQ(linkage.find_point("P"), 4u);
+    EXPECT_EQ(sketch.find_bar("coupler"), 1u);
+}
+
 // ------------------------------------------------------------------------------------- ranges, size, freedom
 
 TEST(Linkage, a_motors_range_may_be_any_turn_of_its_angle) {
@@ -141,14 +288,14 @@ TEST(Linkage, a_motors_range_may_be_any_turn_of_its_angle) {
     sketch.motors = {{"elbow", 1, 1, 0, -0.5, 0.5}};
     const Expected<Linkage> elbow = linkage_from(sketch);
     ASSERT_TRUE(elbow) << elbow.message();
-    EXPECT_NEAR(elbow->links[elbow->find_link("elbow")].rest, bend, 1e-12);
+    EXPECT_NEAR(elbow->links[*elbow->find_link("elbow")].rest, bend, 1e-12);
     for (const int turns : {-2, 0, 3}) {
         LinkageSketch turned = *four_bar();
         turned.motors[0].minimum = deg(360 * turns - 10);
         turned.motors[0].maximum = deg(360 * turns + 200);
         const Expected<Linkage> linkage = linkage_from(turned);
         ASSERT_TRUE(linkage) << linkage.message();
-        EXPECT_NEAR(linkage->links[linkage->find_link("crank")].rest, deg(360 * turns), 1e-9);
+        EXPECT_NEAR(linkage->links[*linkage->find_link("crank")].rest, deg(360 * turns), 1e-9);
     }
 }
 

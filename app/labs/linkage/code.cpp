@@ -64,7 +64,7 @@ std::string state_text(const LinkagePart& part) {
 std::string ranges_text(const LinkagePart& part) {
     std::string text;
     for (const LinkageRange& each : part.shape->ranges) {
-        const std::size_t link = part.linkage().find_link(each.joint);
+        const std::size_t link = *part.linkage().find_link(each.joint);
         const std::string at = "    linkage->links[" + std::to_string(link) + "].";
         if (std::isfinite(each.minimum)) text += at + "minimum = " + double_text(each.minimum) + ";\n";
         if (std::isfinite(each.maximum)) text += at + "maximum = " + double_text(each.maximum) + ";\n";
@@ -118,14 +118,14 @@ std::string linkage_code(const LinkagePart& part) {
         "        std::vector<ik::LinkDriver> drivers;\n";
     for (const LinkageDrive& each : part.drives) {
         if (!each.held) continue;
-        text += "        drivers.push_back({linkage->find_link(" + string_text(each.joint) + "), " +
+        text += "        drivers.push_back({*linkage->find_link(" + string_text(each.joint) + "), " +
                 double_text(each.value);
         if (each.rate != 0.0) text += " + frame / 60.0 * " + double_text(each.rate);
         text += "});\n";
     }
     text += "        std::vector<ik::LinkTarget> targets;\n";
     for (const LinkageTarget& each : part.targets)
-        text += "        targets.push_back({linkage->find_point(" + string_text(each.point) + "), " +
+        text += "        targets.push_back({*linkage->find_point(" + string_text(each.point) + "), " +
                 braced(each.to) + ", " + double_text(each.weight) + (each.exact ? ", true" : "") + "});\n";
     text +=
         "        const ik::LinkageReport report = solver.solve(state, {drivers, targets});\n"

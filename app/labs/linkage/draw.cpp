@@ -196,7 +196,7 @@ class LinkageDrawing {
 
     void motors() {
         for (const LinkageDrive& each : part_.drives) {
-            const std::size_t link = part_.linkage().find_link(each.joint);
+            const std::size_t link = *part_.linkage().find_link(each.joint);
             const ik::Link& of = part_.linkage().links[link];
             const glm::dvec3 drawn =
                 of.parent == ik::ground_link ? of.at : part_.links[of.parent].point(of.at);
@@ -208,7 +208,7 @@ class LinkageDrawing {
     void targets() {
         const auto draw = [&](const LinkageTarget& target, PickId pick) {
             const glm::vec3 to = in_scene(part_, target.to);
-            list_.line(at(part_.linkage().find_point(target.point)), to, px(1.5f),
+            list_.line(at(*part_.linkage().find_point(target.point)), to, px(1.5f),
                        opaque(view_.palette.target));
             Stroke& ball = list_.sphere(to, px(view_.hovered == pick ? 8.5f : 7.0f), Unit::Pixels,
                                         opaque(view_.palette.target));
@@ -285,11 +285,11 @@ std::vector<glm::vec3> places_on(const LinkagePart& part, std::size_t link) {
 
 double angle_at(const LinkagePart& part, std::string_view point) {
     const ik::LinkageSketch& sketch = part.shape->sketch;
-    const std::size_t at = sketch.find_point(point);
-    if (at == ik::ground_link) return no_angle;
+    const auto at = sketch.find_point(point);
+    if (!at) return no_angle;
     std::vector<glm::dvec2> ways;
     for (const ik::SketchBar& bar : sketch.bars)
-        if (is_on_bar(bar, at) && ways.size() < 2) ways.push_back(bar_way(part, bar, at));
+        if (is_on_bar(bar, *at) && ways.size() < 2) ways.push_back(bar_way(part, bar, *at));
     if (ways.empty()) return no_angle;
     if (ways.size() == 1) ways.insert(ways.begin(), {1.0, 0.0});
     return between(ways[0], ways[1]);

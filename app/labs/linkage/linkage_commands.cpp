@@ -30,9 +30,9 @@ Argument joint_argument() {
 
 /// Throws Refused for anything but a hinge or slider.
 void require_joint(const LinkagePart& part, const std::string& joint) {
-    const std::size_t link = part.linkage().find_link(joint);
-    if (link == ik::ground_link) throw Refused("there is no joint \"" + joint + "\"");
-    if (part.linkage().links[link].joint == ik::LinkJoint::Ball)
+    const auto link = part.linkage().find_link(joint);
+    if (!link) throw Refused("there is no joint \"" + joint + "\"");
+    if (part.linkage().links[*link].joint == ik::LinkJoint::Ball)
         throw Refused("joint \"" + joint + "\" is a ball: it has no single value");
 }
 
@@ -55,23 +55,18 @@ Mechanism mechanism_of(const LinkagePart& part) {
     return part.shape->mechanism;
 }
 
+void check_length_name(const Mechanism& mechanism, const std::string& name) {
+    const MechanismKind& kind = *kind_of(mechanism);
+    for (const Field& field : kind.fields)
+        if (file_name(field) == name) return;
+    throw Refused(std::string(kind.title) + " has no length \"" + name + "\"");
+}
+
 void set_lengths(LinkagePart& part, const Arguments& given, LinkageRuntime& runtime) {
     Mechanism mechanism = mechanism_of(part);
-    const MechanismKind& kind = *kind_of(mechanism);
-    const auto check_name = [&](const std::string& name) {
-        for (const Field& field : kind.fields)
-            if (file_name(field) == name) return;
-        throw Refused(std::string(kind.title) + " has no length \"" + name + "\"");
-    };
-    if (given.has("lengths")) {
-        const JsonPlace lengths(given.json("lengths"), "lengths");
-        if (!lengths.json().is_object())
-            lengths.fail("expected an object, found " + json_summary(lengths.json()));
-        for (const auto& each : lengths.json().items()) check_name(each.key());
-        load_fields(lengths, mechanism_fields(mechanism));
-    }
+    if (given.has("lengths")) read_lengths({given.json("lengths"), "lengths"}, mechanism);
     for (const auto& each : given.json().items())
-        if (each.key() != "lengths") check_name(each.key());
+        if (each.key() != "lengths") check_length_name(mechanism, each.key());
     set_fields(given, mechanism_fields(mechanism));
     const Mechanism& wanted = mechanism;
     if (save_fields(mechanism_fields(wanted)) == save_fields(mechanism_fields(part.shape->mechanism))) return;
@@ -177,7 +172,7 @@ void let_go(LinkagePart& part, const Arguments&, LinkageRuntime& runtime) {
 void other_mode(LinkagePart& part, const Arguments&, LinkageRuntime& runtime) {
     std::vector<ik::LinkDriver> drivers;
     for (const LinkageDrive& each : part.drives)
-        drivers.push_back({part.linkage().find_link(each.joint), part.value_of(each.joint)});
+        drivers.push_back({*part.linkage().find_link(each.joint), part.value_of(each.joint)});
     if (!runtime.solver(part.shape).other_mode(part.state, drivers))
         throw Refused("no other assembly mode is found with the drivers where they are");
     part.copies = copies_of(*part.shape, part.state);
@@ -247,14 +242,21 @@ Argument linkage_point_argument(const char* name, bool required, const char* hel
 }
 
 std::size_t require_linkage_point(const LinkagePart& part, const std::string& name) {
-    const std::size_t point = part.linkage().find_point(name);
-    if (point == ik::ground_link) throw Refused("there is no point \"" + name + "\"");
-    return point;
+    const auto point = part.linkage().find_point(name);
+    if (!point) throw Refused("there is no point \"" + name + "\"");
+    return *point;
+}
+
+void read_lengths(const JsonPlace& lengths, Mechanism& mechanism) {
+    if (!lengths.json().is_object())
+        lengths.fail("expected an object, found " + json_summary(lengths.json()));
+    for (const auto& each : lengths.json().items()) check_length_name(mechanism, each.key());
+    load_fields(lengths, mechanism_fields(mechanism));
 }
 
 bool turns(const LinkagePart& part, std::string_view joint) {
-    const std::size_t link = part.linkage().find_link(joint);
-    return link != ik::ground_link && part.linkage().links[link].joint == ik::LinkJoint::Hinge;
+    const auto link = part.linkage().find_link(joint);
+    return link && part.linkage().links[*link].joint == ik::LinkJoint::Hinge;
 }
 
 bool goes_on(const LinkagePart& part) {
@@ -275,7 +277,7 @@ namespace {
 std::vector<glm::dvec3> feet_of(const LinkagePart& part) {
     std::vector<glm::dvec3> feet;
     if (part.copies.empty()) return feet;
-    const std::size_t foot = part.linkage().find_point(kind_of(part.shape->mechanism)->traced);
+    const std::size_t foot = *part.linkage().find_point(kind_of(part.shape->mechanism)->traced);
     feet.push_back(part.at(foot));
     for (const LinkageCopy& each : part.copies) feet.push_back(part.at(foot, each));
     return feet;

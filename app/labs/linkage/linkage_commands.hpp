@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/document/command.hpp"
+#include "app/document/json_place.hpp"
 #include "app/labs/linkage/linkage_part.hpp"
 
 namespace tendril::app {
@@ -18,6 +19,9 @@ inline constexpr double usual_motor_rate = 90.0;
 bool is_link_name(const ik::LinkageSketch& sketch, const std::string& name);
 /// Whether the joint of that link turns: its values are angles.
 bool turns(const LinkagePart& part, std::string_view joint);
+/// Reads an object of lengths by their names; those that it leaves out stay. Throws std::runtime_error with
+/// the place of what is wrong.
+void read_lengths(const JsonPlace& lengths, Mechanism& mechanism);
 /// One tick of all motors.
 void run_motors(LinkagePart& part, double seconds, LinkageRuntime& runtime);
 /// A driver is on its way to a value that one solve did not get to: the next one goes on.

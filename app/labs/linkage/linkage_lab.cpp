@@ -254,11 +254,10 @@ std::string LinkageLab::code(const Workspace& workspace) const {
     return linkage_code(linkage_part(workspace));
 }
 
-Json LinkageLab::state(const Workspace& workspace) const {
-    const LinkagePart& part = linkage_part(workspace);
+Json linkage_state(const LinkagePart& part) {
     const LinkageResult& result = part.result;
     Json points = Json::object(), drivers = Json::object(), active = Json::array(), open = Json::array(),
-         targets = Json::object();
+         targets = Json::object(), jumped = nullptr;
     for (std::size_t i = 0; i < part.linkage().points.size(); ++i)
         points[part.linkage().points[i].name] = dpoint(part.at(i));
     for (const LinkageDrive& each : part.drives) drivers[each.joint] = drive_state(part, each);
@@ -267,10 +266,10 @@ Json LinkageLab::state(const Workspace& workspace) const {
     for (const LinkageTarget& each : part.targets)
         targets[each.point] = {
             {"to", dpoint(each.to)},
-            {"residual", glm::distance(each.to, part.at(part.linkage().find_point(each.point)))}};
-    const double transmission = transmission_angle(part);
-    return Json{{"lab", linkage_lab},
-                {"points", std::move(points)},
+            {"residual", glm::distance(each.to, part.at(*part.linkage().find_point(each.point)))}};
+    if (const LinkageTarget* const target = jumped_target(part))
+        jumped = {{"point", target->point}, {"distance", result.report.jump}};
+    return Json{{"points", std::move(points)},
                 {"closed_to", result.report.closed_to},
                 {"freedom", result.freedom.actual},
                 {"gruebler", result.freedom.counted},
@@ -280,11 +279,20 @@ Json LinkageLab::state(const Workspace& workspace) const {
                 {"targets", std::move(targets)},
                 {"active", std::move(active)},
                 {"open_closures", std::move(open)},
-                {"transmission_angle", std::isfinite(transmission) ? Json(transmission) : Json(nullptr)},
-                {"selected", part.selected.empty() ? Json(nullptr) : Json(part.selected)},
-                {"tool", linkage_tools.name(part.tool)},
-                {"seconds", part.time},
-                {"past", past_view_state(workspace, linkage_past(), linkage_past_curve(workspace))}};
+                {"jumped", std::move(jumped)}};
+}
+
+Json LinkageLab::state(const Workspace& workspace) const {
+    const LinkagePart& part = linkage_part(workspace);
+    const double transmission = transmission_angle(part);
+    Json state = linkage_state(part);
+    state.update({{"lab", linkage_lab},
+                  {"transmission_angle", std::isfinite(transmission) ? Json(transmission) : Json(nullptr)},
+                  {"selected", part.selected.empty() ? Json(nullptr) : Json(part.selected)},
+                  {"tool", linkage_tools.name(part.tool)},
+                  {"seconds", part.time},
+                  {"past", past_view_state(workspace, linkage_past(), linkage_past_curve(workspace))}});
+    return state;
 }
 
 }  // namespace tendril::app

@@ -6,6 +6,9 @@
 
 namespace tendril::app {
 
+/// What a linkage is doing, for --state and `tendril solve`: hinges in degrees, all else in metres.
+Json linkage_state(const LinkagePart& part);
+
 class LinkageLab final : public Lab {
   public:
     std::string name() const override { return linkage_lab; }

@@ -46,7 +46,7 @@ std::shared_ptr<const Part> LinkagePart::after_undo() const {
 std::shared_ptr<const Part> LinkagePart::at_moment(std::shared_ptr<const Part> then) const {
     auto part = std::make_shared<LinkagePart>(dynamic_cast<const LinkagePart&>(*then));
     part->tool = tool;
-    part->selected = part->linkage().find_point(selected) != ik::ground_link ? selected : "";
+    part->selected = part->linkage().find_point(selected) ? selected : "";
     part->drag.reset();
     return part;
 }
@@ -77,10 +77,9 @@ Json save_sketch(const ik::LinkageSketch& sketch) {
 }
 
 std::size_t load_index(const JsonPlace& place, const char* what, auto find) {
-    const std::size_t found = find(place.text());
-    if (found == ik::ground_link)
-        place.fail("there is no " + std::string(what) + " \"" + place.text() + "\"");
-    return found;
+    const std::optional<std::size_t> found = find(place.text());
+    if (!found) place.fail("there is no " + std::string(what) + " \"" + place.text() + "\"");
+    return *found;
 }
 
 void check_link_name(const JsonPlace& place, const ik::LinkageSketch& sketch, const std::string& name) {
@@ -96,8 +95,7 @@ ik::LinkageSketch load_sketch(const JsonPlace& place) {
     place["points"].for_each("points", max_linkage_points, [&](const JsonPlace& each) {
         ik::SketchPoint point{.name = each["name"].text()};
         if (point.name.empty()) each["name"].fail("a point needs a name");
-        if (sketch.find_point(point.name) != ik::ground_link)
-            each["name"].fail("there is a point of this name");
+        if (sketch.find_point(point.name)) each["name"].fail("there is a point of this name");
         each["at"].check_size(2, "coordinates");
         point.at = {each["at"].element(0).real(-max_linkage_extent, max_linkage_extent),
                     each["at"].element(1).real(-max_linkage_extent, max_linkage_extent)};
@@ -186,8 +184,7 @@ ik::LinkageState load_state(const JsonPlace& place, const ik::Linkage& linkage) 
 
 LinkageTarget load_target(const JsonPlace& place, const LinkagePart& part) {
     const std::string point = place["point"].text();
-    if (part.linkage().find_point(point) == ik::ground_link)
-        place["point"].fail("there is no point \"" + point + "\"");
+    if (!part.linkage().find_point(point)) place["point"].fail("there is no point \"" + point + "\"");
     if (std::ranges::count(part.targets, point, &LinkageTarget::point) > 0)
         place["point"].fail(point + " has a target already");
     return {point, place["to"].dpoint(), place["weight"].real(1e-6, 1e6), place["exact"].flag()};
@@ -197,8 +194,8 @@ void load_ranges(const JsonPlace& place, LinkageShape& shape) {
     std::vector<LinkageRange> all;
     place.for_each("ranges", ik::max_links, [&](const JsonPlace& each) {
         LinkageRange range{.joint = each["joint"].text()};
-        const std::size_t link = shape.linkage.find_link(range.joint);
-        if (link == ik::ground_link || shape.linkage.links[link].joint == ik::LinkJoint::Ball)
+        const auto link = shape.linkage.find_link(range.joint);
+        if (!link || shape.linkage.links[*link].joint == ik::LinkJoint::Ball)
             each["joint"].fail("there is no hinge or slider \"" + range.joint + "\"");
         if (std::ranges::count(all, range.joint, &LinkageRange::joint) > 0)
             each["joint"].fail(range.joint + " has a range already");
@@ -216,13 +213,13 @@ void load_ranges(const JsonPlace& place, LinkageShape& shape) {
 
 void load_drive(const JsonPlace& place, LinkagePart& part) {
     const std::string joint = place["joint"].text();
-    const std::size_t link = part.linkage().find_link(joint);
-    if (link == ik::ground_link || part.linkage().links[link].joint == ik::LinkJoint::Ball)
+    const auto link = part.linkage().find_link(joint);
+    if (!link || part.linkage().links[*link].joint == ik::LinkJoint::Ball)
         place["joint"].fail("there is no hinge or slider \"" + joint + "\"");
     if (part.find_drive(joint) != nullptr) place["joint"].fail("it is driven twice");
     const double fastest = turns(part, joint) ? glm::radians(max_motor_rate) : max_motor_rate;
     const auto value = place.optional("value");  // older files: where the joint is
-    part.drives.push_back({joint, value ? value->real() : part.state.joints[link].value,
+    part.drives.push_back({joint, value ? value->real() : part.state.joints[*link].value,
                            place["rate"].real(-fastest, fastest), place["held"].flag()});
 }
 
@@ -283,7 +280,7 @@ std::shared_ptr<Part> LinkagePart::load(const Json& json, const std::string& whe
     part->tool = place["tool"].choice(linkage_tools);
     if (const auto selected_point = place.optional("selected")) {
         part->selected = selected_point->text();
-        if (part->linkage().find_point(part->selected) == ik::ground_link)
+        if (!part->linkage().find_point(part->selected))
             selected_point->fail("there is no point \"" + part->selected + "\"");
     }
     // The pose stays as it was saved, to the bit; the report is that of a solve from there.

@@ -118,7 +118,7 @@ struct LinkagePart final : Part {
     double lowest_foot() const;
     const LinkageDrive* find_drive(std::string_view joint) const;
     /// Where a joint is: at a dead point not where it is asked to be.
-    double value_of(std::string_view joint) const { return state.joints[linkage().find_link(joint)].value; }
+    double value_of(std::string_view joint) const { return state.joints[*linkage().find_link(joint)].value; }
 };
 
 /// The lab begins with a four-bar.
@@ -149,11 +149,12 @@ class LinkageRuntime final : public Runtime {
     std::string path_point_;
     std::vector<PathPoint> path_;
 };
-/// The joint that moves along a path: a motor's, or else any that the ground holds. ground_link: none.
-std::size_t leading_joint(const LinkagePart& part);
+/// The joint that moves along a path: a motor's, or else any that the ground holds.
+std::optional<std::size_t> leading_joint(const LinkagePart& part);
 
-/// Moves the linkage to what is asked of it: held drivers and targets, or the mouse's drag alone.
-void solve_linkage(LinkagePart& part, LinkageRuntime& runtime);
+/// Moves the linkage to what is asked of it: held drivers and targets, or the mouse's drag alone. All drivers
+/// are watched.
+void solve_linkage(LinkagePart& part, LinkageRuntime& runtime, ik::LinkageOptions options = {});
 /// A new shape: what was drawn by hand in its own pose, a mechanism in the present one as far as its names
 /// go. Drivers, targets, ranges and selection stay where their names do, and held drivers at their values.
 void take_shape(LinkagePart& part, LinkageShape shape, LinkageRuntime& runtime);
@@ -162,9 +163,10 @@ void take_shape(LinkagePart& part, LinkageShape shape, std::vector<LinkageRange>
 /// Sets the ranges of the joints that there are. Throws std::invalid_argument if one leaves out the pose in
 /// which the linkage is drawn.
 void set_ranges(LinkageShape& shape, std::vector<LinkageRange> ranges);
-/// The link of a bar of the sketch: it has the bar's name, or that of the motor that turns it. ground_link:
-/// the bar floats.
-std::size_t link_of_bar(const ik::Linkage& linkage, const ik::LinkageSketch& sketch, std::size_t bar);
+/// The link of a bar of the sketch: it has the bar's name, or that of the motor that turns it. None: the bar
+/// floats.
+std::optional<std::size_t> link_of_bar(const ik::Linkage& linkage, const ik::LinkageSketch& sketch,
+                                       std::size_t bar);
 /// Of a sketch's bars: whether neither a pin nor a guide reaches it, directly or through other bars.
 std::vector<bool> floating_bars(const ik::LinkageSketch& sketch);
 /// The shape of a sketch. Bars that nothing holds are left out of the linkage. Throws std::invalid_argument

@@ -308,9 +308,9 @@ void bar_rows(const LinkagePart& part, std::size_t at, Emit& emit) {
 
 void joint_rows(const LinkagePart& part, Emit& emit) {
     section("Joint");
-    const std::size_t at = part.linkage().find_point(part.selected);
-    if (at == ik::ground_link) return note("Click a joint to select it: its path is drawn.");
-    const glm::dvec3 place = part.at(at);
+    const auto at = part.linkage().find_point(part.selected);
+    if (!at) return note("Click a joint to select it: its path is drawn.");
+    const glm::dvec3 place = part.at(*at);
     reading("name", "%s", part.selected.c_str());
     explain("As in files and commands.");
     reading("at", "%.3f  %.3f  %.3f m", place.x, place.y, place.z);
@@ -321,8 +321,8 @@ void joint_rows(const LinkagePart& part, Emit& emit) {
         explain("Between its two bars; of a single one on a pin, from +X.");
     }
     if (!part.shape->in_plane()) return;
-    bar_rows(part, at, emit);
-    const ik::SketchHold hold = part.shape->sketch.points[at].hold;
+    bar_rows(part, *at, emit);
+    const ik::SketchHold hold = part.shape->sketch.points[*at].hold;
     const bool pinned = hold == ik::SketchHold::Pinned, guided = hold == ik::SketchHold::Guided;
     if (row_option("Free", 3, !pinned && !guided, "Nothing but its bars holds it"))
         emit("linkage.pin", {{"point", part.selected}, {"on", false}});
@@ -332,11 +332,11 @@ void joint_rows(const LinkagePart& part, Emit& emit) {
         emit("linkage.guide", {{"point", part.selected}});
     end_row();
     if (guided) {
-        auto along = static_cast<float>(glm::degrees(part.shape->sketch.points[at].guide));
+        auto along = static_cast<float>(glm::degrees(part.shape->sketch.points[*at].guide));
         if (number_field("line", along, 0.5f, -360.0f, 360.0f, "%.1f deg"))
             emit.continuously("linkage.guide", {{"point", part.selected}, {"angle_deg", along}});
         explain("The direction of its line, from +X.");
-        if (part.linkage().find_link(part.selected) != ik::ground_link) range_rows(part, part.selected, emit);
+        if (part.linkage().find_link(part.selected)) range_rows(part, part.selected, emit);
     }
 }
 

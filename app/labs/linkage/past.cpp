@@ -127,13 +127,51 @@ std::string dead_point_reason(const LinkagePart& part, double within) {
            " are in line";
 }
 
+namespace {
+
+const LinkageTarget* target_of(const LinkagePart& part, const std::string& point) {
+    if (part.drag) return part.drag->point == point ? &*part.drag : nullptr;
+    const auto found = std::ranges::find(part.targets, point, &LinkageTarget::point);
+    return found == part.targets.end() ? nullptr : &*found;
+}
+
+/// A point that went much further than the target that it follows.
+std::optional<Incident> jump_incident(const LinkagePart& before, const LinkagePart& after) {
+    constexpr double further = 3.0;
+    const ik::LinkageReport& report = after.result.report;
+    const LinkageTarget* const is = jumped_target(after);
+    const LinkageTarget* const was = is == nullptr ? nullptr : target_of(before, is->point);
+    if (was == nullptr) return std::nullopt;
+    const double asked = glm::distance(was->to, is->to);
+    if (report.jump <= further * asked) return std::nullopt;
+    return Incident{.kind = Incident::Kind::Jump,
+                    .joint = 0,
+                    .name = is->point,
+                    .cause = is->point + " jumped " + app::length_text(report.jump) +
+                             " to another part of its path: the place where it was is no longer the nearest "
+                             "to its target, which moved " +
+                             app::length_text(asked)};
+}
+
+}  // namespace
+
+const LinkageTarget* jumped_target(const LinkagePart& part) {
+    const std::optional<std::size_t> index = part.result.report.jumped;
+    if (!index) return nullptr;
+    if (part.drag) return &*part.drag;
+    return *index < part.targets.size() ? &part.targets[*index] : nullptr;
+}
+
 std::vector<Incident> linkage_incidents(const LinkagePart& before, const LinkagePart& after) {
     using enum ik::LinkageStatus;
     if (before.shape != after.shape) return {};
     const ik::LinkageReport &was = before.result.report, &is = after.result.report;
     std::vector<Incident> incidents;
     const std::string reason = dead_point_reason(after);
-    if (is.passed_dead_point) {
+    const bool moved = before.state != after.state;  // else it is the same solve
+    if (moved)
+        if (auto jump = jump_incident(before, after)) incidents.push_back(std::move(*jump));
+    if (moved && is.passed_dead_point) {
         constexpr double about_in_line = 20.0;  // a tick later
         const std::string line = dead_point_reason(after, about_in_line);
         incidents.push_back({.kind = Incident::Kind::Limit,
@@ -171,7 +209,7 @@ std::vector<Incident> linkage_incidents(const LinkagePart& before, const Linkage
         incidents.push_back({.kind = Incident::Kind::Status,
                              .joint = 0,
                              .cause = "no pose was found that closes it: the bars are " +
-                                      length_text(is.closed_to) + " apart"});
+                                      app::length_text(is.closed_to) + " apart"});
     }
     return incidents;
 }

@@ -65,19 +65,18 @@ bool is_on(const std::vector<PathPoint>& path, const ik::LinkageState& state, co
 
 }  // namespace
 
-std::size_t leading_joint(const LinkagePart& part) {
+std::optional<std::size_t> leading_joint(const LinkagePart& part) {
     const ik::Linkage& linkage = part.linkage();
     if (!part.drives.empty()) return linkage.find_link(part.drives.front().joint);
     for (std::size_t i = 0; i < linkage.links.size(); ++i)
         if (linkage.links[i].parent == ik::ground_link && linkage.links[i].joint != ik::LinkJoint::Ball)
             return i;
-    return ik::ground_link;
+    return std::nullopt;
 }
 
 const std::vector<PathPoint>& LinkageRuntime::path(const LinkagePart& part) {
-    const std::size_t point = part.linkage().find_point(part.selected), joint = leading_joint(part);
-    const bool has_path = point != ik::ground_link && joint != ik::ground_link &&
-                          part.linkage().points[point].link != ik::ground_link &&
+    const auto point = part.linkage().find_point(part.selected), joint = leading_joint(part);
+    const bool has_path = point && joint && part.linkage().points[*point].link != ik::ground_link &&
                           part.result.freedom.actual == 1 && part.result.open_closures.empty();
     if (!has_path) {
         path_of_ = nullptr;
@@ -91,13 +90,13 @@ const std::vector<PathPoint>& LinkageRuntime::path(const LinkagePart& part) {
         return path_;
     path_of_ = part.shape;
     path_point_ = part.selected;
-    const bool hinge = part.linkage().links[joint].joint == ik::LinkJoint::Hinge;
+    const bool hinge = part.linkage().links[*joint].joint == ik::LinkJoint::Hinge;
     const double step = hinge ? 2.0 * std::numbers::pi / turn_steps : 2.0 * of.size() / turn_steps;
-    path_ = swept(of, part.state, joint, point, step);
+    path_ = swept(of, part.state, *joint, *point, step);
     if (!hinge || path_.size() < turn_steps) {
-        std::vector<PathPoint> back = swept(of, part.state, joint, point, -step);
+        std::vector<PathPoint> back = swept(of, part.state, *joint, *point, -step);
         std::ranges::reverse(back);
-        back.push_back({part.at(point), path_.empty() ? 0.0 : path_.front().speed, values_of(part.state)});
+        back.push_back({part.at(*point), path_.empty() ? 0.0 : path_.front().speed, values_of(part.state)});
         path_.insert(path_.begin(), back.begin(), back.end());
     }
     return path_;

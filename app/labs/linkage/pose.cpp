@@ -48,7 +48,7 @@ double motor_of(const LinkageCopy& copy, double angle, bool back = false) {
 std::vector<std::string> driven_joints(const LinkageShape& shape) {
     std::vector<std::string> names;
     for (const ik::SketchMotor& motor : shape.sketch.motors)
-        if (shape.linkage.find_link(motor.name) != ik::ground_link) names.push_back(motor.name);
+        if (shape.linkage.find_link(motor.name)) names.push_back(motor.name);
     const MechanismKind* const kind = kind_of(shape.mechanism);
     if (kind == nullptr || *kind->drivers == '\0') return names;
     for (const ik::Link& link : shape.linkage.links)
@@ -73,7 +73,7 @@ glm::dvec3 LinkagePart::at(std::size_t point, const LinkageCopy& copy) const {
 
 double LinkagePart::lowest_foot() const {
     if (copies.empty()) return 0.0;
-    const std::size_t foot = linkage().find_point(kind_of(shape->mechanism)->traced);
+    const std::size_t foot = *linkage().find_point(kind_of(shape->mechanism)->traced);
     double lowest = at(foot).y;
     for (const LinkageCopy& each : copies) lowest = std::min(lowest, at(foot, each).y);
     return lowest;
@@ -92,26 +92,27 @@ ik::LinkageSolver& LinkageRuntime::solver(const std::shared_ptr<const LinkageSha
     return *solver_;
 }
 
-void solve_linkage(LinkagePart& part, LinkageRuntime& runtime) {
+void solve_linkage(LinkagePart& part, LinkageRuntime& runtime, ik::LinkageOptions options) {
     ik::LinkageSolver& solver = runtime.solver(part.shape);
     const ik::Linkage& linkage = part.linkage();
     std::vector<ik::LinkDriver> drivers;
     std::vector<std::size_t> watched;
     for (const LinkageDrive& each : part.drives) {
-        const std::size_t link = linkage.find_link(each.joint);
+        const std::size_t link = *linkage.find_link(each.joint);
         watched.push_back(link);
         if (each.held && !part.drag) drivers.push_back({link, each.value});
     }
     std::vector<ik::LinkTarget> targets;
     const auto aim = [&](const LinkageTarget& each) {
-        targets.push_back({linkage.find_point(each.point), each.to, each.weight, each.exact});
+        targets.push_back({*linkage.find_point(each.point), each.to, each.weight, each.exact});
     };
     if (part.drag)
         aim(*part.drag);
     else
         for (const LinkageTarget& each : part.targets) aim(each);
     LinkageResult& result = part.result;
-    result.report = solver.solve(part.state, {drivers, targets}, {.watched = watched});
+    options.watched = watched;
+    result.report = solver.solve(part.state, {drivers, targets}, options);
     result.freedom = solver.freedom(part.state);
     result.active.assign(solver.active().begin(), solver.active().end());
     result.open_closures.assign(solver.open_closures().begin(), solver.open_closures().end());
@@ -121,7 +122,7 @@ void solve_linkage(LinkagePart& part, LinkageRuntime& runtime) {
     part.links.assign(solver.links().begin(), solver.links().end());
     for (LinkageCopy& each : part.copies) {
         const std::string& motor = part.drives.front().joint;
-        const ik::LinkDriver driver{linkage.find_link(motor), motor_of(each, part.value_of(motor))};
+        const ik::LinkDriver driver{*linkage.find_link(motor), motor_of(each, part.value_of(motor))};
         const ik::LinkageReport report = solver.solve(each.state, {{&driver, 1}, {}});
         each.links.assign(solver.links().begin(), solver.links().end());
         if (report.status <= result.report.status) continue;
@@ -178,7 +179,7 @@ std::vector<LinkageCopy> copies_of(const LinkageShape& shape, const ik::LinkageS
     if (walker == nullptr) return copies;
     constexpr int pairs = 6;
     constexpr double turn = 2.0 * std::numbers::pi;
-    const std::size_t motor = shape.linkage.find_link(driven_joints(shape).front());
+    const std::size_t motor = *shape.linkage.find_link(driven_joints(shape).front());
     for (int i = 0; i < 2 * pairs; ++i) {
         const int pair = i / 2;
         // The first is the linkage itself.
@@ -194,12 +195,13 @@ std::vector<LinkageCopy> copies_of(const LinkageShape& shape, const ik::LinkageS
     return copies;
 }
 
-std::size_t link_of_bar(const ik::Linkage& linkage, const ik::LinkageSketch& sketch, std::size_t bar) {
+std::optional<std::size_t> link_of_bar(const ik::Linkage& linkage, const ik::LinkageSketch& sketch,
+                                       std::size_t bar) {
     for (const ik::SketchMotor& motor : sketch.motors) {
-        const std::size_t link = linkage.find_link(motor.name);
-        if (link == ik::ground_link) continue;
+        const auto link = linkage.find_link(motor.name);
+        if (!link) continue;
         // Of two bars that a motor turns against each other, the later one hangs on the other.
-        const bool turned_round = motor.against != ik::ground_link && linkage.links[link].axis.z < 0.0;
+        const bool turned_round = motor.against != ik::ground_link && linkage.links[*link].axis.z < 0.0;
         if (bar == (turned_round ? motor.against : motor.bar)) return link;
     }
     return linkage.find_link(sketch.bars[bar].name);
@@ -231,9 +233,9 @@ double bar_direction(const ik::SketchBar& bar, auto at) {
 /// part has no such bar.
 std::optional<double> turn_of_bar(const LinkagePart& old, const ik::LinkageSketch& sketch, std::size_t bar) {
     const ik::LinkageSketch& was = old.shape->sketch;
-    const std::size_t same = was.find_bar(sketch.bars[bar].name);
-    if (same == ik::ground_link) return std::nullopt;
-    return bar_direction(was.bars[same], [&](std::size_t i) { return old.at(i); }) -
+    const auto same = was.find_bar(sketch.bars[bar].name);
+    if (!same) return std::nullopt;
+    return bar_direction(was.bars[*same], [&](std::size_t i) { return old.at(i); }) -
            bar_direction(sketch.bars[bar], [&](std::size_t i) { return sketch.points[i].at; });
 }
 
@@ -245,10 +247,10 @@ void pose_like(const LinkagePart& old, const LinkageShape& shape, ik::LinkageSta
     for (std::size_t i = 0; i < turns.size(); ++i) {
         const ik::Link& link = shape.linkage.links[i];
         ik::JointPlace& place = state.joints[i];
-        const std::size_t before = old.linkage().find_link(link.name);
-        if (before != ik::ground_link) {
+        const auto before = old.linkage().find_link(link.name);
+        if (before) {
             const double drawn = place.value;
-            place = old.state.joints[before];
+            place = old.state.joints[*before];
             if (is_hinge(link) && !shape.in_plane())
                 place.value = turned_near(place.value, place.value, link);
             if (is_hinge(link) && shape.in_plane()) place.value = drawn;
@@ -262,7 +264,7 @@ void pose_like(const LinkagePart& old, const LinkageShape& shape, ik::LinkageSta
             turns[i] = *turn;
             const double value =
                 link.rest + (link.axis.z < 0.0 ? -1.0 : 1.0) * (*turn - turn_of(link.parent));
-            const double near = before != ik::ground_link ? old.state.joints[before].value : link.rest;
+            const double near = before ? old.state.joints[*before].value : link.rest;
             place.value = turned_near(value, near, link);
         }
     }
@@ -272,11 +274,11 @@ void pose_like(const LinkagePart& old, const LinkageShape& shape, ik::LinkageSta
 
 void set_ranges(LinkageShape& shape, std::vector<LinkageRange> ranges) {
     std::erase_if(ranges, [&](const LinkageRange& each) {
-        const std::size_t link = shape.linkage.find_link(each.joint);
-        return link == ik::ground_link || shape.linkage.links[link].joint == ik::LinkJoint::Ball;
+        const auto link = shape.linkage.find_link(each.joint);
+        return !link || shape.linkage.links[*link].joint == ik::LinkJoint::Ball;
     });
     for (const LinkageRange& each : ranges) {
-        ik::Link& link = shape.linkage.links[shape.linkage.find_link(each.joint)];
+        ik::Link& link = shape.linkage.links[*shape.linkage.find_link(each.joint)];
         link.minimum = each.minimum;
         link.maximum = each.maximum;
         if (is_hinge(link)) link.rest = turned_near(link.rest, link.rest, link);
@@ -312,7 +314,7 @@ void take_shape(LinkagePart& part, LinkageShape shape, std::vector<LinkageRange>
     for (const std::string& joint : driven_joints(*part.shape)) {
         const LinkageDrive* const before = part.find_drive(joint);
         LinkageDrive& drive = drives.emplace_back(before != nullptr ? *before : LinkageDrive{.joint = joint});
-        const std::size_t link = part.linkage().find_link(joint);
+        const std::size_t link = *part.linkage().find_link(joint);
         const double drawn = part.state.joints[link].value, held = drive.value;
         const bool hinge = is_hinge(part.linkage().links[link]);
         const bool counted = same_kind && before != nullptr;  // its turns are those from before
@@ -321,9 +323,7 @@ void take_shape(LinkagePart& part, LinkageShape shape, std::vector<LinkageRange>
                                           : held;
     }
     part.drives = std::move(drives);
-    const auto gone = [&](const std::string& point) {
-        return part.linkage().find_point(point) == ik::ground_link;
-    };
+    const auto gone = [&](const std::string& point) { return !part.linkage().find_point(point); };
     std::erase_if(part.targets, [&](const LinkageTarget& each) { return gone(each.point); });
     if (gone(part.selected)) part.selected.clear();
     part.drag.reset();

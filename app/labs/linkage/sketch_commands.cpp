@@ -16,15 +16,15 @@ namespace {
 using ik::LinkageSketch, ik::SketchHold;
 
 std::size_t require_in_sketch(const LinkageSketch& sketch, const std::string& point) {
-    const std::size_t found = sketch.find_point(point);
-    if (found == ik::ground_link) throw Refused("there is no point \"" + point + "\"");
-    return found;
+    const auto found = sketch.find_point(point);
+    if (!found) throw Refused("there is no point \"" + point + "\"");
+    return *found;
 }
 
 std::size_t require_bar(const LinkageSketch& sketch, const std::string& bar) {
-    const std::size_t found = sketch.find_bar(bar);
-    if (found == ik::ground_link) throw Refused("there is no bar \"" + bar + "\"");
-    return found;
+    const auto found = sketch.find_bar(bar);
+    if (!found) throw Refused("there is no bar \"" + bar + "\"");
+    return *found;
 }
 
 /// A to Z, then A2 to Z2, ...
@@ -32,7 +32,7 @@ std::string free_point_name(const LinkageSketch& sketch) {
     for (std::size_t i = 0;; ++i) {
         std::string name(1, static_cast<char>('A' + i % 26));
         if (i >= 26) name += std::to_string(i / 26 + 1);
-        if (sketch.find_point(name) == ik::ground_link) return name;
+        if (!sketch.find_point(name)) return name;
     }
 }
 
@@ -53,8 +53,7 @@ glm::dvec2 place_in_plane(const Json& json, const std::string& where) {
 std::size_t add_point(LinkageSketch& sketch, const std::string& name, const glm::dvec2& at) {
     if (sketch.points.size() >= max_linkage_points)
         throw Refused("a linkage has at most " + std::to_string(max_linkage_points) + " joints");
-    if (sketch.find_point(name) != ik::ground_link)
-        throw Refused("there is a joint \"" + name + "\" already");
+    if (sketch.find_point(name)) throw Refused("there is a joint \"" + name + "\" already");
     sketch.points.push_back({.name = name, .at = at});
     return sketch.points.size() - 1;
 }
@@ -148,7 +147,7 @@ void set_length(LinkageSketch& sketch, const Arguments& given) {
     LinkageSketch held = sketch;
     if (floating_bars(held)[index]) held.points[bar.points[0]].hold = SketchHold::Pinned;
     const ik::Linkage linkage = shape_of(held).linkage;
-    const std::size_t link = link_of_bar(linkage, held, index);
+    const std::size_t link = link_of_bar(linkage, held, index).value();
     glm::dvec3 near(sketch.points[bar.points[0]].at, 0.0), far(sketch.points[bar.points[1]].at, 0.0);
     if (glm::distance(linkage.links[link].at, far) < glm::distance(linkage.links[link].at, near))
         std::swap(near, far);
@@ -250,10 +249,9 @@ Argument end_argument(const char* name) {
 }  // namespace
 
 bool is_link_name(const LinkageSketch& sketch, const std::string& name) {
-    const std::size_t point = sketch.find_point(name);
-    return sketch.find_bar(name) != ik::ground_link ||
-           std::ranges::count(sketch.motors, name, &ik::SketchMotor::name) > 0 ||
-           (point != ik::ground_link && sketch.points[point].hold == SketchHold::Guided);
+    const auto point = sketch.find_point(name);
+    return sketch.find_bar(name) || std::ranges::count(sketch.motors, name, &ik::SketchMotor::name) > 0 ||
+           (point && sketch.points[*point].hold == SketchHold::Guided);
 }
 
 void add_sketch_commands(CommandTable& table) {

@@ -11,7 +11,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <string_view>
+#include <vector>
 
 #include "tendril/magnitude.hpp"
 #include "tendril/result.hpp"
@@ -30,6 +32,14 @@ inline bool is_point(const glm::vec3& point) noexcept {
 }
 
 inline constexpr std::size_t no_index = static_cast<std::size_t>(-1);
+
+/// Of the first in the list with this name.
+template <class Named>
+std::optional<std::size_t> index_of_name(const std::vector<Named>& list, std::string_view name) noexcept {
+    for (std::size_t i = 0; i < list.size(); ++i)
+        if (list[i].name == name) return i;
+    return std::nullopt;
+}
 
 /// How a message names the argument: `target`, `joints[3]`, `segments[3].position`.
 struct Argument {

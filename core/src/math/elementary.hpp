@@ -1,5 +1,5 @@
-// Exponential, sine, cosine and arctangent in plain arithmetic, because the standard library's differ in
-// their last bits between systems, and sometimes between processors. Accurate to 1e-15 of the result. Not
+// Exponential, sine, cosine, arctangent and random numbers in plain arithmetic, because the standard library's
+// differ between systems, and sometimes between processors. Functions are accurate to 1e-15 of the result. Not
 // installed.
 #pragma once
 
@@ -28,6 +28,15 @@ static inline double decay(double x) noexcept {
     double sum = 1.0;
     for (int n = 13; n > 0; --n) sum = 1.0 - (r * (1.0 / n)) * sum;
     return sum * std::bit_cast<double>(static_cast<std::uint64_t>(1023 - static_cast<std::int64_t>(k)) << 52);
+}
+
+/// SplitMix64 (G. Steele, D. Lea, C. Flood, "Fast splittable pseudorandom number generators", 2014): 64 random
+/// bits, and the state for the next.
+static inline std::uint64_t random_bits(std::uint64_t& state) noexcept {
+    std::uint64_t z = (state += 0x9e3779b97f4a7c15u);
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return z ^ (z >> 31);
 }
 
 struct SineCosine {

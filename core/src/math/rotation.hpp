@@ -6,6 +6,7 @@
 #include <glm/vec3.hpp>
 #include <type_traits>
 
+#include "math/elementary.hpp"
 #include "math/vector.hpp"
 
 namespace tendril::math {
@@ -38,6 +39,10 @@ static inline Vec<T> rotated(const Quat<T>& q, const Vec<std::type_identity_t<T>
 static inline glm::quat rotation_about(const glm::vec3& axis, float angle) noexcept {
     const float s = std::sin(0.5f * angle);
     return {std::cos(0.5f * angle), axis.x * s, axis.y * s, axis.z * s};
+}
+static inline glm::dquat rotation_about(const glm::dvec3& axis, double angle) noexcept {
+    const SineCosine half = sine_cosine(angle / (4.0 * pi));
+    return {half.cosine, axis.x * half.sine, axis.y * half.sine, axis.z * half.sine};
 }
 /// Interpolates along the shortest rotation (K. Shoemake, "Animating rotation with quaternion curves",
 /// SIGGRAPH 1985); `from` if `part` is 0, `to` or its negative (the same rotation) if it is 1.

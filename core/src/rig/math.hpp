@@ -22,6 +22,7 @@ using math::perpendicular;
 using math::pi;
 using math::plus;
 using math::rotated;
+using math::rotation_about;
 using math::times;
 using math::unit_quaternion;
 
@@ -33,11 +34,6 @@ inline glm::dvec3 mix(const glm::dvec3& a, const glm::dvec3& b, double part) noe
 }
 inline double dot(const glm::dquat& a, const glm::dquat& b) noexcept {
     return a.w * b.w + a.x * b.x + a.y * b.y + a.z * b.z;
-}
-/// About a unit axis, radians.
-inline glm::dquat rotation_about(const glm::dvec3& axis, double angle) noexcept {
-    const auto [sine, cosine] = math::sine_cosine(angle / (4.0 * pi));
-    return {cosine, axis.x * sine, axis.y * sine, axis.z * sine};
 }
 /// Half the angle between two rotations the short way, radians: 0 to pi / 2.
 inline double half_angle_between(const glm::dquat& a, const glm::dquat& b) noexcept {

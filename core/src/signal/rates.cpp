@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "math/elementary.hpp"
 #include "signal/stepped.hpp"
 #include "tendril/signal/run.hpp"
 
@@ -56,15 +57,10 @@ class HeldInput {
     double slowest_ = 1e4;
 };
 
-/// SplitMix64 (Steele, Lea, Flood 2014), 0 to 1: the same frames everywhere.
+/// 0 to 1: the same frames everywhere.
 class Unit {
   public:
-    double next() {
-        std::uint64_t z = (state_ += 0x9e3779b97f4a7c15u);
-        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-        z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-        return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
-    }
+    double next() { return static_cast<double>(math::random_bits(state_) >> 11) * 0x1p-53; }
 
   private:
     std::uint64_t state_ = 1;

@@ -393,14 +393,14 @@ TEST_F(LinkageTest, ADriverEndsADrag) {
 
 TEST_F(LinkageTest, AllLegsOfAWalkerChangeTheirMode) {
     run("linkage.preset", {{"name", "walker"}});
-    const auto height = [&] { return part().at(part().linkage().find_point("foot"), part().copies[4]).y; };
+    const auto height = [&] { return part().at(*part().linkage().find_point("foot"), part().copies[4]).y; };
     const double before = height();
     run("linkage.other_mode");
     EXPECT_GT(std::abs(height() - before), 0.01);
     // A leg a whole turn on is the leg itself.
     const LinkageCopy& opposite = part().copies[5];
     EXPECT_NEAR(opposite.phase, glm::radians(180.0), 1e-9);
-    const double foot = part().at(part().linkage().find_point("foot"), opposite).y;
+    const double foot = part().at(*part().linkage().find_point("foot"), opposite).y;
     run("linkage.drive", {{"joint", "motor"}, {"angle_deg", driver("motor") + 180.0}});
     EXPECT_NEAR(at("foot").y, foot, 1e-6);
 }

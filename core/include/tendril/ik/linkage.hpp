@@ -4,9 +4,9 @@
 //     const Linkage linkage = *linkage_from(*four_bar({.ground = 3, .crank = 1, .coupler = 2.5}));
 //     LinkageSolver solver = *LinkageSolver::make(linkage);
 //     LinkageState state = solver.initial_state();
-//     const LinkDriver crank{linkage.find_link("crank"), angle};
+//     const LinkDriver crank{*linkage.find_link("crank"), angle};
 //     const LinkageReport report = solver.solve(state, {.drivers = {&crank, 1}});
-//     draw(solver.point(linkage.find_point("P")));
+//     draw(solver.point(*linkage.find_point("P")));
 //
 // The links form a tree: each hangs on an earlier one, or on the ground, by one joint. Loops are closed by
 // closures, two points or two frames that coincide. Drivers give a joint a value; targets pull points to
@@ -15,15 +15,17 @@
 // A solve meets, in this order: closures and the joints' ranges; drivers; exact targets; the others,
 // weighted. What comes later gets what freedom is left. Method: Newton's steps of minimal norm on the
 // closures, rows orthogonalised in order of priority (B. Siciliano, J.-J. Slotine, "A general framework for
-// managing multiple tasks in highly redundant robotic systems", 1991); targets by damped Gauss-Newton steps
-// (Levenberg 1944, Marquardt 1963) in the null space of these, each followed by a return to the closures;
+// managing multiple tasks in highly redundant robotic systems", 1991); targets by Newton's steps in the null
+// space of these, with the second derivatives of targets and closures (J. Nocedal, S. Wright, "Numerical
+// Optimization", 2006, 18.1), or damped Gauss-Newton steps (Levenberg 1944, Marquardt 1963) where the
+// curvature is negative, each followed by a return to the closures;
 // ranges by an active set. A driver goes to its value in substeps: one is taken only if it ends where the
 // tangent led (E. Allgower, K. Georg, "Introduction to Numerical Continuation Methods", 2003, on step
 // control). So a linkage stays in its assembly mode while a driver glides, and stops at a dead point. Where
 // branches cross, as in a parallelogram folded onto one line, it goes on as it last moved.
 //
-// Targets have no such guard. A small step of a target past the edge of its reach can need a large one of the
-// linkage: then the point jumps, with no dead point passed and none reported.
+// Targets have no such guard. A small step of a target can end the place that was the nearest: then its point
+// jumps to another part of its path, and the report says so.
 //
 // Cost: O(m^2 n) an iteration with m equations of closures and n degrees of freedom of the joints, and with
 // targets O(n^3) more. A frame of a glide takes two or three: a four-bar 1 us, Jansen's leg 4 us, a Stewart
@@ -48,7 +50,7 @@
 
 namespace tendril::ik {
 
-/// In place of a link's index: what does not move. Also "no such link" or point.
+/// In place of a link's index: what does not move.
 inline constexpr std::size_t ground_link = static_cast<std::size_t>(-1);
 
 enum class LinkJoint : std::uint8_t {
@@ -106,9 +108,9 @@ struct Linkage {
     std::vector<LinkPoint> points{};
     std::vector<Closure> closures{};
 
-    /// ground_link if there is none of that name.
-    std::size_t find_link(std::string_view name) const noexcept;
-    std::size_t find_point(std::string_view name) const noexcept;
+    /// nullopt if there is none of that name.
+    std::optional<std::size_t> find_link(std::string_view name) const noexcept;
+    std::optional<std::size_t> find_point(std::string_view name) const noexcept;
     bool operator==(const Linkage&) const = default;
 };
 /// InvalidArgument, with the name of the list, the index and the value, for a parent that does not come
@@ -179,6 +181,11 @@ struct LinkageReport {
     /// A target pulled the linkage past a dead point of its drivers (of `watched`, if nothing is driven): it
     /// switched to another assembly mode. Drivers alone never do that.
     bool passed_dead_point = false;
+    /// The target whose point jumped: where it was is no longer the nearest place nearby, and it ran on to
+    /// another part of its path. An index of the targets. Set as well after a large step of a target round a
+    /// bend: compare `jump` with that.
+    std::optional<std::size_t> jumped{};
+    double jump = 0.0;  ///< metres, how far that point moved
 
     bool operator==(const LinkageReport&) const = default;
 };

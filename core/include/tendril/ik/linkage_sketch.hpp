@@ -18,6 +18,7 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -68,9 +69,9 @@ struct LinkageSketch {
     std::vector<SketchBar> bars{};
     std::vector<SketchMotor> motors{};
 
-    /// ground_link if there is none of that name.
-    std::size_t find_point(std::string_view name) const noexcept;
-    std::size_t find_bar(std::string_view name) const noexcept;
+    /// nullopt if there is none of that name.
+    std::optional<std::size_t> find_point(std::string_view name) const noexcept;
+    std::optional<std::size_t> find_bar(std::string_view name) const noexcept;
     bool operator==(const LinkageSketch&) const = default;
 };
 

@@ -134,10 +134,6 @@ glm::dquat twist_between(const glm::dvec3& axis, const glm::dvec3& from, const g
     const double s = std::copysign(std::sqrt(std::max(0.0, 0.5 * (1.0 - cosine))), sine);
     return unit_quaternion(w, axis.x * s, axis.y * s, axis.z * s);
 }
-glm::dquat roll_about(const glm::dvec3& axis, double radians) noexcept {
-    const math::SineCosine half = math::sine_cosine(radians / (4.0 * math::pi));
-    return {half.cosine, axis.x * half.sine, axis.y * half.sine, axis.z * half.sine};
-}
 glm::quat narrow_rotation(const glm::dquat& q) noexcept {
     return {static_cast<float>(q.w), static_cast<float>(q.x), static_cast<float>(q.y),
             static_cast<float>(q.z)};
@@ -254,7 +250,7 @@ CurveReport place_along(std::span<const glm::vec3> points, const CurveChain& cha
         glm::dquat target = compose(twist_between(direction, swung, side), swing);
         if (rolls) {
             const double share = reach > last_length ? along / (reach - last_length) : 0.0;
-            target = compose(roll_about(direction, roll_start + share * (roll_end - roll_start)), target);
+            target = compose(rotation_about(direction, roll_start + share * (roll_end - roll_start)), target);
         }
 
         const float weight = options.weight * (options.weights.empty() ? 1.0f : options.weights[i]);

@@ -8,6 +8,7 @@
 #include "ik/pole/pole.hpp"
 #include "ik/solve/perturbation.hpp"
 #include "ik/tunables.hpp"
+#include "math/elementary.hpp"
 
 namespace tendril::ik::detail {
 namespace {
@@ -49,13 +50,9 @@ float bend_in_arc(const Problem& problem, const glm::vec3& about) noexcept {
     return error_of(problem, scratch.trial);
 }
 
-/// SplitMix64 (Steele, Lea, Flood 2014), in [0, 1).
+/// In [0, 1).
 float random_unit(std::uint64_t& state) noexcept {
-    std::uint64_t z = (state += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    z ^= z >> 31;
-    return static_cast<float>(z >> 40) * (1.0f / 16777216.0f);
+    return static_cast<float>(math::random_bits(state) >> 40) * (1.0f / 16777216.0f);
 }
 
 float interpolated(float a, float b, float part) noexcept {

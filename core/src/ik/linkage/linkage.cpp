@@ -12,6 +12,7 @@
 namespace tendril::ik {
 
 using tendril::detail::Argument;
+using tendril::detail::index_of_name;
 using tendril::detail::refused;
 using tendril::detail::Shown;
 
@@ -31,13 +32,6 @@ glm::dvec3 LinkPlace::point(const glm::dvec3& drawn) const noexcept {
 }
 
 namespace {
-
-template <class Named>
-std::size_t index_of_name(const std::vector<Named>& list, std::string_view name) noexcept {
-    for (std::size_t i = 0; i < list.size(); ++i)
-        if (list[i].name == name) return i;
-    return ground_link;
-}
 
 constexpr const char* coordinate_range_said = "a number of magnitude at most 1e9";
 
@@ -89,10 +83,10 @@ Result check_one_link(const Linkage& linkage, std::size_t at) noexcept {
 
 }  // namespace
 
-std::size_t Linkage::find_link(std::string_view name) const noexcept {
+std::optional<std::size_t> Linkage::find_link(std::string_view name) const noexcept {
     return index_of_name(links, name);
 }
-std::size_t Linkage::find_point(std::string_view name) const noexcept {
+std::optional<std::size_t> Linkage::find_point(std::string_view name) const noexcept {
     return index_of_name(points, name);
 }
 
@@ -104,7 +98,7 @@ Result check(const Linkage& linkage) noexcept {
     for (std::size_t i = 0; i < linkage.links.size(); ++i) {
         if (const Result bad = check_one_link(linkage, i); !bad) return bad;
         const std::string& name = linkage.links[i].name;
-        if (!name.empty() && linkage.find_link(name) < i)
+        if (!name.empty() && *linkage.find_link(name) < i)
             return refused("linkage", {"links", i, "name"}, "that of no link before", std::string_view(name));
     }
     for (std::size_t i = 0; i < linkage.points.size(); ++i) {

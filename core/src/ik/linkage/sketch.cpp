@@ -11,6 +11,7 @@
 namespace tendril::ik {
 
 using tendril::detail::check_index;
+using tendril::detail::index_of_name;
 
 const char* name(SketchHold hold) noexcept {
     constexpr const char* names[] = {"free", "pinned", "guided"};
@@ -18,13 +19,6 @@ const char* name(SketchHold hold) noexcept {
 }
 
 namespace {
-
-template <class Named>
-std::size_t sketch_index(const std::vector<Named>& list, std::string_view name) noexcept {
-    for (std::size_t i = 0; i < list.size(); ++i)
-        if (list[i].name == name) return i;
-    return ground_link;
-}
 
 bool joins(const SketchBar& bar, std::size_t point) noexcept {
     return std::ranges::find(bar.points, point) != bar.points.end();
@@ -68,7 +62,7 @@ class SketchTree {
                 {sketch_.points[i].name, owner_[i] == unplaced ? ground_link : owner_[i], at(i)});
         for (std::size_t i = 0; i < linkage_.links.size(); ++i)
             if (const std::string& name = linkage_.links[i].name;
-                !name.empty() && linkage_.find_link(name) < i)
+                !name.empty() && *linkage_.find_link(name) < i)
                 return sketch_refused(
                     "bars, motors and guided points must have a name each of their own, got two \"" + name +
                     "\"");
@@ -272,11 +266,11 @@ class SketchTree {
 
 }  // namespace
 
-std::size_t LinkageSketch::find_point(std::string_view name) const noexcept {
-    return sketch_index(points, name);
+std::optional<std::size_t> LinkageSketch::find_point(std::string_view name) const noexcept {
+    return index_of_name(points, name);
 }
-std::size_t LinkageSketch::find_bar(std::string_view name) const noexcept {
-    return sketch_index(bars, name);
+std::optional<std::size_t> LinkageSketch::find_bar(std::string_view name) const noexcept {
+    return index_of_name(bars, name);
 }
 
 Result remove_bar(LinkageSketch& sketch, std::size_t bar) {

@@ -2,10 +2,20 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 #include "ik/linkage/work.hpp"
 
 namespace tendril::ik::detail {
+
+constexpr double widest_step = 0.5;  ///< of a joint in one step, radians: the tangent says little beyond
+constexpr double reached = 1e-6;     ///< a driver's or target's tolerance, radians or sizes
+
+inline double norm_of(std::span<const double> step) noexcept {
+    double sum = 0.0;
+    for (const double each : step) sum += each * each;
+    return std::sqrt(sum);
+}
 
 class LinkageSolve {
   public:
@@ -35,8 +45,9 @@ class LinkageSolve {
     /// Newton's step on the closures, and on exact targets once they are there; leaves the basis of their
     /// rows. Held columns of the step are given.
     void find_return() noexcept;
-    void take_rows(const LinkageWork::Block& block, std::size_t equations) noexcept;
-    double take_row(std::span<double> row, double error, double scale) noexcept;
+    /// `origin`: the closure, or how many closures there are and the target.
+    void take_rows(const LinkageWork::Block& block, std::size_t equations, std::size_t origin) noexcept;
+    double take_row(std::span<double> row, double error, double scale, std::size_t origin) noexcept;
     void clear_step() noexcept;
     bool hold_overstepped() noexcept;
     /// Newton's steps to the closures. False if they go further than `allowed`, or do not get there.
@@ -54,15 +65,21 @@ class LinkageSolve {
     bool descend_from_here() noexcept;
     bool perturb() noexcept;
     bool descent_step(double damping) noexcept;
+    bool settled(double cost) const noexcept { return convex_ && predicted_gain_ <= 1e-12 * cost; }
     void add_equation(std::span<double> row, double error, double weight) noexcept;
     void find_equations() noexcept;
-    void solve_equations(double damping) noexcept;
+    void find_curvature() noexcept;
+    void find_descent(double damping) noexcept;
+    double pull_along_gradient() const noexcept;
+    bool aims_at_targets() const noexcept { return aim_ == Aim::ExactTargets || aim_ == Aim::Targets; }
+    bool solve_equations(double damping, bool curved) noexcept;
     double cost() noexcept;
     double target_weight(const LinkTarget& target) const noexcept;
     void put_back(const std::vector<JointPlace>& joints) noexcept;
     int watched_mode() noexcept;
     std::size_t free_columns() const noexcept;
     void note_active() noexcept;
+    void find_jump(LinkageReport& report) noexcept;
     void finish(LinkageReport& report) noexcept;
 
     LinkageWork& work_;
@@ -75,9 +92,17 @@ class LinkageSolve {
     /// The least that was left of a closure's equations by those before, as a part: near 0 where the rank is
     /// about to fall, or has fallen.
     double least_left_ = 1.0;
-    bool keeps_exact_ = false;  ///< exact targets are, too
-    double heaviest_ = 0.0;     ///< of the weights of the aim's targets
-    bool descended_ = false;    ///< the last descent took a step
+    bool keeps_exact_ = false;     ///< exact targets are, too
+    double heaviest_ = 0.0;        ///< of the weights of the aim's targets
+    bool descended_ = false;       ///< the last descent took a step
+    double predicted_gain_ = 0.0;  ///< of the last step of a descent
+    bool convex_ = true;           ///< the pose that it was found in is near a minimum
+    bool plain_ = false;           ///< the next step is Gauss' and Newton's
+    bool turns_away_ = false;      ///< or the pull grows as the step gives way
+    /// Metres: how far the targets pull their points at first, were what holds these straight. Negative
+    /// before.
+    double first_pull_ = -1.0;
+    bool turned_away_ = false;  ///< such a step was taken
     bool stopped_ = false, out_of_iterations_ = false, beyond_range_ = false;
 };
 

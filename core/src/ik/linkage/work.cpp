@@ -11,13 +11,9 @@ namespace {
 
 constexpr glm::dvec3 world_axes[3] = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
 
-glm::dquat turn_about(const glm::dvec3& axis, double radians) noexcept {
-    const math::SineCosine half = math::sine_cosine(radians / (4.0 * math::pi));
-    return {half.cosine, axis.x * half.sine, axis.y * half.sine, axis.z * half.sine};
-}
 glm::dquat turn_by_vector(const glm::dvec3& vector) noexcept {
     const double angle = length(vector);
-    return angle > 0.0 ? turn_about(times(vector, 1.0 / angle), angle) : glm::dquat(1.0, 0.0, 0.0, 0.0);
+    return angle > 0.0 ? rotation_about(times(vector, 1.0 / angle), angle) : glm::dquat(1.0, 0.0, 0.0, 0.0);
 }
 /// The shortest rotation's vector.
 glm::dvec3 vector_of_turn(const glm::dquat& turn) noexcept {
@@ -32,10 +28,11 @@ glm::dvec3 vector_of_turn(const glm::dquat& turn) noexcept {
 void RowBasis::reserve(std::size_t columns) {
     columns_ = columns;
     rows_.resize(columns * columns);
+    triangle_.resize(columns * columns);
     windows_.resize(columns);
 }
 
-void RowBasis::subtract_from(double* row, Window& window) const noexcept {
+void RowBasis::subtract_from(double* row, Window& window, double* parts) const noexcept {
     for (std::size_t k = 0; k < count_; ++k) {
         const Window& other = windows_[k];
         const std::size_t from = std::max(window.first, other.first), to = std::min(window.last, other.last);
@@ -44,6 +41,7 @@ void RowBasis::subtract_from(double* row, Window& window) const noexcept {
         double part = 0.0;
         for (std::size_t i = from; i < to; ++i) part += unit[i] * row[i];
         if (part == 0.0) continue;
+        if (parts) parts[k] += part;
         for (std::size_t i = other.first; i < other.last; ++i) row[i] -= part * unit[i];
         window = {std::min(window.first, other.first), std::max(window.last, other.last)};
     }
@@ -59,15 +57,18 @@ double RowBasis::add(std::span<double> row, double scale) noexcept {
     }
     if (!(before > 0.0) || count_ == columns_) return 0.0;
     double left = before;
+    double* parts = triangle_.data() + count_ * columns_;
+    std::fill(parts, parts + count_, 0.0);
     for (int pass = 0; pass < 2; ++pass) {
         const double start = left;
-        subtract_from(row.data(), window);
+        subtract_from(row.data(), window, parts);
         left = 0.0;
         for (std::size_t i = window.first; i < window.last; ++i) left += row[i] * row[i];
         if (left > 0.25 * start) break;
     }
     const double size = std::sqrt(left);
     if (!(size > 1e-9 * scale)) return 0.0;
+    parts[count_] = size;
     const double inverse = 1.0 / size;
     double* kept = rows_.data() + count_ * columns_;
     std::fill(kept, kept + columns_, 0.0);
@@ -80,6 +81,16 @@ void RowBasis::remove_from(std::span<double> row) const noexcept {
     for (int pass = 0; pass < 2; ++pass) {
         Window all{0, columns_};
         subtract_from(row.data(), all);
+    }
+}
+
+void RowBasis::multipliers(std::span<const double> sum, std::span<double> found) const noexcept {
+    for (std::size_t k = count_; k-- > 0;) {
+        double part = 0.0;
+        for (std::size_t i = windows_[k].first; i < windows_[k].last; ++i)
+            part += rows_[k * columns_ + i] * sum[i];
+        for (std::size_t i = k + 1; i < count_; ++i) part -= found[i] * triangle_[i * columns_ + k];
+        found[k] = part / triangle_[k * columns_ + k];
     }
 }
 
@@ -170,7 +181,11 @@ LinkageWork::LinkageWork(const Linkage& from) : linkage(from) {
     mode_at.reserve(count);
     mode_held.reserve(columns);
     square.resize(columns * columns);
-    gradient.resize(columns);
+    curvature.resize(columns * columns);
+    factor.resize(columns * columns);
+    for (std::vector<double>* const each : {&gradient, &pull, &multiplier, &solution}) each->resize(columns);
+    row_origin.resize(columns);
+    target_starts.resize(linkage.points.size());
     exact_places.resize(linkage.points.size());
     driver_starts.resize(count);
     residuals.reserve(linkage.points.size());
@@ -214,7 +229,7 @@ void LinkageWork::move_links() noexcept {
         switch (link.joint) {
             case LinkJoint::Hinge:
                 place.rotation =
-                    compose(parent.rotation, turn_about(drawn_axes[i], joints[i].value - link.rest));
+                    compose(parent.rotation, rotation_about(drawn_axes[i], joints[i].value - link.rest));
                 break;
             case LinkJoint::Slider:
                 origin = plus(origin, times(axes[i], joints[i].value - link.rest));
@@ -229,11 +244,8 @@ void LinkageWork::move_links() noexcept {
 
 void LinkageWork::scatter(std::uint64_t& random, double range) noexcept {
     for (std::size_t i = 0; i < columns; ++i) {
-        // SplitMix64 (Steele, Lea, Flood 2014).
-        std::uint64_t z = (random += 0x9e3779b97f4a7c15u);
-        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-        z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-        const double part = static_cast<double>(static_cast<std::int64_t>(z ^ (z >> 31)) >> 11) * 0x1p-52;
+        const auto bits = static_cast<std::int64_t>(math::random_bits(random));
+        const double part = static_cast<double>(bits >> 11) * 0x1p-52;
         step[i] = driven[i] ? 0.0 : range * part;
     }
 }
@@ -273,7 +285,6 @@ glm::dvec3 LinkageWork::outward_of(std::size_t link) const noexcept {
 }
 
 bool LinkageWork::presses_outward(std::size_t link) const noexcept {
-    constexpr double bound_width = 1e-9;
     if (length(vector_of_turn(joints[link].turn)) < linkage.links[link].maximum - bound_width) return false;
     const double* by = step.data() + column[link];
     return dot(outward_of(link), glm::dvec3(by[0], by[1], by[2])) > 0.0;
@@ -325,6 +336,49 @@ void LinkageWork::add_turn(std::size_t link, double sign) noexcept {
     }
 }
 
+/// Where one joint moves a point that an earlier one of its chain moves as well, that one turns the motion.
+void LinkageWork::add_curvature(std::size_t link, const glm::dvec3& at, const glm::dvec3& along) noexcept {
+    const auto add = [&](std::size_t i, std::size_t k, double by) {
+        curvature[i * columns + k] += by;
+        if (i != k) curvature[k * columns + i] += by;
+    };
+    for (std::size_t inner = link; inner != ground_link; inner = linkage.links[inner].parent) {
+        const LinkJoint kind = linkage.links[inner].joint;
+        const bool ball = kind == LinkJoint::Ball;
+        const glm::dvec3 arm = minus(at, origins[inner]);
+        for (std::size_t a = 0; a < (ball ? 3u : 1u); ++a) {
+            const glm::dvec3 axis = ball ? world_axes[a] : axes[inner];
+            const glm::dvec3 moves = kind == LinkJoint::Slider ? times(axis, size) : cross(axis, arm);
+            // By itself, a ball turns half about one axis first and half about the other.
+            if (kind == LinkJoint::Hinge) add(column[inner], column[inner], dot(along, cross(axis, moves)));
+            for (std::size_t b = 0; ball && b <= a; ++b) {
+                const glm::dvec3 other = cross(world_axes[b], arm);
+                add(column[inner] + a, column[inner] + b,
+                    0.5 * (dot(along, cross(axis, other)) + dot(along, cross(world_axes[b], moves))));
+            }
+            for (std::size_t k = linkage.links[inner].parent; k != ground_link; k = linkage.links[k].parent) {
+                if (linkage.links[k].joint == LinkJoint::Slider) continue;
+                const glm::dvec3 by = cross(moves, along);  // along . (axis x moves) = axis . (moves x along)
+                if (linkage.links[k].joint == LinkJoint::Hinge)
+                    add(column[inner] + a, column[k], dot(axes[k], by));
+                for (std::size_t b = 0; linkage.links[k].joint == LinkJoint::Ball && b < 3; ++b)
+                    add(column[inner] + a, column[k] + b, by[static_cast<int>(b)]);
+            }
+        }
+    }
+}
+
+void LinkageWork::bend_closure(std::size_t index, const glm::dvec3& along) noexcept {
+    const Closure& closure = linkage.closures[index];
+    add_curvature(closure.first, point_of(closure.first, closure.first_at), along);
+    add_curvature(closure.second, point_of(closure.second, closure.second_at), times(along, -1.0));
+}
+
+void LinkageWork::bend_point(std::size_t point, const glm::dvec3& along) noexcept {
+    const LinkPoint& of = linkage.points[point];
+    add_curvature(of.link, point_of(of.link, of.at), along);
+}
+
 glm::dvec3 LinkageWork::turn_between(const Closure& closure) const noexcept {
     const glm::dquat still(1.0, 0.0, 0.0, 0.0);
     const glm::dquat first = closure.first == ground_link ? still : places[closure.first].rotation;
@@ -358,8 +412,7 @@ LinkageWork::Block LinkageWork::target_block(const LinkTarget& target) noexcept 
 }
 
 glm::dvec3 LinkageWork::target_gap(const LinkTarget& target) const noexcept {
-    const LinkPoint& point = linkage.points[target.point];
-    const glm::dvec3 gap = minus(target.to, point_of(point.link, point.at));
+    const glm::dvec3 gap = minus(target.to, place_of(target));
     return planar ? across(gap, normal) : gap;
 }
 

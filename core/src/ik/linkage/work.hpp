@@ -15,6 +15,8 @@
 
 namespace tendril::ik::detail {
 
+constexpr double bound_width = 1e-9;  ///< a joint so near to the end of its range is at it; radians or sizes
+
 /// Rows made orthonormal one by one, so that each gives way to those before it. Gram-Schmidt; a row that
 /// loses most of itself is treated twice (W. Kahan's rule: B. Parlett, "The Symmetric Eigenvalue Problem",
 /// 1980, 6.9). A row is nonzero only in its window, and loops that share no joints cost nothing to each
@@ -33,15 +35,19 @@ class RowBasis {
     /// The sign of the determinant of the rows' columns that are not `held`, as many as there are rows.
     /// `scratch`: columns * columns.
     int orientation(std::span<const std::uint8_t> held, std::span<double> scratch) const noexcept;
+    /// Of the rows as they were given, as many as the rank: what times them adds up to the part of `sum` that
+    /// they span.
+    void multipliers(std::span<const double> sum, std::span<double> found) const noexcept;
 
   private:
     struct Window {
         std::size_t first, last;
     };
-    void subtract_from(double* row, Window& window) const noexcept;
+    void subtract_from(double* row, Window& window, double* parts = nullptr) const noexcept;
 
     std::size_t columns_ = 0, count_ = 0;
     std::vector<double> rows_;
+    std::vector<double> triangle_;  ///< the rows as given, in terms of the orthonormal ones
     std::vector<Window> windows_;
 };
 
@@ -117,16 +123,29 @@ struct LinkageWork {
     double gap_of(const Closure& closure) const noexcept;
     double largest_gap() const noexcept;
     double squared_gap(const Closure& closure) const noexcept;
+    glm::dvec3 place_of(const LinkTarget& target) const noexcept {
+        const LinkPoint& point = linkage.points[target.point];
+        return point_of(point.link, point.at);
+    }
     glm::dvec3 target_gap(const LinkTarget& target) const noexcept;
     /// How far it is from its value, or from the end of its range before that; in columns' units.
     double driver_error(const LinkDriver& driver) const noexcept;
 
     RowBasis basis;
+    std::vector<std::size_t> row_origin;   ///< of the basis' rows: six times the block, and which of its rows
     std::vector<double> square, gradient;  ///< normal equations, of all columns; lower triangle
+    std::vector<double> pull;              ///< the gradient before what the closures span was removed
+    std::vector<double> multiplier;        ///< of the basis' rows
+    std::vector<double> curvature;         ///< second derivatives, symmetric
+    std::vector<double> factor, solution;
+    /// Add those of a closure's or point's position along a vector.
+    void bend_closure(std::size_t index, const glm::dvec3& along) noexcept;
+    void bend_point(std::size_t point, const glm::dvec3& along) noexcept;
 
     // Of the goals.
-    std::vector<glm::dvec3> exact_places;  ///< of targets: where exact ones keep their points
-    std::vector<double> driver_starts;     ///< of each link
+    std::vector<glm::dvec3> target_starts;  ///< of targets: where their points were
+    std::vector<glm::dvec3> exact_places;   ///< and where exact ones keep them
+    std::vector<double> driver_starts;      ///< of each link
 
     // The sign of LinkageSolve::mode(), for the pose and the held columns that it is of.
     int mode = 0;
@@ -140,6 +159,7 @@ struct LinkageWork {
   private:
     void add_point(std::size_t link, const glm::dvec3& at, double sign) noexcept;
     void add_turn(std::size_t link, double sign) noexcept;
+    void add_curvature(std::size_t link, const glm::dvec3& at, const glm::dvec3& along) noexcept;
     double size_of_travel() const noexcept;
     glm::dvec3 turn_between(const Closure& closure) const noexcept;
 };

@@ -1,0 +1,46 @@
+// Cases of `tendril solve` that are linkages:
+//
+//   {"name": "turn", "linkage": "four_bar", "lengths": {"crank": 0.8},
+//    "drivers": {"crank": {"from": 0, "to": 360, "step": 15}}}
+//   {"linkage": "delta", "targets": {"platform": [[0, 0, -0.5], [0.1, 0, -0.5]]}}
+//
+// "linkage" is a preset's name, its "lengths" those that differ, or a linkage as a scene file has it. A
+// driver's value is a number, degrees or metres, a list of them or a range; a target's a point or a list of
+// points. A list is a row for each, from the pose of the row before; all lists of a case are equally long.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/document/json_place.hpp"
+#include "app/labs/linkage/linkage_part.hpp"
+
+namespace tendril::app {
+
+struct LinkageCase {
+    LinkagePart part;
+    /// By the names of joints and points; radians, metres. One value, or one for each row.
+    std::vector<std::pair<std::string, std::vector<double>>> drivers{};
+    std::vector<std::pair<std::string, std::vector<glm::dvec3>>> targets{};
+
+    std::size_t rows() const;
+    /// Moves the part to a row's values.
+    void solve(std::size_t row, LinkageRuntime& runtime, const ik::LinkageOptions& options);
+    /// Of CSV, beyond those that all cases have: drivers by name, points by name and axis.
+    std::vector<std::string> columns() const;
+    std::vector<double> column_values() const;
+};
+inline constexpr std::size_t max_linkage_rows = 100'000;
+
+/// Throws std::runtime_error that begins with the JSON path of the error.
+LinkageCase linkage_case_from_json(const JsonPlace& place);
+/// Takes the "drivers" and "targets" of an object in place of those that the case has.
+void read_linkage_goals(const JsonPlace& place, LinkageCase& to);
+/// The same from arguments: "crank=30", "crank=0:360:15", "P=1,2,0". Throws std::runtime_error.
+Json linkage_goals_from_arguments(const std::vector<std::string>& drivers,
+                                  const std::vector<std::string>& targets);
+/// What a row says: as --state, with what only a solve has.
+Json linkage_row_json(const LinkagePart& part);
+
+}  // namespace tendril::app

@@ -1,0 +1,184 @@
+// The closures: the rows of their equations, Newton's steps back to them, and how a linkage is assembled.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+
+#include "ik/linkage/solve.hpp"
+#include "math/elementary.hpp"
+
+namespace tendril::ik::detail {
+
+bool LinkageSolve::closed() const noexcept {
+    if (!(work_.largest_gap() <= tolerance_)) return false;
+    if (!keeps_exact_) return true;
+    for (std::size_t i = 0; i < goals_.targets.size(); ++i) {
+        const LinkTarget& each = goals_.targets[i];
+        if (!each.exact) continue;
+        const LinkPoint& point = work_.linkage.points[each.point];
+        glm::dvec3 gap = minus(work_.exact_places[i], work_.point_of(point.link, point.at));
+        if (work_.planar) gap = across(gap, work_.normal);
+        if (!(length(gap) <= tolerance_)) return false;
+    }
+    return true;
+}
+
+double LinkageSolve::take_row(std::span<double> row, double error, double scale,
+                              std::size_t origin) noexcept {
+    for (std::size_t i = 0; i < row.size(); ++i) {
+        error -= row[i] * work_.step[i];
+        if (work_.held[i]) row[i] = 0.0;
+    }
+    const double size = work_.basis.add(row, scale);
+    if (size == 0.0) return 0.0;
+    work_.row_origin[work_.basis.rank() - 1] = origin;
+    const double by = error / size;
+    for (std::size_t i = 0; i < row.size(); ++i) work_.step[i] += by * row[i];
+    return size / scale;
+}
+
+void LinkageSolve::take_rows(const LinkageWork::Block& block, std::size_t equations,
+                             std::size_t origin) noexcept {
+    double scale = 0.0;
+    for (std::size_t r = 0; r < block.count; ++r) scale = std::max(scale, norm_of(work_.row(r)));
+    std::array<double, 6> left{};
+    for (std::size_t r = 0; r < block.count; ++r)
+        left[r] = take_row(work_.row(r), block.errors[r], scale, 6 * origin + r);
+    std::sort(left.begin(), left.end(), std::greater<>());
+    least_left_ = std::min(least_left_, left[equations - 1]);
+}
+
+void LinkageSolve::find_return() noexcept {
+    work_.basis.clear();
+    least_left_ = 1.0;
+    for (std::size_t i = 0; i < work_.joints.size(); ++i) {
+        if (!work_.blocked[i]) continue;
+        // A ball at its maximum turns no further outward: its columns stay free, but for this direction.
+        const std::span<double> row = work_.row(0);
+        std::ranges::fill(row, 0.0);
+        const glm::dvec3 outward = work_.outward_of(i);
+        for (std::size_t k = 0; k < 3; ++k) row[work_.column[i] + k] = outward[static_cast<int>(k)];
+        if (work_.basis.add(row, 1.0) > 0.0)
+            work_.row_origin[work_.basis.rank() - 1] = static_cast<std::size_t>(-1);
+    }
+    if (!closes_) return;
+    for (std::size_t i = 0; i < work_.linkage.closures.size(); ++i) {
+        take_rows(work_.closure_block(i), work_.equations_of(work_.linkage.closures[i]), i);
+    }
+    if (!keeps_exact_) return;
+    for (std::size_t i = 0; i < goals_.targets.size(); ++i) {
+        if (!goals_.targets[i].exact) continue;
+        LinkTarget kept = goals_.targets[i];
+        kept.to = work_.exact_places[i];
+        take_rows(work_.target_block(kept), work_.planar ? 2 : 3, work_.linkage.closures.size() + i);
+    }
+}
+
+void LinkageSolve::clear_step() noexcept {
+    for (std::size_t i = 0; i < work_.columns; ++i)
+        if (!work_.held[i]) work_.step[i] = 0.0;
+}
+
+bool LinkageSolve::hold_overstepped() noexcept {
+    bool changed = false;
+    for (std::size_t i = 0; i < work_.joints.size(); ++i) {
+        const std::size_t col = work_.column[i];
+        if (!work_.ranged(i) || work_.held[col]) continue;
+        const Link& link = work_.linkage.links[i];
+        if (link.joint == LinkJoint::Ball) {
+            if (work_.blocked[i] || !work_.presses_outward(i)) continue;
+            work_.blocked[i] = 1;
+            changed = true;
+            continue;
+        }
+        const double unit = work_.unit_of(i), value = work_.joints[i].value,
+                     to = value + unit * work_.step[col];
+        if (to >= link.minimum && to <= link.maximum) continue;
+        work_.held[col] = 1;
+        work_.step[col] = ((to < link.minimum ? link.minimum : link.maximum) - value) / unit;
+        changed = true;
+    }
+    return changed;
+}
+
+bool LinkageSolve::return_to_closures(double allowed) noexcept {
+    constexpr int enough = 12;
+    work_.release();
+    std::ranges::fill(work_.moved, 0.0);
+    for (int i = 0;; ++i) {
+        if (closed()) return true;
+        if (i == enough || work_.columns == 0) return false;
+        ++iterations_;
+        std::ranges::fill(work_.step, 0.0);
+        do {
+            clear_step();
+            find_return();
+        } while (hold_overstepped());
+        for (std::size_t k = 0; k < work_.columns; ++k) work_.moved[k] += work_.step[k];
+        // NaN is not within either.
+        if (!(norm_of(work_.moved) <= allowed)) return false;
+        work_.take_step(std::min(1.0, widest_step / work_.widest()));
+        work_.move_links();
+    }
+}
+
+void LinkageSolve::assemble() noexcept {
+    constexpr int restarts = 16;
+    work_.nearest = work_.joints;
+    if (return_to_closures(1e9)) return;
+    put_back(work_.nearest);
+    if (close_from_here()) return;
+    // Where the last solve left it: nothing new to find. Cut short: the next one goes on.
+    if (!descended_ || out_of_iterations_) return;
+    work_.nearest = work_.joints;
+    double least = cost();
+    bool cut_short = false;  // the descent to the nearest pose
+    std::uint64_t random = 1;
+    for (int i = 0; i < restarts && !out_of_iterations_; ++i) {
+        work_.scatter(random, math::pi);
+        work_.take_step(1.0);
+        work_.move_links();
+        if (close_from_here()) {
+            out_of_iterations_ = false;
+            return;
+        }
+        if (cost() >= 0.999 * least) continue;
+        least = cost();
+        work_.nearest = work_.joints;
+        cut_short = out_of_iterations_;
+    }
+    out_of_iterations_ = cut_short;
+    put_back(work_.nearest);
+}
+
+bool LinkageSolve::close_from_here() noexcept {
+    closes_ = false;
+    descend(Aim::Closures);
+    closes_ = true;
+    if (closed()) return true;
+    work_.kept = work_.joints;
+    // Where no pose closes it, Newton's steps lead nowhere.
+    if (cost() < 1e-4 * work_.size * work_.size && return_to_closures(0.1)) return true;
+    put_back(work_.kept);
+    return false;
+}
+
+void LinkageSolve::put_back(const std::vector<JointPlace>& joints) noexcept {
+    work_.joints = joints;
+    work_.move_links();
+}
+
+std::size_t LinkageSolve::closure_rank() noexcept {
+    std::ranges::fill(work_.step, 0.0);
+    keeps_exact_ = false;
+    find_return();
+    return work_.basis.rank();
+}
+
+std::size_t LinkageSolve::free_columns() const noexcept {
+    return static_cast<std::size_t>(std::ranges::count(work_.held, std::uint8_t{0}));
+}
+
+/// mode(), with what is watched held if nothing is driven. Where the last solve ended it is known.
+
+}  // namespace tendril::ik::detail

@@ -1,0 +1,311 @@
+// Descent: what the closures leave free goes where targets pull it, or drivers that were stopped.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "ik/linkage/solve.hpp"
+
+namespace tendril::ik::detail {
+namespace {
+
+constexpr double shortest_step = 1e-10;  ///< of a descent: it has ended
+constexpr double careful = 1e-3;         ///< the least damping once a step was in vain
+
+double largest_of(std::span<const double> step) noexcept {
+    double largest = 0.0;
+    for (const double each : step) largest = std::max(largest, std::abs(each));
+    return largest;
+}
+
+}  // namespace
+
+double LinkageSolve::target_weight(const LinkTarget& target) const noexcept {
+    if (target.exact != (aim_ == Aim::ExactTargets)) return 0.0;
+    return heaviest_ > 0.0 ? target.weight / heaviest_ : 0.0;
+}
+
+void LinkageSolve::add_equation(std::span<double> row, double error, double weight) noexcept {
+    for (std::size_t i = 0; i < row.size(); ++i) {
+        if (work_.held[i]) row[i] = 0.0;
+        work_.pull[i] += weight * row[i] * error;
+    }
+    const double before = norm_of(row);
+    work_.basis.remove_from(row);
+    if (!(norm_of(row) > 1e-9 * before)) return;  // rounding
+    const std::size_t count = work_.columns;
+    for (std::size_t i = 0; i < count; ++i) {
+        if (row[i] == 0.0) continue;
+        const double by = weight * row[i];
+        work_.gradient[i] += by * error;
+        for (std::size_t k = 0; k <= i; ++k) work_.square[i * count + k] += by * row[k];
+    }
+}
+
+void LinkageSolve::find_equations() noexcept {
+    for (std::vector<double>* const each : {&work_.square, &work_.gradient, &work_.pull, &work_.curvature})
+        std::ranges::fill(*each, 0.0);
+    if (aim_ == Aim::Closures) {
+        for (std::size_t i = 0; i < work_.linkage.closures.size(); ++i) {
+            const LinkageWork::Block block = work_.closure_block(i);
+            for (std::size_t r = 0; r < block.count; ++r) add_equation(work_.row(r), block.errors[r], 1.0);
+            work_.bend_closure(i, {-block.errors[0], -block.errors[1], -block.errors[2]});
+        }
+    } else if (aim_ == Aim::Drivers) {
+        for (const LinkDriver& each : goals_.drivers) {
+            const std::span<double> row = work_.row(0);
+            std::ranges::fill(row, 0.0);
+            row[work_.column[each.link]] = work_.size;
+            add_equation(row, work_.size * work_.driver_error(each), 1.0);
+        }
+    } else {
+        for (const LinkTarget& each : goals_.targets) {
+            const double weight = target_weight(each);
+            if (weight == 0.0) continue;
+            const LinkageWork::Block block = work_.target_block(each);
+            for (std::size_t r = 0; r < block.count; ++r) add_equation(work_.row(r), block.errors[r], weight);
+            work_.bend_point(each.point, times(work_.target_gap(each), -weight));
+        }
+    }
+    find_curvature();
+}
+
+/// Adds the second derivatives of what is kept, by its multipliers, and keeps what the closures leave free.
+void LinkageSolve::find_curvature() noexcept {
+    work_.basis.multipliers(work_.pull, work_.multiplier);
+    for (std::size_t k = 0; k < work_.basis.rank();) {
+        // The rows of one block follow each other.
+        const std::size_t block = work_.row_origin[k] / 6;
+        std::array<double, 6> by{};
+        for (; k < work_.basis.rank() && work_.row_origin[k] / 6 == block; ++k)
+            by[work_.row_origin[k] % 6] = work_.multiplier[k];
+        const glm::dvec3 along{by[0], by[1], by[2]};
+        const std::size_t closures = work_.linkage.closures.size();
+        if (block < closures)
+            work_.bend_closure(block, along);
+        else if (block - closures < goals_.targets.size())
+            work_.bend_point(goals_.targets[block - closures].point, along);
+    }
+    const std::size_t count = work_.columns;
+    double* c = work_.curvature.data();
+    for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t k = 0; k < count; ++k)
+            if (work_.held[i] || work_.held[k]) c[i * count + k] = 0.0;
+    for (int side = 0; side < 2; ++side) {
+        for (std::size_t i = 0; i < count; ++i) work_.basis.remove_from({c + i * count, count});
+        for (std::size_t i = 0; i < count; ++i)
+            for (std::size_t k = 0; k < i; ++k) std::swap(c[i * count + k], c[k * count + i]);
+    }
+}
+
+double LinkageSolve::cost() noexcept {
+    double sum = 0.0;
+    if (aim_ == Aim::Closures) {
+        for (const Closure& each : work_.linkage.closures) sum += work_.squared_gap(each);
+    } else if (aim_ == Aim::Drivers) {
+        for (const LinkDriver& each : goals_.drivers) {
+            const double error = work_.size * work_.driver_error(each);
+            sum += error * error;
+        }
+    } else {
+        for (const LinkTarget& each : goals_.targets) {
+            const double weight = target_weight(each);
+            if (weight == 0.0) continue;
+            const glm::dvec3 gap = work_.target_gap(each);
+            sum += weight * dot(gap, gap);
+        }
+    }
+    return sum;
+}
+
+/// Adds (square + curvature + damping * their largest diagonal entry * I)^-1 gradient to the step, by
+/// Cholesky's decomposition. False, and nothing is added, if the matrix is not positive definite.
+bool LinkageSolve::solve_equations(double damping, bool curved) noexcept {
+    const std::size_t count = work_.columns;
+    double* a = work_.factor.data();
+    double largest = 0.0;
+    for (std::size_t i = 0; i < count; ++i) {
+        for (std::size_t k = 0; k <= i; ++k)
+            a[i * count + k] = work_.square[i * count + k] + (curved ? work_.curvature[i * count + k] : 0.0);
+        largest = std::max({largest, work_.square[i * count + i], std::abs(a[i * count + i])});
+    }
+    if (!(largest > 0.0)) return true;
+    double* x = work_.solution.data();
+    for (std::size_t i = 0; i < count; ++i) {
+        a[i * count + i] += damping * largest;
+        for (std::size_t k = 0; k <= i; ++k) {
+            double sum = a[i * count + k];
+            for (std::size_t j = 0; j < k; ++j) sum -= a[i * count + j] * a[k * count + j];
+            if (k < i) {
+                a[i * count + k] = sum / a[k * count + k];
+                continue;
+            }
+            if (curved && !(sum > 0.5 * damping * largest)) return false;
+            a[i * count + i] = std::sqrt(std::max(sum, 1e-300));
+        }
+        double sum = work_.gradient[i];
+        for (std::size_t j = 0; j < i; ++j) sum -= a[i * count + j] * x[j];
+        x[i] = sum / a[i * count + i];
+    }
+    for (std::size_t i = count; i-- > 0;) {
+        for (std::size_t j = i + 1; j < count; ++j) x[i] -= a[j * count + i] * x[j];
+        x[i] /= a[i * count + i];
+        work_.step[i] += x[i];
+    }
+    return true;
+}
+
+/// How far a step along the gradient would move the targets' points.
+double LinkageSolve::pull_along_gradient() const noexcept {
+    const std::size_t count = work_.columns;
+    double slope = 0.0, square = 0.0;
+    for (std::size_t i = 0; i < count; ++i) {
+        slope += work_.gradient[i] * work_.gradient[i];
+        for (std::size_t k = 0; k < i; ++k)
+            square += 2.0 * work_.gradient[i] * work_.gradient[k] * work_.square[i * count + k];
+        square += work_.gradient[i] * work_.gradient[i] * work_.square[i * count + i];
+    }
+    return square > 0.0 ? slope / std::sqrt(square) : 0.0;
+}
+
+/// Newton's step, or that of Gauss and Newton where Newton's leads to no minimum.
+void LinkageSolve::find_descent(double damping) noexcept {
+    find_equations();
+    convex_ = !plain_ && solve_equations(damping, true);
+    if (!convex_) static_cast<void>(solve_equations(damping, false));
+    const std::size_t count = work_.columns;
+    predicted_gain_ = 0.0;
+    for (std::size_t i = 0; i < count; ++i) predicted_gain_ += work_.gradient[i] * work_.solution[i];
+    if (first_pull_ < 0.0 && aims_at_targets()) first_pull_ = pull_along_gradient();
+    if (convex_) return;
+    double bend = 0.0;
+    for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t k = 0; k < count; ++k)
+            bend += work_.step[i] * work_.step[k] *
+                    (work_.curvature[i * count + k] + work_.square[i < k ? k * count + i : i * count + k]);
+    turns_away_ = bend < 0.0;
+}
+
+bool LinkageSolve::at_bound(std::size_t link, double by) const noexcept {
+    const Link& each = work_.linkage.links[link];
+    const double unit = work_.unit_of(link), value = work_.joints[link].value;
+    return by < 0.0 ? value <= each.minimum + bound_width * unit : value >= each.maximum - bound_width * unit;
+}
+
+/// Takes one damped step and returns to the closures. False if that gains nothing; the pose is then as it
+/// was.
+bool LinkageSolve::descent_step(double damping) noexcept {
+    work_.release();
+    std::ranges::fill(work_.step, 0.0);
+    for (bool again = true; again;) {
+        clear_step();
+        find_return();
+        find_descent(damping);
+        // The active set: joints at the end of their range that the step presses against it.
+        again = false;
+        for (std::size_t i = 0; i < work_.joints.size(); ++i) {
+            const std::size_t col = work_.column[i];
+            if (!work_.ranged(i) || work_.held[col] || work_.blocked[i]) continue;
+            const bool ball = work_.linkage.links[i].joint == LinkJoint::Ball;
+            const double by = work_.step[col];
+            if (ball ? !work_.presses_outward(i) : (by == 0.0 || !at_bound(i, by))) continue;
+            (ball ? work_.blocked[i] : work_.held[col]) = 1;
+            if (!ball) work_.step[col] = 0.0;
+            again = true;
+        }
+    }
+    note_active();
+    if (!(largest_of(work_.step) > shortest_step)) return false;
+    // Where the pull grows as it gives way, a step is long: near the ridge that it leaves there is hardly
+    // any.
+    constexpr double leap = 0.1;
+    const double wide = work_.widest();
+    const bool leaps = !convex_ && turns_away_ && damping < careful;
+    double part = std::min(leaps ? std::max(1.0, leap / wide) : 1.0, widest_step / wide);
+    for (std::size_t i = 0; i < work_.joints.size(); ++i) {
+        const Link& link = work_.linkage.links[i];
+        const double by = work_.step[work_.column[i]];
+        if (link.joint == LinkJoint::Ball || !work_.ranged(i) || by == 0.0) continue;
+        const double left =
+            ((by < 0.0 ? link.minimum : link.maximum) - work_.joints[i].value) / work_.unit_of(i);
+        if (part * std::abs(by) > std::abs(left)) part = std::abs(left / by);
+    }
+    const double before = cost(), predicted = part * norm_of(work_.step);
+    work_.kept = work_.joints;
+    work_.take_step(part);
+    work_.move_links();
+    ++iterations_;
+    const bool kept = !closes_ || return_to_closures(0.5 * predicted + 1e-9);
+    // The last step gains less than can be told from rounding.
+    const double after = cost(), enough = settled(before) ? before * (1.0 + 1e-13) : before;
+    if (kept && (after < before || after <= enough)) {
+        turned_away_ = turned_away_ || (!convex_ && turns_away_ && aims_at_targets());
+        return true;
+    }
+    put_back(work_.kept);
+    return false;
+}
+
+/// A small step that the closures allow.
+bool LinkageSolve::perturb() noexcept {
+    std::uint64_t random = 1;
+    work_.release();
+    std::ranges::fill(work_.step, 0.0);
+    find_return();
+    work_.scatter(random, 0.02);
+    work_.basis.remove_from(work_.step);
+    work_.kept = work_.joints;
+    work_.take_step(1.0);
+    work_.move_links();
+    if (!closes_ || return_to_closures(0.1)) return true;
+    put_back(work_.kept);
+    return false;
+}
+
+/// Whether it took a step.
+bool LinkageSolve::descend_from_here() noexcept {
+    const double enough = 1e-20 * work_.size * work_.size;
+    double damping = 1e-9, before = cost();
+    bool moved = false;
+    plain_ = false;
+    for (int slow = 0; before > enough && damping < 1e9 && slow < 3;) {
+        if (iterations_ >= options_.max_iterations) {
+            out_of_iterations_ = true;
+            break;
+        }
+        if (!descent_step(damping)) {
+            if (!(largest_of(work_.step) > shortest_step) || settled(before)) break;
+            // Where closures are about to become dependent, Newton's step may lead nowhere, and the other on.
+            plain_ = convex_;
+            if (!plain_) damping = std::max(damping * 16.0, careful);
+            continue;
+        }
+        moved = true;
+        plain_ = false;
+        if (settled(before)) break;
+        damping = std::max(damping * 0.25, 1e-9);
+        const double after = cost();
+        slow = before - after <= 1e-10 * before ? slow + 1 : 0;
+        before = after;
+    }
+    return moved;
+}
+
+void LinkageSolve::descend(Aim aim) noexcept {
+    aim_ = aim;
+    heaviest_ = 0.0;
+    for (const LinkTarget& each : goals_.targets)
+        if (each.exact == (aim == Aim::ExactTargets)) heaviest_ = std::max(heaviest_, each.weight);
+    const double start = cost();
+    descended_ = descend_from_here();
+    if (descended_ || convex_ || out_of_iterations_ || start <= 1e-12 * work_.size * work_.size) return;
+    // It is stretched out on one line with the target, where descent has no direction.
+    work_.best = work_.joints;
+    if (perturb()) {
+        descended_ = descend_from_here() && cost() < 0.999 * start;
+        if (descended_) return;
+        put_back(work_.best);
+    }
+    descent_step(1.0);
+}
+
+}  // namespace tendril::ik::detail

@@ -1,0 +1,132 @@
+// The drivers: substeps along the tangent, so that a linkage stays in its assembly mode.
+#include <algorithm>
+#include <cmath>
+
+#include "ik/linkage/solve.hpp"
+
+namespace tendril::ik::detail {
+namespace {
+
+/// Where a driver counts as stopped, radians or sizes. A joint near a dead point is off it by the root of
+/// this; the closures' tolerance must be far finer, so as not to lose the side.
+constexpr double finest_substep = 1e-7;
+
+}  // namespace
+
+void LinkageSolve::hold_drivers() noexcept {
+    for (const LinkDriver& each : goals_.drivers) work_.driven[work_.column[each.link]] = 1;
+}
+
+double LinkageSolve::driver_distance(const LinkDriver& driver) const noexcept {
+    const Link& link = work_.linkage.links[driver.link];
+    const double to = std::clamp(driver.value, link.minimum, link.maximum);
+    return (to - work_.driver_starts[driver.link]) / work_.unit_of(driver.link);
+}
+
+/// As the joints last moved; false if the drivers want another direction than that, or its reverse.
+bool LinkageSolve::repeat_last_move(double part) noexcept {
+    double along = 0.0, square = 0.0, wanted = 0.0;
+    for (const LinkDriver& each : goals_.drivers) {
+        const double last = work_.joints[each.link].last / work_.unit_of(each.link),
+                     by = part * driver_distance(each);
+        along += by * last;
+        square += last * last;
+        wanted += by * by;
+    }
+    if (!(square > 0.0 && along * along >= 0.9 * square * wanted)) return false;
+    for (std::size_t i = 0; i < work_.joints.size(); ++i)
+        if (work_.linkage.links[i].joint != LinkJoint::Ball)
+            work_.step[work_.column[i]] = along / square * work_.joints[i].last / work_.unit_of(i);
+    return true;
+}
+
+/// The step of a substep, between two parts of the way, along the tangent.
+void LinkageSolve::find_tangent(double from, double to) noexcept {
+    work_.release();
+    std::ranges::fill(work_.step, 0.0);
+    for (const LinkDriver& each : goals_.drivers)
+        work_.step[work_.column[each.link]] = (to - from) * driver_distance(each);
+    do {
+        clear_step();
+        find_return();
+    } while (hold_overstepped());
+}
+
+/// One substep. Along the tangent; where branches may cross there is none, and it goes on as before.
+bool LinkageSolve::glide_by(double from, double to) noexcept {
+    constexpr double crossing = 1e-2;
+    find_tangent(from, to);
+    if (least_left_ < crossing) {
+        work_.release();
+        std::ranges::fill(work_.step, 0.0);
+        if (repeat_last_move(to - from) && take_glide_step(to)) return true;
+        find_tangent(from, to);
+    }
+    return take_glide_step(to);
+}
+
+/// Takes the step, and returns to the closures with the drivers where they are at `to`.
+bool LinkageSolve::take_glide_step(double to) noexcept {
+    work_.kept = work_.joints;
+    ++iterations_;
+    const double predicted = norm_of(work_.step);
+    const bool wide = !(work_.widest() <= widest_step);
+    if (!wide) {
+        work_.take_step(1.0);
+        for (const LinkDriver& each : goals_.drivers) {
+            const Link& link = work_.linkage.links[each.link];
+            const double start = work_.driver_starts[each.link];
+            const double value =
+                to < 1.0 ? start + to * driver_distance(each) * work_.unit_of(each.link) : each.value;
+            work_.joints[each.link].value = std::clamp(value, link.minimum, link.maximum);
+        }
+        work_.move_links();
+        // It ends where the tangent led, and not on another branch.
+        if (return_to_closures(0.5 * predicted)) {
+            for (std::size_t i = 0; i < work_.joints.size(); ++i)
+                work_.joints[i].last = work_.joints[i].value - work_.kept[i].value;
+            return true;
+        }
+    }
+    note_active();
+    put_back(work_.kept);
+    return false;
+}
+
+void LinkageSolve::glide() noexcept {
+    double longest = 0.0;
+    for (const LinkDriver& each : goals_.drivers) {
+        work_.driver_starts[each.link] = work_.joints[each.link].value;
+        const Link& link = work_.linkage.links[each.link];
+        if (!(each.value >= link.minimum && each.value <= link.maximum)) beyond_range_ = true;
+    }
+    double longest_turn = 0.0;
+    for (const LinkDriver& each : goals_.drivers) {
+        const double distance = std::abs(driver_distance(each));
+        longest = std::max(longest, distance);
+        if (!work_.straight[work_.column[each.link]]) longest_turn = std::max(longest_turn, distance);
+    }
+    if (longest == 0.0) return;
+    const double furthest = std::min(1.0, 0.9 * widest_step / longest_turn);
+    double at = 0.0, by = furthest;
+    while (at < 1.0) {
+        if (iterations_ >= options_.max_iterations) {
+            out_of_iterations_ = true;
+            return;
+        }
+        const double to = by >= 1.0 - at ? 1.0 : at + by;
+        if (glide_by(at, to)) {
+            at = to;
+            by = std::min(2.0 * by, furthest);
+            work_.active.clear();
+            continue;
+        }
+        by = 0.5 * (to - at);
+        if (by * longest < finest_substep) {
+            stopped_ = true;
+            return;
+        }
+    }
+}
+
+}  // namespace tendril::ik::detail

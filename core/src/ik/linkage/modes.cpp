@@ -1,0 +1,98 @@
+// Assembly modes: which one a pose is in, and the way to another.
+#include <algorithm>
+#include <cmath>
+
+#include "ik/linkage/solve.hpp"
+#include "math/elementary.hpp"
+
+namespace tendril::ik::detail {
+
+/// mode(), with what is watched held if nothing is driven. Where the last solve ended it is known.
+int LinkageSolve::watched_mode() noexcept {
+    if (goals_.drivers.empty())
+        for (const std::size_t each : options_.watched) work_.driven[work_.column[each]] = 1;
+    if (work_.mode_held != work_.driven || work_.mode_at != work_.joints) {
+        work_.mode = mode();
+        work_.mode_held = work_.driven;
+        work_.mode_at = work_.joints;
+    }
+    std::ranges::fill(work_.driven, std::uint8_t{0});
+    hold_drivers();
+    return work_.mode;
+}
+
+int LinkageSolve::mode() noexcept {
+    work_.release();
+    const std::size_t rank = closure_rank();
+    const std::size_t free = free_columns();
+    if (rank != free || rank == 0) return 0;
+    // The basis' rows are the closures' by a triangular matrix of positive diagonal: the same sign.
+    return work_.basis.orientation(work_.held, work_.square);
+}
+
+namespace {
+
+/// As a multiple of whole turns, radians.
+double whole_turns(double radians) noexcept {
+    return 2.0 * math::pi * std::round(radians / (2.0 * math::pi));
+}
+
+/// How far a pose is from another, whole turns aside.
+double distance_of_modes(const LinkageWork& work, const std::vector<JointPlace>& other) noexcept {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < other.size(); ++i) {
+        const JointPlace &a = work.joints[i], &b = other[i];
+        double by = (a.value - b.value) / work.unit_of(i);
+        if (work.linkage.links[i].joint == LinkJoint::Hinge) by -= whole_turns(by);
+        if (work.linkage.links[i].joint == LinkJoint::Ball)
+            by = 1.0 - std::abs(a.turn.w * b.turn.w + a.turn.x * b.turn.x + a.turn.y * b.turn.y +
+                                a.turn.z * b.turn.z);
+        sum += by * by;
+    }
+    return sum;
+}
+
+}  // namespace
+
+bool find_other_mode(LinkageWork& work, LinkageState& state, std::span<const LinkDriver> drivers) noexcept {
+    constexpr int starts = 48;
+    constexpr double same = 1e-6;
+    const LinkageGoals goals{drivers, {}};
+    const LinkageOptions options{.max_iterations = 100000};
+    const auto take = [&] {
+        work.joints = state.joints;
+        work.enter_ranges();
+        work.move_links();
+    };
+    take();
+    LinkageSolve from(work, goals, options);
+    from.hold_drivers();
+    const int mode = from.mode();
+    if (mode == 0) return false;
+    const std::vector<JointPlace>& here = work.nearest = work.joints;
+    double nearest = 1e300;
+    std::uint64_t random = 1;
+    for (int start = 0; start < starts; ++start) {
+        work.joints = here;
+        work.move_links();
+        work.scatter(random, math::pi);
+        work.take_step(1.0);
+        work.move_links();
+        LinkageSolve solve(work, goals, options);
+        solve.hold_drivers();
+        if (!solve.close_from_here()) continue;
+        const double far = distance_of_modes(work, here);
+        if (far < same || far >= nearest || solve.mode() == 0) continue;
+        nearest = far;
+        for (std::size_t i = 0; i < here.size(); ++i) {
+            if (work.linkage.links[i].joint == LinkJoint::Hinge)
+                work.joints[i].value -= whole_turns(work.joints[i].value - here[i].value);
+            state.joints[i] = work.joints[i];
+        }
+    }
+    const bool found = nearest < 1e300;
+    take();
+    return found;
+}
+
+}  // namespace tendril::ik::detail
