@@ -5,15 +5,16 @@
 //     tendril_bench_ik_many --check    the same, and exit code 1 if a claim does not hold
 //
 // Claims: the minimum gain over the scalar solver in any band of distance, for 4, 11 and 31 joints and 1 000
-// chains, free and within limits; and that of two threads over one, if there are two cores. The goal is 15
-// times with 16 lanes (AVX3) and 7 times with 8 (AVX2), and half of that within limits; prints how many rows
-// reach it. What limits it to less than 15: on the processor of these claims, the divider splits a register
-// of 16 lanes in two, which bounds the accelerated step; and a quarter of the time is transfers, which no
-// width accelerates. Times are processor time, except for threads, whose gain needs an idle machine.
+// chains, free, in a plane and within limits; and that of two threads over one, if there are two cores. The
+// goal is 15 times with 16 lanes (AVX3) and 7 times with 8 (AVX2), and half of that within limits; prints how
+// many rows reach it. What limits it to less than 15: on the processor of these claims, the divider splits a
+// register of 16 lanes in two, which bounds the accelerated step; and a quarter of the time is transfers,
+// which no width accelerates. Times are processor time, except for threads, whose gain needs an idle machine.
 #include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <optional>
 #include <random>
 #include <string>
 #include <thread>
@@ -44,6 +45,7 @@ struct Crowd {
     std::vector<float> lengths;
     std::vector<glm::vec3> joints, targets;
     std::vector<Limit> limits;
+    std::optional<tendril::ik::Plane> plane;
 
     Crowd(std::size_t chain_count, std::size_t bone_count, float least, float most)
         : chains(chain_count), bones(bone_count), lengths(bone_count, 1.0f) {
@@ -63,6 +65,22 @@ struct Crowd {
     }
     /// Within limits: at rest, straight along +X.
     Crowd(std::size_t chain_count, const std::vector<Limit>& within, float least, float most);
+    /// Puts all of it into the plane z = 0.
+    void flatten() {
+        plane.emplace();
+        const auto flat = [](glm::vec3 v) {
+            v.z = 0.0f;
+            return v * (1.0f / std::max(std::sqrt(v.x * v.x + v.y * v.y), 1e-6f));
+        };
+        for (std::size_t i = 0; i < chains; ++i) {
+            const float far = glm::length(targets[i]);
+            targets[i] = flat(targets[i]) * far;
+            glm::vec3* const chain = &joints[i * (bones + 1)];
+            std::vector<glm::vec3> directions;
+            for (std::size_t j = 0; j < bones; ++j) directions.push_back(flat(chain[j + 1] - chain[j]));
+            for (std::size_t j = 0; j < bones; ++j) chain[j + 1] = chain[j] + directions[j];
+        }
+    }
     /// Makes the first bone so long that targets near the root are too close.
     void lengthen_first(float to) {
         lengths.front() = to;
@@ -135,14 +153,16 @@ class Contest {
         for (std::size_t i = 0; i < crowd_.chains; ++i) {
             const auto joints = std::span(joints_).subspan(i * (crowd_.bones + 1), crowd_.bones + 1);
             solver_.state.reset();
-            reports_[i] = solver_.solve(Method::Fabrik, joints, crowd_.targets[i], {.limits = crowd_.limits});
+            reports_[i] = solver_.solve(Method::Fabrik, joints, crowd_.targets[i],
+                                        {.limits = crowd_.limits, .plane = crowd_.plane});
         }
     }
     /// From the same joints to the same joints; the rotations are copied into and out of the batch.
     void many(std::string_view unit) {
         const bool limited = !crowd_.limits.empty();
         if (limited && !batch_.set_rotations(rest_)) std::abort();
-        summary_ = solve_many(batch_, joints_, crowd_.targets, many_reports_, {.vector_unit = unit});
+        summary_ = solve_many(batch_, joints_, crowd_.targets, many_reports_,
+                              {.plane = crowd_.plane, .vector_unit = unit});
         if (limited && !batch_.copy_rotations(rotations_)) std::abort();
     }
     double mean_iterations() const {
@@ -220,15 +240,17 @@ std::string row_name(std::size_t joints, const char* what, const Contest& contes
     return name;
 }
 
-Gains bands_table() {
-    std::printf(
-        "\nns per chain until within tolerance (1e-3 of the reach), 1000 chains, one thread; medians of %d\n",
-        repetitions);
+Gains bands_table(bool flat) {
+    std::printf(flat ? "\nthe same in a plane; medians of %d\n"
+                     : "\nns per chain until within tolerance (1e-3 of the reach), 1000 chains, one thread; "
+                       "medians of %d\n",
+                repetitions);
     print_units("");
     Gains gains;
     for (const std::size_t bones : {3u, 10u, 30u}) {
         for (const Band& band : bands) {
-            const Crowd crowd(1000, bones, band.least, band.most);
+            Crowd crowd(1000, bones, band.least, band.most);
+            if (flat) crowd.flatten();
             Contest contest(crowd);
             const std::vector<double> seconds = contest.race();
             print_row(row_name(bones + 1, band.name, contest), seconds, crowd.chains);
@@ -324,7 +346,7 @@ double thread_table() {
 }  // namespace
 
 int main(int count, char** arguments) {
-    const Gains gains = bands_table(), limited = limits_table();
+    const Gains gains = bands_table(false), flat = bands_table(true), limited = limits_table();
     company_table();
     const double two_threads = thread_table();
     bool all = true;
@@ -334,6 +356,7 @@ int main(int count, char** arguments) {
         if (!wide && units[i] != "AVX2") continue;
         const std::string what = std::string(units[i]) + " over the scalar solver";
         all &= claim_gains(what, gains[i], wide ? 7.5 : 6.0, wide ? 15.0 : 7.0);
+        all &= claim_gains(what + ", in a plane", flat[i], 1.3, 2.0);
         all &= claim_gains(what + ", within limits", limited[i], wide ? 2.5 : 2.2, wide ? 7.5 : 3.5);
     }
     if (std::thread::hardware_concurrency() >= 2) all &= claim("two threads over one", two_threads, 1.5);

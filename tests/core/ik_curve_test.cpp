@@ -9,6 +9,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <optional>
 #include <vector>
 
 #include "memory.hpp"
@@ -287,6 +288,76 @@ TEST(IkCurve, a_small_movement_moves_joints_little_unless_a_jump_is_reported) {
                 << "trial " << trial;
     }
     EXPECT_LT(jumps, 60);
+}
+
+// The first joint that leaves its crossing while the control points go straight from one place to another: by
+// brute force, halving each step in which a joint moves far along the curve until the points hardly move.
+class BruteForce {
+  public:
+    BruteForce(const std::vector<float>& lengths, const Points& from, const Points& to)
+        : lengths_(lengths), from_(from), to_(to) {}
+
+    std::optional<std::size_t> jumped() {
+        constexpr int samples = 32;
+        Places before = at(0.0f);
+        for (int i = 1; i <= samples; ++i) {
+            const Places now = at(static_cast<float>(i) / samples);
+            search(static_cast<float>(i - 1) / samples, before, static_cast<float>(i) / samples, now);
+            before = now;
+        }
+        return first_;
+    }
+
+  private:
+    using Places = std::vector<double>;
+
+    Places at(float share) const {
+        Points points = from_;
+        for (std::size_t i = 0; i < points.size(); ++i) points[i] += share * (to_[i] - from_[i]);
+        Placed chain(lengths_);
+        chain.place(points);
+        return chain.memory.at;
+    }
+    void search(float low, const Places& before, float high, const Places& after) {
+        std::size_t joint = 1;
+        while (joint < before.size() && std::abs(after[joint] - before[joint]) <= 0.01) ++joint;
+        if (joint == before.size() || (first_ && *first_ <= joint)) return;
+        if (high - low < 1e-6f) {
+            first_ = joint;
+            return;
+        }
+        const float middle = 0.5f * (low + high);
+        const Places between = at(middle);
+        search(low, before, middle, between);
+        search(middle, between, high, after);
+    }
+
+    const std::vector<float>& lengths_;
+    const Points &from_, &to_;
+    std::optional<std::size_t> first_{};
+};
+
+// Beyond small steps a joint may leave its crossing and come back to it on the way, which the rule does not
+// see.
+TEST(IkCurve, a_jump_is_another_crossing_however_far_the_curve_moved) {
+    Random random(29);
+    int jumps = 0;
+    for (const float step : {3e-2f, 1e-1f, 3e-1f}) {
+        int wrong = 0;
+        for (int trial = 0; trial < 300; ++trial) {
+            const Points points = random_points(random, 3 + random.below(5));
+            Points moved = points;
+            moved[random.below(points.size())] += random.point(step);
+            Placed chain(random_lengths(random, 8, 1.0f));
+            chain.place(points);
+            const auto jumped = chain.place(moved).jumped;
+            const auto expected = BruteForce(chain.lengths, points, moved).jumped();
+            jumps += expected ? 1 : 0;
+            wrong += jumped != expected ? 1 : 0;
+        }
+        EXPECT_LE(wrong, step < 0.2f ? 2 : 6) << step;
+    }
+    EXPECT_GE(jumps, 50);
 }
 
 // ------------------------------------------------------------------------------------------------ hostile

@@ -147,6 +147,8 @@ inline constexpr int max_sweeps = 64;
 inline constexpr double at_rest = 1e-3;
 /// Fraction of the reach: a chain with no joint further off the line than this is placed on an arc.
 inline constexpr double straight = 0.01;
+/// Fraction of the reach: a tip this near the root is at it, so a chain in a plane has no side and no line.
+inline constexpr double closed_tip = 0.01;
 
 }  // namespace pole
 

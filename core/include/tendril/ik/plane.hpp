@@ -16,7 +16,8 @@
 // mirrored only if the mirrored pose is within them too; if it is not, State::side says where it went.
 //
 // Of a shape whose offsets cancel out, such as an S, rounding decides the side: while the target glides it
-// may be mirrored, that is, jump. From straight chains no such shapes come about, except by CCD.
+// may be mirrored, that is, jump. From straight and folded chains no such shapes come about, except by CCD: a
+// chain that is folded up, its tip at its root, is first laid on an arc.
 #pragma once
 
 #include <cstdint>

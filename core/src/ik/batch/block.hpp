@@ -35,9 +35,10 @@ enum class Row : std::size_t {
     Perturbations,  ///< how many so far
     Iterations,     ///< whole numbers up to 1 000 000, which a float holds
     Activity,
-    Class
+    Class,
+    Side  ///< of a chain in a plane: an ik::Side
 };
-inline constexpr std::size_t state_rows = 15;
+inline constexpr std::size_t state_rows = 16;
 
 /// In Row::Activity.
 enum class Activity : std::uint8_t {

@@ -160,12 +160,15 @@ HWY_INLINE void fold(const Block& block, std::size_t i, Mask lanes) {
 }
 
 /// Whether all joints of a chain may lie on one line with its target. If they do, to 1e-5 of the reach
-/// (perturbation.cpp), no arm's cross product with the target's arm exceeds twice that plus rounding. One
-/// joint off the line is enough, so checking the last two or three usually suffices.
-HWY_INLINE Mask may_be_collinear(const Block& block, std::size_t i, Mask lanes) {
+/// (perturbation.cpp), no arm's cross product with the target's arm exceeds twice that plus rounding; nor if
+/// they are within `near_line` of the line to the target. One joint off the line is enough, so checking the
+/// last two or three usually suffices.
+HWY_INLINE Mask may_be_collinear(const Block& block, std::size_t i, Mask lanes, float near_line) {
     const Points root = load_points(block.joint(0) + i);
     const Points target = minus(load_points(block.target() + i), root);
-    const Lanes reach = load(block.reach() + i), near = hn::Mul(hn::Mul(reach, reach), all(4e-5f));
+    const Lanes reach = load(block.reach() + i);
+    const Lanes near =
+        hn::Mul(reach, hn::Add(hn::Mul(reach, all(4e-5f)), hn::Mul(length(target), all(near_line))));
     for (std::size_t joint = block.bones(); joint > 0 && any(lanes); --joint) {
         const Lanes off = length(cross(minus(load_points(block.joint(joint) + i), root), target));
         lanes = hn::And(lanes, hn::Le(off, near));
@@ -174,7 +177,7 @@ HWY_INLINE Mask may_be_collinear(const Block& block, std::size_t i, Mask lanes) 
 }
 
 /// Initialises the state of a register's chains.
-HWY_INLINE void begin(const Block& block, std::size_t i) {
+HWY_INLINE void begin_register(const Block& block, std::size_t i) {
     const Lanes residual = residual_of(block, i);
     for (const Row row : {Row::Residual, Row::Best, Row::Nearest, Row::Last}) {
         store(residual, block.row(row) + i);
@@ -184,9 +187,8 @@ HWY_INLINE void begin(const Block& block, std::size_t i) {
     }
 }
 
-Left classify(const Block& block, std::size_t lanes, bool every) {
+void classify(const Block& block, std::size_t lanes) {
     const Floats d;
-    Left left;
     bool out_of_reach = false;
     for (std::size_t i = 0; i < lanes; i += hn::Lanes(d)) {
         const Mask used = hn::FirstN(d, lanes - i);  // lanes beyond count as invalid
@@ -195,12 +197,30 @@ Left classify(const Block& block, std::size_t lanes, bool every) {
     }
     if (out_of_reach) straighten(block, lanes);
     for (std::size_t i = 0; i < lanes; i += hn::Lanes(d)) {
-        float* const found = block.row(Row::Class) + i;
+        const float* const found = block.row(Row::Class) + i;
         if (const Mask folded = equals(found, Class::Folded); any(folded)) fold(block, i, folded);
-        begin(block, i);
+    }
+}
+
+/// Whether the tip may be at the root, as pole.cpp has it.
+HWY_INLINE Mask may_be_closed(const Block& block, std::size_t i) {
+    const Lanes near =
+        hn::Mul(load(block.reach() + i), all(1.1f * static_cast<float>(tune::pole::closed_tip)));
+    return hn::Le(squared_distance(block.joint(0) + i, block.joint(block.bones()) + i), hn::Mul(near, near));
+}
+
+Left begin(const Block& block, std::size_t lanes, bool every, bool planar) {
+    const float near_line = planar ? 1.1f * static_cast<float>(tune::pole::straight) : 0.0f;
+    const Floats d;
+    Left left;
+    for (std::size_t i = 0; i < lanes; i += hn::Lanes(d)) {
+        float* const found = block.row(Row::Class) + i;
+        begin_register(block, i);
         const Mask there = hn::Le(load(block.row(Row::Residual) + i), load(block.row(Row::Tolerance) + i));
         const Mask reachable = equals(found, Class::Reachable);
-        const Mask collinear = may_be_collinear(block, i, hn::AndNot(there, reachable));
+        const Mask left_to_go = hn::AndNot(there, reachable);
+        Mask collinear = may_be_collinear(block, i, left_to_go, near_line);
+        if (planar) collinear = hn::Or(collinear, hn::And(left_to_go, may_be_closed(block, i)));
         if (any(collinear)) {
             store(hn::IfThenElse(collinear, all(static_cast<float>(Class::Collinear)), load(found)), found);
             left.perturb = true;
@@ -220,7 +240,7 @@ void classify_limited(const Block& block, std::size_t lanes) {
         if (classify_register(block, i, hn::FirstN(d, lanes - i))) enforce_lengths(block, i);
         const Mask keeps = hn::Or(equals(found, Class::Reachable), equals(found, Class::Invalid));
         store(hn::IfThenElse(keeps, load(found), all(static_cast<float>(Class::Scalar))), found);
-        begin(block, i);
+        begin_register(block, i);
         store(zero(), block.row(Row::Activity) + i);
     }
 }
@@ -233,11 +253,15 @@ HWY_AFTER_NAMESPACE();
 namespace tendril::ik::detail {
 namespace {
 HWY_EXPORT(classify);
+HWY_EXPORT(begin);
 HWY_EXPORT(classify_limited);
 }  // namespace
 
 Classify* classify_with(std::int64_t target) noexcept {
     return TENDRIL_COMPILED_FOR(classify, target);
+}
+Begin* begin_with(std::int64_t target) noexcept {
+    return TENDRIL_COMPILED_FOR(begin, target);
 }
 ClassifyLimited* classify_limited_with(std::int64_t target) noexcept {
     return TENDRIL_COMPILED_FOR(classify_limited, target);

@@ -49,7 +49,7 @@ void Work::solve_scalar_limited(const Block& block, std::size_t lane, std::size_
         for (int k = 0; k < 4; ++k) scalar.saved.rotations[i][k] = component(i, k);
         scalar.rest_directions[i] = in_.limits->rest_directions[i];
     }
-    Problem problem = take_out(block, lane, scalar);
+    Problem problem = take_out(block, lane, scratch);
     load_limits(scalar, problem.options.limits);
     const Report answer = ik::detail::run(Method::Fabrik, problem, Unwatched());
     for (std::size_t i = 0; i < in_.bones; ++i) {
@@ -99,7 +99,7 @@ void Work::end_limited(std::size_t lane, Scratch& scratch) noexcept {
                   4 * in_.bones);
         report(tile.block, lane, chain);
     }
-    write_home(tile, lane);
+    write_home(lane, scratch);
 }
 
 }  // namespace tendril::ik::detail

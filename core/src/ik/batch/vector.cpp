@@ -21,6 +21,7 @@ struct Units {
             if (count == names.size()) return;
             names[count] = hwy::TargetName(target);
             units[count].classify = classify_with(target);
+            units[count].begin = begin_with(target);
             units[count].iterate = iterate_with(target);
             units[count].classify_limited = classify_limited_with(target);
             units[count].solve_limited = solve_limited_with(target);

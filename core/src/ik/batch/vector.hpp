@@ -71,8 +71,11 @@ struct Left {
 // These functions work on the first `lanes` lanes and the rest of the last register.
 
 /// Reads joints, lengths and targets. Enforces lengths, straightens chains out of reach and folds those too
-/// close; writes the state from Row::Residual on.
-using Classify = Left(const Block& block, std::size_t lanes, bool every);
+/// close; writes Row::Class.
+using Classify = void(const Block& block, std::size_t lanes);
+/// Writes the rest of the state, from Row::Residual on. In a plane, all that bend_to_pole may bend count as
+/// Class::Collinear too.
+using Begin = Left(const Block& block, std::size_t lanes, bool every, bool planar);
 /// The same for chains within limits: any chain not certainly reachable is left to the scalar solver
 /// unchanged.
 using ClassifyLimited = void(const Block& block, std::size_t lanes);
@@ -95,6 +98,7 @@ using AreValid = bool(const float* coordinates, std::size_t count);
 
 struct VectorUnit {
     Classify* classify = nullptr;
+    Begin* begin = nullptr;
     Iterate* iterate = nullptr;
     ClassifyLimited* classify_limited = nullptr;
     SolveLimited* solve_limited = nullptr;
@@ -107,6 +111,7 @@ struct VectorUnit {
 
 /// The functions compiled for one of Highway's targets.
 Classify* classify_with(std::int64_t target) noexcept;
+Begin* begin_with(std::int64_t target) noexcept;
 Iterate* iterate_with(std::int64_t target) noexcept;
 ClassifyLimited* classify_limited_with(std::int64_t target) noexcept;
 SolveLimited* solve_limited_with(std::int64_t target) noexcept;

@@ -3,10 +3,9 @@
 #include <algorithm>
 
 #include "ik/math.hpp"
+#include "ik/pole/pole.hpp"
 #include "ik/solve/loop.hpp"
 #include "ik/solve/perturbation.hpp"
-#include "ik/solve/plane.hpp"
-#include "ik/solve/validate.hpp"
 #include "tendril/ik/options.hpp"
 
 namespace tendril::ik::detail {
@@ -55,6 +54,8 @@ Scratch::Scratch(std::size_t bones)
 }
 
 void Work::run(Scratch& scratch) noexcept {
+    scratch.options = in_.options;
+    if (planar_) scratch.options.plane->normal = {0.0f, 1.0f, 0.0f};
     const std::size_t blocks = (in_.chains + block_lanes - 1) / block_lanes;
     for (std::size_t index; (index = next_block_.fetch_add(1)) < blocks;) solve_block(index, scratch);
     in_.limits != nullptr ? run_limited_tile(0, scratch) : run_tile(0, scratch);
@@ -64,10 +65,16 @@ void Work::solve_block(std::size_t index, Scratch& scratch) noexcept {
     const Block block = this->block(index, scratch);
     const std::size_t first = index * block_lanes, lanes = std::min(block_lanes, in_.chains - first);
     in_.unit.set_targets(block, lanes, &in_.targets[first], in_.options.tolerance.value_or(-1.0f));
-    if (in_.joints != nullptr) take_joints(block, index, lanes);
-    if (in_.options.plane) return solve_planar_block(block, index, lanes, scratch);
+    if (in_.options.plane && !planar_) return solve_angled_block(index, lanes, scratch);
+    if (planar_) {
+        take_into_plane(block, first, lanes, scratch);
+    } else if (in_.joints != nullptr) {
+        take_joints(block, index, lanes);
+    }
     if (in_.limits != nullptr) return solve_limited_block(block, index, lanes, scratch);
-    const Left left = in_.unit.classify(block, lanes, in_.options.every_iteration);
+    in_.unit.classify(block, lanes);
+    if (planar_) turn_to_targets(block, first, lanes, scratch);
+    const Left left = in_.unit.begin(block, lanes, in_.options.every_iteration, planar_);
     for (std::size_t lane = 0; left.perturb && lane < lanes; ++lane) {
         if (block.class_of(lane) == Class::Collinear) leave_line(block, lane, scratch);
     }
@@ -76,15 +83,18 @@ void Work::solve_block(std::size_t index, Scratch& scratch) noexcept {
     for (std::size_t lane = 0; lane < lanes; ++lane) {
         const bool scalar = block.class_of(lane) == Class::Scalar;
         if (scalar) {
-            solve_scalar(block, lane, first + lane, scratch);
+            planar_ ? static_cast<void>(solve_in_plane(first + lane, scratch))
+                    : solve_scalar(block, lane, first + lane, scratch);
         } else {
             report(block, lane, first + lane);  // for active chains again, when they are done
+            if (planar_ && block.activity(lane) == Activity::Done)
+                return_from_plane(block, lane, first + lane, scratch);
         }
         // Without a branch, which would be mispredicted.
         active.lanes[active.count] = static_cast<std::uint8_t>(lane);
         active.count += !scalar && block.activity(lane) != Activity::Done ? 1 : 0;
     }
-    if (in_.joints != nullptr) return_joints(block, index, lanes);
+    if (in_.joints != nullptr && !planar_) return_joints(block, index, lanes);
     if (active.count > 0) put_into_tile(block, active, first, scratch);  // may write joints of this block
 }
 
@@ -124,18 +134,24 @@ Left Work::iterate(const Block& block, std::size_t lanes, int iterations, Scratc
 }
 
 /// Copies one chain to the scalar workspace.
-Problem Work::take_out(const Block& block, std::size_t lane, Workspace& scalar) const noexcept {
+Problem Work::take_out(const Block& block, std::size_t lane, Scratch& scratch) const noexcept {
+    Workspace& scalar = scratch.scalar;
     for (std::size_t i = 0; i <= in_.bones; ++i) scalar.joints[i] = block.point(i, lane);
     for (std::size_t i = 0; i < in_.bones; ++i) scalar.lengths[i] = block.length(i)[lane];
     scalar.reach = block.reach()[lane];
     scalar.longest = block.longest()[lane];
-    return {scalar.joints, block.target_of(lane), block.at(Row::Tolerance, lane), in_.options,
-            scalar,        scalar.saved};
+    if (planar_) scratch.options.plane->bend = static_cast<Side>(static_cast<int>(block.at(Row::Side, lane)));
+    return {scalar.joints,
+            block.target_of(lane),
+            block.at(Row::Tolerance, lane),
+            planar_ ? scratch.options : in_.options,
+            scalar,
+            scalar.saved};
 }
 
 /// Same as loop.cpp does with a stalled chain.
 void Work::perturb(const Block& block, std::size_t lane, Scratch& scratch) const noexcept {
-    Problem problem = take_out(block, lane, scratch.scalar);
+    Problem problem = take_out(block, lane, scratch);
     float& count = block.at(Row::Perturbations, lane);
     ik::detail::perturb(problem, static_cast<int>(count), Unwatched());
     count += 1.0f;
@@ -145,9 +161,11 @@ void Work::perturb(const Block& block, std::size_t lane, Scratch& scratch) const
 
 /// Same as loop.cpp does before the first iteration with a chain collinear with its target.
 void Work::leave_line(const Block& block, std::size_t lane, Scratch& scratch) const noexcept {
-    Problem problem = take_out(block, lane, scratch.scalar);
-    if (!is_collinear(problem)) return;
-    bend_collinear_chain(problem, Unwatched());
+    Problem problem = take_out(block, lane, scratch);
+    if (!bend_to_pole(problem, Unwatched())) {
+        if (!is_collinear(problem)) return;
+        bend_collinear_chain(problem, Unwatched());
+    }
     restart(block, lane, problem);
     block.at(Row::Residual, lane) = block.at(Row::Last, lane);
     const bool there = block.at(Row::Residual, lane) <= problem.tolerance;
@@ -155,29 +173,10 @@ void Work::leave_line(const Block& block, std::size_t lane, Scratch& scratch) co
 }
 
 void Work::solve_scalar(const Block& block, std::size_t lane, std::size_t chain, Scratch& scratch) noexcept {
-    Problem problem = take_out(block, lane, scratch.scalar);
+    Problem problem = take_out(block, lane, scratch);
     const Report answer = ik::detail::run(Method::Fabrik, problem, Unwatched());
     for (std::size_t i = 1; i <= in_.bones; ++i) block.set_point(i, lane, scratch.scalar.joints[i]);
     report_fallback(chain, answer);
-}
-
-void Work::solve_planar_block(const Block& block, std::size_t index, std::size_t lanes,
-                              Scratch& scratch) noexcept {
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
-        const Problem whole = take_out(block, lane, scratch.scalar);
-        const std::size_t chain = index * block_lanes + lane;
-        if (!are_points(whole.joints) || !are_points({&whole.target, 1})) {
-            invalid_.fetch_add(1, std::memory_order_relaxed);
-            if (!in_.reports.empty()) in_.reports[chain] = {.status = Status::InvalidInput};
-            continue;
-        }
-        whole.state.side = Side::Free;
-        PlaneProblem problem(scratch.scalar, whole.joints, whole.state, whole.target, in_.options);
-        const Report answer = problem.solve(Method::Fabrik, nullptr);
-        for (std::size_t i = 1; i <= in_.bones; ++i) block.set_point(i, lane, scratch.scalar.joints[i]);
-        report_fallback(chain, answer);
-    }
-    if (in_.joints != nullptr) return_joints(block, index, lanes);
 }
 
 void Work::report_fallback(std::size_t chain, const Report& answer) noexcept {
@@ -201,18 +200,19 @@ void Work::run_tile(std::size_t most_left, Scratch& scratch) noexcept {
     Tile& tile = scratch.tile;
     while (tile.used > most_left) {
         iterate(tile.block, tile.used, tune::batch::next_burst, scratch);
-        clear_done(tile);
+        clear_done(scratch);
     }
 }
 
 /// Writes back the finished chains and closes the gaps.
-void Work::clear_done(Tile& tile) noexcept {
+void Work::clear_done(Scratch& scratch) noexcept {
+    Tile& tile = scratch.tile;
     LaneList left, done;
     for (std::size_t lane = 0; lane < tile.used; ++lane) {
         (tile.block.activity(lane) != Activity::Done ? left : done).add(lane);
     }
     for (const std::size_t lane : done.span()) {
-        write_home(tile, lane);
+        write_home(lane, scratch);
         report(tile.block, lane, tile.chains[lane]);
     }
     if (left.count == tile.used) return;
@@ -225,7 +225,9 @@ void Work::clear_done(Tile& tile) noexcept {
 }
 
 /// Writes the joints of a chain in the tile back to its block or to the caller.
-void Work::write_home(const Tile& tile, std::size_t lane) const noexcept {
+void Work::write_home(std::size_t lane, Scratch& scratch) const noexcept {
+    const Tile& tile = scratch.tile;
+    if (planar_) return return_from_plane(tile.block, lane, tile.chains[lane], scratch);
     const std::size_t chain = tile.chains[lane], each = in_.bones + 1;
     if (in_.joints != nullptr) {
         for (std::size_t i = 1; i < each; ++i) in_.joints[chain * each + i] = tile.block.point(i, lane);

@@ -9,8 +9,10 @@
 
 #include "ik/batch/block.hpp"
 #include "ik/batch/vector.hpp"
+#include "ik/solve/plane.hpp"
 #include "ik/solve/problem.hpp"
 #include "tendril/ik/many.hpp"
+#include "tendril/ik/options.hpp"
 
 namespace tendril::ik::detail {
 
@@ -31,13 +33,14 @@ struct Tile {
 struct Scratch {
     explicit Scratch(std::size_t bones);
 
-    Rows joints;  ///< of the current block, if the caller owns the joints
+    Rows joints;  ///< of the current block, if the caller owns the joints, or in the plane's coordinates
     Rows state;   ///< of the current block
     Rows shapes;  ///< shapes, gathered and second: see StepScratch
     Tile gathered, second;
     Tile tile;
     Rows poses, rotations, limited;  ///< see LimitedOrder; allocated with limits
     Workspace scalar;                ///< for the scalar code
+    Options options;                 ///< of the chain there
 };
 
 class Work {
@@ -54,7 +57,11 @@ class Work {
         float* rotations;           ///< with limits: rows of one block after the other
     };
     /// The input must be validated.
-    explicit Work(const Input& input) noexcept : in_(input) {}
+    explicit Work(const Input& input) noexcept
+        : in_(input),
+          planar_(input.options.plane && input.options.plane->limits.empty()),
+          frame_(glm::vec3(0.0f), planar_ ? input.options.plane->normal : glm::vec3(0.0f, 0.0f, 1.0f),
+                 glm::vec3(1.0f, 0.0f, 0.0f)) {}
 
     /// Processes blocks until none are left. Threads may call it concurrently, each with its own scratch.
     void run(Scratch& scratch) noexcept;
@@ -63,8 +70,8 @@ class Work {
   private:
     Block block(std::size_t index, Scratch& scratch) const noexcept {
         float* const own = in_.blocks + index * Block::chain_floats(in_.bones);
-        return {in_.joints != nullptr ? scratch.joints.get() : own, own + Block::joint_floats(in_.bones),
-                scratch.state.get(), in_.bones};
+        return {in_.joints != nullptr || planar_ ? scratch.joints.get() : own,
+                own + Block::joint_floats(in_.bones), scratch.state.get(), in_.bones};
     }
     void take_joints(const Block& block, std::size_t index, std::size_t lanes) const noexcept;
     void return_joints(const Block& block, std::size_t index, std::size_t lanes) const noexcept;
@@ -78,20 +85,29 @@ class Work {
     void solve_scalar(const Block& block, std::size_t lane, std::size_t chain, Scratch& scratch) noexcept;
     void solve_scalar_limited(const Block& block, std::size_t lane, std::size_t chain,
                               Scratch& scratch) noexcept;
-    void solve_planar_block(const Block& block, std::size_t index, std::size_t lanes,
-                            Scratch& scratch) noexcept;
+    // In a plane (planar.cpp).
+    void solve_angled_block(std::size_t index, std::size_t lanes, Scratch& scratch) noexcept;
+    void take_into_plane(const Block& block, std::size_t first, std::size_t lanes,
+                         Scratch& scratch) const noexcept;
+    void turn_to_targets(const Block& block, std::size_t first, std::size_t lanes,
+                         Scratch& scratch) const noexcept;
+    void return_from_plane(const Block& block, std::size_t lane, std::size_t chain,
+                           Scratch& scratch) const noexcept;
+    bool solve_in_plane(std::size_t chain, Scratch& scratch) noexcept;
+    glm::vec3 home(std::size_t chain, std::size_t joint) const noexcept;
+    void set_home(std::size_t chain, std::size_t joint, const glm::vec3& to) const noexcept;
     void report_fallback(std::size_t chain, const Report& answer) noexcept;
     float* rotations(std::size_t index) const noexcept {
         return in_.rotations + index * 4 * in_.bones * block_lanes;
     }
-    Problem take_out(const Block& block, std::size_t lane, Workspace& scalar) const noexcept;
+    Problem take_out(const Block& block, std::size_t lane, Scratch& scratch) const noexcept;
 
     void put_into_tile(const Block& from, const LaneList& lanes, std::size_t first,
                        Scratch& scratch) noexcept;
-    void write_home(const Tile& tile, std::size_t lane) const noexcept;
+    void write_home(std::size_t lane, Scratch& scratch) const noexcept;
     void fetch_joints(const Tile& tile, std::size_t lane) const noexcept;
     void run_tile(std::size_t most_left, Scratch& scratch) noexcept;
-    void clear_done(Tile& tile) noexcept;
+    void clear_done(Scratch& scratch) noexcept;
     LimitedOrder limited_order(Scratch& scratch) const noexcept;
     void run_limited_tile(std::size_t most_left, Scratch& scratch) noexcept;
     void move_limited(std::size_t from, std::size_t to, Scratch& scratch) const noexcept;
@@ -99,6 +115,8 @@ class Work {
     void report(const Block& block, std::size_t lane, std::size_t chain) noexcept;
 
     Input in_;
+    bool planar_;       ///< in a plane without limits
+    PlaneFrame frame_;  ///< of that plane, at the origin
     std::atomic<std::size_t> next_block_{0}, invalid_{0}, scalar_fallbacks_{0};
 };
 

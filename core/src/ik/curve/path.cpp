@@ -21,12 +21,23 @@ Cubic rest_of(Cubic cubic, double t) noexcept {
     return cubic;
 }
 
-/// |cubic(t) - centre|^2 - radius^2
-Sextic distance_excess(const Cubic& cubic, const glm::dvec3& centre, double radius) noexcept {
+/// The part of a cubic up to `t`.
+Cubic beginning_of(Cubic cubic, double t) noexcept {
+    for (std::size_t level = 1; level <= 3; ++level)
+        for (std::size_t i = 3; i >= level; --i) cubic[i] = mix_points(cubic[i - 1], cubic[i], t);
+    return cubic;
+}
+
+/// As seen from a centre.
+Cubic seen_from(const glm::dvec3& centre, const Cubic& cubic) noexcept {
+    return {minus(cubic[0], centre), minus(cubic[1], centre), minus(cubic[2], centre),
+            minus(cubic[3], centre)};
+}
+
+/// |cubic(t)|^2 - square
+Sextic distance_excess(const Cubic& cubic, double square) noexcept {
     // B_i^3 B_j^3 = C(3, i) C(3, j) / C(6, i + j) B_(i + j)^6
-    const glm::dvec3 p = minus(cubic[0], centre), q = minus(cubic[1], centre), r = minus(cubic[2], centre),
-                     s = minus(cubic[3], centre);
-    const double square = radius * radius;
+    const auto& [p, q, r, s] = cubic;
     return {dot(p, p) - square,
             dot(p, q) - square,
             0.4 * dot(p, r) + 0.6 * dot(q, q) - square,
@@ -47,35 +58,24 @@ Sextic split(Sextic& all) noexcept {
     return left;
 }
 
-/// A cubic in powers of t, as seen from a centre.
-struct Powers {
-    glm::dvec3 a, b, c, d;
-
-    Powers(const Cubic& p, const glm::dvec3& centre) noexcept
-        : a(minus(p[0], centre)),
-          b(times(minus(p[1], p[0]), 3.0)),
-          c(times(plus(minus(p[0], times(p[1], 2.0)), p[2]), 3.0)),
-          d(plus(minus(p[3], p[0]), times(minus(p[1], p[2]), 3.0))) {}
-    glm::dvec3 at(double t) const noexcept {
-        return plus(a, times(plus(b, times(plus(c, times(d, t)), t)), t));
-    }
-    glm::dvec3 slope(double t) const noexcept {
-        return plus(b, times(plus(times(c, 2.0), times(d, 3.0 * t)), t));
-    }
-};
-
-/// The place between `low` and `high`, inside and outside the sphere, where the cubic crosses it: Newton's
-/// steps, bisection where they leave the bracket.
-double crossing(const Powers& cubic, double radius, double low, double high, double t) noexcept {
+/// The place between `low` and `high`, inside and outside the sphere about the origin, where the cubic
+/// crosses it: Newton's steps, bisection where they leave the bracket.
+double crossing(const Powers& cubic, double radius, double low, double high) noexcept {
+    const double square = radius * radius;
+    // The first step is that of a straight line along the slope at `low`.
+    const glm::dvec3 from = cubic.at(low), along = cubic.slope(low);
+    const double a = dot(along, along), b = dot(from, along), c = dot(from, from) - square;
+    double t = low + (std::sqrt(std::max(0.0, b * b - a * c)) - b) / a;
+    if (!(t > low && t < high)) t = 0.5 * (low + high);
     for (int i = 0; i < 60 && high - low > 1e-15; ++i) {
         const glm::dvec3 at = cubic.at(t);
-        const double excess = dot(at, at) - radius * radius;
+        const double excess = dot(at, at) - square;
         (excess < 0.0 ? low : high) = t;
         const glm::dvec3 slope = cubic.slope(t);
         const double change = excess / (-2.0 * dot(at, slope)), newton = t + change;
         const bool bracketed = newton > low && newton < high;
         // The error of a step is about its square: 1e-6 of the radius leaves 1e-12.
-        if (bracketed && dot(slope, slope) * change * change < 1e-12 * radius * radius) return newton;
+        if (bracketed && dot(slope, slope) * change * change < 1e-12 * square) return newton;
         t = bracketed ? newton : 0.5 * (low + high);
     }
     return t;
@@ -92,9 +92,12 @@ int sign_changes(const Sextic& c) noexcept {
     return changes;
 }
 
-/// Where the cubic first leaves the sphere around `centre`, in which it begins; negative if it does not.
+/// Where the cubic first leaves the sphere about the origin, in which it begins; negative if it does not.
 /// Touching the sphere from inside, within rounding, counts as staying.
-double first_crossing(const Cubic& cubic, const glm::dvec3& centre, double radius) noexcept {
+double first_crossing(const Cubic& cubic, double radius) noexcept {
+    const double square = radius * radius;
+    const auto inside = [&](std::size_t i) { return dot(cubic[i], cubic[i]) < square; };
+    if (inside(3) && inside(2) && inside(1) && inside(0)) return -1.0;  // and so is all between them
     constexpr int deepest = 40;
     struct Interval {
         Sextic c;
@@ -102,14 +105,12 @@ double first_crossing(const Cubic& cubic, const glm::dvec3& centre, double radiu
     };
     std::array<Interval, deepest + 2> waiting;  // of each depth at most one right half waits
     std::size_t count = 0;
-    waiting[count++] = {distance_excess(cubic, centre, radius), 0.0, 1.0};
+    waiting[count++] = {distance_excess(cubic, square), 0.0, 1.0};
     while (count > 0) {
         Interval& top = waiting[count - 1];
         if (top.c[0] >= 0.0) return top.from;
         const int changes = sign_changes(top.c);
-        if (changes == 1)
-            return crossing(Powers(cubic, centre), radius, top.from, top.from + top.size,
-                            top.from + top.size * (top.c[0] / (top.c[0] - top.c[degree])));
+        if (changes == 1) return crossing(Powers(cubic), radius, top.from, top.from + top.size);
         if (changes == 0 && top.c[degree] == 0.0) return top.from + top.size;
         if (changes == 0 || count > deepest) {
             --count;
@@ -121,6 +122,18 @@ double first_crossing(const Cubic& cubic, const glm::dvec3& centre, double radiu
         top.from += top.size;
     }
     return -1.0;
+}
+
+/// Whether the distance rises all the way; by the signs of its slope's Bernstein coefficients.
+bool rises(Sextic c, double ignored, int splits = 0) noexcept {
+    constexpr int most = 24;
+    bool all = true;
+    for (std::size_t i = 0; i < degree; ++i) all = all && c[i + 1] - c[i] >= -ignored;
+    if (all || splits == most) return true;
+    if (c[1] - c[0] < -ignored || c[degree] - c[degree - 1] < -ignored)
+        return false;  // the slopes at the ends
+    const Sextic left = split(c);
+    return rises(left, ignored, splits + 1) && rises(c, ignored, splits + 1);
 }
 
 }  // namespace
@@ -145,44 +158,45 @@ glm::dvec3 Path::control(std::ptrdiff_t index) const noexcept {
     return at(index);
 }
 
-const Cubic& Path::piece(std::size_t index) noexcept {
-    if (index == index_) return cubic_;
-    index_ = index;
+const Path::Piece& Path::piece(std::size_t index) noexcept {
+    Piece& piece = pieces_[index % 2];
+    if (index == piece.index) return piece;
+    piece.index = index;
     const auto k = static_cast<std::ptrdiff_t>(index);
     const glm::dvec3 before = control(k - 1), a = control(k), b = control(k + 1), after = control(k + 2);
     if (kind_ == CurveKind::BSpline) {
-        cubic_ = {times(plus(plus(before, times(a, 4.0)), b), 1.0 / 6.0),
-                  times(plus(times(a, 2.0), b), 1.0 / 3.0), times(plus(a, times(b, 2.0)), 1.0 / 3.0),
-                  times(plus(plus(a, times(b, 4.0)), after), 1.0 / 6.0)};
+        piece.cubic = {times(plus(plus(before, times(a, 4.0)), b), 1.0 / 6.0),
+                       times(plus(times(a, 2.0), b), 1.0 / 3.0), times(plus(a, times(b, 2.0)), 1.0 / 3.0),
+                       times(plus(plus(a, times(b, 4.0)), after), 1.0 / 6.0)};
     } else {
-        cubic_ = {a, plus(a, times(minus(b, before), 1.0 / 6.0)), minus(b, times(minus(after, a), 1.0 / 6.0)),
-                  b};
+        piece.cubic = {a, plus(a, times(minus(b, before), 1.0 / 6.0)),
+                       minus(b, times(minus(after, a), 1.0 / 6.0)), b};
     }
-    return cubic_;
+    const Cubic& p = piece.cubic;
+    piece.powers = Powers(p);
+    // The derivatives are within the hulls of their own control points.
+    const glm::dvec3 first = minus(p[1], p[0]), second = minus(p[2], p[1]), third = minus(p[3], p[2]);
+    piece.speed = 3.0 * std::sqrt(std::max({dot(first, first), dot(second, second), dot(third, third)}));
+    const glm::dvec3 early = minus(second, first), late = minus(third, second);
+    piece.bend = 6.0 * std::sqrt(std::max(dot(early, early), dot(late, late)));
+    return piece;
 }
 
 glm::dvec3 Path::point(const Place& place) noexcept {
     if (on_ray(place)) return plus(end_, times(ray_, place.t));
-    const Cubic& p = piece(place.piece);
-    const double t = place.t, s = 1.0 - t;
-    return plus(plus(times(p[0], s * s * s), times(p[1], 3.0 * s * s * t)),
-                plus(times(p[2], 3.0 * s * t * t), times(p[3], t * t * t)));
+    return piece(place.piece).powers.at(place.t);
 }
 
-glm::dvec3 Path::tangent(const Place& place, const glm::dvec3& before) noexcept {
-    if (on_ray(place)) return ray_;
-    const Cubic& p = piece(place.piece);
-    const glm::dvec3 slope = Powers(p, p[0]).slope(place.t);
-    const double size =
-        std::max({dot(minus(p[1], p[0]), minus(p[1], p[0])), dot(minus(p[2], p[0]), minus(p[2], p[0])),
-                  dot(minus(p[3], p[0]), minus(p[3], p[0]))});
+PathPoint Path::sample(const Place& place, const glm::dvec3& before) noexcept {
+    if (on_ray(place)) return {plus(end_, times(ray_, place.t)), ray_};
+    const Piece& p = piece(place.piece);
+    const glm::dvec3 at = p.powers.at(place.t), slope = p.powers.slope(place.t);
     const double squared = dot(slope, slope);
     // Where the curve halts, as at a cusp, its direction is that from the nearer half of the piece.
-    if (squared > 1e-18 * size) return times(slope, 1.0 / std::sqrt(squared));
-    const Place beside{place.piece, place.t < 0.5 ? place.t + 1e-3 : place.t - 1e-3};
+    if (squared > 1e-18 * p.speed * p.speed) return {at, times(slope, 1.0 / std::sqrt(squared))};
     const glm::dvec3 chord =
-        place.t < 0.5 ? minus(point(beside), point(place)) : minus(point(place), point(beside));
-    return direction_of(chord, 0.0).value_or(before);
+        place.t < 0.5 ? minus(p.powers.at(place.t + 1e-3), at) : minus(at, p.powers.at(place.t - 1e-3));
+    return {at, direction_of(chord, 0.0).value_or(before)};
 }
 
 Place Path::next(const Place& from, const glm::dvec3& joint, double length) noexcept {
@@ -190,15 +204,37 @@ Place Path::next(const Place& from, const glm::dvec3& joint, double length) noex
     if (on_ray(from)) return {from.piece, from.t + length};
     double start = from.t;
     for (std::size_t k = from.piece; k < pieces(); ++k, start = 0.0) {
-        const Cubic cubic = rest_of(piece(k), start);
-        if (const double t = first_crossing(cubic, joint, length); t >= 0.0)
-            return {k, start + (1.0 - start) * t};
+        const Cubic& whole = piece(k).cubic;
+        const Cubic rest = seen_from(joint, start > 0.0 ? rest_of(whole, start) : whole);
+        if (const double t = first_crossing(rest, length); t >= 0.0) return {k, start + (1.0 - start) * t};
     }
     // The end is nearer than the length, so the ray leaves the sphere once: |end + t ray - joint| = length.
     const glm::dvec3 to_end = minus(end_, joint);
     const double along = dot(to_end, ray_);
     const double off = std::max(0.0, along * along - dot(to_end, to_end) + length * length);
     return {pieces(), std::max(0.0, std::sqrt(off) - along)};
+}
+
+bool Path::recedes(const Place& from, const Place& to, const glm::dvec3& centre, double length) noexcept {
+    const double ignored = 1e-9 * length * length;
+    double start = from.t;
+    for (std::size_t k = from.piece; k < pieces() && k <= to.piece; ++k, start = 0.0) {
+        const double stop = k == to.piece ? to.t : 1.0, by = stop - start;
+        if (!(by > 0.0)) continue;
+        const Piece& p = piece(k);
+        if (from.piece == to.piece) {
+            // The slope of half the squared distance falls by at most the distance times the second
+            // derivative.
+            const glm::dvec3 arm = minus(p.powers.at(start), centre);
+            if (dot(arm, p.powers.slope(start)) >= by * (length + by * p.speed) * p.bend) return true;
+        }
+        Cubic cubic = rest_of(p.cubic, start);
+        if (stop < 1.0) cubic = beginning_of(cubic, by / (1.0 - start));
+        if (!rises(distance_excess(seen_from(centre, cubic), 0.0), ignored)) return false;
+    }
+    if (!on_ray(to)) return true;
+    const double first = on_ray(from) ? from.t : 0.0;
+    return dot(plus(minus(end_, centre), times(ray_, first)), ray_) * (to.t - first) >= -ignored;
 }
 
 }  // namespace tendril::ik::detail

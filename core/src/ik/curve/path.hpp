@@ -13,10 +13,32 @@ namespace tendril::ik::detail {
 /// A cubic piece by its Bezier points.
 using Cubic = std::array<glm::dvec3, 4>;
 
+/// A cubic in powers of t: a + b t + c t^2 + d t^3.
+struct Powers {
+    glm::dvec3 a{0.0}, b{0.0}, c{0.0}, d{0.0};
+
+    Powers() = default;
+    explicit Powers(const Cubic& p) noexcept
+        : a(p[0]),
+          b(times(minus(p[1], p[0]), 3.0)),
+          c(times(plus(minus(p[0], times(p[1], 2.0)), p[2]), 3.0)),
+          d(plus(minus(p[3], p[0]), times(minus(p[1], p[2]), 3.0))) {}
+    glm::dvec3 at(double t) const noexcept {
+        return plus(a, times(plus(b, times(plus(c, times(d, t)), t)), t));
+    }
+    glm::dvec3 slope(double t) const noexcept {
+        return plus(b, times(plus(times(c, 2.0), times(d, 3.0 * t)), t));
+    }
+};
+
 /// A place on the path: `t` in 0 to 1 on a piece, metres beyond the end on the ray that continues the last.
 struct Place {
     std::size_t piece = 0;
     double t = 0.0;
+};
+
+struct PathPoint {
+    glm::dvec3 at, tangent;
 };
 
 class Path {
@@ -30,21 +52,29 @@ class Path {
     const glm::dvec3& end() const noexcept { return end_; }
 
     glm::dvec3 point(const Place& place) noexcept;
-    /// Unit; `before` where the path has no direction.
-    glm::dvec3 tangent(const Place& place, const glm::dvec3& before) noexcept;
+    /// `tangent`: unit; `before` where the path has no direction.
+    PathPoint sample(const Place& place, const glm::dvec3& before) noexcept;
     /// The first place after `from` that is `length` metres from `joint`, which is the point at `from`.
     Place next(const Place& from, const glm::dvec3& joint, double length) noexcept;
+    /// Whether the path, from one place on to another, gets further from `centre` all the way. One of them is
+    /// `length` metres from it. Dips of the squared distance by less than 1e-9 of length^2 do not count.
+    bool recedes(const Place& from, const Place& to, const glm::dvec3& centre, double length) noexcept;
 
   private:
     glm::dvec3 control(std::ptrdiff_t index) const noexcept;
-    const Cubic& piece(std::size_t index) noexcept;
+    struct Piece {
+        Cubic cubic{};
+        Powers powers{};
+        std::size_t index = static_cast<std::size_t>(-1);
+        double speed = 0.0, bend = 0.0;  ///< bounds of its first and second derivative
+    };
+    const Piece& piece(std::size_t index) noexcept;
 
     std::span<const glm::vec3> points_;
     CurveKind kind_;
     glm::dvec3 end_{0.0}, ray_{0.0};
     bool collapsed_ = false;
-    std::size_t index_ = static_cast<std::size_t>(-1);  // of the piece kept in cubic_
-    Cubic cubic_{};
+    std::array<Piece, 2> pieces_{};  // the last even one and the last odd one
 };
 
 }  // namespace tendril::ik::detail

@@ -91,19 +91,22 @@ struct Frame {
     glm::dvec3 at, tangent, normal;
 
     /// Double reflection. A point too near to give a direction is passed over.
-    void move_to(const glm::dvec3& next, const glm::dvec3& next_tangent) noexcept {
-        const glm::dvec3 step = minus(next, at);
+    void move_to(const PathPoint& next) noexcept {
+        const glm::dvec3 step = minus(next.at, at);
         const double squared = dot(step, step);
         if (squared > 0.0) {
             const glm::dvec3 side = minus(normal, times(step, 2.0 / squared * dot(step, normal)));
             const glm::dvec3 ahead = minus(tangent, times(step, 2.0 / squared * dot(step, tangent)));
-            const glm::dvec3 turn = minus(next_tangent, ahead);
+            const glm::dvec3 turn = minus(next.tangent, ahead);
             const double turned = dot(turn, turn);
             normal = turned > 0.0 ? minus(side, times(turn, 2.0 / turned * dot(turn, side))) : side;
         } else {
-            normal = rotated(minimal_rotation(tangent, next_tangent), normal);
+            normal = rotated(minimal_rotation(tangent, next.tangent), normal);
         }
-        at = next, tangent = next_tangent;
+        at = next.at, tangent = next.tangent;
+    }
+    /// Takes rounding out of the normal.
+    void straighten() noexcept {
         const auto kept = direction_of(across(normal, tangent), 0.0);
         normal = kept ? *kept : perpendicular(tangent);
     }
@@ -117,9 +120,10 @@ void carry(Frame& frame, Path& path, const Place& from, const Place& to) noexcep
         const int count = k < path.pieces() ? 1 + static_cast<int>(samples * (stop - start)) : 1;
         for (int i = 1; i <= count; ++i) {
             const Place place{k, start + (stop - start) * i / count};
-            frame.move_to(path.point(place), path.tangent(place, frame.tangent));
+            frame.move_to(path.sample(place, frame.tangent));
         }
     }
+    frame.straighten();
 }
 
 glm::dvec3 upper_side(const glm::dvec3& up, const glm::dvec3& along) noexcept {
@@ -127,12 +131,27 @@ glm::dvec3 upper_side(const glm::dvec3& up, const glm::dvec3& along) noexcept {
     return side ? *side : perpendicular(along);
 }
 
-/// The rotation about the unit vector `axis` that takes one unit vector perpendicular to it to another.
-glm::dquat twist_between(const glm::dvec3& axis, const glm::dvec3& from, const glm::dvec3& to) noexcept {
-    const double cosine = dot(from, to), sine = dot(cross(from, to), axis);
-    const double w = std::sqrt(std::max(0.0, 0.5 * (1.0 + cosine)));  // half the angle
-    const double s = std::copysign(std::sqrt(std::max(0.0, 0.5 * (1.0 - cosine))), sine);
-    return unit_quaternion(w, axis.x * s, axis.y * s, axis.z * s);
+/// `side`, perpendicular to the unit vector `from`, after the minimal rotation from there to `to`.
+glm::dvec3 turned_along(const glm::dvec3& side, const glm::dvec3& from, const glm::dvec3& to) noexcept {
+    const double w = 1.0 + dot(from, to);
+    if (w < nearly_opposite<double>) return rotated(minimal_rotation(from, to), side);
+    return minus(side, times(plus(from, to), dot(side, to) / w));
+}
+/// The rotation that takes a unit vector to another one, `axis`, and the side perpendicular to it to `side`.
+glm::dquat rotation_to(const glm::dvec3& axis, const glm::dvec3& side, const glm::dvec3& from,
+                       const glm::dvec3& from_side) noexcept {
+    // The minimal rotation, then a twist about the axis; both by half their angles, and scaled at the end.
+    const glm::dvec3 swung = turned_along(from_side, from, axis);
+    const double twist = 1.0 + dot(swung, side), swing = 1.0 + dot(from, axis);
+    const double sine = dot(cross(swung, side), axis);
+    const bool half_turn = twist < nearly_opposite<double>;
+    const glm::dquat about = half_turn ? glm::dquat(0.0, axis.x, axis.y, axis.z)
+                                       : glm::dquat(twist, axis.x * sine, axis.y * sine, axis.z * sine);
+    const glm::dvec3 by = cross(from, axis);
+    const glm::dquat to =
+        compose(about, swing < nearly_opposite<double> ? minimal_rotation(from, axis)
+                                                       : glm::dquat(swing, by.x, by.y, by.z));
+    return unit_quaternion(to.w, to.x, to.y, to.z);
 }
 glm::quat narrow_rotation(const glm::dquat& q) noexcept {
     return {static_cast<float>(q.w), static_cast<float>(q.x), static_cast<float>(q.y),
@@ -143,34 +162,48 @@ glm::quat narrow_rotation(const glm::dquat& q) noexcept {
 class Jumps {
   public:
     Jumps(Path& path, std::span<const glm::vec3> points, CurveMemory& memory) noexcept
-        : memory_(memory), comparable_(memory.points == points.size() && !memory.joints.empty()) {
-        if (comparable_)
-            for (std::size_t i = 0; i < memory.at.size(); ++i) {
-                const double at = memory.at[i];
-                const auto piece = static_cast<std::size_t>(
-                    std::min(std::max(0.0, at), static_cast<double>(path.pieces())));
-                const glm::dvec3 now = path.point({piece, at - static_cast<double>(piece)});
-                moved_ = std::max(moved_, length(minus(now, wide(memory.joints[i]))));
-            }
+        : path_(path),
+          memory_(memory),
+          comparable_(memory.points == points.size() && !memory.joints.empty()) {
         memory_.points = points.size();
     }
 
-    void joint(std::size_t i, const Place& place, const glm::dvec3& now, double reach) noexcept {
+    void root(const Place& place, const glm::dvec3& now) noexcept {
+        if (!memory_.joints.empty()) remember(0, place, now);
+    }
+    /// The bone from joint i - 1 to joint i, on the path. A joint beyond the first jump moves with it.
+    void bone(std::size_t i, const Place& from, const glm::dvec3& start, const Place& place,
+              const glm::dvec3& now, double length) noexcept {
         if (memory_.joints.empty()) return;
-        // The joints are kept as floats, so a curve at rest seems to move a little.
-        if (comparable_ && !jumped &&
-            length(minus(now, wide(memory_.joints[i]))) > 20.0 * moved_ + 1e-5 * reach)
+        if (comparable_ && !jumped && length > 0.0 && !same_crossing(i, from, start, place, length))
             jumped = i;
-        memory_.at[i] = static_cast<double>(place.piece) + place.t;
-        memory_.joints[i] = narrow(now);
+        remember(i, place, now);
     }
 
     std::optional<std::size_t> jumped{};
 
   private:
+    void remember(std::size_t i, const Place& place, const glm::dvec3& now) noexcept {
+        memory_.at[i] = static_cast<double>(place.piece) + place.t;
+        memory_.joints[i] = narrow(now);
+    }
+    /// The rule of CurveReport::jumped.
+    bool same_crossing(std::size_t i, const Place& from, const glm::dvec3& start, const Place& place,
+                       double length) noexcept {
+        const auto before = [](const Place& a, const Place& b) {
+            return a.piece != b.piece ? a.piece < b.piece : a.t < b.t;
+        };
+        const double at = std::max(0.0, memory_.at[i]);
+        const auto piece = static_cast<std::size_t>(std::min(at, static_cast<double>(path_.pieces())));
+        Place was{piece, at - static_cast<double>(piece)};
+        if (before(was, from)) was = from;
+        return before(was, place) ? path_.recedes(was, place, start, length)
+                                  : path_.recedes(place, was, start, length);
+    }
+
+    Path& path_;
     CurveMemory& memory_;
     bool comparable_;
-    double moved_ = 0.0;
 };
 
 }  // namespace
@@ -214,9 +247,9 @@ CurveReport place_along(std::span<const glm::vec3> points, const CurveChain& cha
     Jumps jumps(path, points, memory);
     Place place;
     glm::dvec3 on_path = path.point(place);
-    jumps.joint(0, place, on_path, reach);
+    jumps.root(place, on_path);
     const glm::dvec3 up = wide(options.up);
-    const glm::dvec3 first_tangent = path.tangent(place, rest_direction(0));
+    const glm::dvec3 first_tangent = path.sample(place, rest_direction(0)).tangent;
     Frame frame{on_path, first_tangent, upper_side(up, first_tangent)};
     glm::dvec3 rest_before = rest_direction(0), rest_side = upper_side(up, rest_before);
 
@@ -235,19 +268,17 @@ CurveReport place_along(std::span<const glm::vec3> points, const CurveChain& cha
         const double bone = factor * static_cast<double>(lengths[i]);
         const Place next = path.next(place, on_path, bone);
         const glm::dvec3 next_on_path = path.point(next);
-        jumps.joint(i + 1, next, next_on_path, reach);
+        jumps.bone(i + 1, place, on_path, next, next_on_path, bone);
         if (path.on_ray(next)) ++report.bones_past_end;
 
         // The side that turns least from the rest pose, then the path's, then the roll.
         const glm::dvec3 rest = rest_direction(i);
-        if (rest != rest_before) rest_side = rotated(minimal_rotation(rest_before, rest), rest_side);
+        if (rest != rest_before) rest_side = turned_along(rest_side, rest_before, rest);
         rest_before = rest;
         const glm::dvec3 direction =
             direction_of(minus(next_on_path, on_path), 1e-12 * reach).value_or(frame.tangent);
-        const glm::dvec3 side = rotated(minimal_rotation(frame.tangent, direction), frame.normal);
-        const glm::dquat swing = minimal_rotation(rest, direction);
-        const glm::dvec3 swung = rotated(swing, rest_side);
-        glm::dquat target = compose(twist_between(direction, swung, side), swing);
+        const glm::dvec3 side = turned_along(frame.normal, frame.tangent, direction);
+        glm::dquat target = rotation_to(direction, side, rest, rest_side);
         if (rolls) {
             const double share = reach > last_length ? along / (reach - last_length) : 0.0;
             target = compose(rotation_about(direction, roll_start + share * (roll_end - roll_start)), target);

@@ -17,7 +17,6 @@ using namespace tune::pole;
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
 constexpr double no_side = 1e-6;  ///< fraction of the reach: smaller offsets are rounding
-constexpr double closed = 1e-2;   ///< fraction of the reach: a planar chain's tip this near the root is at it
 
 /// Direction and size of the chain's offset from a line through its root.
 struct Bend {
@@ -37,6 +36,27 @@ Bend bend_of(const Problem& problem, const glm::dvec3& line) noexcept {
         bend.furthest = std::max(bend.furthest, length(offset));
     }
     return bend;
+}
+
+bool lies_along(const Problem& problem, const std::optional<glm::dvec3>& line) noexcept {
+    return line && bend_of(problem, *line).furthest <= straight * static_cast<double>(problem.scratch.reach);
+}
+
+/// Whether the chain lies on the line to its target. In a plane also if it is folded up on any other line,
+/// its tip at its root: it then was not turned to its target, and would zigzag all the way there. Its offsets
+/// from the line from root to tip cancel out, so rounding would decide its side and mirror it again and
+/// again.
+bool is_on_line(const Problem& problem, const glm::dvec3& to_target) noexcept {
+    if (lies_along(problem, to_target)) return true;
+    const glm::vec3 root = problem.root(), tip = minus(problem.joints.back(), root);
+    const double reach = static_cast<double>(problem.scratch.reach);
+    if (!problem.options.plane || length(wide(tip)) > closed_tip * reach) return false;
+    glm::dvec3 furthest(0.0);
+    for (const glm::vec3& joint : problem.joints) {
+        const glm::dvec3 arm = wide(minus(joint, root));
+        if (dot(arm, arm) > dot(furthest, furthest)) furthest = arm;
+    }
+    return lies_along(problem, direction_of(furthest, no_side * reach));
 }
 
 /// The angle about `line` from one vector to another, -pi to pi, ignoring their components along the line.
@@ -133,7 +153,7 @@ template <class Watch>
 void face_with_whole_chain(Problem& problem, Watch watch) noexcept {
     // With the tip at the root, the tolerance decides where a line in the plane points.
     const double minimum =
-        (problem.options.plane ? closed : no_side) * static_cast<double>(problem.scratch.reach);
+        (problem.options.plane ? closed_tip : no_side) * static_cast<double>(problem.scratch.reach);
     const std::optional<glm::dvec3> line =
         direction_of(minus(wide(problem.joints.back()), wide(problem.root())), minimum);
     if (!line) return;
@@ -184,7 +204,7 @@ bool bend_to_pole(Problem& problem, Watch watch) noexcept {
     const double reach = static_cast<double>(problem.scratch.reach);
     const glm::dvec3 root = wide(problem.root()), arm = minus(wide(problem.target), root);
     const std::optional<glm::dvec3> line = direction_of(arm, no_side * reach);
-    if (!line || bend_of(problem, *line).furthest > straight * reach) return false;
+    if (!line || !is_on_line(problem, *line)) return false;
     const std::optional<glm::dvec3> side = pole_side(problem, root, *line);
     if (!side) return false;
     const double half = half_angle_of_arc(length(arm) / reach);
@@ -240,7 +260,7 @@ void transport_to_pole(Problem& problem, Watch watch) noexcept {
     }
     problem.scratch.pole.allowance = pole_allowance(problem);
     const double minimum =
-        (problem.options.plane ? closed : 1e-4) * static_cast<double>(problem.scratch.reach);
+        (problem.options.plane ? closed_tip : 1e-4) * static_cast<double>(problem.scratch.reach);
     const glm::dvec3 root = wide(problem.root());
     const std::optional<glm::dvec3> from = direction_of(minus(wide(problem.joints.back()), root), minimum);
     const std::optional<glm::dvec3> to = direction_of(minus(wide(problem.target), root), minimum);
@@ -274,7 +294,7 @@ glm::dvec3 planar_side(const Problem& problem, const glm::dvec3& line) noexcept 
 Side planar_side(const Problem& problem) noexcept {
     const double reach = static_cast<double>(problem.scratch.reach);
     const std::optional<glm::dvec3> line =
-        direction_of(minus(wide(problem.joints.back()), wide(problem.root())), closed * reach);
+        direction_of(minus(wide(problem.joints.back()), wide(problem.root())), closed_tip * reach);
     if (!line) return Side::Free;
     const glm::dvec3 side = bend_of(problem, *line).side;
     const double left = side.x * line->z - side.z * line->x;

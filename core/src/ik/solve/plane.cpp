@@ -46,6 +46,12 @@ PlaneFrame::PlaneFrame(const glm::vec3& root, const glm::vec3& normal, const glm
     across_ = cross(along_, normal_);
 }
 
+PlaneFrame PlaneFrame::at(const glm::vec3& root) const noexcept {
+    PlaneFrame other = *this;
+    other.root_ = wide(root);
+    return other;
+}
+
 glm::vec3 PlaneFrame::local(const glm::vec3& point) const noexcept {
     const glm::dvec3 arm = minus(wide(point), root_);
     return {static_cast<float>(dot(arm, along_)), 0.0f, static_cast<float>(dot(arm, across_))};
@@ -71,6 +77,14 @@ glm::vec3 PlaneFrame::world_vector(const glm::vec3& vector) const noexcept {
 
 double PlaneFrame::off(const glm::vec3& point) const noexcept {
     return dot(minus(wide(point), root_), normal_);
+}
+
+glm::vec3 PlaneFrame::returned(const glm::vec3& local_joint, const glm::vec3& was,
+                               float reach) const noexcept {
+    const glm::vec3 to{local_joint.x, 0.0f, local_joint.z};
+    const double size =
+        std::max({static_cast<double>(reach), std::abs(root_.x), std::abs(root_.y), std::abs(root_.z)});
+    return to == local(was) && std::abs(off(was)) <= 2e-7 * size ? was : world(to);
 }
 
 PlaneProblem::PlaneProblem(Workspace& scratch, std::span<glm::vec3> joints, State& state,
@@ -172,15 +186,9 @@ Report PlaneProblem::solve(Method method, Observer* observer) noexcept {
     return report;
 }
 
-/// What has not moved keeps its bits.
 void PlaneProblem::return_joints() noexcept {
-    const double near = 2e-7 * std::max(static_cast<double>(scratch_.reach),
-                                        static_cast<double>(largest_coordinate(joints_.front())));
-    for (std::size_t i = 1; i < joints_.size(); ++i) {
-        const glm::vec3 to{problem_.joints[i].x, 0.0f, problem_.joints[i].z};
-        if (to == frame_.local(joints_[i]) && std::abs(frame_.off(joints_[i])) <= near) continue;
-        joints_[i] = frame_.world(to);
-    }
+    for (std::size_t i = 1; i < joints_.size(); ++i)
+        joints_[i] = frame_.returned(problem_.joints[i], joints_[i], scratch_.reach);
     if (!given_.rotations && given_.weight == 1.0f && !given_.tip_orientation) return;
     std::swap(scratch_.rest_directions, scratch_.plane.rest_directions);
     Problem whole{joints_, target_, problem_.tolerance, given_, scratch_, state_};

@@ -18,11 +18,17 @@ class PlaneFrame {
     /// `rest`: rest direction of the first bone.
     PlaneFrame(const glm::vec3& root, const glm::vec3& normal, const glm::vec3& rest) noexcept;
 
+    /// The same plane through another root.
+    PlaneFrame at(const glm::vec3& root) const noexcept;
+
     /// Dropped onto the plane.
     glm::vec3 local(const glm::vec3& point) const noexcept;
     glm::vec3 world(const glm::vec3& point) const noexcept;
     glm::vec3 local_vector(const glm::vec3& vector) const noexcept;
     glm::vec3 world_vector(const glm::vec3& vector) const noexcept;
+    /// Where a joint that was at `was` is, from its coordinates: where it was, to the bit, if it has not
+    /// moved.
+    glm::vec3 returned(const glm::vec3& local, const glm::vec3& was, float reach) const noexcept;
     /// Signed distance from the plane, metres.
     double off(const glm::vec3& point) const noexcept;
 

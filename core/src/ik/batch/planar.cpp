@@ -1,0 +1,114 @@
+// The part of work.cpp for chains in a plane: as plane.cpp, they are solved in the plane's coordinates, where
+// the iterations for solid chains keep them flat. What is done once per solve, coordinates and sides, is
+// scalar, in double; the iterations are not. With limits of angles the scalar solver takes every chain.
+#include <algorithm>
+#include <cmath>
+
+#include "ik/batch/work.hpp"
+#include "ik/math.hpp"
+#include "ik/pole/pole.hpp"
+#include "ik/solve/plane.hpp"
+#include "ik/solve/validate.hpp"
+#include "tendril/magnitude.hpp"
+
+namespace tendril::ik::detail {
+namespace {
+
+/// Metres: half of this, and a chain seen from its root has all its coordinates in range.
+constexpr float far_away = 0.25f * max_magnitude;
+
+}  // namespace
+
+glm::vec3 Work::home(std::size_t chain, std::size_t joint) const noexcept {
+    if (in_.joints != nullptr) return in_.joints[chain * (in_.bones + 1) + joint];
+    float* const rows = in_.blocks + chain / block_lanes * Block::chain_floats(in_.bones);
+    return Block(rows, nullptr, in_.bones).point(joint, chain % block_lanes);
+}
+
+void Work::set_home(std::size_t chain, std::size_t joint, const glm::vec3& to) const noexcept {
+    if (in_.joints != nullptr) {
+        in_.joints[chain * (in_.bones + 1) + joint] = to;
+        return;
+    }
+    float* const rows = in_.blocks + chain / block_lanes * Block::chain_floats(in_.bones);
+    Block(rows, nullptr, in_.bones).set_point(joint, chain % block_lanes, to);
+}
+
+/// Joints and targets in the plane's coordinates, and the side of each chain. One that cannot be iterated has
+/// a target that is not finite.
+void Work::take_into_plane(const Block& block, std::size_t first, std::size_t lanes,
+                           Scratch& scratch) const noexcept {
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+        const glm::vec3 root = home(first + lane, 0), target = block.target_of(lane);
+        const PlaneFrame frame = frame_.at(root);
+        for (std::size_t i = 0; i <= in_.bones; ++i)
+            block.set_point(i, lane, frame.local(home(first + lane, i)));
+        const glm::vec3 local = frame.local(target);
+        block.at(Row::TargetX, lane) = local.x;
+        block.at(Row::TargetY, lane) = local.y;
+        block.at(Row::TargetZ, lane) = local.z;
+        Side side = in_.options.plane->bend;
+        block.at(Row::Side, lane) = static_cast<float>(side);
+        if (side == Side::Free) side = planar_side(take_out(block, lane, scratch));
+        if (side == Side::Free) side = Side::Left;
+        block.at(Row::Side, lane) = static_cast<float>(side);
+    }
+}
+
+/// After lengths were enforced: turns chains within reach to their targets, on their sides.
+void Work::turn_to_targets(const Block& block, std::size_t first, std::size_t lanes,
+                           Scratch& scratch) const noexcept {
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+        const glm::vec3 root = home(first + lane, 0);
+        // Too far from the origin to tell from coordinates seen from the root whether all are in range.
+        float* const found = block.row(Row::Class) + lane;
+        if (!(largest_coordinate(root) <= far_away) || block.class_of(lane) == Class::Invalid)
+            *found = static_cast<float>(Class::Scalar);
+        if (block.class_of(lane) != Class::Reachable) continue;
+        Problem problem = take_out(block, lane, scratch);
+        transport_to_pole(problem, Unwatched());
+        for (std::size_t i = 1; i <= in_.bones; ++i) block.set_point(i, lane, problem.joints[i]);
+    }
+}
+
+/// A chain that is done: faces its side, and goes back to where it came from. What has not moved keeps its
+/// bits.
+void Work::return_from_plane(const Block& block, std::size_t lane, std::size_t chain,
+                             Scratch& scratch) const noexcept {
+    if (block.class_of(lane) == Class::Invalid) return;
+    Problem problem = take_out(block, lane, scratch);
+    face_pole(problem, Unwatched());
+    const glm::vec3 root = home(chain, 0);
+    const PlaneFrame frame = frame_.at(root);
+    for (std::size_t i = 1; i <= in_.bones; ++i)
+        set_home(chain, i, frame.returned(problem.joints[i], home(chain, i), scratch.scalar.reach));
+}
+
+/// Same as Solver::solve in this plane. False if the chain is invalid.
+bool Work::solve_in_plane(std::size_t chain, Scratch& scratch) noexcept {
+    Workspace& scalar = scratch.scalar;
+    const float* const rows = in_.blocks + chain / block_lanes * Block::chain_floats(in_.bones) +
+                              Block::joint_floats(in_.bones) + chain % block_lanes;
+    for (std::size_t i = 0; i <= in_.bones; ++i) scalar.joints[i] = home(chain, i);
+    for (std::size_t i = 0; i < in_.bones; ++i) scalar.lengths[i] = rows[i * block_lanes];
+    scalar.reach = rows[in_.bones * block_lanes];
+    scalar.longest = rows[(in_.bones + 1) * block_lanes];
+    const glm::vec3 target = in_.targets[chain];
+    if (!are_points(scalar.joints) || !are_points({&target, 1})) {
+        invalid_.fetch_add(1, std::memory_order_relaxed);
+        if (!in_.reports.empty()) in_.reports[chain] = {.status = Status::InvalidInput};
+        return false;
+    }
+    scalar.saved.reset();  // results must not depend on the previous chain
+    PlaneProblem problem(scalar, scalar.joints, scalar.saved, target, in_.options);
+    const Report answer = problem.solve(Method::Fabrik, nullptr);
+    for (std::size_t i = 1; i <= in_.bones; ++i) set_home(chain, i, scalar.joints[i]);
+    report_fallback(chain, answer);
+    return true;
+}
+
+void Work::solve_angled_block(std::size_t index, std::size_t lanes, Scratch& scratch) noexcept {
+    for (std::size_t lane = 0; lane < lanes; ++lane) solve_in_plane(index * block_lanes + lane, scratch);
+}
+
+}  // namespace tendril::ik::detail
