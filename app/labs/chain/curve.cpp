@@ -14,16 +14,12 @@
 template <>
 std::span<const tendril::Field> tendril::fields<tendril::app::CurveSettings>() noexcept {
     using app::CurveSettings;
-    static constexpr auto kinds = app::curve_kinds.name_array();
-    static constexpr Field rows[] = {
-        field<&CurveSettings::kind>("kind", kinds),
-        field<&CurveSettings::fit>("fit"),
-        field<&CurveSettings::max_factor>("max_factor", {1.001, 100.0}),
-        field<&CurveSettings::weight>("weight"),
-        field<&CurveSettings::falloff>("falloff", {-1.0, 1.0}),
-        field<&CurveSettings::up>("up", {-max_magnitude, max_magnitude}),
-        field<&CurveSettings::roll_start_deg>("roll_start_deg", {-3600.0, 3600.0}, "deg"),
-        field<&CurveSettings::roll_end_deg>("roll_end_deg", {-3600.0, 3600.0}, "deg")};
+    static const std::vector<Field> rows = [] {
+        const std::span<const Field> shape = fields<app::CurveShape>();
+        std::vector<Field> all(shape.begin(), shape.end());
+        all.push_back(field<&CurveSettings::up>("up", {-max_magnitude, max_magnitude}));
+        return all;
+    }();
     return rows;
 }
 
@@ -31,60 +27,21 @@ namespace tendril::app {
 
 template <>
 std::span<const FieldText> field_texts<CurveSettings>() {
-    static constexpr FieldText texts[] = {
-        {.name = "kind",
-         .label = "curve",
-         .help = "How the curve passes its control points.",
-         .listed = true,
-         .choices = curve_kinds.rows},
-        {.name = "fit",
-         .label = "fit to the curve",
-         .help = "Scales all bones by one factor, so that the tip lies on the last control point."},
-        {.name = "max_factor",
-         .label = "at most",
-         .help = "The largest factor of the fit; its inverse is the smallest.",
-         .more = true},
-        {.name = "weight",
-         .label = "weight",
-         .help = "How far the bones turn from the pose that the chain had before to the curve.",
-         .step = 0.005f},
-        {.name = "falloff",
-         .label = "falloff",
-         .help = "How much less the first bones follow the curve than the last; below 0, the last bones than "
-                 "the first.",
-         .step = 0.005f,
-         .more = true},
-        {.name = "roll_start_deg",
-         .label = "roll at the root",
-         .help = "How far the first bone is rolled about itself.",
-         .step = 0.5f,
-         .decimals = 0},
-        {.name = "roll_end_deg",
-         .label = "roll at the tip",
-         .help = "How far the last bone is rolled; between them the roll is spread by length.",
-         .step = 0.5f,
-         .decimals = 0},
-        {.name = "up",
-         .label = "up",
-         .help = "Where the upper side of the bones faces at the curve's beginning.",
-         .in_line = true,
-         .more = true}};
+    static const std::vector<FieldText> texts = [] {
+        const std::span<const FieldText> shape = field_texts<CurveShape>();
+        std::vector<FieldText> all(shape.begin(), shape.end());
+        all.push_back({.name = "up",
+                       .label = "up",
+                       .help = "Where the upper side of the bones faces at the curve's beginning.",
+                       .in_line = true,
+                       .more = true});
+        return all;
+    }();
     return texts;
 }
 
 const Chain& own_chain(const ChainPart& part) {
     return part.mode == ChainMode::Curve ? part.along.given : part.chain;
-}
-
-std::vector<float> curve_weights(const CurveSettings& settings, std::size_t bones) {
-    std::vector<float> weights;
-    if (settings.falloff == 0.0f || bones < 2) return weights;
-    for (std::size_t i = 0; i < bones; ++i) {
-        const float along = static_cast<float>(i) / static_cast<float>(bones - 1);
-        weights.push_back(
-            1.0f - (settings.falloff > 0.0f ? settings.falloff * (1.0f - along) : -settings.falloff * along));
-    }
-    return weights;
 }
 
 ik::CurveOptions curve_options(const CurveSettings& settings, std::span<const float> weights) {
@@ -164,13 +121,6 @@ void keep_on_curve(ChainPart& part, const ChainPart& before) {
     part.along.selection.keep_below(part.curve.points.size());
 }
 
-std::vector<glm::vec3> with_point_at(const CurveSettings& settings, float at) {
-    std::vector<glm::vec3> points = settings.points;
-    const auto before = static_cast<std::ptrdiff_t>(at);
-    points.insert(points.begin() + before + 1, ik::curve_point(settings.points, settings.kind, at));
-    return points;
-}
-
 void remove_selected_points(ChainPart& part) {
     std::vector<glm::vec3> left;
     for (std::size_t i = 0; i < part.curve.points.size(); ++i)
@@ -192,28 +142,16 @@ std::string jump_cause(const ChainPart& before, const ChainPart& after) {
 
 namespace {
 
-std::vector<glm::vec3> read_control_points(const JsonPlace& list) {
-    std::vector<glm::vec3> points;
-    const std::size_t size = list.list_size("control points", max_control_points);
-    for (std::size_t i = 0; i < size; ++i) points.push_back(list.element(i).point());
-    return points;
-}
-
 void set_curve(ChainPart& part, const Arguments& given) {
     if (given.has("points")) {
-        part.curve.points = read_control_points(JsonPlace(given.json("points"), "points"));
+        part.curve.points =
+            read_control_points(JsonPlace(given.json("points"), "points"), max_control_points);
         if (part.curve.points.size() < 2) throw Refused("points: a curve needs two control points");
     }
     set_fields(given, part.curve);
 }
 
 }  // namespace
-
-Json points_json(const std::vector<glm::vec3>& points) {
-    Json list = Json::array();
-    for (const glm::vec3& each : points) list.push_back(point(each));
-    return list;
-}
 
 Json save_curve(const CurveSettings& settings) {
     Json json = save_fields(settings);
@@ -224,7 +162,7 @@ Json save_curve(const CurveSettings& settings) {
 CurveSettings load_curve(const JsonPlace& place) {
     CurveSettings settings;
     load_fields(place, settings);
-    settings.points = read_control_points(place["points"]);
+    settings.points = read_control_points(place["points"], max_control_points);
     if (settings.points.size() == 1) place["points"].fail("a curve needs two control points");
     return settings;
 }

@@ -7,16 +7,13 @@
 #pragma once
 
 #include <cstddef>
-#include <glm/vec3.hpp>
 #include <optional>
 #include <string>
 #include <tendril/chain/chain.hpp>
-#include <tendril/ik/curve.hpp>
 #include <vector>
 
 #include "app/document/json_place.hpp"
-#include "app/document/names.hpp"
-#include "app/fields/fields.hpp"
+#include "app/labs/kit/curve.hpp"
 #include "app/labs/kit/selection.hpp"
 
 namespace tendril::app {
@@ -25,21 +22,9 @@ struct ChainPart;
 
 inline constexpr std::size_t max_control_points = 4096;
 
-inline constexpr EnumNames<ik::CurveKind, 2> curve_kinds{
-    "kind of curve",
-    {{"hermite", "Through points", "Passes through every control point."},
-     {"b_spline", "B-spline", "Smoother; passes through the first and the last, and near the others."}}};
-
-struct CurveSettings {
-    std::vector<glm::vec3> points;  ///< metres; none, or at least two
-    ik::CurveKind kind = ik::CurveKind::Hermite;
-    bool fit = false;
-    float max_factor = 2.0f;  ///< of fit
-    float weight = 1.0f;      ///< 0: the given pose, 1: the curve
-    /// -1 to 1: by how much less the first bones follow the curve than the last; negative: the last bones.
-    float falloff = 0.0f;
+/// With none of its points, or at least two.
+struct CurveSettings : CurveShape {
     glm::vec3 up{0.0f, 1.0f, 0.0f};
-    float roll_start_deg = 0.0f, roll_end_deg = 0.0f;
 
     bool operator==(const CurveSettings&) const = default;
 };
@@ -62,13 +47,8 @@ void follow_curve(ChainPart& part);
 /// After an edit that began with the given chain in place of the chain: places it again if need be, and
 /// forgets what only mode Curve keeps in another mode.
 void keep_on_curve(ChainPart& part, const ChainPart& before);
-/// How far each bone turns to the curve, times the weight; empty: all the way.
-std::vector<float> curve_weights(const CurveSettings& settings, std::size_t bones);
 ik::CurveOptions curve_options(const CurveSettings& settings, std::span<const float> weights);
 
-/// A control point more, at place `at` of ik::curve_point(): the shape stays nearly as it
-/// is.
-std::vector<glm::vec3> with_point_at(const CurveSettings& settings, float at);
 /// Removes the selected control points. Throws Refused if fewer than two would be left.
 void remove_selected_points(ChainPart& part);
 
@@ -77,7 +57,6 @@ std::string jump_cause(const ChainPart& before, const ChainPart& after);
 
 Json save_curve(const CurveSettings& settings);
 CurveSettings load_curve(const JsonPlace& place);
-Json points_json(const std::vector<glm::vec3>& points);
 
 }  // namespace tendril::app
 

@@ -15,68 +15,23 @@
 namespace tendril::app {
 namespace {
 
-/// A curve of many control points takes fewer strokes between two of them.
-std::size_t strokes_per_span(const CurveSettings& curve) {
-    return std::clamp<std::size_t>(2048 / std::max<std::size_t>(curve.points.size() - 1, 1), 2, 24);
-}
-
 class CurveDrawing {
   public:
     CurveDrawing(const View& view, const ChainPart& part, DrawList& list)
         : view_(view), part_(part), curve_(part.curve), list_(list) {}
 
     void run() {
-        line();
-        for (std::size_t i = 0; i < curve_.points.size(); ++i) control(i);
+        const CurvePen pen(view_, curve_.points, curve_.kind, first_curve_pick, view_.palette.target, 2,
+                           list_);
+        pen.line();
+        const Selection& selection = part_.along.selection;
+        for (std::size_t i = 0; i < curve_.points.size(); ++i)  // over the joints: the first is on the root
+            pen.control(i, control_pick(i), selection.has(i), selection.active() == i);
         if (curve_frames().chosen(view_.workspace.settings) == 1) frames();
     }
 
   private:
     float px(float pixels) const { return pixels * view_.scale; }
-
-    void line() {
-        const std::size_t each = strokes_per_span(curve_), all = each * (curve_.points.size() - 1);
-        const bool hovered = view_.hovered >= first_curve_pick && view_.hovered < first_gizmo_pick;
-        const glm::vec4 colour = faded(view_.palette, pole_colour(view_.palette), hovered ? 1.0f : 0.75f);
-        const auto place = [&](std::size_t i) {
-            return ik::curve_point(curve_.points, curve_.kind,
-                                   static_cast<float>(i) / static_cast<float>(each));
-        };
-        glm::vec3 from = place(0);
-        for (std::size_t i = 0; i < all; ++i) {
-            const glm::vec3 to = place(i + 1);
-            Stroke& stroke = list_.line(from, to, px(hovered ? 3.0f : 2.0f), colour);
-            stroke.pick = first_curve_pick + static_cast<PickId>(i);
-            stroke.rank = 1;  // before the bones, which lie along it
-            from = to;
-        }
-        if (curve_.kind == ik::CurveKind::Hermite) return;
-        // A B-spline passes beside its points: these lines say to which part each belongs.
-        for (std::size_t i = 1; i < curve_.points.size(); ++i)
-            list_.line(curve_.points[i - 1], curve_.points[i], px(1.0f),
-                       faded(view_.palette, pole_colour(view_.palette), 0.3f));
-    }
-
-    /// Over the joints, and smaller: the first one lies on the root.
-    void control(std::size_t i) {
-        const PickId pick = control_pick(i);
-        const bool hovered = view_.hovered == pick || view_.dragged == pick;
-        const bool last = i + 1 == curve_.points.size();
-        const glm::vec3 colour = last ? view_.palette.target : pole_colour(view_.palette);
-        Stroke& ball = list_.sphere(curve_.points[i], px((last ? 7.5f : 6.0f) + (hovered ? 1.5f : 0.0f)),
-                                    Unit::Pixels, glm::vec4(colour, 1.0f));
-        ball.shadow = true;
-        ball.layer = Layer::Overlay;
-        ball.pick = pick;
-        ball.rank = 2;
-        const bool selected = part_.along.selection.has(i);
-        if (!selected && !hovered && !last) return;
-        const float width = selected && part_.along.selection.active() == i ? 2.5f : 1.5f;
-        list_
-            .ring(curve_.points[i], px(last ? 14.0f : 11.0f), px(width),
-                  glm::vec4(selected ? view_.palette.selection : colour, 1.0f))
-            .layer = Layer::Overlay;
-    }
 
     /// Of each bone, at its middle: its upper side, and what is on its right.
     void frames() {
@@ -106,11 +61,8 @@ class CurveDrawing {
 }  // namespace
 
 std::optional<float> picked_on_curve(const ChainPart& part, PickId pick) {
-    if (pick < first_curve_pick || part.curve.points.size() < 2) return std::nullopt;
-    const std::size_t each = strokes_per_span(part.curve),
-                      stroke = static_cast<std::size_t>(pick - first_curve_pick);
-    if (stroke >= each * (part.curve.points.size() - 1)) return std::nullopt;
-    return (static_cast<float>(stroke) + 0.5f) / static_cast<float>(each);
+    if (pick < first_curve_pick) return std::nullopt;
+    return CurvePen::place(static_cast<std::size_t>(pick - first_curve_pick), part.curve.points.size());
 }
 
 void draw_curve(const View& view, const ChainPart& part, DrawList& list) {

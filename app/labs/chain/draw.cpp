@@ -248,7 +248,7 @@ void ChainLab::draw(const View& view, DrawList& list) const {
 }
 
 glm::vec3 pole_colour(const Palette& palette) {
-    return palette.theme == Theme::Light ? rgb(0xB2558A) : rgb(0xCC79A7);
+    return curve_colour(palette);
 }
 
 glm::vec3 solver_colour(const Palette& palette, ik::Method method) {

@@ -70,7 +70,8 @@ void ChainLab::click(const Workspace& workspace, PickId pick, Emit& emit) const 
     }
     if (const auto control = picked_control(pick)) return emit("chain.select", {{"control", *control}});
     if (const auto at = picked_on_curve(part, pick)) {
-        emit("chain.curve", {{"points", SharedJson(points_json(with_point_at(part.curve, *at)))}});
+        emit("chain.curve",
+             {{"points", SharedJson(points_json(with_point_at(part.curve.points, part.curve.kind, *at)))}});
         return emit("chain.select", {{"control", static_cast<std::size_t>(*at) + 1}});
     }
     if (pick == target_pick || pick == pole_pick) {

@@ -81,6 +81,7 @@ class HumanoidProgram {
         body();
         gaze();
         hands();
+        curves();
         springs();
         frame();
         line("}");
@@ -133,6 +134,7 @@ class HumanoidProgram {
         if (hilly()) line("#include <cmath>");
         line("#include <cstdio>");
         line("#include <iterator>");
+        if (!part_.curves.empty()) line("#include <tendril/humanoid/bent_chain.hpp>");
         if (body_on()) line("#include <tendril/humanoid/body.hpp>");
         if (uses_map()) line("#include <tendril/humanoid/bone_map.hpp>");
         if (feet_on()) line("#include <tendril/humanoid/feet.hpp>");
@@ -357,6 +359,39 @@ class HumanoidProgram {
         say("humanoid::HandsState hands_state" + state_text(part_.ik_state.hands) + ';');
     }
 
+    void curves() {
+        const BentChains& chains = solvers_.curves(part_);
+        for (std::size_t i = 0; i < chains.size(); ++i) {
+            if (chains[i] == nullptr) continue;
+            const BoneCurve& curve = part_.curves[i];
+            const std::string name = "curve_" + std::to_string(i);
+            const auto found = [](const std::string& node) {
+                return "*skeleton->find(" + string_text(node) + ')';
+            };
+            say("");
+            make_solver("BentChain", name, "*skeleton, " + found(curve.first) + ", " + found(curve.last));
+            std::vector<std::string> points, factors;
+            for (const glm::vec3& each : curve.shape.points) points.push_back(braced(each));
+            say("// Control points, in the space of the node that the chain hangs on; metres.");
+            list("const glm::vec3 " + name + "_points[] = {", points, "};");
+            const std::vector<float> weights = curve_weights(curve.shape, chains[i]->bones());
+            for (const float each : weights) factors.push_back(literal(each));
+            if (!factors.empty()) list("const float " + name + "_weights[] = {", factors, "};");
+            const humanoid::BendOptions options = bend_options(curve.shape, weights);
+            std::vector<std::string> members;
+            if (options.kind == ik::CurveKind::BSpline) members.push_back(".kind = ik::CurveKind::BSpline");
+            if (options.fit) {
+                members.push_back(".fit = true");
+                members.push_back(".max_factor = " + literal(options.max_factor));
+            }
+            if (options.roll_start != 0.0f) members.push_back(".roll_start = " + literal(options.roll_start));
+            if (options.roll_end != 0.0f) members.push_back(".roll_end = " + literal(options.roll_end));
+            if (options.weight != 1.0f) members.push_back(".weight = " + literal(options.weight));
+            if (!factors.empty()) members.push_back(".weights = " + name + "_weights");
+            list("const humanoid::BendOptions " + name + "_options{", members, "};");
+        }
+    }
+
     void springs() {
         const SpringChains& chains = solvers_.springs(part_);
         for (std::size_t i = 0; i < chains.size(); ++i) {
@@ -422,6 +457,9 @@ class HumanoidProgram {
             say("if (const auto solved = body->solve(pose, targets, body_state" + options + "); !solved)");
             say("    std::puts(solved.message());");
         };
+        for (std::size_t i = 0; i < part_.curves.size(); ++i)
+            if (const std::string name = "curve_" + std::to_string(i); solvers_.curves(part_)[i] != nullptr)
+                say(name + "->bend(pose, " + name + "_points, " + name + "_options);");
         if (feet_on()) say("feet->step(pose, ground, dt, feet_state, feet_options);");
         if (body_on() && acts()) solve();
         if (gaze_on()) say("look->step(pose, look_options, dt, look_state);");

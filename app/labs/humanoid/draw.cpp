@@ -56,6 +56,7 @@ class Drawing {
         if (shown_.look) gaze();
         draw_limits(view_, list_, part_, shown_);
         draw_attachments(view_, list_, part_.attachments);
+        draw_bone_curves(view_, list_, part_, humanoid_runtime(view_.workspace).solvers, shown_);
         labels();
     }
 
@@ -397,6 +398,7 @@ std::vector<LegendRow> HumanoidLab::legend(const Workspace& workspace) const {
     if (shown.feet && (shown.feet->feet[0].planted || shown.feet->feet[1].planted))
         rows.push_back({"planted", colours.tail});
     if (shown.balance) rows.push_back({"centre of mass", balance_colour(part, shown, colours)});
+    if (!part.curves.empty()) rows.push_back({"curve", curve_colour(colours)});
     if (!part.springs.empty()) rows.push_back({"on a spring", attached_colour(colours)});
     if (!part.attachments.list.empty()) rows.push_back({"attached", attached_colour(colours)});
     if (part.view.ghost && !shown.before.empty()) rows.push_back({"before", colours.ghost});
@@ -433,6 +435,13 @@ std::vector<bool> body_nodes(const HumanoidPart& part) {
         }
         if (match.node >= 0) body[static_cast<std::size_t>(match.node)] = true;
     }
+    for (const BoneCurve& each : part.curves)
+        if (const auto first = skeleton.find(each.first), last = skeleton.find(each.last); first && last)
+            for (std::size_t at = *last; skeleton.is_below(at, *first);
+                 at = static_cast<std::size_t>(skeleton[at].parent)) {
+                body[at] = true;
+                if (at == *first) break;
+            }
     // The end of a last bone, if it is the only child.
     for (const humanoid::BoneMatch& match : part.map->bones) {
         if (match.node < 0) continue;

@@ -35,6 +35,7 @@ void add_ik_commands(CommandTable& table);
 void add_humanoid_look_commands(CommandTable& table);
 void add_attachment_commands(CommandTable& table);
 void add_spring_commands(CommandTable& table);
+void add_bone_curve_commands(CommandTable& table);
 /// Bone maps, clip export and cures.
 void add_humanoid_file_commands(CommandTable& table);
 void add_kept_map_commands(CommandTable& table);

@@ -166,6 +166,7 @@ Json HumanoidPart::save() const {
     json["t_pose"] = t_pose;
     json["ik"] = ik_json(*this);
     if (!springs.empty()) json["springs"] = springs_json(*this);
+    if (!curves.empty()) json["curves"] = curves_json(*this);
     if (!attachments.list.empty()) json["attachments"] = attachments_json(attachments);
     json["quiet_ticks"] = quiet_ticks;
     if (flips != FlipRule()) json["flips"] = save_flip_rule(flips);
@@ -188,6 +189,7 @@ std::shared_ptr<Part> HumanoidPart::load(const Json& json, const std::string& wh
     if (const auto on = place.optional("t_pose")) part->t_pose = on->flag();
     if (const auto ik_place = place.optional("ik")) read_ik(*ik_place, *part);
     if (const auto swinging = place.optional("springs")) read_springs(*swinging, *part);
+    if (const auto curved = place.optional("curves")) read_curves(*curved, *part);
     if (const auto hanging = place.optional("attachments"))
         part->attachments = read_attachments(*hanging, part->skeleton());
     if (const auto ticks = place.optional("quiet_ticks")) part->quiet_ticks = ticks->integer(0, 1'000'000);

@@ -25,6 +25,7 @@ void HumanoidLab::add_commands(CommandTable& table) const {
     add_motion_commands(own);
     add_ik_commands(own);
     add_spring_commands(own);
+    add_bone_curve_commands(own);
     add_attachment_commands(own);
     add_humanoid_look_commands(own);
     add_humanoid_file_commands(own);
@@ -133,6 +134,11 @@ std::vector<TestScene> HumanoidLab::test_scenes() const {
               {"humanoid.attach", {{"bone", "Hips"}, {"kind", "rope"}, {"name", "tail"}}},
               {"humanoid.spring", {{"node", "HeadTop_End"}}},
               {"humanoid.ground", {{"kind", "flat"}}},
+              {"humanoid.clip", {{"name", "walk"}, {"play", true}}}},
+             words},
+            {"bent spine",
+             {{"humanoid.curve", {{"first", "Spine"}, {"last", "Neck"}, {"roll_end_deg", 40.0f}}},
+              {"humanoid.target", {{"effector", "left_hand"}, {"to", glm::vec3(0.4f, 1.3f, 0.5f)}}},
               {"humanoid.clip", {{"name", "walk"}, {"play", true}}}},
              words}};
 }

@@ -30,6 +30,7 @@ class HumanoidLab final : public Lab {
     std::vector<LabSetting> settings() const override;
 
     std::vector<Handle> handles(const Workspace& workspace) const override;
+    std::optional<Handle> handle(const Workspace& workspace, PickId pick) const override;
     std::optional<Handle> gizmo(const Workspace& workspace) const override;
     void drag(const Workspace& workspace, PickId pick, const Handle::Frame& to, Emit& emit) const override;
     Together together(const Workspace& workspace, Drag what) const override;

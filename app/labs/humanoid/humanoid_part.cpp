@@ -61,13 +61,16 @@ std::size_t HumanoidPart::bytes() const {
     std::size_t swinging = ik_state.release.turns.size() * a_turn;
     for (const humanoid::SpringChainState& each : ik_state.springs)
         swinging += each.masses.size() * sizeof(humanoid::SpringMass);
-    return sizeof(*this) + swinging + selection.all().size() * sizeof(std::size_t) +
+    std::size_t curved = 0;
+    for (const BoneCurve& each : curves)
+        curved += sizeof(each) + each.shape.points.size() * sizeof(glm::vec3);
+    return sizeof(*this) + swinging + curved + selection.all().size() * sizeof(std::size_t) +
            (skeleton().size() * a_node + keys * a_key) / sharing + hanging;
 }
 
 bool HumanoidPart::operator==(const HumanoidPart& other) const {
     return loaded == other.loaded && (map == other.map || *map == *other.map) && playback == other.playback &&
-           t_pose == other.t_pose && ik == other.ik && springs == other.springs &&
+           t_pose == other.t_pose && ik == other.ik && springs == other.springs && curves == other.curves &&
            ik_state == other.ik_state && attachments == other.attachments &&
            quiet_ticks == other.quiet_ticks && selection == other.selection && view == other.view &&
            flips == other.flips;

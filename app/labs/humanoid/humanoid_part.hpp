@@ -14,6 +14,7 @@
 #include "app/fields/fields.hpp"
 #include "app/labs/humanoid/attachments/attachments.hpp"
 #include "app/labs/humanoid/clip/playback.hpp"
+#include "app/labs/humanoid/curves/curves.hpp"
 #include "app/labs/humanoid/ik/ik_settings.hpp"
 #include "app/labs/humanoid/springs/springs.hpp"
 #include "app/labs/kit/flips.hpp"
@@ -69,6 +70,7 @@ struct HumanoidPart final : Part {
     bool t_pose = false;  ///< the rest pose is shown as a T
     IkSettings ik;
     std::vector<SpringSetting> springs;
+    std::vector<BoneCurve> curves;
     IkState ik_state;
     Attachments attachments;
     int quiet_ticks = 0;  ///< ticks since the last edit or movement; after enough of them the lab rests

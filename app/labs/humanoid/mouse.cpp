@@ -77,7 +77,20 @@ std::vector<Handle> HumanoidLab::handles(const Workspace& workspace) const {
                            node_pick(i),
                            {shown.point(i), glm::quat(shown.placed[i].rotation())},
                            Drag::Nothing});
+    for (Handle& each : curve_handles(part, humanoid_runtime(workspace).solvers, shown))
+        handles.push_back(std::move(each));
     return handles;
+}
+
+/// A curve is no handle of handles(), but can be clicked.
+std::optional<Handle> HumanoidLab::handle(const Workspace& workspace, PickId pick) const {
+    const HumanoidPart& part = humanoid_part(workspace);
+    const auto curve = picked_curve(part, pick);
+    if (!curve || curve->control) return Lab::handle(workspace, pick);
+    const std::vector<glm::vec3> points =
+        shown_curve(part, humanoid_runtime(workspace).solvers, shown_pose(workspace), curve->curve);
+    const glm::vec3 at = ik::curve_point(points, part.curves[curve->curve].shape.kind, curve->at);
+    return Handle{"curve", pick, {at}, Drag::Nothing};
 }
 
 std::optional<Handle> HumanoidLab::gizmo(const Workspace& workspace) const {
@@ -122,6 +135,9 @@ void HumanoidLab::drag_together(const Workspace& workspace, const std::vector<Ha
 
 void HumanoidLab::drag(const Workspace& workspace, PickId pick, const Handle::Frame& to, Emit& emit) const {
     if (pick == look_pick) return emit.continuously("humanoid.look_at", {{"to", to.position}});
+    if (const auto curve = picked_curve(humanoid_part(workspace), pick))
+        return drag_control(humanoid_part(workspace), humanoid_runtime(workspace).solvers,
+                            shown_pose(workspace), *curve, to.position, emit);
     const auto effector = picked_effector(pick);
     if (!effector || !has_body(workspace)) return;
     const Handle::Frame from = effector_handle(workspace, *effector).frame;
@@ -137,6 +153,8 @@ void HumanoidLab::click(const Workspace& workspace, PickId pick, Emit& emit) con
     auto& waiting = humanoid_runtime(workspace).panel.bone;
     const auto node = clicked_node(part, pick);
     if (pick == look_pick) return;
+    if (const auto curve = picked_curve(part, pick))
+        return click_curve(part, humanoid_runtime(workspace).solvers, shown_pose(workspace), *curve, emit);
     if (!node) {
         waiting.reset();
         if (!part.selection.empty()) emit("humanoid.select");
@@ -188,6 +206,8 @@ void HumanoidLab::select(const Workspace& workspace, const std::vector<PickId>& 
 }
 
 void HumanoidLab::double_click(const Workspace& workspace, PickId pick, Emit& emit) const {
+    if (const auto curve = picked_curve(humanoid_part(workspace), pick))
+        return remove_control(humanoid_part(workspace), *curve, emit);
     const auto effector = picked_effector(pick);
     if (!effector || !humanoid_part(workspace).ik.target(*effector)) return click(workspace, pick, emit);
     emit("humanoid.target", {{"effector", humanoid::name(*effector)}, {"weight", 0}});
@@ -198,6 +218,7 @@ std::string HumanoidLab::hint(const Workspace& workspace, PickId pick) const {
     const auto waiting = humanoid_runtime(workspace).panel.bone;
     const auto effector = picked_effector(pick);
     if (pick == look_pick) return "What the head looks at. Drag to move it.";
+    if (const auto curve = picked_curve(part, pick)) return curve_hint(part, *curve);
     if (effector && !waiting) return effector_hint(part, *effector);
     const auto node = clicked_node(part, pick);
     if (!node) return {};
@@ -212,6 +233,9 @@ std::string HumanoidLab::hint(const Workspace& workspace, PickId pick) const {
 std::vector<MouseHelp> HumanoidLab::mouse_help() const {
     return {{"Drag an orange ball", "gives hand, foot, head or hips a target"},
             {"Double click on an orange ball", "removes the target"},
+            {"Drag a control point", "bends the tail or spine along its curve"},
+            {"Click on a curve", "adds a control point there"},
+            {"Double click on a control point", "removes it"},
             {"Drag an arrow, a square or a ring", "moves or turns the selected hands, feet, head and hips"},
             {"Shift+click on a bone", "adds it to the selection, or takes it out"},
             {"Ctrl+drag on nothing", "draws a box that selects the nodes in it; with Shift it adds them"}};
@@ -237,6 +261,9 @@ Bounds HumanoidLab::bounds(const Workspace& workspace, bool selection_only) cons
     for (const auto& target : part.ik.targets)
         if (target) take(glm::vec3(target->position));
     if (part.ik.look_at.on) take(glm::vec3(part.ik.look_at.target));
+    for (std::size_t i = 0; i < part.curves.size(); ++i)
+        for (const glm::vec3& each : shown_curve(part, humanoid_runtime(workspace).solvers, shown, i))
+            take(each);
     return bounds_of(low, high, 0.2f * size);
 }
 

@@ -206,6 +206,7 @@ void HumanoidLab::panel(const Workspace& workspace, Emit& emit) const {
     target_rows(panel);
     hand_rows(panel);
     ground_rows(panel);
+    curve_rows(panel);
     spring_rows(panel);
     attachment_rows(panel);
     look_rows(panel);
@@ -253,6 +254,7 @@ void node_inspector(const HumanoidPanel& panel) {
         reading(
             "moved by IK", "%s",
             length_text(glm::distance(shown.placed[*node].position, shown.before[*node].position)).c_str());
+    curve_inspector(panel);
     spring_inspector(panel);
 }
 

@@ -44,6 +44,8 @@ void target_rows(const HumanoidPanel& panel);
 void limit_rows(const HumanoidPanel& panel);
 /// Springs on ears, antennae, a tail.
 void spring_rows(const HumanoidPanel& panel);
+/// Curves that a tail or the spine bends along.
+void curve_rows(const HumanoidPanel& panel);
 /// Attachments, and the order of a tick.
 void attachment_rows(const HumanoidPanel& panel);
 /// The ground, and foot IK.
@@ -68,6 +70,8 @@ void target_inspector(const HumanoidPanel& panel);
 void node_inspector(const HumanoidPanel& panel);
 /// The springs on the selected nodes, or offers to add some.
 void spring_inspector(const HumanoidPanel& panel);
+/// The curve through the active node, or offers to add one.
+void curve_inspector(const HumanoidPanel& panel);
 /// The rotations and ranges of the selected joints.
 void limit_inspector(const HumanoidPanel& panel);
 /// Statistics of the character.

@@ -333,6 +333,7 @@ Json HumanoidLab::state(const Workspace& workspace) const {
                 {"look_at", look_state(part, shown)},
                 {"ground", ground_state(part.ik.ground)},
                 {"springs", springs_state(workspace, shown)},
+                {"curves", curves_state(part, humanoid_runtime(workspace).solvers, shown)},
                 {"attachments", attachments_state(part)},
                 {"order", {"clip", "IK", "rig", "ropes"}},
                 {"past", past_view_state(workspace, humanoid_past(), humanoid_past_curve(workspace))},

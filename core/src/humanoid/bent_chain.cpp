@@ -185,16 +185,17 @@ ik::CurveReport BentChain::Plan::bend(std::span<rig::Transform> pose, std::span<
         rest[i] = narrow(rotated(swing, directions[i]));
         state.rotations[i] = narrow_turn(math::compose(placed[i].rotation(), conjugate(straight)));
     }
-    const ik::CurveReport report =
-        ik::place_along(curve, {lengths, rest}, joints, state, memory,
-                        {.kind = options.kind,
-                         .fit = options.fit,
-                         .max_factor = options.max_factor,
-                         .up = narrow(rotated(swing, perpendicular(directions[0]))),
-                         .roll_start = options.roll_start,
-                         .roll_end = options.roll_end,
-                         .weight = options.weight,
-                         .weights = options.weights});
+    ik::CurveReport report = ik::place_along(curve, {lengths, rest}, joints, state, memory,
+                                             {.kind = options.kind,
+                                              .fit = options.fit,
+                                              .max_factor = options.max_factor,
+                                              .up = narrow(rotated(swing, perpendicular(directions[0]))),
+                                              .roll_start = options.roll_start,
+                                              .roll_end = options.roll_end,
+                                              .weight = options.weight,
+                                              .weights = options.weights});
+    // A tip on the last control point may be a rounding past it.
+    if (report.status == ik::Status::Converged) report.bones_past_end = 0, report.past_end = 0.0f;
     if (report.status != refusal) lay(pose, at, swing, options, static_cast<double>(report.factor));
     return report;
 }

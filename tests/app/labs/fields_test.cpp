@@ -111,6 +111,7 @@ std::vector<Table> all_tables() {
          .with = {{"name", "tie"}},
          .made = {"rope.preset", {{"name", "line"}}}},
         table_of<SpringSetting>(humanoid_lab, "humanoid.spring", "/springs/0", {{"node", "HeadTop_End"}}),
+        table_of<CurveShape>(humanoid_lab, "humanoid.curve", "/curves/0", {{"first", "Spine"}}),
         table_of<GroundSetting>(humanoid_lab, "humanoid.ground", "/ik/ground"),
         table_of<FootIkSetting>(humanoid_lab, "humanoid.foot_ik", "/ik/foot_ik", Json::object(),
                                 {{"leave_speed", 100}}),

@@ -51,9 +51,8 @@ void attachment_rows(const HumanoidPanel& panel) {
     if (!folding_section(panel.workspace, "Attachments", panel.emit, false)) return;
     note("Order in each tick: clip, IK, rig, ropes.");
     explain(
-        "Feet, targets and hands are IK; look-at, the rig's Aim, and springs follow. Ropes, hair and cloth "
-        "come last, and "
-        "lie on the body as it is then.");
+        "Curves bend the clip's pose. Feet, targets and hands are IK; look-at, the rig's Aim, and springs "
+        "follow. Ropes, hair and cloth come last, and lie on the body as it is then.");
     for (const Attachment& each : panel.part.attachments.list) attachment_row(panel, each);
     HumanoidRuntime::Panel& kept = panel.runtime.panel;
     const auto titles = attachment_kinds.titles();

@@ -289,6 +289,8 @@ void read_again(Workspace& workspace, double metres, const FileSpace& space) {
     measure_pace(part);
     part.ik_state.springs.clear();  // springs and fading are in the old metres
     part.ik_state.release = {};
+    for (BoneCurve& each : part.curves)
+        for (glm::vec3& point : each.shape.points) point *= static_cast<float>(metres / was);
     remake_attachments(workspace, metres / was);
     show_all(workspace, *loaded);
 }

@@ -108,6 +108,7 @@ ClipLint::Judged ClipLint::wanted(const HumanoidPart& part) {
     judged.playback.pace = part.playback.pace;
     judged.ik = std::move(start.ik);
     judged.springs = part.springs;
+    judged.curves = part.curves;
     return judged;
 }
 

@@ -16,7 +16,7 @@ humanoid::Clip clip_as_shown(HumanoidPart part, Solvers& solvers, std::size_t cl
 const humanoid::Ground* ground_of_feet(const HumanoidPart& part, Solvers& solvers);
 
 /// The report is kept until character, bone map, clip or limits change; that of the result also until
-/// anything of IK or the springs does.
+/// anything of IK, the curves or the springs does.
 class ClipLint {
   public:
     /// Of the clip, or of what is shown of it: HumanoidView::judged says which. Null without a clip, and for
@@ -33,6 +33,7 @@ class ClipLint {
         LimitsFrom limits = LimitsFrom::Defaults;
         std::optional<IkSettings> ik{};  ///< for the result
         std::vector<SpringSetting> springs{};
+        std::vector<BoneCurve> curves{};
         bool operator==(const Judged&) const = default;
     };
     static Judged wanted(const HumanoidPart& part);

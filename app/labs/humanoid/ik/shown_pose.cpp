@@ -180,6 +180,7 @@ void reach_and_step(const HumanoidPart& part, Solvers& solvers, humanoid::Body& 
 
 /// All steps between the clip and the springs.
 void solve(const HumanoidPart& part, Solvers& solvers, double dt, IkState& state, ShownPose& shown) {
+    shown.curves = bend(part, solvers.curves(part), shown.local);
     stand(part, solvers, shown);
     const bool acts = body_acts(part, state), moves = acts || part.ik.self_collision;
     humanoid::Body* const body = moves ? solvers.body(part) : nullptr;

@@ -24,6 +24,7 @@ struct ShownPose {
     std::optional<humanoid::FeetReport> feet;     ///< if foot IK is on
     humanoid::FeetState feet_state;               ///< what it remembers then
     FeetHistory::Deepest deepest{};               ///< of the feet in the ground, lately
+    std::vector<ik::CurveReport> curves;          ///< in the order of the part's curves
     std::vector<humanoid::SpringReport> springs;  ///< in the order of the part's springs
     std::array<humanoid::SolePoints, 2> soles{};  ///< left, right
     bool has_soles = false;

@@ -106,6 +106,25 @@ const SpringChains& Solvers::springs(const HumanoidPart& part) {
     return springs_;
 }
 
+const BentChains& Solvers::curves(const HumanoidPart& part) {
+    const auto same = [](const BoneCurve& curve, const std::pair<std::string, std::string>& ends) {
+        return curve.first == ends.first && curve.last == ends.second;
+    };
+    if (curves_of_ == part.loaded && std::ranges::equal(part.curves, curve_ends_, same)) return curves_;
+    curves_of_ = part.loaded;
+    curve_ends_.clear();
+    curves_.clear();
+    for (const BoneCurve& each : part.curves) {
+        curve_ends_.emplace_back(each.first, each.last);
+        curves_.emplace_back();
+        const auto first = part.skeleton().find(each.first), last = part.skeleton().find(each.last);
+        if (!first || !last) continue;
+        if (auto chain = humanoid::BentChain::make(part.skeleton(), *first, *last))
+            curves_.back() = std::make_unique<humanoid::BentChain>(std::move(chain).value());
+    }
+    return curves_;
+}
+
 const humanoid::Masses* Solvers::masses(const HumanoidPart& part) {
     make(part);
     return body_ && feet_ && masses_ ? &*masses_ : nullptr;

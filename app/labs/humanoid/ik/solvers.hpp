@@ -38,6 +38,8 @@ class Solvers {
     /// In the order of the part's springs; null where the bone map leaves no room for one, for which
     /// why_no_spring() has the reason.
     const SpringChains& springs(const HumanoidPart& part);
+    /// In the order of the part's curves; null where the character has no such chain.
+    const BentChains& curves(const HumanoidPart& part);
     /// Empty if there are feet.
     const std::string& why_no_feet(const HumanoidPart& part);
     /// Height of the clip's own floor, metres; empty for the rest pose.
@@ -81,6 +83,9 @@ class Solvers {
     std::optional<humanoid::LookAt> look_at_;
     std::vector<std::string> spring_nodes_;
     SpringChains springs_;
+    SharedCharacter curves_of_;
+    std::vector<std::pair<std::string, std::string>> curve_ends_;
+    BentChains curves_;
     std::string why_not_, why_no_feet_;
     std::map<std::size_t, double> floors_;  // by clip
     std::map<std::size_t, Gait> gaits_;     // by clip

@@ -205,7 +205,7 @@ bool comparable(const HumanoidPart& was, const HumanoidPart& is) {
     const bool plays = before.playing || (before.time == after.time && before.rounds == after.rounds);
     return was.loaded == is.loaded && (was.map == is.map || *was.map == *is.map) &&
            before.clip == after.clip && before.in_place == after.in_place && before.pace == after.pace &&
-           plays && was.t_pose == is.t_pose && was.springs == is.springs &&
+           plays && was.t_pose == is.t_pose && was.springs == is.springs && was.curves == is.curves &&
            without_places(was.ik) == without_places(is.ik);
 }
 
@@ -256,6 +256,23 @@ void add_short_effectors(const HumanoidMoment& was, const HumanoidMoment& is,
     }
 }
 
+/// A change of a curve's points takes a joint to another crossing of it.
+void add_curve_jumps(const HumanoidPart& was, const HumanoidPart& is, std::vector<Incident>& incidents) {
+    if (was.loaded != is.loaded || was.curves == is.curves) return;
+    for (const BoneCurve& each : is.curves) {
+        const auto same = std::ranges::find(was.curves, each.first, &BoneCurve::first);
+        const auto first = is.skeleton().find(each.first);
+        if (!each.jumped || !first || same == was.curves.end() || same->shape.points == each.shape.points)
+            continue;
+        incidents.push_back(
+            {.kind = Incident::Kind::Jump,
+             .joint = *first,
+             .name = each.first,
+             .cause = "a joint of the chain from " + each.first + " went on to another crossing of its curve",
+             .cure = "Open that bend."});
+    }
+}
+
 }  // namespace
 
 bool HumanoidLab::same_joints(const Part& before, const Part& after) const {
@@ -266,7 +283,9 @@ std::vector<Incident> HumanoidLab::review(const Workspace& workspace, const Part
                                           const Part& after) const {
     const auto& was_part = dynamic_cast<const HumanoidPart&>(before);
     const auto& is_part = dynamic_cast<const HumanoidPart&>(after);
-    if (!comparable(was_part, is_part)) return {};
+    std::vector<Incident> incidents;
+    add_curve_jumps(was_part, is_part, incidents);
+    if (!comparable(was_part, is_part)) return incidents;
     HumanoidRuntime& runtime = humanoid_runtime(workspace);
     const auto pose_of = [&](const HumanoidPart& part) {
         IkState state = part.ik_state;
@@ -279,7 +298,6 @@ std::vector<Incident> HumanoidLab::review(const Workspace& workspace, const Part
     HumanoidRuntime::Reviewed second{now ? present : nullptr,
                                      now ? runtime.shown(workspace) : pose_of(is_part)};
     const HumanoidMoment was{was_part, first}, is{is_part, second.shown};
-    std::vector<Incident> incidents;
     add_flips(was, is, runtime.solvers, incidents);
     add_limits(was, is, incidents);
     add_short_effectors(was, is, incidents);

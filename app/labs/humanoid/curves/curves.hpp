@@ -1,0 +1,99 @@
+// Tails, spines and tentacles of the character along curves (tendril/humanoid/bent_chain.hpp).
+//
+// Curves come right after the clip, before IK. Their control points are in the space of the node that the
+// chain hangs on, so a tail's curve goes with hips that IK moves, and hands still reach their targets from a
+// spine that is bent. Springs come last and swing about the curve.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <tendril/humanoid/bent_chain.hpp>
+#include <vector>
+
+#include "app/labs/kit/curve.hpp"
+
+namespace tendril::app {
+
+struct HumanoidPart;
+struct ShownPose;
+class Solvers;
+
+inline constexpr std::size_t max_bone_curves = 16, max_bone_curve_points = 64;
+/// Control points that a new curve has.
+inline constexpr std::size_t new_curve_points = 4;
+
+/// No two curves turn the same node.
+struct BoneCurve {
+    std::string first, last;  ///< nodes, by name; the last one is the end
+    CurveShape shape;         ///< its points: those after the first node, in the space of its parent
+    /// The chain's joint that went on to another crossing when the points last changed.
+    std::optional<std::size_t> jumped{};
+    bool operator==(const BoneCurve&) const = default;
+};
+
+/// A chain of nodes that a user may want to bend.
+struct BoneChain {
+    std::size_t first = 0, last = 0;
+};
+/// The spine, and every chain of two bones and more beside the body: tails, ears, hair; not fingers.
+std::vector<BoneChain> bendable_chains(const HumanoidPart& part);
+/// "tail_1 to tail_6"
+std::string title_of(const HumanoidPart& part, const BoneChain& chain);
+/// The end of the chain from there on: that of bendable_chains(), or else of the longest way down.
+std::size_t end_of_chain(const HumanoidPart& part, std::size_t first);
+
+/// The index of the curve that begins at the node.
+std::optional<std::size_t> curve_from(const HumanoidPart& part, std::size_t first);
+/// The index of the curve whose chain has the node.
+std::optional<std::size_t> curve_through(const HumanoidPart& part, std::size_t node);
+/// Why there can be no new curve from the node on: another one turns it already. Empty if there can be one,
+/// provided that the chain has some length.
+std::string why_no_curve(const HumanoidPart& part, const BoneChain& chain);
+
+/// One per curve; null where the character has no such chain.
+using BentChains = std::vector<std::unique_ptr<humanoid::BentChain>>;
+
+/// Bends the pose along all curves. One report each; of a chain that is not there, an empty one.
+std::vector<ik::CurveReport> bend(const HumanoidPart& part, const BentChains& chains,
+                                  std::vector<rig::Transform>& pose);
+/// `weights`: curve_weights() of the shape. Refers to them.
+humanoid::BendOptions bend_options(const CurveShape& shape, std::span<const float> weights);
+/// The joint that goes on to another crossing if the curve's points become `points`.
+std::optional<std::size_t> jump_between(const HumanoidPart& part, humanoid::BentChain& chain,
+                                        const CurveShape& before, const std::vector<glm::vec3>& points);
+
+// In the view.
+
+/// The curve in the character's space: its control points, and before them the chain's first joint.
+std::vector<glm::vec3> shown_curve(const HumanoidPart& part, Solvers& solvers, const ShownPose& shown,
+                                   std::size_t curve);
+
+/// What of a curve a pick is: a control point, or a place on it, which ik::curve_point() of shown_curve()
+/// takes.
+struct PickedCurve {
+    std::size_t curve = 0;
+    std::optional<std::size_t> control{};  ///< index into the shape's points
+    float at = 0.0f;
+};
+std::optional<PickedCurve> picked_curve(const HumanoidPart& part, PickId pick);
+std::vector<Handle> curve_handles(const HumanoidPart& part, Solvers& solvers, const ShownPose& shown);
+std::string curve_hint(const HumanoidPart& part, const PickedCurve& picked);
+void draw_bone_curves(const View& view, DrawList& list, const HumanoidPart& part, Solvers& solvers,
+                      const ShownPose& shown);
+/// Of the mouse: a control point is moved, removed, or added where the curve was clicked.
+void drag_control(const HumanoidPart& part, Solvers& solvers, const ShownPose& shown,
+                  const PickedCurve& picked, glm::vec3 to, Emit& emit);
+void remove_control(const HumanoidPart& part, const PickedCurve& picked, Emit& emit);
+void click_curve(const HumanoidPart& part, Solvers& solvers, const ShownPose& shown,
+                 const PickedCurve& picked, Emit& emit);
+
+// Files and --state.
+
+Json curves_json(const HumanoidPart& part);
+/// Throws std::runtime_error that begins with the JSON path.
+void read_curves(const JsonPlace& place, HumanoidPart& part);
+Json curves_state(const HumanoidPart& part, Solvers& solvers, const ShownPose& shown);
+
+}  // namespace tendril::app

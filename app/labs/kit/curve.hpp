@@ -1,0 +1,86 @@
+// A curve through control points that a chain of bones follows (tendril/ik/curve.hpp): its settings, and how
+// it is drawn and picked.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <span>
+#include <tendril/ik/curve.hpp>
+#include <vector>
+
+#include "app/document/json_place.hpp"
+#include "app/document/names.hpp"
+#include "app/fields/fields.hpp"
+#include "app/labs/lab.hpp"
+
+namespace tendril::app {
+
+inline constexpr EnumNames<ik::CurveKind, 2> curve_kinds{
+    "kind of curve",
+    {{"hermite", "Through points", "Passes through every control point."},
+     {"b_spline", "B-spline", "Smoother; passes through the first and the last, and near the others."}}};
+
+struct CurveShape {
+    std::vector<glm::vec3> points;  ///< metres
+    ik::CurveKind kind = ik::CurveKind::Hermite;
+    bool fit = false;
+    float max_factor = 2.0f;  ///< of fit
+    float weight = 1.0f;      ///< 0: the given pose, 1: the curve
+    /// -1 to 1: by how much less the first bones follow the curve than the last; negative: the last bones.
+    float falloff = 0.0f;
+    float roll_start_deg = 0.0f, roll_end_deg = 0.0f;
+
+    bool operator==(const CurveShape&) const = default;
+};
+
+/// How far each bone turns to the curve, times the weight; empty: all the way.
+std::vector<float> curve_weights(const CurveShape& shape, std::size_t bones);
+
+/// A control point more, at place `at` of ik::curve_point(): the shape stays nearly as it is.
+std::vector<glm::vec3> with_point_at(std::span<const glm::vec3> points, ik::CurveKind kind, float at);
+
+Json points_json(std::span<const glm::vec3> points);
+/// At most `most`. Throws std::runtime_error that begins with the JSON path.
+std::vector<glm::vec3> read_control_points(const JsonPlace& list, std::size_t most);
+
+glm::vec3 curve_colour(const Palette& palette);
+
+/// Draws a curve, in strokes that are picked one by one, and its control points.
+class CurvePen {
+  public:
+    /// Points in the world's space. The strokes' picks count from `first`. `end`: colour of the last control
+    /// point; `rank`: the control points' Stroke::rank.
+    CurvePen(const View& view, std::span<const glm::vec3> points, ik::CurveKind kind, PickId first,
+             glm::vec3 end, std::int16_t rank, DrawList& list)
+        : view_(view), points_(points), kind_(kind), first_(first), end_(end), rank_(rank), list_(list) {}
+
+    void line() const;
+    /// A ball; the last one is larger.
+    void control(std::size_t index, PickId pick, bool selected = false, bool active = false) const;
+
+    /// How many picks the curve takes.
+    static std::size_t strokes(std::size_t points);
+    /// The place on the curve, as ik::curve_point() takes it, of a stroke counted from the first.
+    static std::optional<float> place(std::size_t stroke, std::size_t points);
+
+  private:
+    float px(float pixels) const { return pixels * view_.scale; }
+
+    const View& view_;
+    std::span<const glm::vec3> points_;
+    ik::CurveKind kind_;
+    PickId first_;
+    glm::vec3 end_;
+    std::int16_t rank_;
+    DrawList& list_;
+};
+
+}  // namespace tendril::app
+
+/// Except for its points.
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::app::CurveShape>() noexcept;
+template <>
+std::span<const tendril::app::FieldText> tendril::app::field_texts<tendril::app::CurveShape>();

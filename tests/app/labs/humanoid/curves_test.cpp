@@ -1,0 +1,304 @@
+// A tail or the spine of the character along a curve: what bends, what follows, and what keeps its targets.
+#include <algorithm>
+#include <cmath>
+#include <tendril/humanoid/clip.hpp>
+
+#include "app/io/character/read.hpp"
+#include "app/labs/humanoid/humanoid_runtime.hpp"
+#include "humanoid_support.hpp"
+#include "tests/app/support/temp_folder.hpp"
+#include "tests/places.hpp"
+
+namespace tendril::app {
+namespace {
+
+/// A dancer with two antennae and a tail of six joints.
+class HumanoidCurves : public HumanoidTest {
+  protected:
+    test::TempFolder folder;
+
+    HumanoidCurves() {
+        run("humanoid.load", {{"path", tendril::test::source_path("tests/app/golden/antennae.bvh")}});
+        run("humanoid.clip", {{"name", ""}});
+    }
+
+    Json curve(std::size_t which = 0) const { return state().at("curves").at(which); }
+    std::vector<glm::vec3> points(std::size_t which = 0) const { return part().curves[which].shape.points; }
+    void move_point(std::size_t at, glm::vec3 by) {
+        std::vector<glm::vec3> all = points();
+        all[at] += by;
+        run("humanoid.curve", {{"first", part().curves[0].first}, {"points", points_json(all)}});
+    }
+    std::optional<Handle> handle(const std::string& name) const {
+        for (const Handle& each : lab().handles(workspace))
+            if (each.name == name) return each;
+        return std::nullopt;
+    }
+    /// Metres by which the bones of the first curve are longer or shorter than in the clip.
+    double length_error() const {
+        const ShownPose& shown = shown_pose(workspace);
+        const auto chain = humanoid_runtime(workspace).solvers.curves(part())[0]->nodes();
+        double worst = 0.0;
+        for (std::size_t i = 1; i < chain.size() && !shown.before.empty(); ++i) {
+            const auto length = [&](const std::vector<humanoid::Placement>& at) {
+                return glm::distance(at[chain[i]].position, at[chain[i - 1]].position);
+            };
+            worst = std::max(worst, std::abs(length(shown.placed) - length(shown.before)));
+        }
+        return worst;
+    }
+};
+
+TEST_F(HumanoidCurves, BeginThroughThePoseAndBendIt) {
+    const glm::dvec3 tip = node("tail_6"), hand = bone("LeftHand");
+    run("humanoid.curve", {{"first", "tail_1"}});
+    EXPECT_EQ(part().curves[0].first, "tail_1");
+    EXPECT_EQ(points().size(), new_curve_points);
+    EXPECT_LT(glm::distance(node("tail_6"), tip), 0.01) << "the tail is where it was";
+    EXPECT_EQ(curve().at("bones_past_end"), 0);
+    EXPECT_EQ(curve().at("jumped"), nullptr);
+    move_point(new_curve_points - 1, {0.4f, 0.1f, 0.0f});
+    EXPECT_GT(glm::distance(node("tail_6"), tip), 0.05);
+    EXPECT_EQ(bone("LeftHand"), hand) << "nothing else moves";
+    EXPECT_LT(length_error(), 1e-6);
+    // The handle is where the point is: dragged there, the curve stays.
+    const auto last = handle("curve.tail_1.3");
+    ASSERT_TRUE(last);
+    const std::vector<glm::vec3> before = points();
+    Emit emit;
+    lab().drag(workspace, last->pick, last->frame, emit);
+    for (const Emitted& each : emit.take()) run(each.name.c_str(), *each.arguments);
+    EXPECT_LT(glm::distance(points().back(), before.back()), 1e-5f);
+    // Weight 0 gives the clip's pose to the bit, and fit puts the tip on the last point.
+    run("humanoid.curve", {{"first", "tail_1"}, {"weight", 0}});
+    EXPECT_TRUE(shown_pose(workspace).before.empty());
+    run("humanoid.curve", {{"first", "tail_1"}, {"weight", 1}, {"fit", true}, {"max_factor", 10}});
+    const std::string end = part().curves[0].last;
+    EXPECT_LT(glm::distance(node(end), glm::dvec3(handle("curve.tail_1.3")->frame.position)), 1e-4);
+    EXPECT_NE(curve().at("factor"), 1.0);
+}
+
+TEST_F(HumanoidCurves, GoWithTheHipsThroughClipAndIk) {
+    run("humanoid.curve", {{"first", "tail_1"}});
+    move_point(3, {0.5f, 0.2f, 0.1f});
+    const auto seen = [&] {  // the tip, as the hips see it
+        const ShownPose& shown = shown_pose(workspace);
+        const auto chain = humanoid_runtime(workspace).solvers.curves(part())[0].get();
+        const humanoid::Placement at = chain->space(shown.placed);
+        const glm::dvec3 tip = shown.placed[*part().skeleton().find("tail_6")].position;
+        return glm::conjugate(at.rotation()) * (tip - at.position);
+    };
+    const glm::dvec3 at_rest = seen();
+    run("humanoid.clip", {{"index", 0}, {"play", true}});
+    for (int i = 0; i < 40; ++i) {
+        tick();
+        ASSERT_LT(glm::distance(seen(), at_rest), 1e-4) << i;
+    }
+    run("humanoid.target", {{"effector", "hips"}, {"to", {0.3, 0.8, 0.1}}});
+    EXPECT_LT(glm::distance(seen(), at_rest), 1e-4);
+}
+
+/// Hands reach from a spine that is bent, and arms and head hang on it.
+TEST_F(HumanoidCurves, LetHandsReachFromABentSpine) {
+    run("humanoid.load");
+    const glm::dvec3 head = bone("Head"), foot = bone("LeftFoot");
+    run("humanoid.curve", {{"first", "Spine"}, {"last", "Neck"}});
+    EXPECT_LT(glm::distance(bone("Head"), head), 0.02);
+    move_point(points().size() - 1, {0.25f, -0.05f, 0.0f});
+    EXPECT_GT(bone("Head").x - head.x, 0.1);
+    EXPECT_EQ(bone("LeftFoot"), foot);
+    const glm::dvec3 to = bone("LeftHand") + glm::dvec3(-0.1, 0.2, 0.2);
+    run("humanoid.target", {{"effector", "left_hand"}, {"to", {to.x, to.y, to.z}}});
+    EXPECT_LT(glm::distance(bone("LeftHand"), to), 1e-3);
+    move_point(points().size() - 1, {-0.05f, 0.0f, 0.1f});
+    EXPECT_LT(glm::distance(bone("LeftHand"), to), 1e-3) << "it holds its target while the spine bends";
+}
+
+TEST_F(HumanoidCurves, AreSavedUndoneAndReplayedTheSame) {
+    run("humanoid.curve",
+        {{"first", "tail_1"}, {"kind", "b_spline"}, {"roll_end_deg", 30}, {"falloff", 0.5}});
+    run("humanoid.spring", {{"node", "tail_1"}});
+    move_point(2, {0.2f, 0.0f, 0.1f});
+    run("humanoid.clip", {{"index", 0}, {"play", true}});
+    tick(30);
+    Workspace other = reopened();
+    EXPECT_EQ(humanoid_part(other).curves, part().curves);
+    EXPECT_EQ(lab().state(other), state());
+    for (int i = 0; i < 20; ++i) lab().step(other);
+    tick(20);
+    EXPECT_EQ(lab().state(other), state());
+    run("undo");
+    run("undo");
+    EXPECT_EQ(curve().at("roll_end_deg"), 30.0);
+    run("undo");
+    run("undo");
+    EXPECT_TRUE(part().curves.empty());
+    run("redo");
+    EXPECT_EQ(part().curves.size(), 1u);
+    run("humanoid.curve", {{"first", "tail_1"}, {"on", false}});
+    EXPECT_TRUE(part().curves.empty());
+    EXPECT_TRUE(state().at("curves").empty());
+    run("undo");
+    run("humanoid.load");
+    EXPECT_TRUE(part().curves.empty()) << "another character";
+}
+
+TEST_F(HumanoidCurves, RefuseWhatTheyCannotBend) {
+    run("humanoid.curve", {{"first", "tail_2"}});
+    expect_refused("humanoid.curve", {{"first", "wing"}}, {"no node \"wing\""});
+    expect_refused("humanoid.curve", {{"first", "tail_1"}}, {"tail_2", "already bends along the curve"});
+    expect_refused("humanoid.curve", {{"first", "antenna_l_1"}, {"last", "Hips"}}, {"below first", "Hips"});
+    expect_refused("humanoid.curve", {{"first", "tail_2"}, {"points", Json::array()}}, {"control point"});
+    expect_refused("humanoid.curve", {{"first", "tail_2"}, {"points", {{0, 1}}}}, {"points.0"});
+    expect_refused("humanoid.curve", {{"first", "tail_2"}, {"points", {{0, 1, 1e20}}}}, {"points.0"});
+    expect_refused("humanoid.curve", {{"first", "tail_2"}, {"weight", 2}}, {"weight", "2"});
+    const Json many(max_bone_curve_points + 1, Json{0.0, 0.0, 0.0});
+    expect_refused("humanoid.curve", {{"first", "tail_2"}, {"points", many}}, {"64"});
+    EXPECT_EQ(part().curves.size(), 1u);
+    // All on one point, and far away.
+    const glm::vec3 start = handle("curve.tail_2.0")->frame.position;
+    for (const glm::vec3 at : {start, glm::vec3(0.0f), glm::vec3(1e6f)}) {
+        run("humanoid.curve", {{"first", "tail_2"}, {"points", points_json(std::vector<glm::vec3>(3, at))}});
+        for (const humanoid::Placement& each : shown_pose(workspace).placed)
+            ASSERT_TRUE(std::isfinite(glm::dot(each.position, each.position)));
+        EXPECT_LT(length_error(), 1e-6);
+    }
+    run("humanoid.curve", {{"first", "tail_2"}, {"points", {{0, 0, 0.001}}}});
+    EXPECT_GT(curve().at("bones_past_end"), 0);
+}
+
+TEST_F(HumanoidCurves, AreRefusedFromAFileThatWasBroken) {
+    run("humanoid.curve", {{"first", "tail_1"}});
+    run("humanoid.curve", {{"first", "antenna_l_1"}});
+    const Json whole = save_scene(workspace);
+    const auto broken = [&](auto change) {
+        Json scene = whole;
+        change(scene["labs"]["humanoid"]["curves"]);
+        Workspace other = make_blank_workspace(labs);
+        try {
+            load_scene(other, scene);
+        } catch (const std::exception& error) {
+            return std::string(error.what());
+        }
+        return std::string("accepted");
+    };
+    const auto says = [](const std::string& message, const char* text) {
+        EXPECT_NE(message.find(text), std::string::npos) << message;
+    };
+    says(broken([](Json& at) { at[0]["first"] = "wing"; }), "no node \"wing\"");
+    says(broken([](Json& at) { at[0]["last"] = "Hips"; }), "curves.0.last");
+    says(broken([](Json& at) { at[1] = at[0]; }), "curves.1.first");
+    says(broken([](Json& at) { at[0]["weight"] = 7; }), "curves.0.weight");
+    says(broken([](Json& at) { at[1]["points"] = Json::array(); }), "curves.1.points");
+    says(broken([](Json& at) { at[1]["points"][0][1] = "up"; }), "curves.1.points.0");
+    says(broken([](Json& at) { at[1]["jumped"] = 99; }), "curves.1.jumped");
+    EXPECT_EQ(broken([](Json& at) { at[0]["jumped"] = 2; }), "accepted");
+}
+
+/// A bend that closes to less than a bone sends a joint on to another crossing.
+TEST_F(HumanoidCurves, SayThatAJointJumped) {
+    run("humanoid.curve", {{"first", "tail_1"}});
+    const glm::vec3 start(
+        shown_curve(part(), humanoid_runtime(workspace).solvers, shown_pose(workspace), 0)[0]);
+    const glm::vec3 hips(bone("Hips"));
+    bool jumped = false;
+    for (int i = 0; i <= 60 && !jumped; ++i) {  // a loop that closes: its end passes near the bones
+        const float low = 0.3f - 0.01f * static_cast<float>(i);
+        std::vector<glm::vec3> loop{start - hips + glm::vec3(0.0f, 0.0f, -0.3f),
+                                    start - hips + glm::vec3(0.0f, low, -0.15f),
+                                    start - hips + glm::vec3(0.3f, low, 0.5f)};
+        run("humanoid.curve", {{"first", "tail_1"}, {"points", points_json(loop)}});
+        jumped = part().curves[0].jumped.has_value();
+    }
+    ASSERT_TRUE(jumped);
+    EXPECT_TRUE(curve().at("jumped").is_string());
+    EXPECT_EQ(humanoid_part(reopened()).curves, part().curves);
+}
+
+/// What an export writes is what is shown, and a program that was copied begins with the same curve.
+TEST_F(HumanoidCurves, AreBakedIntoAClipAndCopied) {
+    run("humanoid.curve", {{"first", "tail_1"}, {"roll_start_deg", 20}, {"falloff", 0.3}});
+    move_point(3, {0.5f, 0.2f, 0.1f});
+    run("humanoid.clip", {{"index", 0}});
+    const std::string file = (folder / "dance.bvh").string();
+    run("humanoid.export", {{"path", file}, {"fps", 30}});
+    const Character read = read_character(file);
+    std::vector<rig::Transform> pose(read.skeleton.size());
+    std::vector<humanoid::Placement> placed(read.skeleton.size());
+    for (const double time : {0.0, 0.5, 1.0}) {
+        run("humanoid.clip", {{"time", time}});
+        sample(read.clips.at(0), read.skeleton, time, pose);
+        place(read.skeleton, pose, placed);
+        EXPECT_LT(glm::distance(placed[*read.skeleton.find("tail_6")].position, node("tail_6")), 1e-4);
+    }
+    const std::string code = lab().code(workspace);
+    for (const char* text : {"bent_chain.hpp", "BentChain::make", "curve_0_points",
+                             ".roll_start = ", "curve_0_weights", "curve_0->bend(pose"})
+        EXPECT_NE(code.find(text), std::string::npos) << text;
+}
+
+TEST_F(HumanoidCurves, KeepTheirPlaceInAnotherUnit) {
+    run("humanoid.curve", {{"first", "tail_1"}});
+    move_point(3, {0.5f, 0.2f, 0.1f});
+    const double height = part().loaded->height();
+    const glm::dvec3 tip = node("tail_6");
+    run("humanoid.scale", {{"metres", 0.005}});
+    const double scale = part().loaded->height() / height;
+    EXPECT_LT(glm::distance(node("tail_6"), scale * tip), 1e-3 * scale);
+}
+
+TEST_F(HumanoidCurves, OfferTheChainsThatCanBend) {
+    std::vector<std::string> titles;
+    for (const BoneChain& each : bendable_chains(part())) titles.push_back(title_of(part(), each));
+    const auto offers = [&](const char* from) {
+        return std::ranges::any_of(titles, [&](const std::string& each) { return each.starts_with(from); });
+    };
+    EXPECT_TRUE(offers("tail_1 to "));
+    EXPECT_TRUE(offers("antenna_l_1 to "));
+    EXPECT_TRUE(offers("Spine"));
+    EXPECT_FALSE(offers("tail_2"));
+    for (const BoneChain& each : bendable_chains(part()))
+        EXPECT_TRUE(humanoid::BentChain::make(part().skeleton(), each.first, each.last));
+}
+
+/// With the mouse: drag a point, add one on the curve, remove it.
+TEST_F(HumanoidCurves, AreBentByTheMouse) {
+    run("humanoid.curve", {{"first", "tail_1"}});
+    const auto strokes = [&] {
+        const Camera camera({.target = {0.0f, 0.9f, 0.0f}}, {{0.0f, 0.0f}, {1000.0f, 700.0f}});
+        DrawList list;
+        lab().draw({.workspace = workspace, .camera = camera, .palette = palette(Theme::Dark)}, list);
+        return list.strokes;
+    };
+    std::optional<PickId> on_curve;
+    for (const Stroke& each : strokes())
+        if (const auto picked = picked_curve(part(), each.pick);
+            picked && !picked->control && picked->at > 2.5f)
+            on_curve = each.pick;
+    ASSERT_TRUE(on_curve);
+    ASSERT_TRUE(lab().handle(workspace, *on_curve));
+    const glm::dvec3 tip = node("tail_6");
+    const auto done = [&](Emit& emit) {
+        for (const Emitted& each : emit.take()) run(each.name.c_str(), *each.arguments);
+    };
+    Emit click;
+    lab().click(workspace, *on_curve, click);
+    done(click);
+    EXPECT_EQ(points().size(), new_curve_points + 1);
+    EXPECT_LT(glm::distance(node("tail_6"), tip), 0.02) << "the shape stays";
+    EXPECT_EQ(state().at("selected"), "tail_1") << "its settings are shown";
+    EXPECT_FALSE(lab().hint(workspace, *on_curve).empty());
+    while (points().size() > 1) {
+        Emit twice;
+        lab().double_click(workspace, handle("curve.tail_1.0")->pick, twice);
+        done(twice);
+    }
+    Emit last;
+    lab().double_click(workspace, handle("curve.tail_1.0")->pick, last);
+    const std::vector<Emitted> emitted = last.take();
+    ASSERT_EQ(emitted.size(), 1u);
+    expect_refused("humanoid.curve", *emitted[0].arguments, {"a curve needs a control point"});
+}
+
+}  // namespace
+}  // namespace tendril::app
