@@ -45,6 +45,9 @@ class CurveDrawing {
         glm::vec3 from = place(0);
         for (std::size_t i = 0; i < all; ++i) {
             const glm::vec3 to = place(i + 1);
+            // Thick bones hide it: what is behind them shows through, thinner.
+            list_.line(from, to, px(hovered ? 2.0f : 1.25f), faded(view_.palette, glm::vec3(colour), 0.55f))
+                .layer = Layer::Overlay;
             Stroke& stroke = list_.line(from, to, px(hovered ? 3.0f : 2.0f), colour);
             stroke.pick = first_curve_pick + static_cast<PickId>(i);
             stroke.rank = 1;  // before the bones, which lie along it
@@ -130,14 +133,8 @@ LabSetting curve_frames() {
 
 void curve_rows(const ChainPart& part, MoreRows& more, Emit& emit) {
     ImGui::PushID("along a curve");  // a tentacle is among the other presets too
-    for (const char* const name : {"spine", "tail", "tentacle"}) {
-        const Preset& preset = named(
-            presets(), [](const Preset& each) { return each.name; }, std::string(name), "preset");
-        if (!row_button(preset.title, 3, true, (count_text(preset.count, "joint") + preset.what).c_str()))
-            continue;
-        emit("chain.preset", {{"name", name}});
-        emit("camera.frame", {{"what", "all"}});
-    }
+    for (const Preset& preset : presets())
+        if (is_along_curve(preset.name)) preset_button(preset, 3, emit);
     ImGui::PopID();
     end_row();
     FieldRows(part.curve, "chain.curve", emit)
