@@ -215,6 +215,10 @@ TEST(IkPlane, AFoldedChainUnfoldsAndGlides) {
             solver.solve(ik::Method::Fabrik, joints, target, options);
             options.plane->bend = Side::Free;
             ASSERT_EQ(solver.state.side, wanted) << number << " at " << x;
+            for (std::size_t i = 1; before.empty() && i < bones; ++i) {
+                const glm::vec3 bone = joints[i] - joints[i - 1], next = joints[i + 1] - joints[i];
+                ASSERT_EQ(glm::cross(bone, next).z < 0.0f, wanted == Side::Left) << number << " zigzags";
+            }
             for (std::size_t i = 0; i < before.size(); ++i)
                 ASSERT_LE(distance(before[i], joints[i]), 60.0 * static_cast<double>(step))
                     << number << " at " << x;

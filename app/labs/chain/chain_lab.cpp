@@ -121,6 +121,7 @@ std::optional<Handle> ChainLab::handle(const Workspace& workspace, PickId pick) 
         return Handle{
             "curve", pick, {ik::curve_point(part.curve.points, part.curve.kind, *at)}, Drag::Nothing};
     if (pick == pole_pick && part.reach.pole) return Handle{"pole", pole_pick, {*part.reach.pole}};
+    if (const auto end = picked_limit(pick)) return limit_handle(part, *end);
     if (pick < segment_pick(0) || picked_segment(pick) >= part.chain.size()) return std::nullopt;
     const std::size_t index = picked_segment(pick);
     const ShownChain shown = shown_chain(workspace);
@@ -141,6 +142,7 @@ std::string ChainLab::hint(const Workspace& workspace, PickId pick) const {
     if (const auto control = picked_control(pick))
         return "Control point " + std::to_string(*control) +
                ": drag it to bend the curve; click selects it, Delete removes it.";
+    if (picked_limit(pick)) return "Limit: drag to set it, in whole degrees; click selects its joint.";
     if (pick >= first_curve_pick) return "Curve: click adds a control point.";
     const std::size_t index = picked_segment(pick);
     if (part.mode == ChainMode::Reach) return joint_hint(part, index);
@@ -254,7 +256,8 @@ bool ChainLab::labels_pictures(const Workspace& workspace) const {
 std::vector<MouseHelp> ChainLab::mouse_help() const {
     return {{"Shift+click on a joint", "adds it to the selection, or takes it out"},
             {"Ctrl+drag on nothing", "draws a box that selects the joints in it; with Shift it adds them"},
-            {"Click on a curve", "adds a control point there"}};
+            {"Click on a curve", "adds a control point there"},
+            {"Drag an end of an arc", "sets that limit, in a plane"}};
 }
 
 std::vector<Shortcut> ChainLab::shortcuts() const {

@@ -8,11 +8,26 @@ namespace tendril::app {
 
 inline constexpr PickId target_pick = 0;
 inline constexpr PickId pole_pick = static_cast<PickId>(max_segments) + 1;
-// In mode Curve: control points, and the strokes that the curve is drawn with.
-inline constexpr PickId first_control_pick = pole_pick + 1;
+// In a plane: the two ends of each bone's limit. In mode Curve: control points, and the strokes that the
+// curve is drawn with.
+inline constexpr PickId first_limit_pick = pole_pick + 1;
+inline constexpr PickId first_control_pick = first_limit_pick + 2 * static_cast<PickId>(max_segments);
 inline constexpr PickId first_curve_pick = first_control_pick + static_cast<PickId>(max_control_points);
 inline PickId control_pick(std::size_t index) {
     return first_control_pick + static_cast<PickId>(index);
+}
+/// The end of a limit in the plane: of the bone that starts at this joint.
+struct LimitEnd {
+    std::size_t joint = 0;
+    bool max = false;
+};
+inline PickId limit_pick(const LimitEnd& end) {
+    return first_limit_pick + 2 * static_cast<PickId>(end.joint) + (end.max ? 1 : 0);
+}
+inline std::optional<LimitEnd> picked_limit(PickId pick) {
+    if (pick < first_limit_pick || pick >= first_control_pick) return std::nullopt;
+    const auto index = static_cast<std::size_t>(pick - first_limit_pick);
+    return LimitEnd{index / 2, index % 2 == 1};
 }
 /// The control point with that pick, if any.
 inline std::optional<std::size_t> picked_control(PickId pick) {

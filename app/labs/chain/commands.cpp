@@ -88,6 +88,7 @@ void add_chain_commands(CommandTable& table) {
     add_copy_commands(table);
     add_paste_command(table);
     add_trace_commands(table);
+    add_save_trace_command(table);
 }
 
 void pull_joints(ChainPart& part, const std::vector<JointPull>& asked, ChainRuntime& runtime) {

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/document/command.hpp"
@@ -59,6 +60,14 @@ void add_study_commands(CommandTable& table);
 void add_race_file_commands(CommandTable& table);
 void add_copy_commands(CommandTable& table);
 void add_paste_command(CommandTable& table);
+/// chain.save_trace: the strip's moments, as tendril trace reads them.
+void add_save_trace_command(CommandTable& table);
+
+/// Whether a file's text begins like a trace, for Lab::files().
+bool begins_like_trace(std::string_view text);
+
+/// Whether pasted text is one: two frames or more, or a pose with a target.
+bool holds_trace(const std::string& text);
 
 class CommandTable;
 

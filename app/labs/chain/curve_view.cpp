@@ -82,14 +82,8 @@ LabSetting curve_frames() {
 
 void curve_rows(const ChainPart& part, MoreRows& more, Emit& emit) {
     ImGui::PushID("along a curve");  // a tentacle is among the other presets too
-    for (const char* const name : {"spine", "tail", "tentacle"}) {
-        const Preset& preset = named(
-            presets(), [](const Preset& each) { return each.name; }, std::string(name), "preset");
-        if (!row_button(preset.title, 3, true, (count_text(preset.count, "joint") + preset.what).c_str()))
-            continue;
-        emit("chain.preset", {{"name", name}});
-        emit("camera.frame", {{"what", "all"}});
-    }
+    for (const Preset& preset : presets())
+        if (is_along_curve(preset.name)) preset_button(preset, 3, emit);
     ImGui::PopID();
     end_row();
     FieldRows(part.curve, "chain.curve", emit)

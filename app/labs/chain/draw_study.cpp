@@ -79,7 +79,7 @@ class MicroscopeDrawing {
         const glm::vec3 towards = move.from - neighbour;
         const float away = glm::length(towards), bone = glm::distance(neighbour, move.to);
         if (away < 1e-5f) return;
-        const glm::vec3 end = neighbour + towards / away * (1.25f * std::max(away, bone));
+        const glm::vec3 end = neighbour + towards / away * (std::max(away, bone) + 0.25f * bone);
         dashes(neighbour, end, faded(view_.palette, view_.palette.accent, 0.8f));
     }
 

@@ -14,9 +14,7 @@
 #include <string>
 #include <utility>
 
-#include "app/document/atomic_file.hpp"
 #include "app/document/json_complete.hpp"
-#include "app/document/picture_arguments.hpp"
 #include "app/document/text.hpp"
 #include "app/document/units.hpp"
 #include "app/fields/field_rows.hpp"
@@ -309,75 +307,7 @@ void open_trace(Workspace& workspace, const Arguments& given) {
     }
 }
 
-/// The strip's moments as a trace, for as long as the chain has had as many joints as now.
-std::string trace_of_strip(const Workspace& workspace) {
-    const ChainPart& now = chain_part(workspace);
-    if (now.chain.size() < 2) throw Refused("the chain has no bone");
-    const bool reaches = now.mode == ChainMode::Reach;
-    std::string text = Json{{"tendril", "trace"},
-                            {"up", "y"},
-                            {"handed", "right"},
-                            {"unit", "m"},
-                            {"fps", 1.0 / tick_seconds}}
-                           .dump() +
-                       '\n';
-    const auto write = [&](const ChainPart& part, std::uint64_t tick) {
-        if (part.chain.size() != now.chain.size()) return;
-        Json frame{{"t", static_cast<double>(tick) * tick_seconds}};
-        for (const Segment& each : part.chain.segments()) frame["joints"].push_back(point(each.position));
-        if (reaches) frame["target"] = point(part.target);
-        if (reaches && part.reach.pole) frame["pole"] = point(*part.reach.pole);
-        text += frame.dump() + '\n';
-    };
-    for (const Rewind::Moment& each : workspace.rewind.moments())
-        write(dynamic_cast<const ChainPart&>(*each.part), each.tick);
-    if (workspace.later_ticks() == 0 &&
-        (workspace.rewind.empty() || workspace.rewind.newest() < workspace.moment))
-        write(now, workspace.moment);
-    return text;
-}
-
-Command save_trace() {
-    return {.name = "chain.save_trace",
-            .title = "Save the strip as a trace",
-            .arguments = {text_argument("path", false, "a JSON Lines file; default: beside the scene")},
-            .help = "Writes the last ten seconds of the chain, frame by frame, as tendril trace reads them",
-            .effect = Effect::Look,
-            .apply = [](Workspace& workspace, const Arguments& given) {
-                const std::string path =
-                    given.has("path") ? given.text("path") : new_file(workspace, "trace", ".jsonl").string();
-                write_file_atomically(path, trace_of_strip(workspace));
-                workspace.toast(written_text(path));
-            }};
-}
-
 }  // namespace
-
-bool begins_like_trace(std::string_view text) {
-    if (text.find("\"joints\"") != text.npos || text.find("\"tendril\"") != text.npos) return true;
-    const std::string_view first = text.substr(0, text.find('\n'));
-    if (begins_table(first) && std::ranges::count(first, ',') >= 5) return true;
-    // A log: three vectors in a row.
-    try {
-        std::istringstream in{std::string(text)};
-        RawFrame frame;
-        return open_raw_trace(in)->next(frame) && frame.joints.size() >= 2;
-    } catch (const std::runtime_error&) {
-        return false;
-    }
-}
-
-bool holds_trace(const std::string& text) {
-    try {
-        std::istringstream in(text);
-        const auto raw = open_raw_trace(in);
-        RawFrame first, second;
-        if (!raw->next(first) || first.joints.size() < 2) return false;
-        return first.target || (raw->next(second) && second.joints.size() == first.joints.size());
-    } catch (const std::runtime_error&) {
-        return false;
-    }
-}
 
 const TracedPose* traced_pose(const ChainPart& part) {
     if (!part.traced || part.study.open() || part.traced->joints.size() != part.chain.size()) return nullptr;
@@ -431,7 +361,6 @@ void add_trace_commands(CommandTable& table) {
         "Shows what an engine's chain did, frame by frame, with what went wrong and why", ChainChange());
     command.apply = open_trace;
     table.add(std::move(command));
-    table.add(save_trace());
 }
 
 template <>

@@ -53,12 +53,6 @@ struct ShownTrace {
     std::vector<std::string> bones, notes;
 };
 
-/// Whether a file's text begins like a trace, for Lab::files().
-bool begins_like_trace(std::string_view text);
-
-/// Whether pasted text is one: two frames or more, or a pose with a target.
-bool holds_trace(const std::string& text);
-
 /// The trace's frame, while the chain shows it; else null.
 const TracedPose* traced_pose(const ChainPart& part);
 /// The method of the ghost.

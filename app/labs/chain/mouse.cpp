@@ -35,7 +35,47 @@ void emit_moved_points(const ChainPart& part, const std::vector<Handle>& handles
     if (points != part.curve.points) emit_points(part, std::move(points), emit);
 }
 
+/// The rotation of a limit's end: about the plane's normal, by its angle. Only what a drag changes of it
+/// counts.
+glm::quat limit_turn(glm::vec3 normal, float angle) {
+    return glm::angleAxis(angle, normal) * least_rotation({0.0f, 0.0f, 1.0f}, normal);
+}
+
+/// To whole degrees, at most up to the other end, and short of a full turn, which would be no limit.
+void drag_limit(const ChainPart& part, const LimitEnd& end, const glm::quat& to, Emit& emit) {
+    if (!part.reach.plane) return;
+    const glm::vec3 normal = glm::normalize(part.reach.plane->normal);
+    const ik::AngleLimit limit = angle_limit_of(*part.reach.plane, end.joint);
+    const float now = end.max ? limit.max : limit.min, other = glm::degrees(end.max ? limit.min : limit.max);
+    const glm::quat turn = to * glm::conjugate(limit_turn(normal, now));
+    const float by = 2.0f * std::atan2(glm::dot(glm::vec3(turn.x, turn.y, turn.z), normal), turn.w);
+    const float angle = now + std::remainder(by, glm::two_pi<float>());
+    const float low =
+        end.max ? std::min(std::round(other) + 1.0f, 180.0f) : std::max(other - 359.0f, -180.0f);
+    const float high =
+        end.max ? std::min(other + 359.0f, 180.0f) : std::max(std::round(other) - 1.0f, -180.0f);
+    emit.continuously("chain.angle_limit", {{"index", end.joint},
+                                            {end.max ? "max_deg" : "min_deg",
+                                             std::clamp(std::round(glm::degrees(angle)), low, high)}});
+}
+
 }  // namespace
+
+/// Its angle turns about the joint, whatever the size of the arc in the picture.
+std::optional<Handle> limit_handle(const ChainPart& part, const LimitEnd& end) {
+    const auto& plane = part.reach.plane;
+    if (!plane || part.mode != ChainMode::Reach || part.study.open() || end.joint >= plane->limits.size())
+        return std::nullopt;
+    const ik::AngleLimit limit = plane->limits[end.joint];
+    if (limit == ik::AngleLimit{}) return std::nullopt;
+    Handle handle{"limit." + std::to_string(end.joint) + (end.max ? ".max" : ".min"),
+                  limit_pick(end),
+                  {part.chain.position(end.joint),
+                   limit_turn(glm::normalize(plane->normal), end.max ? limit.max : limit.min)},
+                  Drag::Rotation};
+    handle.part = GizmoPart::RotateZ;
+    return handle;
+}
 
 void emit_points(const ChainPart& part, std::vector<glm::vec3> points, Emit& emit) {
     if (points.back() != part.curve.points.back()) keep_target_still(part, emit);
@@ -50,6 +90,7 @@ void ChainLab::drag(const Workspace& workspace, PickId pick, const Handle::Frame
         points[*control] = frame.position;
         return emit_points(part, std::move(points), emit);
     }
+    if (const auto end = picked_limit(pick)) return drag_limit(part, *end, frame.rotation, emit);
     const glm::vec3 to = in_plane(part.chain, part.reach, frame.position);
     if (pick != pole_pick) keep_target_still(part, emit);
     if (pick == target_pick) {
@@ -79,7 +120,8 @@ void ChainLab::click(const Workspace& workspace, PickId pick, Emit& emit) const 
         emit("chain.select", {{"point", chain_points.name(point)}});
         return;
     }
-    const std::size_t index = picked_segment(pick);
+    const auto limit = picked_limit(pick);
+    const std::size_t index = limit ? limit->joint : picked_segment(pick);
     emit("chain.select", {{"index", index}});
     if (part.mode == ChainMode::WithIndex && part.index != index) {
         emit("chain.mode", {{"mode", chain_modes.name(part.mode)}, {"index", index}});

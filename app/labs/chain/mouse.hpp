@@ -15,6 +15,7 @@
 #include <span>
 #include <tendril/chain/chain.hpp>
 
+#include "app/labs/chain/chain_lab.hpp"
 #include "app/labs/chain/reach.hpp"
 
 namespace tendril::app {
@@ -32,5 +33,8 @@ void drag_joints(Chain& chain, ReachSettings& settings, std::span<const JointPul
 /// For the trailing modes: the first joint goes where it is pulled, the others as near as the bones between
 /// allow, and both ends trail. Refuses what Chain::with_index does.
 Result trail_joints(Chain& chain, std::span<const JointPull> pulls);
+
+/// The handle of a limit's end in the plane; none if there is no such limit, or it cannot be changed now.
+std::optional<Handle> limit_handle(const ChainPart& part, const LimitEnd& end);
 
 }  // namespace tendril::app

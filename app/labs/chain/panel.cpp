@@ -40,6 +40,17 @@ float length_of_next(const Chain& chain) {
     return length;
 }
 
+}  // namespace
+
+void preset_button(const Preset& preset, int of, Emit& emit) {
+    const std::string what = count_text(preset.count, "joint") + preset.what;
+    if (!row_button(preset.title, of, true, what.c_str())) return;
+    emit("chain.preset", {{"name", preset.name}});
+    emit("camera.frame", {{"what", "all"}});
+}
+
+namespace {
+
 /// In order of interest: Reach and Curve first, then the four trailing modes.
 constexpr std::array modes_in_panel{ChainMode::Reach,    ChainMode::Curve, ChainMode::Forward,
                                     ChainMode::Backward, ChainMode::Fixed, ChainMode::WithIndex};
@@ -95,13 +106,6 @@ void plane_switch(const ChainPart& part, Emit& emit) {
     explain("Keeps the chain in a plane through its root, in all modes but Curve: the XY plane at first.");
 }
 
-void preset_button(const Preset& preset, Emit& emit) {
-    const std::string what = count_text(preset.count, "joint") + preset.what;
-    if (!row_button(preset.title, preset.of, true, what.c_str())) return;
-    emit("chain.preset", {{"name", preset.name}});
-    emit("camera.frame", {{"what", "all"}});
-}
-
 void plane_rows(const ChainPart& part, MoreRows& more, Emit& emit) {
     if (part.mode != ChainMode::Reach) plane_switch(part, emit);  // in Reach beside the pole target's
     if (!part.reach.plane) return;
@@ -110,7 +114,7 @@ void plane_rows(const ChainPart& part, MoreRows& more, Emit& emit) {
         look_at_plane(plane, emit);
     end_row();
     for (const Preset& preset : presets())
-        if (is_planar(preset.name)) preset_button(preset, emit);
+        if (is_planar(preset.name)) preset_button(preset, preset.of, emit);
     end_row();
     more.add("normal", {"chain.plane", {"normal"}}, plane.normal != ChainPlane().normal, [&plane, &emit] {
         glm::vec3 normal = plane.normal;

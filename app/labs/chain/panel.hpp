@@ -4,6 +4,7 @@
 #include "app/labs/chain/chain_lab.hpp"
 #include "app/labs/chain/chain_part.hpp"
 #include "app/labs/chain/draw.hpp"
+#include "app/labs/chain/presets.hpp"
 #include "app/labs/kit/panel_rows.hpp"
 
 namespace tendril::app {
@@ -12,6 +13,8 @@ namespace tendril::app {
 void draw_mode(ChainMode mode, const Palette& colours, float short_of, float scale);
 /// Panel: the solver and its options.
 void solver_rows(const ChainPart& part, MoreRows& more, Emit& emit);
+/// Panel: a button that opens a preset, `of` in its row.
+void preset_button(const Preset& preset, int of, Emit& emit);
 /// Panel: the curve of mode Curve.
 void curve_rows(const ChainPart& part, MoreRows& more, Emit& emit);
 /// Panel: microscope and race.

@@ -1,5 +1,5 @@
 // What the past of the Chain lab shows: a joint's swing or twist, or the distance from tip to target; poses;
-// incidents and their causes.
+// incidents and their causes. It can be saved as a trace.
 #include "app/labs/chain/past.hpp"
 
 #include <algorithm>
@@ -9,8 +9,12 @@
 #include <limits>
 #include <utility>
 
+#include "app/document/atomic_file.hpp"
+#include "app/document/json_complete.hpp"
+#include "app/document/picture_arguments.hpp"
 #include "app/document/units.hpp"
 #include "app/labs/chain/chain_lab.hpp"
+#include "app/labs/chain/commands.hpp"
 #include "app/labs/chain/cures.hpp"
 #include "app/labs/chain/draw.hpp"
 #include "app/labs/chain/panel.hpp"
@@ -209,9 +213,7 @@ bool comparable(const ChainPart& before, const ChainPart& after) {
                       [](const Segment& x, const Segment& y) { return x.length == y.length; });
 }
 
-}  // namespace
-
-static std::vector<Incident> jumps(const ChainPart& before, const ChainPart& after) {
+std::vector<Incident> jumps(const ChainPart& before, const ChainPart& after) {
     const auto& report = after.along.report;
     if (before.mode != ChainMode::Curve || before.curve == after.curve || !report || !report->jumped)
         return {};
@@ -220,6 +222,8 @@ static std::vector<Incident> jumps(const ChainPart& before, const ChainPart& aft
              .cause = jump_cause(before, after),
              .cure = "Open that bend, or use shorter bones there."}};
 }
+
+}  // namespace
 
 std::vector<Incident> chain_incidents(const ChainPart& before, const ChainPart& after) {
     if (after.mode == ChainMode::Curve) return jumps(before, after);
@@ -248,6 +252,53 @@ std::vector<Incident> chain_incidents(const ChainPart& before, const ChainPart& 
             {.kind = Incident::Kind::Status, .joint = after.chain.size() - 1, .cause = status_cause(after)});
     }
     return incidents;
+}
+
+namespace {
+
+/// The strip's moments as a trace, for as long as the chain has had as many joints as now.
+std::string trace_of_strip(const Workspace& workspace) {
+    const ChainPart& now = chain_part(workspace);
+    if (now.chain.size() < 2) throw Refused("the chain has no bone");
+    const bool reaches = now.mode == ChainMode::Reach;
+    std::string text = Json{{"tendril", "trace"},
+                            {"up", "y"},
+                            {"handed", "right"},
+                            {"unit", "m"},
+                            {"fps", 1.0 / tick_seconds}}
+                           .dump() +
+                       '\n';
+    const auto write = [&](const ChainPart& part, std::uint64_t tick) {
+        if (part.chain.size() != now.chain.size()) return;
+        Json frame{{"t", static_cast<double>(tick) * tick_seconds}};
+        for (const Segment& each : part.chain.segments()) frame["joints"].push_back(point(each.position));
+        if (reaches) frame["target"] = point(part.target);
+        if (reaches && part.reach.pole) frame["pole"] = point(*part.reach.pole);
+        text += frame.dump() + '\n';
+    };
+    for (const Rewind::Moment& each : workspace.rewind.moments())
+        write(dynamic_cast<const ChainPart&>(*each.part), each.tick);
+    if (workspace.later_ticks() == 0 &&
+        (workspace.rewind.empty() || workspace.rewind.newest() < workspace.moment))
+        write(now, workspace.moment);
+    return text;
+}
+
+}  // namespace
+
+void add_save_trace_command(CommandTable& table) {
+    table.add(
+        {.name = "chain.save_trace",
+         .title = "Save the strip as a trace",
+         .arguments = {text_argument("path", false, "a JSON Lines file; default: beside the scene")},
+         .help = "Writes the last ten seconds of the chain, frame by frame, as tendril trace reads them",
+         .effect = Effect::Look,
+         .apply = [](Workspace& workspace, const Arguments& given) {
+             const std::string path =
+                 given.has("path") ? given.text("path") : new_file(workspace, "trace", ".jsonl").string();
+             write_file_atomically(path, trace_of_strip(workspace));
+             workspace.toast(written_text(path));
+         }});
 }
 
 }  // namespace tendril::app

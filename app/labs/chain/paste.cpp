@@ -1,16 +1,19 @@
-// Points from the clipboard: where a joint, the target or the pole target goes, or a new chain.
+// Text from the clipboard: points, that is where a joint, the target or the pole target goes, or a new chain;
+// or a trace.
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <memory>
+#include <sstream>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "app/document/units.hpp"
 #include "app/io/points.hpp"
+#include "app/io/trace/trace.hpp"
 #include "app/labs/chain/chain_lab.hpp"
 #include "app/labs/chain/commands.hpp"
-#include "app/labs/chain/engine_trace.hpp"
 
 namespace tendril::app {
 
@@ -63,6 +66,32 @@ std::string pasted_text(const ChainPart& part, const std::string& text) {
 }
 
 }  // namespace
+
+bool begins_like_trace(std::string_view text) {
+    if (text.find("\"joints\"") != text.npos || text.find("\"tendril\"") != text.npos) return true;
+    const std::string_view first = text.substr(0, text.find('\n'));
+    if (begins_table(first) && std::ranges::count(first, ',') >= 5) return true;
+    // A log: three vectors in a row.
+    try {
+        std::istringstream in{std::string(text)};
+        RawFrame frame;
+        return open_raw_trace(in)->next(frame) && frame.joints.size() >= 2;
+    } catch (const std::runtime_error&) {
+        return false;
+    }
+}
+
+bool holds_trace(const std::string& text) {
+    try {
+        std::istringstream in(text);
+        const auto raw = open_raw_trace(in);
+        RawFrame first, second;
+        if (!raw->next(first) || first.joints.size() < 2) return false;
+        return first.target || (raw->next(second) && second.joints.size() == first.joints.size());
+    } catch (const std::runtime_error&) {
+        return false;
+    }
+}
 
 TakenText ChainLab::takes_text(const std::string& text) const {
     if (holds_trace(text))

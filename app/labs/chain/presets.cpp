@@ -142,7 +142,7 @@ const std::vector<Preset>& presets() {
         {"arm", "Arm", 7, 4},
         {"snake", "Snake", 40, 4},
         {"coil", "Coil", 120, 4},
-        {"tentacle", "Tentacle", 24, 3},
+        {"tentacle", "Tentacle", 24, 3, " along a curve through an S, in mode curve"},
         {"random", "Random", 16, 3},
         {reaching_arm, "Reach", 4, 3, ": an arm in mode reach, with a hinge and a pole target"},
         {straight_chain_preset, "Straight", 5, 3,
@@ -189,6 +189,10 @@ void make_it_reach(ChainPart& part, ChainRuntime& runtime) {
     reach_for(part, {2.25f, 0.9f, 0.2f}, runtime);
 }
 
+bool is_along_curve(const std::string& name) {
+    return name == "spine" || name == "tail" || name == "tentacle";
+}
+
 void put_on_curve(ChainPart& part, const std::string& preset) {
     part.mode = ChainMode::Curve;
     part.curve = {};
@@ -196,6 +200,8 @@ void put_on_curve(ChainPart& part, const std::string& preset) {
         part.curve.points = {{0, 1, 0}, {0, 1.25f, 0.06f}, {0, 1.5f, -0.05f}, {0.03f, 1.7f, 0}};
         part.curve.roll_end_deg = 40;
         part.curve.fit = true;
+    } else if (preset == "tentacle") {
+        part.curve.fit = true;  // the curve is drawn through the chain
     } else {
         part.curve.points = {{0, 1, 0},           {-0.9f, 0.8f, 0},    {-1.8f, 1.2f, 0.2f},
                              {-1.5f, 2.0f, 0.3f}, {-0.9f, 1.5f, 0.1f}, {-1.9f, 0.9f, -0.2f},

@@ -38,7 +38,9 @@ void make_it_planar(ChainPart& part, const std::string& name, ChainRuntime& runt
 /// on the target. `part` already has the preset's chain.
 void make_it_reach(ChainPart& part, ChainRuntime& runtime);
 
-/// Completes the presets spine and tail: mode Curve, with control points of their own.
+/// Whether it comes with a curve.
+bool is_along_curve(const std::string& name);
+/// Completes it: mode Curve, with control points of its own, or through the chain.
 void put_on_curve(ChainPart& part, const std::string& preset);
 
 /// Completes the preset straight: mode Reach, solver FABRIK (2011), and the target on the chain's own line,

@@ -143,7 +143,7 @@ void take_preset(ChainPart& part, const Arguments& given, ChainRuntime& runtime)
     take_chain(part, make_preset(name, count, seed));
     if (name == reaching_arm) make_it_reach(part, runtime);
     if (name == straight_chain_preset) make_it_stall(part, runtime);
-    if (name == "spine" || name == "tail") put_on_curve(part, name);
+    if (is_along_curve(name)) put_on_curve(part, name);
     if (is_planar(name)) make_it_planar(part, name, runtime);
 }
 
@@ -198,7 +198,7 @@ void add_shape_commands(CommandTable& table) {
          {.name = "seed", .type = ArgumentType::Integer, .required = false, .help = "for random", .low = 0}},
         "Makes a preset chain, the target on its tail. Some come with mode reach: reaching_arm with limits "
         "and a pole target, straight with a target on its own line, where FABRIK (2011) stalls, those whose "
-        "names begin with flat_ in a plane; spine and tail with mode curve",
+        "names begin with flat_ in a plane; spine, tail and tentacle with mode curve",
         take_preset));
 }
 

@@ -3,8 +3,10 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "app/labs/chain/chain_lab.hpp"
 #include "app/labs/chain/chain_runtime.hpp"
 #include "app/labs/chain/commands.hpp"
 
@@ -153,10 +155,26 @@ std::vector<Argument> step_arguments() {
                              -max_iterations, max_iterations)};
 }
 
+/// Brings the start into view: the chain may have been elsewhere when it was framed.
+Command opening(Command command) {
+    command.apply = [open = std::move(command.apply)](Workspace& workspace, const Arguments& given) {
+        open(workspace, given);
+        const Rect view{{0.0f, 0.0f}, workspace.ui.view_size};
+        const Camera camera(workspace.camera, view);
+        const bool seen = std::ranges::all_of(chain_part(workspace).study.start, [&](const glm::vec3& joint) {
+            const auto at = camera.project(joint);
+            return at && view.contains(*at);
+        });
+        const Bounds all = ChainLab().bounds(workspace, false);
+        if (!seen) workspace.camera = framed(workspace.camera, view, all.centre, all.radius);
+    };
+    return command;
+}
+
 void add_microscope_commands(CommandTable& table) {
-    table.add(chain_command("microscope.open", "Open the microscope", {start_argument()},
-                            "Shows a solve step by step, always from the same start", open_microscope,
-                            Effect::Edit));
+    table.add(opening(chain_command("microscope.open", "Open the microscope", {start_argument()},
+                                    "Shows a solve step by step, always from the same start", open_microscope,
+                                    Effect::Edit)));
     table.add(chain_command("microscope.seek", "Show a step of the solve",
                             {{.name = "step",
                               .type = ArgumentType::Integer,
@@ -183,9 +201,9 @@ void add_microscope_commands(CommandTable& table) {
 
 void add_study_commands(CommandTable& table) {
     add_microscope_commands(table);
-    table.add(chain_command("race.open", "Start a race of solvers", {start_argument()},
-                            "Runs several solvers from the same start to the same target", open_race,
-                            Effect::Edit));
+    table.add(opening(chain_command("race.open", "Start a race of solvers", {start_argument()},
+                                    "Runs several solvers from the same start to the same target", open_race,
+                                    Effect::Edit)));
     table.add(
         chain_command("race.solver", "Choose which solvers race",
                       {choice_argument("name", true, "which solver",

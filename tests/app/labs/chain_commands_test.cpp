@@ -3,6 +3,7 @@
 #include <glm/geometric.hpp>
 
 #include "app/document/refused.hpp"
+#include "app/labs/chain/presets.hpp"
 #include "tests/app/labs/chain_support.hpp"
 #include "tests/says.hpp"
 
@@ -133,12 +134,20 @@ TEST_F(ChainCommands, ADragIsOneUndoStepAndUndoIsExact) {
 }
 
 TEST_F(ChainCommands, PresetsAreSoundAtEverySize) {
-    for (const char* name : {"start", "arm", "tentacle", "snake", "coil", "random"}) {
+    for (const char* name : {"start", "arm", "snake", "coil", "random", "tentacle", "spine", "tail"}) {
         for (const int count : {1, 2, 3, 50, 3000}) {
             run("chain.preset", {{"name", name}, {"count", count}, {"seed", 7}});
             const Chain& chain = part().chain;
             ASSERT_EQ(chain.size(), static_cast<std::size_t>(count));
-            EXPECT_EQ(part().target, chain.position(chain.size() - 1));
+            const bool curved = part().mode == ChainMode::Curve;
+            ASSERT_EQ(curved, is_along_curve(name));
+            if (!curved) {
+                EXPECT_EQ(part().target, chain.position(chain.size() - 1));
+            } else if (count > 1) {
+                EXPECT_EQ(part().target, part().curve.points.back());
+                ASSERT_TRUE(part().along.report) << name;
+                EXPECT_NE(part().along.report->status, ik::Status::InvalidInput) << name;
+            }
             for (std::size_t i = 0; i < chain.size(); ++i) {
                 EXPECT_TRUE(std::isfinite(glm::length(chain.position(i))));
                 EXPECT_GT(chain.length(i), 0.0f);

@@ -50,7 +50,7 @@ TEST_F(ChainCurve, agrees_with_an_independent_implementation) {
 }
 
 TEST_F(ChainCurve, begins_as_a_curve_through_the_chain_and_turns_the_bones_from_rest) {
-    run("chain.preset", {{"name", "tentacle"}});
+    run("chain.preset", {{"name", "arm"}});
     const std::vector<glm::vec3> before = joints();
     run("chain.mode", {{"mode", "curve"}});
     EXPECT_EQ(curve().at("points").size(), 5u);

@@ -198,5 +198,62 @@ TEST_F(ChainPlaneTest, CodeHasThePlane) {
     EXPECT_NE(code.find("ik::AngleFrom::Base}"), std::string::npos);
 }
 
+// The mouse: the ends of a limit's arc.
+
+class LimitDrag {
+  public:
+    LimitDrag() {
+        script.command("chain.preset", {{"name", "flat_arm"}})
+            .command("camera.frame", {{"what", "all"}})
+            .command("camera.set", {{"yaw_deg", 0}, {"pitch_deg", 0}, {"orthographic", true}});
+        const Json state = test::state_after(script);
+        root_ = test::handle(state, "segment.0");
+        const float pixels_per_metre = glm::distance(root_, test::handle(state, "segment.1")) / 1.6f;
+        radius_ = std::min(0.75f * 1.6f * pixels_per_metre, 90.0f);
+    }
+    /// On the arc around the root, degrees to the left of +X.
+    glm::vec2 at(float degrees) const {
+        const float angle = glm::radians(degrees);
+        return root_ + radius_ * glm::vec2(std::cos(angle), -std::sin(angle));
+    }
+    void drag(float from, float to) {
+        std::vector<glm::vec2> way;
+        for (int i = 0; i <= 6; ++i) way.push_back(at(from + (to - from) * static_cast<float>(i) / 6.0f));
+        script.drag(way);
+    }
+    /// Of the bone at the root, degrees.
+    glm::vec2 limit() const {
+        const test::TempFolder folder;
+        const std::string path = (folder / "scene.json").string();
+        test::play(test::ScriptText(script).command("scene.save", {{"path", path}}));
+        const Json limits = parse_json(test::read(path)).at("labs").at("chain").at("reach").at("plane").at("limits");
+        return {limits.at(0).at("min_deg").get<float>(), limits.at(0).at("max_deg").get<float>()};
+    }
+
+    test::ScriptText script;
+
+  private:
+    glm::vec2 root_{0.0f};
+    float radius_ = 0.0f;
+};
+
+TEST(ChainPlaneMouse, TheEndsOfAnArcAreDraggedToWholeDegrees) {
+    LimitDrag arc;
+    EXPECT_EQ(arc.limit(), glm::vec2(-90, 120));
+    arc.drag(120.0f, 60.3f);
+    EXPECT_EQ(arc.limit(), glm::vec2(-90, 60));
+    arc.drag(-90.0f, -20.0f);
+    EXPECT_EQ(arc.limit(), glm::vec2(-20, 60));
+    arc.script.key("ctrl+z");
+    EXPECT_EQ(arc.limit(), glm::vec2(-90, 60)) << "a drag is one step";
+    arc.drag(-90.0f, 80.0f);
+    EXPECT_EQ(arc.limit(), glm::vec2(59, 60)) << "not past the other end";
+    arc.script.key("ctrl+z");
+    arc.drag(60.0f, 250.0f);
+    EXPECT_EQ(arc.limit(), glm::vec2(-90, 180)) << "not past half a turn";
+    arc.script.key("ctrl+z").key("ctrl+z");
+    EXPECT_EQ(arc.limit(), glm::vec2(-90, 120));
+}
+
 }  // namespace
 }  // namespace tendril::app

@@ -5,6 +5,7 @@
 
 #include "app/document/atomic_file.hpp"
 #include "app/labs/chain/draw.hpp"
+#include "app/view/camera.hpp"
 #include "tests/app/labs/chain_support.hpp"
 #include "tests/app/support/temp_folder.hpp"
 
@@ -18,6 +19,25 @@ class ChainStudy : public ChainTest {
     const Trace& trace() const { return *shown_chain(workspace).trace; }
     std::shared_ptr<const Race> race() const { return shown_chain(workspace).race; }
 };
+
+TEST_F(ChainStudy, its_start_is_brought_into_view) {
+    reach_with(4);
+    run("chain.target", {{"to", {0, -3, 0}}});
+    for (const char* const command : {"microscope.open", "race.open"}) {
+        workspace.camera.target = {0, -3, 0};
+        workspace.camera.distance = 3.0f;
+        const Rect view{{0.0f, 0.0f}, workspace.ui.view_size};
+        run(command, {{"start", "straight"}});
+        const Camera camera(workspace.camera, view);
+        for (const glm::vec3& joint : study().start) {
+            const auto at = camera.project(joint);
+            ASSERT_TRUE(at && view.contains(*at)) << command;
+        }
+        const CameraPose framed = workspace.camera;
+        run(command, {{"start", "straight"}});
+        EXPECT_EQ(workspace.camera, framed) << "what is in view stays there";
+    }
+}
 
 TEST_F(ChainStudy, the_microscope_shows_the_eight_pulls_of_an_iteration_of_four_bones) {
     reach_with(4);

@@ -17,7 +17,7 @@
 //
 // Of a shape whose offsets cancel out, such as an S, rounding decides the side: while the target glides it
 // may be mirrored, that is, jump. From straight and folded chains no such shapes come about, except by CCD: a
-// chain that is folded up, its tip at its root, is first laid on an arc.
+// chain that is folded up, its tip at its root, is first placed on an arc.
 #pragma once
 
 #include <cstdint>

@@ -19,19 +19,10 @@ constexpr float far_away = 0.25f * max_magnitude;
 
 }  // namespace
 
-glm::vec3 Work::home(std::size_t chain, std::size_t joint) const noexcept {
-    if (in_.joints != nullptr) return in_.joints[chain * (in_.bones + 1) + joint];
-    float* const rows = in_.blocks + chain / block_lanes * Block::chain_floats(in_.bones);
-    return Block(rows, nullptr, in_.bones).point(joint, chain % block_lanes);
-}
-
-void Work::set_home(std::size_t chain, std::size_t joint, const glm::vec3& to) const noexcept {
-    if (in_.joints != nullptr) {
-        in_.joints[chain * (in_.bones + 1) + joint] = to;
-        return;
-    }
-    float* const rows = in_.blocks + chain / block_lanes * Block::chain_floats(in_.bones);
-    Block(rows, nullptr, in_.bones).set_point(joint, chain % block_lanes, to);
+Home Work::home(std::size_t chain) const noexcept {
+    if (in_.joints != nullptr) return {&in_.joints[chain * (in_.bones + 1)].x, 3, 1};
+    return {in_.blocks + chain / block_lanes * Block::chain_floats(in_.bones) + chain % block_lanes,
+            3 * block_lanes, block_lanes};
 }
 
 /// Joints and targets in the plane's coordinates, and the side of each chain. One that cannot be iterated has
@@ -39,11 +30,10 @@ void Work::set_home(std::size_t chain, std::size_t joint, const glm::vec3& to) c
 void Work::take_into_plane(const Block& block, std::size_t first, std::size_t lanes,
                            Scratch& scratch) const noexcept {
     for (std::size_t lane = 0; lane < lanes; ++lane) {
-        const glm::vec3 root = home(first + lane, 0), target = block.target_of(lane);
-        const PlaneFrame frame = frame_.at(root);
-        for (std::size_t i = 0; i <= in_.bones; ++i)
-            block.set_point(i, lane, frame.local(home(first + lane, i)));
-        const glm::vec3 local = frame.local(target);
+        const Home joints = home(first + lane);
+        const PlaneFrame frame = frame_.at(joints.joint(0));
+        for (std::size_t i = 0; i <= in_.bones; ++i) block.set_point(i, lane, frame.local(joints.joint(i)));
+        const glm::vec3 local = frame.local(block.target_of(lane));
         block.at(Row::TargetX, lane) = local.x;
         block.at(Row::TargetY, lane) = local.y;
         block.at(Row::TargetZ, lane) = local.z;
@@ -59,7 +49,7 @@ void Work::take_into_plane(const Block& block, std::size_t first, std::size_t la
 void Work::turn_to_targets(const Block& block, std::size_t first, std::size_t lanes,
                            Scratch& scratch) const noexcept {
     for (std::size_t lane = 0; lane < lanes; ++lane) {
-        const glm::vec3 root = home(first + lane, 0);
+        const glm::vec3 root = home(first + lane).joint(0);
         // Too far from the origin to tell from coordinates seen from the root whether all are in range.
         float* const found = block.row(Row::Class) + lane;
         if (!(largest_coordinate(root) <= far_away) || block.class_of(lane) == Class::Invalid)
@@ -78,10 +68,10 @@ void Work::return_from_plane(const Block& block, std::size_t lane, std::size_t c
     if (block.class_of(lane) == Class::Invalid) return;
     Problem problem = take_out(block, lane, scratch);
     face_pole(problem, Unwatched());
-    const glm::vec3 root = home(chain, 0);
-    const PlaneFrame frame = frame_.at(root);
+    const Home joints = home(chain);
+    const PlaneFrame frame = frame_.at(joints.joint(0));
     for (std::size_t i = 1; i <= in_.bones; ++i)
-        set_home(chain, i, frame.returned(problem.joints[i], home(chain, i), scratch.scalar.reach));
+        joints.set_joint(i, frame.returned(problem.joints[i], joints.joint(i), scratch.scalar.reach));
 }
 
 /// Same as Solver::solve in this plane. False if the chain is invalid.
@@ -89,7 +79,8 @@ bool Work::solve_in_plane(std::size_t chain, Scratch& scratch) noexcept {
     Workspace& scalar = scratch.scalar;
     const float* const rows = in_.blocks + chain / block_lanes * Block::chain_floats(in_.bones) +
                               Block::joint_floats(in_.bones) + chain % block_lanes;
-    for (std::size_t i = 0; i <= in_.bones; ++i) scalar.joints[i] = home(chain, i);
+    const Home joints = home(chain);
+    for (std::size_t i = 0; i <= in_.bones; ++i) scalar.joints[i] = joints.joint(i);
     for (std::size_t i = 0; i < in_.bones; ++i) scalar.lengths[i] = rows[i * block_lanes];
     scalar.reach = rows[in_.bones * block_lanes];
     scalar.longest = rows[(in_.bones + 1) * block_lanes];
@@ -102,7 +93,7 @@ bool Work::solve_in_plane(std::size_t chain, Scratch& scratch) noexcept {
     scalar.saved.reset();  // results must not depend on the previous chain
     PlaneProblem problem(scalar, scalar.joints, scalar.saved, target, in_.options);
     const Report answer = problem.solve(Method::Fabrik, nullptr);
-    for (std::size_t i = 1; i <= in_.bones; ++i) set_home(chain, i, scalar.joints[i]);
+    for (std::size_t i = 1; i <= in_.bones; ++i) joints.set_joint(i, scalar.joints[i]);
     report_fallback(chain, answer);
     return true;
 }

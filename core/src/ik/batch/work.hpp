@@ -43,6 +43,25 @@ struct Scratch {
     Options options;                 ///< of the chain there
 };
 
+/// A chain's joints where the caller, or the batch, has them.
+class Home {
+  public:
+    Home(float* first, std::size_t joint_stride, std::size_t coordinate_stride) noexcept
+        : first_(first), joint_(joint_stride), coordinate_(coordinate_stride) {}
+    glm::vec3 joint(std::size_t i) const noexcept {
+        const float* const p = first_ + i * joint_;
+        return {p[0], p[coordinate_], p[2 * coordinate_]};
+    }
+    void set_joint(std::size_t i, const glm::vec3& to) const noexcept {
+        float* const p = first_ + i * joint_;
+        p[0] = to.x, p[coordinate_] = to.y, p[2 * coordinate_] = to.z;
+    }
+
+  private:
+    float* first_;
+    std::size_t joint_, coordinate_;
+};
+
 class Work {
   public:
     struct Input {
@@ -94,8 +113,7 @@ class Work {
     void return_from_plane(const Block& block, std::size_t lane, std::size_t chain,
                            Scratch& scratch) const noexcept;
     bool solve_in_plane(std::size_t chain, Scratch& scratch) noexcept;
-    glm::vec3 home(std::size_t chain, std::size_t joint) const noexcept;
-    void set_home(std::size_t chain, std::size_t joint, const glm::vec3& to) const noexcept;
+    Home home(std::size_t chain) const noexcept;
     void report_fallback(std::size_t chain, const Report& answer) noexcept;
     float* rotations(std::size_t index) const noexcept {
         return in_.rotations + index * 4 * in_.bones * block_lanes;

@@ -33,8 +33,9 @@ Bend bend_of(const Problem& problem, const glm::dvec3& line) noexcept {
         const double beside =
             static_cast<double>(problem.lengths()[i - 1]) + static_cast<double>(problem.lengths()[i]);
         bend.side = plus(bend.side, times(offset, beside / whole));
-        bend.furthest = std::max(bend.furthest, length(offset));
+        bend.furthest = std::max(bend.furthest, dot(offset, offset));
     }
+    bend.furthest = std::sqrt(bend.furthest);
     return bend;
 }
 
