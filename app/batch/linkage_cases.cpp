@@ -8,6 +8,7 @@
 #include "app/document/json_complete.hpp"
 #include "app/labs/linkage/linkage_commands.hpp"
 #include "app/labs/linkage/linkage_lab.hpp"
+#include "app/labs/linkage/measures.hpp"
 
 namespace tendril::app {
 namespace {

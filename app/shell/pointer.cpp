@@ -46,6 +46,17 @@ void emit_camera(Emit& emit, const CameraPose& from, const CameraPose& to) {
     if (!arguments.empty()) emit.continuously("camera.set", arguments);
 }
 
+/// Whether the view is 2D: without perspective, and square on to a plane that has all handles.
+bool is_drawing(const Pointer::Scene& scene) {
+    const CameraPose& pose = scene.camera.pose();
+    constexpr float flat = 1e-3f;  // of what is in view
+    return pose.orthographic &&
+           std::ranges::all_of(scene.lab.handles(scene.workspace), [&](const Handle& each) {
+               return std::abs(glm::dot(each.frame.position - pose.target, scene.camera.forward())) <
+                      flat * pose.distance;
+           });
+}
+
 /// Fingers never move exactly vertically: if the two directions have different effects, only the larger
 /// counts.
 CameraPose scrolled(const MouseWheel& wheel, const Input& input, const Pointer::Scene& scene) {
@@ -199,13 +210,16 @@ void Pointer::move(const Input& input, const Scene& scene, Emit& emit) {
             doing_ = stroking_            ? Doing::Stroke
                      : draggable_         ? Doing::Drag
                      : boxing_            ? Doing::Box
-                     : caught_ == no_pick ? Doing::Orbit
-                                          : Doing::Stray;
+                     : caught_ != no_pick ? Doing::Stray
+                     : is_drawing(scene)  ? Doing::Pan
+                                          : Doing::Orbit;
             if (doing_ == Doing::Stroke) caught_ = caught_handle_ = no_pick;
             if (doing_ == Doing::Drag) drag(input, scene, emit);
             if (doing_ == Doing::Orbit)
                 emit_camera(emit, scene.workspace.camera,
                             orbited(scene.workspace.camera, input.mouse() - caught_at_));
+            if (doing_ == Doing::Pan)
+                emit_camera(emit, scene.workspace.camera, panned(scene.camera, input.mouse() - caught_at_));
             break;
         case Doing::Drag:
             drag(input, scene, emit);

@@ -116,7 +116,7 @@ std::vector<MouseHelp> Shortcuts::mouse_help(std::string_view lab, MousePreset p
         {"Shift held", "moves it in the ground plane"},
         {"Left click", "selects"},
         {"Left drag on nothing, " + gestures_of(preset, MouseAction::Orbit), "turns the view"},
-        {gestures_of(preset, MouseAction::Pan), "shifts the view"},
+        {"Left drag on nothing in 2D, " + gestures_of(preset, MouseAction::Pan), "shifts the view"},
         {(scroll == Scroll::Pan ? "Ctrl+wheel" : "Wheel") + (zoom.empty() ? zoom : ", " + zoom),
          "zooms to the cursor"},
         scroll == Scroll::Pan ? MouseHelp{"Two fingers on a touchpad, wheel", "shifts the view"}

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "app/document/units.hpp"
+#include "app/widgets/axis.hpp"
 #include "app/widgets/fonts.hpp"
 #include "app/widgets/icons.hpp"
 #include "app/widgets/tooltip.hpp"
@@ -15,13 +16,9 @@
 namespace tendril::app {
 namespace {
 
-/// The smallest of ..., 1, 2, 5, 10, ... that divides `range` into at most `most` steps.
+/// Divides `range` into at most `most` round steps.
 float tick_step(float range, int most) {
-    float step = std::pow(10.0f, std::floor(std::log10(std::max(range / static_cast<float>(most), 1e-12f))));
-    for (const float factor : {1.0f, 2.0f, 5.0f, 10.0f}) {
-        if (range / (step * factor) <= static_cast<float>(most)) return step * factor;
-    }
-    return step * 10.0f;
+    return static_cast<float>(axis_step(static_cast<double>(range) / static_cast<double>(most)));
 }
 
 constexpr float far_away = 4000.0f;  ///< pixels beyond the plot at which points are clamped
@@ -200,7 +197,9 @@ class Plot {
         for (int i = 0; first + static_cast<float>(i) * step <= last; ++i) {
             const float value = first + static_cast<float>(i) * step;
             list_->AddLine({x(value), from_.y}, {x(value), to_.y}, line);
-            const std::string text = short_text(static_cast<double>(value), axes_.x_unit);
+            const double largest = static_cast<double>(std::max(std::abs(most_x_), std::abs(axes_.from_x)));
+            const std::string text =
+                axis_text(static_cast<double>(value), static_cast<double>(step), largest, axes_.x_unit);
             const float half = 0.5f * ImGui::CalcTextSize(text.c_str()).x;
             const float most = to_.x - 2.0f * half + 0.5f * ImGui::GetFontSize();
             const float leftmost = lowest > to_.y + 2.0f ? from_.x - 3.0f : from_.x - half;

@@ -8,20 +8,10 @@
 #include <cstdio>
 #include <string>
 
-#include "app/document/units.hpp"
+#include "app/widgets/axis.hpp"
 
 namespace tendril::app {
 namespace {
-
-/// The smallest of ..., 0.1, 0.2, 0.5, 1, 2, 5, ... seconds whose marks are at least `apart` pixels apart.
-double mark_seconds(double seconds_per_pixel, double apart) {
-    const double min_step = seconds_per_pixel * apart;
-    double step = std::pow(10.0, std::floor(std::log10(std::max(min_step, 1e-3))));
-    for (const double factor : {1.0, 2.0, 5.0, 10.0}) {
-        if (step * factor >= min_step) return step * factor;
-    }
-    return step * 10.0;
-}
 
 /// The smallest of 1, 2, 5, 10, 20, ... that is at least `min`.
 std::size_t round_stride(float min) {
@@ -181,11 +171,12 @@ TimeStripUse time_strip(const char* id, int& tick, const TimeStrip& content) {
         if (at >= 0 && at <= content.ticks)
             strip.bar(share(at) - 0.5f / whole, share(at) + 0.5f / whole, content.bars[i]);
     }
-    const double step = mark_seconds(content.ticks * content.seconds / static_cast<double>(strip.span()),
-                                     60.0 * static_cast<double>(Strip::unit()));
+    // The captions are at least 60 pixels apart.
+    const double step = axis_step(60.0 * static_cast<double>(Strip::unit()) * content.ticks *
+                                  content.seconds / static_cast<double>(strip.span()));
     const double last = content.first_seconds + content.ticks * content.seconds;
     for (double t = step * std::ceil(content.first_seconds / step - 1e-9); t <= last + 1e-9; t += step) {
-        const std::string text = fixed_text(t, step < 1.0 ? 1 : 0) + " s";
+        const std::string text = axis_text(t, step, std::max(last, 1.0), "s");
         strip.mark(static_cast<float>((t - content.first_seconds) / content.seconds) / whole, text.c_str());
     }
     strip.played(share(content.start), share(tick), share(std::max(tick, content.known)));

@@ -1,8 +1,8 @@
-#include "app/labs/linkage/code.hpp"
-
+// Export: the linkage as a C++ program that uses the library.
 #include <cmath>
 
 #include "app/labs/kit/code_text.hpp"
+#include "app/labs/linkage/linkage_commands.hpp"
 
 namespace tendril::app {
 namespace {

@@ -9,6 +9,7 @@
 #include "app/document/units.hpp"
 #include "app/labs/linkage/linkage_commands.hpp"
 #include "app/labs/linkage/linkage_lab.hpp"
+#include "app/labs/linkage/measures.hpp"
 #include "app/labs/linkage/past.hpp"
 
 namespace tendril::app {
@@ -43,14 +44,12 @@ class LinkageDrawing {
     float thick() const { return std::max(0.012f * size_, 1e-4f); }
 
     void path() {
-        const std::vector<PathPoint>& path = runtime_.path(part_);
+        const std::vector<PathPoint> path = runtime_.path(part_);
         double fastest = 0.0;
         for (const PathPoint& each : path) fastest = std::max(fastest, each.speed);
-        const bool closed = path.size() > 2 && glm::distance(path.front().at, path.back().at) <
-                                                   0.1 * runtime_.solver(part_.shape).size();
         for (std::size_t i = 0; i < path.size(); ++i) {
             const std::size_t next = (i + 1) % path.size();
-            if (next == 0 && !closed) break;
+            if (next == 0 && !runtime_.turn(part_).whole) break;
             const double share = fastest > 0.0 ? path[next].speed / fastest : 0.0;
             list_.line(in_scene(part_, path[i].at), in_scene(part_, path[next].at), px(2.5f),
                        opaque(speed_colour(view_.palette, share)));
@@ -175,7 +174,9 @@ class LinkageDrawing {
         const ik::LinkPoint& of = part_.linkage().points[i];
         const PickId pick = linkage_pick(i);
         const bool lit = view_.hovered == pick || view_.dragged == pick, selected = part_.selected == of.name;
-        const bool held = of.link == ik::ground_link;
+        const bool plane = part_.shape->in_plane();  // what floats there is no more pinned than it is moved
+        const bool held =
+            plane ? part_.shape->sketch.points[i].hold == ik::SketchHold::Pinned : of.link == ik::ground_link;
         const glm::vec3 colour = selected ? view_.palette.selection
                                  : held   ? view_.palette.target
                                           : view_.palette.joint;
@@ -203,6 +204,30 @@ class LinkageDrawing {
             const glm::vec3 colour = is_stalled(part_, each) ? view_.palette.limit : view_.palette.head;
             list_.ring(in_scene(part_, drawn), px(13.0f), px(each.rate != 0.0 ? 3.5f : 2.0f), opaque(colour));
         }
+        for (const ik::SketchMotor& each : part_.shape->sketch.motors)
+            if (each.against != ik::ground_link && part_.find_drive(each.name) != nullptr)
+                driven_angle(each, opaque(stalled(each.name) ? view_.palette.limit : view_.palette.head));
+    }
+
+    /// The arc from the one bar of a motor to the other.
+    void driven_angle(const ik::SketchMotor& motor, const glm::vec4& colour) {
+        const ik::LinkageSketch& sketch = part_.shape->sketch;
+        const glm::vec3 about = at(motor.point);
+        const auto direction = [&](std::size_t bar) {
+            const auto& points = sketch.bars[bar].points;
+            const glm::vec3 along = at(points[0] == motor.point ? points[1] : points[0]) - about;
+            return std::atan2(along.y, along.x);
+        };
+        constexpr int sides = 32;
+        const float radius = px(26.0f) * view_.camera.metres_per_pixel(about),
+                    from = direction(motor.against);
+        float angle = direction(motor.bar) - from;
+        if (angle < 0.0f) angle += glm::radians(360.0f);
+        const auto end = [&](int i) {
+            const float turned = from + angle * static_cast<float>(i) / sides;
+            return about + radius * glm::vec3(std::cos(turned), std::sin(turned), 0.0f);
+        };
+        for (int i = 0; i < sides; ++i) list_.line(end(i), end(i + 1), px(2.0f), colour);
     }
 
     void targets() {
@@ -225,21 +250,6 @@ class LinkageDrawing {
     LinkageRuntime& runtime_;
     float size_ = 1.0f;
 };
-
-glm::dvec2 bar_way(const LinkagePart& part, const ik::SketchBar& bar, std::size_t from) {
-    const std::size_t to = bar.points[0] == from ? bar.points[1] : bar.points[0];
-    return glm::dvec2(part.at(to) - part.at(from));
-}
-
-double between(const glm::dvec2& a, const glm::dvec2& b) {
-    return glm::degrees(std::atan2(std::abs(a.x * b.y - a.y * b.x), glm::dot(a, b)));
-}
-
-bool is_on_bar(const ik::SketchBar& bar, std::size_t point) {
-    return std::ranges::count(bar.points, point) > 0;
-}
-
-constexpr double no_angle = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
@@ -283,65 +293,61 @@ std::vector<glm::vec3> places_on(const LinkagePart& part, std::size_t link) {
     return places;
 }
 
-double angle_at(const LinkagePart& part, std::string_view point) {
-    const ik::LinkageSketch& sketch = part.shape->sketch;
-    const auto at = sketch.find_point(point);
-    if (!at) return no_angle;
-    std::vector<glm::dvec2> ways;
-    for (const ik::SketchBar& bar : sketch.bars)
-        if (is_on_bar(bar, *at) && ways.size() < 2) ways.push_back(bar_way(part, bar, *at));
-    if (ways.empty()) return no_angle;
-    if (ways.size() == 1) ways.insert(ways.begin(), {1.0, 0.0});
-    return between(ways[0], ways[1]);
-}
-
-double transmission_angle(const LinkagePart& part) {
-    const ik::LinkageSketch& sketch = part.shape->sketch;
-    const auto fold = [](double degrees) { return std::min(degrees, 180.0 - degrees); };
-    for (const ik::SketchMotor& motor : sketch.motors)
-        for (const std::size_t tip : sketch.bars[motor.bar].points)
-            for (const ik::SketchBar& coupler : sketch.bars) {
-                if (tip == motor.point || &coupler == &sketch.bars[motor.bar] || !is_on_bar(coupler, tip))
-                    continue;
-                for (const std::size_t end : coupler.points) {
-                    if (end == tip) continue;
-                    const glm::dvec2 way = glm::dvec2(part.at(tip) - part.at(end));
-                    if (sketch.points[end].hold == ik::SketchHold::Guided) {
-                        const double guide = sketch.points[end].guide;
-                        return 90.0 - fold(between(way, {std::cos(guide), std::sin(guide)}));
-                    }
-                    for (const ik::SketchBar& rocker : sketch.bars)
-                        for (const std::size_t held : rocker.points)
-                            if (&rocker != &coupler && is_on_bar(rocker, end) && held != end &&
-                                sketch.points[held].hold == ik::SketchHold::Pinned)
-                                return fold(between(way, glm::dvec2(part.at(held) - part.at(end))));
-                }
-            }
-    return no_angle;
-}
-
-void look_at_linkage(Workspace& workspace) {
+Bounds linkage_bounds(const Workspace& workspace) {
     const LinkagePart& part = linkage_part(workspace);
     glm::vec3 low(1e30f), high(-1e30f);
     const auto take = [&](const glm::dvec3& point) {
         const glm::vec3 at = in_scene(part, point);
         low = glm::min(low, at), high = glm::max(high, at);
     };
-    for (std::size_t i = 0; i < part.linkage().points.size(); ++i) take(part.at(i));
+    const std::size_t count = part.linkage().points.size();
+    for (std::size_t i = 0; i < count; ++i) take(part.at(i));
     for (const LinkageCopy& copy : part.copies)
-        for (std::size_t i = 0; i < part.linkage().points.size(); ++i) take(part.at(i, copy));
-    for (const PathPoint& each : workspace.runtimes.of<LinkageRuntime>(linkage_lab).path(part)) take(each.at);
+        for (std::size_t i = 0; i < count; ++i) take(part.at(i, copy));
+    PartInTurn in_turn(part);
+    LinkageRuntime fresh;  // by the pose alone: the camera follows from it
+    for (const LinkageTurn::Pose& pose : fresh.turn(part).poses)
+        for (std::size_t i = 0; i < count; ++i) take(in_turn.at(pose)->at(i));
+    for (const LinkageTarget& each : part.targets) take(each.to);
     if (low.x > high.x) low = glm::vec3(-2.0f), high = glm::vec3(2.0f);
-    const Bounds all = bounds_of(low, high, 0.1f);
+    return bounds_of(low, high, 0.1f);
+}
+
+namespace {
+
+constexpr float room_to_move = 1.1f;
+
+CameraPose& linkage_camera(Workspace& workspace) {
+    return workspace.lab == linkage_lab ? workspace.camera : workspace.cameras[linkage_lab];
+}
+
+Rect linkage_view(const Workspace& workspace) {
+    return {glm::vec2(0.0f), workspace.ui.view_size};
+}
+
+}  // namespace
+
+void look_at_linkage(Workspace& workspace) {
+    const LinkagePart& part = linkage_part(workspace);
+    const Bounds all = linkage_bounds(workspace);
     CameraPose from;
     if (part.shape->in_plane() && part.copies.empty()) {
         from.orthographic = true;
     } else {
         from.yaw = 0.6f, from.pitch = 0.3f;
     }
-    const Rect view{glm::vec2(0.0f), workspace.ui.view_size};
-    (workspace.lab == linkage_lab ? workspace.camera : workspace.cameras[linkage_lab]) =
-        framed(from, view, all.centre, 1.1f * all.radius);
+    linkage_camera(workspace) = framed(from, linkage_view(workspace), all.centre, room_to_move * all.radius);
+}
+
+void keep_linkage_in_view(Workspace& workspace) {
+    const Bounds all = linkage_bounds(workspace);
+    CameraPose& pose = linkage_camera(workspace);
+    const Rect view = linkage_view(workspace);
+    const Camera camera(pose, view);
+    const auto centre = camera.project(all.centre);
+    const glm::vec2 reach(all.radius / camera.metres_per_pixel(all.centre));
+    if (centre && view.contains(*centre - reach) && view.contains(*centre + reach)) return;
+    pose = framed(pose, view, all.centre, room_to_move * all.radius);
 }
 
 void LinkageLab::draw(const View& view, DrawList& list) const {

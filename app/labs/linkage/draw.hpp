@@ -23,17 +23,14 @@ glm::vec3 from_scene(const LinkagePart& part, const glm::vec3& at);
 
 /// Where a link is joined to others, in the present pose, in the scene.
 std::vector<glm::vec3> places_on(const LinkagePart& part, std::size_t link);
-/// Frames the linkage with room to move: square on to its plane, or from the side.
+/// The linkage through all its turn, with its targets.
+Bounds linkage_bounds(const Workspace& workspace);
+/// Frames that: square on to its plane, or from the side.
 void look_at_linkage(Workspace& workspace);
+/// Frames it as it is looked at, if part of it is out of view.
+void keep_linkage_in_view(Workspace& workspace);
 
 /// From slow to fast.
 glm::vec3 speed_colour(const Palette& palette, double share);
-
-/// The angle between two bars at a point of the sketch, degrees, 0 to 180; of a pinned bar alone from +X.
-/// NaN: there is none.
-double angle_at(const LinkagePart& part, std::string_view point);
-/// Between the coupler and what it drives, 0 to 90 degrees: the nearer to 90, the better it pushes. NaN if
-/// no motor drives a four-bar or slider-crank.
-double transmission_angle(const LinkagePart& part);
 
 }  // namespace tendril::app

@@ -4,14 +4,15 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/trigonometric.hpp>
+#include <utility>
 
 #include "app/document/json_complete.hpp"
 #include "app/document/refused.hpp"
 #include "app/document/units.hpp"
 #include "app/labs/kit/arguments.hpp"
 #include "app/labs/lab.hpp"
-#include "app/labs/linkage/code.hpp"
 #include "app/labs/linkage/draw.hpp"
+#include "app/labs/linkage/measures.hpp"
 
 namespace tendril::app {
 namespace {
@@ -169,12 +170,36 @@ void let_go(LinkagePart& part, const Arguments&, LinkageRuntime& runtime) {
     solve_linkage(part, runtime);
 }
 
+/// At a dead point the modes meet. A step away from it they are apart.
+bool switch_near_dead_point(const LinkagePart& part, ik::LinkageSolver& solver, ik::LinkageState& state,
+                            std::vector<ik::LinkDriver> drivers) {
+    const ik::LinkageReport& report = part.result.report;
+    if (report.status != ik::LinkageStatus::DeadPoint || !report.stopped) return false;
+    const auto stopped = std::ranges::find(drivers, *report.stopped, &ik::LinkDriver::link);
+    if (stopped == drivers.end()) return false;
+    const bool hinge = part.linkage().links[stopped->link].joint == ik::LinkJoint::Hinge;
+    const double step = hinge ? glm::radians(1.0) : 0.005 * solver.size(), at = stopped->value;
+    for (const double by : {-step, step}) {
+        ik::LinkageState moved = state;
+        stopped->value = at + by;
+        if (solver.solve(moved, {drivers, {}}).status != ik::LinkageStatus::Reached ||
+            !solver.other_mode(moved, drivers))
+            continue;
+        state = moved;
+        return true;
+    }
+    return false;
+}
+
 void other_mode(LinkagePart& part, const Arguments&, LinkageRuntime& runtime) {
     std::vector<ik::LinkDriver> drivers;
     for (const LinkageDrive& each : part.drives)
         drivers.push_back({*part.linkage().find_link(each.joint), part.value_of(each.joint)});
-    if (!runtime.solver(part.shape).other_mode(part.state, drivers))
+    ik::LinkageSolver& solver = runtime.solver(part.shape);
+    if (!solver.other_mode(part.state, drivers) && !switch_near_dead_point(part, solver, part.state, drivers))
         throw Refused("no other assembly mode is found with the drivers where they are");
+    for (LinkageDrive& each : part.drives)
+        if (is_running(each)) each.value = part.value_of(each.joint);
     part.copies = copies_of(*part.shape, part.state);
     solve_linkage(part, runtime);
 }
@@ -195,6 +220,38 @@ void select(LinkagePart& part, const Arguments& given, LinkageRuntime&) {
 
 void choose_tool(LinkagePart& part, const Arguments& given, LinkageRuntime&) {
     part.tool = linkage_tools.value(given.text("name"));
+}
+
+/// The command, and then the camera's part in it.
+Command and_then(Command command, void (*look)(Workspace&)) {
+    command.apply = [change = std::move(command.apply), look](Workspace& workspace, const Arguments& given) {
+        change(workspace, given);
+        look(workspace);
+    };
+    return command;
+}
+
+/// The open lab's last ten seconds begin anew with what a command has just opened instead of `before`. Undo
+/// brings back those from before.
+void begin_past(Workspace& workspace, std::shared_ptr<const Part> before) {
+    workspace.discarded = {std::exchange(workspace.rewind, Rewind()), std::move(before),
+                           workspace.moment_id()};
+    ++workspace.beginnings;
+    workspace.clock.replaying = false;
+    workspace.ui.incident.reset();
+}
+
+/// A command that opens another linkage: it is in view, and the last ten seconds begin with it.
+Command opening_command(const char* name, const char* title, std::vector<Argument> arguments,
+                        const char* help, void (*change)(LinkagePart&, const Arguments&, LinkageRuntime&)) {
+    Command command =
+        and_then(linkage_command(name, title, std::move(arguments), help, change), look_at_linkage);
+    command.apply = [open = std::move(command.apply)](Workspace& workspace, const Arguments& given) {
+        const std::shared_ptr<const Part> before = workspace.document.parts().at(linkage_lab);
+        open(workspace, given);
+        if (workspace.lab == linkage_lab) begin_past(workspace, before);
+    };
+    return command;
 }
 
 std::vector<Argument> length_arguments() {
@@ -254,11 +311,6 @@ void read_lengths(const JsonPlace& lengths, Mechanism& mechanism) {
     load_fields(lengths, mechanism_fields(mechanism));
 }
 
-bool turns(const LinkagePart& part, std::string_view joint) {
-    const auto link = part.linkage().find_link(joint);
-    return link && part.linkage().links[*link].joint == ik::LinkJoint::Hinge;
-}
-
 bool goes_on(const LinkagePart& part) {
     return part.result.report.status == ik::LinkageStatus::IterationLimit &&
            std::ranges::any_of(part.drives, [&](const LinkageDrive& each) {
@@ -302,20 +354,11 @@ void run_motors(LinkagePart& part, double seconds, LinkageRuntime& runtime) {
 
 void add_linkage_commands(CommandTable& table) {
     const Argument to{.name = "to", .type = ArgumentType::Point, .help = "metres"};
-    table.add(
-        {.name = "linkage.preset",
-         .title = "Open a linkage preset",
-         .arguments = {choice_argument("name", true, "which mechanism",
-                                       names(mechanism_kinds(), [](const auto& each) { return each.name; }))},
-         .help = "Opens a mechanism made from named lengths",
-         .effect = Effect::Edit,
-         .apply = [](Workspace& workspace, const Arguments& given) {
-             auto& runtime = workspace.runtimes.of<LinkageRuntime>(linkage_lab);
-             change_part<LinkagePart>(workspace, linkage_lab, [&](LinkagePart& part, const LinkagePart&) {
-                 preset(part, given, runtime);
-             });
-             look_at_linkage(workspace);
-         }});
+    table.add(opening_command(
+        "linkage.preset", "Open a linkage preset",
+        {choice_argument("name", true, "which mechanism",
+                         names(mechanism_kinds(), [](const auto& each) { return each.name; }))},
+        "Opens a mechanism made from named lengths", preset));
     table.add(linkage_command("linkage.set", "Set a mechanism's lengths", length_arguments(),
                               "Sets lengths of the preset; omitted ones are kept", set_lengths));
     table.add(
@@ -349,12 +392,13 @@ void add_linkage_commands(CommandTable& table) {
                               {linkage_point_argument("point", true, "which point"), to},
                               "Moves a point as the mouse does: drivers follow until it is let go", drag));
     table.add(linkage_command("linkage.let_go", "Let go of the linkage", {}, "Ends a drag", let_go));
-    table.add(linkage_command("linkage.other_mode", "Switch to the other assembly mode", {},
-                              "Assembles the same bars the other way, with the drivers where they are",
-                              other_mode));
+    table.add(and_then(
+        linkage_command("linkage.other_mode", "Switch to the other assembly mode", {},
+                        "Assembles the same bars the other way, with the drivers where they are", other_mode),
+        keep_linkage_in_view));
     table.add(
-        linkage_command("linkage.clear", "Remove all bars and joints", {}, "Removes everything", clear));
-    table.add(linkage_command("linkage.reset", "Reset the Linkage lab", {},
+        opening_command("linkage.clear", "Remove all bars and joints", {}, "Removes everything", clear));
+    table.add(opening_command("linkage.reset", "Reset the Linkage lab", {},
                               "Resets this lab to its first state", reset));
     table.add(linkage_command("linkage.select", "Select a joint",
                               {linkage_point_argument("point", false, "which one; none if omitted")},

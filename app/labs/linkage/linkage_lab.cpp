@@ -7,10 +7,9 @@
 #include "app/document/json_complete.hpp"
 #include "app/document/units.hpp"
 #include "app/labs/kit/arguments.hpp"
-#include "app/labs/linkage/code.hpp"
 #include "app/labs/linkage/draw.hpp"
 #include "app/labs/linkage/linkage_commands.hpp"
-#include "app/labs/linkage/panel.hpp"
+#include "app/labs/linkage/measures.hpp"
 #include "app/labs/linkage/past.hpp"
 
 namespace tendril::app {
@@ -197,7 +196,7 @@ std::string LinkageLab::hint(const Workspace& workspace, PickId pick) const {
                                     : "Click a joint to pin it to the ground.";
         case LinkageTool::Motor:
             return point != nullptr ? name + ": click adds a motor, or takes it away."
-                                    : "Click a pinned joint to put a motor there.";
+                                    : "Click a joint to put a motor there: on a pin, or between two bars.";
         case LinkageTool::Move:
             break;
     }
@@ -206,6 +205,10 @@ std::string LinkageLab::hint(const Workspace& workspace, PickId pick) const {
     return name + (stays && named ? ": pinned where the mechanism's lengths put it. Click selects it."
                    : stays        ? ": drag moves it, and its bars change their lengths. Click selects it."
                                   : ": drag moves the linkage. Click selects it and draws its path.");
+}
+
+Bounds LinkageLab::bounds(const Workspace& workspace, bool) const {
+    return linkage_bounds(workspace);
 }
 
 std::vector<LabSetting> LinkageLab::settings() const {
@@ -220,7 +223,7 @@ std::vector<MouseHelp> LinkageLab::mouse_help() const {
     return {{"Left drag on a joint", "moves the linkage; drivers follow"},
             {"Left drag with Draw", "draws a bar, from joint to joint or to a new one"},
             {"Left click with Draw", "adds a joint, on a bar or beside it"},
-            {"Left click with Pin, Motor", "pins a joint; puts a motor at a pinned one"}};
+            {"Left click with Pin, Motor", "pins a joint; puts a motor at one"}};
 }
 
 std::vector<CommandCall> LinkageLab::opening() const {
@@ -269,10 +272,11 @@ Json linkage_state(const LinkagePart& part) {
             {"residual", glm::distance(each.to, part.at(*part.linkage().find_point(each.point)))}};
     if (const LinkageTarget* const target = jumped_target(part))
         jumped = {{"point", target->point}, {"distance", result.report.jump}};
+    const ik::LinkageFreedom freedom = freedom_of(part);
     return Json{{"points", std::move(points)},
                 {"closed_to", result.report.closed_to},
-                {"freedom", result.freedom.actual},
-                {"gruebler", result.freedom.counted},
+                {"freedom", freedom.actual},
+                {"gruebler", freedom.counted},
                 {"status", ik::name(result.report.status)},
                 {"verdict", linkage_verdict(part).text},
                 {"drivers", std::move(drivers)},
@@ -285,9 +289,17 @@ Json linkage_state(const LinkagePart& part) {
 Json LinkageLab::state(const Workspace& workspace) const {
     const LinkagePart& part = linkage_part(workspace);
     const double transmission = transmission_angle(part);
+    LinkageRuntime fresh;  // by the pose alone, to the bit
+    const LinkageTurn& turn = fresh.turn(part);
+    Json worst;
+    if (const auto found = worst_transmission(part, turn)) {
+        const std::string& joint = part.linkage().links[turn.joint].name;
+        worst = {{"degrees", found->degrees}, {"at", shown_value(part, joint, found->value).value}};
+    }
     Json state = linkage_state(part);
     state.update({{"lab", linkage_lab},
                   {"transmission_angle", std::isfinite(transmission) ? Json(transmission) : Json(nullptr)},
+                  {"transmission_minimum", std::move(worst)},
                   {"selected", part.selected.empty() ? Json(nullptr) : Json(part.selected)},
                   {"tool", linkage_tools.name(part.tool)},
                   {"seconds", part.time},

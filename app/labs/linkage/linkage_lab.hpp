@@ -1,6 +1,7 @@
 // The Linkage lab: bars, joints, pins and motors, to draw, drag and run.
 #pragma once
 
+#include "app/labs/kit/panel_rows.hpp"
 #include "app/labs/lab.hpp"
 #include "app/labs/linkage/linkage_part.hpp"
 
@@ -8,6 +9,10 @@ namespace tendril::app {
 
 /// What a linkage is doing, for --state and `tendril solve`: hinges in degrees, all else in metres.
 Json linkage_state(const LinkagePart& part);
+/// What the linkage does, or what to do next: the first text of the inspector.
+Verdict linkage_verdict(const LinkagePart& part);
+/// What the motor does, and what a click changes: "Run", "Stop", "Stopped at 43.0 degrees: turn back".
+std::string motor_button(const LinkagePart& part);
 
 class LinkageLab final : public Lab {
   public:
@@ -39,6 +44,7 @@ class LinkageLab final : public Lab {
                 glm::vec2 to, Emit& emit) const override;
     std::string hint(const Workspace& workspace, PickId pick) const override;
 
+    Bounds bounds(const Workspace& workspace, bool selection_only) const override;
     void panel(const Workspace& workspace, Emit& emit) const override;
     void inspector(const Workspace& workspace, Emit& emit) const override;
     float timeline_height(const Workspace& workspace) const override;

@@ -9,6 +9,7 @@
 #include "app/document/json_place.hpp"
 #include "app/labs/kit/arguments.hpp"
 #include "app/labs/linkage/linkage_commands.hpp"
+#include "app/labs/linkage/measures.hpp"
 
 namespace tendril::app {
 

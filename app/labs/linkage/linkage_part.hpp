@@ -30,7 +30,8 @@ inline constexpr EnumNames<LinkageTool, 4> linkage_tools{
     {{"move", "Move", "Drag a joint: the linkage follows. A click selects it."},
      {"draw", "Draw", "Drag from one place to another: a bar. A click adds a joint, on a bar or beside it."},
      {"pin", "Pin", "A click on a joint pins it to the ground, or lets it move again."},
-     {"motor", "Motor", "A click on a pinned joint gives its bar a motor, or takes it away."}}};
+     {"motor", "Motor",
+      "A click on a joint puts a motor there, on its pin or between its two bars, or takes it away."}}};
 
 /// How far a hinge or slider may go, by the name of its link.
 struct LinkageRange {
@@ -47,6 +48,7 @@ struct LinkageShape {
     std::vector<bool> floating{};        ///< of the sketch's bars: nothing holds it yet
     std::vector<LinkageRange> ranges{};  ///< set by hand; the mechanism may have its own
     ik::Linkage linkage{};               ///< of the bars that are held, with all ranges
+    ik::LinkageFreedom loose{};          ///< of the bars that float
 
     bool in_plane() const { return !sketch.points.empty() || linkage.links.empty(); }
 };
@@ -128,26 +130,37 @@ inline const LinkagePart& linkage_part(const Workspace& workspace) {
     return workspace.document.get<LinkagePart>(linkage_lab);
 }
 
+/// Every pose that one joint drives the linkage through in its assembly mode: all round, or between the ends
+/// of its travel.
+struct LinkageTurn {
+    struct Pose {
+        double value = 0.0;                  ///< of the joint
+        std::vector<double> joints{};        ///< values, one for each link
+        std::vector<ik::LinkPlace> links{};  ///< as in LinkagePart
+    };
+    std::size_t joint = ik::ground_link;  ///< a link
+    bool whole = false;                   ///< it goes all round: after the last pose comes the first
+    std::vector<Pose> poses{};            ///< by value
+};
 /// A point of a path: where, and how fast for each radian or metre of the joint that moves it.
 struct PathPoint {
     glm::dvec3 at{0.0};
     double speed = 0.0;
-    std::vector<double> joints{};  ///< the pose: values, one for each link
 };
 
-/// The solver of the lab's linkage, made once for each shape, and the path of a point.
+/// The solver of the lab's linkage, made once for each shape, and its poses.
 class LinkageRuntime final : public Runtime {
   public:
     ik::LinkageSolver& solver(const std::shared_ptr<const LinkageShape>& shape);
-    /// The whole path of the selected point in this assembly mode, as a joint goes round or between its dead
-    /// points. Empty unless the linkage has one degree of freedom.
-    const std::vector<PathPoint>& path(const LinkagePart& part);
+    /// No poses unless the linkage has one degree of freedom.
+    const LinkageTurn& turn(const LinkagePart& part);
+    /// The path of the selected point through that turn. Empty where there is none.
+    std::vector<PathPoint> path(const LinkagePart& part);
 
   private:
-    std::shared_ptr<const LinkageShape> of_, path_of_;
+    std::shared_ptr<const LinkageShape> of_, turn_of_;
     std::optional<ik::LinkageSolver> solver_;
-    std::string path_point_;
-    std::vector<PathPoint> path_;
+    LinkageTurn turn_;
 };
 /// The joint that moves along a path: a motor's, or else any that the ground holds.
 std::optional<std::size_t> leading_joint(const LinkagePart& part);

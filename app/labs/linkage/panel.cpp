@@ -1,20 +1,23 @@
-#include "app/labs/linkage/panel.hpp"
-
+// The Linkage lab's panel, inspector and timeline.
 #include <imgui.h>
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
+#include <limits>
+#include <utility>
 
 #include "app/document/json_complete.hpp"
 #include "app/document/units.hpp"
 #include "app/fields/field_rows.hpp"
 #include "app/labs/kit/past_strip.hpp"
-#include "app/labs/linkage/draw.hpp"
 #include "app/labs/linkage/linkage_commands.hpp"
 #include "app/labs/linkage/linkage_lab.hpp"
+#include "app/labs/linkage/measures.hpp"
 #include "app/labs/linkage/past.hpp"
 #include "app/widgets/fields.hpp"
+#include "app/widgets/fonts.hpp"
+#include "app/widgets/plot.hpp"
 #include "app/widgets/text.hpp"
 
 namespace tendril::app {
@@ -22,17 +25,6 @@ namespace {
 
 std::string angle_text(double degrees) {
     return fixed_text(degrees, 1) + " degrees";
-}
-
-/// "Crank at 43.0 degrees cannot go on"
-std::string stop_text(const LinkagePart& part) {
-    const ik::LinkageReport& report = part.result.report;
-    if (!report.stopped) return "The drivers cannot go on";
-    const std::string& joint = part.linkage().links[*report.stopped].name;
-    return capitalised(joint) + " at " +
-           (turns(part, joint) ? angle_text(glm::degrees(report.stopped_at))
-                               : fixed_text(report.stopped_at, 3) + " m") +
-           " cannot go on";
 }
 
 std::string closure_names(const LinkagePart& part) {
@@ -44,6 +36,11 @@ std::string closure_names(const LinkagePart& part) {
     return text;
 }
 
+/// "3 degrees of freedom in the plane."
+std::string floats_text(const LinkageShape& shape) {
+    return count_text(static_cast<std::size_t>(shape.loose.actual), "degree") + " of freedom in the plane.";
+}
+
 /// How far the linkage is drawn by hand, as the next step. Empty text: it is done.
 Verdict drawing_verdict(const LinkagePart& part) {
     const LinkageShape& shape = *part.shape;
@@ -53,11 +50,11 @@ Verdict drawing_verdict(const LinkagePart& part) {
     const auto loose = std::ranges::count(shape.floating, true);
     if (loose == static_cast<std::ptrdiff_t>(shape.floating.size()))
         return {"Nothing holds it", Verdict::Kind::Open,
-                "Choose Pin, and click the joints that stay in place."};
+                "It floats: " + floats_text(shape) + " Choose Pin, and click the joints that stay in place."};
     if (loose > 0) {
         const auto first = std::ranges::find(shape.floating, true) - shape.floating.begin();
         return {shape.sketch.bars[static_cast<std::size_t>(first)].name + " is loose", Verdict::Kind::Open,
-                "Join it to the others by a bar, or pin one of its joints."};
+                "It floats: " + floats_text(shape) + " Join it to the others by a bar, or pin a joint."};
     }
     return {};
 }
@@ -76,11 +73,11 @@ Verdict linkage_verdict(const LinkagePart& part) {
         case DeadPoint: {
             const std::string reason = dead_point_reason(part);
             return {"Dead point", Verdict::Kind::Bad,
-                    stop_text(part) + (reason.empty() ? "." : ": " + reason + ".")};
+                    stop_text(part) + " cannot go on" + (reason.empty() ? "." : ": " + reason + ".")};
         }
         case Limited:
             return {"At the end of a range", Verdict::Kind::Bad,
-                    report.stopped ? stop_text(part) + "." : "A target is beyond it."};
+                    report.stopped ? stop_text(part) + " cannot go on." : "A target is beyond it."};
         case TargetMissed:
             return {"Out of reach: " + length_text(report.residual) + " short", Verdict::Kind::Bad,
                     "No pose was found that brings the point to its target."};
@@ -97,10 +94,31 @@ Verdict linkage_verdict(const LinkagePart& part) {
         return {"Cannot move", Verdict::Kind::Open, "It has no degree of freedom: remove a bar or a pin."};
     const std::string text = count_text(static_cast<std::size_t>(freedom), "degree") + " of freedom";
     if (part.drives.empty())
-        return {text, Verdict::Kind::Good, "Drag a joint. Or choose Motor, and click a pinned joint."};
-    const bool runs =
-        std::ranges::any_of(part.drives, [](const LinkageDrive& each) { return each.rate != 0.0; });
-    return {text, Verdict::Kind::Good, runs ? "The motor runs." : "Drag a joint, or run the motor."};
+        return {text, Verdict::Kind::Good, "Drag a joint. Or choose Motor, and click a joint."};
+    const auto runs = std::ranges::find_if(part.drives, is_running);
+    if (runs == part.drives.end()) return {text, Verdict::Kind::Good, "Drag a joint, or run the motor."};
+    const int whole = shown_value(part, runs->joint, part.value_of(runs->joint)).turns;
+    const auto count = static_cast<std::size_t>(std::abs(whole));
+    return {text, Verdict::Kind::Good,
+            count == 0
+                ? "The motor runs."
+                : "The motor runs: " + count_text(count, "whole turn") + (whole < 0 ? " backwards." : ".")};
+}
+
+namespace {
+
+const LinkageDrive* stalled_motor(const LinkagePart& part) {
+    const auto found = std::ranges::find_if(
+        part.drives, [&](const LinkageDrive& each) { return is_running(each) && is_stalled(part, each); });
+    return found != part.drives.end() ? &*found : nullptr;
+}
+
+}  // namespace
+
+std::string motor_button(const LinkagePart& part) {
+    if (const LinkageDrive* const drive = stalled_motor(part))
+        return "Stopped at " + value_text(part, drive->joint, part.value_of(drive->joint)) + ": turn back";
+    return std::ranges::any_of(part.drives, is_running) ? "Stop" : "Run";
 }
 
 namespace {
@@ -120,6 +138,14 @@ void linkage_tool_rows(const LinkagePart& part, Emit& emit) {
     end_row();
 }
 
+/// Radians or metres a second.
+void run_at(const LinkagePart& part, const LinkageDrive& drive, double rate, Emit& emit) {
+    const bool angular = turns(part, drive.joint);
+    emit.continuously(
+        "linkage.motor",
+        {{"joint", drive.joint}, {angular ? "deg_per_s" : "per_s", angular ? glm::degrees(rate) : rate}});
+}
+
 void speed_row(const LinkagePart& part, const LinkageDrive& drive, const std::string& name, Emit& emit) {
     const bool angular = turns(part, drive.joint);
     auto rate = static_cast<float>(angular ? glm::degrees(drive.rate) : drive.rate);
@@ -132,13 +158,18 @@ void speed_row(const LinkagePart& part, const LinkageDrive& drive, const std::st
 
 void value_row(const LinkagePart& part, const LinkageDrive& drive, Emit& emit) {
     const bool angular = turns(part, drive.joint);
-    const double now = part.value_of(drive.joint);
-    auto value = static_cast<float>(angular ? glm::degrees(now) : now);
+    const ShownValue now = shown_value(part, drive.joint, part.value_of(drive.joint));
+    auto value = static_cast<float>(now.value);
     const char* const format = angular ? "%.1f deg" : "%.3f m";
-    if (number_field(drive.joint.c_str(), value, angular ? 0.5f : 0.002f, -1e6f, 1e6f, format))
+    if (number_field(drive.joint.c_str(), value, angular ? 0.5f : 0.002f, -1e6f, 1e6f, format)) {
+        const double wanted = static_cast<double>(value) + 360.0 * now.turns;
         emit.continuously("linkage.drive",
-                          {{"joint", drive.joint}, {angular ? "angle_deg" : "value", value}});
-    explain("The joint's value: drag or type it to drive the linkage.");
+                          {{"joint", drive.joint}, {angular ? "angle_deg" : "value", wanted}});
+    }
+    explain(now.turns == 0 ? "The joint's value: drag or type it to drive the linkage."
+                           : ("The joint's value, in its turn " + std::to_string(now.turns) +
+                              ", counted from 0: drag or type it to drive the linkage.")
+                                 .c_str());
 }
 
 /// Its ends; or a button that gives it one about where it is.
@@ -171,23 +202,27 @@ void range_rows(const LinkagePart& part, const std::string& joint, Emit& emit) {
 /// Runs, stops and frees all motors.
 void motor_buttons(const Workspace& workspace, Emit& emit) {
     const LinkagePart& part = linkage_part(workspace);
-    const auto any = [&](auto has) { return std::ranges::any_of(part.drives, has); };
-    const bool runs = any([](const LinkageDrive& each) { return each.rate != 0.0; });
-    if (row_button(runs ? "Stop" : "Run", 2, !part.drives.empty(),
-                   runs ? "Stops the motor and holds the joint" : "Runs the motor while time passes")) {
+    const bool runs = std::ranges::any_of(part.drives, is_running), stands = stalled_motor(part) != nullptr;
+    const std::string title = motor_button(part);
+    if (row_button(title.c_str(), 1, !part.drives.empty(),
+                   stands ? "The motor cannot go on. Click: it runs the other way"
+                   : runs ? "Stops the motor and holds the joint"
+                          : "Runs the motor while time passes")) {
         for (const LinkageDrive& each : part.drives)
-            if (runs)
+            if (stands)
+                run_at(part, each, -each.rate, emit);
+            else if (runs)
                 emit.continuously("linkage.drive",
                                   {{"joint", each.joint}, {"value", part.value_of(each.joint)}});
             else
                 emit.continuously("linkage.motor", {{"joint", each.joint}});
-        if (!runs && !workspace.clock.playing) emit("time.play");
+        if ((stands || !runs) && !workspace.clock.playing) emit("time.play");
     }
-    if (row_button("Free", 2, any([](const LinkageDrive& each) { return each.held; }),
+    if (row_button("Free", 2, std::ranges::any_of(part.drives, &LinkageDrive::held),
                    "Stops the motor, and lets the joint follow the others"))
         for (const LinkageDrive& each : part.drives)
             emit.continuously("linkage.release", {{"joint", each.joint}});
-    if (row_button("Other mode", 1, !part.linkage().closures.empty(),
+    if (row_button("Other mode", 2, !part.linkage().closures.empty(),
                    "Assembles the same bars the other way, with the drivers where they are"))
         emit("linkage.other_mode");
     end_row();
@@ -207,7 +242,7 @@ void driver_rows(const Workspace& workspace, MoreRows& more, Emit& emit) {
         more.add(each.joint + " range", {"linkage.range", {"joint"}}, limited,
                  [&part, &each, &emit] { range_rows(part, each.joint, emit); });
     }
-    if (part.drives.empty()) note("No motor yet: choose Motor, and click a pinned joint.");
+    if (part.drives.empty()) note("No motor yet: choose Motor, and click a joint.");
     motor_buttons(workspace, emit);
 }
 
@@ -276,21 +311,52 @@ void LinkageLab::panel(const Workspace& workspace, Emit& emit) const {
 
 namespace {
 
+/// How far the motor goes, and how well it pushes there.
+void motor_rows(const Workspace& workspace) {
+    const LinkagePart& part = linkage_part(workspace);
+    const LinkageTurn& turn = workspace.runtimes.of<LinkageRuntime>(linkage_lab).turn(part);
+    if (part.drives.empty() || turn.poses.size() < 2) return;
+    section("Motor");
+    const std::string& joint = part.linkage().links[turn.joint].name;
+    const auto end = [&](const LinkageTurn::Pose& pose) {
+        return fixed_text(shown_value(part, joint, pose.value).value, turns(part, joint) ? 1 : 3);
+    };
+    if (turn.whole)
+        reading("travel", "all round");
+    else
+        reading("travel", "%s to %s %s", end(turn.poses.front()).c_str(), end(turn.poses.back()).c_str(),
+                turns(part, joint) ? "deg" : "m");
+    explain("How far it goes in this assembly mode, between dead points or the ends of its range.");
+    const double now = transmission_angle(part);
+    const auto worst = worst_transmission(part, turn);
+    if (!std::isfinite(now) || !worst) return;
+    reading("transmission angle", "%s", angle_text(now).c_str());
+    explain(
+        "Between the coupler and what it moves: near 90 degrees it pushes well, below 40 poorly, at 0 it is "
+        "at a dead point.");
+    const char* const judged = worst->degrees < 0.5                 ? ", dead point"
+                               : worst->degrees < poor_transmission ? ", poor"
+                                                                    : "";
+    reading("minimum", "%s%s", angle_text(worst->degrees).c_str(), judged);
+    explain(
+        "The smallest on all its travel. Below 40 degrees most of the coupler's force goes into the pins. "
+        "The "
+        "plot of the transmission angle, under Show, draws it over the motor's angle.");
+    reading(("at " + joint).c_str(), "%s", value_text(part, joint, worst->value).c_str());
+    explain("Where the motor is at that minimum.");
+}
+
 void freedom_rows(const LinkagePart& part) {
     section("Degrees of freedom");
-    reading("in this pose", "%d", part.result.freedom.actual);
-    explain("Counted from the equations as they are here: what really can move, motors left out.");
-    reading("Gruebler's count", "%d", part.result.freedom.counted);
+    const ik::LinkageFreedom freedom = freedom_of(part);
+    reading("in this pose", "%d", freedom.actual);
+    explain(
+        "Counted from the equations as they are here: what really can move, motors left out. What floats has "
+        "three in the plane, two to shift and one to turn.");
+    reading("Gruebler's count", "%d", freedom.counted);
     explain(
         "Three for each link, less two for each joint, by number alone: it misses redundant joints, and "
         "poses where bars are in line.");
-    const double transmission = transmission_angle(part);
-    if (std::isfinite(transmission)) {
-        reading("transmission angle", "%s", angle_text(transmission).c_str());
-        explain(
-            "Between the coupler and what it moves: near 90 degrees it pushes well, below 40 badly, at 0 it "
-            "is at a dead point.");
-    }
     reading("loop error", "%s", error_text(part.result.report.closed_to).c_str());
     explain("The largest distance between two points that should be one; none: less than 0.01 mm.");
 }
@@ -304,6 +370,32 @@ void bar_rows(const LinkagePart& part, std::size_t at, Emit& emit) {
             emit.continuously("linkage.length", {{"bar", bar.name}, {"length", length}});
         explain("The bar's length; the others keep theirs. Setting it makes the linkage one drawn by hand.");
     }
+}
+
+/// A motor between two bars at the joint, or its end.
+void pair_motor_row(const ik::LinkageSketch& sketch, std::size_t at, std::size_t bar, std::size_t against,
+                    Emit& emit) {
+    const std::string &first = sketch.bars[bar].name, &second = sketch.bars[against].name;
+    const auto motor = std::ranges::find_if(sketch.motors, [&](const ik::SketchMotor& each) {
+        return each.point == at && std::minmax(each.bar, each.against) == std::minmax(bar, against);
+    });
+    if (motor != sketch.motors.end()) {
+        if (row_button(("Remove " + motor->name).c_str(), 1, true, "Takes the motor between the bars away"))
+            emit("linkage.motor.remove", {{"joint", motor->name}});
+    } else if (row_button(("Motor: " + first + " to " + second).c_str(), 1, true,
+                          "Puts a motor here that turns the one bar against the other")) {
+        emit("linkage.motor.add", {{"point", sketch.points[at].name}, {"bar", second}, {"against", first}});
+    }
+}
+
+/// Where nothing pins the joint, and bars meet.
+void pair_motor_rows(const ik::LinkageSketch& sketch, std::size_t at, Emit& emit) {
+    constexpr std::size_t most_bars = 4;
+    const std::vector<std::size_t> here = bars_at(sketch, at);
+    if (sketch.points[at].hold != ik::SketchHold::Free || here.size() > most_bars) return;
+    for (std::size_t i = 0; i < here.size(); ++i)
+        for (std::size_t k = i + 1; k < here.size(); ++k) pair_motor_row(sketch, at, here[i], here[k], emit);
+    end_row();
 }
 
 void joint_rows(const LinkagePart& part, Emit& emit) {
@@ -331,6 +423,7 @@ void joint_rows(const LinkagePart& part, Emit& emit) {
     if (row_option("Slides", 3, guided, "It slides on a line through where it is"))
         emit("linkage.guide", {{"point", part.selected}});
     end_row();
+    pair_motor_rows(part.shape->sketch, at, emit);
     if (guided) {
         auto along = static_cast<float>(glm::degrees(part.shape->sketch.points[*at].guide));
         if (number_field("line", along, 0.5f, -360.0f, 360.0f, "%.1f deg"))
@@ -345,8 +438,13 @@ void joint_rows(const LinkagePart& part, Emit& emit) {
 void LinkageLab::inspector(const Workspace& workspace, Emit& emit) const {
     const LinkagePart& part = linkage_part(workspace);
     const Palette& colours = palette(workspace.settings.theme);
-    show_verdict(linkage_verdict(part), colours, emit);
+    show_verdict(linkage_verdict(part), colours, emit, {}, [&] {
+        const std::vector<Cure> ways = ways_on(part);
+        for (const Cure& each : ways) cure_line(each.text, each, emit);
+        if (!ways.empty()) note("Or drag a joint.");
+    });
     freedom_rows(part);
+    motor_rows(workspace);
     joint_rows(part, emit);
     incident_rows(workspace, colours, emit);
 }
@@ -355,9 +453,68 @@ float LinkageLab::timeline_height(const Workspace& workspace) const {
     return strip_height + past_plot_height(workspace.settings, linkage_past());
 }
 
+namespace {
+
+/// In lines of a plot's text: the room that is left.
+float lines_left() {
+    ImGui::PushFont(small_font());
+    const float line = ImGui::GetFontSize();
+    ImGui::PopFont();
+    return ImGui::GetContentRegionAvail().y / line - 0.2f;
+}
+
+/// The plotted number over the joint that leads the turn, beside that over time.
+void turn_plot(const Workspace& workspace, std::vector<Curve> curves) {
+    const LinkagePart& part = linkage_part(workspace);
+    const LinkageTurn& turn = workspace.runtimes.of<LinkageRuntime>(linkage_lab).turn(part);
+    const std::string& joint = part.linkage().links[turn.joint].name;
+    const auto now = static_cast<float>(shown_value(part, joint, part.value_of(joint)).value);
+    const Curve line = curves.front();
+    const bool transmission = line.name == transmission_name, split = curves.size() > 1 || turn.whole;
+    const float from = line.points.front().x, to = line.points.back().x;
+    float high = 1.0f, value = std::numeric_limits<float>::quiet_NaN();
+    for (const Curve& each : curves) {
+        for (const glm::vec2& point : each.points) high = std::max(high, point.y);
+        if (const float here = value_at(each, now); std::isfinite(here)) value = here;
+    }
+    if (std::isfinite(value))
+        curves.push_back({.name = "now", .colour = line.colour, .points = {{now, value}}, .width = 1.7f});
+    const std::string title = transmission ? line.name + " (poor below 40)" : line.name;
+    plot("turn plot", curves,
+         {.x = joint.c_str(),
+          .x_unit = turns(part, joint) ? "deg" : "m",
+          .y = title.c_str(),
+          .y_unit = "deg",
+          .min_y = 0.0f,
+          .from_x = split ? 0.0f : from,
+          .min_x = split ? 360.0f : to,
+          .low_y = 0.0f,
+          .high_y = transmission ? 90.0f : 1.1f * high,
+          .level = transmission ? static_cast<float>(poor_transmission) : 0.0f,
+          .at_x = now},
+         lines_left());
+}
+
+}  // namespace
+
 void LinkageLab::timeline(const Workspace& workspace, Emit& emit) const {
+    const auto curve = linkage_past_curve(workspace);
+    std::vector<Curve> over_turn;
+    if (curve) over_turn = linkage_turn_curves(workspace, *curve);
+    const bool beside = !over_turn.empty();
+    constexpr float share = 0.62f;
+    if (beside) {
+        const float gap = ImGui::GetStyle().ItemSpacing.x;
+        ImGui::BeginChild("over time", {share * (ImGui::GetContentRegionAvail().x - gap), 0.0f});
+    }
     const StripLine strip = past_strip(workspace, emit);
-    past_plot(workspace, linkage_past(), linkage_past_curve(workspace), strip, emit);
+    past_plot(workspace, linkage_past(), curve, strip, emit);
+    if (!beside) return;
+    ImGui::EndChild();
+    ImGui::SameLine();
+    ImGui::BeginChild("over a turn");
+    turn_plot(workspace, std::move(over_turn));
+    ImGui::EndChild();
 }
 
 }  // namespace tendril::app

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <limits>
 
 #include "app/document/units.hpp"
 #include "app/labs/linkage/draw.hpp"
-#include "app/labs/linkage/linkage_commands.hpp"
+#include "app/labs/linkage/measures.hpp"
 
 namespace tendril::app {
 namespace {
@@ -19,9 +18,26 @@ const LinkagePart& linkage_of(const SharedPart& part) {
     return dynamic_cast<const LinkagePart&>(*part);
 }
 
-double shown_value(const LinkagePart& part, const LinkageDrive& drive) {
-    const double value = part.value_of(drive.joint);
-    return turns(part, drive.joint) ? glm::degrees(value) : value;
+/// A motor's value, an angle counted on from the turn that the plot begins in.
+PastCurve motor_curve(const Workspace& workspace, const std::string& joint) {
+    const auto shown = [joint](const LinkagePart& part) -> std::optional<ShownValue> {
+        if (part.find_drive(joint) == nullptr) return std::nullopt;
+        return shown_value(part, joint, part.value_of(joint));
+    };
+    const LinkagePart& part = linkage_part(workspace);
+    const Rewind& past = workspace.rewind;
+    const auto first = past.empty() ? shown(part) : shown(linkage_of(past.moments().front().part));
+    const int turns_before = first ? first->turns : 0;
+    return {.name = joint,
+            .of = "motor " + joint + " after turn " + std::to_string(turns_before),
+            .unit = joint.empty() || turns(part, joint) ? "deg" : "m",
+            .lowest_range = 0.01f,
+            .missing = "There is no motor: add one.",
+            .value = [shown, turns_before](const SharedPart& then) {
+                const auto value = shown(linkage_of(then));
+                return value ? value->value + 360.0 * (value->turns - turns_before)
+                             : std::numeric_limits<double>::quiet_NaN();
+            }};
 }
 
 }  // namespace
@@ -29,7 +45,7 @@ double shown_value(const LinkagePart& part, const LinkageDrive& drive) {
 PastView linkage_past() {
     return past_view(
         linkage_lab, "linkage",
-        {{"angle", "angle at a joint"}, {"transmission", "transmission angle"}, {"motor", "first motor"}},
+        {{"angle", "angle at a joint"}, {"transmission", transmission_name}, {"motor", "first motor"}},
         [](const Part& then, const Part& now) {
             return dynamic_cast<const LinkagePart&>(then).shape ==
                    dynamic_cast<const LinkagePart&>(now).shape;
@@ -51,24 +67,48 @@ std::optional<PastCurve> linkage_past_curve(const Workspace& workspace) {
         }
         case LinkageNumber::Transmission:
             return PastCurve{
-                .name = "transmission angle",
+                .name = transmission_name,
                 .of = "transmission",
                 .missing = "A motor has to drive a coupler.",
                 .value = [](const SharedPart& then) { return transmission_angle(linkage_of(then)); }};
         default:
             break;
     }
-    const std::string joint = part.drives.empty() ? "" : part.drives.front().joint;
-    return PastCurve{.name = joint,
-                     .of = "motor " + joint,
-                     .unit = joint.empty() || turns(part, joint) ? "deg" : "m",
-                     .lowest_range = 0.01f,
-                     .missing = "There is no motor: add one.",
-                     .value = [joint](const SharedPart& then) {
-                         const LinkageDrive* const drive = linkage_of(then).find_drive(joint);
-                         return drive != nullptr ? shown_value(linkage_of(then), *drive)
-                                                 : std::numeric_limits<double>::quiet_NaN();
-                     }};
+    return motor_curve(workspace, part.drives.empty() ? "" : part.drives.front().joint);
+}
+
+std::vector<Curve> linkage_turn_curves(const Workspace& workspace, const PastCurve& curve) {
+    std::vector<Curve> pieces;
+    const LinkagePart& part = linkage_part(workspace);
+    const LinkageTurn& turn = workspace.runtimes.of<LinkageRuntime>(linkage_lab).turn(part);
+    const std::size_t chosen = linkage_past().chosen(workspace.settings);
+    if (turn.poses.size() < 2 || chosen == static_cast<std::size_t>(LinkageNumber::Motor)) return pieces;
+    const std::string& joint = part.linkage().links[turn.joint].name;
+    const auto begin_piece = [&] {
+        pieces.push_back({.name = curve.name,
+                          .colour = palette(workspace.settings.theme).accent,
+                          .points = {},
+                          .marks = false});
+    };
+    PartInTurn in_turn(part);
+    std::optional<glm::vec2> last;
+    const auto add = [&](const LinkageTurn::Pose& pose) {
+        const auto value = static_cast<float>(curve.value(in_turn.at(pose)));
+        const glm::vec2 next(shown_value(part, joint, pose.value).value, value);
+        if (!std::isfinite(value)) return;
+        if (!last) begin_piece();
+        if (last && next.x < last->x) {  // from 360 on at 0
+            const float middle = 0.5f * (last->y + value);
+            pieces.back().points.emplace_back(360.0f, middle);
+            begin_piece();
+            pieces.back().points.emplace_back(0.0f, middle);
+        }
+        pieces.back().points.push_back(next);
+        last = next;
+    };
+    for (const LinkageTurn::Pose& each : turn.poses) add(each);
+    if (turn.whole) add(turn.poses.front());
+    return pieces;
 }
 
 PoseLines linkage_lines(const SharedPart& shared) {
@@ -85,46 +125,6 @@ PoseLines linkage_lines(const SharedPart& shared) {
         add(places);
     }
     return lines;
-}
-
-std::vector<std::size_t> joints_in_line(const LinkagePart& part, double within) {
-    const ik::LinkageSketch& sketch = part.shape->sketch;
-    const auto bars_at = [&](std::size_t point) {
-        return std::ranges::count_if(sketch.bars, [&](const ik::SketchBar& each) {
-            return std::ranges::count(each.points, point) > 0;
-        });
-    };
-    double best = within;
-    std::vector<std::size_t> line;
-    for (std::size_t p = 0; p < sketch.points.size(); ++p) {
-        if (sketch.points[p].hold == ik::SketchHold::Pinned) continue;
-        // Of a bar with more joints, the one that joins it to something else.
-        std::vector<std::size_t> ends;
-        for (const ik::SketchBar& bar : sketch.bars) {
-            if (std::ranges::count(bar.points, p) == 0) continue;
-            const auto end = std::ranges::find_if(bar.points, [&](std::size_t other) {
-                return other != p &&
-                       (sketch.points[other].hold != ik::SketchHold::Free || bars_at(other) > 1);
-            });
-            if (end != bar.points.end()) ends.push_back(*end);
-        }
-        if (ends.size() != 2) continue;
-        const glm::dvec3 a = part.at(ends[0]) - part.at(p), b = part.at(ends[1]) - part.at(p);
-        const double angle =
-            glm::degrees(std::atan2(glm::length(glm::cross(a, b)), std::abs(glm::dot(a, b))));
-        if (angle >= best) continue;
-        best = angle;
-        line = {ends[0], p, ends[1]};
-    }
-    return line;
-}
-
-std::string dead_point_reason(const LinkagePart& part, double within) {
-    const std::vector<std::size_t> line = joints_in_line(part, within);
-    if (line.empty()) return {};
-    const auto& points = part.shape->sketch.points;
-    return points[line[0]].name + ", " + points[line[1]].name + " and " + points[line[2]].name +
-           " are in line";
 }
 
 namespace {
@@ -185,26 +185,16 @@ std::vector<Incident> linkage_incidents(const LinkagePart& before, const Linkage
     }
     if (is.stopped && is.stopped != was.stopped) {
         const std::string& joint = after.linkage().links[*is.stopped].name;
-        const bool hinge = turns(after, joint), dead = is.status == DeadPoint;
-        const std::string at = hinge ? fixed_text(glm::degrees(is.stopped_at), 1) + " degrees"
-                                     : fixed_text(is.stopped_at, 3) + " m";
-        Incident incident{.kind = Incident::Kind::Limit,
-                          .joint = *is.stopped,
-                          .name = joint,
-                          .degrees = hinge ? static_cast<float>(glm::degrees(is.stopped_at)) : 0.0f,
-                          .cause = joint + (dead ? " is at a dead point: " : " is stopped by a range: ") +
-                                   "it cannot go on beyond " + at +
-                                   (dead && !reason.empty() ? ", for " + reason : "")};
-        if (const LinkageDrive* const drive = after.find_drive(joint);
-            drive != nullptr && drive->rate != 0.0) {
-            const double rate = -drive->rate;
-            incident.buttons.push_back(
-                {"Turn back",
-                 "Runs linkage.motor the other way",
-                 {{"linkage.motor",
-                   {{"joint", joint}, {hinge ? "deg_per_s" : "per_s", hinge ? glm::degrees(rate) : rate}}}}});
-        }
-        incidents.push_back(std::move(incident));
+        const bool dead = is.status == DeadPoint;
+        incidents.push_back(
+            {.kind = Incident::Kind::Limit,
+             .joint = *is.stopped,
+             .name = joint,
+             .degrees = turns(after, joint) ? static_cast<float>(glm::degrees(is.stopped_at)) : 0.0f,
+             .cause = joint + (dead ? " is at a dead point: " : " is stopped by a range: ") +
+                      "it cannot go on beyond " + value_text(after, joint, is.stopped_at) +
+                      (dead && !reason.empty() ? ", for " + reason : ""),
+             .buttons = ways_on(after)});
     } else if (is.status == Open && was.status != Open) {
         incidents.push_back({.kind = Incident::Kind::Status,
                              .joint = 0,

@@ -39,6 +39,26 @@ ik::LinkageSketch held_part(const ik::LinkageSketch& sketch, const std::vector<b
     return held;
 }
 
+/// The bars that float, piece by piece: with one of its points pinned each is a linkage of two degrees less.
+ik::LinkageFreedom freedom_of_loose(const ik::LinkageSketch& sketch, const std::vector<bool>& floats) {
+    ik::LinkageFreedom all;
+    std::vector<bool> left = floats;
+    for (std::size_t b = 0; b < left.size(); ++b) {
+        if (!left[b]) continue;
+        ik::LinkageSketch piece = sketch;
+        for (ik::SketchPoint& each : piece.points) each.hold = ik::SketchHold::Free;
+        piece.points[piece.bars[b].points.front()].hold = ik::SketchHold::Pinned;
+        const std::vector<bool> others = floating_bars(piece);
+        auto solver =
+            require_value(ik::LinkageSolver::make(require_value(ik::linkage_from(held_part(piece, others)))));
+        const ik::LinkageFreedom freedom = solver.freedom(solver.initial_state());
+        all.counted += freedom.counted + 2;
+        all.actual += freedom.actual + 2;
+        for (std::size_t i = b; i < left.size(); ++i) left[i] = left[i] && others[i];
+    }
+    return all;
+}
+
 /// The angle at which a leg's own motor is while the walker's is at `angle`; or the walker's from the leg's.
 double motor_of(const LinkageCopy& copy, double angle, bool back = false) {
     if (back) return (copy.mirrored ? std::numbers::pi - angle : angle) - copy.phase;
@@ -138,6 +158,7 @@ LinkageShape shape_of(ik::LinkageSketch sketch) {
     LinkageShape shape;
     shape.floating = floating_bars(sketch);
     shape.linkage = require_value(ik::linkage_from(held_part(sketch, shape.floating)));
+    shape.loose = freedom_of_loose(sketch, shape.floating);
     shape.sketch = std::move(sketch);
     return shape;
 }

@@ -162,30 +162,76 @@ void set_length(LinkageSketch& sketch, const Arguments& given) {
     for (std::size_t i = 0; i < sketch.points.size(); ++i) sketch.points[i].at = glm::dvec2(solver.point(i));
 }
 
+bool has_motor(const LinkageSketch& sketch, std::size_t point, std::size_t bar, std::size_t against) {
+    return std::ranges::any_of(sketch.motors, [&](const ik::SketchMotor& each) {
+        return each.point == point &&
+               ((each.bar == bar && each.against == against) || (each.bar == against && each.against == bar));
+    });
+}
+
+/// How many bars lie between each bar and the ground; the largest number: it floats.
+std::vector<std::size_t> bars_from_ground(const LinkageSketch& sketch) {
+    std::vector<std::size_t> away(sketch.bars.size(), ik::ground_link);
+    std::vector<bool> held(sketch.points.size());
+    for (std::size_t i = 0; i < held.size(); ++i) held[i] = sketch.points[i].hold != SketchHold::Free;
+    for (std::size_t step = 0; step < away.size(); ++step) {
+        const std::vector<bool> before = held;
+        for (std::size_t b = 0; b < away.size(); ++b) {
+            const auto& points = sketch.bars[b].points;
+            if (away[b] != ik::ground_link ||
+                std::ranges::none_of(points, [&](std::size_t each) { return before[each]; }))
+                continue;
+            away[b] = step;
+            for (const std::size_t each : points) held[each] = true;
+        }
+    }
+    return away;
+}
+
+/// The bar that a motor turns, and the one it turns it against: of two, that which is nearer to the ground.
+std::pair<std::size_t, std::size_t> motor_bars(const LinkageSketch& sketch, std::size_t point,
+                                               const Arguments& given) {
+    const std::string& at = sketch.points[point].name;
+    const bool pinned = sketch.points[point].hold == SketchHold::Pinned;
+    const std::vector<std::size_t> here = bars_at(sketch, point);
+    const auto given_bar = [&](const char* argument) {
+        if (!given.has(argument)) return ik::ground_link;
+        const std::size_t bar = require_bar(sketch, given.text(argument));
+        if (std::ranges::count(here, bar) == 0)
+            throw Refused("bar \"" + sketch.bars[bar].name + "\" is not on " + at);
+        return bar;
+    };
+    std::size_t bar = given_bar("bar");
+    const std::size_t against = given_bar("against");
+    if (bar != ik::ground_link && bar == against)
+        throw Refused("against: give another bar than \"" + sketch.bars[bar].name + "\"");
+    if (pinned && against == ik::ground_link) {
+        const auto still = std::ranges::find_if(
+            here, [&](std::size_t each) { return !has_motor(sketch, point, each, ik::ground_link); });
+        if (bar == ik::ground_link && still == here.end())
+            throw Refused("there is no bar on " + at + " that a motor could turn");
+        return {bar == ik::ground_link ? *still : bar, ik::ground_link};
+    }
+    if (bar != ik::ground_link && against != ik::ground_link) return {bar, against};
+    if (here.size() < 2)
+        throw Refused(at + " is not pinned: a motor there needs a second bar to push against");
+    if (here.size() > 2)
+        throw Refused(count_text(here.size(), "bar") + " meet at " + at +
+                      ": choose two of them in the inspector, or give bar and against");
+    if (bar != ik::ground_link) return {bar, here[0] == bar ? here[1] : here[0]};
+    if (against != ik::ground_link) return {here[0] == against ? here[1] : here[0], against};
+    const std::vector<std::size_t> away = bars_from_ground(sketch);
+    return away[here[1]] < away[here[0]] ? std::pair(here[0], here[1]) : std::pair(here[1], here[0]);
+}
+
 void add_motor(LinkageSketch& sketch, const Arguments& given) {
     const std::size_t point = require_in_sketch(sketch, given.text("point"));
-    const std::string& at = sketch.points[point].name;
-    if (sketch.points[point].hold != SketchHold::Pinned)
-        throw Refused(at + " is not pinned: a motor needs the ground to push against");
-    const auto driven = [&](std::size_t bar) {
-        return std::ranges::any_of(sketch.motors, [&](const ik::SketchMotor& each) {
-            return each.point == point && each.bar == bar;
-        });
-    };
-    std::size_t bar = ik::ground_link;
-    if (given.has("bar")) {
-        bar = require_bar(sketch, given.text("bar"));
-        if (std::ranges::count(sketch.bars[bar].points, point) == 0)
-            throw Refused("bar \"" + sketch.bars[bar].name + "\" is not on " + at);
-        if (driven(bar)) throw Refused("bar \"" + sketch.bars[bar].name + "\" has a motor already");
-    } else {
-        for (std::size_t b = sketch.bars.size(); b-- > 0;)
-            if (std::ranges::count(sketch.bars[b].points, point) > 0 && !driven(b)) bar = b;
-        if (bar == ik::ground_link) throw Refused("there is no bar on " + at + " that a motor could turn");
-    }
+    const auto [bar, against] = motor_bars(sketch, point, given);
+    if (has_motor(sketch, point, bar, against))
+        throw Refused("bar \"" + sketch.bars[bar].name + "\" has a motor there already");
     const std::string name = given.has("name") ? given.text("name") : free_link_name(sketch, "motor");
     if (name.empty() || is_link_name(sketch, name)) throw Refused("name: \"" + name + "\" is taken");
-    sketch.motors.push_back({.name = name, .point = point, .bar = bar});
+    sketch.motors.push_back({.name = name, .point = point, .bar = bar, .against = against});
 }
 
 void remove_motor(LinkageSketch& sketch, const Arguments& given) {
@@ -234,8 +280,8 @@ Argument place_argument(const char* name) {
     return {.name = name, .type = ArgumentType::Point, .help = "[x, y, 0], metres"};
 }
 
-Argument bar_argument(bool required, const char* help) {
-    return offering(text_argument("bar", required, help), [](const Workspace& workspace) {
+Argument bar_argument(bool required, const char* help, const char* name = "bar") {
+    return offering(text_argument(name, required, help), [](const Workspace& workspace) {
         return names(linkage_part(workspace).shape->sketch.bars, [](const auto& each) { return each.name; });
     });
 }
@@ -247,6 +293,13 @@ Argument end_argument(const char* name) {
 }
 
 }  // namespace
+
+std::vector<std::size_t> bars_at(const LinkageSketch& sketch, std::size_t point) {
+    std::vector<std::size_t> bars;
+    for (std::size_t b = 0; b < sketch.bars.size(); ++b)
+        if (std::ranges::count(sketch.bars[b].points, point) > 0) bars.push_back(b);
+    return bars;
+}
 
 bool is_link_name(const LinkageSketch& sketch, const std::string& name) {
     const auto point = sketch.find_point(name);
@@ -277,8 +330,14 @@ void add_sketch_commands(CommandTable& table) {
         {bar_argument(true, "which bar"), {.name = "length", .help = "metres", .low = 1e-6, .high = 1e6}},
         "Makes a bar longer or shorter; the others keep their lengths", set_length));
     table.add(sketch_command("linkage.motor.add", "Add a motor",
-                             {point, bar_argument(false, "which of its bars; the first if omitted"), name},
-                             "Puts a motor at a pinned joint: it turns a bar", add_motor));
+                             {point, bar_argument(false, "which of its bars; the first if omitted"),
+                              bar_argument(false,
+                                           "another of its bars; if omitted the ground, or where nothing "
+                                           "pins the joint, the bar nearer to it",
+                                           "against"),
+                              name},
+                             "Puts a motor at a joint: it turns a bar against the ground, or another bar",
+                             add_motor));
     table.add(sketch_command("linkage.motor.remove", "Remove a motor",
                              {text_argument("joint", true, "which motor")}, "Removes a motor; its bar stays",
                              remove_motor));

@@ -179,7 +179,7 @@ ik::CurveReport BentChain::Plan::bend(std::span<rig::Transform> pose, std::span<
         curve[i + 1] = length(way) > nothing ? narrow(way) : glm::vec3(0.0f);
     }
     ik::detail::Path along(curve, options.kind, directions[0]);
-    const glm::dquat swing = minimal_rotation(directions[0], along.tangent({}, directions[0]));
+    const glm::dquat swing = minimal_rotation(directions[0], along.sample({}, directions[0]).tangent);
     for (std::size_t i = 0; i < bones(); ++i) {
         const glm::dquat straight = math::compose(swing, rotations[i]);
         rest[i] = narrow(rotated(swing, directions[i]));

@@ -47,6 +47,31 @@ TEST(LinkageInTheWindow, AClickOnNothingAddsAJointAndOnABarOneToIt) {
     EXPECT_EQ(turned["points"]["D"], state["points"]["D"]);
 }
 
+TEST(LinkageInTheWindow, APresetsLastTenSecondsBeginWithIt) {
+    ScriptText script = ScriptText()
+                            .command("lab.open", {{"name", "linkage"}})
+                            .command("view.linkage_plot", {{"of", "motor"}})
+                            .command("linkage.preset", {{"name", "four_bar"}})
+                            .command("linkage.motor", {{"joint", "crank"}})
+                            .wait(60);
+    const Json first = state_after(script);
+    EXPECT_GE(first["time"]["remembered"].get<int>(), 59);
+    EXPECT_GE(first["past"]["plot"]["values"].size(), 59u);
+    script.command("linkage.preset", {{"name", "slider_crank"}});
+    const Json opened = state_after(script);
+    EXPECT_EQ(opened["past"]["plot"]["values"].size(), 1u) << "the new linkage as it is";
+    const Json undone = state_after(ScriptText(script).command("undo"));
+    EXPECT_EQ(undone["points"], first["points"]);
+    EXPECT_EQ(undone["past"]["plot"]["values"].size(), first["past"]["plot"]["values"].size())
+        << "undo brings its past back";
+    script.command("linkage.motor", {{"joint", "crank"}}).wait(20);
+    const Json runs = state_after(script);
+    EXPECT_LE(runs["past"]["plot"]["values"].size(), 22u);
+    EXPECT_GE(runs["past"]["plot"]["values"].size(), 20u);
+    script.command("linkage.clear");
+    EXPECT_EQ(state_after(script)["events"], Json::array());
+}
+
 TEST(LinkageInTheWindow, AJointIsDraggedAndTheDragIsOneStep) {
     const ScriptText before = ScriptText().command("lab.open", {{"name", "linkage"}}).wait(2);
     const Json state = state_after(before);

@@ -30,6 +30,36 @@ TEST(View, ALeftDragOnNothingTurnsItAndAClickDoesNot) {
     EXPECT_EQ(dragged["camera"], start["camera"]);
 }
 
+/// In 2D, a drawing: without perspective, square on to the plane that all of it lies in.
+TEST(View, ALeftDragOnNothingShiftsADrawing) {
+    const glm::vec2 by(60, 20);
+    const auto after_drag = [&](ScriptText script, const char* button) {
+        const Json before = state_after(script.wait(2))["camera"];
+        const Json after =
+            state_after(script.drag({nothing, nothing + 0.5f * by, nothing + by}, button))["camera"];
+        return std::pair(before, after);
+    };
+    const ScriptText linkage = ScriptText().command("lab.open", {{"name", "linkage"}});
+    const ScriptText arm =
+        ScriptText()
+            .command("chain.preset", {{"name", "flat_arm"}})
+            .command("camera.set", {{"yaw_deg", 0}, {"pitch_deg", 0}, {"orthographic", true}});
+    for (const ScriptText& drawing : {linkage, arm}) {
+        const auto [before, after] = after_drag(drawing, "left");
+        EXPECT_EQ(after["yaw_deg"], before["yaw_deg"]);
+        EXPECT_EQ(after["pitch_deg"], before["pitch_deg"]);
+        EXPECT_LT(after["target"][0].get<double>(), before["target"][0].get<double>())
+            << "it follows the mouse";
+        EXPECT_GT(after["target"][1].get<double>(), before["target"][1].get<double>());
+        const auto [still, turned] = after_drag(drawing, "right");
+        EXPECT_NE(turned["yaw_deg"], still["yaw_deg"]);
+    }
+    for (const Json& other : {Json{{"yaw_deg", 20}, {"orthographic", true}}, Json{{"orthographic", false}}}) {
+        const auto [before, after] = after_drag(ScriptText(linkage).command("camera.set", other), "left");
+        EXPECT_NE(after["yaw_deg"], before["yaw_deg"]) << other;
+    }
+}
+
 TEST(View, ButtonsFollowThePreset) {
     const auto turns = [](const char* name, const char* button) {
         const Json before = state_after(preset(name));

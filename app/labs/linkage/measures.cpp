@@ -1,0 +1,254 @@
+#include "app/labs/linkage/measures.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+#include <limits>
+
+#include "app/document/text.hpp"
+#include "app/document/units.hpp"
+#include "app/labs/linkage/linkage_commands.hpp"
+
+namespace tendril::app {
+namespace {
+
+constexpr double no_angle = std::numeric_limits<double>::quiet_NaN();
+
+bool is_on_bar(const ik::SketchBar& bar, std::size_t point) {
+    return std::ranges::count(bar.points, point) > 0;
+}
+
+glm::dvec2 way(const LinkagePart& part, std::size_t from, std::size_t to) {
+    return glm::dvec2(part.at(to) - part.at(from));
+}
+
+/// Degrees, 0 to 180.
+double between(const glm::dvec2& a, const glm::dvec2& b) {
+    return glm::degrees(std::atan2(std::abs(a.x * b.y - a.y * b.x), glm::dot(a, b)));
+}
+
+/// A motor's crank, the coupler on it, and what the coupler drives: a rocker on a pin, or a slider.
+struct DrivenLoop {
+    const ik::SketchMotor* motor = nullptr;
+    std::size_t tip = 0;       ///< of the crank, where the coupler is
+    std::size_t end = 0;       ///< of the coupler
+    std::size_t pin = no_pin;  ///< of the rocker
+    static constexpr std::size_t no_pin = ik::ground_link;
+};
+
+std::optional<DrivenLoop> loop_of(const ik::LinkageSketch& sketch, const ik::SketchMotor& motor,
+                                  std::size_t tip, const ik::SketchBar& coupler) {
+    for (const std::size_t end : coupler.points) {
+        if (end == tip) continue;
+        if (sketch.points[end].hold == ik::SketchHold::Guided) return DrivenLoop{&motor, tip, end};
+        for (const ik::SketchBar& rocker : sketch.bars)
+            for (const std::size_t pin : rocker.points)
+                if (&rocker != &coupler && is_on_bar(rocker, end) && pin != end &&
+                    sketch.points[pin].hold == ik::SketchHold::Pinned)
+                    return DrivenLoop{&motor, tip, end, pin};
+    }
+    return std::nullopt;
+}
+
+std::optional<DrivenLoop> driven_loop(const ik::LinkageSketch& sketch) {
+    for (const ik::SketchMotor& motor : sketch.motors) {
+        if (motor.against != ik::ground_link) continue;
+        const ik::SketchBar& crank = sketch.bars[motor.bar];
+        for (const std::size_t tip : crank.points)
+            for (const ik::SketchBar& coupler : sketch.bars) {
+                if (tip == motor.point || &coupler == &crank || !is_on_bar(coupler, tip)) continue;
+                if (const auto found = loop_of(sketch, motor, tip, coupler)) return found;
+            }
+    }
+    return std::nullopt;
+}
+
+double transmission_in(const LinkagePart& part, const DrivenLoop& loop) {
+    const auto fold = [](double degrees) { return std::min(degrees, 180.0 - degrees); };
+    const glm::dvec2 coupler = way(part, loop.end, loop.tip);
+    if (loop.pin != DrivenLoop::no_pin) return fold(between(coupler, way(part, loop.end, loop.pin)));
+    const double guide = part.shape->sketch.points[loop.end].guide;
+    return 90.0 - fold(between(coupler, {std::cos(guide), std::sin(guide)}));
+}
+
+/// A hinge in the plane that no range stops: its turns are all alike.
+bool goes_round(const LinkagePart& part, std::string_view joint) {
+    if (!part.shape->in_plane() || !turns(part, joint)) return false;
+    const ik::Link& link = part.linkage().links[*part.linkage().find_link(joint)];
+    return !std::isfinite(link.minimum) && !std::isfinite(link.maximum);
+}
+
+}  // namespace
+
+bool turns(const LinkagePart& part, std::string_view joint) {
+    const auto link = part.linkage().find_link(joint);
+    return link && part.linkage().links[*link].joint == ik::LinkJoint::Hinge;
+}
+
+ShownValue shown_value(const LinkagePart& part, std::string_view joint, double value) {
+    if (!turns(part, joint)) return {value};
+    const double degrees = glm::degrees(value);
+    if (!goes_round(part, joint)) return {degrees};
+    constexpr double half_a_digit = 0.05;  // 359.96 would read 360.0
+    const double whole = std::floor((degrees + half_a_digit) / 360.0);
+    return {std::max(degrees - 360.0 * whole, 0.0), static_cast<int>(std::clamp(whole, -1e9, 1e9))};
+}
+
+std::string value_text(const LinkagePart& part, std::string_view joint, double value) {
+    const double shown = shown_value(part, joint, value).value;
+    return turns(part, joint) ? fixed_text(shown, 1) + " degrees" : fixed_text(shown, 3) + " m";
+}
+
+double angle_at(const LinkagePart& part, std::string_view point) {
+    const ik::LinkageSketch& sketch = part.shape->sketch;
+    const auto at = sketch.find_point(point);
+    if (!at) return no_angle;
+    std::vector<glm::dvec2> ways;
+    for (const ik::SketchBar& bar : sketch.bars)
+        if (is_on_bar(bar, *at) && ways.size() < 2)
+            ways.push_back(way(part, *at, bar.points[0] == *at ? bar.points[1] : bar.points[0]));
+    if (ways.empty()) return no_angle;
+    if (ways.size() == 1) ways.insert(ways.begin(), {1.0, 0.0});
+    return between(ways[0], ways[1]);
+}
+
+double transmission_angle(const LinkagePart& part) {
+    const auto loop = driven_loop(part.shape->sketch);
+    return loop ? transmission_in(part, *loop) : no_angle;
+}
+
+std::optional<WorstTransmission> worst_transmission(const LinkagePart& part, const LinkageTurn& turn) {
+    const auto loop = driven_loop(part.shape->sketch);
+    if (!loop || turn.poses.empty()) return std::nullopt;
+    PartInTurn in_turn(part);
+    const std::vector<LinkageTurn::Pose>& poses = turn.poses;
+    const std::size_t count = poses.size();
+    std::vector<double> angles;
+    for (const LinkageTurn::Pose& each : poses) angles.push_back(transmission_in(*in_turn.at(each), *loop));
+    const auto at = static_cast<std::size_t>(std::ranges::min_element(angles) - angles.begin());
+    WorstTransmission worst{angles[at], poses[at].value};
+    if (count < 3 || (!turn.whole && (at == 0 || at + 1 == count))) return worst;
+    // Between the poses: the lowest point of the parabola through three.
+    const double before = angles[(at + count - 1) % count], after = angles[(at + 1) % count];
+    const double bend = before - 2.0 * worst.degrees + after;
+    if (!(bend > 1e-9)) return worst;
+    const double by = 0.5 * (before - after) / bend;
+    const double step = std::abs(poses[at == 0 ? 1 : at].value - poses[at == 0 ? 0 : at - 1].value);
+    worst.degrees = std::max(worst.degrees - 0.25 * (before - after) * by, 0.0);
+    worst.value += by * step;
+    return worst;
+}
+
+ik::LinkageFreedom freedom_of(const LinkagePart& part) {
+    const ik::LinkageFreedom &held = part.result.freedom, &loose = part.shape->loose;
+    return {held.counted + loose.counted, held.actual + loose.actual};
+}
+
+std::vector<std::size_t> joints_in_line(const LinkagePart& part, double within) {
+    const ik::LinkageSketch& sketch = part.shape->sketch;
+    const auto bars_at = [&](std::size_t point) {
+        return std::ranges::count_if(sketch.bars,
+                                     [&](const ik::SketchBar& each) { return is_on_bar(each, point); });
+    };
+    double best = within;
+    std::vector<std::size_t> line;
+    for (std::size_t p = 0; p < sketch.points.size(); ++p) {
+        if (sketch.points[p].hold == ik::SketchHold::Pinned) continue;
+        // Of a bar with more joints, the one that joins it to something else.
+        std::vector<std::size_t> ends;
+        for (const ik::SketchBar& bar : sketch.bars) {
+            if (!is_on_bar(bar, p)) continue;
+            const auto end = std::ranges::find_if(bar.points, [&](std::size_t other) {
+                return other != p &&
+                       (sketch.points[other].hold != ik::SketchHold::Free || bars_at(other) > 1);
+            });
+            if (end != bar.points.end()) ends.push_back(*end);
+        }
+        if (ends.size() != 2) continue;
+        const double angle = between(way(part, p, ends[0]), way(part, p, ends[1]));
+        const double bend = std::min(angle, 180.0 - angle);
+        if (bend >= best) continue;
+        best = bend;
+        line = {ends[0], p, ends[1]};
+    }
+    return line;
+}
+
+std::string dead_point_reason(const LinkagePart& part, double within) {
+    const std::vector<std::size_t> line = joints_in_line(part, within);
+    if (line.empty()) return {};
+    const auto& points = part.shape->sketch.points;
+    return points[line[0]].name + ", " + points[line[1]].name + " and " + points[line[2]].name +
+           " are in line";
+}
+
+std::string stop_text(const LinkagePart& part) {
+    const ik::LinkageReport& report = part.result.report;
+    if (!report.stopped) return "The drivers";
+    const std::string& joint = part.linkage().links[*report.stopped].name;
+    return capitalised(joint) + " at " + value_text(part, joint, report.stopped_at);
+}
+
+std::optional<double> longest_round_crank(const LinkagePart& part) {
+    const ik::LinkageSketch& sketch = part.shape->sketch;
+    const auto loop = driven_loop(sketch);
+    if (!loop || part.linkage().closures.size() != 1) return std::nullopt;
+    const double coupler = glm::length(way(part, loop->tip, loop->end));
+    double longest = 0.0;
+    if (loop->pin == DrivenLoop::no_pin) {
+        // The coupler reaches the slider's line from everywhere on the crank's circle.
+        const double guide = sketch.points[loop->end].guide;
+        const glm::dvec2 to_line = way(part, loop->motor->point, loop->end);
+        longest = coupler - std::abs(to_line.x * std::sin(guide) - to_line.y * std::cos(guide));
+    } else {
+        // Coupler and rocker span the distance to the rocker's pin where it is largest and where it is
+        // smallest.
+        const double ground = glm::length(way(part, loop->motor->point, loop->pin)),
+                     rocker = glm::length(way(part, loop->end, loop->pin));
+        longest = std::min(coupler + rocker - ground, ground - std::abs(coupler - rocker));
+    }
+    return longest > 0.01 ? std::optional(longest) : std::nullopt;
+}
+
+std::vector<Cure> ways_on(const LinkagePart& part) {
+    std::vector<Cure> ways;
+    const ik::LinkageReport& report = part.result.report;
+    if (report.status != ik::LinkageStatus::DeadPoint || !report.stopped) return ways;
+    const std::string& joint = part.linkage().links[*report.stopped].name;
+    const LinkageDrive* const drive = part.find_drive(joint);
+    if (drive == nullptr) return ways;
+    if (drive->rate != 0.0) {
+        const bool hinge = turns(part, joint);
+        const CommandCall back{
+            "linkage.motor",
+            {{"joint", joint},
+             {hinge ? "deg_per_s" : "per_s", hinge ? glm::degrees(-drive->rate) : -drive->rate}}};
+        ways.push_back({"Turn back",
+                        "Runs the motor the other way: the linkage goes back as it came",
+                        {back},
+                        "Back as it came"});
+        ways.push_back(
+            {"Other mode",
+             "Runs the motor the other way with the bars assembled the other way: the linkage goes "
+             "on through the dead point",
+             {{"linkage.other_mode", {}}, back},
+             "On, past the dead point"});
+    }
+    if (const auto longest = longest_round_crank(part)) {
+        const ik::LinkageSketch& sketch = part.shape->sketch;
+        const ik::SketchBar& crank = sketch.bars[driven_loop(sketch)->motor->bar];
+        const double shorter = std::floor(95.0 * *longest) / 100.0;  // short of the folded linkage
+        if (crank.points.size() == 2 && shorter > 0.0)
+            ways.push_back({"Shorten",
+                            "Makes the crank " + fixed_text(shorter, 2) +
+                                " m long: it turns all round up to " + fixed_text(*longest, 2) + " m",
+                            {kind_of(part.shape->mechanism) != nullptr
+                                 ? CommandCall{"linkage.set", {{"crank", shorter}}}
+                                 : CommandCall{"linkage.length", {{"bar", crank.name}, {"length", shorter}}}},
+                            capitalised(crank.name) + " of " + fixed_text(shorter, 2) + " m"});
+    }
+    return ways;
+}
+
+}  // namespace tendril::app

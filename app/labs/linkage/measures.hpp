@@ -1,0 +1,72 @@
+// What is read off a linkage in its pose: values as a person reads them, angles, how well the coupler pushes,
+// and why a motor stops.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/document/incident.hpp"
+#include "app/labs/linkage/linkage_part.hpp"
+
+namespace tendril::app {
+
+/// Whether the joint of that link turns: its values are angles.
+bool turns(const LinkagePart& part, std::string_view joint);
+
+/// A joint's value as it is shown: degrees or metres. An angle in the plane without a range is that in its
+/// turn, 0 to 360.
+struct ShownValue {
+    double value = 0.0;
+    int turns = 0;  ///< whole ones before it
+};
+ShownValue shown_value(const LinkagePart& part, std::string_view joint, double value);
+/// "43.0 degrees", "0.250 m"
+std::string value_text(const LinkagePart& part, std::string_view joint, double value);
+
+/// The angle between two bars at a point of the sketch, degrees, 0 to 180; of a pinned bar alone from +X.
+/// NaN: there is none.
+double angle_at(const LinkagePart& part, std::string_view point);
+
+/// Below this a coupler pushes poorly: the usual limit in books on mechanisms.
+inline constexpr double poor_transmission = 40.0;
+/// Between the coupler and what it drives, 0 to 90 degrees: the nearer to 90, the better it pushes. NaN if
+/// no motor drives a four-bar or slider-crank.
+double transmission_angle(const LinkagePart& part);
+/// The smallest through a turn, and at which value of the joint that leads it. None where there is no turn.
+struct WorstTransmission {
+    double degrees = 90.0;
+    double value = 0.0;
+};
+std::optional<WorstTransmission> worst_transmission(const LinkagePart& part, const LinkageTurn& turn);
+/// The part in a pose of its turn: for what is read off the places of its links.
+class PartInTurn {
+  public:
+    explicit PartInTurn(const LinkagePart& part) : part_(std::make_shared<LinkagePart>(part)) {}
+    const std::shared_ptr<LinkagePart>& at(const LinkageTurn::Pose& pose) {
+        part_->links = pose.links;
+        return part_;
+    }
+
+  private:
+    std::shared_ptr<LinkagePart> part_;
+};
+
+/// Degrees of freedom, with those of what floats: three for each piece that no pin holds, and its own.
+ik::LinkageFreedom freedom_of(const LinkagePart& part);
+
+/// The three joints of two bars that are most nearly in line, the middle one between; empty: none are within
+/// so many degrees.
+std::vector<std::size_t> joints_in_line(const LinkagePart& part, double within = 4.0);
+/// "B, C and D are in line": why a motor stops there. Empty if no joint shows it.
+std::string dead_point_reason(const LinkagePart& part, double within = 4.0);
+/// "Crank at 43.0 degrees"
+std::string stop_text(const LinkagePart& part);
+/// Metres: the longest crank with which the motor of a four-bar (by Grashof's rule) or slider-crank turns all
+/// round. None if the other bars allow none, or it is another linkage.
+std::optional<double> longest_round_crank(const LinkagePart& part);
+/// What lets a motor that stands at a dead point go on. Empty: none does.
+std::vector<Cure> ways_on(const LinkagePart& part);
+
+}  // namespace tendril::app

@@ -1,0 +1,266 @@
+// What the Linkage lab says of a linkage: the ways on at a dead point, transmission angles, turns, what
+// floats; motors between bars; and what is in view.
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "app/labs/linkage/draw.hpp"
+#include "app/labs/linkage/measures.hpp"
+#include "app/labs/linkage/past.hpp"
+#include "app/view/camera.hpp"
+#include "tests/app/labs/linkage_support.hpp"
+#include "tests/app/support/random_numbers.hpp"
+
+namespace tendril::app {
+namespace {
+
+class LinkageReading : public LinkageTest {
+  protected:
+    /// Runs the motor until it stands at its dead point.
+    void stall() {
+        four_bar();
+        run("linkage.set", {{"crank", 2.2}});
+        run("linkage.motor", {{"joint", "crank"}, {"deg_per_s", 90}});
+        for (int i = 0; i < 240 && lab().moving(workspace); ++i) wait(1);
+        ASSERT_EQ(state().at("status"), "DeadPoint");
+    }
+    void take(const char* title) {
+        for (const Cure& each : ways_on(part())) {
+            if (each.title != title) continue;
+            for (const CommandCall& call : each.calls) run(call.name.c_str(), to_json(call.arguments));
+            return;
+        }
+        ADD_FAILURE() << "there is no " << title;
+    }
+    /// On which side of the line from B to D the coupler and the rocker meet.
+    bool meets_left() const {
+        const glm::dvec3 d(3, 0, 0), line = d - at("B"), to = at("C") - at("B");
+        return line.x * to.y - line.y * to.x > 0.0;
+    }
+    const LinkageTurn& turn() { return workspace.runtimes.of<LinkageRuntime>(linkage_lab).turn(part()); }
+    bool all_in_view() {
+        const Camera camera(workspace.camera, {{0, 0}, workspace.ui.view_size});
+        PartInTurn in_turn(part());
+        const auto seen = [&](const LinkagePart& now) {
+            for (std::size_t i = 0; i < now.linkage().points.size(); ++i) {
+                const auto pixel = camera.project(in_scene(now, now.at(i)));
+                if (!pixel || !camera.viewport().contains(*pixel)) return false;
+            }
+            return true;
+        };
+        for (const LinkageTurn::Pose& each : turn().poses)
+            if (!seen(*in_turn.at(each))) return false;
+        return seen(part());
+    }
+    /// Two bars in a row from the pin A: a robot's arm.
+    void draw_arm() {
+        run("linkage.clear");
+        run("linkage.bar", {{"from", {1, 0, 0}}, {"to", {2, 0, 0}}});
+        run("linkage.bar", {{"from", {0, 0, 0}}, {"to", "A"}});
+        run("linkage.pin", {{"point", "C"}});
+    }
+};
+
+TEST_F(LinkageReading, EveryWayOnFromADeadPointGoesOn) {
+    stall();
+    const double stopped = driver("crank");
+    EXPECT_EQ(motor_button(part()),
+              "Stopped at " + value_text(part(), "crank", glm::radians(stopped)) + ": turn back");
+    const bool left = meets_left();
+    take("Turn back");
+    EXPECT_EQ(motor_button(part()), "Stop");
+    wait(30);
+    EXPECT_NEAR(driver("crank"), stopped - 45.0, 2.0);
+    EXPECT_EQ(meets_left(), left) << "back as it came";
+    stall();
+    take("Other mode");
+    wait(30);
+    EXPECT_NEAR(driver("crank"), stopped - 45.0, 2.0);
+    EXPECT_NE(meets_left(), left) << "past the dead point";
+    stall();
+    take("Shorten");
+    wait(300);
+    EXPECT_EQ(state().at("status"), "Reached");
+    EXPECT_GT(driver("crank"), stopped + 360.0) << "all round";
+    run("linkage.drive", {{"joint", "crank"}, {"angle_deg", 30}});
+    EXPECT_EQ(motor_button(part()), "Run");
+    EXPECT_TRUE(ways_on(part()).empty());
+}
+
+TEST_F(LinkageReading, ASliderCrankIsShortenedToo) {
+    run("linkage.preset", {{"name", "slider_crank"}});
+    run("linkage.set", {{"crank", 1.0}, {"rod", 0.8}, {"offset", 0.1}});
+    run("linkage.motor", {{"joint", "crank"}, {"deg_per_s", 90}});
+    for (int i = 0; i < 240 && lab().moving(workspace); ++i) wait(1);
+    ASSERT_EQ(state().at("status"), "DeadPoint");
+    EXPECT_NEAR(longest_round_crank(part()).value_or(0.0), 0.7, 1e-6);
+    take("Shorten");
+    wait(300);
+    EXPECT_EQ(state().at("status"), "Reached");
+}
+
+TEST_F(LinkageReading, TheMinimumOfTheTransmissionAngleIsTheLawOfCosines) {
+    test::RandomNumbers random(7);
+    int checked = 0;
+    for (int i = 0; i < 60; ++i) {
+        const double g = random.uniform(2.0, 4.0), b = random.uniform(1.0, 4.0), r = random.uniform(1.0, 4.0);
+        const double longest = std::min(b + r - g, g - std::abs(b - r));
+        if (longest < 0.2) continue;
+        const double a = random.uniform(0.1, 0.95) * longest;
+        run("linkage.preset", {{"name", "four_bar"}});
+        run("linkage.set", {{"lengths", {{"ground", g}, {"crank", a}, {"coupler", b}, {"rocker", r}}}});
+        run("linkage.drive", {{"joint", "crank"}, {"angle_deg", random.uniform(-720.0, 720.0)}});
+        double expected = 90.0;
+        for (const double d : {g - a, g + a}) {
+            const double angle = glm::degrees(std::acos((b * b + r * r - d * d) / (2.0 * b * r)));
+            expected = std::min({expected, angle, 180.0 - angle});
+        }
+        ASSERT_TRUE(turn().whole) << g << " " << a << " " << b << " " << r;
+        const auto worst = worst_transmission(part(), turn());
+        ASSERT_TRUE(worst);
+        EXPECT_NEAR(worst->degrees, expected, 0.2);
+        EXPECT_LE(worst->degrees, transmission_angle(part()) + 0.2);
+        const double at = std::remainder(glm::degrees(worst->value), 180.0);
+        EXPECT_NEAR(at, 0.0, 1.0) << "the crank is in line with the pins";
+        EXPECT_NEAR(state().at("transmission_minimum").at("degrees").get<double>(), worst->degrees, 0.2);
+        ++checked;
+    }
+    EXPECT_GT(checked, 20);
+    stall();
+    EXPECT_NEAR(worst_transmission(part(), turn())->degrees, 0.0, 0.1) << "at its dead point";
+}
+
+TEST_F(LinkageReading, APlotOverTheMotorsAngleGoesAllRound) {
+    four_bar();
+    run("linkage.drive", {{"joint", "crank"}, {"angle_deg", 500}});
+    run("view.linkage_plot", {{"of", "transmission"}});
+    const auto pieces = [&] { return linkage_turn_curves(workspace, *linkage_past_curve(workspace)); };
+    workspace.runtimes.clear();
+    ASSERT_EQ(pieces().size(), 2u) << "it begins after the present pose";
+    const Curve now_on = pieces()[0], from_zero = pieces()[1];
+    EXPECT_NEAR(now_on.points.front().x, 143.0f, 0.1f);
+    EXPECT_EQ(now_on.points.back().x, 360.0f);
+    EXPECT_EQ(from_zero.points.front().x, 0.0f);
+    EXPECT_NEAR(from_zero.points.back().x, 143.0f, 0.1f);
+    EXPECT_NEAR(value_at(from_zero, 140.0f), transmission_angle(part()), 0.1);
+    run("view.linkage_plot", {{"of", "motor"}});
+    EXPECT_TRUE(pieces().empty());
+    stall();
+    run("view.linkage_plot", {{"of", "transmission"}});
+    ASSERT_EQ(pieces().size(), 2u) << "a gap where the crank cannot go";
+    EXPECT_GT(pieces()[0].points.front().x, pieces()[1].points.back().x + 90.0f);
+    run("linkage.preset", {{"name", "delta"}});
+    EXPECT_TRUE(pieces().empty());
+}
+
+TEST_F(LinkageReading, AnglesAreShownWithinATurn) {
+    four_bar();
+    const auto shown = [&](double degrees) { return shown_value(part(), "crank", glm::radians(degrees)); };
+    EXPECT_NEAR(shown(3725.0).value, 125.0, 1e-9);
+    EXPECT_EQ(shown(3725.0).turns, 10);
+    EXPECT_NEAR(shown(-10.0).value, 350.0, 1e-9);
+    EXPECT_EQ(shown(-10.0).turns, -1);
+    EXPECT_EQ(value_text(part(), "crank", glm::radians(359.97)), "0.0 degrees");
+    EXPECT_EQ(shown(359.97).turns, 1);
+    EXPECT_EQ(value_text(part(), "crank", 0.0), "0.0 degrees");
+    run("linkage.range", {{"joint", "crank"}, {"min", -45}});
+    EXPECT_NEAR(shown(-10.0).value, -10.0, 1e-9) << "as its range counts";
+    EXPECT_NEAR(shown(1e9).value, 1e9, 1.0);
+    run("linkage.preset", {{"name", "delta"}});
+    EXPECT_NEAR(shown_value(part(), "motor_0", glm::radians(-5.0)).value, -5.0, 1e-9);
+    run("linkage.preset", {{"name", "slider_crank"}});
+    EXPECT_EQ(value_text(part(), "S", 1.25), "1.250 m");
+    run("linkage.motor", {{"joint", "crank"}, {"deg_per_s", -360}});
+    wait(130);
+    EXPECT_TRUE(test::says(linkage_verdict(part()).why, "motor runs 2 whole turns backwards") ||
+                test::says(linkage_verdict(part()).why, "motor runs 3 whole turns backwards"))
+        << linkage_verdict(part()).why;
+}
+
+TEST_F(LinkageReading, WhatFloatsHasThreeDegreesOfFreedomMore) {
+    run("linkage.clear");
+    run("linkage.bar", {{"from", {0, 0, 0}}, {"to", {0, 1, 0}}});
+    EXPECT_EQ(state().at("freedom"), 3);
+    EXPECT_EQ(state().at("gruebler"), 3);
+    EXPECT_TRUE(test::says(linkage_verdict(part()).why, "floats 3 degrees of freedom Pin"));
+    run("linkage.bar", {{"from", "B"}, {"to", {2, 2, 0}}});
+    EXPECT_EQ(state().at("freedom"), 4) << "two bars with a joint";
+    run("linkage.bar", {{"from", "C"}, {"to", {3, 0, 0}}});
+    run("linkage.bar", {{"from", "D"}, {"to", "A"}});
+    EXPECT_EQ(state().at("freedom"), 4) << "a closed four-bar that floats";
+    EXPECT_EQ(state().at("gruebler"), 4);
+    run("linkage.pin", {{"point", "A"}});
+    EXPECT_EQ(state().at("freedom"), 2);
+    run("linkage.pin", {{"point", "D"}});
+    EXPECT_EQ(state().at("freedom"), 1);
+    run("linkage.bar", {{"from", {5, 5, 0}}, {"to", {6, 5, 0}}});
+    EXPECT_EQ(state().at("freedom"), 4) << "another that is loose";
+    EXPECT_TRUE(test::says(linkage_verdict(part()).why, "floats 3 degrees"));
+}
+
+TEST_F(LinkageReading, AnElbowIsDrivenAgainstTheUpperArm) {
+    draw_arm();
+    expect_refused("linkage.motor.add", {{"point", "B"}}, {"B", "not pinned", "second bar"});
+    run("linkage.motor.add", {{"point", "C"}, {"name", "shoulder"}});
+    run("linkage.motor.add", {{"point", "A"}, {"name", "elbow"}});
+    const ik::SketchMotor& elbow = part().shape->sketch.motors.back();
+    EXPECT_EQ(part().shape->sketch.bars[elbow.bar].name, "bar 1") << "the forearm, though it was drawn first";
+    EXPECT_EQ(part().shape->sketch.bars[elbow.against].name, "bar 2");
+    EXPECT_EQ(state().at("freedom"), 2);
+    EXPECT_NEAR(std::abs(driver("elbow")), 180.0, 1e-6) << "straight";
+    run("linkage.drive", {{"joint", "elbow"}, {"angle_deg", 90}});
+    run("linkage.drive", {{"joint", "shoulder"}, {"angle_deg", 90}});
+    EXPECT_NEAR(at("A").y, 1.0, 1e-6);
+    EXPECT_NEAR(std::abs(at("B").x), 1.0, 1e-6);
+    EXPECT_NEAR(at("B").y, 1.0, 1e-6);
+    run("linkage.drive", {{"joint", "shoulder"}, {"angle_deg", 30}});
+    EXPECT_NEAR(angle_at(part(), "A"), 90.0, 1e-6) << "the elbow keeps its angle";
+    EXPECT_EQ(part().load(part().save(), "labs.linkage")->save(), part().save());
+    expect_refused("linkage.motor.add", {{"point", "A"}}, {"has a motor"});
+    run("linkage.motor.remove", {{"joint", "elbow"}});
+    Emit emit;
+    run("linkage.tool", {{"name", "motor"}});
+    lab().click(workspace, linkage_pick(part().linkage().find_point("A")), emit);
+    const auto emitted = emit.take();
+    ASSERT_EQ(emitted.size(), 2u);
+    EXPECT_EQ(emitted[1].name, "linkage.motor.add");
+}
+
+TEST_F(LinkageReading, WhereMoreBarsMeetTwoOfThemAreChosen) {
+    draw_arm();
+    run("linkage.bar", {{"from", "A"}, {"to", {1, 2, 0}}});
+    expect_refused("linkage.motor.add", {{"point", "A"}}, {"3 bars", "A", "bar and against"});
+    expect_refused("linkage.motor.add", {{"point", "A"}, {"bar", "bar 1"}}, {"3 bars"});
+    expect_refused("linkage.motor.add", {{"point", "A"}, {"bar", "bar 1"}, {"against", "bar 1"}},
+                   {"against", "another"});
+    expect_refused("linkage.motor.add", {{"point", "B"}, {"bar", "bar 2"}}, {"bar 2", "not on B"});
+    run("linkage.motor.add", {{"point", "A"}, {"bar", "bar 3"}, {"against", "bar 1"}});
+    expect_refused("linkage.motor.add", {{"point", "A"}, {"bar", "bar 1"}, {"against", "bar 3"}},
+                   {"has a motor"});
+    run("linkage.drive", {{"joint", "motor 1"}, {"angle_deg", 60}});
+    const glm::dvec3 one = at("B") - at("A"), three = at("D") - at("A");
+    EXPECT_NEAR(glm::dot(one, three) / (glm::length(one) * glm::length(three)), 0.5, 1e-6);
+}
+
+TEST_F(LinkageReading, APresetAndTheOtherModeAreInView) {
+    for (const MechanismKind& kind : mechanism_kinds()) {
+        run("linkage.preset", {{"name", kind.name}});
+        EXPECT_TRUE(all_in_view()) << kind.name;
+    }
+    four_bar();
+    for (const char* way : {"there", "back"}) {
+        workspace.camera = {.target = {0.2f, 0.9f, 0.0f}, .distance = 1.5f, .orthographic = true};
+        EXPECT_FALSE(all_in_view());
+        run("linkage.other_mode");
+        EXPECT_TRUE(all_in_view()) << way;
+    }
+    const CameraPose framed = workspace.camera;
+    workspace.camera.distance *= 1.5f;
+    const CameraPose wider = workspace.camera;
+    run("linkage.other_mode");
+    EXPECT_EQ(workspace.camera.distance, wider.distance) << "all is in view: nothing moves";
+    EXPECT_NE(wider.distance, framed.distance);
+}
+
+}  // namespace
+}  // namespace tendril::app

@@ -1,0 +1,49 @@
+// What tests of the Linkage lab share.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include "app/document/json_complete.hpp"
+#include "app/labs/linkage/linkage_lab.hpp"
+#include "tests/app/labs/lab_support.hpp"
+#include "tests/says.hpp"
+
+namespace tendril::app {
+
+class LinkageTest : public LabTest {
+  protected:
+    LinkageTest() : LabTest(linkage_lab) { workspace.lab = linkage_lab; }
+    const LinkagePart& part() const { return linkage_part(workspace); }
+    void wait(int ticks) {
+        for (int i = 0; i < ticks; ++i) lab().step(workspace);
+    }
+    glm::dvec3 at(const char* point) const {
+        const Json place = state().at("points").at(point);
+        return {place[0].get<double>(), place[1].get<double>(), place[2].get<double>()};
+    }
+    double driver(const char* name) const { return state().at("drivers").at(name).get<double>(); }
+    void four_bar() {
+        run("linkage.preset", {{"name", "four_bar"}});
+        run("linkage.set", {{"lengths", {{"ground", 3}, {"crank", 1}, {"coupler", 2.5}, {"rocker", 2}}}});
+    }
+    void expect_load_refused(const Json& json, const char* words) const {
+        try {
+            static_cast<void>(part().load(json, "labs.linkage"));
+            ADD_FAILURE() << words << ": was opened";
+        } catch (const std::runtime_error& error) {
+            EXPECT_TRUE(test::says(error.what(), words)) << error.what();
+        }
+    }
+    /// By hand: A and D are pinned, bars A-B, B-C, C-D, a motor at A.
+    void draw_four_bar() {
+        run("linkage.clear");
+        run("linkage.bar", {{"from", {0, 0, 0}}, {"to", {0, 1, 0}}});
+        run("linkage.bar", {{"from", "B"}, {"to", {2, 2, 0}}});
+        run("linkage.bar", {{"from", "C"}, {"to", {3, 0, 0}}});
+        run("linkage.pin", {{"point", "A"}});
+        run("linkage.pin", {{"point", "D"}});
+        run("linkage.motor.add", {{"point", "A"}});
+    }
+};
+
+}  // namespace tendril::app
