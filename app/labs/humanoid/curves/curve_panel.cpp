@@ -93,7 +93,8 @@ void curve_notes(const BoneCurve& curve, const ik::CurveReport& report, const hu
         said = "All control points are on the first node: drag one away.";
     else if (report.bones_past_end > 0)
         said = count_text(report.bones_past_end, "bone") + (report.bones_past_end == 1 ? " goes" : " go") +
-               " on straight past the last control point.";
+               " on straight past the last control point, " +
+               length_text(static_cast<double>(report.past_end)) + " in all.";
     if (curve.jumped)
         said += (said.empty() ? "" : " ") + panel.part.skeleton()[chain.nodes()[*curve.jumped]].name +
                 " jumped to another crossing of the curve: open that bend.";
@@ -141,8 +142,8 @@ std::size_t node_or_bone(const HumanoidPart& part, const std::string& name) {
 
 /// A new curve through the pose; replaces the one that begins there, if any, but keeps its settings.
 BoneCurve& begin_curve(const IkNow& now, HumanoidPart& part, const BoneChain& chain) {
-    if (const std::string why = why_no_curve(part, chain); !why.empty()) throw std::invalid_argument(why);
     const auto made = require_value(humanoid::BentChain::make(part.skeleton(), chain.first, chain.last));
+    if (const std::string why = why_no_curve(part, chain); !why.empty()) throw std::invalid_argument(why);
     std::optional<std::size_t> which = curve_from(part, chain.first);
     if (!which && part.curves.size() >= max_bone_curves)
         throw std::invalid_argument("there are " + std::to_string(max_bone_curves) + " curves already");
