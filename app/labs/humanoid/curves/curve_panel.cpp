@@ -45,7 +45,7 @@ void curve_row(const HumanoidPanel& panel, std::size_t which) {
 /// A chooser of the chains that can be bent.
 void add_curve_row(const HumanoidPanel& panel) {
     const std::string none = "choose a chain";
-    if (!begin_list("add", &none)) {
+    if (!begin_list("add curve", &none)) {
         explain("The spine, or a chain beside the body: a tail, an ear. Any other: select its first node.");
         return;
     }
@@ -106,10 +106,11 @@ void curve_notes(const BoneCurve& curve, const ik::CurveReport& report, const hu
 }  // namespace
 
 void curve_rows(const HumanoidPanel& panel) {
-    if (!folding_section(panel.workspace, "Curves", panel.emit, false)) return;
+    ImGui::PushID("curves");  // a spring may begin at the same node
     if (panel.part.curves.empty()) note("Bends a tail or the spine along a curve that you drag.");
     for (std::size_t i = 0; i < panel.part.curves.size(); ++i) curve_row(panel, i);
     if (panel.part.curves.size() < max_bone_curves) add_curve_row(panel);
+    ImGui::PopID();
 }
 
 void curve_inspector(const HumanoidPanel& panel) {
