@@ -10,6 +10,7 @@
 #include <limits>
 #include <random>
 #include <tendril/humanoid/bent_chain.hpp>
+#include <tendril/rig/transform_units.hpp>
 
 #include "humanoid_figure.hpp"
 #include "memory.hpp"
@@ -253,6 +254,49 @@ TEST(BentChain, RollsFromItsStartToItsEnd) {
         const double roll = 0.5 - 2.0 * static_cast<double>(i) / (tail_bones - 1);
         const glm::dquat wanted = glm::angleAxis(roll, glm::dvec3(0, 0, -1)) * was[node].rotation();
         EXPECT_LT(angle_between(is[node].rotation(), wanted), 1e-3) << i;
+    }
+}
+
+/// Onto a straight curve every bone turns by the same shortest arc, wherever that leads.
+TEST(BentChain, TurnsNoFartherThanItMust) {
+    Tail tail;
+    std::mt19937 random(7);
+    std::normal_distribution<double> normal;
+    const auto was = tail.placed(tail.rest);
+    for (int i = 0; i < 100; ++i) {
+        const glm::dvec3 way =
+            i == 0 ? glm::dvec3(0, 1, 0)
+                   : glm::normalize(glm::dvec3(normal(random), normal(random), normal(random)));
+        Pose pose = tail.rest;
+        tail.chain.bend(pose, Points{glm::vec3(glm::dvec3(0.0, 0.05, -0.1) + way)});
+        const auto is = tail.placed(pose);
+        const glm::dquat turn = rig::from_two_vectors(glm::dvec3(0, 0, -1), way);
+        for (const std::size_t node : tail.chain.nodes().first(tail_bones))
+            ASSERT_LT(angle_between(is[node].rotation(), turn * was[node].rotation()), 1e-3) << i;
+    }
+}
+
+/// A clip may move a node within its parent: its bone is then as long as the clip has it, and on the curve.
+TEST(BentChain, FollowsTheCurveWithTheBonesOfThePose) {
+    Tail tail;
+    std::mt19937 random(8);
+    std::normal_distribution<double> normal;
+    for (int i = 0; i < 100; ++i) {
+        Pose pose = tail.rest;
+        for (const std::size_t node : tail.chain.nodes().subspan(1))
+            pose[node].translation += 0.03 * glm::dvec3(normal(random), normal(random), normal(random));
+        const auto before = tail.placed(pose);
+        const glm::vec3 start(0.0f, 0.05f, -0.1f), way(0.6f, 0.0f, -0.8f);
+        tail.chain.bend(pose, Points{start + way, start + 3.0f * way});
+        const auto after = tail.placed(pose);
+        double along = 0.0;
+        for (std::size_t k = 1; k <= tail_bones; ++k) {
+            const std::size_t node = tail.chain.nodes()[k], above = tail.chain.nodes()[k - 1];
+            along += glm::distance(before[node].position, before[above].position);
+            const glm::dvec3 on_curve =
+                before[tail.chain.nodes()[0]].position + along * glm::dvec3(glm::normalize(way));
+            ASSERT_LT(glm::distance(after[node].position, on_curve), 1e-5) << i << ' ' << k;
+        }
     }
 }
 

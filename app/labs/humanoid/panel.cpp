@@ -206,8 +206,10 @@ void HumanoidLab::panel(const Workspace& workspace, Emit& emit) const {
     target_rows(panel);
     hand_rows(panel);
     ground_rows(panel);
-    curve_rows(panel);
-    spring_rows(panel);
+    if (folding_section(workspace, "Curves and springs", emit, false)) {
+        curve_rows(panel);
+        spring_rows(panel);
+    }
     attachment_rows(panel);
     look_rows(panel);
     export_rows(panel);

@@ -45,7 +45,7 @@ void curve_row(const HumanoidPanel& panel, std::size_t which) {
 /// A chooser of the chains that can be bent.
 void add_curve_row(const HumanoidPanel& panel) {
     const std::string none = "choose a chain";
-    if (!begin_list("add", &none)) {
+    if (!begin_list("add curve", &none)) {
         explain("The spine, or a chain beside the body: a tail, an ear. Any other: select its first node.");
         return;
     }
@@ -93,7 +93,8 @@ void curve_notes(const BoneCurve& curve, const ik::CurveReport& report, const hu
         said = "All control points are on the first node: drag one away.";
     else if (report.bones_past_end > 0)
         said = count_text(report.bones_past_end, "bone") + (report.bones_past_end == 1 ? " goes" : " go") +
-               " on straight past the last control point.";
+               " on straight past the last control point, " +
+               length_text(static_cast<double>(report.past_end)) + " in all.";
     if (curve.jumped)
         said += (said.empty() ? "" : " ") + panel.part.skeleton()[chain.nodes()[*curve.jumped]].name +
                 " jumped to another crossing of the curve: open that bend.";
@@ -105,10 +106,11 @@ void curve_notes(const BoneCurve& curve, const ik::CurveReport& report, const hu
 }  // namespace
 
 void curve_rows(const HumanoidPanel& panel) {
-    if (!folding_section(panel.workspace, "Curves", panel.emit, false)) return;
+    ImGui::PushID("curves");  // a spring may begin at the same node
     if (panel.part.curves.empty()) note("Bends a tail or the spine along a curve that you drag.");
     for (std::size_t i = 0; i < panel.part.curves.size(); ++i) curve_row(panel, i);
     if (panel.part.curves.size() < max_bone_curves) add_curve_row(panel);
+    ImGui::PopID();
 }
 
 void curve_inspector(const HumanoidPanel& panel) {
@@ -141,8 +143,8 @@ std::size_t node_or_bone(const HumanoidPart& part, const std::string& name) {
 
 /// A new curve through the pose; replaces the one that begins there, if any, but keeps its settings.
 BoneCurve& begin_curve(const IkNow& now, HumanoidPart& part, const BoneChain& chain) {
-    if (const std::string why = why_no_curve(part, chain); !why.empty()) throw std::invalid_argument(why);
     const auto made = require_value(humanoid::BentChain::make(part.skeleton(), chain.first, chain.last));
+    if (const std::string why = why_no_curve(part, chain); !why.empty()) throw std::invalid_argument(why);
     std::optional<std::size_t> which = curve_from(part, chain.first);
     if (!which && part.curves.size() >= max_bone_curves)
         throw std::invalid_argument("there are " + std::to_string(max_bone_curves) + " curves already");

@@ -48,8 +48,8 @@ std::size_t end_of_chain(const HumanoidPart& part, std::size_t first);
 std::optional<std::size_t> curve_from(const HumanoidPart& part, std::size_t first);
 /// The index of the curve whose chain has the node.
 std::optional<std::size_t> curve_through(const HumanoidPart& part, std::size_t node);
-/// Why there can be no new curve from the node on: another one turns it already. Empty if there can be one,
-/// provided that the chain has some length.
+/// Why there can be no new curve along the chain, whose last node must be below its first: another curve
+/// turns one of its nodes. Empty if there can be one, provided that the chain has some length.
 std::string why_no_curve(const HumanoidPart& part, const BoneChain& chain);
 
 /// One per curve; null where the character has no such chain.

@@ -37,7 +37,7 @@ void spring_row(const HumanoidPanel& panel, std::size_t which) {
 /// A chooser of the nodes that can have a spring.
 void add_row(const HumanoidPanel& panel) {
     const std::string none = "choose a node";
-    if (!begin_list("add", &none)) {
+    if (!begin_list("add spring", &none)) {
         explain("The first node of an ear, an antenna or a tail. Everything below it swings too.");
         return;
     }
@@ -86,7 +86,6 @@ void setting_rows(const HumanoidPanel& panel, const SpringSetting& spring,
 }  // namespace
 
 void spring_rows(const HumanoidPanel& panel) {
-    if (!folding_section(panel.workspace, "Springs", panel.emit, false)) return;
     if (panel.part.springs.empty())
         note("Makes ears, antennae or a tail of the character trail behind its head or hips.");
     for (std::size_t i = 0; i < panel.part.springs.size(); ++i) spring_row(panel, i);
