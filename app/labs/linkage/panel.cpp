@@ -487,7 +487,9 @@ void turn_plot(const Workspace& workspace, std::vector<Curve> curves) {
     }
     if (std::isfinite(value))
         curves.push_back({.name = "now", .colour = line.colour, .points = {{now, value}}, .width = 1.7f});
-    const std::string title = transmission ? line.name + " (poor below 40)" : line.name;
+    std::string title = transmission ? line.name + " (poor below 40)" : line.name;
+    const float room = ImGui::GetContentRegionAvail().x - 4.0f * ImGui::GetFontSize();
+    if (ImGui::CalcTextSize(title.c_str()).x > room) title = line.name;
     plot("turn plot", curves,
          {.x = joint.c_str(),
           .x_unit = turns(part, joint) ? "deg" : "m",
