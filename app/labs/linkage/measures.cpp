@@ -1,6 +1,7 @@
 #include "app/labs/linkage/measures.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -70,6 +71,16 @@ double transmission_in(const LinkagePart& part, const DrivenLoop& loop) {
     if (loop.pin != DrivenLoop::no_pin) return fold(between(coupler, way(part, loop.end, loop.pin)));
     const double guide = part.shape->sketch.points[loop.end].guide;
     return 90.0 - fold(between(coupler, {std::cos(guide), std::sin(guide)}));
+}
+
+/// None if it is another linkage.
+std::optional<ik::FourBar> four_bar_lengths(const LinkagePart& part) {
+    const auto loop = driven_loop(part.shape->sketch);
+    if (!loop || loop->pin == DrivenLoop::no_pin || part.linkage().closures.size() != 1) return std::nullopt;
+    return ik::FourBar{.ground = glm::length(way(part, loop->motor->point, loop->pin)),
+                       .crank = glm::length(way(part, loop->motor->point, loop->tip)),
+                       .coupler = glm::length(way(part, loop->tip, loop->end)),
+                       .rocker = glm::length(way(part, loop->end, loop->pin))};
 }
 
 /// A hinge in the plane that no range stops: its turns are all alike.
@@ -190,23 +201,34 @@ std::string stop_text(const LinkagePart& part) {
     return capitalised(joint) + " at " + value_text(part, joint, report.stopped_at);
 }
 
+std::string four_bar_kind(const LinkagePart& part) {
+    const auto bars = four_bar_lengths(part);
+    if (!bars) return {};
+    std::array<double, 4> sorted{bars->ground, bars->crank, bars->coupler, bars->rocker};
+    std::ranges::sort(sorted);
+    const double shortest = sorted[0], spare = sorted[1] + sorted[2] - sorted[0] - sorted[3];
+    if (std::abs(spare) < 1e-9 * sorted[3]) return "change point";
+    if (spare < 0.0) return "triple rocker";
+    return shortest == bars->ground   ? "drag link"
+           : shortest == bars->crank  ? "crank-rocker"
+           : shortest == bars->rocker ? "rocker-crank"
+                                      : "double rocker";
+}
+
 std::optional<double> longest_round_crank(const LinkagePart& part) {
-    const ik::LinkageSketch& sketch = part.shape->sketch;
-    const auto loop = driven_loop(sketch);
-    if (!loop || part.linkage().closures.size() != 1) return std::nullopt;
-    const double coupler = glm::length(way(part, loop->tip, loop->end));
     double longest = 0.0;
-    if (loop->pin == DrivenLoop::no_pin) {
-        // The coupler reaches the slider's line from everywhere on the crank's circle.
-        const double guide = sketch.points[loop->end].guide;
-        const glm::dvec2 to_line = way(part, loop->motor->point, loop->end);
-        longest = coupler - std::abs(to_line.x * std::sin(guide) - to_line.y * std::cos(guide));
-    } else {
+    if (const auto bars = four_bar_lengths(part)) {
         // Coupler and rocker span the distance to the rocker's pin where it is largest and where it is
         // smallest.
-        const double ground = glm::length(way(part, loop->motor->point, loop->pin)),
-                     rocker = glm::length(way(part, loop->end, loop->pin));
-        longest = std::min(coupler + rocker - ground, ground - std::abs(coupler - rocker));
+        longest = std::min(bars->coupler + bars->rocker - bars->ground,
+                           bars->ground - std::abs(bars->coupler - bars->rocker));
+    } else if (const auto loop = driven_loop(part.shape->sketch);
+               loop && loop->pin == DrivenLoop::no_pin && part.linkage().closures.size() == 1) {
+        // The coupler reaches the slider's line from everywhere on the crank's circle.
+        const double guide = part.shape->sketch.points[loop->end].guide;
+        const glm::dvec2 to_line = way(part, loop->motor->point, loop->end);
+        longest = glm::length(way(part, loop->tip, loop->end)) -
+                  std::abs(to_line.x * std::sin(guide) - to_line.y * std::cos(guide));
     }
     return longest > 0.01 ? std::optional(longest) : std::nullopt;
 }

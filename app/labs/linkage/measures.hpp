@@ -63,6 +63,9 @@ std::vector<std::size_t> joints_in_line(const LinkagePart& part, double within =
 std::string dead_point_reason(const LinkagePart& part, double within = 4.0);
 /// "Crank at 43.0 degrees"
 std::string stop_text(const LinkagePart& part);
+/// What a four-bar with a motor is by Grashof's rule: "crank-rocker", "drag link", "double rocker"... Empty:
+/// it is another linkage.
+std::string four_bar_kind(const LinkagePart& part);
 /// Metres: the longest crank with which the motor of a four-bar (by Grashof's rule) or slider-crank turns all
 /// round. None if the other bars allow none, or it is another linkage.
 std::optional<double> longest_round_crank(const LinkagePart& part);

@@ -204,17 +204,16 @@ void motor_buttons(const Workspace& workspace, Emit& emit) {
     const LinkagePart& part = linkage_part(workspace);
     const bool runs = std::ranges::any_of(part.drives, is_running), stands = stalled_motor(part) != nullptr;
     const std::string title = motor_button(part);
-    if (row_button(title.c_str(), 1, !part.drives.empty(),
-                   stands ? "The motor cannot go on. Click: it runs the other way"
-                   : runs ? "Stops the motor and holds the joint"
-                          : "Runs the motor while time passes")) {
+    if (row_button(
+            title.c_str(), 1, !part.drives.empty(),
+            "Runs the motor while time passes, or stops it there. Where it cannot go on it turns back")) {
         for (const LinkageDrive& each : part.drives)
-            if (stands)
+            if (stands && is_running(each))
                 run_at(part, each, -each.rate, emit);
-            else if (runs)
+            else if (runs && !stands)
                 emit.continuously("linkage.drive",
                                   {{"joint", each.joint}, {"value", part.value_of(each.joint)}});
-            else
+            else if (!runs)
                 emit.continuously("linkage.motor", {{"joint", each.joint}});
         if ((stands || !runs) && !workspace.clock.playing) emit("time.play");
     }
@@ -321,6 +320,15 @@ void motor_rows(const Workspace& workspace) {
     const auto end = [&](const LinkageTurn::Pose& pose) {
         return fixed_text(shown_value(part, joint, pose.value).value, turns(part, joint) ? 1 : 3);
     };
+    if (const std::string kind = four_bar_kind(part); !kind.empty()) {
+        reading("four-bar", "%s", kind.c_str());
+        explain(
+            "By Grashof's rule: if the shortest and the longest bar together are shorter than the other two, "
+            "the "
+            "shortest goes all round. A crank-rocker has it as its crank, a drag link as its ground, a "
+            "double "
+            "rocker as its coupler. In a triple rocker no bar does.");
+    }
     if (turn.whole)
         reading("travel", "all round");
     else
@@ -479,7 +487,9 @@ void turn_plot(const Workspace& workspace, std::vector<Curve> curves) {
     }
     if (std::isfinite(value))
         curves.push_back({.name = "now", .colour = line.colour, .points = {{now, value}}, .width = 1.7f});
-    const std::string title = transmission ? line.name + " (poor below 40)" : line.name;
+    std::string title = transmission ? line.name + " (poor below 40)" : line.name;
+    const float room = ImGui::GetContentRegionAvail().x - 4.0f * ImGui::GetFontSize();
+    if (ImGui::CalcTextSize(title.c_str()).x > room) title = line.name;
     plot("turn plot", curves,
          {.x = joint.c_str(),
           .x_unit = turns(part, joint) ? "deg" : "m",

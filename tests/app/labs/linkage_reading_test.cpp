@@ -130,6 +130,38 @@ TEST_F(LinkageReading, TheMinimumOfTheTransmissionAngleIsTheLawOfCosines) {
     EXPECT_NEAR(worst_transmission(part(), turn())->degrees, 0.0, 0.1) << "at its dead point";
 }
 
+TEST_F(LinkageReading, AFourBarsKindSaysWhetherItsCrankGoesRound) {
+    test::RandomNumbers random(11);
+    int rounds = 0, swings = 0;
+    for (int i = 0; i < 80; ++i) {
+        const auto length = [&] { return random.uniform(1.0, 4.0); };
+        const double a = length(), b = length(), c = length(), g = length();
+        const double longest = std::max({a, b, c, g});
+        if (a + b + c + g < 2.05 * longest) continue;
+        LinkageRuntime fresh;
+        const ik::FourBar lengths{.ground = g, .crank = a, .coupler = b, .rocker = c};
+        LinkagePart drawn;
+        try {
+            open_mechanism(drawn, lengths, fresh);
+        } catch (const std::invalid_argument&) {
+            continue;  // it does not close as it is drawn
+        }
+        if (drawn.result.report.status != ik::LinkageStatus::Reached) continue;
+        const std::string kind = four_bar_kind(drawn);
+        const bool goes_round = kind == "crank-rocker" || kind == "drag link";
+        EXPECT_EQ(fresh.turn(drawn).whole, goes_round)
+            << kind << ": " << g << " " << a << " " << b << " " << c;
+        ++(goes_round ? rounds : swings);
+    }
+    EXPECT_GT(rounds, 10);
+    EXPECT_GT(swings, 10);
+    EXPECT_EQ(four_bar_kind(part()), "crank-rocker");
+    run("linkage.set", {{"crank", 1.5}});
+    EXPECT_EQ(four_bar_kind(part()), "change point");
+    run("linkage.preset", {{"name", "slider_crank"}});
+    EXPECT_EQ(four_bar_kind(part()), "");
+}
+
 TEST_F(LinkageReading, APlotOverTheMotorsAngleGoesAllRound) {
     four_bar();
     run("linkage.drive", {{"joint", "crank"}, {"angle_deg", 500}});
