@@ -362,6 +362,9 @@ TEST(Linkage, freedom_is_the_poses_and_not_the_last_solves) {
     LinkageSolver fresh = std::move(*LinkageSolver::make(linkage));
     EXPECT_EQ(machine.solver.freedom(machine.state), fresh.freedom(machine.state));
     EXPECT_EQ(machine.solver.freedom(machine.state).actual, 3);
+    // Asking for it forgets nothing of the solve.
+    ASSERT_EQ(machine.solver.active().size(), 1u);
+    EXPECT_EQ(machine.solver.active()[0], 0u);
 }
 
 }  // namespace

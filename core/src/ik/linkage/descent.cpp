@@ -128,6 +128,7 @@ bool LinkageSolve::solve_equations(double damping, bool curved) noexcept {
             a[i * count + k] = work_.square[i * count + k] + (curved ? work_.curvature[i * count + k] : 0.0);
         largest = std::max({largest, work_.square[i * count + i], std::abs(a[i * count + i])});
     }
+    std::ranges::fill(work_.solution, 0.0);
     if (!(largest > 0.0)) return true;
     double* x = work_.solution.data();
     for (std::size_t i = 0; i < count; ++i) {
@@ -215,8 +216,7 @@ bool LinkageSolve::descent_step(double damping) noexcept {
     }
     note_active();
     if (!(largest_of(work_.step) > shortest_step)) return false;
-    // Where the pull grows as it gives way, a step is long: near the ridge that it leaves there is hardly
-    // any.
+    // Where the pull grows as it gives way, there is hardly any at first: a step is long all the same.
     constexpr double leap = 0.1;
     const double wide = work_.widest();
     const bool leaps = !convex_ && turns_away_ && damping < careful;
@@ -236,8 +236,8 @@ bool LinkageSolve::descent_step(double damping) noexcept {
     ++iterations_;
     const bool kept = !closes_ || return_to_closures(0.5 * predicted + 1e-9);
     // The last step gains less than can be told from rounding.
-    const double after = cost(), enough = settled(before) ? before * (1.0 + 1e-13) : before;
-    if (kept && (after < before || after <= enough)) {
+    const double after = cost();
+    if (kept && (after < before || (settled(before) && after <= before * (1.0 + 1e-13)))) {
         turned_away_ = turned_away_ || (!convex_ && turns_away_ && aims_at_targets());
         return true;
     }
