@@ -12,6 +12,8 @@
 namespace tendril::app {
 namespace {
 
+constexpr const char* drive_form = "JOINT=VALUE or JOINT=FROM:TO:STEP";
+constexpr const char* target_form = "POINT=X,Y,Z";
 constexpr double furthest = 1e6;  ///< degrees or metres, as in linkage.drive
 
 /// From the first value to the last that does not pass the end, or at rounding does.
@@ -72,12 +74,13 @@ double argument_number(std::string_view text, const std::string& option) {
     return value;
 }
 
-/// The name, and the numbers after it between separators.
+/// The name, and the numbers after it between separators. `form` is for messages: "JOINT=VALUE".
 std::pair<std::string, std::vector<double>> named_numbers(const std::string& argument,
-                                                          const std::string& option, char separator) {
+                                                          const std::string& option, const char* form,
+                                                          char separator) {
     const std::size_t equals = argument.rfind('=');
     if (equals == argument.npos || equals == 0)
-        throw std::runtime_error(option + ": expected NAME=VALUE, found \"" + argument + "\"");
+        throw std::runtime_error(option + ": expected " + form + ", found \"" + argument + "\"");
     std::vector<double> numbers;
     for (std::size_t begin = equals + 1;;) {
         const std::size_t end = std::min(argument.find(separator, begin), argument.size());
@@ -187,9 +190,9 @@ Json linkage_goals_from_arguments(const std::vector<std::string>& drivers,
                                   const std::vector<std::string>& targets) {
     Json goals = Json::object();
     for (const std::string& each : drivers) {
-        auto [joint, numbers] = named_numbers(each, "--drive", ':');
+        auto [joint, numbers] = named_numbers(each, "--drive", drive_form, ':');
         if (numbers.size() != 1 && numbers.size() != 3)
-            throw std::runtime_error("--drive: expected JOINT=VALUE or JOINT=FROM:TO:STEP, found \"" + each +
+            throw std::runtime_error(std::string("--drive: expected ") + drive_form + ", found \"" + each +
                                      "\"");
         if (numbers.size() == 1)
             goals["drivers"][joint] = numbers[0];
@@ -197,9 +200,10 @@ Json linkage_goals_from_arguments(const std::vector<std::string>& drivers,
             goals["drivers"][joint] = {{"from", numbers[0]}, {"to", numbers[1]}, {"step", numbers[2]}};
     }
     for (const std::string& each : targets) {
-        auto [point, numbers] = named_numbers(each, "--target", ',');
+        auto [point, numbers] = named_numbers(each, "--target", target_form, ',');
         if (numbers.size() != 3)
-            throw std::runtime_error("--target: expected POINT=X,Y,Z, found \"" + each + "\"");
+            throw std::runtime_error(std::string("--target: expected ") + target_form + ", found \"" + each +
+                                     "\"");
         goals["targets"][point] = numbers;
     }
     return goals;

@@ -55,18 +55,18 @@ Mechanism mechanism_of(const LinkagePart& part) {
     return part.shape->mechanism;
 }
 
-void check_length_name(const Mechanism& mechanism, const std::string& name) {
+void check_length_name(const Mechanism& mechanism, const std::string& name, const std::string& where) {
     const MechanismKind& kind = *kind_of(mechanism);
     for (const Field& field : kind.fields)
         if (file_name(field) == name) return;
-    throw Refused(std::string(kind.title) + " has no length \"" + name + "\"");
+    throw Refused(where + ": " + kind.title + " has no length \"" + name + "\"");
 }
 
 void set_lengths(LinkagePart& part, const Arguments& given, LinkageRuntime& runtime) {
     Mechanism mechanism = mechanism_of(part);
     if (given.has("lengths")) read_lengths({given.json("lengths"), "lengths"}, mechanism);
     for (const auto& each : given.json().items())
-        if (each.key() != "lengths") check_length_name(mechanism, each.key());
+        if (each.key() != "lengths") check_length_name(mechanism, each.key(), each.key());
     set_fields(given, mechanism_fields(mechanism));
     const Mechanism& wanted = mechanism;
     if (save_fields(mechanism_fields(wanted)) == save_fields(mechanism_fields(part.shape->mechanism))) return;
@@ -250,7 +250,8 @@ std::size_t require_linkage_point(const LinkagePart& part, const std::string& na
 void read_lengths(const JsonPlace& lengths, Mechanism& mechanism) {
     if (!lengths.json().is_object())
         lengths.fail("expected an object, found " + json_summary(lengths.json()));
-    for (const auto& each : lengths.json().items()) check_length_name(mechanism, each.key());
+    for (const auto& each : lengths.json().items())
+        check_length_name(mechanism, each.key(), lengths.where() + "." + each.key());
     load_fields(lengths, mechanism_fields(mechanism));
 }
 
