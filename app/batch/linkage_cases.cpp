@@ -6,6 +6,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "app/document/json_complete.hpp"
+#include "app/document/refused.hpp"
 #include "app/labs/linkage/linkage_commands.hpp"
 #include "app/labs/linkage/linkage_lab.hpp"
 
@@ -66,6 +67,15 @@ const auto& value_at(const Values& values, std::size_t row) {
     return values[std::min(row, values.size() - 1)];
 }
 
+/// A refusal has the place.
+void at_place(const JsonPlace& place, auto require) {
+    try {
+        require();
+    } catch (const Refused& refused) {
+        place.fail(refused.what());
+    }
+}
+
 double argument_number(std::string_view text, const std::string& option) {
     double value = 0.0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -119,7 +129,7 @@ void LinkageCase::solve(std::size_t row, LinkageRuntime& runtime, const ik::Link
 std::vector<std::string> LinkageCase::columns() const {
     std::vector<std::string> names;
     for (const auto& each : drivers) names.push_back(each.first);
-    for (const ik::LinkPoint& each : part.linkage().points)
+    for (const auto& each : part.linkage().points)
         for (const char* const axis : {"_x", "_y", "_z"}) names.push_back(each.name + axis);
     return names;
 }
@@ -146,9 +156,7 @@ void read_linkage_goals(const JsonPlace& place, LinkageCase& to) {
     };
     if (const auto drivers = place.optional("drivers"))
         members(*drivers, [&](const std::string& joint, const JsonPlace& at) {
-            const auto link = to.part.linkage().find_link(joint);
-            if (!link || to.part.linkage().links[*link].joint == ik::LinkJoint::Ball)
-                at.fail("there is no hinge or slider \"" + joint + "\"");
+            at_place(at, [&] { require_linkage_joint(to.part, joint); });
             std::vector<double> values = driver_values(at);
             check_rows(at, values.size(), to.rows());
             if (turns(to.part, joint))
@@ -157,7 +165,7 @@ void read_linkage_goals(const JsonPlace& place, LinkageCase& to) {
         });
     if (const auto targets = place.optional("targets"))
         members(*targets, [&](const std::string& point, const JsonPlace& at) {
-            if (!to.part.linkage().find_point(point)) at.fail("there is no point \"" + point + "\"");
+            at_place(at, [&] { static_cast<void>(require_linkage_point(to.part, point)); });
             std::vector<glm::dvec3> places = target_places(at);
             check_rows(at, places.size(), to.rows());
             put(to.targets, point, std::move(places));

@@ -28,17 +28,9 @@ Argument joint_argument() {
                     [](const Workspace& workspace) { return joints_here(linkage_part(workspace)); });
 }
 
-/// Throws Refused for anything but a hinge or slider.
-void require_joint(const LinkagePart& part, const std::string& joint) {
-    const auto link = part.linkage().find_link(joint);
-    if (!link) throw Refused("there is no joint \"" + joint + "\"");
-    if (part.linkage().links[*link].joint == ik::LinkJoint::Ball)
-        throw Refused("joint \"" + joint + "\" is a ball: it has no single value");
-}
-
 /// The drive of a hinge or slider; a new one if it has none. Throws Refused.
 LinkageDrive& drive_of(LinkagePart& part, const std::string& joint) {
-    require_joint(part, joint);
+    require_linkage_joint(part, joint);
     if (part.find_drive(joint) == nullptr)
         part.drives.push_back({.joint = joint, .value = part.value_of(joint)});
     return *std::ranges::find(part.drives, joint, &LinkageDrive::joint);
@@ -111,7 +103,7 @@ void motor(LinkagePart& part, const Arguments& given, LinkageRuntime& runtime) {
 
 void set_range(LinkagePart& part, const Arguments& given, LinkageRuntime& runtime) {
     const std::string joint = given.text("joint");
-    require_joint(part, joint);
+    require_linkage_joint(part, joint);
     const bool off = given.has("off") && given.boolean("off");
     if (off == (given.has("min") || given.has("max"))) throw Refused("give min, max or both, or off: true");
     std::vector<LinkageRange> ranges = part.shape->ranges;
@@ -239,6 +231,13 @@ Argument linkage_point_argument(const char* name, bool required, const char* hel
     return offering(text_argument(name, required, help), [](const Workspace& workspace) {
         return names(linkage_part(workspace).linkage().points, [](const auto& each) { return each.name; });
     });
+}
+
+void require_linkage_joint(const LinkagePart& part, const std::string& joint) {
+    const auto link = part.linkage().find_link(joint);
+    if (!link) throw Refused("there is no joint \"" + joint + "\"");
+    if (part.linkage().links[*link].joint == ik::LinkJoint::Ball)
+        throw Refused("joint \"" + joint + "\" is a ball: it has no single value");
 }
 
 std::size_t require_linkage_point(const LinkagePart& part, const std::string& name) {

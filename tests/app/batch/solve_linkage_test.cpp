@@ -166,7 +166,7 @@ TEST_F(SolveLinkage, what_is_wrong_is_refused_by_its_place_and_nothing_is_solved
             "line 2 cases.1 cranc");
     refuses(R"([{"linkage": "four_bar", "lengths": {"crank": -1}}])", {}, "cases.0.lengths.crank -1");
     refuses(R"([{"linkage": "four_bar", "lengths": {"ground": 100}}])", {}, "cases.0.linkage ground 100");
-    refuses(R"([{"linkage": "four_bar", "drivers": {"nobody": 1}}])", {}, "drivers.nobody no hinge nobody");
+    refuses(R"([{"linkage": "four_bar", "drivers": {"nobody": 1}}])", {}, "drivers.nobody no joint nobody");
     refuses(R"([{"linkage": "four_bar", "drivers": {"crank": []}}])", {}, "drivers.crank empty");
     refuses(R"([{"linkage": "four_bar", "drivers": {"crank": [1, "x"]}}])", {}, "drivers.crank.1 x");
     refuses(R"([{"linkage": "four_bar", "drivers": {"crank": {"from": 0, "to": 9, "step": 0}}}])", {},

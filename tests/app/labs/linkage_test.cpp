@@ -291,8 +291,7 @@ TEST_F(LinkageTest, ADragAcrossAPathIsAnIncidentWhereThePointJumps) {
     ASSERT_EQ(all.size(), 1u);
     EXPECT_EQ(all[0].kind, Incident::Kind::Jump);
     EXPECT_EQ(all[0].name, "P");
-    EXPECT_TRUE(
-        test::says(all[0].cause, "P jumped another part of its path no longer the nearest moved 50.0 mm"))
+    EXPECT_TRUE(test::says(all[0].cause, "P jumped mm no longer the place nearest moved 50.0 mm"))
         << all[0].cause;
     // As far in one go, from where the target was, is no jump.
     run("linkage.let_go");
