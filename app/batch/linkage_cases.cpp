@@ -6,6 +6,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "app/document/json_complete.hpp"
+#include "app/document/refused.hpp"
 #include "app/labs/linkage/linkage_commands.hpp"
 #include "app/labs/linkage/linkage_lab.hpp"
 #include "app/labs/linkage/measures.hpp"
@@ -13,6 +14,8 @@
 namespace tendril::app {
 namespace {
 
+constexpr const char* drive_form = "JOINT=VALUE or JOINT=FROM:TO:STEP";
+constexpr const char* target_form = "POINT=X,Y,Z";
 constexpr double furthest = 1e6;  ///< degrees or metres, as in linkage.drive
 
 /// From the first value to the last that does not pass the end, or at rounding does.
@@ -65,6 +68,15 @@ const auto& value_at(const Values& values, std::size_t row) {
     return values[std::min(row, values.size() - 1)];
 }
 
+/// A refusal has the place.
+void at_place(const JsonPlace& place, auto require) {
+    try {
+        require();
+    } catch (const Refused& refused) {
+        place.fail(refused.what());
+    }
+}
+
 double argument_number(std::string_view text, const std::string& option) {
     double value = 0.0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -73,12 +85,13 @@ double argument_number(std::string_view text, const std::string& option) {
     return value;
 }
 
-/// The name, and the numbers after it between separators.
+/// The name, and the numbers after it between separators. `form` is for messages: "JOINT=VALUE".
 std::pair<std::string, std::vector<double>> named_numbers(const std::string& argument,
-                                                          const std::string& option, char separator) {
+                                                          const std::string& option, const char* form,
+                                                          char separator) {
     const std::size_t equals = argument.rfind('=');
     if (equals == argument.npos || equals == 0)
-        throw std::runtime_error(option + ": expected NAME=VALUE, found \"" + argument + "\"");
+        throw std::runtime_error(option + ": expected " + form + ", found \"" + argument + "\"");
     std::vector<double> numbers;
     for (std::size_t begin = equals + 1;;) {
         const std::size_t end = std::min(argument.find(separator, begin), argument.size());
@@ -117,7 +130,7 @@ void LinkageCase::solve(std::size_t row, LinkageRuntime& runtime, const ik::Link
 std::vector<std::string> LinkageCase::columns() const {
     std::vector<std::string> names;
     for (const auto& each : drivers) names.push_back(each.first);
-    for (const ik::LinkPoint& each : part.linkage().points)
+    for (const auto& each : part.linkage().points)
         for (const char* const axis : {"_x", "_y", "_z"}) names.push_back(each.name + axis);
     return names;
 }
@@ -144,9 +157,7 @@ void read_linkage_goals(const JsonPlace& place, LinkageCase& to) {
     };
     if (const auto drivers = place.optional("drivers"))
         members(*drivers, [&](const std::string& joint, const JsonPlace& at) {
-            const auto link = to.part.linkage().find_link(joint);
-            if (!link || to.part.linkage().links[*link].joint == ik::LinkJoint::Ball)
-                at.fail("there is no hinge or slider \"" + joint + "\"");
+            at_place(at, [&] { require_linkage_joint(to.part, joint); });
             std::vector<double> values = driver_values(at);
             check_rows(at, values.size(), to.rows());
             if (turns(to.part, joint))
@@ -155,7 +166,7 @@ void read_linkage_goals(const JsonPlace& place, LinkageCase& to) {
         });
     if (const auto targets = place.optional("targets"))
         members(*targets, [&](const std::string& point, const JsonPlace& at) {
-            if (!to.part.linkage().find_point(point)) at.fail("there is no point \"" + point + "\"");
+            at_place(at, [&] { static_cast<void>(require_linkage_point(to.part, point)); });
             std::vector<glm::dvec3> places = target_places(at);
             check_rows(at, places.size(), to.rows());
             put(to.targets, point, std::move(places));
@@ -188,9 +199,9 @@ Json linkage_goals_from_arguments(const std::vector<std::string>& drivers,
                                   const std::vector<std::string>& targets) {
     Json goals = Json::object();
     for (const std::string& each : drivers) {
-        auto [joint, numbers] = named_numbers(each, "--drive", ':');
+        auto [joint, numbers] = named_numbers(each, "--drive", drive_form, ':');
         if (numbers.size() != 1 && numbers.size() != 3)
-            throw std::runtime_error("--drive: expected JOINT=VALUE or JOINT=FROM:TO:STEP, found \"" + each +
+            throw std::runtime_error(std::string("--drive: expected ") + drive_form + ", found \"" + each +
                                      "\"");
         if (numbers.size() == 1)
             goals["drivers"][joint] = numbers[0];
@@ -198,9 +209,10 @@ Json linkage_goals_from_arguments(const std::vector<std::string>& drivers,
             goals["drivers"][joint] = {{"from", numbers[0]}, {"to", numbers[1]}, {"step", numbers[2]}};
     }
     for (const std::string& each : targets) {
-        auto [point, numbers] = named_numbers(each, "--target", ',');
+        auto [point, numbers] = named_numbers(each, "--target", target_form, ',');
         if (numbers.size() != 3)
-            throw std::runtime_error("--target: expected POINT=X,Y,Z, found \"" + each + "\"");
+            throw std::runtime_error(std::string("--target: expected ") + target_form + ", found \"" + each +
+                                     "\"");
         goals["targets"][point] = numbers;
     }
     return goals;

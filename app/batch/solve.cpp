@@ -162,6 +162,8 @@ void read_all(std::string_view text, const SolveOptions& options,
         with_goals(case_from_json(json, "case", 0), 1.0);
         return;
     }
+    if (!json.contains("labs"))
+        throw std::runtime_error("expected a list of cases, a linkage or a scene, found none of these");
     const Labs labs;
     Workspace workspace = make_blank_workspace(labs);
     load_scene(workspace, json);

@@ -1,5 +1,6 @@
 // A file of cases is refused with a std::runtime_error, or every solver solves every case in it: lengths are
-// kept, results are finite, limits hold, and the start is unchanged if the solver refuses.
+// kept, results are finite, limits hold, and the start is unchanged if the solver refuses. Linkages go
+// through their first rows.
 #include <algorithm>
 #include <cmath>
 #include <tendril/ik/solver.hpp>
@@ -46,6 +47,20 @@ void solve(const app::Case& each) {
     }
 }
 
+void solve(app::LinkageCase linkage) {
+    app::LinkageRuntime runtime;
+    for (std::size_t row = 0; row < std::min<std::size_t>(linkage.rows(), 4); ++row) {
+        linkage.solve(row, runtime, {.max_iterations = 20});
+        const app::LinkagePart& part = linkage.part;
+        check(part.result.report.status != ik::LinkageStatus::InvalidInput, "what was read can be solved");
+        for (std::size_t i = 0; i < part.linkage().points.size(); ++i) {
+            const glm::dvec3 at = part.at(i);
+            check(std::isfinite(at.x) && std::isfinite(at.y) && std::isfinite(at.z), "points are numbers");
+        }
+        check(!app::linkage_row_json(part).empty(), "it says what it did");
+    }
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -54,7 +69,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         std::size_t cases = 0;
         app::read_cases(text, [&](const app::Case& each, double part) {
             check(part >= 0.0 && part <= 1.0, "how far the reading is lies between none and all");
-            if (each.lengths.size() <= max_bones) solve(each);
+            if (each.linkage)
+                solve(*each.linkage);
+            else if (each.lengths.size() <= max_bones)
+                solve(each);
             return ++cases < max_cases;
         });
     } catch (const std::runtime_error& error) {

@@ -20,6 +20,7 @@ std::string incident_title(const Incident& incident) {
             return joint + (named ? " flipped: it turned " : " flipped: one of its bones turned ") +
                    fixed_text(static_cast<double>(incident.degrees), 0) + " degrees in one tick";
         case Incident::Kind::Jump:
+            if (named) break;
             return joint + " jumped";
         case Incident::Kind::Limit:
             if (named) break;

@@ -29,17 +29,9 @@ Argument joint_argument() {
                     [](const Workspace& workspace) { return joints_here(linkage_part(workspace)); });
 }
 
-/// Throws Refused for anything but a hinge or slider.
-void require_joint(const LinkagePart& part, const std::string& joint) {
-    const auto link = part.linkage().find_link(joint);
-    if (!link) throw Refused("there is no joint \"" + joint + "\"");
-    if (part.linkage().links[*link].joint == ik::LinkJoint::Ball)
-        throw Refused("joint \"" + joint + "\" is a ball: it has no single value");
-}
-
 /// The drive of a hinge or slider; a new one if it has none. Throws Refused.
 LinkageDrive& drive_of(LinkagePart& part, const std::string& joint) {
-    require_joint(part, joint);
+    require_linkage_joint(part, joint);
     if (part.find_drive(joint) == nullptr)
         part.drives.push_back({.joint = joint, .value = part.value_of(joint)});
     return *std::ranges::find(part.drives, joint, &LinkageDrive::joint);
@@ -56,18 +48,18 @@ Mechanism mechanism_of(const LinkagePart& part) {
     return part.shape->mechanism;
 }
 
-void check_length_name(const Mechanism& mechanism, const std::string& name) {
+void check_length_name(const Mechanism& mechanism, const std::string& name, const std::string& where) {
     const MechanismKind& kind = *kind_of(mechanism);
     for (const Field& field : kind.fields)
         if (file_name(field) == name) return;
-    throw Refused(std::string(kind.title) + " has no length \"" + name + "\"");
+    throw Refused(where + ": " + kind.title + " has no length \"" + name + "\"");
 }
 
 void set_lengths(LinkagePart& part, const Arguments& given, LinkageRuntime& runtime) {
     Mechanism mechanism = mechanism_of(part);
     if (given.has("lengths")) read_lengths({given.json("lengths"), "lengths"}, mechanism);
     for (const auto& each : given.json().items())
-        if (each.key() != "lengths") check_length_name(mechanism, each.key());
+        if (each.key() != "lengths") check_length_name(mechanism, each.key(), each.key());
     set_fields(given, mechanism_fields(mechanism));
     const Mechanism& wanted = mechanism;
     if (save_fields(mechanism_fields(wanted)) == save_fields(mechanism_fields(part.shape->mechanism))) return;
@@ -112,7 +104,7 @@ void motor(LinkagePart& part, const Arguments& given, LinkageRuntime& runtime) {
 
 void set_range(LinkagePart& part, const Arguments& given, LinkageRuntime& runtime) {
     const std::string joint = given.text("joint");
-    require_joint(part, joint);
+    require_linkage_joint(part, joint);
     const bool off = given.has("off") && given.boolean("off");
     if (off == (given.has("min") || given.has("max"))) throw Refused("give min, max or both, or off: true");
     std::vector<LinkageRange> ranges = part.shape->ranges;
@@ -298,6 +290,13 @@ Argument linkage_point_argument(const char* name, bool required, const char* hel
     });
 }
 
+void require_linkage_joint(const LinkagePart& part, const std::string& joint) {
+    const auto link = part.linkage().find_link(joint);
+    if (!link) throw Refused("there is no joint \"" + joint + "\"");
+    if (part.linkage().links[*link].joint == ik::LinkJoint::Ball)
+        throw Refused("joint \"" + joint + "\" is a ball: it has no single value");
+}
+
 std::size_t require_linkage_point(const LinkagePart& part, const std::string& name) {
     const auto point = part.linkage().find_point(name);
     if (!point) throw Refused("there is no point \"" + name + "\"");
@@ -307,7 +306,8 @@ std::size_t require_linkage_point(const LinkagePart& part, const std::string& na
 void read_lengths(const JsonPlace& lengths, Mechanism& mechanism) {
     if (!lengths.json().is_object())
         lengths.fail("expected an object, found " + json_summary(lengths.json()));
-    for (const auto& each : lengths.json().items()) check_length_name(mechanism, each.key());
+    for (const auto& each : lengths.json().items())
+        check_length_name(mechanism, each.key(), lengths.where() + "." + each.key());
     load_fields(lengths, mechanism_fields(mechanism));
 }
 

@@ -43,6 +43,8 @@ Command linkage_command(const char* name, const char* title, std::vector<Argumen
                         Effect effect = Effect::Edit);
 /// An argument that names a point.
 Argument linkage_point_argument(const char* name, bool required, const char* help);
+/// Throws Refused for anything but a hinge or slider.
+void require_linkage_joint(const LinkagePart& part, const std::string& joint);
 /// Throws Refused where there is none of that name.
 std::size_t require_linkage_point(const LinkagePart& part, const std::string& name);
 

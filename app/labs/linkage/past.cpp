@@ -148,8 +148,7 @@ std::optional<Incident> jump_incident(const LinkagePart& before, const LinkagePa
                     .joint = 0,
                     .name = is->point,
                     .cause = is->point + " jumped " + app::length_text(report.jump) +
-                             " to another part of its path: the place where it was is no longer the nearest "
-                             "to its target, which moved " +
+                             ": where it was is no longer the place nearest to its target, which moved " +
                              app::length_text(asked)};
 }
 

@@ -231,6 +231,35 @@ TEST_F(LinkageTest, ADragThroughADeadPointIsAnIncident) {
     EXPECT_TRUE(test::says(all[0].cause, "passed a dead point B, C and D are in line")) << all[0].cause;
 }
 
+// The path of P bends round the target: the place that was the nearest ends, and P goes over to the other
+// side.
+TEST_F(LinkageTest, ADragAcrossAPathIsAnIncidentWhereThePointJumps) {
+    four_bar();
+    run("linkage.drag", {{"point", "P"}, {"to", {-1.5, 1.4, 0}}}, 1);
+    std::vector<Incident> all;
+    for (int i = 1; i <= 90; ++i) {
+        const SharedPart before = workspace.document.parts().at(linkage_lab);
+        const glm::dvec3 was = at("P");
+        run("linkage.drag", {{"point", "P"}, {"to", {-1.5 + 0.05 * i, 1.4, 0}}}, 1);
+        const std::vector<Incident> now = lab().review(workspace, *before, part());
+        EXPECT_EQ(now.empty(), glm::distance(at("P"), was) < 0.5) << i;
+        EXPECT_EQ(state().at("jumped").is_null(), now.empty()) << i;
+        for (const Incident& each : now) all.push_back(each);
+        const SharedPart same = workspace.document.parts().at(linkage_lab);
+        EXPECT_TRUE(lab().review(workspace, *same, part()).empty()) << "told once";
+    }
+    ASSERT_EQ(all.size(), 1u);
+    EXPECT_EQ(all[0].kind, Incident::Kind::Jump);
+    EXPECT_EQ(all[0].name, "P");
+    EXPECT_TRUE(test::says(all[0].cause, "P jumped mm no longer the place nearest moved 50.0 mm"))
+        << all[0].cause;
+    // As far in one go, from where the target was, is no jump.
+    run("linkage.let_go");
+    const SharedPart before = workspace.document.parts().at(linkage_lab);
+    run("linkage.drag", {{"point", "P"}, {"to", {-1.5, 1.4, 0}}}, 1);
+    EXPECT_TRUE(lab().review(workspace, *before, part()).empty());
+}
+
 TEST_F(LinkageTest, TheOtherModeIsTheMirroredRocker) {
     four_bar();
     run("linkage.drive", {{"joint", "crank"}, {"angle_deg", 90}});

@@ -9,7 +9,7 @@ namespace tendril::ik::detail {
 namespace {
 
 constexpr double shortest_step = 1e-10;  ///< of a descent: it has ended
-constexpr double careful = 1e-3;         ///< the least damping once a step was in vain
+constexpr double least_damping = 1e-3;   ///< the least damping once a step was in vain
 
 double largest_of(std::span<const double> step) noexcept {
     double largest = 0.0;
@@ -128,6 +128,7 @@ bool LinkageSolve::solve_equations(double damping, bool curved) noexcept {
             a[i * count + k] = work_.square[i * count + k] + (curved ? work_.curvature[i * count + k] : 0.0);
         largest = std::max({largest, work_.square[i * count + i], std::abs(a[i * count + i])});
     }
+    std::ranges::fill(work_.solution, 0.0);
     if (!(largest > 0.0)) return true;
     double* x = work_.solution.data();
     for (std::size_t i = 0; i < count; ++i) {
@@ -215,11 +216,10 @@ bool LinkageSolve::descent_step(double damping) noexcept {
     }
     note_active();
     if (!(largest_of(work_.step) > shortest_step)) return false;
-    // Where the pull grows as it gives way, a step is long: near the ridge that it leaves there is hardly
-    // any.
+    // Where the pull grows as it gives way, there is hardly any at first: a step is long all the same.
     constexpr double leap = 0.1;
     const double wide = work_.widest();
-    const bool leaps = !convex_ && turns_away_ && damping < careful;
+    const bool leaps = !convex_ && turns_away_ && damping < least_damping;
     double part = std::min(leaps ? std::max(1.0, leap / wide) : 1.0, widest_step / wide);
     for (std::size_t i = 0; i < work_.joints.size(); ++i) {
         const Link& link = work_.linkage.links[i];
@@ -236,8 +236,8 @@ bool LinkageSolve::descent_step(double damping) noexcept {
     ++iterations_;
     const bool kept = !closes_ || return_to_closures(0.5 * predicted + 1e-9);
     // The last step gains less than can be told from rounding.
-    const double after = cost(), enough = settled(before) ? before * (1.0 + 1e-13) : before;
-    if (kept && (after < before || after <= enough)) {
+    const double after = cost();
+    if (kept && (after < before || (at_minimum(before) && after <= before * (1.0 + 1e-13)))) {
         turned_away_ = turned_away_ || (!convex_ && turns_away_ && aims_at_targets());
         return true;
     }
@@ -273,15 +273,15 @@ bool LinkageSolve::descend_from_here() noexcept {
             break;
         }
         if (!descent_step(damping)) {
-            if (!(largest_of(work_.step) > shortest_step) || settled(before)) break;
+            if (!(largest_of(work_.step) > shortest_step) || at_minimum(before)) break;
             // Where closures are about to become dependent, Newton's step may lead nowhere, and the other on.
             plain_ = convex_;
-            if (!plain_) damping = std::max(damping * 16.0, careful);
+            if (!plain_) damping = std::max(damping * 16.0, least_damping);
             continue;
         }
         moved = true;
         plain_ = false;
-        if (settled(before)) break;
+        if (at_minimum(before)) break;
         damping = std::max(damping * 0.25, 1e-9);
         const double after = cost();
         slow = before - after <= 1e-10 * before ? slow + 1 : 0;

@@ -91,6 +91,8 @@ bool find_other_mode(LinkageWork& work, LinkageState& state, std::span<const Lin
         }
     }
     const bool found = nearest < 1e300;
+    work.active.clear();
+    work.open.clear();
     take();
     return found;
 }

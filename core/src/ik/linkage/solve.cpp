@@ -13,8 +13,6 @@ LinkageSolve::LinkageSolve(LinkageWork& work, const LinkageGoals& goals,
       tolerance_(options.tolerance.value_or(std::max(1e-10 * work.size, work.rounding))) {
     std::ranges::fill(work_.driven, std::uint8_t{0});
     work_.release();
-    work_.active.clear();
-    work_.open.clear();
 }
 
 void LinkageSolve::note_active() noexcept {
@@ -89,6 +87,8 @@ void LinkageSolve::find_jump(LinkageReport& report) noexcept {
 
 LinkageReport LinkageSolve::run() noexcept {
     LinkageReport report;
+    work_.active.clear();
+    work_.open.clear();
     work_.move_links();
     if (!closed()) assemble();
     const bool assembled = work_.largest_gap() <= open_from();

@@ -65,7 +65,7 @@ class LinkageSolve {
     bool descend_from_here() noexcept;
     bool perturb() noexcept;
     bool descent_step(double damping) noexcept;
-    bool settled(double cost) const noexcept { return convex_ && predicted_gain_ <= 1e-12 * cost; }
+    bool at_minimum(double cost) const noexcept { return convex_ && predicted_gain_ <= 1e-12 * cost; }
     void add_equation(std::span<double> row, double error, double weight) noexcept;
     void find_equations() noexcept;
     void find_curvature() noexcept;
