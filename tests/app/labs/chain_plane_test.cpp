@@ -226,7 +226,8 @@ class LimitDrag {
         const test::TempFolder folder;
         const std::string path = (folder / "scene.json").string();
         test::play(test::ScriptText(script).command("scene.save", {{"path", path}}));
-        const Json limits = parse_json(test::read(path)).at("labs").at("chain").at("reach").at("plane").at("limits");
+        const Json limits =
+            parse_json(test::read(path)).at("labs").at("chain").at("reach").at("plane").at("limits");
         return {limits.at(0).at("min_deg").get<float>(), limits.at(0).at("max_deg").get<float>()};
     }
 

@@ -14,7 +14,7 @@
 namespace tendril::ik::detail {
 namespace {
 
-/// Metres: half of this, and a chain seen from its root has all its coordinates in range.
+/// Metres: a root nearer to the origin than this leaves room for coordinates relative to it.
 constexpr float far_away = 0.25f * max_magnitude;
 
 }  // namespace
@@ -74,8 +74,8 @@ void Work::return_from_plane(const Block& block, std::size_t lane, std::size_t c
         joints.set_joint(i, frame.returned(problem.joints[i], joints.joint(i), scratch.scalar.reach));
 }
 
-/// Same as Solver::solve in this plane. False if the chain is invalid.
-bool Work::solve_in_plane(std::size_t chain, Scratch& scratch) noexcept {
+/// Same as Solver::solve in this plane.
+void Work::solve_in_plane(std::size_t chain, Scratch& scratch) noexcept {
     Workspace& scalar = scratch.scalar;
     const float* const rows = in_.blocks + chain / block_lanes * Block::chain_floats(in_.bones) +
                               Block::joint_floats(in_.bones) + chain % block_lanes;
@@ -88,14 +88,13 @@ bool Work::solve_in_plane(std::size_t chain, Scratch& scratch) noexcept {
     if (!are_points(scalar.joints) || !are_points({&target, 1})) {
         invalid_.fetch_add(1, std::memory_order_relaxed);
         if (!in_.reports.empty()) in_.reports[chain] = {.status = Status::InvalidInput};
-        return false;
+        return;
     }
     scalar.saved.reset();  // results must not depend on the previous chain
     PlaneProblem problem(scalar, scalar.joints, scalar.saved, target, in_.options);
     const Report answer = problem.solve(Method::Fabrik, nullptr);
     for (std::size_t i = 1; i <= in_.bones; ++i) joints.set_joint(i, scalar.joints[i]);
     report_fallback(chain, answer);
-    return true;
 }
 
 void Work::solve_angled_block(std::size_t index, std::size_t lanes, Scratch& scratch) noexcept {

@@ -83,7 +83,7 @@ void Work::solve_block(std::size_t index, Scratch& scratch) noexcept {
     for (std::size_t lane = 0; lane < lanes; ++lane) {
         const bool scalar = block.class_of(lane) == Class::Scalar;
         if (scalar) {
-            planar_ ? static_cast<void>(solve_in_plane(first + lane, scratch))
+            planar_ ? solve_in_plane(first + lane, scratch)
                     : solve_scalar(block, lane, first + lane, scratch);
         } else {
             report(block, lane, first + lane);  // for active chains again, when they are done

@@ -112,7 +112,7 @@ class Work {
                          Scratch& scratch) const noexcept;
     void return_from_plane(const Block& block, std::size_t lane, std::size_t chain,
                            Scratch& scratch) const noexcept;
-    bool solve_in_plane(std::size_t chain, Scratch& scratch) noexcept;
+    void solve_in_plane(std::size_t chain, Scratch& scratch) noexcept;
     Home home(std::size_t chain) const noexcept;
     void report_fallback(std::size_t chain, const Report& answer) noexcept;
     float* rotations(std::size_t index) const noexcept {
