@@ -89,7 +89,7 @@ void FieldRows::draw(const Field& field, const FieldText& usual, const RowOption
     else if (field.type == FieldType::Rotation)
         rotation_row(field, text);
     else if (field.type == FieldType::Choice)
-        list_row(field, text);
+        list_row(field, text, options);
     else
         number_row(field, text, options);
     ImGui::EndDisabled();
@@ -183,11 +183,12 @@ int FieldRows::chosen(const Field& field, const FieldText& text) const {
     return static_cast<int>(row - text.choices.begin());
 }
 
-void FieldRows::list_row(const Field& field, const FieldText& text) const {
+void FieldRows::list_row(const Field& field, const FieldText& text, const RowOptions& options) const {
     std::vector<const char*> titles;
     for (const EnumRow& each : text.choices) titles.push_back(each.title);
     int at = chosen(field, text);
-    if (choice_field(text.label, at, titles.data(), static_cast<int>(titles.size())))
+    if (choice_field(text.label, at, titles.data(), static_cast<int>(titles.size()), nullptr,
+                     options.swatches))
         emit_(command_, arguments(field, text.choices[static_cast<std::size_t>(at)].name));
 }
 

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <concepts>
+#include <glm/vec3.hpp>
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "app/fields/fields.hpp"
 #include "app/widgets/emit.hpp"
@@ -18,6 +20,7 @@ struct RowOptions {
     std::optional<double> otherwise{};   ///< shown while an optional field is empty
     std::string why_not{};               ///< reason to disable the row; empty if enabled
     const char* unit = nullptr;          ///< shown instead of the field's
+    std::vector<glm::vec3> swatches{};   ///< of listed choices, in their order: the colours that they mean
 };
 
 class FieldRows {
@@ -73,7 +76,7 @@ class FieldRows {
     void point_row(const Field& field, const FieldText& text) const;
     void rotation_row(const Field& field, const FieldText& text) const;
     int chosen(const Field& field, const FieldText& text) const;
-    void list_row(const Field& field, const FieldText& text) const;
+    void list_row(const Field& field, const FieldText& text, const RowOptions& options) const;
     void button_rows(const Field& field, const FieldText& text) const;
 
     FieldsOf of_;

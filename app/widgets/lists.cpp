@@ -36,6 +36,14 @@ void constrain_list(const ListRoom& room) {
                                         {40.0f * em, 30.0f * em});
 }
 
+/// A square of that colour in a box of a row, at its right end.
+void draw_swatch(ImDrawList& list, ImVec2 low, ImVec2 high, glm::vec3 colour) {
+    const float size = 0.6f * ImGui::GetFontSize(), middle = 0.5f * (low.y + high.y);
+    list.AddRectFilled({high.x - 1.4f * size, middle - 0.5f * size},
+                       {high.x - 0.4f * size, middle + 0.5f * size},
+                       ImGui::GetColorU32({colour.r, colour.g, colour.b, 1.0f}), 0.2f * size);
+}
+
 /// The line to type into stays above the rows, which scroll.
 void begin_rows(const ListRoom& room, bool in_field) {
     OpenList& list = open_list();
@@ -85,20 +93,24 @@ bool begin_list(const char* name, const std::string* shown, ListRoom room) {
     std::string id = std::string("##") + name, preview;
     if (shown != nullptr) {
         id = begin_row(name);
-        preview = elided(*shown,
-                         ImGui::CalcItemWidth() - ImGui::GetFrameHeight() - ImGui::GetStyle().FramePadding.x);
+        const float buttons = room.swatch ? 2.0f : 1.0f;  // the arrow, and a swatch before it
+        preview = elided(*shown, ImGui::CalcItemWidth() - buttons * ImGui::GetFrameHeight() -
+                                     ImGui::GetStyle().FramePadding.x);
     }
     const bool cut = shown != nullptr && preview != *shown;
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float width = shown != nullptr ? ImGui::CalcItemWidth() : ImGui::GetFrameHeight();
+    ImDrawList& panel = *ImGui::GetWindowDrawList();
     constrain_list(room);
     const bool open = ImGui::BeginCombo(id.c_str(), preview.c_str(),
                                         shown != nullptr ? ImGuiComboFlags_None : ImGuiComboFlags_NoPreview);
+    const float height = ImGui::GetFrameHeight();
+    if (room.swatch) draw_swatch(panel, at, {at.x + width - height, at.y + height}, *room.swatch);
     if (!open && cut) tooltip_of_button(*shown);
     if (!open) return false;
     begin_rows(room, true);
     open_list().opener_min = {at.x, at.y};
-    open_list().opener_max = {at.x + width, at.y + ImGui::GetFrameHeight()};
+    open_list().opener_max = {at.x + width, at.y + height};
     return true;
 }
 
@@ -117,7 +129,8 @@ bool begin_menu(const char* id, bool pressed) {
     return ImGui::BeginPopup(id);
 }
 
-bool list_row(const std::string& title, bool chosen, const char* why_not) {
+bool list_row(const std::string& title, bool chosen, const char* why_not,
+              const std::optional<glm::vec3>& swatch) {
     SearchText& typed = open_list().typed;
     if (!contains_text(title, typed.text.data())) return false;
     if (why_not != nullptr) {
@@ -128,6 +141,8 @@ bool list_row(const std::string& title, bool chosen, const char* why_not) {
     if (opens_here) typed.at = typed.hits;
     const bool highlighted = typed.hits++ == typed.at;
     const bool clicked = ImGui::Selectable(title.c_str(), highlighted || (chosen && typed.at < 0));
+    if (swatch)
+        draw_swatch(*ImGui::GetWindowDrawList(), ImGui::GetItemRectMin(), ImGui::GetItemRectMax(), *swatch);
     if (opens_here || (highlighted && typed.moved)) ImGui::SetScrollHereY();
     const bool taken = clicked || (highlighted && typed.entered);
     if (taken) ImGui::CloseCurrentPopup();
@@ -143,7 +158,10 @@ void end_list() {
 }
 
 bool choice_field(const char* name, int& chosen, const char* const* titles, int count,
-                  const char* const* why_not) {
+                  const char* const* why_not, std::span<const glm::vec3> swatches) {
+    const auto swatch = [&](int i) {
+        return swatches.empty() ? std::nullopt : std::optional(swatches[static_cast<std::size_t>(i)]);
+    };
     const auto reason = [&](int i) { return why_not != nullptr ? why_not[i] : nullptr; };
     float width = 0.0f;
     for (int i = 0; i < count; ++i) {
@@ -153,10 +171,12 @@ bool choice_field(const char* name, int& chosen, const char* const* titles, int 
         width = std::max(width, ImGui::CalcTextSize(title.c_str()).x);
     }
     const std::string shown = titles[chosen];
-    if (!begin_list(name, &shown, {.width = width, .rows = std::min(count, 10)})) return false;
+    if (!swatches.empty()) width += ImGui::GetFrameHeight();
+    if (!begin_list(name, &shown, {.width = width, .rows = std::min(count, 10), .swatch = swatch(chosen)}))
+        return false;
     const int before = chosen;
     for (int i = 0; i < count; ++i)
-        if (list_row(titles[i], i == before, reason(i))) chosen = i;
+        if (list_row(titles[i], i == before, reason(i), swatch(i))) chosen = i;
     end_list();
     return chosen != before;
 }

@@ -4,6 +4,9 @@
 
 #include <array>
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -36,6 +39,7 @@ struct OpenList {
 struct ListRoom {
     float width = 0.0f;  ///< of its rows, in pixels; 0: enough for most names
     int rows = 10;
+    std::optional<glm::vec3> swatch{};  ///< of the choice in the field: the colour that it means
 };
 
 /// Begins the list of a field. If it returns true, add rows and call end_list(). With `shown` the field is a
@@ -44,16 +48,18 @@ bool begin_list(const char* name, const std::string* shown, ListRoom room = {});
 /// The same for the button above, which `pressed` opens.
 bool begin_list_of_button(const char* id, bool pressed, ListRoom room = {});
 /// True when the row is chosen. With `why_not` it cannot be, and the reason follows its greyed title.
-bool list_row(const std::string& title, bool chosen, const char* why_not = nullptr);
+bool list_row(const std::string& title, bool chosen, const char* why_not = nullptr,
+              const std::optional<glm::vec3>& swatch = {});
 void end_list();
 /// A menu, without a line to type into, for the button above. If it returns true, add items and call
 /// ImGui::EndPopup().
 bool begin_menu(const char* id, bool pressed);
 
 /// One of a few, in a list. `why_not`, if given, has one entry per choice: null if it can be chosen, else the
-/// reason. Returns true in a frame in which the user changed it.
+/// reason. `swatches`, if not empty, has the colour that each choice means. Returns true in a frame in which
+/// the user changed it.
 bool choice_field(const char* name, int& chosen, const char* const* titles, int count,
-                  const char* const* why_not = nullptr);
+                  const char* const* why_not = nullptr, std::span<const glm::vec3> swatches = {});
 
 /// Call before a frame in which a mouse button goes down: a press outside the open lists and menus closes
 /// them and acts on what is there. The item that opened a list only closes it.

@@ -12,27 +12,24 @@ namespace tendril::app {
 
 Command chain_command(const char* name, const char* title, std::vector<Argument> arguments, const char* help,
                       ChainSolve change, Effect effect) {
-    return {.name = name,
-            .title = title,
-            .arguments = std::move(arguments),
-            .help = help,
-            .effect = effect,
-            .apply = [change, effect](Workspace& workspace, const Arguments& given) {
-                ChainRuntime& runtime = workspace.runtimes.of<ChainRuntime>(chain_lab);
-                change_part<ChainPart>(workspace, chain_lab, [&](ChainPart& part, const ChainPart& before) {
-                    part.study.gesture_begins = workspace.gesture_begins;
-                    const bool edits = effect == Effect::Edit;
-                    // An edit is one of the chain as it was given.
-                    if (edits && part.mode == ChainMode::Curve) std::swap(part.chain, part.along.given);
-                    change(part, given, runtime);
-                    if (edits) keep_on_curve(part, before);
-                    if (part.mode != ChainMode::Curve) keep_in_plane(part.chain, part.reach, runtime);
-                    // The study must always match the chain that is shown.
-                    if (part.study.open() && edits) reach_for(part, part.target, runtime);
-                    check_range(part);
-                    keep_step(part, runtime);
-                });
-            }};
+    return part_command<ChainPart>(chain_lab, name, title, std::move(arguments), help, effect,
+                                   [change, effect](Workspace& workspace, ChainPart& part,
+                                                    const ChainPart& before, const Arguments& given) {
+                                       ChainRuntime& runtime = workspace.runtimes.of<ChainRuntime>(chain_lab);
+                                       part.study.gesture_begins = workspace.gesture_begins;
+                                       const bool edits = effect == Effect::Edit;
+                                       // An edit is one of the chain as it was given.
+                                       if (edits && part.mode == ChainMode::Curve)
+                                           std::swap(part.chain, part.along.given);
+                                       change(part, given, runtime);
+                                       if (edits) keep_on_curve(part, before);
+                                       if (part.mode != ChainMode::Curve)
+                                           keep_in_plane(part.chain, part.reach, runtime);
+                                       // The study must always match the chain that is shown.
+                                       if (part.study.open() && edits) reach_for(part, part.target, runtime);
+                                       check_range(part);
+                                       keep_step(part, runtime);
+                                   });
 }
 
 Command chain_command(const char* name, const char* title, std::vector<Argument> arguments, const char* help,

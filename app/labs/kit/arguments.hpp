@@ -84,20 +84,30 @@ void change_part(Workspace& workspace, const char* lab, Change change) {
     if (part == old) workspace.document = before;
 }
 
-/// A command that calls `change` through change_part().
-template <class LabPart>
+/// A command that calls `change` through change_part(): with the workspace, for its clock and the lab's
+/// runtime, the copy, the old part and the arguments.
+template <class LabPart, class Change>
 Command part_command(const char* lab, const char* name, const char* title, std::vector<Argument> arguments,
-                     const char* help, void (*change)(LabPart&, const Arguments&),
-                     Effect effect = Effect::Edit) {
+                     const char* help, Effect effect, Change change) {
     return {.name = name,
             .title = title,
             .arguments = std::move(arguments),
             .help = help,
             .effect = effect,
             .apply = [lab, change](Workspace& workspace, const Arguments& given) {
-                change_part<LabPart>(workspace, lab,
-                                     [&](LabPart& part, const LabPart&) { change(part, given); });
+                change_part<LabPart>(workspace, lab, [&](LabPart& part, const LabPart& before) {
+                    change(workspace, part, before, given);
+                });
             }};
+}
+/// The same for a change that needs the part and the arguments alone.
+template <class LabPart>
+Command part_command(const char* lab, const char* name, const char* title, std::vector<Argument> arguments,
+                     const char* help, void (*change)(LabPart&, const Arguments&),
+                     Effect effect = Effect::Edit) {
+    return part_command<LabPart>(
+        lab, name, title, std::move(arguments), help, effect,
+        [change](Workspace&, LabPart& part, const LabPart&, const Arguments& given) { change(part, given); });
 }
 
 // Advancing a lab's part in time.

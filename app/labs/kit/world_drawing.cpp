@@ -21,12 +21,15 @@ glm::vec3 cloth_front(const Palette& palette) {
     return glm::mix(palette.accent, palette.joint, 0.35f);
 }
 
+glm::vec3 body_colour(BodyColour colour, rope::Body::Kind kind, const Palette& palette) {
+    if (colour != BodyColour::ByKind) return racer_colour(palette, static_cast<std::size_t>(colour));
+    return kind == rope::Body::Kind::Cloth  ? cloth_front(palette)
+           : kind == rope::Body::Kind::Hair ? glm::mix(palette.target, palette.ghost, 0.55f)
+                                            : palette.joint;
+}
+
 glm::vec3 body_colour(const NamedWorld& world, const rope::Body& body, const Palette& palette) {
-    if (const BodyColour own = world.colour(body); own != BodyColour::ByKind)
-        return racer_colour(palette, static_cast<std::size_t>(own));
-    return body.kind == rope::Body::Kind::Cloth  ? cloth_front(palette)
-           : body.kind == rope::Body::Kind::Hair ? glm::mix(palette.target, palette.ghost, 0.55f)
-                                                 : palette.joint;
+    return body_colour(world.colour(body), body.kind, palette);
 }
 
 glm::vec3 strain_colour(float strain, const Palette& palette) {

@@ -18,6 +18,7 @@ glm::vec3 strain_colour(float strain, const Palette& palette);
 /// The colour of a cloth's front, without one of its own.
 glm::vec3 cloth_front(const Palette& palette);
 /// Of a cloth, its front's.
+glm::vec3 body_colour(BodyColour colour, rope::Body::Kind kind, const Palette& palette);
 glm::vec3 body_colour(const NamedWorld& world, const rope::Body& body, const Palette& palette);
 /// One for each particle: its body's, or by the worst strain of its links.
 std::vector<glm::vec3> particle_colours(const NamedWorld& world, const Palette& palette, bool by_strain);

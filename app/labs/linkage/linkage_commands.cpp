@@ -269,19 +269,14 @@ std::vector<Argument> length_arguments() {
 Command linkage_command(const char* name, const char* title, std::vector<Argument> arguments,
                         const char* help, void (*change)(LinkagePart&, const Arguments&, LinkageRuntime&),
                         Effect effect) {
-    return {.name = name,
-            .title = title,
-            .arguments = std::move(arguments),
-            .help = help,
-            .effect = effect,
-            .apply = [change, effect](Workspace& workspace, const Arguments& given) {
-                auto& runtime = workspace.runtimes.of<LinkageRuntime>(linkage_lab);
-                change_part<LinkagePart>(workspace, linkage_lab, [&](LinkagePart& part, const LinkagePart&) {
-                    // Whatever else is asked for ends a drag.
-                    if (effect == Effect::Edit) part.drag.reset();
-                    change(part, given, runtime);
-                });
-            }};
+    return part_command<LinkagePart>(linkage_lab, name, title, std::move(arguments), help, effect,
+                                     [change, effect](Workspace& workspace, LinkagePart& part,
+                                                      const LinkagePart&, const Arguments& given) {
+                                         // Whatever else is asked for ends a drag.
+                                         if (effect == Effect::Edit) part.drag.reset();
+                                         change(part, given,
+                                                workspace.runtimes.of<LinkageRuntime>(linkage_lab));
+                                     });
 }
 
 Argument linkage_point_argument(const char* name, bool required, const char* help) {

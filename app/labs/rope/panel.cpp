@@ -16,6 +16,7 @@
 #include "app/labs/kit/panel_rows.hpp"
 #include "app/labs/kit/past_strip.hpp"
 #include "app/labs/kit/race.hpp"
+#include "app/labs/kit/world_drawing.hpp"
 #include "app/labs/kit/world_file.hpp"
 #include "app/labs/rope/numbers.hpp"
 #include "app/labs/rope/past.hpp"
@@ -51,8 +52,7 @@ const char* tool_help(RopeTool tool) {
             return "A click on a particle pins it where it is, or lets a pinned one move again.";
         case RopeTool::Cut:
             return "Drag across ropes and cloths to cut them. Or click a rope's segment, or two particles of "
-                   "a "
-                   "cloth.";
+                   "a cloth.";
         case RopeTool::Tie:
             return "A click on one particle and then on another ties the two.";
         default:
@@ -207,7 +207,7 @@ void RopeLab::timeline(const Workspace& workspace, Emit& emit) const {
 namespace {
 
 /// The physical properties of the body.
-void body_rows(const NamedWorld& world, const rope::Body& body, Emit& emit) {
+void body_rows(const NamedWorld& world, const rope::Body& body, const Palette& colours, Emit& emit) {
     section(world.name(body).c_str());
     const BodySettings settings = settings_of(world, body);
     const FieldRows rows(settings, "rope.set", emit, {{"rope", world.name(body)}});
@@ -217,6 +217,12 @@ void body_rows(const NamedWorld& world, const rope::Body& body, Emit& emit) {
         RowOptions options;
         if (name == "length" && !(settings.length > 0.0f))
             options.why_not = "All its particles are in one place: there is no length to scale.";
+        if (name == "bending" && world.settings().solver != rope::Solver::Direct)
+            options.why_not =
+                "The solver is " + std::string(rope_solvers.title(world.settings().solver)) + ".";
+        if (name == "colour")
+            for (const BodyColour each : body_colours.values())
+                options.swatches.push_back(body_colour(each, body.kind, colours));
         if (name == "density" && body.kind == rope::Body::Kind::Cloth) options.unit = "kg/m^2";
         rows.row(name, options);
     }
@@ -232,7 +238,8 @@ void body_rows(const NamedWorld& world, const rope::Body& body, Emit& emit) {
     collision_rows(world, body, emit);
 }
 
-void particle_rows(const RopePart& part, const rope::Body& body, std::size_t index, Emit& emit) {
+void particle_rows(const RopePart& part, const rope::Body& body, std::size_t index, const Palette& colours,
+                   Emit& emit) {
     const NamedWorld& world = *part.world;
     const std::size_t particle = body.first + index;
     const bool held = is_held(part, particle), pinned = world.pinned(particle) && !held;
@@ -265,12 +272,12 @@ void particle_rows(const RopePart& part, const rope::Body& body, std::size_t ind
     if (row_button("Select all", 3, body.count > 1, "Selects all of it: its arrows then move it"))
         emit("rope.select", {{"rope", world.name(body)}});
     end_row();
-    body_rows(world, body, emit);
+    body_rows(world, body, colours, emit);
 }
 
 /// For several selected particles.
 void several_rows(const RopePart& part, const rope::Body& body, const std::vector<std::size_t>& all,
-                  Emit& emit) {
+                  const Palette& colours, Emit& emit) {
     const NamedWorld& world = *part.world;
     const auto pinned = static_cast<std::size_t>(
         std::count_if(all.begin(), all.end(), [&](std::size_t i) { return world.pinned(body.first + i); }));
@@ -293,7 +300,7 @@ void several_rows(const RopePart& part, const rope::Body& body, const std::vecto
     if (row_button("Remove", 3, true, "Removes the whole body"))
         emit("rope.remove", {{"name", world.name(body)}});
     end_row();
-    body_rows(world, body, emit);
+    body_rows(world, body, colours, emit);
 }
 
 /// All fields of its kind except the position, which is set by moving it, as in a drag.
@@ -413,6 +420,7 @@ void race_rows(const RopePart& part, bool timed, const Palette& palette, Emit& e
 void selection_rows(const Workspace& workspace, Emit& emit) {
     section("Selection");
     const RopePart& part = rope_part(workspace);
+    const Palette& colours = palette(workspace.settings.theme);
     if (part.selection) {
         if (const rope::Collider* collider = part.world->find_collider(part.selection->collider))
             return collider_rows(part, *collider, emit);
@@ -420,9 +428,9 @@ void selection_rows(const Workspace& workspace, Emit& emit) {
             return tie_rows(part, *tie, emit);
         const rope::Body* body = part.world->find(part.selection->body);
         if (body != nullptr && part.selection->particles.several())
-            return several_rows(part, *body, part.selection->particles.all(), emit);
+            return several_rows(part, *body, part.selection->particles.all(), colours, emit);
         if (body != nullptr && part.selection->particle() < body->count)
-            return particle_rows(part, *body, part.selection->particle(), emit);
+            return particle_rows(part, *body, part.selection->particle(), colours, emit);
     }
     note("Nothing is selected. Click a rope or a collider.");
 }

@@ -373,7 +373,11 @@ std::string RopeLab::hint(const Workspace& workspace, PickId pick) const {
     if (const auto* tie = picked_tie(world, pick)) return world.name(*tie) + ": click selects it.";
     const auto place = picked_particle(world, pick);
     if (!place) {
-        if (part.tool != RopeTool::Tie || !part.selection || !part.selection->of_particles()) return {};
+        if (part.tool == RopeTool::Pin) return "Click a particle to pin it, or to let it move again.";
+        if (part.tool == RopeTool::Cut) return "Drag across ropes and cloths to cut them.";
+        if (part.tool != RopeTool::Tie) return {};
+        if (!part.selection || !part.selection->of_particles())
+            return "Click a particle, then another to tie it to.";
         return part.selection->body + ", particle " + std::to_string(part.selection->particle()) +
                ": click what to tie it to. Escape forgets it.";
     }

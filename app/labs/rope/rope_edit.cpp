@@ -58,28 +58,23 @@ void RopeEdit::dragged() {
 
 Command rope_command(const char* name, const char* title, std::vector<Argument> arguments, const char* help,
                      void (*change)(RopeEdit&, const Arguments&), Effect effect) {
-    return {.name = name,
-            .title = title,
-            .arguments = std::move(arguments),
-            .help = help,
-            .effect = effect,
-            .apply = [change](Workspace& workspace, const Arguments& given) {
-                change_part<RopePart>(workspace, rope_lab, [&](RopePart& part, const RopePart& old) {
-                    auto& runtime = workspace.runtimes.of<RopeRuntime>(rope_lab);
-                    RopeEdit edit(part, workspace.clock, runtime.workspace);
-                    change(edit, given);
-                    if (!edit.said.empty()) workspace.toast(std::move(edit.said));
-                    if (part.world != old.world) {
-                        check_work(*part.world);
-                        change_rivals(part, old, [&](RopePart& rival) {
-                            RopeEdit same(rival, workspace.clock, runtime.workspace);
-                            change(same, given);
-                        });
-                    }
-                    if (part.world != old.world || part.swings != old.swings || part.walker != old.walker)
-                        part.quiet_ticks = 0;
+    return part_command<RopePart>(
+        rope_lab, name, title, std::move(arguments), help, effect,
+        [change](Workspace& workspace, RopePart& part, const RopePart& old, const Arguments& given) {
+            auto& runtime = workspace.runtimes.of<RopeRuntime>(rope_lab);
+            RopeEdit edit(part, workspace.clock, runtime.workspace);
+            change(edit, given);
+            if (!edit.said.empty()) workspace.toast(std::move(edit.said));
+            if (part.world != old.world) {
+                check_work(*part.world);
+                change_rivals(part, old, [&](RopePart& rival) {
+                    RopeEdit same(rival, workspace.clock, runtime.workspace);
+                    change(same, given);
                 });
-            }};
+            }
+            if (part.world != old.world || part.swings != old.swings || part.walker != old.walker)
+                part.quiet_ticks = 0;
+        });
 }
 
 bool operator==(const RopePart& a, const RopePart& b) {

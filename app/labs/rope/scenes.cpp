@@ -292,9 +292,9 @@ RopeScene folded_scene() {
     RopeScene scene;
     NamedWorld& world = scene.world;
     add_ground(world);
-    constexpr int layers = 4, cells = 6, rows = 10;
-    constexpr float cell = 0.04f, radius = 0.008f;
-    const float width = cell * layers * cells, depth = cell * (rows - 1);
+    constexpr int layers = 4, cells = 10, rows = 6;
+    constexpr float cell = 0.024f, radius = 0.008f;  // narrow, for round folds
+    const float width = cell * layers * cells, depth = 0.36f;
     world.add_cloth("cloth", {.corner = {0, 0, -0.5f * depth},
                               .along = {width, 0, 0},
                               .down = {0, 0, depth},

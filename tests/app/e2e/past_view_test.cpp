@@ -1,4 +1,6 @@
 // The plot and the past poses of the last ten seconds in the running program, in every lab that has joints.
+#include <array>
+
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "app/live_loop.hpp"
 #include "tests/app/support/play.hpp"
@@ -163,18 +165,26 @@ ScriptText below_the_strip(const PlottedLab& lab) {
 
 TEST(PastViews, AClickInThePlotGoesToTheMomentThatTheStripHasAtThatPlace) {
     constexpr float strip = 546.0f, plot = 615.0f;
+    constexpr std::array places{600.0f, 607.0f, 633.0f, 641.0f};
     for (const PlottedLab& lab : plotted_labs()) {
-        std::uint64_t before = 0;
-        for (const float x : {600.0f, 607.0f, 633.0f, 641.0f}) {
-            const auto moment = [&](float y) {
-                ScriptText script = below_the_strip(lab);
-                if (std::string(lab.lab) == "humanoid") script.click({405.0f, 534.0f});  // Past
-                return state_after(press_at(script, {x, y}))["time"]["moment"].get<std::uint64_t>();
-            };
-            const std::uint64_t by_strip = moment(strip);
-            EXPECT_EQ(moment(plot), by_strip) << lab.lab << " at " << x;
-            EXPECT_GT(by_strip, before) << lab.lab << " at " << x;
-            before = by_strip;
+        const TempFolder folder;
+        ScriptText script = below_the_strip(lab);
+        if (std::string(lab.lab) == "humanoid") script.click({405.0f, 534.0f});  // Past
+        int count = 0;
+        for (const float y : {strip, plot})
+            for (const float x : places)
+                press_at(script, {x, y})
+                    .up()
+                    .wait(1)
+                    .line({{"state", (folder / std::to_string(count++)).string()}});
+        play(script);
+        std::vector<std::uint64_t> moments;
+        for (int i = 0; i < count; ++i)
+            moments.push_back(
+                app::parse_json(read(folder / std::to_string(i)))["time"]["moment"].get<std::uint64_t>());
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            EXPECT_EQ(moments[places.size() + i], moments[i]) << lab.lab << " at " << places[i];
+            EXPECT_TRUE(i == 0 || moments[i] > moments[i - 1]) << lab.lab << " at " << places[i];
         }
     }
 }

@@ -198,6 +198,35 @@ TEST(TypedNumbers, TabPassesByWhatCannotBeChanged) {
         EXPECT_EQ(after.at(honoured), before.at(honoured)) << honoured;
 }
 
+/// Only the direct solver bends ropes: with another, Tab goes from the stretch to the strain at which it
+/// tears.
+TEST(TypedNumbers, TabPassesByTheBendingThatTheSolverIgnores) {
+    const auto typed = [](const char* solver) {
+        const TempFolder folder;
+        const std::string scene = (folder / "scene.json").string();
+        play(ScriptText()
+                 .command("lab.open", {{"name", "rope"}})
+                 .command("time.pause")
+                 .command("rope.select", {{"rope", "rope"}, {"particle", 3}})
+                 .command("rope.settings", {{"solver", solver}})
+                 .wait(2)
+                 .click({1186.0f, 659.0f})  // stretch
+                 .wait(2)
+                 .key("tab")
+                 .wait(2)
+                 .text("5")
+                 .key("enter")
+                 .wait(10)
+                 .command("scene.save", {{"path", scene}}));
+        return app::parse_json(read(scene))["labs"]["rope"]["world"]["bodies"][0];
+    };
+    const app::Json bent = typed("direct"), torn = typed("xpbd");
+    EXPECT_EQ(bent["bending"].get<float>(), 5.0f);
+    EXPECT_FALSE(bent.contains("tear"));
+    EXPECT_EQ(torn["tear"].get<float>(), 0.05f);
+    EXPECT_FALSE(torn.contains("bending"));
+}
+
 TEST(TypedNumbers, AreScrubbedFinerWithShift) {
     const auto scrubbed = [](bool shift) {
         ScriptText script;

@@ -85,6 +85,7 @@ TEST_F(RopeCutCloth, APieceIsSaved) {
 
 TEST_F(RopeCutCloth, ClicksCutFromOneToTheNext) {
     run("rope.tool", {{"name", "cut"}});
+    EXPECT_TRUE(test::says(lab().hint(workspace, no_pick), "Drag across to cut"));
     const std::size_t whole = links();
     const glm::vec3 last = world().position(body("cloth").first + 39);
     Emit emit;
