@@ -431,7 +431,7 @@ void joint_rows(const LinkagePart& part, Emit& emit) {
     if (row_option("Slides", 3, guided, "It slides on a line through where it is"))
         emit("linkage.guide", {{"point", part.selected}});
     end_row();
-    pair_motor_rows(part.shape->sketch, at, emit);
+    pair_motor_rows(part.shape->sketch, *at, emit);
     if (guided) {
         auto along = static_cast<float>(glm::degrees(part.shape->sketch.points[*at].guide));
         if (number_field("line", along, 0.5f, -360.0f, 360.0f, "%.1f deg"))
