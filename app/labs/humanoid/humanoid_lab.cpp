@@ -136,7 +136,7 @@ std::vector<TestScene> HumanoidLab::test_scenes() const {
               {"humanoid.ground", {{"kind", "flat"}}},
               {"humanoid.clip", {{"name", "walk"}, {"play", true}}}},
              words},
-            {"bent spine",
+            {"bent",
              {{"humanoid.curve", {{"first", "Spine"}, {"last", "Neck"}, {"roll_end_deg", 40.0f}}},
               {"humanoid.target", {{"effector", "left_hand"}, {"to", glm::vec3(0.4f, 1.3f, 0.5f)}}},
               {"humanoid.clip", {{"name", "walk"}, {"play", true}}}},

@@ -143,6 +143,9 @@ std::size_t node_or_bone(const HumanoidPart& part, const std::string& name) {
 
 /// A new curve through the pose; replaces the one that begins there, if any, but keeps its settings.
 BoneCurve& begin_curve(const IkNow& now, HumanoidPart& part, const BoneChain& chain) {
+    if (part.skeleton().children(chain.first).empty())
+        throw std::invalid_argument("nothing hangs on " + part.skeleton()[chain.first].name +
+                                    ": choose a node above it");
     const auto made = require_value(humanoid::BentChain::make(part.skeleton(), chain.first, chain.last));
     if (const std::string why = why_no_curve(part, chain); !why.empty()) throw std::invalid_argument(why);
     std::optional<std::size_t> which = curve_from(part, chain.first);
