@@ -206,7 +206,6 @@ void HumanoidLab::panel(const Workspace& workspace, Emit& emit) const {
     lint_rows(panel);
     target_rows(panel);
     hand_rows(panel);
-    hold_rows(panel);
     ground_rows(panel);
     spring_rows(panel);
     attachment_rows(panel);

@@ -36,7 +36,7 @@ Json hold_memory_json(const humanoid::HoldState& state);
 humanoid::HoldState read_hold_memory(const JsonPlace& place);
 
 void draw_hold(const View& view, DrawList& list, const HumanoidPart& part, const ShownPose& shown);
-/// The section of the left panel.
+/// Rows of the section Hands and gaze.
 void hold_rows(const HumanoidPanel& panel);
 
 void add_hold_commands(CommandTable& table);

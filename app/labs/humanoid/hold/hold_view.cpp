@@ -79,7 +79,6 @@ void draw_hold(const View& view, DrawList& list, const HumanoidPart& part, const
 }
 
 void hold_rows(const HumanoidPanel& panel) {
-    if (!folding_section(panel.workspace, "Held object", panel.emit, false)) return;
     const std::string& why = panel.runtime.solvers.why_no_body(panel.part);
     const auto& hold = panel.part.ik.hold;
     if (!hold) {

@@ -135,6 +135,7 @@ void hand_row(const HumanoidPanel& panel, std::size_t hand) {
 
 void hand_rows(const HumanoidPanel& panel) {
     if (!folding_section(panel.workspace, "Hands and gaze", panel.emit, false)) return;
+    hold_rows(panel);
     const IkSettings& ik = panel.part.ik;
     const bool body = panel.runtime.solvers.body(panel.part) != nullptr;
     const std::string no_body = "Full-body IK is off: " + panel.runtime.solvers.why_no_body(panel.part) + ".";
