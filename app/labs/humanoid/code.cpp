@@ -139,6 +139,7 @@ class HumanoidProgram {
         if (uses_map()) line("#include <tendril/humanoid/bone_map.hpp>");
         if (feet_on()) line("#include <tendril/humanoid/feet.hpp>");
         if (hands_on()) line("#include <tendril/humanoid/hands.hpp>");
+        if (body_on() && part_.ik.hold) line("#include <tendril/humanoid/hold.hpp>");
         if (gaze_on()) line("#include <tendril/humanoid/look_at.hpp>");
         line("#include <tendril/humanoid/skeleton.hpp>");
         if (!part_.springs.empty()) line("#include <tendril/humanoid/spring_chain.hpp>");
@@ -300,6 +301,25 @@ class HumanoidProgram {
         }
         say("humanoid::BodyState body_state;");
         body_state(part_.ik_state.body);
+        hold();
+    }
+
+    void hold() {
+        if (!part_.ik.hold) return;
+        say("const humanoid::Grip grips[] = {  // where the hands hold the " +
+            std::string(held_kinds.title(part_.ik.hold->kind)) + ", in its frame");
+        for (const humanoid::Grip& each :
+             held_grips(*part_.ik.hold, *solvers_.body(part_), part_.loaded->height())) {
+            say("    {humanoid::Effector::" + pascal_text(humanoid::name(each.hand)) + ", " +
+                braced(each.position) + ',');
+            say("     glm::dquat" + braced(*each.rotation) + ", " + braced(each.axis) + "},");
+        }
+        say("};");
+        IkState state = part_.ik_state;
+        const humanoid::ObjectPose asked = part_.ik.hold->asked(solve_pose(part_, solvers_, 0.0, state).hips);
+        say("const humanoid::ObjectPose asked{" + braced(asked.position) + ',');
+        say("                                 " + braced(asked.rotation) + "};");
+        say("humanoid::HoldState hold_state;");
     }
 
     void body_state(const humanoid::BodyState& state) {
@@ -454,7 +474,14 @@ class HumanoidProgram {
                    : "std::vector<rig::Transform> pose = humanoid::rest_pose(*skeleton);");
         const auto solve = [&] {
             const std::string options = part_.ik.balance.on ? ", body_options" : "";
-            say("if (const auto solved = body->solve(pose, targets, body_state" + options + "); !solved)");
+            if (part_.ik.hold)
+                say("if (const auto solved = humanoid::hold(*body, pose, targets, {grips, asked}, "
+                    "body_state, "
+                    "hold_state" +
+                    (options.empty() ? options : ", {.body = body_options}") + "); !solved)");
+            else
+                say("if (const auto solved = body->solve(pose, targets, body_state" + options +
+                    "); !solved)");
             say("    std::puts(solved.message());");
         };
         for (std::size_t i = 0; i < part_.curves.size(); ++i)

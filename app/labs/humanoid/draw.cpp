@@ -11,6 +11,7 @@
 #include <tendril/humanoid/soles.hpp>
 
 #include "app/labs/humanoid/attachments/attachment_panel.hpp"
+#include "app/labs/humanoid/hold/hold.hpp"
 #include "app/labs/humanoid/humanoid_lab.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "app/labs/humanoid/ik/ground.hpp"
@@ -52,11 +53,13 @@ class Drawing {
             node(i);
         }
         if (humanoid_runtime(view_.workspace).solvers.body(part_) != nullptr)
-            for (const humanoid::Effector each : all_effectors) effector(each);
+            for (const humanoid::Effector each : all_effectors)
+                if (!holds(part_, each)) effector(each);
         if (shown_.look) gaze();
         draw_limits(view_, list_, part_, shown_);
         draw_attachments(view_, list_, part_.attachments);
         draw_bone_curves(view_, list_, part_, humanoid_runtime(view_.workspace).solvers, shown_);
+        draw_hold(view_, list_, part_, shown_);
         labels();
     }
 
@@ -401,6 +404,7 @@ std::vector<LegendRow> HumanoidLab::legend(const Workspace& workspace) const {
     if (!part.curves.empty()) rows.push_back({"curve", curve_colour(colours)});
     if (!part.springs.empty()) rows.push_back({"on a spring", attached_colour(colours)});
     if (!part.attachments.list.empty()) rows.push_back({"attached", attached_colour(colours)});
+    if (shown.hold) rows.push_back({"closed grip", colours.tail});
     if (part.view.ghost && !shown.before.empty()) rows.push_back({"before", colours.ghost});
     if (humanoid_past().shows_ghosts(workspace.settings)) rows.push_back({ghost_legend, colours.ghost});
     return rows;

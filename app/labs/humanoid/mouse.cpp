@@ -4,6 +4,7 @@
 
 #include "app/document/json_complete.hpp"
 #include "app/labs/humanoid/draw.hpp"
+#include "app/labs/humanoid/hold/hold.hpp"
 #include "app/labs/humanoid/humanoid_lab.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "app/labs/humanoid/panel.hpp"
@@ -36,7 +37,7 @@ Handle effector_handle(const Workspace& workspace, Effector effector) {
 
 std::optional<Effector> effector_at(const HumanoidPart& part, std::size_t node) {
     for (const Effector effector : all_effectors)
-        if (part.node_of(humanoid::bone_of(effector)) == node) return effector;
+        if (part.node_of(humanoid::bone_of(effector)) == node && !holds(part, effector)) return effector;
     return std::nullopt;
 }
 
@@ -70,7 +71,9 @@ std::vector<Handle> HumanoidLab::handles(const Workspace& workspace) const {
     const ShownPose& shown = shown_pose(workspace);
     std::vector<Handle> handles;
     if (has_body(workspace))
-        for (const Effector effector : all_effectors) handles.push_back(effector_handle(workspace, effector));
+        for (const Effector effector : all_effectors)
+            if (!holds(part, effector)) handles.push_back(effector_handle(workspace, effector));
+    if (part.ik.hold) handles.push_back(hold_handle(*part.ik.hold, shown));
     if (part.ik.look_at.on) handles.push_back({"look_at", look_pick, {glm::vec3(part.ik.look_at.target)}});
     for (std::size_t i = 0; i < part.skeleton().size(); ++i)
         handles.push_back({"node." + part.skeleton()[i].name,
@@ -94,8 +97,11 @@ std::optional<Handle> HumanoidLab::handle(const Workspace& workspace, PickId pic
 }
 
 std::optional<Handle> HumanoidLab::gizmo(const Workspace& workspace) const {
-    const auto effector = gizmo_effector(humanoid_part(workspace));
-    if (!effector || !has_body(workspace)) return std::nullopt;
+    const HumanoidPart& part = humanoid_part(workspace);
+    const auto effector = gizmo_effector(part);
+    if (!has_body(workspace)) return std::nullopt;
+    if (!effector)
+        return part.ik.hold ? std::optional(hold_handle(*part.ik.hold, shown_pose(workspace))) : std::nullopt;
     return effector_handle(workspace, *effector);
 }
 
@@ -138,6 +144,8 @@ void HumanoidLab::drag(const Workspace& workspace, PickId pick, const Handle::Fr
     if (const auto curve = picked_curve(humanoid_part(workspace), pick))
         return drag_control(humanoid_part(workspace), humanoid_runtime(workspace).solvers,
                             shown_pose(workspace), *curve, to.position, emit);
+    const auto& hold = humanoid_part(workspace).ik.hold;
+    if (pick == hold_pick) return hold ? drag_hold(*hold, shown_pose(workspace), to, emit) : void();
     const auto effector = picked_effector(pick);
     if (!effector || !has_body(workspace)) return;
     const Handle::Frame from = effector_handle(workspace, *effector).frame;
@@ -152,7 +160,7 @@ void HumanoidLab::click(const Workspace& workspace, PickId pick, Emit& emit) con
     const HumanoidPart& part = humanoid_part(workspace);
     auto& waiting = humanoid_runtime(workspace).panel.bone;
     const auto node = clicked_node(part, pick);
-    if (pick == look_pick) return;
+    if (pick == look_pick || pick == hold_pick) return;
     if (const auto curve = picked_curve(part, pick))
         return click_curve(part, humanoid_runtime(workspace).solvers, shown_pose(workspace), *curve, emit);
     if (!node) {
@@ -208,6 +216,7 @@ void HumanoidLab::select(const Workspace& workspace, const std::vector<PickId>& 
 void HumanoidLab::double_click(const Workspace& workspace, PickId pick, Emit& emit) const {
     if (const auto curve = picked_curve(humanoid_part(workspace), pick))
         return remove_control(humanoid_part(workspace), *curve, emit);
+    if (pick == hold_pick) return emit("humanoid.release");
     const auto effector = picked_effector(pick);
     if (!effector || !humanoid_part(workspace).ik.target(*effector)) return click(workspace, pick, emit);
     emit("humanoid.target", {{"effector", humanoid::name(*effector)}, {"weight", 0}});
@@ -219,6 +228,9 @@ std::string HumanoidLab::hint(const Workspace& workspace, PickId pick) const {
     const auto effector = picked_effector(pick);
     if (pick == look_pick) return "What the head looks at. Drag to move it.";
     if (const auto curve = picked_curve(part, pick)) return curve_hint(part, *curve);
+    if (pick == hold_pick && part.ik.hold)
+        return std::string("The ") + held_kinds.title(part.ik.hold->kind) +
+               ": drag moves it, double click lets go.";
     if (effector && !waiting) return effector_hint(part, *effector);
     const auto node = clicked_node(part, pick);
     if (!node) return {};
@@ -232,11 +244,12 @@ std::string HumanoidLab::hint(const Workspace& workspace, PickId pick) const {
 
 std::vector<MouseHelp> HumanoidLab::mouse_help() const {
     return {{"Drag an orange ball", "gives hand, foot, head or hips a target"},
-            {"Double click on an orange ball", "removes the target"},
+            {"Double click on an orange ball", "removes the target, or lets go of the object"},
             {"Drag a control point", "bends the tail or spine along its curve"},
             {"Click on a curve", "adds a control point there"},
             {"Double click on a control point", "removes it"},
-            {"Drag an arrow, a square or a ring", "moves or turns the selected hands, feet, head and hips"},
+            {"Drag an arrow, a square or a ring",
+             "moves or turns the selected hands, feet, head and hips, or the held object"},
             {"Shift+click on a bone", "adds it to the selection, or takes it out"},
             {"Ctrl+drag on nothing", "draws a box that selects the nodes in it; with Shift it adds them"}};
 }
@@ -264,6 +277,7 @@ Bounds HumanoidLab::bounds(const Workspace& workspace, bool selection_only) cons
     for (std::size_t i = 0; i < part.curves.size(); ++i)
         for (const glm::vec3& each : shown_curve(part, humanoid_runtime(workspace).solvers, shown, i))
             take(each);
+    if (part.ik.hold) take(glm::vec3(part.ik.hold->asked(shown.hips).position));
     return bounds_of(low, high, 0.2f * size);
 }
 

@@ -7,6 +7,7 @@
 
 #include "app/document/units.hpp"
 #include "app/fields/field_rows.hpp"
+#include "app/labs/humanoid/hold/hold.hpp"
 #include "app/labs/humanoid/humanoid_lab.hpp"
 #include "app/labs/humanoid/humanoid_part.hpp"
 #include "app/labs/humanoid/ik/solvers.hpp"
@@ -469,6 +470,7 @@ Verdict humanoid_verdict(const Workspace& workspace) {
         return {std::string(deepest->side == 0 ? "Left" : "Right") + " foot " +
                     fixed_text(1000.0 * deepest->depth, 0) + " mm in the ground",
                 Verdict::Kind::Bad, why_in_ground(part, *deepest)};
+    if (shown.hold && worst < 1e-3) return hold_verdict(*part.ik.hold, *shown.hold);
     if (worst < 0.0 && all) return {"Complete body", Verdict::Kind::Good, bones + '.'};
     if (worst < 0.0)
         return {"Usable body", Verdict::Kind::Good,

@@ -3,6 +3,7 @@
 
 #include "app/document/json_complete.hpp"
 #include "app/labs/humanoid/clip/motions.hpp"
+#include "app/labs/humanoid/hold/hold.hpp"
 #include "app/labs/humanoid/humanoid_lab.hpp"
 #include "app/labs/humanoid/humanoid_part.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
@@ -329,6 +330,7 @@ Json HumanoidLab::state(const Workspace& workspace) const {
                 {"feet", feet_state(part, humanoid_runtime(workspace).solvers, shown)},
                 {"foot_ik", part.ik.foot_ik.on},
                 {"hand_ik", hands_state(part, shown)},
+                {"hold", hold_state(part, shown)},
                 {"skinning", skinnings.name(part.view.skinning)},
                 {"look_at", look_state(part, shown)},
                 {"ground", ground_state(part.ik.ground)},

@@ -30,12 +30,14 @@ constexpr double force_kept = 2.0;
 constexpr double force_stiffness = 2.0;
 /// Part of a step by which it may pass a limit.
 constexpr double limit_tolerance = 0.01;
+/// After those that did not settle: steps that only close the grips.
 constexpr int closing_steps = 20;
 constexpr int max_hold_changes = 6;  ///< of the set of limits, per step
 /// Radians, metres: of one step.
 constexpr double max_hold_step = 0.4;
 /// A smaller step ends the solve, if the grips are closed as well as they can be.
 constexpr double hold_tolerance = 1e-7;
+/// Metres that an elbow or hand may move per metre of the asked grips and the shoulders, and on top of that.
 constexpr double jump_per_metre = 20.0, jump_slack = 1e-3;
 /// A joint is at a limit if a force over this would turn it by this much, radians, and it cannot.
 constexpr double told_force = 1e-5, told_turn = 1e-3;
@@ -385,6 +387,12 @@ void HoldSolve::run(std::span<rig::Transform> pose, HoldReport& report, HoldStat
         for (int i = 0; i < closing_steps && !step(); ++i, ++report.iterations) {
         }
     }
+    if (!is_sound()) {  // numbers near the largest: stays as the body has reached
+        for (Link& each : work_.links) each.turn = each.own;
+        at_ = asked_;
+        report.settled = false;
+        measure();
+    }
     tell(report, state);
     for (std::size_t i = 0; i < arm_count_; ++i) {
         const Arm& arm = arms_[i];
@@ -397,11 +405,15 @@ void HoldSolve::run(std::span<rig::Transform> pose, HoldReport& report, HoldStat
         hand.turn = math::compose(rotation_about(arm.forearm, -twist), hand.turn);
     }
     work_.place_links(glm::dvec3(0.0));
-    for (const Link& each : work_.links)
-        if (!is_within(each.position)) return;  // stays as the body has reached
     const TwistNodes::ArmTurns turns = work_.twist.turns(pose);
     work_.give(pose, glm::dvec3(0.0));
     work_.twist.follow(turns, pose);
+}
+
+bool HoldSolve::is_sound() const noexcept {
+    bool sound = is_within(at_.position) && std::abs(dot(at_.rotation, at_.rotation) - 1.0) < 1e-6;
+    for (const Link& each : work_.links) sound = sound && is_within(each.position);
+    return sound;
 }
 
 void HoldSolve::tell(HoldReport& report, HoldState& state) noexcept {

@@ -72,6 +72,7 @@ class HoldSolve {
     bool clamp(const Joint& joint) noexcept;
     glm::dvec3 excess(const Joint& joint, const glm::dvec3& turn, glm::dquat& there) noexcept;
     bool block_bounds(Joint& joint, const glm::dquat& turn, const glm::dvec3& step) noexcept;
+    bool is_sound() const noexcept;
     void tell(HoldReport& report, HoldState& state) noexcept;
 
     Body::Work& work_;

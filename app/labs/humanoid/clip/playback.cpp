@@ -150,7 +150,7 @@ void carry_targets(HumanoidPart& part, const Playback& before) {
     const Playback& now = part.playback;
     const auto hips = part.node_of(humanoid::Bone::Hips);
     if (now.in_place || !now.targets_travel || !hips || !now.clip || now.clip != before.clip ||
-        !part.ik.has_targets())
+        !(part.ik.has_targets() || (part.ik.hold && !part.ik.hold->with_body)))
         return;
     const humanoid::Skeleton& skeleton = part.skeleton();
     const humanoid::Clip& clip = *part.clip();
@@ -160,14 +160,18 @@ void carry_targets(HumanoidPart& part, const Playback& before) {
     if (rounds == 0.0) return;
     const rig::Transform along = transform(of_rounds(hips_at(skeleton, sampled(clip, skeleton, 0.0), *hips),
                                                      end_of_round(now, clip, skeleton, *hips), rounds));
-    for (std::optional<TargetSetting>& target : part.ik.targets) {
-        if (!target) continue;
-        const glm::dvec3 at = along.translation + along.rotation * target->position;
+    const auto carried = [&](glm::dvec3& position) {
+        const glm::dvec3 at = along.translation + along.rotation * position;
         constexpr auto most = static_cast<double>(max_magnitude);
-        if (glm::any(glm::greaterThan(glm::abs(at), glm::dvec3(most)))) continue;
-        target->position = at;
-        if (target->rotation) target->rotation = rig::normalised(along.rotation * *target->rotation);
-    }
+        if (glm::any(glm::greaterThan(glm::abs(at), glm::dvec3(most)))) return false;
+        position = at;
+        return true;
+    };
+    for (std::optional<TargetSetting>& target : part.ik.targets)
+        if (target && carried(target->position) && target->rotation)
+            target->rotation = rig::normalised(along.rotation * *target->rotation);
+    if (part.ik.hold && !part.ik.hold->with_body && carried(part.ik.hold->position))
+        part.ik.hold->rotation = rig::normalised(along.rotation * part.ik.hold->rotation);
 }
 
 glm::dvec3 missing_velocity(const Playback& playback, const LoadedCharacter& character,

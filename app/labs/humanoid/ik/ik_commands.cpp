@@ -8,6 +8,7 @@
 
 #include "app/document/json_complete.hpp"
 #include "app/document/units.hpp"
+#include "app/labs/humanoid/hold/hold.hpp"
 #include "app/labs/humanoid/ik/shown_pose.hpp"
 #include "app/labs/humanoid/limits/limit_ranges.hpp"
 #include "app/labs/kit/arguments.hpp"
@@ -19,9 +20,10 @@ namespace {
 /// hand IK takes effect at once: its curves and view cone do the easing.
 void let_go(Workspace& workspace, const IkSettings& settings, const std::vector<rig::Transform>& pose) {
     const HumanoidPart& part = humanoid_part(workspace);
-    const bool loses = std::ranges::any_of(all_effectors, [&](humanoid::Effector each) {
-        return settings.target(each) && !part.ik.target(each);
-    });
+    const bool loses =
+        (settings.hold && !part.ik.hold) || std::ranges::any_of(all_effectors, [&](humanoid::Effector each) {
+            return settings.target(each) && !part.ik.target(each);
+        });
     const bool plays = workspace.clock.playing && goes_on(part.playback, *part.loaded);
     if (!loses || !(plays || part.ik.has_targets())) return;
     const auto set = [&](Release release) {
@@ -89,6 +91,9 @@ std::vector<Effector> effectors_named(const Arguments& given) {
 /// The effector's target, which is created at its current position if it has none.
 TargetSetting& target_begun(const IkNow& now, HumanoidPart& part, Effector effector) {
     std::optional<TargetSetting>& target = part.ik.target(effector);
+    if (holds(part, effector))
+        throw std::invalid_argument(std::string(humanoid::name(effector)) + " holds the " +
+                                    held_kinds.title(part.ik.hold->kind) + ": move that, or let go of it");
     if (!target) {
         const std::size_t node = *part.node_of(humanoid::bone_of(effector));
         target = TargetSetting{.position = now.shown.placed[node].position};
@@ -231,6 +236,7 @@ void add_ik_commands(CommandTable& table) {
     table.add(ik_command("humanoid.foot_ik", "Set foot IK", field_arguments<FootIkSetting>(),
                          "Brings the feet to the ground; anything omitted stays as it is", set_foot_ik));
     add_hand_commands(table);
+    add_hold_commands(table);
     table.add(
         ik_command("humanoid.limits", "Choose where joint limits come from",
                    {choice_argument("from", true, "which", limits_from.names()),

@@ -1,5 +1,6 @@
 #include "app/document/json_complete.hpp"
 #include "app/document/json_place.hpp"
+#include "app/labs/humanoid/hold/hold.hpp"
 #include "app/labs/humanoid/humanoid_part.hpp"
 #include "app/labs/humanoid/ik/ik_members.hpp"
 #include "app/labs/humanoid/ik/shown_pose.hpp"
@@ -195,6 +196,8 @@ Json ik_json(const HumanoidPart& part) {
     json["balance"] = save_fields(part.ik.balance);
     json["hand_ik"] = hand_ik_json(part.ik.hand_ik);
     json["look_at"] = save_fields(part.ik.look_at);
+    if (part.ik.hold) json["hold"] = hold_json(*part.ik.hold);
+    if (part.ik_state.hold.asked) json["held"] = hold_memory_json(part.ik_state.hold);
     if (!(part.ik_state.hands == humanoid::HandsState())) json["hands"] = written(part.ik_state.hands);
     if (!(part.ik_state.look == humanoid::LookAtState())) json["look"] = written(part.ik_state.look);
     if (part.ik_state.steps.away()) json["steps"] = written(part.ik_state.steps);
@@ -214,6 +217,8 @@ void read_ik(const JsonPlace& place, HumanoidPart& part) {
     if (const auto balance = place.optional("balance")) load_fields(*balance, part.ik.balance);
     if (const auto hand_ik = place.optional("hand_ik")) read_hand_ik(*hand_ik, part.ik.hand_ik);
     if (const auto look_at = place.optional("look_at")) load_fields(*look_at, part.ik.look_at);
+    if (const auto hold = place.optional("hold")) part.ik.hold = read_hold(*hold);
+    if (const auto held = place.optional("held")) part.ik_state.hold = read_hold_memory(*held);
     if (const auto hands = place.optional("hands")) read_number(*hands, part.ik_state.hands);
     if (const auto look = place.optional("look")) read_number(*look, part.ik_state.look);
     if (const auto steps = place.optional("steps")) {

@@ -4,6 +4,7 @@
 
 #include "app/document/json_complete.hpp"
 #include "app/fields/field_rows.hpp"
+#include "app/labs/humanoid/hold/hold.hpp"
 #include "app/labs/humanoid/panel.hpp"
 #include "app/labs/kit/panel_rows.hpp"
 #include "app/widgets/fields.hpp"
@@ -16,6 +17,10 @@ void effector_row(const HumanoidPanel& panel, humanoid::Effector effector) {
     const auto& target = panel.part.ik.target(effector);
     const std::string name = title(effector);
     bool on = target.has_value();
+    if (holds(panel.part, effector)) {
+        reading(name.c_str(), "holds the %s", held_kinds.title(panel.part.ik.hold->kind));
+        return;
+    }
     if (!on) {
         if (ImGui::Checkbox(name.c_str(), &on))
             panel.emit("humanoid.target", {{"effector", humanoid::name(effector)}});
@@ -130,6 +135,7 @@ void hand_row(const HumanoidPanel& panel, std::size_t hand) {
 
 void hand_rows(const HumanoidPanel& panel) {
     if (!folding_section(panel.workspace, "Hands and gaze", panel.emit, false)) return;
+    hold_rows(panel);
     const IkSettings& ik = panel.part.ik;
     const bool body = panel.runtime.solvers.body(panel.part) != nullptr;
     const std::string no_body = "Full-body IK is off: " + panel.runtime.solvers.why_no_body(panel.part) + ".";

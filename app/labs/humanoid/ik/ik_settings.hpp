@@ -14,6 +14,7 @@
 
 #include "app/document/names.hpp"
 #include "app/fields/fields.hpp"
+#include "app/labs/humanoid/hold/hold_setting.hpp"
 #include "app/labs/humanoid/ik/ground.hpp"
 
 namespace tendril::app {
@@ -90,6 +91,7 @@ struct IkSettings {
     FootIkSetting foot_ik;
     HandIkSetting hand_ik;
     LookAtSetting look_at;
+    std::optional<HoldSetting> hold{};  ///< its hands have no targets
     bool operator==(const IkSettings&) const = default;
 
     std::optional<TargetSetting>& target(humanoid::Effector effector) {
@@ -119,6 +121,7 @@ struct IkState {
     humanoid::FootstepsState steps{};
     humanoid::HandsState hands{};
     humanoid::LookAtState look{};
+    humanoid::HoldState hold{};
     std::vector<humanoid::SpringChainState> springs{};  ///< in the order of the part's springs
     Release release{};
     bool operator==(const IkState&) const = default;

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "app/document/units.hpp"
+#include "app/labs/humanoid/hold/hold.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "app/labs/humanoid/springs/springs.hpp"
 
@@ -38,13 +39,20 @@ void stand(const HumanoidPart& part, Solvers& solvers, ShownPose& shown) {
 }
 
 /// The stored state may belong to another body, if a file was edited; then it is reset.
-void reach(humanoid::Body& body, const std::vector<humanoid::BodyTarget>& targets,
+void reach(const HumanoidPart& part, humanoid::Body& body, const std::vector<humanoid::BodyTarget>& targets,
            humanoid::BodyOptions options, double dt, IkState& state, ShownPose& shown) {
     if (state.release.left > 0.0) options.settle = std::min(settle_speed * dt, 1.0);
-    Expected<humanoid::BodyReport> report = body.solve(shown.local, targets, state.body, options);
-    if (!report && !(state.body == humanoid::BodyState())) {
-        state.body = {};
-        report = body.solve(shown.local, targets, state.body, options);
+    const auto solved = [&]() -> Expected<humanoid::BodyReport> {
+        if (!part.ik.hold) return body.solve(shown.local, targets, state.body, options);
+        const auto held = solve_hold(part, body, shown, targets, options, state);
+        if (!held) return held.error();
+        shown.hold = *held;
+        return held->body;
+    };
+    Expected<humanoid::BodyReport> report = solved();
+    if (!report && !(state.body == humanoid::BodyState() && state.hold == humanoid::HoldState())) {
+        state.body = {}, state.hold = {};
+        report = solved();
     }
     if (report)
         shown.body = *report;
@@ -109,7 +117,7 @@ humanoid::FootstepOptions footstep_options(const HumanoidPart& part) {
 }
 
 bool body_acts(const HumanoidPart& part, const IkState& state) {
-    return state.steps.away() || !body_targets(part.ik).empty();
+    return state.steps.away() || part.ik.hold || !body_targets(part.ik).empty();
 }
 
 humanoid::FeetOptions feet_options(const HumanoidPart& part, Solvers& solvers) {
@@ -166,13 +174,13 @@ void reach_and_step(const HumanoidPart& part, Solvers& solvers, humanoid::Body& 
     const humanoid::Masses* const masses = solvers.masses(part);
     if (masses == nullptr || !part.ik.balance.on || !part.ik.balance.steps) {
         state.steps = {};
-        reach(body, body_targets(part.ik), options, dt, state, shown);
+        reach(part, body, body_targets(part.ik), options, dt, state, shown);
         return;
     }
     const humanoid::Soles& soles = solvers.feet(part)->soles();
     options.feet = humanoid::advance_steps(state.steps, soles, dt, footstep_options(part));
     const std::vector<rig::Transform> clip = shown.local;
-    reach(body, body_targets(part.ik), options, dt, state, shown);
+    reach(part, body, body_targets(part.ik), options, dt, state, shown);
     if (!(dt > 0.0) || !shown.body) return;
     humanoid::plan_step(state.steps, soles, masses->centre(placed(part, shown.local)), placed(part, clip),
                         state.body, options.ground);
@@ -182,6 +190,11 @@ void reach_and_step(const HumanoidPart& part, Solvers& solvers, humanoid::Body& 
 void solve(const HumanoidPart& part, Solvers& solvers, double dt, IkState& state, ShownPose& shown) {
     shown.curves = bend(part, solvers.curves(part), shown.local);
     stand(part, solvers, shown);
+    if (const auto hips = part.node_of(humanoid::Bone::Hips)) {
+        const humanoid::Placement at = placed(part, shown.local)[*hips];
+        shown.hips = {at.position,
+                      rig::normalised(at.rotation() * glm::conjugate(part.loaded->rest[*hips].rotation()))};
+    }
     const bool acts = body_acts(part, state), moves = acts || part.ik.self_collision;
     humanoid::Body* const body = moves ? solvers.body(part) : nullptr;
     if (body == nullptr) state.body = {};
@@ -189,7 +202,7 @@ void solve(const HumanoidPart& part, Solvers& solvers, double dt, IkState& state
     look(part, solvers, dt, state, shown);
     reach_by_hand(part, solvers, dt, state, shown);
     // Resolves collisions that the clip or hand IK alone would cause.
-    if (body != nullptr && !acts) reach(*body, {}, body_options(part, solvers), dt, state, shown);
+    if (body != nullptr && !acts) reach(part, *body, {}, body_options(part, solvers), dt, state, shown);
     pass(state.release, dt);
     apply(state.release, shown.local, part.node_of(humanoid::Bone::Hips));
 }

@@ -19,6 +19,8 @@ struct ShownPose {
     /// Before anything modified the pose; empty if nothing did.
     std::vector<humanoid::Placement> before;
     std::optional<humanoid::BodyReport> body;     ///< if there is a target
+    std::optional<humanoid::HoldReport> hold;     ///< if the hands hold an object
+    humanoid::ObjectPose hips;                    ///< before IK of the body, turned from rest
     std::optional<humanoid::HandsReport> hands;   ///< if hand IK is on
     std::optional<humanoid::LookAtReport> look;   ///< if look-at is on
     std::optional<humanoid::FeetReport> feet;     ///< if foot IK is on
@@ -56,7 +58,8 @@ std::vector<humanoid::BodyTarget> body_targets(const IkSettings& ik);
 /// Without the feet that step.
 humanoid::BodyOptions body_options(const HumanoidPart& part, Solvers& solvers);
 humanoid::FootstepOptions footstep_options(const HumanoidPart& part);
-/// Whether full-body IK runs before gaze and hands: there is a target, or a foot has stepped away.
+/// Whether full-body IK runs before gaze and hands: there is a target or an object in the hands, or a foot
+/// has stepped away.
 bool body_acts(const HumanoidPart& part, const IkState& state);
 humanoid::FeetOptions feet_options(const HumanoidPart& part, Solvers& solvers);
 /// `body_solved`: targets hold the body, so only neck and head turn.

@@ -1,0 +1,239 @@
+#include "app/labs/humanoid/hold/hold.hpp"
+
+#include <algorithm>
+#include <glm/trigonometric.hpp>
+#include <stdexcept>
+
+#include "app/document/json_complete.hpp"
+#include "app/document/json_place.hpp"
+#include "app/document/units.hpp"
+#include "app/labs/humanoid/ik/ik_commands.hpp"
+#include "app/labs/kit/arguments.hpp"
+
+namespace tendril::app {
+
+using humanoid::Bone;
+using humanoid::Effector;
+
+Expected<humanoid::HoldReport> solve_hold(const HumanoidPart& part, humanoid::Body& body, ShownPose& shown,
+                                          std::span<const humanoid::BodyTarget> targets,
+                                          const humanoid::BodyOptions& options, IkState& state) {
+    const std::vector<humanoid::Grip> grips = held_grips(*part.ik.hold, body, part.loaded->height());
+    return humanoid::hold(body, shown.local, targets, {grips, part.ik.hold->asked(shown.hips)}, state.body,
+                          state.hold, {.body = options});
+}
+
+// In words and in --state.
+
+namespace {
+
+/// Less than this is no way worth telling, metres and radians.
+constexpr double told_way = 5e-4, told_turn = 9e-3;
+
+/// "the left arm is straight", "at their limits: LeftHand".
+std::vector<std::string> hold_reasons(const humanoid::HoldReport& report) {
+    std::vector<std::string> reasons;
+    const bool left = report.grips[0].straight, right = report.grips[1].straight;
+    if (left && right) reasons.push_back("both arms are straight");
+    if (left != right)
+        reasons.push_back(std::string("the ") + (left ? "left" : "right") + " arm is straight");
+    std::string joints;
+    for (std::size_t i = static_cast<std::size_t>(Bone::LeftShoulder);
+         i <= static_cast<std::size_t>(Bone::RightHand); ++i)
+        if (report.body.at_limit[i])
+            joints += (joints.empty() ? "" : ", ") + std::string(humanoid::name(static_cast<Bone>(i)));
+    if (!joints.empty()) reasons.push_back("at their limits: " + joints);
+    if (report.jumped) reasons.push_back("an arm has jumped to another pose");
+    return reasons;
+}
+
+std::string hold_reason_text(const humanoid::HoldReport& report) {
+    std::string text;
+    for (const std::string& each : hold_reasons(report)) text += (text.empty() ? "" : "; ") + each;
+    if (text.empty()) return {};
+    text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
+    return text + '.';
+}
+
+std::string hold_way_text(double metres) {
+    return metres < 0.0095  ? length_text(metres)
+           : metres < 0.995 ? fixed_text(100.0 * metres, 0) + " cm"
+                            : fixed_text(metres, 2) + " m";
+}
+
+bool gives_way(const humanoid::HoldReport& report) {
+    return report.moved > told_way || report.turned > told_turn;
+}
+
+}  // namespace
+
+Verdict hold_verdict(const HoldSetting& setting, const humanoid::HoldReport& report) {
+    const std::string name = held_kinds.title(setting.kind);
+    if (!report.closed()) {
+        const double gap = std::max(report.grips[0].gap, report.grips[1].gap);
+        if (gap > told_way)
+            return {"Hands " + hold_way_text(gap) + " short of the " + name, Verdict::Kind::Bad,
+                    hold_reason_text(report)};
+        return {"A hand is turned off its grip", Verdict::Kind::Bad, hold_reason_text(report)};
+    }
+    if (!gives_way(report)) return {"Holds the " + name, Verdict::Kind::Good};
+    std::string by = report.moved > told_way ? hold_way_text(report.moved) : "";
+    if (report.turned > told_turn)
+        by += (by.empty() ? "" : " and ") + fixed_text(glm::degrees(report.turned), 0) + " degrees";
+    return {"The " + name + " gives way by " + by, Verdict::Kind::Bad, hold_reason_text(report)};
+}
+
+Json hold_state(const HumanoidPart& part, const ShownPose& shown) {
+    if (!part.ik.hold) return nullptr;
+    Json json = save_fields(*part.ik.hold);
+    const humanoid::ObjectPose asked = part.ik.hold->asked(shown.hips);
+    json["position"] = dpoint(asked.position);
+    json["rotation"] = dquaternion(asked.rotation);
+    if (!shown.hold) return json;
+    const humanoid::HoldReport& report = *shown.hold;
+    const Verdict verdict = hold_verdict(*part.ik.hold, report);
+    json["held_at"] = {{"position", dpoint(report.object.position)},
+                       {"rotation", dquaternion(report.object.rotation)}};
+    json["moved"] = report.moved;
+    json["turned_deg"] = glm::degrees(report.turned);
+    json["closed"] = report.closed();
+    json["jumped"] = report.jumped;
+    json["text"] = verdict.text;
+    json["why"] = verdict.why;
+    for (std::size_t hand = 0; hand < 2; ++hand) {
+        const humanoid::GripReport& grip = report.grips[hand];
+        if (grip.holds)
+            json["grips"][hand == 0 ? "left" : "right"] = {
+                {"gap", grip.gap}, {"off_deg", glm::degrees(grip.off)}, {"straight", grip.straight}};
+    }
+    return json;
+}
+
+// In a scene file.
+
+Json hold_json(const HoldSetting& setting) {
+    Json json = save_fields(setting);
+    json["position"] = dpoint(setting.position);
+    json["rotation"] = dquaternion(setting.rotation);
+    return json;
+}
+
+HoldSetting read_hold(const JsonPlace& place) {
+    HoldSetting setting;
+    load_fields(place, setting);
+    setting.position = place["position"].dpoint();
+    if (const auto rotation = place.optional("rotation")) setting.rotation = rotation->drotation();
+    return setting;
+}
+
+namespace {
+
+constexpr const char* hold_joint_names[]{"shoulders", "elbows", "hands"};
+
+auto hold_joints(auto& state) {
+    return std::array{&state.shoulders, &state.elbows, &state.hands};
+}
+
+}  // namespace
+
+Json hold_memory_json(const humanoid::HoldState& state) {
+    Json json{{"position", dpoint(state.asked->position)}, {"rotation", dquaternion(state.asked->rotation)}};
+    for (std::size_t i = 0; i < 3; ++i)
+        for (const glm::dvec3& each : *hold_joints(state)[i])
+            json[hold_joint_names[i]].push_back(dpoint(each));
+    return json;
+}
+
+humanoid::HoldState read_hold_memory(const JsonPlace& place) {
+    humanoid::HoldState state;
+    state.asked = humanoid::ObjectPose{place["position"].dpoint(), place["rotation"].drotation()};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const JsonPlace joints = place[hold_joint_names[i]];
+        joints.check_size(2, "points: left, right");
+        for (std::size_t hand = 0; hand < 2; ++hand)
+            (*hold_joints(state)[i])[hand] = joints.element(hand).dpoint();
+    }
+    return state;
+}
+
+// Commands.
+
+namespace {
+
+/// In front of the chest, as far as bent arms reach.
+humanoid::ObjectPose before_chest(const IkNow& now, const HumanoidPart& part) {
+    const humanoid::Facing facing = humanoid::facing(part.skeleton(), *part.map);
+    const auto at = [&](Bone bone) { return now.shown.placed[*part.node_of(bone)].position; };
+    const auto rest = [&](Bone bone) { return part.loaded->rest[*part.node_of(bone)]; };
+    const double arm = glm::distance(rest(Bone::LeftUpperArm).position, rest(Bone::LeftLowerArm).position) +
+                       glm::distance(rest(Bone::LeftLowerArm).position, rest(Bone::LeftHand).position);
+    glm::dvec3 ahead = now.shown.hips.rotation * facing.forward;
+    ahead.y = 0.0;
+    ahead = glm::length(ahead) > 1e-6 ? glm::normalize(ahead) : facing.forward;
+    const glm::dvec3 left = glm::cross(facing.up, ahead);
+    return {
+        0.5 * (at(Bone::LeftUpperArm) + at(Bone::RightUpperArm)) + arm * (0.68 * ahead - 0.32 * facing.up),
+        rig::normalised(glm::quat_cast(glm::dmat3(left, facing.up, ahead)))};
+}
+
+void place_as_given(const Arguments& given, humanoid::ObjectPose& asked) {
+    if (given.has("to")) asked.position = exact_point(given.json("to"));
+    if (given.has("rotation")) asked.rotation = rig::normalised(glm::dquat(given.rotation("rotation")));
+}
+
+void set_hold(const IkNow& now, HumanoidPart& part, const Arguments& given) {
+    require_body(now, part);
+    HoldSetting setting = part.ik.hold.value_or(HoldSetting());
+    humanoid::ObjectPose asked = part.ik.hold ? setting.asked(now.shown.hips) : before_chest(now, part);
+    const bool with_body = setting.with_body;
+    set_fields(given, setting);
+    place_as_given(given, asked);
+    if (!part.ik.hold || setting.with_body != with_body || given.has("to") || given.has("rotation"))
+        setting.ask(asked, now.shown.hips);
+    if (held_grips(setting, *now.solvers.body(part), part.loaded->height()).empty())
+        throw std::invalid_argument("the hands point up or down in the T-pose, so their palms are not known");
+    for (const Effector hand : both_hands)
+        if (setting.holds(hand)) {
+            part.ik.target(hand).reset();
+            forget_on_the_way_to(part.ik_state.release, part.skeleton(),
+                                 *part.node_of(humanoid::bone_of(hand)));
+        }
+    part.ik.hold = setting;
+    part.ik_state.hold = {};
+}
+
+void move_hold(const IkNow& now, HumanoidPart& part, const Arguments& given) {
+    if (!part.ik.hold) throw std::invalid_argument("the hands hold nothing: use humanoid.hold first");
+    humanoid::ObjectPose asked = part.ik.hold->asked(now.shown.hips);
+    place_as_given(given, asked);
+    part.ik.hold->ask(asked, now.shown.hips);
+}
+
+void release_hold(const IkNow&, HumanoidPart& part, const Arguments&) {
+    if (!part.ik.hold) throw std::invalid_argument("the hands hold nothing");
+    part.ik.hold.reset();
+    part.ik_state.hold = {};
+}
+
+}  // namespace
+
+void add_hold_commands(CommandTable& table) {
+    const Argument to =
+        point_argument("to", false, "metres, of its middle; if never given, before the chest");
+    const Argument rotation{.name = "rotation",
+                            .type = ArgumentType::Rotation,
+                            .required = false,
+                            .help = "of the object: X is left, Y up, Z forward"};
+    std::vector<Argument> arguments = field_arguments<HoldSetting>();
+    arguments.push_back(to);
+    arguments.push_back(rotation);
+    table.add(ik_command("humanoid.hold", "Hold an object", std::move(arguments),
+                         "Puts the hands on an object; anything omitted stays as it is", set_hold));
+    table.add(ik_command("humanoid.hold_move", "Move the held object", {to, rotation},
+                         "Asks the held object to be somewhere; it gives way where the arms cannot follow",
+                         move_hold));
+    table.add(ik_command("humanoid.release", "Let go of the object", {}, "Takes the hands off the object",
+                         release_hold));
+}
+
+}  // namespace tendril::app

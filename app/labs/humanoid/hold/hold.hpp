@@ -1,0 +1,44 @@
+// The object that the hands hold in the Humanoid lab: solving, telling, drawing, commands. What it is: see
+// hold_setting.hpp.
+#pragma once
+
+#include "app/labs/humanoid/draw.hpp"
+#include "app/labs/humanoid/humanoid_commands.hpp"
+#include "app/labs/humanoid/panel.hpp"
+
+namespace tendril::app {
+
+/// The pick id of the object.
+inline constexpr PickId hold_pick = first_effector_pick + 101;
+
+/// Whether the hand holds the object, so that it can have no target of its own.
+inline bool holds(const HumanoidPart& part, humanoid::Effector effector) {
+    return part.ik.hold && part.ik.hold->holds(effector);
+}
+
+/// Solves the body with its hands on the object, which must be held.
+Expected<humanoid::HoldReport> solve_hold(const HumanoidPart& part, humanoid::Body& body, ShownPose& shown,
+                                          std::span<const humanoid::BodyTarget> targets,
+                                          const humanoid::BodyOptions& options, IkState& state);
+
+/// At its asked place, for the mouse.
+Handle hold_handle(const HoldSetting& setting, const ShownPose& shown);
+void drag_hold(const HoldSetting& setting, const ShownPose& shown, const Handle::Frame& to, Emit& emit);
+
+/// "The wheel gives way by 12 cm", and why: "The left arm is straight."
+Verdict hold_verdict(const HoldSetting& setting, const humanoid::HoldReport& report);
+/// Null if nothing is held.
+Json hold_state(const HumanoidPart& part, const ShownPose& shown);
+
+Json hold_json(const HoldSetting& setting);
+HoldSetting read_hold(const JsonPlace& place);
+Json hold_memory_json(const humanoid::HoldState& state);
+humanoid::HoldState read_hold_memory(const JsonPlace& place);
+
+void draw_hold(const View& view, DrawList& list, const HumanoidPart& part, const ShownPose& shown);
+/// Rows of the section Hands and gaze.
+void hold_rows(const HumanoidPanel& panel);
+
+void add_hold_commands(CommandTable& table);
+
+}  // namespace tendril::app

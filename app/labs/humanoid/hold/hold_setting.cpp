@@ -1,0 +1,150 @@
+#include "app/labs/humanoid/hold/hold_setting.hpp"
+
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::app::HoldSetting>() noexcept {
+    using namespace app;
+    static constexpr auto kinds = held_kinds.name_array();
+    static constexpr auto hands = holding_hands.name_array();
+    static constexpr Field rows[] = {field<&HoldSetting::kind>("kind", kinds),
+                                     field<&HoldSetting::size>("size", {smallest_held, largest_held}),
+                                     field<&HoldSetting::hands>("hands", hands),
+                                     field<&HoldSetting::with_body>("with_body")};
+    return rows;
+}
+
+namespace tendril::app {
+
+template <>
+std::span<const FieldText> field_texts<HoldSetting>() {
+    static constexpr FieldText texts[] = {
+        {.name = "kind",
+         .label = "object",
+         .help = "What the hands hold.",
+         .listed = true,
+         .choices = held_kinds.rows},
+        {.name = "size",
+         .label = "size",
+         .help =
+             "1: usual for the character's height. If it is longer than both arms, the hands stay short of "
+             "their grips."},
+        {.name = "hands",
+         .label = "hands",
+         .help = "Which hands hold it.",
+         .listed = true,
+         .choices = holding_hands.rows},
+        {.name = "with_body",
+         .label = "Goes with the body",
+         .help =
+             "The object goes with the hips. Off: it stays where it is in space, as a steering wheel does."}};
+    return texts;
+}
+
+humanoid::ObjectPose HoldSetting::asked(const humanoid::ObjectPose& hips) const {
+    if (!with_body) return {position, rotation};
+    return {hips.position + hips.rotation * position, rig::normalised(hips.rotation * rotation)};
+}
+
+void HoldSetting::ask(const humanoid::ObjectPose& there, const humanoid::ObjectPose& hips) {
+    const glm::dquat back = with_body ? glm::conjugate(hips.rotation) : glm::dquat(1.0, 0.0, 0.0, 0.0);
+    position = with_body ? back * (there.position - hips.position) : there.position;
+    rotation = with_body ? rig::normalised(back * there.rotation) : there.rotation;
+}
+
+bool HoldSetting::holds(humanoid::Effector effector) const {
+    return (effector == humanoid::Effector::LeftHand && hands != HoldingHands::Right) ||
+           (effector == humanoid::Effector::RightHand && hands != HoldingHands::Left);
+}
+
+namespace {
+
+// Of a person of 1 m, at size 1; metres.
+constexpr double wheel_radius = 0.11, rifle_length = 0.5, box_width = 0.2, box_depth = 0.15, bar = 0.008;
+constexpr double palm_reach = 0.045;                    // from the wrist to the middle of the palm
+constexpr double rifle_rear = -0.3, rifle_fore = 0.16;  // parts of its length, from its middle
+
+std::vector<HeldBar> wheel_shape(double size) {
+    constexpr int parts = 24;
+    std::vector<HeldBar> bars;
+    const double radius = wheel_radius * size;
+    const auto at = [&](double part) {
+        const double angle = glm::two_pi<double>() * part / parts;
+        return radius * glm::dvec3(std::cos(angle), std::sin(angle), 0.0);
+    };
+    for (int i = 0; i < parts; ++i) bars.push_back({at(i), at(i + 1), bar * size});
+    for (const int spoke : {0, 12, 18}) bars.push_back({glm::dvec3(0.0), at(spoke), 0.6 * bar * size});
+    return bars;
+}
+
+std::vector<HeldBar> rifle_shape(double size) {
+    const auto along = [&](double part, double down = 0.0) {
+        return size * glm::dvec3(0.0, -down, part * rifle_length);
+    };
+    return {{along(-0.5, 0.035), along(-0.22, 0.005), 1.6 * bar * size},
+            {along(-0.22), along(0.2), 1.5 * bar * size},
+            {along(0.2), along(0.5), 0.7 * bar * size},
+            {along(rifle_rear + 0.1), along(rifle_rear + 0.04, 0.05), 1.2 * bar * size}};
+}
+
+std::vector<HeldBar> box_shape(double size) {
+    std::vector<HeldBar> bars;
+    const glm::dvec3 half = 0.5 * size * glm::dvec3(box_width, box_depth, box_depth);
+    for (int axis = 0; axis < 3; ++axis)
+        for (const double a : {-1.0, 1.0})
+            for (const double b : {-1.0, 1.0}) {
+                glm::dvec3 from(0.0);
+                from[axis] = -half[axis];
+                from[(axis + 1) % 3] = a * half[(axis + 1) % 3];
+                from[(axis + 2) % 3] = b * half[(axis + 2) % 3];
+                glm::dvec3 to = from;
+                to[axis] = half[axis];
+                bars.push_back({from, to, 0.7 * bar * size});
+            }
+    return bars;
+}
+
+/// `side`: 1 for the left hand, -1 for the right. `size`: of the person, metres, times that of the object.
+humanoid::Palm palm_on(HeldKind kind, double side, double size) {
+    const humanoid::Effector hand = side > 0.0 ? humanoid::Effector::LeftHand : humanoid::Effector::RightHand;
+    switch (kind) {
+        case HeldKind::Wheel:
+            return {hand, {side * wheel_radius * size, 0, 0}, {0, 0, 1}, {-side, 0, 0}, {0, 1, 0}};
+        case HeldKind::Box:
+            return {hand, {0.5 * side * box_width * size, 0, 0}, {0, 0, 1}, {-side, 0, 0}, {1, 0, 0}};
+        case HeldKind::Rifle:
+            break;
+    }
+    if (side > 0.0)
+        return {hand, {0, -0.02 * size, rifle_fore * rifle_length * size}, {-1, 0, 1}, {0, 1, 0}, {0, 0, 1}};
+    return {hand,
+            {0, -0.03 * size, (rifle_rear + 0.07) * rifle_length * size},
+            {0, 0, 1},
+            {1, 0, 0},
+            {0, 1, 0.2}};
+}
+
+}  // namespace
+
+std::vector<HeldBar> held_shape(const HoldSetting& setting, double height) {
+    const double size = height * setting.size;
+    return setting.kind == HeldKind::Wheel   ? wheel_shape(size)
+           : setting.kind == HeldKind::Rifle ? rifle_shape(size)
+                                             : box_shape(size);
+}
+
+std::vector<humanoid::Grip> held_grips(const HoldSetting& setting, const humanoid::Body& body,
+                                       double height) {
+    std::vector<humanoid::Grip> grips;
+    for (const double side : {1.0, -1.0}) {
+        const humanoid::Palm palm = palm_on(setting.kind, side, height * setting.size);
+        if (!setting.holds(palm.hand)) continue;
+        const auto grip = humanoid::grip_of(body, palm, palm_reach * height);
+        if (!grip) return {};
+        grips.push_back(*grip);
+    }
+    return grips;
+}
+
+}  // namespace tendril::app
