@@ -252,7 +252,7 @@ TEST_F(LinkageReading, AnElbowIsDrivenAgainstTheUpperArm) {
     run("linkage.motor.remove", {{"joint", "elbow"}});
     Emit emit;
     run("linkage.tool", {{"name", "motor"}});
-    lab().click(workspace, linkage_pick(part().linkage().find_point("A")), emit);
+    lab().click(workspace, linkage_pick(*part().linkage().find_point("A")), emit);
     const auto emitted = emit.take();
     ASSERT_EQ(emitted.size(), 2u);
     EXPECT_EQ(emitted[1].name, "linkage.motor.add");
