@@ -99,7 +99,12 @@ void curve_notes(const BoneCurve& curve, const ik::CurveReport& report, const hu
         said += (said.empty() ? "" : " ") + panel.part.skeleton()[chain.nodes()[*curve.jumped]].name +
                 " jumped to another crossing of the curve: open that bend.";
     const bool partly = curve.shape.weight < 1.0f || curve.shape.falloff != 0.0f;
-    if (said.empty()) said = partly ? "Between the clip and the curve." : "Every joint lies on the curve.";
+    const ShownPose& shown = panel.runtime.shown(panel.workspace);
+    const bool reached = shown.body || shown.hold;
+    if (said.empty())
+        said = partly    ? "Between the clip and the curve."
+               : reached ? "Every joint lies on the curve, until IK moves the body."
+                         : "Every joint lies on the curve.";
     kept_note("curve report", said, 3);
 }
 
