@@ -171,9 +171,10 @@ TimeStripUse time_strip(const char* id, int& tick, const TimeStrip& content) {
         if (at >= 0 && at <= content.ticks)
             strip.bar(share(at) - 0.5f / whole, share(at) + 0.5f / whole, content.bars[i]);
     }
-    // The captions are at least 60 pixels apart.
-    const double step = axis_step(60.0 * static_cast<double>(Strip::unit()) * content.ticks *
-                                  content.seconds / static_cast<double>(strip.span()));
+    // The captions are at least 60 pixels apart. In a tiny window the strip has no width.
+    const double pixels = std::max(static_cast<double>(strip.span()), 1.0);
+    const double step =
+        axis_step(60.0 * static_cast<double>(Strip::unit()) * content.ticks * content.seconds / pixels);
     const double last = content.first_seconds + content.ticks * content.seconds;
     for (double t = step * std::ceil(content.first_seconds / step - 1e-9); t <= last + 1e-9; t += step) {
         const std::string text = axis_text(t, step, std::max(last, 1.0), "s");

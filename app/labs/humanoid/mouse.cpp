@@ -245,9 +245,7 @@ std::string HumanoidLab::hint(const Workspace& workspace, PickId pick) const {
 std::vector<MouseHelp> HumanoidLab::mouse_help() const {
     return {{"Drag an orange ball", "gives hand, foot, head or hips a target"},
             {"Double click on an orange ball", "removes the target, or lets go of the object"},
-            {"Drag a control point", "bends the tail or spine along its curve"},
-            {"Click on a curve", "adds a control point there"},
-            {"Double click on a control point", "removes it"},
+            {"Curve: drag, click, double click", "moves, adds, removes a control point"},
             {"Drag an arrow, a square or a ring",
              "moves or turns the selected hands, feet, head and hips, or the held object"},
             {"Shift+click on a bone", "adds it to the selection, or takes it out"},
