@@ -154,13 +154,16 @@ CLI::App* SolveLine::add_to(CLI::App& line) {
                      "1 to 1000000; default: 100, of a linkage 1000")
         ->check(CLI::Range(1, 1'000'000))
         ->option_text("N");
-    solve->add_option("--tolerance", options.tolerance, "Default: 1e-3 of the reach")->option_text("METRES");
+    solve
+        ->add_option("--tolerance", options.tolerance,
+                     "Default: 1e-3 of the reach; of a linkage 1e-10 of its size")
+        ->option_text("METRES");
     solve->add_option("--drive", options.drivers, "A linkage's driver, degrees or metres; can be repeated")
         ->option_text("JOINT=VALUE|FROM:TO:STEP");
     solve->add_option("--target", options.targets, "Pulls a linkage's point; can be repeated")
         ->option_text("POINT=X,Y,Z");
     const auto csv_flag = solve->add_flag("--csv", csv, "Print rows of comma-separated values");
-    solve->add_flag("--json", json, "Print one JSON array, with the positions of the joints")
+    solve->add_flag("--json", json, "Print one JSON array, with positions of joints or points")
         ->excludes(csv_flag);
     solve->footer("Solvers: " + method_names() + ".\n" + solve_help);
     return solve;

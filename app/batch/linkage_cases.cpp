@@ -58,12 +58,6 @@ void check_rows(const JsonPlace& place, std::size_t count, std::size_t rows) {
 }
 
 template <class Values>
-void put(std::vector<std::pair<std::string, Values>>& list, const std::string& name, Values values) {
-    std::erase_if(list, [&](const auto& each) { return each.first == name; });
-    list.emplace_back(name, std::move(values));
-}
-
-template <class Values>
 const auto& value_at(const Values& values, std::size_t row) {
     return values[std::min(row, values.size() - 1)];
 }
@@ -148,29 +142,56 @@ std::vector<double> LinkageCase::column_values() const {
     return values;
 }
 
+namespace {
+
+/// Each is at `before` and its name.
+void read_drivers(const Json& drivers, const std::string& before, LinkageCase& to) {
+    for (const auto& each : drivers.items()) {
+        const std::string& joint = each.key();
+        const JsonPlace at(each.value(), before + joint);
+        at_place(at, [&] { require_linkage_joint(to.part, joint); });
+        std::vector<double> values = driver_values(at);
+        check_rows(at, values.size(), to.rows());
+        if (turns(to.part, joint))
+            for (double& value : values) value = glm::radians(value);
+        to.drivers.emplace_back(joint, std::move(values));
+    }
+}
+
+void read_targets(const Json& targets, const std::string& before, LinkageCase& to) {
+    for (const auto& each : targets.items()) {
+        const std::string& point = each.key();
+        const JsonPlace at(each.value(), before + point);
+        at_place(at, [&] { static_cast<void>(require_linkage_point(to.part, point)); });
+        std::vector<glm::dvec3> places = target_places(at);
+        check_rows(at, places.size(), to.rows());
+        to.targets.emplace_back(point, std::move(places));
+    }
+}
+
 void read_linkage_goals(const JsonPlace& place, LinkageCase& to) {
-    const auto members = [](const JsonPlace& object, auto take) {
-        if (!object.json().is_object())
-            object.fail("expected an object of values by name, found " + json_summary(object.json()));
-        for (const auto& each : object.json().items())
-            take(each.key(), JsonPlace(each.value(), object.where() + "." + each.key()));
+    const auto read = [&](const char* kind, auto take) {
+        const auto object = place.optional(kind);
+        if (!object) return;
+        if (!object->json().is_object())
+            object->fail("expected an object of values by name, found " + json_summary(object->json()));
+        take(object->json(), object->where() + ".", to);
     };
-    if (const auto drivers = place.optional("drivers"))
-        members(*drivers, [&](const std::string& joint, const JsonPlace& at) {
-            at_place(at, [&] { require_linkage_joint(to.part, joint); });
-            std::vector<double> values = driver_values(at);
-            check_rows(at, values.size(), to.rows());
-            if (turns(to.part, joint))
-                for (double& each : values) each = glm::radians(each);
-            put(to.drivers, joint, std::move(values));
-        });
-    if (const auto targets = place.optional("targets"))
-        members(*targets, [&](const std::string& point, const JsonPlace& at) {
-            at_place(at, [&] { static_cast<void>(require_linkage_point(to.part, point)); });
-            std::vector<glm::dvec3> places = target_places(at);
-            check_rows(at, places.size(), to.rows());
-            put(to.targets, point, std::move(places));
-        });
+    read("drivers", read_drivers);
+    read("targets", read_targets);
+}
+
+}  // namespace
+
+void take_linkage_goals(const Json& goals, LinkageCase& to) {
+    const Json none = Json::object();
+    const Json &drivers = goals.contains("drivers") ? goals["drivers"] : none,
+               &targets = goals.contains("targets") ? goals["targets"] : none;
+    // What they stand in for goes first: it may have other numbers of values.
+    std::erase_if(to.drivers, [&](const auto& each) { return drivers.contains(each.first); });
+    std::erase_if(to.targets, [&](const auto& each) { return targets.contains(each.first); });
+    read_drivers(drivers, "--drive ", to);
+    read_targets(targets, "--target ", to);
 }
 
 LinkageCase linkage_case_from_json(const JsonPlace& place) {
@@ -203,6 +224,8 @@ Json linkage_goals_from_arguments(const std::vector<std::string>& drivers,
         if (numbers.size() != 1 && numbers.size() != 3)
             throw std::runtime_error(std::string("--drive: expected ") + drive_form + ", found \"" + each +
                                      "\"");
+        if (goals.contains("drivers") && goals["drivers"].contains(joint))
+            throw std::runtime_error("--drive " + joint + ": is given twice");
         if (numbers.size() == 1)
             goals["drivers"][joint] = numbers[0];
         else
@@ -213,6 +236,8 @@ Json linkage_goals_from_arguments(const std::vector<std::string>& drivers,
         if (numbers.size() != 3)
             throw std::runtime_error(std::string("--target: expected ") + target_form + ", found \"" + each +
                                      "\"");
+        if (goals.contains("targets") && goals["targets"].contains(point))
+            throw std::runtime_error("--target " + point + ": is given twice");
         goals["targets"][point] = numbers;
     }
     return goals;

@@ -35,9 +35,10 @@ inline constexpr std::size_t max_linkage_rows = 100'000;
 
 /// Throws std::runtime_error that begins with the JSON path of the error.
 LinkageCase linkage_case_from_json(const JsonPlace& place);
-/// Takes the "drivers" and "targets" of an object in place of those that the case has.
-void read_linkage_goals(const JsonPlace& place, LinkageCase& to);
-/// The same from arguments: "crank=30", "crank=0:360:15", "P=1,2,0". Throws std::runtime_error.
+/// Takes "drivers" and "targets" in place of those of the same names that the case has. Throws
+/// std::runtime_error that begins with the argument: "--drive crank".
+void take_linkage_goals(const Json& goals, LinkageCase& to);
+/// Such goals from arguments: "crank=30", "crank=0:360:15", "P=1,2,0". Throws std::runtime_error.
 Json linkage_goals_from_arguments(const std::vector<std::string>& drivers,
                                   const std::vector<std::string>& targets);
 /// What a row says: as --state, with what only a solve has.

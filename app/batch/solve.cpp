@@ -152,7 +152,7 @@ void read_all(std::string_view text, const SolveOptions& options,
         if (!goals.empty() && !read.linkage)
             throw std::runtime_error("--drive and --target are for linkages, case \"" + read.name +
                                      "\" is none");
-        if (read.linkage) read_linkage_goals(JsonPlace(goals, "arguments"), *read.linkage);
+        if (read.linkage) take_linkage_goals(goals, *read.linkage);
         return take(read, done);
     };
     const std::size_t first = text.find_first_not_of(" \t\r\n");
@@ -269,10 +269,14 @@ void solve_cases(const SolveOptions& options, const std::atomic<bool>& ending) {
     const auto rows = rows_of(options.format, survey);
     rows->begin(out);
     const auto each = [&](Case& asked, double) {
+        const auto all = static_cast<double>(survey.cases);
         LinkageRuntime runtime;
-        for (std::size_t i = 0; asked.linkage && i < asked.linkage->rows(); ++i) {
+        const std::size_t count = asked.linkage ? asked.linkage->rows() : 0;
+        for (std::size_t i = 0; i < count; ++i) {
             if (ending) return false;
             rows->add(out, move_linkage(asked, i, runtime, options, joints));
+            const double part = static_cast<double>(i + 1) / static_cast<double>(count);
+            progress.show("solving", (static_cast<double>(done) + part) / all);
         }
         if (asked.linkage) {
             ++done;
@@ -286,7 +290,7 @@ void solve_cases(const SolveOptions& options, const std::atomic<bool>& ending) {
             }
             rows->add(out, solve(asked, method, options, joints));
         }
-        progress.show("solving", static_cast<double>(++done) / static_cast<double>(survey.cases));
+        progress.show("solving", static_cast<double>(++done) / all);
         return true;
     };
     if (!ending) read_all(text, options, each);
@@ -317,24 +321,19 @@ const char* const solve_help =
     "            pivot, suture; free is no limit. Omitted keys take the usual values of that kind of joint.\n"
     "            All kinds may have a \"stiffness\", 0 to 0.99: how much the joint resists turning.\n"
     "A linkage is a case as well: no solver takes part, and a row has what --state has, its points first.\n"
-    "  {\"linkage\": \"four_bar\", \"lengths\": {\"crank\": 0.8}, \"drivers\": {\"crank\": {\"from\": 0, "
-    "\"to\": "
-    "360, \"step\": 15}}}\n"
+    "  {\"linkage\": \"four_bar\", \"lengths\": {\"crank\": 0.8},\n"
+    "   \"drivers\": {\"crank\": {\"from\": 0, \"to\": 360, \"step\": 15}}}\n"
     "  \"linkage\"  a preset by name, with the \"lengths\" that differ; or a linkage as a scene file has it\n"
     "  \"drivers\"  degrees of a hinge, metres of a slider, by its name: a number, a list or a range\n"
     "  \"targets\"  a point, or a list of them, for points of the linkage by name\n"
-    "A list makes a row for each value, each from the pose of the row before; --csv then has columns for "
-    "drivers\n"
-    "and points, where all cases have the same. CASES may be one such object, or a scene of the Linkage "
-    "lab;\n"
-    "--drive and --target stand in for what it asks for.\n"
+    "A list makes a row for each value, each from the pose of the row before; --csv then has columns for\n"
+    "drivers and points, where all cases have the same. CASES may be one such object, or a scene of the\n"
+    "Linkage lab; --drive and --target stand in for what it asks for.\n"
     "Other keys are ignored. The whole file is checked first: a value of the wrong type or out of its range\n"
     "(1e9 m, a negative length, a wrong number of points, min over max) is reported with its line and\n"
-    "place, and nothing is solved (exit code 2). So is a file of more than 64 MB. A case that a solver "
-    "cannot\n"
-    "take, such as five bones for two_bone, has the status InvalidInput in its row. An empty list gives an "
-    "empty "
-    "answer.\n"
+    "place, and nothing is solved (exit code 2). So is a file of more than 64 MB. A case that a solver\n"
+    "cannot take, such as five bones for two_bone, has the status InvalidInput in its row. An empty list\n"
+    "gives an empty answer.\n"
     "Ctrl+C ends the run with the rows done so far, whole and valid.\n"
     "To open a scene file that is named solve, write ./solve.";
 

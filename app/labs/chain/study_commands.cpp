@@ -160,13 +160,14 @@ Command opening(Command command) {
     command.apply = [open = std::move(command.apply)](Workspace& workspace, const Arguments& given) {
         open(workspace, given);
         const Rect view{{0.0f, 0.0f}, workspace.ui.view_size};
-        const Camera camera(workspace.camera, view);
+        CameraPose& pose = workspace.lab == chain_lab ? workspace.camera : workspace.cameras[chain_lab];
+        const Camera camera(pose, view);
         const bool seen = std::ranges::all_of(chain_part(workspace).study.start, [&](const glm::vec3& joint) {
             const auto at = camera.project(joint);
             return at && view.contains(*at);
         });
         const Bounds all = ChainLab().bounds(workspace, false);
-        if (!seen) workspace.camera = framed(workspace.camera, view, all.centre, all.radius);
+        if (!seen) pose = framed(pose, view, all.centre, all.radius);
     };
     return command;
 }

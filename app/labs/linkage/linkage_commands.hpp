@@ -1,6 +1,8 @@
 // Commands of the Linkage lab.
 #pragma once
 
+#include <algorithm>
+
 #include "app/document/command.hpp"
 #include "app/document/json_place.hpp"
 #include "app/labs/linkage/linkage_part.hpp"
@@ -19,8 +21,13 @@ std::string linkage_code(const LinkagePart& part);
 /// A motor that does not say turns this fast, degrees a second; a slider's moves a tenth of the linkage.
 inline constexpr double usual_motor_rate = 90.0;
 
+inline bool is_on_bar(const ik::SketchBar& bar, std::size_t point) {
+    return std::ranges::count(bar.points, point) > 0;
+}
 /// The bars that meet at a point of the sketch.
 std::vector<std::size_t> bars_at(const ik::LinkageSketch& sketch, std::size_t point);
+/// Whether the inspector offers a motor between each two of them: nothing pins the joint, and they are few.
+bool chooses_pair(const ik::LinkageSketch& sketch, std::size_t point);
 /// Whether a bar, a motor or a sliding joint has the name: all are links.
 bool is_link_name(const ik::LinkageSketch& sketch, const std::string& name);
 /// Reads an object of lengths by their names; those that it leaves out stay. Throws std::runtime_error with

@@ -13,6 +13,8 @@ Json linkage_state(const LinkagePart& part);
 Verdict linkage_verdict(const LinkagePart& part);
 /// What the motor does, and what a click changes: "Run", "Stop", "Stopped at 43.0 degrees: turn back".
 std::string motor_button(const LinkagePart& part);
+/// Rows for the ends of a joint's range; or a button that gives it one about where it is.
+void linkage_range_rows(const LinkagePart& part, const std::string& joint, Emit& emit);
 
 class LinkageLab final : public Lab {
   public:

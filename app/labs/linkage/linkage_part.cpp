@@ -37,10 +37,21 @@ std::size_t LinkagePart::bytes() const {
            (result.active.size() + result.open_closures.size()) * sizeof(std::size_t);
 }
 
+namespace {
+
+/// The mouse no longer pulls; what is said is what holds without it.
+void let_go_in_pose(LinkagePart& part) {
+    if (!part.drag) return;
+    part.drag.reset();
+    report_in_pose(part);
+}
+
+}  // namespace
+
 std::shared_ptr<const Part> LinkagePart::after_undo() const {
     if (!drag) return nullptr;
     auto part = std::make_shared<LinkagePart>(*this);
-    part->drag.reset();
+    let_go_in_pose(*part);
     return part;
 }
 
@@ -48,7 +59,7 @@ std::shared_ptr<const Part> LinkagePart::at_moment(std::shared_ptr<const Part> t
     auto part = std::make_shared<LinkagePart>(dynamic_cast<const LinkagePart&>(*then));
     part->tool = tool;
     part->selected = part->linkage().find_point(selected) ? selected : "";
-    part->drag.reset();
+    let_go_in_pose(*part);
     return part;
 }
 
@@ -274,6 +285,9 @@ std::shared_ptr<Part> LinkagePart::load(const Json& json, const std::string& whe
     }
     place["drivers"].for_each("drivers", ik::max_links,
                               [&](const JsonPlace& each) { load_drive(each, *part); });
+    if (const auto& motors = part->shape->sketch.motors;
+        !part->copies.empty() && part->find_drive(motors.front().name) == nullptr)
+        place["drivers"].fail("a walker needs its driver \"" + motors.front().name + "\"");
     place["targets"].for_each("targets", max_linkage_points, [&](const JsonPlace& each) {
         part->targets.push_back(load_target(each, *part));
     });
@@ -284,22 +298,7 @@ std::shared_ptr<Part> LinkagePart::load(const Json& json, const std::string& whe
         if (!part->linkage().find_point(part->selected))
             selected_point->fail("there is no point \"" + part->selected + "\"");
     }
-    // The pose stays as it was saved, to the bit; the report is that of a solve from there.
-    const std::vector<LinkageDrive> saved_drives = part->drives;
-    std::vector<LinkageCopy> saved_copies = part->copies;
-    const ik::LinkageState saved = part->state;
-    LinkageRuntime runtime;
-    solve_linkage(*part, runtime);
-    ik::LinkageSolver& solver = runtime.solver(part->shape);
-    const auto put_back = [&](const ik::LinkageState& from, std::vector<ik::LinkPlace>& places) {
-        static_cast<void>(solver.place(from));
-        places.assign(solver.links().begin(), solver.links().end());
-    };
-    part->state = saved;
-    put_back(saved, part->links);
-    for (LinkageCopy& each : saved_copies) put_back(each.state, each.links);
-    part->copies = std::move(saved_copies);
-    part->drives = saved_drives;
+    report_in_pose(*part);
     return part;
 }
 

@@ -168,8 +168,11 @@ std::optional<std::size_t> leading_joint(const LinkagePart& part);
 /// Moves the linkage to what is asked of it: held drivers and targets, or the mouse's drag alone. All drivers
 /// are watched.
 void solve_linkage(LinkagePart& part, LinkageRuntime& runtime, ik::LinkageOptions options = {});
+/// The report of a solve from the pose, which stays, to the bit, as do the drivers' values.
+void report_in_pose(LinkagePart& part);
 /// A new shape: what was drawn by hand in its own pose, a mechanism in the present one as far as its names
-/// go. Drivers, targets, ranges and selection stay where their names do, and held drivers at their values.
+/// go. Drivers, targets, ranges and selection stay where their names do, and held drivers at their values; a
+/// motor that is taken away takes its driver along.
 void take_shape(LinkagePart& part, LinkageShape shape, LinkageRuntime& runtime);
 void take_shape(LinkagePart& part, LinkageShape shape, std::vector<LinkageRange> ranges,
                 LinkageRuntime& runtime);
@@ -180,6 +183,8 @@ void set_ranges(LinkageShape& shape, std::vector<LinkageRange> ranges);
 /// floats.
 std::optional<std::size_t> link_of_bar(const ik::Linkage& linkage, const ik::LinkageSketch& sketch,
                                        std::size_t bar);
+/// How many bars of a sketch lie between each and the ground; ik::ground_link: it floats.
+std::vector<std::size_t> bars_from_ground(const ik::LinkageSketch& sketch);
 /// Of a sketch's bars: whether neither a pin nor a guide reaches it, directly or through other bars.
 std::vector<bool> floating_bars(const ik::LinkageSketch& sketch);
 /// The shape of a sketch. Bars that nothing holds are left out of the linkage. Throws std::invalid_argument

@@ -16,10 +16,6 @@ namespace {
 
 constexpr double no_angle = std::numeric_limits<double>::quiet_NaN();
 
-bool is_on_bar(const ik::SketchBar& bar, std::size_t point) {
-    return std::ranges::count(bar.points, point) > 0;
-}
-
 glm::dvec2 way(const LinkagePart& part, std::size_t from, std::size_t to) {
     return glm::dvec2(part.at(to) - part.at(from));
 }
@@ -158,10 +154,6 @@ ik::LinkageFreedom freedom_of(const LinkagePart& part) {
 
 std::vector<std::size_t> joints_in_line(const LinkagePart& part, double within) {
     const ik::LinkageSketch& sketch = part.shape->sketch;
-    const auto bars_at = [&](std::size_t point) {
-        return std::ranges::count_if(sketch.bars,
-                                     [&](const ik::SketchBar& each) { return is_on_bar(each, point); });
-    };
     double best = within;
     std::vector<std::size_t> line;
     for (std::size_t p = 0; p < sketch.points.size(); ++p) {
@@ -171,8 +163,8 @@ std::vector<std::size_t> joints_in_line(const LinkagePart& part, double within) 
         for (const ik::SketchBar& bar : sketch.bars) {
             if (!is_on_bar(bar, p)) continue;
             const auto end = std::ranges::find_if(bar.points, [&](std::size_t other) {
-                return other != p &&
-                       (sketch.points[other].hold != ik::SketchHold::Free || bars_at(other) > 1);
+                return other != p && (sketch.points[other].hold != ik::SketchHold::Free ||
+                                      bars_at(sketch, other).size() > 1);
             });
             if (end != bar.points.end()) ends.push_back(*end);
         }
@@ -215,13 +207,17 @@ std::string four_bar_kind(const LinkagePart& part) {
                                       : "double rocker";
 }
 
-std::optional<double> longest_round_crank(const LinkagePart& part) {
-    double longest = 0.0;
+std::optional<RoundCranks> shorter_round_cranks(const LinkagePart& part) {
+    double shortest = 0.0, longest = 0.0;
     if (const auto bars = four_bar_lengths(part)) {
-        // Coupler and rocker span the distance to the rocker's pin where it is largest and where it is
-        // smallest.
-        longest = std::min(bars->coupler + bars->rocker - bars->ground,
-                           bars->ground - std::abs(bars->coupler - bars->rocker));
+        // Coupler and rocker span the distance from the crank's tip to the rocker's pin: where it is largest,
+        // ground + crank, and where it is smallest, their difference. A crank longer than the ground, of a
+        // drag link, has to be longer by that much.
+        const double reach = bars->coupler + bars->rocker - bars->ground;
+        const double gap = std::abs(bars->coupler - bars->rocker);
+        const bool drag_link = reach > bars->ground + gap && bars->crank > reach;
+        shortest = drag_link ? bars->ground + gap : 0.0;
+        longest = drag_link ? reach : std::min(reach, bars->ground - gap);
     } else if (const auto loop = driven_loop(part.shape->sketch);
                loop && loop->pin == DrivenLoop::no_pin && part.linkage().closures.size() == 1) {
         // The coupler reaches the slider's line from everywhere on the crank's circle.
@@ -230,7 +226,7 @@ std::optional<double> longest_round_crank(const LinkagePart& part) {
         longest = glm::length(way(part, loop->tip, loop->end)) -
                   std::abs(to_line.x * std::sin(guide) - to_line.y * std::cos(guide));
     }
-    return longest > 0.01 ? std::optional(longest) : std::nullopt;
+    return longest > 0.01 ? std::optional(RoundCranks{shortest, longest}) : std::nullopt;
 }
 
 std::vector<Cure> ways_on(const LinkagePart& part) {
@@ -257,14 +253,18 @@ std::vector<Cure> ways_on(const LinkagePart& part) {
              {{"linkage.other_mode", {}}, back},
              "On, past the dead point"});
     }
-    if (const auto longest = longest_round_crank(part)) {
+    if (const auto round = shorter_round_cranks(part)) {
         const ik::LinkageSketch& sketch = part.shape->sketch;
         const ik::SketchBar& crank = sketch.bars[driven_loop(sketch)->motor->bar];
-        const double shorter = std::floor(95.0 * *longest) / 100.0;  // short of the folded linkage
+        double shorter = std::floor(95.0 * round->longest) / 100.0;  // short of the folded linkage
+        if (shorter <= round->shortest) shorter = 0.5 * (round->shortest + round->longest);
+        const std::string from =
+            round->shortest > 0.0 ? "from " + fixed_text(round->shortest, 2) + " m " : "";
         if (crank.points.size() == 2 && shorter > 0.0)
             ways.push_back({"Shorten",
-                            "Makes the crank " + fixed_text(shorter, 2) +
-                                " m long: it turns all round up to " + fixed_text(*longest, 2) + " m",
+                            "Makes the crank " + fixed_text(shorter, 2) + " m long: it turns all round " +
+                                from + (from.empty() ? "up " : "") + "to " + fixed_text(round->longest, 2) +
+                                " m",
                             {kind_of(part.shape->mechanism) != nullptr
                                  ? CommandCall{"linkage.set", {{"crank", shorter}}}
                                  : CommandCall{"linkage.length", {{"bar", crank.name}, {"length", shorter}}}},

@@ -66,9 +66,14 @@ std::string stop_text(const LinkagePart& part);
 /// What a four-bar with a motor is by Grashof's rule: "crank-rocker", "drag link", "double rocker"... Empty:
 /// it is another linkage.
 std::string four_bar_kind(const LinkagePart& part);
-/// Metres: the longest crank with which the motor of a four-bar (by Grashof's rule) or slider-crank turns all
-/// round. None if the other bars allow none, or it is another linkage.
-std::optional<double> longest_round_crank(const LinkagePart& part);
+/// Metres: with a crank between these two a motor turns all round.
+struct RoundCranks {
+    double shortest = 0.0;  ///< 0 but for a drag link, whose crank is longer than its ground
+    double longest = 0.0;
+};
+/// Those of a four-bar (by Grashof's rule) or slider-crank whose crank stops at a dead point: the nearest
+/// that are shorter. None if the other bars allow none, or it is another linkage.
+std::optional<RoundCranks> shorter_round_cranks(const LinkagePart& part);
 /// What lets a motor that stands at a dead point go on. Empty: none does.
 std::vector<Cure> ways_on(const LinkagePart& part);
 

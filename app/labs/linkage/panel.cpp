@@ -1,8 +1,7 @@
-// The Linkage lab's panel, inspector and timeline.
+// The Linkage lab's panel and timeline.
 #include <imgui.h>
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <limits>
 #include <utility>
@@ -22,10 +21,6 @@
 
 namespace tendril::app {
 namespace {
-
-std::string angle_text(double degrees) {
-    return fixed_text(degrees, 1) + " degrees";
-}
 
 std::string closure_names(const LinkagePart& part) {
     std::string text;
@@ -172,8 +167,9 @@ void value_row(const LinkagePart& part, const LinkageDrive& drive, Emit& emit) {
                                  .c_str());
 }
 
-/// Its ends; or a button that gives it one about where it is.
-void range_rows(const LinkagePart& part, const std::string& joint, Emit& emit) {
+}  // namespace
+
+void linkage_range_rows(const LinkagePart& part, const std::string& joint, Emit& emit) {
     const bool angular = turns(part, joint);
     const auto shown = [&](double value) { return angular ? glm::degrees(value) : value; };
     const auto range = std::ranges::find(part.shape->ranges, joint, &LinkageRange::joint);
@@ -198,6 +194,8 @@ void range_rows(const LinkagePart& part, const std::string& joint, Emit& emit) {
         emit("linkage.range", {{"joint", joint}, {"off", true}});
     end_row();
 }
+
+namespace {
 
 /// Runs, stops and frees all motors.
 void motor_buttons(const Workspace& workspace, Emit& emit) {
@@ -239,7 +237,7 @@ void driver_rows(const Workspace& workspace, MoreRows& more, Emit& emit) {
                      [&part, &each, &emit, name] { speed_row(part, each, name, emit); });
         const bool limited = std::ranges::count(part.shape->ranges, each.joint, &LinkageRange::joint) > 0;
         more.add(each.joint + " range", {"linkage.range", {"joint"}}, limited,
-                 [&part, &each, &emit] { range_rows(part, each.joint, emit); });
+                 [&part, &each, &emit] { linkage_range_rows(part, each.joint, emit); });
     }
     if (part.drives.empty()) note("No motor yet: choose Motor, and click a joint.");
     motor_buttons(workspace, emit);
@@ -304,157 +302,6 @@ void LinkageLab::panel(const Workspace& workspace, Emit& emit) const {
             emit("linkage.copy");
         end_row();
     });
-}
-
-// The inspector.
-
-namespace {
-
-/// How far the motor goes, and how well it pushes there.
-void motor_rows(const Workspace& workspace) {
-    const LinkagePart& part = linkage_part(workspace);
-    const LinkageTurn& turn = workspace.runtimes.of<LinkageRuntime>(linkage_lab).turn(part);
-    if (part.drives.empty() || turn.poses.size() < 2) return;
-    section("Motor");
-    const std::string& joint = part.linkage().links[turn.joint].name;
-    const auto end = [&](const LinkageTurn::Pose& pose) {
-        return fixed_text(shown_value(part, joint, pose.value).value, turns(part, joint) ? 1 : 3);
-    };
-    if (const std::string kind = four_bar_kind(part); !kind.empty()) {
-        reading("four-bar", "%s", kind.c_str());
-        explain(
-            "By Grashof's rule: if the shortest and the longest bar together are shorter than the other two, "
-            "the "
-            "shortest goes all round. A crank-rocker has it as its crank, a drag link as its ground, a "
-            "double "
-            "rocker as its coupler. In a triple rocker no bar does.");
-    }
-    if (turn.whole)
-        reading("travel", "all round");
-    else
-        reading("travel", "%s to %s %s", end(turn.poses.front()).c_str(), end(turn.poses.back()).c_str(),
-                turns(part, joint) ? "deg" : "m");
-    explain("How far it goes in this assembly mode, between dead points or the ends of its range.");
-    const double now = transmission_angle(part);
-    const auto worst = worst_transmission(part, turn);
-    if (!std::isfinite(now) || !worst) return;
-    reading("transmission angle", "%s", angle_text(now).c_str());
-    explain(
-        "Between the coupler and what it moves: near 90 degrees it pushes well, below 40 poorly, at 0 it is "
-        "at a dead point.");
-    const char* const judged = worst->degrees < 0.5                 ? ", dead point"
-                               : worst->degrees < poor_transmission ? ", poor"
-                                                                    : "";
-    reading("minimum", "%s%s", angle_text(worst->degrees).c_str(), judged);
-    explain(
-        "The smallest on all its travel. Below 40 degrees most of the coupler's force goes into the pins. "
-        "The "
-        "plot of the transmission angle, under Show, draws it over the motor's angle.");
-    reading(("at " + joint).c_str(), "%s", value_text(part, joint, worst->value).c_str());
-    explain("Where the motor is at that minimum.");
-}
-
-void freedom_rows(const LinkagePart& part) {
-    section("Degrees of freedom");
-    const ik::LinkageFreedom freedom = freedom_of(part);
-    reading("in this pose", "%d", freedom.actual);
-    explain(
-        "Counted from the equations as they are here: what really can move, motors left out. What floats has "
-        "three in the plane, two to shift and one to turn.");
-    reading("Gruebler's count", "%d", freedom.counted);
-    explain(
-        "Three for each link, less two for each joint, by number alone: it misses redundant joints, and "
-        "poses where bars are in line.");
-    reading("loop error", "%s", error_text(part.result.report.closed_to).c_str());
-    explain("The largest distance between two points that should be one; none: less than 0.01 mm.");
-}
-
-void bar_rows(const LinkagePart& part, std::size_t at, Emit& emit) {
-    const ik::LinkageSketch& sketch = part.shape->sketch;
-    for (const ik::SketchBar& bar : sketch.bars) {
-        if (std::ranges::count(bar.points, at) == 0 || bar.points.size() != 2) continue;
-        auto length = static_cast<float>(glm::distance(part.at(bar.points[0]), part.at(bar.points[1])));
-        if (number_field(bar.name.c_str(), length, 0.01f, 1e-6f, 1e6f, "%.3f m"))
-            emit.continuously("linkage.length", {{"bar", bar.name}, {"length", length}});
-        explain("The bar's length; the others keep theirs. Setting it makes the linkage one drawn by hand.");
-    }
-}
-
-/// A motor between two bars at the joint, or its end.
-void pair_motor_row(const ik::LinkageSketch& sketch, std::size_t at, std::size_t bar, std::size_t against,
-                    Emit& emit) {
-    const std::string &first = sketch.bars[bar].name, &second = sketch.bars[against].name;
-    const auto motor = std::ranges::find_if(sketch.motors, [&](const ik::SketchMotor& each) {
-        return each.point == at && std::minmax(each.bar, each.against) == std::minmax(bar, against);
-    });
-    if (motor != sketch.motors.end()) {
-        if (row_button(("Remove " + motor->name).c_str(), 1, true, "Takes the motor between the bars away"))
-            emit("linkage.motor.remove", {{"joint", motor->name}});
-    } else if (row_button(("Motor: " + first + " to " + second).c_str(), 1, true,
-                          "Puts a motor here that turns the one bar against the other")) {
-        emit("linkage.motor.add", {{"point", sketch.points[at].name}, {"bar", second}, {"against", first}});
-    }
-}
-
-/// Where nothing pins the joint, and bars meet.
-void pair_motor_rows(const ik::LinkageSketch& sketch, std::size_t at, Emit& emit) {
-    constexpr std::size_t most_bars = 4;
-    const std::vector<std::size_t> here = bars_at(sketch, at);
-    if (sketch.points[at].hold != ik::SketchHold::Free || here.size() > most_bars) return;
-    for (std::size_t i = 0; i < here.size(); ++i)
-        for (std::size_t k = i + 1; k < here.size(); ++k) pair_motor_row(sketch, at, here[i], here[k], emit);
-    end_row();
-}
-
-void joint_rows(const LinkagePart& part, Emit& emit) {
-    section("Joint");
-    const auto at = part.linkage().find_point(part.selected);
-    if (!at) return note("Click a joint to select it: its path is drawn.");
-    const glm::dvec3 place = part.at(*at);
-    reading("name", "%s", part.selected.c_str());
-    explain("As in files and commands.");
-    reading("at", "%.3f  %.3f  %.3f m", place.x, place.y, place.z);
-    explain("Where it is: X, Y and Z.");
-    const double angle = angle_at(part, part.selected);
-    if (std::isfinite(angle)) {
-        reading("angle", "%s", angle_text(angle).c_str());
-        explain("Between its two bars; of a single one on a pin, from +X.");
-    }
-    if (!part.shape->in_plane()) return;
-    bar_rows(part, *at, emit);
-    const ik::SketchHold hold = part.shape->sketch.points[*at].hold;
-    const bool pinned = hold == ik::SketchHold::Pinned, guided = hold == ik::SketchHold::Guided;
-    if (row_option("Free", 3, !pinned && !guided, "Nothing but its bars holds it"))
-        emit("linkage.pin", {{"point", part.selected}, {"on", false}});
-    if (row_option("Pinned", 3, pinned, "The ground holds it where it is"))
-        emit("linkage.pin", {{"point", part.selected}, {"on", true}});
-    if (row_option("Slides", 3, guided, "It slides on a line through where it is"))
-        emit("linkage.guide", {{"point", part.selected}});
-    end_row();
-    pair_motor_rows(part.shape->sketch, *at, emit);
-    if (guided) {
-        auto along = static_cast<float>(glm::degrees(part.shape->sketch.points[*at].guide));
-        if (number_field("line", along, 0.5f, -360.0f, 360.0f, "%.1f deg"))
-            emit.continuously("linkage.guide", {{"point", part.selected}, {"angle_deg", along}});
-        explain("The direction of its line, from +X.");
-        if (part.linkage().find_link(part.selected)) range_rows(part, part.selected, emit);
-    }
-}
-
-}  // namespace
-
-void LinkageLab::inspector(const Workspace& workspace, Emit& emit) const {
-    const LinkagePart& part = linkage_part(workspace);
-    const Palette& colours = palette(workspace.settings.theme);
-    show_verdict(linkage_verdict(part), colours, emit, {}, [&] {
-        const std::vector<Cure> ways = ways_on(part);
-        for (const Cure& each : ways) cure_line(each.text, each, emit);
-        if (!ways.empty()) note("Or drag a joint.");
-    });
-    freedom_rows(part);
-    motor_rows(workspace);
-    joint_rows(part, emit);
-    incident_rows(workspace, colours, emit);
 }
 
 float LinkageLab::timeline_height(const Workspace& workspace) const {

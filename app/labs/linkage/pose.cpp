@@ -12,20 +12,30 @@
 
 namespace tendril::app {
 
-std::vector<bool> floating_bars(const ik::LinkageSketch& sketch) {
-    std::vector<bool> held(sketch.points.size()), floats(sketch.bars.size(), true);
+std::vector<std::size_t> bars_from_ground(const ik::LinkageSketch& sketch) {
+    std::vector<std::size_t> away(sketch.bars.size(), ik::ground_link);
+    std::vector<bool> held(sketch.points.size());
     for (std::size_t i = 0; i < held.size(); ++i) held[i] = sketch.points[i].hold != ik::SketchHold::Free;
-    for (bool more = true; more;) {
+    bool more = true;
+    for (std::size_t step = 0; more; ++step) {
         more = false;
-        for (std::size_t b = 0; b < floats.size(); ++b) {
+        const std::vector<bool> before = held;
+        for (std::size_t b = 0; b < away.size(); ++b) {
             const auto& points = sketch.bars[b].points;
-            if (!floats[b] || std::ranges::none_of(points, [&](std::size_t each) { return held[each]; }))
+            if (away[b] != ik::ground_link ||
+                std::ranges::none_of(points, [&](std::size_t each) { return before[each]; }))
                 continue;
-            floats[b] = false;
+            away[b] = step;
             for (const std::size_t each : points) held[each] = true;
             more = true;
         }
     }
+    return away;
+}
+
+std::vector<bool> floating_bars(const ik::LinkageSketch& sketch) {
+    std::vector<bool> floats;
+    for (const std::size_t away : bars_from_ground(sketch)) floats.push_back(away == ik::ground_link);
     return floats;
 }
 
@@ -112,6 +122,20 @@ ik::LinkageSolver& LinkageRuntime::solver(const std::shared_ptr<const LinkageSha
     return *solver_;
 }
 
+void report_in_pose(LinkagePart& part) {
+    LinkagePart solved = part;
+    LinkageRuntime runtime;
+    solve_linkage(solved, runtime);
+    part.result = std::move(solved.result);
+    ik::LinkageSolver& solver = runtime.solver(part.shape);
+    const auto place = [&](const ik::LinkageState& from, std::vector<ik::LinkPlace>& places) {
+        static_cast<void>(solver.place(from));
+        places.assign(solver.links().begin(), solver.links().end());
+    };
+    place(part.state, part.links);
+    for (LinkageCopy& each : part.copies) place(each.state, each.links);
+}
+
 void solve_linkage(LinkagePart& part, LinkageRuntime& runtime, ik::LinkageOptions options) {
     ik::LinkageSolver& solver = runtime.solver(part.shape);
     const ik::Linkage& linkage = part.linkage();
@@ -141,7 +165,7 @@ void solve_linkage(LinkagePart& part, LinkageRuntime& runtime, ik::LinkageOption
         if (!each.held || each.rate != 0.0 || part.drag) each.value = part.value_of(each.joint);
     part.links.assign(solver.links().begin(), solver.links().end());
     for (LinkageCopy& each : part.copies) {
-        const std::string& motor = part.drives.front().joint;
+        const std::string& motor = part.shape->sketch.motors.front().name;
         const ik::LinkDriver driver{*linkage.find_link(motor), motor_of(each, part.value_of(motor))};
         const ik::LinkageReport report = solver.solve(each.state, {{&driver, 1}, {}});
         each.links.assign(solver.links().begin(), solver.links().end());
@@ -326,13 +350,21 @@ void take_shape(LinkagePart& part, LinkageShape shape, std::vector<LinkageRange>
         kind_of(shape.mechanism) != nullptr && shape.mechanism.index() == part.shape->mechanism.index();
     const auto made = std::make_shared<const LinkageShape>(std::move(shape));
     ik::LinkageState state = runtime.solver(made).initial_state();
+    const std::vector<std::string> were_driven = driven_joints(*part.shape);  // a motor ends with its drive
     if (same_kind) pose_like(part, *made, state);
     part.shape = made;
     part.state = std::move(state);
     part.copies = copies_of(*part.shape, part.state);
     part.walked = 0.0;
+    std::vector<std::string> driven = driven_joints(*part.shape);
+    for (const LinkageDrive& each : part.drives) {
+        const auto link = part.linkage().find_link(each.joint);
+        const bool stays = link && part.linkage().links[*link].joint != ik::LinkJoint::Ball &&
+                           std::ranges::count(were_driven, each.joint) == 0;
+        if (stays && std::ranges::count(driven, each.joint) == 0) driven.push_back(each.joint);
+    }
     std::vector<LinkageDrive> drives;
-    for (const std::string& joint : driven_joints(*part.shape)) {
+    for (const std::string& joint : driven) {
         const LinkageDrive* const before = part.find_drive(joint);
         LinkageDrive& drive = drives.emplace_back(before != nullptr ? *before : LinkageDrive{.joint = joint});
         const std::size_t link = *part.linkage().find_link(joint);

@@ -82,7 +82,7 @@ void add_bar(LinkageSketch& sketch, const Arguments& given) {
     if (from == to || sketch.points[from].at == sketch.points[to].at)
         throw Refused("a bar needs two different joints");
     for (const ik::SketchBar& each : sketch.bars)
-        if (std::ranges::count(each.points, from) > 0 && std::ranges::count(each.points, to) > 0)
+        if (is_on_bar(each, from) && is_on_bar(each, to))
             throw Refused("bar \"" + each.name + "\" joins " + sketch.points[from].name + " and " +
                           sketch.points[to].name + " already");
     sketch.bars.push_back({.name = name, .points = {from, to}});
@@ -169,25 +169,6 @@ bool has_motor(const LinkageSketch& sketch, std::size_t point, std::size_t bar, 
     });
 }
 
-/// How many bars lie between each bar and the ground; the largest number: it floats.
-std::vector<std::size_t> bars_from_ground(const LinkageSketch& sketch) {
-    std::vector<std::size_t> away(sketch.bars.size(), ik::ground_link);
-    std::vector<bool> held(sketch.points.size());
-    for (std::size_t i = 0; i < held.size(); ++i) held[i] = sketch.points[i].hold != SketchHold::Free;
-    for (std::size_t step = 0; step < away.size(); ++step) {
-        const std::vector<bool> before = held;
-        for (std::size_t b = 0; b < away.size(); ++b) {
-            const auto& points = sketch.bars[b].points;
-            if (away[b] != ik::ground_link ||
-                std::ranges::none_of(points, [&](std::size_t each) { return before[each]; }))
-                continue;
-            away[b] = step;
-            for (const std::size_t each : points) held[each] = true;
-        }
-    }
-    return away;
-}
-
 /// The bar that a motor turns, and the one it turns it against: of two, that which is nearer to the ground.
 std::pair<std::size_t, std::size_t> motor_bars(const LinkageSketch& sketch, std::size_t point,
                                                const Arguments& given) {
@@ -214,10 +195,14 @@ std::pair<std::size_t, std::size_t> motor_bars(const LinkageSketch& sketch, std:
     }
     if (bar != ik::ground_link && against != ik::ground_link) return {bar, against};
     if (here.size() < 2)
-        throw Refused(at + " is not pinned: a motor there needs a second bar to push against");
+        throw Refused(at + (pinned
+                                ? " has one bar: leave out against, and the motor turns it against the ground"
+                                : " is not pinned: a motor there needs a second bar to push against"));
     if (here.size() > 2)
         throw Refused(count_text(here.size(), "bar") + " meet at " + at +
-                      ": choose two of them in the inspector, or give bar and against");
+                      (chooses_pair(sketch, point)
+                           ? ": choose two of them in the inspector, or give bar and against"
+                           : ": give bar and against"));
     if (bar != ik::ground_link) return {bar, here[0] == bar ? here[1] : here[0]};
     if (against != ik::ground_link) return {here[0] == against ? here[1] : here[0], against};
     const std::vector<std::size_t> away = bars_from_ground(sketch);
@@ -297,8 +282,13 @@ Argument end_argument(const char* name) {
 std::vector<std::size_t> bars_at(const LinkageSketch& sketch, std::size_t point) {
     std::vector<std::size_t> bars;
     for (std::size_t b = 0; b < sketch.bars.size(); ++b)
-        if (std::ranges::count(sketch.bars[b].points, point) > 0) bars.push_back(b);
+        if (is_on_bar(sketch.bars[b], point)) bars.push_back(b);
     return bars;
+}
+
+bool chooses_pair(const LinkageSketch& sketch, std::size_t point) {
+    constexpr std::size_t most_bars = 4;
+    return sketch.points[point].hold == SketchHold::Free && bars_at(sketch, point).size() <= most_bars;
 }
 
 bool is_link_name(const LinkageSketch& sketch, const std::string& name) {
@@ -329,15 +319,18 @@ void add_sketch_commands(CommandTable& table) {
         "linkage.length", "Set a bar's length",
         {bar_argument(true, "which bar"), {.name = "length", .help = "metres", .low = 1e-6, .high = 1e6}},
         "Makes a bar longer or shorter; the others keep their lengths", set_length));
-    table.add(sketch_command("linkage.motor.add", "Add a motor",
-                             {point, bar_argument(false, "which of its bars; the first if omitted"),
-                              bar_argument(false,
-                                           "another of its bars; if omitted the ground, or where nothing "
-                                           "pins the joint, the bar nearer to it",
-                                           "against"),
-                              name},
-                             "Puts a motor at a joint: it turns a bar against the ground, or another bar",
-                             add_motor));
+    table.add(sketch_command(
+        "linkage.motor.add", "Add a motor",
+        {point,
+         bar_argument(false,
+                      "which of its bars; if omitted the first on a pin, else of two the "
+                      "one farther from the ground"),
+         bar_argument(false,
+                      "another of its bars; if omitted the ground, or where nothing "
+                      "pins the joint, the bar nearer to it",
+                      "against"),
+         name},
+        "Puts a motor at a joint: it turns a bar against the ground, or another bar", add_motor));
     table.add(sketch_command("linkage.motor.remove", "Remove a motor",
                              {text_argument("joint", true, "which motor")}, "Removes a motor; its bar stays",
                              remove_motor));

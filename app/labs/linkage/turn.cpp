@@ -52,8 +52,9 @@ bool is_on(const LinkageTurn& turn, const ik::LinkageState& state, const ik::Lin
         }
         return true;
     };
-    for (std::size_t i = 0; i < turn.poses.size(); ++i)
-        if (between(turn.poses[i], turn.poses[(i + 1) % turn.poses.size()])) return true;
+    const std::size_t count = turn.poses.size();
+    for (std::size_t i = 0; i + (turn.whole ? 0 : 1) < count; ++i)
+        if (between(turn.poses[i], turn.poses[(i + 1) % count])) return true;
     return false;
 }
 

@@ -159,6 +159,21 @@ TEST_F(SolveLinkage, takes_a_scene_of_the_lab_with_its_ranges_and_targets) {
     EXPECT_EQ(rows(Json::array({{{"linkage", part}}})).at(0)["status"], "Limited");
 }
 
+TEST_F(SolveLinkage, arguments_stand_in_for_what_a_case_asks) {
+    Json wide{{"linkage", "four_bar"}, {"drivers", {{"crank", {{"from", 0}, {"to", 360}, {"step", 15}}}}}};
+    EXPECT_EQ(rows(wide).size(), 25u);
+    EXPECT_EQ(rows(wide, {"--drive", "crank=0:90:15"}).size(), 7u);
+    wide["targets"]["P"] = {1, 2, 0};
+    EXPECT_EQ(rows(wide, {"--drive", "crank=0:90:15", "--target", "P=1,1,0"}).size(), 7u);
+    const std::string good = R"({"linkage": "four_bar"})";
+    refuses(good, {"--drive", "crank=1", "--drive", "crank=2"}, "--drive crank twice");
+    refuses(good, {"--target", "P=1,2,0", "--target", "P=1,1,0"}, "--target P twice");
+    refuses(good, {"--drive", "nobody=1"}, "--drive nobody no joint");
+    refuses(good, {"--target", "Q=1,2,0"}, "--target Q no point");
+    refuses(R"({"linkage": "four_bar", "targets": {"P": [[1, 2, 0], [1, 2, 0]]}})",
+            {"--drive", "crank=0:90:30"}, "--drive crank as many 2 4");
+}
+
 TEST_F(SolveLinkage, what_is_wrong_is_refused_by_its_place_and_nothing_is_solved) {
     refuses(R"([{"linkage": "five_bar"}])", {}, "line 1 cases.0.linkage five_bar");
     refuses(R"([{"linkage": 5}])", {}, "cases.0.linkage 5");

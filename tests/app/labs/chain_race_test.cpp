@@ -151,6 +151,18 @@ TEST_F(ChainRace, StepsAndScrubsWithinItsIterations) {
     EXPECT_EQ(state()["microscope"]["step"], 1);
 }
 
+TEST_F(ChainRace, OpenedFromAnotherLabItLeavesThatLabsCamera) {
+    reach_with(6);
+    for (const char* open : {"microscope.open", "race.open"}) {
+        workspace.lab = "rope";
+        workspace.camera = {.target = {50.0f, 0.0f, 0.0f}};
+        workspace.cameras[chain_lab] = {.target = {100.0f, 0.0f, 0.0f}};
+        run(open, {{"start", "straight"}});
+        EXPECT_EQ(workspace.camera.target.x, 50.0f) << open;
+        EXPECT_LT(workspace.cameras[chain_lab].target.x, 20.0f) << open << ": the chain is in view";
+    }
+}
+
 TEST_F(ChainRace, PlaysToItsEndAtALegiblePace) {
     race_of(6);
     run("chain.target", {{"to", {3, 3, 1}}});

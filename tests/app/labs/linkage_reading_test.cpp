@@ -93,10 +93,53 @@ TEST_F(LinkageReading, ASliderCrankIsShortenedToo) {
     run("linkage.motor", {{"joint", "crank"}, {"deg_per_s", 90}});
     for (int i = 0; i < 240 && lab().moving(workspace); ++i) wait(1);
     ASSERT_EQ(state().at("status"), "DeadPoint");
-    EXPECT_NEAR(longest_round_crank(part()).value_or(0.0), 0.7, 1e-6);
+    ASSERT_TRUE(shorter_round_cranks(part()));
+    EXPECT_NEAR(shorter_round_cranks(part())->longest, 0.7, 1e-6);
     take("Shorten");
     wait(300);
     EXPECT_EQ(state().at("status"), "Reached");
+}
+
+/// A drag link has its crank longer than its ground: between a length at which coupler and rocker fold, and
+/// one at which they stretch.
+TEST_F(LinkageReading, ShorteningACrankLetsItGoRound) {
+    test::RandomNumbers random(3);
+    int drag_links = 0;
+    for (int i = 0; i < 60; ++i) {
+        const double g = random.uniform(0.5, 2.0), b = random.uniform(1.0, 4.0), c = random.uniform(1.0, 4.0);
+        const double crank = random.uniform(0.5, 1.3) * (b + c - g);
+        LinkageRuntime runtime;
+        LinkagePart drawn;
+        try {
+            open_mechanism(drawn, ik::FourBar{.ground = g, .crank = crank, .coupler = b, .rocker = c},
+                           runtime);
+        } catch (const std::invalid_argument&) {
+            continue;  // it does not close
+        }
+        const std::string kind = four_bar_kind(drawn);
+        if (kind == "crank-rocker" || kind == "drag link") continue;
+        drawn.result.report.status = ik::LinkageStatus::DeadPoint;
+        drawn.result.report.stopped = drawn.linkage().find_link("crank");
+        for (const Cure& each : ways_on(drawn)) {
+            if (each.title != "Shorten") continue;
+            const double shorter = to_json(each.calls[0].arguments).at("crank").get<double>();
+            EXPECT_LT(shorter, crank);
+            LinkageRuntime fresh;
+            LinkagePart round;
+            open_mechanism(round, ik::FourBar{.ground = g, .crank = shorter, .coupler = b, .rocker = c},
+                           fresh);
+            EXPECT_TRUE(fresh.turn(round).whole)
+                << g << " " << crank << " " << b << " " << c << ": " << shorter;
+            if (four_bar_kind(round) == "drag link") ++drag_links;
+        }
+    }
+    EXPECT_GT(drag_links, 3);
+    LinkageRuntime runtime;
+    LinkagePart finding;
+    open_mechanism(finding, ik::FourBar{.ground = 1.0, .crank = 5.5, .coupler = 3.0, .rocker = 3.0}, runtime);
+    ASSERT_TRUE(shorter_round_cranks(finding));
+    EXPECT_NEAR(shorter_round_cranks(finding)->longest, 5.0, 1e-9);
+    EXPECT_NEAR(shorter_round_cranks(finding)->shortest, 1.0, 1e-9);
 }
 
 TEST_F(LinkageReading, TheMinimumOfTheTransmissionAngleIsTheLawOfCosines) {
@@ -233,6 +276,8 @@ TEST_F(LinkageReading, WhatFloatsHasThreeDegreesOfFreedomMore) {
 TEST_F(LinkageReading, AnElbowIsDrivenAgainstTheUpperArm) {
     draw_arm();
     expect_refused("linkage.motor.add", {{"point", "B"}}, {"B", "not pinned", "second bar"});
+    expect_refused("linkage.motor.add", {{"point", "C"}, {"against", "bar 2"}},
+                   {"C has one bar", "leave out"});
     run("linkage.motor.add", {{"point", "C"}, {"name", "shoulder"}});
     run("linkage.motor.add", {{"point", "A"}, {"name", "elbow"}});
     const ik::SketchMotor& elbow = part().shape->sketch.motors.back();
