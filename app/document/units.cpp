@@ -40,6 +40,12 @@ std::string length_text(double metres) {
     return std::abs(metres) < 1.0 ? fixed_text(1000.0 * metres, 1) + " mm" : fixed_text(metres, 2) + " m";
 }
 
+std::string rounded_length_text(double metres) {
+    return metres < 0.0095  ? length_text(metres)
+           : metres < 0.995 ? fixed_text(100.0 * metres, 0) + " cm"
+                            : fixed_text(metres, 2) + " m";
+}
+
 std::string error_text(double metres) {
     return std::abs(metres) < 1e-5 ? "none" : si_text(metres, "m");
 }

@@ -17,6 +17,8 @@ std::string count_text(std::size_t count, const char* noun);
 
 /// "12.3 mm", "1.20 m": a length in metres, for bodies and rigs.
 std::string length_text(double metres);
+/// "9.5 mm", "12 cm", "1.20 m": a distance in metres, for sentences.
+std::string rounded_length_text(double metres);
 /// "1.2 mm"; "none" below a hundredth of a millimetre.
 std::string error_text(double metres);
 

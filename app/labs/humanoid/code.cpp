@@ -315,11 +315,28 @@ class HumanoidProgram {
             say("     glm::dquat" + braced(*each.rotation) + ", " + braced(each.axis) + "},");
         }
         say("};");
-        IkState state = part_.ik_state;
-        const humanoid::ObjectPose asked = part_.ik.hold->asked(solve_pose(part_, solvers_, 0.0, state).hips);
-        say("const humanoid::ObjectPose asked{" + braced(asked.position) + ',');
-        say("                                 " + braced(asked.rotation) + "};");
+        if (part_.ik.hold->with_body) {
+            const std::size_t hips = *part_.node_of(humanoid::Bone::Hips);
+            say("// Where it is asked to be, from the hips and turned with them.");
+            say("const humanoid::ObjectPose from_hips{" + braced(part_.ik.hold->position) + ',');
+            say("                                     " + braced(part_.ik.hold->rotation) + "};");
+            say("const std::size_t hips = *skeleton->find(" + string_text(part_.skeleton()[hips].name) +
+                ");");
+            say("const glm::dquat hips_at_rest" + braced(part_.loaded->rest[hips].rotation()) + ';');
+        } else {
+            say("const humanoid::ObjectPose asked{" + braced(part_.ik.hold->position) + ',');
+            say("                                 " + braced(part_.ik.hold->rotation) + "};");
+        }
         say("humanoid::HoldState hold_state;");
+    }
+
+    void asked() {
+        if (!part_.ik.hold || !part_.ik.hold->with_body) return;
+        say("humanoid::place(*skeleton, pose, placed);");
+        say("const glm::dquat turn = rig::normalised(placed[hips].rotation() * "
+            "glm::conjugate(hips_at_rest));");
+        say("const humanoid::ObjectPose asked{placed[hips].position + turn * from_hips.position,");
+        say("                                 rig::normalised(turn * from_hips.rotation)};");
     }
 
     void body_state(const humanoid::BodyState& state) {
@@ -476,8 +493,7 @@ class HumanoidProgram {
             const std::string options = part_.ik.balance.on ? ", body_options" : "";
             if (part_.ik.hold)
                 say("if (const auto solved = humanoid::hold(*body, pose, targets, {grips, asked}, "
-                    "body_state, "
-                    "hold_state" +
+                    "body_state, hold_state" +
                     (options.empty() ? options : ", {.body = body_options}") + "); !solved)");
             else
                 say("if (const auto solved = body->solve(pose, targets, body_state" + options +
@@ -488,11 +504,11 @@ class HumanoidProgram {
             if (const std::string name = "curve_" + std::to_string(i); solvers_.curves(part_)[i] != nullptr)
                 say(name + "->bend(pose, " + name + "_points, " + name + "_options);");
         if (feet_on()) say("feet->step(pose, ground, dt, feet_state, feet_options);");
-        if (body_on() && acts()) solve();
+        say("std::vector<humanoid::Placement> placed(skeleton->size());");
+        if (body_on() && acts()) asked(), solve();
         if (gaze_on()) say("look->step(pose, look_options, dt, look_state);");
         if (hands_on()) say("hands->step(pose, hand_targets, dt, hands_state, hands_options);");
         if (body_on() && !acts()) solve();
-        say("std::vector<humanoid::Placement> placed(skeleton->size());");
         swing();
         say("humanoid::place(*skeleton, pose, placed);");
         say("for (const humanoid::Placement& each : placed)");

@@ -440,11 +440,11 @@ std::vector<bool> body_nodes(const HumanoidPart& part) {
         if (match.node >= 0) body[static_cast<std::size_t>(match.node)] = true;
     }
     for (const BoneCurve& each : part.curves)
-        if (const auto first = skeleton.find(each.first), last = skeleton.find(each.last); first && last)
-            for (std::size_t at = *last; skeleton.is_below(at, *first);
+        if (const auto chain = chain_of(part, each))
+            for (std::size_t at = chain->last; skeleton.is_below(at, chain->first);
                  at = static_cast<std::size_t>(skeleton[at].parent)) {
                 body[at] = true;
-                if (at == *first) break;
+                if (at == chain->first) break;
             }
     // The end of a last bone, if it is the only child.
     for (const humanoid::BoneMatch& match : part.map->bones) {

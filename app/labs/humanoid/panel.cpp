@@ -255,7 +255,7 @@ void node_inspector(const HumanoidPanel& panel) {
     position_rows(shown.placed[*node].position);
     if (!shown.before.empty())
         reading(
-            "moved by IK", "%s",
+            "moved from the clip", "%s",
             length_text(glm::distance(shown.placed[*node].position, shown.before[*node].position)).c_str());
     curve_inspector(panel);
     spring_inspector(panel);

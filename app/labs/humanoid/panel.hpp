@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "app/labs/kit/panel_rows.hpp"
@@ -42,6 +43,9 @@ void motion_rows(const HumanoidPanel& panel, MoreRows& more);
 void target_rows(const HumanoidPanel& panel);
 /// The source of joint limits.
 void limit_rows(const HumanoidPanel& panel);
+/// Settings and Remove, of the spring or curve that begins at the node: `command` with `argument` names it.
+void settings_row(const HumanoidPanel& panel, const std::string& node, const char* command,
+                  const char* argument, const char* help);
 /// Springs on ears, antennae, a tail.
 void spring_rows(const HumanoidPanel& panel);
 /// Curves that a tail or the spine bends along.

@@ -337,7 +337,7 @@ Json HumanoidLab::state(const Workspace& workspace) const {
                 {"springs", springs_state(workspace, shown)},
                 {"curves", curves_state(part, humanoid_runtime(workspace).solvers, shown)},
                 {"attachments", attachments_state(part)},
-                {"order", {"clip", "IK", "rig", "ropes"}},
+                {"order", {"clip", "curves", "IK", "rig", "springs", "ropes"}},
                 {"past", past_view_state(workspace, humanoid_past(), humanoid_past_curve(workspace))},
                 {"selected", active_name(part.selection, part.skeleton())},
                 {"selection", names_of(part.selection, part.skeleton())}};

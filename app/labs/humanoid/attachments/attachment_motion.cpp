@@ -286,7 +286,7 @@ Wearer wearer_of(const HumanoidPart& part, Solvers& solvers, const ShownPose& sh
 Command carrying(Command command) {
     if (command.effect != Effect::Edit) return command;
     const bool drags = command.name == "humanoid.target" || command.name == "humanoid.look_at" ||
-                       command.name == "humanoid.curve";
+                       command.name == "humanoid.curve" || command.name == "humanoid.hold_move";
     command.apply = [drags, apply = command.apply](Workspace& workspace, const Arguments& given) {
         apply(workspace, given);
         if (drags && workspace.clock.playing) return;

@@ -49,7 +49,7 @@ void holder_field(const HumanoidPanel& panel) {
 
 void attachment_rows(const HumanoidPanel& panel) {
     if (!folding_section(panel.workspace, "Attachments", panel.emit, false)) return;
-    note("Order in each tick: clip, IK, rig, ropes.");
+    note("Order in each tick: clip, curves, IK, rig, springs, ropes.");
     explain(
         "Curves bend the clip's pose. Feet, targets and hands are IK; look-at, the rig's Aim, and springs "
         "follow. Ropes, hair and cloth come last, and lie on the body as it is then.");

@@ -212,6 +212,7 @@ std::string discarded_text(const HumanoidPart& part) {
     add(static_cast<std::size_t>(
             std::ranges::count_if(part.ik.targets, [](const auto& each) { return each.has_value(); })),
         "target", "targets");
+    add(part.curves.size(), "curve", "curves");
     // Those of the built-in figure may be the opening's.
     if (part.loaded->file.empty()) return text;
     add(part.attachments.list.size(), "attachment", "attachments");
@@ -272,6 +273,20 @@ humanoid::BoneMap with_corrections(const LoadedCharacter& loaded, const Humanoid
     return wanted;
 }
 
+/// What a user has placed on or around the character keeps its place there in another unit.
+void scale_places(HumanoidPart& part, double factor) {
+    const auto scale = [&](glm::dvec3& position) {
+        constexpr auto most = static_cast<double>(max_magnitude);
+        position = glm::clamp(factor * position, -most, most);
+    };
+    for (BoneCurve& each : part.curves)
+        for (glm::vec3& point : each.shape.points) point *= static_cast<float>(factor);
+    for (std::optional<TargetSetting>& target : part.ik.targets)
+        if (target) scale(target->position);
+    if (part.ik.look_at.placed) scale(part.ik.look_at.target);
+    if (part.ik.hold) scale(part.ik.hold->position);
+}
+
 /// Reads the character's file with another unit or other axes.
 void read_again(Workspace& workspace, double metres, const FileSpace& space) {
     const HumanoidPart& now = humanoid_part(workspace);
@@ -287,10 +302,11 @@ void read_again(Workspace& workspace, double metres, const FileSpace& space) {
     part.map = std::make_shared<const humanoid::BoneMap>(loaded->matched);
     take_map(part, wanted);
     measure_pace(part);
-    part.ik_state.springs.clear();  // springs and fading are in the old metres
+    part.ik_state.springs.clear();  // what IK remembers is in the old metres
     part.ik_state.release = {};
-    for (BoneCurve& each : part.curves)
-        for (glm::vec3& point : each.shape.points) point *= static_cast<float>(metres / was);
+    part.ik_state.body = {};
+    part.ik_state.hold = {};
+    scale_places(part, metres / was);
     remake_attachments(workspace, metres / was);
     show_all(workspace, *loaded);
 }

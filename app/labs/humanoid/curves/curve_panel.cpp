@@ -32,13 +32,7 @@ void curve_row(const HumanoidPanel& panel, std::size_t which) {
     reading(curve.first.c_str(), "%s",
             report_text(curve, panel.runtime.shown(panel.workspace).curves[which]).c_str());
     explain(("From " + curve.first + " to " + curve.last + ".").c_str());
-    const bool shown = !panel.part.selection.several() &&
-                       active_name(panel.part.selection, panel.part.skeleton()) == curve.first;
-    if (row_button("Settings", 2, !shown, "Selects it and shows its settings on the right"))
-        panel.emit("humanoid.select", {{"node", curve.first}});
-    if (row_button("Remove", 2, true, "Only clip and IK move it again"))
-        panel.emit("humanoid.curve", {{"first", curve.first}, {"on", false}});
-    end_row();
+    settings_row(panel, curve.first, "humanoid.curve", "first", "Only clip and IK move it again");
     ImGui::PopID();
 }
 
@@ -170,7 +164,8 @@ BoneCurve& begin_curve(const IkNow& now, HumanoidPart& part, const BoneChain& ch
 
 void set_points(const IkNow& now, HumanoidPart& part, std::size_t which, const Json& list) {
     std::vector<glm::vec3> points = read_control_points(JsonPlace(list, "points"), max_bone_curve_points);
-    if (points.empty()) throw Refused("points: a curve needs a control point");
+    if (points.empty())
+        throw Refused("points: a curve needs a control point; to remove the curve, use on: false");
     BoneCurve& curve = part.curves[which];
     if (points == curve.shape.points) return;
     const auto& chain = now.solvers.curves(part)[which];

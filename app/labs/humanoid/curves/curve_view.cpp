@@ -79,7 +79,7 @@ std::string curve_hint(const HumanoidPart& part, const PickedCurve& picked) {
     const BoneCurve& curve = part.curves[picked.curve];
     if (!picked.control) return "Curve of " + curve.first + ": click adds a control point.";
     return "Control point " + std::to_string(*picked.control + 1) + " of " + curve.first +
-           ": drag bends the curve, double click removes it.";
+           ": drag bends the curve" + (curve.shape.points.size() > 1 ? ", double click removes it." : ".");
 }
 
 void draw_bone_curves(const View& view, DrawList& list, const HumanoidPart& part, Solvers& solvers,

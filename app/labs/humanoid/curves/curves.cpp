@@ -82,14 +82,13 @@ std::optional<std::size_t> shared_node(const humanoid::Skeleton& skeleton, const
     return std::nullopt;
 }
 
-/// The nodes of a curve; empty if the character does not have them.
+}  // namespace
+
 std::optional<BoneChain> chain_of(const HumanoidPart& part, const BoneCurve& curve) {
     const auto first = part.skeleton().find(curve.first), last = part.skeleton().find(curve.last);
     if (!first || !last || *first == *last || !part.skeleton().is_below(*last, *first)) return std::nullopt;
     return BoneChain{*first, *last};
 }
-
-}  // namespace
 
 std::vector<BoneChain> bendable_chains(const HumanoidPart& part) {
     constexpr std::size_t fewest_bones = 2;

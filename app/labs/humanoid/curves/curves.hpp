@@ -37,6 +37,8 @@ struct BoneCurve {
 struct BoneChain {
     std::size_t first = 0, last = 0;
 };
+/// The nodes of a curve; empty if the character does not have them.
+std::optional<BoneChain> chain_of(const HumanoidPart& part, const BoneCurve& curve);
 /// The spine, and every chain of two bones and more beside the body: tails, ears, hair; not fingers.
 std::vector<BoneChain> bendable_chains(const HumanoidPart& part);
 /// "tail_1 to tail_6"

@@ -1,11 +1,13 @@
 #include "app/labs/humanoid/hold/hold.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/trigonometric.hpp>
 #include <stdexcept>
 
 #include "app/document/json_complete.hpp"
 #include "app/document/json_place.hpp"
+#include "app/document/text.hpp"
 #include "app/document/units.hpp"
 #include "app/labs/humanoid/ik/ik_commands.hpp"
 #include "app/labs/kit/arguments.hpp"
@@ -27,59 +29,81 @@ Expected<humanoid::HoldReport> solve_hold(const HumanoidPart& part, humanoid::Bo
 
 namespace {
 
-/// Less than this is no way worth telling, metres and radians.
+/// Less than this is not worth telling, metres and radians.
 constexpr double told_way = 5e-4, told_turn = 9e-3;
 
-/// "the left arm is straight", "at their limits: LeftHand".
-std::vector<std::string> hold_reasons(const humanoid::HoldReport& report) {
-    std::vector<std::string> reasons;
-    const bool left = report.grips[0].straight, right = report.grips[1].straight;
-    if (left && right) reasons.push_back("both arms are straight");
-    if (left != right)
-        reasons.push_back(std::string("the ") + (left ? "left" : "right") + " arm is straight");
-    std::string joints;
-    for (std::size_t i = static_cast<std::size_t>(Bone::LeftShoulder);
-         i <= static_cast<std::size_t>(Bone::RightHand); ++i)
-        if (report.body.at_limit[i])
-            joints += (joints.empty() ? "" : ", ") + std::string(humanoid::name(static_cast<Bone>(i)));
-    if (!joints.empty()) reasons.push_back("at their limits: " + joints);
-    if (report.jumped) reasons.push_back("an arm has jumped to another pose");
-    return reasons;
+const char* side_name(std::size_t hand) {
+    return hand == 0 ? "left" : "right";
 }
 
+/// "left upper arm"
+std::string bone_words(Bone bone) {
+    std::string words;
+    for (const char* c = humanoid::name(bone); *c != '\0'; ++c) {
+        if (*c >= 'A' && *c <= 'Z' && !words.empty()) words += ' ';
+        words += *c;
+    }
+    return lower_case(words);
+}
+
+/// "the left arm is straight; the left shoulder and left hand are at their limits". Of hands that hold.
 std::string hold_reason_text(const humanoid::HoldReport& report) {
     std::string text;
-    for (const std::string& each : hold_reasons(report)) text += (text.empty() ? "" : "; ") + each;
-    if (text.empty()) return {};
-    text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
-    return text + '.';
+    const auto add = [&](const std::string& reason) { text += (text.empty() ? "" : "; ") + reason; };
+    if (report.grips[0].straight && report.grips[1].straight)
+        add("both arms are straight");
+    else
+        for (std::size_t hand = 0; hand < 2; ++hand)
+            if (report.grips[hand].straight) add(std::string("the ") + side_name(hand) + " arm is straight");
+    std::vector<std::string> joints;
+    for (std::size_t hand = 0; hand < 2; ++hand) {
+        if (!report.grips[hand].holds) continue;
+        const auto first = static_cast<std::size_t>(hand == 0 ? Bone::LeftShoulder : Bone::RightShoulder);
+        const auto last = static_cast<std::size_t>(hand == 0 ? Bone::LeftHand : Bone::RightHand);
+        for (std::size_t i = first; i <= last; ++i)
+            if (report.body.at_limit[i]) joints.push_back(bone_words(static_cast<Bone>(i)));
+    }
+    std::string named;
+    for (std::size_t i = 0; i < joints.size(); ++i)
+        named += (i == 0 ? "" : i + 1 < joints.size() ? ", " : " and ") + joints[i];
+    if (!joints.empty())
+        add("the " + named + (joints.size() == 1 ? " is at its limit" : " are at their limits"));
+    if (report.jumped) add("an arm has jumped to another pose");
+    return text.empty() ? text : capitalised(text) + '.';
 }
 
-std::string hold_way_text(double metres) {
-    return metres < 0.0095  ? length_text(metres)
-           : metres < 0.995 ? fixed_text(100.0 * metres, 0) + " cm"
-                            : fixed_text(metres, 2) + " m";
-}
+}  // namespace
 
 bool gives_way(const humanoid::HoldReport& report) {
     return report.moved > told_way || report.turned > told_turn;
 }
 
-}  // namespace
+bool is_closed(const humanoid::GripReport& grip) {
+    return grip.gap <= told_way && grip.off <= told_turn;
+}
 
 Verdict hold_verdict(const HoldSetting& setting, const humanoid::HoldReport& report) {
     const std::string name = held_kinds.title(setting.kind);
-    if (!report.closed()) {
+    const auto open = [&](std::size_t hand) {
+        return report.grips[hand].holds && !is_closed(report.grips[hand]);
+    };
+    if (open(0) || open(1)) {
+        const bool both = open(0) && open(1);
+        const std::string hands =
+            both ? "Hands" : std::string("The ") + side_name(open(0) ? 0 : 1) + " hand is";
         const double gap = std::max(report.grips[0].gap, report.grips[1].gap);
-        if (gap > told_way)
-            return {"Hands " + hold_way_text(gap) + " short of the " + name, Verdict::Kind::Bad,
-                    hold_reason_text(report)};
-        return {"A hand is turned off its grip", Verdict::Kind::Bad, hold_reason_text(report)};
+        const std::string text = gap > told_way
+                                     ? hands + ' ' + rounded_length_text(gap) + " short of the " + name
+                                 : both ? "Hands turned off their grips"
+                                        : hands + " turned off its grip";
+        return {text, Verdict::Kind::Bad, hold_reason_text(report)};
     }
     if (!gives_way(report)) return {"Holds the " + name, Verdict::Kind::Good};
-    std::string by = report.moved > told_way ? hold_way_text(report.moved) : "";
-    if (report.turned > told_turn)
-        by += (by.empty() ? "" : " and ") + fixed_text(glm::degrees(report.turned), 0) + " degrees";
+    std::string by = report.moved > told_way ? rounded_length_text(report.moved) : "";
+    if (report.turned > told_turn) {
+        const auto degrees = static_cast<std::size_t>(std::lround(glm::degrees(report.turned)));
+        by += (by.empty() ? "" : " and ") + count_text(degrees, "degree");
+    }
     return {"The " + name + " gives way by " + by, Verdict::Kind::Bad, hold_reason_text(report)};
 }
 
@@ -103,7 +127,7 @@ Json hold_state(const HumanoidPart& part, const ShownPose& shown) {
     for (std::size_t hand = 0; hand < 2; ++hand) {
         const humanoid::GripReport& grip = report.grips[hand];
         if (grip.holds)
-            json["grips"][hand == 0 ? "left" : "right"] = {
+            json["grips"][side_name(hand)] = {
                 {"gap", grip.gap}, {"off_deg", glm::degrees(grip.off)}, {"straight", grip.straight}};
     }
     return json;

@@ -25,6 +25,11 @@ Expected<humanoid::HoldReport> solve_hold(const HumanoidPart& part, humanoid::Bo
 Handle hold_handle(const HoldSetting& setting, const ShownPose& shown);
 void drag_hold(const HoldSetting& setting, const ShownPose& shown, const Handle::Frame& to, Emit& emit);
 
+/// Whether the object is elsewhere than asked, and whether the hand is on its grip, to what is worth telling:
+/// half a millimetre, half a degree. HoldReport::closed() is stricter.
+bool gives_way(const humanoid::HoldReport& report);
+bool is_closed(const humanoid::GripReport& grip);
+
 /// "The wheel gives way by 12 cm", and why: "The left arm is straight."
 Verdict hold_verdict(const HoldSetting& setting, const humanoid::HoldReport& report);
 /// Null if nothing is held.

@@ -48,8 +48,7 @@ void draw_hold(const View& view, DrawList& list, const HumanoidPart& part, const
         stroke.shadow = true;
     }
     const humanoid::ObjectPose asked = setting.asked(shown.hips);
-    const double size = part.loaded->height();
-    if (report.moved > 0.002 * size || report.turned > 0.02) {
+    if (gives_way(report)) {
         for (const HeldBar& bar : shape)
             list.line(placed(asked, bar.from), placed(asked, bar.to), px(1.2f),
                       faded(view.palette, view.palette.target, 0.7f));
@@ -61,8 +60,8 @@ void draw_hold(const View& view, DrawList& list, const HumanoidPart& part, const
         const humanoid::GripReport& grip = report.grips[hand];
         if (!grip.holds) continue;
         const glm::vec3 wrist = shown.point(*part.node_of(humanoid::bone_of(both_hands[hand])));
-        const bool closed = grip.gap < 0.001 * size && grip.off < 0.02;
-        list.ring(wrist, px(8.0f), px(1.8f), glm::vec4(closed ? view.palette.tail : view.palette.limit, 1.0f))
+        list.ring(wrist, px(8.0f), px(1.8f),
+                  glm::vec4(is_closed(grip) ? view.palette.tail : view.palette.limit, 1.0f))
             .layer = Layer::Overlay;
     }
     Stroke& ball = list.sphere(glm::vec3(asked.position), px(marks ? 9.5f : 8.0f), Unit::Pixels,

@@ -16,23 +16,30 @@
 namespace tendril::app {
 namespace {
 
-/// Starts the release if a target was removed. `settings` and `pose` are those before the change. Toggling
-/// hand IK takes effect at once: its curves and view cone do the easing.
+/// Starts the release if an effector lost its target or grip and has neither now. `settings` and `pose` are
+/// those before the change. Toggling hand IK takes effect at once: its curves and view cone do the easing.
 void let_go(Workspace& workspace, const IkSettings& settings, const std::vector<rig::Transform>& pose) {
     const HumanoidPart& part = humanoid_part(workspace);
-    const bool loses =
-        (settings.hold && !part.ik.hold) || std::ranges::any_of(all_effectors, [&](humanoid::Effector each) {
-            return settings.target(each) && !part.ik.target(each);
-        });
+    const auto free = [](const IkSettings& ik, humanoid::Effector each) {
+        return !ik.target(each) && !(ik.hold && ik.hold->holds(each));
+    };
+    const bool loses = std::ranges::any_of(
+        all_effectors, [&](humanoid::Effector each) { return !free(settings, each) && free(part.ik, each); });
     const bool plays = workspace.clock.playing && goes_on(part.playback, *part.loaded);
-    if (!loses || !(plays || part.ik.has_targets())) return;
+    if (!loses || !(plays || part.ik.hold || part.ik.has_targets())) return;
     const auto set = [&](Release release) {
         workspace.document.edit<HumanoidPart>(humanoid_lab).ik_state.release = std::move(release);
     };
     set({.left = release_seconds});
-    if (plays)
-        set(release_between(pose, shown_pose(workspace).before_springs,
-                            humanoid_part(workspace).node_of(humanoid::Bone::Hips)));
+    if (!plays) return;
+    Release release = release_between(pose, shown_pose(workspace).before_springs,
+                                      humanoid_part(workspace).node_of(humanoid::Bone::Hips));
+    // The other hand may have taken the object in the same change: it is on its grip at once.
+    const HumanoidPart& now = humanoid_part(workspace);
+    for (const humanoid::Effector hand : both_hands)
+        if (holds(now, hand) && !(settings.hold && settings.hold->holds(hand)))
+            forget_on_the_way_to(release, now.skeleton(), *now.node_of(humanoid::bone_of(hand)));
+    set(std::move(release));
 }
 
 }  // namespace

@@ -217,8 +217,13 @@ void read_ik(const JsonPlace& place, HumanoidPart& part) {
     if (const auto balance = place.optional("balance")) load_fields(*balance, part.ik.balance);
     if (const auto hand_ik = place.optional("hand_ik")) read_hand_ik(*hand_ik, part.ik.hand_ik);
     if (const auto look_at = place.optional("look_at")) load_fields(*look_at, part.ik.look_at);
-    if (const auto hold = place.optional("hold")) part.ik.hold = read_hold(*hold);
-    if (const auto held = place.optional("held")) part.ik_state.hold = read_hold_memory(*held);
+    if (const auto hold = place.optional("hold")) {
+        part.ik.hold = read_hold(*hold);
+        for (const humanoid::Effector hand : both_hands)
+            if (part.ik.hold->holds(hand) && part.ik.target(hand))
+                place["targets"][humanoid::name(hand)].fail("this hand holds the object: remove its target");
+        if (const auto held = place.optional("held")) part.ik_state.hold = read_hold_memory(*held);
+    }
     if (const auto hands = place.optional("hands")) read_number(*hands, part.ik_state.hands);
     if (const auto look = place.optional("look")) read_number(*look, part.ik_state.look);
     if (const auto steps = place.optional("steps")) {

@@ -254,9 +254,7 @@ std::string balance_text(const HumanoidPart& part, const ShownPose& shown, Solve
     const ShownPose::Balance& balance = *shown.balance;
     if (part.ik_state.steps.stepping()) return "stepping";
     if (balance.support.count == 0) return "no foot stands";
-    const double size = std::abs(balance.margin);
-    const std::string far =
-        size < 0.995 ? fixed_text(100.0 * size, size < 0.01 ? 1 : 0) + " cm" : fixed_text(size, 2) + " m";
+    const std::string far = rounded_length_text(std::abs(balance.margin));
     if (balance.margin >= 0.0) return far + " inside the feet";
     const std::size_t hips = *part.node_of(humanoid::Bone::Hips);
     const glm::dquat turn =

@@ -117,9 +117,9 @@ const BentChains& Solvers::curves(const HumanoidPart& part) {
     for (const BoneCurve& each : part.curves) {
         curve_ends_.emplace_back(each.first, each.last);
         curves_.emplace_back();
-        const auto first = part.skeleton().find(each.first), last = part.skeleton().find(each.last);
-        if (!first || !last) continue;
-        if (auto chain = humanoid::BentChain::make(part.skeleton(), *first, *last))
+        const auto ends = chain_of(part, each);
+        if (!ends) continue;
+        if (auto chain = humanoid::BentChain::make(part.skeleton(), ends->first, ends->last))
             curves_.back() = std::make_unique<humanoid::BentChain>(std::move(chain).value());
     }
     return curves_;

@@ -191,11 +191,12 @@ PoseLines humanoid_lines(const Workspace& workspace, const SharedPart& part) {
 
 namespace {
 
-/// The settings without the poses of targets.
+/// The settings without the poses of targets and of the held object.
 IkSettings without_places(IkSettings settings) {
     for (auto& target : settings.targets)
         if (target) target = TargetSetting{.position = glm::dvec3(0.0), .weight = target->weight};
     settings.look_at.target = glm::dvec3(0.0);
+    if (settings.hold) settings.hold->position = {}, settings.hold->rotation = {1.0, 0.0, 0.0, 0.0};
     return settings;
 }
 
@@ -256,20 +257,44 @@ void add_short_effectors(const HumanoidMoment& was, const HumanoidMoment& is,
     }
 }
 
+/// Where an arm that holds the object jumped without a bone that counts as flipped.
+void add_hold_jump(const HumanoidMoment& was, const HumanoidMoment& is, Solvers& solvers,
+                   std::vector<Incident>& incidents) {
+    if (!was.shown.hold || !is.shown.hold || !incidents.empty()) return;
+    IkState state = is.part.ik_state;
+    state.hold = was.part.ik_state.hold;  // to compare with
+    const ShownPose again = solve_pose(is.part, solvers, 0.0, state);
+    if (!again.hold || !again.hold->jumped) return;
+    const auto way = [&](humanoid::Bone bone) {
+        const std::size_t node = *is.part.node_of(bone);
+        return glm::distance(was.shown.placed[node].position, is.shown.placed[node].position);
+    };
+    const bool left = way(humanoid::Bone::LeftLowerArm) > way(humanoid::Bone::RightLowerArm);
+    const humanoid::Bone elbow = left ? humanoid::Bone::LeftLowerArm : humanoid::Bone::RightLowerArm;
+    incidents.push_back({.kind = Incident::Kind::Jump,
+                         .joint = *is.part.node_of(elbow),
+                         .name = humanoid::name(elbow),
+                         .cause = std::string("the ") + (left ? "left" : "right") +
+                                  " arm jumped to another pose that holds the object"});
+}
+
 /// A change of a curve's points takes a joint to another crossing of it.
-void add_curve_jumps(const HumanoidPart& was, const HumanoidPart& is, std::vector<Incident>& incidents) {
+void add_curve_jumps(const HumanoidPart& was, const HumanoidPart& is, Solvers& solvers,
+                     std::vector<Incident>& incidents) {
     if (was.loaded != is.loaded || was.curves == is.curves) return;
-    for (const BoneCurve& each : is.curves) {
+    const BentChains& chains = solvers.curves(is);
+    for (std::size_t i = 0; i < is.curves.size(); ++i) {
+        const BoneCurve& each = is.curves[i];
         const auto same = std::ranges::find(was.curves, each.first, &BoneCurve::first);
-        const auto first = is.skeleton().find(each.first);
-        if (!each.jumped || !first || same == was.curves.end() || same->shape.points == each.shape.points)
+        if (!each.jumped || !chains[i] || same == was.curves.end() || same->shape.points == each.shape.points)
             continue;
-        incidents.push_back(
-            {.kind = Incident::Kind::Jump,
-             .joint = *first,
-             .name = each.first,
-             .cause = "a joint of the chain from " + each.first + " went on to another crossing of its curve",
-             .cure = "Open that bend."});
+        const std::size_t node = chains[i]->nodes()[*each.jumped];
+        const std::string& name = is.skeleton()[node].name;
+        incidents.push_back({.kind = Incident::Kind::Jump,
+                             .joint = node,
+                             .name = name,
+                             .cause = name + " went on to another crossing of its curve",
+                             .cure = "Open that bend."});
     }
 }
 
@@ -284,9 +309,9 @@ std::vector<Incident> HumanoidLab::review(const Workspace& workspace, const Part
     const auto& was_part = dynamic_cast<const HumanoidPart&>(before);
     const auto& is_part = dynamic_cast<const HumanoidPart&>(after);
     std::vector<Incident> incidents;
-    add_curve_jumps(was_part, is_part, incidents);
-    if (!comparable(was_part, is_part)) return incidents;
     HumanoidRuntime& runtime = humanoid_runtime(workspace);
+    add_curve_jumps(was_part, is_part, runtime.solvers, incidents);
+    if (!comparable(was_part, is_part)) return incidents;
     const auto pose_of = [&](const HumanoidPart& part) {
         IkState state = part.ik_state;
         return solve_pose(part, runtime.solvers, 0.0, state);
@@ -299,6 +324,7 @@ std::vector<Incident> HumanoidLab::review(const Workspace& workspace, const Part
                                      now ? runtime.shown(workspace) : pose_of(is_part)};
     const HumanoidMoment was{was_part, first}, is{is_part, second.shown};
     add_flips(was, is, runtime.solvers, incidents);
+    add_hold_jump(was, is, runtime.solvers, incidents);
     add_limits(was, is, incidents);
     add_short_effectors(was, is, incidents);
     runtime.reviewed = std::move(second);

@@ -24,13 +24,7 @@ void spring_row(const HumanoidPanel& panel, std::size_t which) {
     reading(each.node.c_str(), "%.0f\u00b0",
             glm::degrees(panel.runtime.shown(panel.workspace).springs[which].angle));
     explain("The largest angle between its bones and the clip now.");
-    const bool shown = !panel.part.selection.several() &&
-                       active_name(panel.part.selection, panel.part.skeleton()) == each.node;
-    if (row_button("Settings", 2, !shown, "Selects it and shows its settings on the right"))
-        panel.emit("humanoid.select", {{"node", each.node}});
-    if (row_button("Remove", 2, true, "Only the clip moves it again"))
-        panel.emit("humanoid.spring", {{"node", each.node}, {"on", false}});
-    end_row();
+    settings_row(panel, each.node, "humanoid.spring", "node", "Only the clip moves it again");
     ImGui::PopID();
 }
 
@@ -84,6 +78,16 @@ void setting_rows(const HumanoidPanel& panel, const SpringSetting& spring,
 }
 
 }  // namespace
+
+void settings_row(const HumanoidPanel& panel, const std::string& node, const char* command,
+                  const char* argument, const char* help) {
+    const bool shown =
+        !panel.part.selection.several() && active_name(panel.part.selection, panel.part.skeleton()) == node;
+    if (row_button("Settings", 2, !shown, "Selects it and shows its settings on the right"))
+        panel.emit("humanoid.select", {{"node", node}});
+    if (row_button("Remove", 2, true, help)) panel.emit(command, {{argument, node}, {"on", false}});
+    end_row();
+}
 
 void spring_rows(const HumanoidPanel& panel) {
     if (panel.part.springs.empty())

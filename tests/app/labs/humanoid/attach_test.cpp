@@ -34,7 +34,7 @@ TEST_F(HumanoidAttach, MakesATailAPonytailAndACape) {
     EXPECT_EQ(all[0].at("kind"), "cloth");
     EXPECT_EQ(all[0].at("bone"), "UpperChest");
     EXPECT_EQ(all[2].at("positions").size(), 21u);
-    EXPECT_EQ(state().at("order"), Json({"clip", "IK", "rig", "ropes"}));
+    EXPECT_EQ(state().at("order"), Json({"clip", "curves", "IK", "rig", "springs", "ropes"}));
     // The figure faces +Z, with its left at +X.
     EXPECT_EQ(particle("tail", 0), bone("Hips"));
     EXPECT_LT(last("tail").z, -0.4) << "it leaves the body backwards";
@@ -101,6 +101,16 @@ TEST_F(HumanoidAttach, MovesWithItsBone) {
     EXPECT_LT(glm::distance(particle("ponytail", 0), bone("Head") + turn * before), 1e-6);
     EXPECT_GT(bone("Hips").z, 1.0);
     EXPECT_GT(last("tail").z, bone("Hips").z - 0.8) << "the tail is no longer than it was";
+}
+
+TEST_F(HumanoidAttach, IsNotCarriedByADragOfTheHeldObjectWhileTimeRuns) {
+    run("humanoid.attach", {{"bone", "LeftHand"}, {"kind", "rope"}, {"name", "cord"}});
+    run("humanoid.hold", {{"kind", "box"}});
+    run("humanoid.clip", {{"name", "walk"}, {"play", true}});
+    tick(20);
+    const glm::dvec3 before = last("cord"), object = vector(state().at("hold").at("position"));
+    run("humanoid.hold_move", {{"to", {object.x, object.y + 0.1, object.z}}});
+    EXPECT_EQ(last("cord"), before);
 }
 
 TEST_F(HumanoidAttach, LiesOnTheGroundAsFarAsThatIsFlat) {

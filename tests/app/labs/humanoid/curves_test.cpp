@@ -201,17 +201,25 @@ TEST_F(HumanoidCurves, SayThatAJointJumped) {
     const glm::vec3 start(glm::conjugate(shown_pose(workspace).placed[0].rotation()) *
                           (node("tail_1") - bone("Hips")));
     const float length = static_cast<float>(glm::distance(node("tail_1"), node("tail_2")));
-    int jumps = 0;
+    int jumps = 0, marks = 0;
     for (int i = 0; i < 40; ++i) {
         const glm::vec3 bend = start + glm::vec3(0.0f, 0.0f, -0.05f * static_cast<float>(40 - i) * length);
         const std::vector<glm::vec3> hairpin{bend, start + glm::vec3(0.0f, 0.02f, 2.0f)};
+        const auto before = workspace.document.parts().at(humanoid_lab);
         run("humanoid.curve", {{"first", "tail_1"}, {"points", points_json(hairpin)}});
         if (!part().curves[0].jumped) continue;
         ++jumps;
+        for (const Incident& each :
+             lab().review(workspace, *before, *workspace.document.parts().at(humanoid_lab))) {
+            if (each.kind != Incident::Kind::Jump) continue;
+            ++marks;
+            EXPECT_EQ(each.name, curve().at("jumped")) << "the joint itself";
+        }
         EXPECT_TRUE(curve().at("jumped").is_string());
         EXPECT_EQ(humanoid_part(reopened()).curves, part().curves);
     }
     EXPECT_GT(jumps, 0);
+    EXPECT_EQ(marks, jumps);
     EXPECT_LT(jumps, 20) << "only where a joint does jump";
 }
 
@@ -293,11 +301,12 @@ TEST_F(HumanoidCurves, AreBentByTheMouse) {
         lab().double_click(workspace, handle("curve.tail_1.0")->pick, twice);
         done(twice);
     }
+    EXPECT_EQ(lab().hint(workspace, handle("curve.tail_1.0")->pick).find("double click"), std::string::npos);
     Emit last;
     lab().double_click(workspace, handle("curve.tail_1.0")->pick, last);
     const std::vector<Emitted> emitted = last.take();
     ASSERT_EQ(emitted.size(), 1u);
-    expect_refused("humanoid.curve", *emitted[0].arguments, {"a curve needs a control point"});
+    expect_refused("humanoid.curve", *emitted[0].arguments, {"a curve needs a control point", "on: false"});
 }
 
 }  // namespace

@@ -214,9 +214,11 @@ TEST_F(HumanoidFiles, AnotherCharacterTellsWhatItDiscards) {
     run("humanoid.cure", Json::object());
     run("humanoid.target", {{"effector", "left_hand"}, {"to", {0.5, 1.2, 0.3}}});
     run("humanoid.ground", {{"kind", "flat"}});
+    run("humanoid.curve", {{"first", "Spine"}});
     const HumanoidPart before = part();
     run("humanoid.load");
-    EXPECT_TRUE(test::says(workspace.ui.toasts.back().text, "Discarded 1 fix 1 target IK settings Undo"))
+    EXPECT_TRUE(
+        test::says(workspace.ui.toasts.back().text, "Discarded 1 fix 1 target 1 curve IK settings Undo"))
         << workspace.ui.toasts.back().text;
     run("undo");
     EXPECT_TRUE(part() == before);

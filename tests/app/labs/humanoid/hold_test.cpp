@@ -4,7 +4,10 @@
 #include <glm/trigonometric.hpp>
 
 #include "app/labs/humanoid/hold/hold.hpp"
+#include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "humanoid_support.hpp"
+#include "tests/app/support/temp_folder.hpp"
+#include "tests/says.hpp"
 
 namespace tendril::app {
 namespace {
@@ -103,6 +106,130 @@ TEST_F(HumanoidHold, GoesAlongWhileWalking) {
     EXPECT_GT(way, 0.8);
     EXPECT_NE(bone("LeftFoot").z, foot);
     EXPECT_NEAR(vector(hold().at("position")).z - object, way, 0.25);
+}
+
+/// Over a hand's target while the clip plays: nothing of the old pose is faded over the grips.
+TEST_F(HumanoidHold, TakesOverATargetAtOnce) {
+    run("humanoid.clip", {{"name", "walk"}, {"play", true}});
+    tick(20);
+    run("humanoid.target", {{"effector", "left_hand"}, {"to", {0.9, 1.9, 0.1}}});
+    tick(5);
+    run("humanoid.hold", {{"kind", "box"}});
+    for (int i = 0; i < 20; ++i) {
+        tick();
+        ASSERT_TRUE(hold().at("closed").get<bool>()) << i;
+        ASSERT_LT(glm::distance(bone("LeftHand"), bone("RightHand")), 0.7) << i;
+    }
+}
+
+/// Both hands, then one; and from one hand to the other, which is on its grip at once.
+TEST_F(HumanoidHold, LetsOneHandGoGently) {
+    run("humanoid.clip", {{"name", "walk"}, {"play", true}});
+    run("humanoid.hold", {{"kind", "box"}});
+    tick(20);
+    const auto apart = [&](const char* hand) {
+        const glm::dvec3 before = bone(hand);
+        tick();
+        return glm::distance(before, bone(hand));
+    };
+    run("humanoid.hold", {{"hands", "left"}});
+    EXPECT_LT(apart("RightHand"), 0.12);
+    tick(70);
+    const glm::dvec3 left = bone("LeftHand");
+    run("humanoid.hold", {{"hands", "right"}});
+    EXPECT_LT(glm::distance(left, bone("LeftHand")), 0.05) << "it eases back";
+    const glm::dquat turn = quaternion(hold().at("held_at").at("rotation"));
+    run("humanoid.clip", {{"play", false}});
+    const auto grips = held_grips(*part().ik.hold, *humanoid_runtime(workspace).solvers.body(part()),
+                                  part().loaded->height());
+    ASSERT_EQ(grips.size(), 1u);
+    EXPECT_LT(glm::distance(vector(hold().at("held_at").at("position")) + turn * grips[0].position,
+                            bone("RightHand")),
+              1e-3);
+}
+
+TEST_F(HumanoidHold, LetsTheBodySettleAfterATargetWasReleased) {
+    run("humanoid.hold", {{"kind", "box"}, {"with_body", false}});
+    const glm::dvec3 start = bone("Hips");
+    run("humanoid.target", {{"effector", "hips"}, {"to", {start.x + 0.1, start.y - 0.25, start.z}}});
+    const glm::dvec3 low = bone("Hips");
+    ASSERT_GT(glm::distance(low, start), 0.1);
+    run("humanoid.target", {{"effector", "hips"}, {"weight", 0}});
+    tick(60);
+    EXPECT_GT(glm::distance(bone("Hips"), low), 0.1);
+}
+
+TEST_F(HumanoidHold, AndTargetsKeepTheirPlaceInAnotherUnit) {
+    const test::TempFolder folder;
+    const std::string path = (folder / "figure.bvh").string();
+    test::write(path, bvh_figure());
+    run("humanoid.load", {{"path", path}});
+    run("humanoid.hold", {{"kind", "box"}, {"hands", "left"}, {"with_body", false}});
+    const glm::dvec3 hand = bone("RightHand");
+    run("humanoid.target", {{"effector", "right_hand"}, {"to", {hand.x, hand.y + 0.1, hand.z}}});
+    const double height = part().loaded->height();
+    const glm::dvec3 object = vector(hold().at("position")), right = bone("RightHand"),
+                     left = bone("LeftHand");
+    run("humanoid.scale", {{"metres", 0.005}});
+    const double scale = part().loaded->height() / height;
+    ASSERT_LT(scale, 0.9);
+    EXPECT_LT(glm::distance(vector(hold().at("position")), scale * object), 1e-6);
+    EXPECT_LT(glm::distance(bone("LeftHand"), scale * left), 5e-3);
+    EXPECT_LT(glm::distance(bone("RightHand"), scale * right), 5e-3);
+}
+
+TEST_F(HumanoidHold, RefusesAFileWithATargetOfAHandThatHolds) {
+    run("humanoid.target", {{"effector", "right_hand"}});
+    run("humanoid.hold", {{"hands", "left"}});
+    Json scene = save_scene(workspace);
+    Json& ik = scene["labs"]["humanoid"]["ik"];
+    Json both = scene;
+    both["labs"]["humanoid"]["ik"]["hold"]["hands"] = "both";
+    Workspace bad = make_blank_workspace(labs);
+    try {
+        load_scene(bad, both);
+        ADD_FAILURE() << "it was read";
+    } catch (const std::exception& error) {
+        EXPECT_TRUE(test::says(error.what(), "targets.right_hand holds the object")) << error.what();
+    }
+    ik.erase("hold");
+    load_scene(bad, scene);
+    EXPECT_FALSE(save_scene(bad)["labs"]["humanoid"]["ik"].contains("held")) << "there is no object";
+}
+
+/// While the object is dragged, what happens to the body is told.
+TEST_F(HumanoidHold, IsReviewedWhileItIsDragged) {
+    run("humanoid.hold", {{"kind", "box"}});
+    const glm::dvec3 start = vector(hold().at("position"));
+    bool marked = false;
+    for (int i = 1; i <= 25 && !marked; ++i) {
+        const auto before = workspace.document.parts().at(humanoid_lab);
+        ask(start.x + 0.03 * i, start.y + 0.05 * i, start.z - 0.05 * i);
+        marked = !lab().review(workspace, *before, *workspace.document.parts().at(humanoid_lab)).empty();
+    }
+    EXPECT_TRUE(marked) << "no joint reached its limit, nothing flipped";
+}
+
+TEST_F(HumanoidHold, SaysInWordsWhatGivesWay) {
+    humanoid::HoldReport report;
+    report.grips[0].holds = true;
+    const auto text = [&] { return hold_verdict({}, report).text; };
+    EXPECT_EQ(text(), "Holds the wheel");
+    report.grips[0].gap = 1e-4;
+    EXPECT_EQ(text(), "Holds the wheel") << "too little to tell";
+    report.turned = glm::radians(1.2);
+    EXPECT_EQ(text(), "The wheel gives way by 1 degree");
+    report.grips[0].gap = 0.12;
+    report.body.at_limit[static_cast<std::size_t>(humanoid::Bone::LeftShoulder)] = true;
+    report.body.at_limit[static_cast<std::size_t>(humanoid::Bone::RightHand)] = true;
+    EXPECT_EQ(text(), "The left hand is 12 cm short of the wheel");
+    EXPECT_EQ(hold_verdict({}, report).why, "The left shoulder is at its limit.") << "of the hand that holds";
+    report.grips[1] = {.holds = true, .gap = 0.02, .straight = true};
+    EXPECT_EQ(text(), "Hands 12 cm short of the wheel");
+    EXPECT_EQ(hold_verdict({}, report).why,
+              "The right arm is straight; the left shoulder and right hand are at their limits.");
+    report.grips[0] = {.holds = true}, report.grips[1] = {.holds = true, .off = 0.1};
+    EXPECT_EQ(text(), "The right hand is turned off its grip");
 }
 
 TEST_F(HumanoidHold, IsDraggedByItsHandle) {
