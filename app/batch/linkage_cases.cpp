@@ -225,7 +225,7 @@ Json linkage_goals_from_arguments(const std::vector<std::string>& drivers,
             throw std::runtime_error(std::string("--drive: expected ") + drive_form + ", found \"" + each +
                                      "\"");
         if (goals.contains("drivers") && goals["drivers"].contains(joint))
-            throw std::runtime_error("--drive " + joint + ": is given twice");
+            throw std::runtime_error("--drive " + joint + ": given twice");
         if (numbers.size() == 1)
             goals["drivers"][joint] = numbers[0];
         else
@@ -237,7 +237,7 @@ Json linkage_goals_from_arguments(const std::vector<std::string>& drivers,
             throw std::runtime_error(std::string("--target: expected ") + target_form + ", found \"" + each +
                                      "\"");
         if (goals.contains("targets") && goals["targets"].contains(point))
-            throw std::runtime_error("--target " + point + ": is given twice");
+            throw std::runtime_error("--target " + point + ": given twice");
         goals["targets"][point] = numbers;
     }
     return goals;

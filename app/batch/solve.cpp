@@ -145,9 +145,8 @@ struct Survey {
 };
 
 /// Calls `take` with each case of a list, or with the one that an object is: a linkage, or a scene with one.
-void read_all(std::string_view text, const SolveOptions& options,
-              const std::function<bool(Case&, double)>& take) {
-    const Json goals = linkage_goals_from_arguments(options.drivers, options.targets);
+/// The goals, of arguments, stand in for those of linkages.
+void read_all(std::string_view text, const Json& goals, const std::function<bool(Case&, double)>& take) {
     const auto with_goals = [&](Case read, double done) {
         if (!goals.empty() && !read.linkage)
             throw std::runtime_error("--drive and --target are for linkages, case \"" + read.name +
@@ -177,11 +176,10 @@ void read_all(std::string_view text, const SolveOptions& options,
 }
 
 /// Reads all cases once, so that errors are reported before anything is solved.
-Survey check(std::string_view text, const SolveOptions& options, Progress& progress,
-             const std::atomic<bool>& ending) {
+Survey check(std::string_view text, const Json& goals, Progress& progress, const std::atomic<bool>& ending) {
     constexpr std::size_t widest = 40;
     Survey survey;
-    read_all(text, options, [&](const Case& read, double done) {
+    read_all(text, goals, [&](const Case& read, double done) {
         std::vector<std::string> columns;
         if (read.linkage) columns = read.linkage->columns();
         if (survey.cases++ == 0) survey.columns = columns;
@@ -254,11 +252,12 @@ std::vector<ik::Method> methods_named(const std::string& name) {
 }
 
 void solve_cases(const SolveOptions& options, const std::atomic<bool>& ending) {
+    const Json goals = linkage_goals_from_arguments(options.drivers, options.targets);
     const std::string text = read_text_file(options.cases);
     Progress progress;
     Survey survey;
     try {
-        survey = check(text, options, progress, ending);
+        survey = check(text, goals, progress, ending);
     } catch (const std::runtime_error& error) {
         throw std::runtime_error(options.cases + ": " + error.what());
     }
@@ -293,7 +292,7 @@ void solve_cases(const SolveOptions& options, const std::atomic<bool>& ending) {
         progress.show("solving", static_cast<double>(++done) / all);
         return true;
     };
-    if (!ending) read_all(text, options, each);
+    if (!ending) read_all(text, goals, each);
     rows->end(out);
     out.finish();
     progress.clear();

@@ -233,7 +233,7 @@ std::vector<LegendRow> ChainLab::legend(const Workspace& workspace) const {
             {rooted ? "tip" : "tail", colours.tail},
             {curved ? "curve's end" : "target", colours.target},
             {"selection", colours.selection, true}};
-    if (curved) rows.push_back({"curve", pole_colour(colours)});
+    if (curved) rows.push_back({"curve", curve_colour(colours)});
     if (shown.trace) rows.push_back({"this step", colours.accent, true});
     if (shown.trace) rows.push_back({"start, earlier iterations", colours.ghost});
     if (const TracedPose* const pose = traced_pose(part))

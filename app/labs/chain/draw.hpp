@@ -86,6 +86,7 @@ void draw_incident(const View& view, const ChainPart& part, DrawList& list);
 
 // Colours of this lab alone; the others are in view/palette.hpp.
 
+/// As a curve's: either says which way the chain bends.
 glm::vec3 pole_colour(const Palette& palette);
 /// The colour of a solver in a race; solvers differ in lightness, too.
 glm::vec3 solver_colour(const Palette& palette, ik::Method method);

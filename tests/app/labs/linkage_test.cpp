@@ -376,6 +376,19 @@ TEST_F(LinkageTest, AStrokeOverAWalkerBeginsWhereItIsDrawn) {
         << workspace.ui.toasts.back().text;
 }
 
+/// How far from the path that is kept the present mode's goes, metres.
+double path_error(LinkageRuntime& kept, const LinkagePart& part) {
+    const std::vector<PathPoint> shown = kept.path(part);
+    LinkageRuntime fresh;
+    double error = 0.0;
+    for (const PathPoint& each : fresh.path(part)) {
+        double nearest = 1e9;
+        for (const PathPoint& other : shown) nearest = std::min(nearest, glm::distance(each.at, other.at));
+        error = std::max(error, nearest);
+    }
+    return error;
+}
+
 TEST_F(LinkageTest, EachAssemblyModeHasItsOwnPath) {
     four_bar();
     run("linkage.select", {{"point", "P"}});
@@ -383,14 +396,7 @@ TEST_F(LinkageTest, EachAssemblyModeHasItsOwnPath) {
     for (int angle = 0; angle < 360; angle += 15) {
         run("linkage.drive", {{"joint", "crank"}, {"angle_deg", angle}});
         run("linkage.other_mode");
-        const std::vector<PathPoint> shown = kept.path(part());
-        LinkageRuntime fresh;
-        for (const PathPoint& each : fresh.path(part())) {
-            double nearest = 1e9;
-            for (const PathPoint& other : shown)
-                nearest = std::min(nearest, glm::distance(each.at, other.at));
-            ASSERT_LT(nearest, 0.2) << angle;
-        }
+        ASSERT_LT(path_error(kept, part()), 0.2) << angle;
     }
 }
 
@@ -398,27 +404,26 @@ TEST_F(LinkageTest, EachAssemblyModeHasItsOwnPath) {
 TEST_F(LinkageTest, EachModeOfARockerHasItsOwnPath) {
     test::RandomNumbers random(5);
     int swings = 0;
-    for (int i = 0; i < 150; ++i) {
+    for (int i = 0; i < 120; ++i) {
         const auto length = [&] { return random.uniform(1.0, 3.0); };
+        const ik::FourBar lengths{
+            .ground = length(), .crank = length(), .coupler = length(), .rocker = length()};
+        LinkagePart drawn;
         LinkageRuntime kept;
-        LinkagePart part;
         try {
-            open_mechanism(
-                part,
-                ik::FourBar{.ground = length(), .crank = length(), .coupler = length(), .rocker = length()},
-                kept);
+            open_mechanism(drawn, lengths, kept);
         } catch (const std::invalid_argument&) {
             continue;  // it does not close
         }
-        workspace.document.set(linkage_lab, part.clone());
-        LinkageRuntime shown;
-        if (shown.turn(part).poses.size() < 2 || shown.turn(part).whole) continue;
-        run("linkage.other_mode");
-        LinkageRuntime fresh;
-        const LinkageTurn &is = shown.turn(this->part()), &wanted = fresh.turn(this->part());
-        ASSERT_FALSE(is.poses.empty());
-        EXPECT_NEAR(is.poses.front().value, wanted.poses.front().value, 0.1) << i;
-        EXPECT_NEAR(is.poses.back().value, wanted.poses.back().value, 0.1) << i;
+        const LinkageTurn& turn = kept.turn(drawn);
+        if (turn.poses.size() < 10 || turn.whole) continue;
+        workspace.document.set(linkage_lab, drawn.clone());
+        for (const double share : {0.2, 0.5, 0.8}) {
+            const auto at = static_cast<std::size_t>(share * static_cast<double>(turn.poses.size()));
+            run("linkage.drive", {{"joint", "crank"}, {"angle_deg", glm::degrees(turn.poses[at].value)}});
+            run("linkage.other_mode");
+            EXPECT_LT(path_error(kept, part()), 0.5) << i << " " << share;
+        }
         ++swings;
     }
     EXPECT_GT(swings, 20);
