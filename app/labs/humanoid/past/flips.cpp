@@ -54,7 +54,7 @@ class Drivers {
     bool far(const Turned& bone) const {
         const double enough = static_cast<double>(is_.part.flips.angle_share) * bone.radians;
         return clip_turned(bone.node, enough) || hand_blended(bone.node) || looks_elsewhere(bone, enough) ||
-               target_moved(bone, enough);
+               target_moved(bone, enough) || object_moved(bone, enough);
     }
 
   private:
@@ -102,6 +102,15 @@ class Drivers {
                 return true;
             return moved(bone.node, from->position, to->position, enough);
         });
+    }
+
+    /// Whether the held object was asked to be elsewhere, or turned otherwise.
+    bool object_moved(const Turned& bone, double enough) const {
+        const std::optional<HoldSetting>&was = was_.part.ik.hold, &is = is_.part.ik.hold;
+        if (!was || !is) return false;
+        const humanoid::ObjectPose from = was->asked(was_.shown.hips), to = is->asked(is_.shown.hips);
+        return turn_between(from.rotation, to.rotation) >= std::max(enough, 1e-9) ||
+               moved(bone.node, from.position, to.position, enough);
     }
 
     /// As seen from where the clip puts the node.

@@ -210,6 +210,15 @@ TEST_F(HumanoidHold, IsReviewedWhileItIsDragged) {
     EXPECT_TRUE(marked) << "no joint reached its limit, nothing flipped";
 }
 
+TEST_F(HumanoidHold, IsNoFlipWhereTheObjectTurnsTheArms) {
+    run("humanoid.hold", {{"kind", "box"}, {"size", 1.2}});
+    const auto before = workspace.document.parts().at(humanoid_lab);
+    run("humanoid.hold_move", {{"to", {0.2, 1.1, 0.7}}, {"rotation", {0, 0, 0.3826834, 0.9238795}}});
+    for (const Incident& each :
+         lab().review(workspace, *before, *workspace.document.parts().at(humanoid_lab)))
+        EXPECT_NE(each.kind, Incident::Kind::Flip) << each.name;
+}
+
 TEST_F(HumanoidHold, SaysInWordsWhatGivesWay) {
     humanoid::HoldReport report;
     report.grips[0].holds = true;
