@@ -389,7 +389,7 @@ TEST_P(HumanoidBody, what_it_cannot_use_is_refused_and_nothing_moves) {
     };
     const double nan = std::nan("");
     EXPECT_TRUE(test::says(refused({{Effector::Head, {0.0, nan, 0.0}}}),
-                           "Body::solve targets.position.y finite 1e9 nan"));
+                           "Body::solve targets[0].position.y finite 1e9 nan"));
     EXPECT_TRUE(
         test::says(refused({{Effector::Head, {}, {}, -1.0}}), "Body::solve targets[0].weight 0 1e3 -1"));
     EXPECT_TRUE(test::says(refused({{Effector::Head, {}}, {Effector::Head, {}}}),

@@ -66,6 +66,7 @@ TEST(RopeGesture, AClothHangsAgainAndFallsAsAStoneDoes) {
             const double hanging = mean_height(calm);
             double worst = 0.0;
             const bool repeats = more != nullptr || (first && side == 12);
+            // Another gesture for each size.
             const int from = repeats ? 1 : side / 6 - 1, to = repeats ? gestures : from;
             for (int seed = from; seed <= to; ++seed) {
                 Random random(static_cast<std::uint64_t>(seed));

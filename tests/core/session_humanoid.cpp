@@ -2,8 +2,10 @@
 #include "humanoid_figure.hpp"
 #include "random.hpp"
 #include "session.hpp"
+#include "tendril/humanoid/bent_chain.hpp"
 #include "tendril/humanoid/body.hpp"
 #include "tendril/humanoid/feet.hpp"
+#include "tendril/humanoid/hold.hpp"
 #include "tendril/humanoid/spring_chain.hpp"
 
 namespace tendril::test {
@@ -21,6 +23,37 @@ void add(Fnv& hash, const std::vector<rig::Transform>& pose) {
         for (int axis = 0; axis < 3; ++axis) hash.add(each.translation[axis]);
         for (const double part : {each.rotation.x, each.rotation.y, each.rotation.z, each.rotation.w})
             hash.add(part);
+    }
+}
+
+/// A bar in both hands, of which one is turned as its grip.
+void add_hold(Fnv& hash, Body& body, const std::vector<rig::Transform>& rest, Random& random) {
+    std::vector<Grip> grips{{Effector::LeftHand, {0.1875, 0.0, 0.0}},
+                            {Effector::RightHand, {-0.1875, 0.0, 0.0}}};
+    grips[0].rotation = glm::dquat(1.0, 0.0, 0.0, 0.0);
+    BodyState body_state;
+    HoldState state;
+    for (int frame = 0; frame < 20; ++frame) {
+        const glm::dvec3 turn = 0.25 * some_vector(random);
+        const ObjectPose asked{glm::dvec3(0.0, 1.25, 0.5) + 0.25 * some_vector(random),
+                               rig::normalised(glm::dquat(1.0, turn.x, turn.y, turn.z))};
+        auto pose = rest;
+        const auto report = hold(body, pose, {}, {grips, asked}, body_state, state);
+        hash.add(report ? report->moved : -1.0);
+        add(hash, pose);
+    }
+}
+
+/// The spine along a curve.
+void add_bend(Fnv& hash, const Skeleton& skeleton, const std::vector<rig::Transform>& rest, Random& random) {
+    BentChain spine = *BentChain::make(skeleton, *skeleton.find("Spine"), *skeleton.find("Head"));
+    for (int frame = 0; frame < 20; ++frame) {
+        auto pose = rest;
+        std::vector<glm::vec3> points = spine.points_through(pose, 3);
+        for (glm::vec3& each : points) each += glm::vec3(0.25 * some_vector(random));
+        const auto report = spine.bend(pose, points, {.fit = frame % 2 == 0, .roll_end = 0.5f});
+        hash.add(static_cast<double>(report.factor));
+        add(hash, pose);
     }
 }
 
@@ -67,6 +100,8 @@ std::uint64_t humanoid_hash() {
             add(hash, solved);
         }
     }
+    add_hold(hash, held, rest, random);
+    add_bend(hash, skeleton, rest, random);
     return hash.value();
 }
 

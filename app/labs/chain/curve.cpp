@@ -90,7 +90,7 @@ void follow_curve(ChainPart& part) {
     const ik::CurveOptions options = curve_options(curve, weights);
     std::vector<glm::vec3> joints = positions(along.given);
     part.reach.state = ik::State(bones);
-    if (along.memory.joints.size() != joints.size()) along.memory = ik::CurveMemory(bones);
+    if (along.memory.at.size() != joints.size()) along.memory = ik::CurveMemory(bones);
     along.report =
         ik::place_along(curve.points, {lengths, rest}, joints, part.reach.state, along.memory, options);
     if (along.report->status == ik::Status::InvalidInput)

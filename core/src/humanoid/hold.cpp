@@ -17,41 +17,59 @@ namespace {
 /// Metres, radians: closed for the eye and a game.
 constexpr double closed_gap = 1e-5, closed_off = 5e-4;
 
+Result check_hand(std::string_view operation, const Argument& argument, Effector hand) noexcept {
+    if (hand == Effector::LeftHand || hand == Effector::RightHand) return {};
+    return refused(operation, argument, "left_hand or right_hand",
+                   static_cast<std::size_t>(hand) < effector_count ? name(hand) : "no effector");
+}
+
+/// In the character's space.
+glm::dvec3 place_of(const Grip& grip, const ObjectPose& object) noexcept {
+    return plus(object.position, rotated(rig::normalised(object.rotation), grip.position));
+}
+
 Result check_held_object(const HeldObject& object) noexcept {
     if (object.grips.empty() || object.grips.size() > 2)
         return refused("hold", "object.grips", "one or two", static_cast<int>(object.grips.size()));
     for (std::size_t i = 0; i < object.grips.size(); ++i) {
         const Grip& grip = object.grips[i];
-        if (grip.hand != Effector::LeftHand && grip.hand != Effector::RightHand)
-            return refused(
-                "hold", Argument("object.grips", i, "hand"), "left_hand or right_hand",
-                static_cast<std::size_t>(grip.hand) < effector_count ? name(grip.hand) : "no effector");
+        const auto argument = [i](std::string_view member) { return Argument("object.grips", i, member); };
+        if (const Result bad = check_hand("hold", argument("hand"), grip.hand); !bad) return bad;
         if (i > 0 && grip.hand == object.grips[0].hand)
-            return refused("hold", Argument("object.grips", i, "hand"), "not the hand of another grip",
-                           name(grip.hand));
-        if (const Result bad = check_vector("hold", "object.grips.position", grip.position); !bad) return bad;
-        if (const Result bad = check_vector("hold", "object.grips.axis", grip.axis); !bad) return bad;
+            return refused("hold", argument("hand"), "not the hand of another grip", name(grip.hand));
+        if (const Result bad = check_vector("hold", argument("position"), grip.position); !bad) return bad;
+        if (const Result bad = check_vector("hold", argument("axis"), grip.axis); !bad) return bad;
         if (!grip.rotation) continue;
-        if (const Result bad =
-                detail::check_rotation("hold", Argument("object.grips", i, "rotation"), *grip.rotation);
-            !bad)
+        if (const Result bad = detail::check_rotation("hold", argument("rotation"), *grip.rotation); !bad)
             return bad;
     }
     if (const Result bad = check_vector("hold", "object.asked.position", object.asked.position); !bad)
         return bad;
-    return detail::check_rotation("hold", "object.asked.rotation", object.asked.rotation);
+    if (const Result bad = detail::check_rotation("hold", "object.asked.rotation", object.asked.rotation);
+        !bad)
+        return bad;
+    for (std::size_t i = 0; i < object.grips.size(); ++i) {
+        const glm::dvec3 at = place_of(object.grips[i], object.asked);
+        for (int axis = 0; axis < 3; ++axis)
+            if (!check_number("hold", "object", at[axis]))
+                return refused("hold", Argument("object.grips", i, "position"),
+                               "within 1e9 m of the character's origin once the object is where it was "
+                               "asked to be",
+                               at[axis]);
+    }
+    return {};
 }
 
 Result check_hold_state(const HoldState& state) noexcept {
-    if (!state.asked) return {};
-    if (const Result bad = check_vector("hold", "state.asked.position", state.asked->position); !bad)
-        return bad;
+    for (const auto& each : state.grips)
+        if (const Result bad = check_vector("hold", "state.grips", each.value_or(glm::dvec3(0.0))); !bad)
+            return bad;
     for (const auto& [argument, joints] : {std::pair("state.shoulders", &state.shoulders),
                                            {"state.elbows", &state.elbows},
                                            {"state.hands", &state.hands}})
         for (const glm::dvec3& each : *joints)
             if (const Result bad = check_vector("hold", argument, each); !bad) return bad;
-    return detail::check_rotation("hold", "state.asked.rotation", state.asked->rotation);
+    return {};
 }
 
 }  // namespace
@@ -66,8 +84,8 @@ Expected<HoldReport> hold(Body& body, std::span<rig::Transform> pose, std::span<
                           const HeldObject& object, BodyState& body_state, HoldState& state,
                           const HoldOptions& options) {
     if (const Result bad = check_held_object(object); !bad) return bad;
-    if (!(options.turn_length > 0.0 && options.turn_length <= 1e3))
-        return refused("hold", "options.turn_length", "above 0 and at most 1e3 m", options.turn_length);
+    if (!(options.turn_length >= 0.05 && options.turn_length <= 1e3))
+        return refused("hold", "options.turn_length", "from 0.05 to 1e3 m", options.turn_length);
     if (options.max_iterations < 1 || options.max_iterations > 1000)
         return refused("hold", "options.max_iterations", "from 1 to 1000", options.max_iterations);
     if (const Result bad = check_hold_state(state); !bad) return bad;
@@ -83,10 +101,8 @@ Expected<HoldReport> hold(Body& body, std::span<rig::Transform> pose, std::span<
                            static_cast<int>(targets.size()));
         all[count++] = targets[i];
     }
-    const glm::dquat turn = rig::normalised(object.asked.rotation);
     for (const Grip& grip : object.grips)
-        all[count++] = {.effector = grip.hand,
-                        .position = plus(object.asked.position, rotated(turn, grip.position))};
+        all[count++] = {.effector = grip.hand, .position = place_of(grip, object.asked)};
     Expected<BodyReport> reached =
         body.solve(pose, std::span<const BodyTarget>(all.data(), count), body_state, options.body);
     if (!reached) return reached.error();
@@ -96,10 +112,7 @@ Expected<HoldReport> hold(Body& body, std::span<rig::Transform> pose, std::span<
 }
 
 Expected<Grip> grip_of(const Body& body, const Palm& palm, double reach) {
-    if (palm.hand != Effector::LeftHand && palm.hand != Effector::RightHand)
-        return refused(
-            "grip_of", "palm.hand", "left_hand or right_hand",
-            static_cast<std::size_t>(palm.hand) < effector_count ? name(palm.hand) : "no effector");
+    if (const Result bad = check_hand("grip_of", "palm.hand", palm.hand); !bad) return bad;
     for (const auto& [argument, vector] : {std::pair("palm.middle", palm.middle),
                                            {"palm.fingers", palm.fingers},
                                            {"palm.faces", palm.faces},
@@ -108,7 +121,9 @@ Expected<Grip> grip_of(const Body& body, const Palm& palm, double reach) {
     if (const Result bad = check_number("grip_of", "reach", reach); !bad) return bad;
     const auto fingers = direction_of(palm.fingers, 1e-9);
     if (!fingers) return refused("grip_of", "palm.fingers", "a direction", length(palm.fingers));
-    const auto faces = direction_of(across(palm.faces, *fingers), 1e-9);
+    const auto facing = direction_of(palm.faces, 1e-9);
+    if (!facing) return refused("grip_of", "palm.faces", "a direction", length(palm.faces));
+    const auto faces = direction_of(across(*facing, *fingers), 1e-6);
     if (!faces) return refused("grip_of", "palm.faces", "a direction across the fingers", "one along them");
     const Bone bone = bone_of(palm.hand);
     const auto own_fingers = direction_of(body.joints().direction(bone), 1e-9);

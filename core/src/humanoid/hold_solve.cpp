@@ -143,7 +143,7 @@ void HoldSolve::measure() noexcept {
         }
         if (!arm.grip->rotation) continue;
         const glm::dquat off = math::compose(wanted(arm), conjugate(hand.rotation));
-        const auto axis = direction_of(arm.grip->axis, 1e-12);
+        const auto axis = direction_of(arm.grip->axis, 1e-9);
         if (!axis) {
             arm.off = logarithm(off);
             for (int each = 0; each < 3; ++each) {
@@ -183,7 +183,7 @@ glm::dvec3 HoldSolve::object_column(const Row& row) const noexcept {
 }
 
 /// A step that closes the grips and takes the object towards where it is asked to be. Its size: radians,
-/// metres.
+/// metres. Sets `failed_` if there is none.
 double HoldSolve::find_step() noexcept {
     double object_stiffness = options_.turn_length * options_.turn_length;
     for (std::size_t i = 0; i < arm_count_; ++i)
@@ -198,14 +198,15 @@ double HoldSolve::find_step() noexcept {
         const double outward = dot(arm.force, minus(link(arm.end).position, at.position));
         joint.compliance = 1.0 / (damping_ / at.mobility + force_stiffness * std::max(outward, 0.0));
     }
-    solve_rows();
-    for (int i = 0; i < max_hold_changes && block(); ++i) solve_rows();
+    failed_ = !solve_rows();
+    for (int i = 0; i < max_hold_changes && !failed_ && block(); ++i) failed_ = !solve_rows();
     double size = std::max(length(shift_), length(turn_));
     for (std::size_t i = 0; i < joint_count_; ++i) size = std::max(size, length(joints_[i].turn));
     return size;
 }
 
-void HoldSolve::solve_rows() noexcept {
+/// False if the equations have no solution in these numbers.
+bool HoldSolve::solve_rows() noexcept {
     RowEquations& e = equations_;
     e.count = row_count_;
     const glm::dvec3 way = times(minus(asked_.position, at_.position), pull_);
@@ -245,10 +246,8 @@ void HoldSolve::solve_rows() noexcept {
             for (std::size_t q = 0; q <= r; ++q) e.a[r][q] += dot(column(rows_[q], joint), moved);
         }
     }
-    if (e.factorise())
-        e.solve();
-    else
-        e.b.fill(0.0);
+    if (!e.factorise()) return false;
+    e.solve();
     shift_ = way;
     turn_ = round;
     for (std::size_t r = 0; r < row_count_; ++r) {
@@ -263,6 +262,7 @@ void HoldSolve::solve_rows() noexcept {
         joint.turn =
             plus(joint.held, joint.freedom.allowed(link(joint.link), times(torque, joint.compliance)));
     }
+    return true;
 }
 
 /// How far beyond its limit a turn would take the joint, in the character's space; `there` is where it would
@@ -361,6 +361,8 @@ void HoldSolve::apply(double part) noexcept {
 /// True once nothing changes any more.
 bool HoldSolve::step() noexcept {
     const double size = find_step(), open = apart();
+    if (failed_) return false;
+    ++iterations_;
     apply(std::min(1.0, max_hold_step / size));
     damping_ = std::clamp(damping_part * size, min_joint_damping, joint_damping);
     measure();
@@ -376,17 +378,16 @@ void HoldSolve::run(std::span<rig::Transform> pose, HoldReport& report, HoldStat
     measure();
     damping_ = joint_damping;
     report.settled = false;
-    for (; report.iterations < options_.max_iterations && !report.settled; ++report.iterations)
-        report.settled = step();
+    while (iterations_ < options_.max_iterations && !report.settled && !failed_) report.settled = step();
     for (Arm& arm : arms_) arm.pull = arm.force, arm.twist = arm.torque;
     // What limits keep from settling is closed, if it can be, from where it is.
-    if (!report.settled && apart() > hold_tolerance) {
+    if (!report.settled && !failed_ && apart() > hold_tolerance) {
         pull_ = 0.0;
         for (Arm& arm : arms_) arm.force = arm.torque = glm::dvec3(0.0);
         damping_ = joint_damping;
-        for (int i = 0; i < closing_steps && !step(); ++i, ++report.iterations) {
-        }
+        for (int i = 0; i < closing_steps && !step() && !failed_;) ++i;
     }
+    report.iterations = iterations_;
     if (!is_sound()) {  // numbers near the largest: stays as the body has reached
         for (Link& each : work_.links) each.turn = each.own;
         at_ = asked_;
@@ -412,7 +413,8 @@ void HoldSolve::run(std::span<rig::Transform> pose, HoldReport& report, HoldStat
 
 bool HoldSolve::is_sound() const noexcept {
     bool sound = is_within(at_.position) && std::abs(dot(at_.rotation, at_.rotation) - 1.0) < 1e-6;
-    for (const Link& each : work_.links) sound = sound && is_within(each.position);
+    for (const Link& each : work_.links)
+        sound = sound && is_within(each.position) && std::abs(dot(each.rotation, each.rotation) - 1.0) < 1e-6;
     return sound;
 }
 
@@ -432,7 +434,6 @@ void HoldSolve::tell(HoldReport& report, HoldState& state) noexcept {
     }
     double cause = 0.0, travel = 0.0;
     HoldState now;
-    now.asked = object_.asked;
     for (std::size_t i = 0; i < arm_count_; ++i) {
         const Arm& arm = arms_[i];
         const std::size_t hand = arm.grip->hand == Effector::LeftHand ? 0 : 1;
@@ -448,11 +449,9 @@ void HoldSolve::tell(HoldReport& report, HoldState& state) noexcept {
             now.elbows[hand] = link(static_cast<std::size_t>(arm.limb->lower)).position;
         }
         now.hands[hand] = link(arm.end).position;
-        if (!state.asked) continue;
-        const auto place = [&](const ObjectPose& at) {
-            return plus(at.position, rotated(rig::normalised(at.rotation), arm.grip->position));
-        };
-        cause = std::max({cause, length(minus(place(asked_), place(*state.asked))),
+        now.grips[hand] = plus(asked_.position, rotated(asked_.rotation, arm.grip->position));
+        if (!state.grips[hand]) continue;
+        cause = std::max({cause, length(minus(*now.grips[hand], *state.grips[hand])),
                           length(minus(now.shoulders[hand], state.shoulders[hand]))});
         travel = std::max({travel, length(minus(now.elbows[hand], state.elbows[hand])),
                            length(minus(now.hands[hand], state.hands[hand]))});

@@ -63,7 +63,7 @@ class HoldSolve {
     double apart() const noexcept;
     double find_step() noexcept;
     bool step() noexcept;
-    void solve_rows() noexcept;
+    bool solve_rows() noexcept;
     bool block() noexcept;
     void apply(double part) noexcept;
     /// Part of a hand's twist that the lower arm takes, radians.
@@ -85,6 +85,8 @@ class HoldSolve {
     std::size_t joint_count_ = 0;
     std::array<Row, 12> rows_{};
     std::size_t row_count_ = 0;
+    int iterations_ = 0;
+    bool failed_ = false;                ///< no finite step was found
     double object_turns_ = 0.0;          ///< compliance
     double damping_ = 0.0;               ///< of the next step
     double pull_ = 1.0;                  ///< 0: the object only follows the hands

@@ -24,13 +24,15 @@ inline Result check_number(std::string_view operation, const Argument& argument,
     if (std::abs(value) <= static_cast<double>(max_magnitude)) return {};
     return refused(operation, argument, "finite and at most 1e9 in magnitude", value);
 }
-/// `argument` must not name a member: x, y or z is added as the member.
-inline Result check_vector(std::string_view operation, std::string_view argument,
+/// Names the coordinate that is refused: `targets[1].position.y`.
+inline Result check_vector(std::string_view operation, const Argument& argument,
                            const glm::dvec3& value) noexcept {
-    constexpr std::string_view names[]{"x", "y", "z"};
     for (int i = 0; i < 3; ++i) {
-        const Argument component(argument, tendril::detail::no_index, names[i]);
-        if (const Result bad = check_number(operation, component, value[i]); !bad) return bad;
+        if (check_number(operation, argument, value[i])) continue;
+        std::string member(argument.member);
+        if (!member.empty()) member += '.';
+        member += "xyz"[i];
+        return check_number(operation, Argument(argument.name, argument.index, member), value[i]);
     }
     return {};
 }

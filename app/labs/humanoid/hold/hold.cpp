@@ -161,7 +161,9 @@ auto hold_joints(auto& state) {
 }  // namespace
 
 Json hold_memory_json(const humanoid::HoldState& state) {
-    Json json{{"position", dpoint(state.asked->position)}, {"rotation", dquaternion(state.asked->rotation)}};
+    Json json{{"grips", Json::object()}};
+    for (std::size_t hand = 0; hand < 2; ++hand)
+        if (state.grips[hand]) json["grips"][humanoid::name(both_hands[hand])] = dpoint(*state.grips[hand]);
     for (std::size_t i = 0; i < 3; ++i)
         for (const glm::dvec3& each : *hold_joints(state)[i])
             json[hold_joint_names[i]].push_back(dpoint(each));
@@ -170,7 +172,9 @@ Json hold_memory_json(const humanoid::HoldState& state) {
 
 humanoid::HoldState read_hold_memory(const JsonPlace& place) {
     humanoid::HoldState state;
-    state.asked = humanoid::ObjectPose{place["position"].dpoint(), place["rotation"].drotation()};
+    for (std::size_t hand = 0; hand < 2; ++hand)
+        if (const auto grip = place["grips"].optional(humanoid::name(both_hands[hand])))
+            state.grips[hand] = grip->dpoint();
     for (std::size_t i = 0; i < 3; ++i) {
         const JsonPlace joints = place[hold_joint_names[i]];
         joints.check_size(2, "points: left, right");

@@ -197,7 +197,7 @@ Json ik_json(const HumanoidPart& part) {
     json["hand_ik"] = hand_ik_json(part.ik.hand_ik);
     json["look_at"] = save_fields(part.ik.look_at);
     if (part.ik.hold) json["hold"] = hold_json(*part.ik.hold);
-    if (part.ik_state.hold.asked) json["held"] = hold_memory_json(part.ik_state.hold);
+    if (part.ik_state.hold != humanoid::HoldState()) json["held"] = hold_memory_json(part.ik_state.hold);
     if (!(part.ik_state.hands == humanoid::HandsState())) json["hands"] = written(part.ik_state.hands);
     if (!(part.ik_state.look == humanoid::LookAtState())) json["look"] = written(part.ik_state.look);
     if (part.ik_state.steps.away()) json["steps"] = written(part.ik_state.steps);

@@ -19,8 +19,7 @@
 // Only rotations change, and with `fit` lengths. What hangs on the chain follows. With a weight of 0 the pose
 // stays bit-identical.
 //
-// Cost: as place_along(), plus some 0.3 us per bone and 5 ns per node of the skeleton. bend() does not
-// allocate or throw.
+// Cost: O(bones + control points + nodes of the skeleton). bend() does not allocate or throw.
 #pragma once
 
 #include <memory>
@@ -64,8 +63,8 @@ class BentChain {
     std::vector<glm::vec3> points_through(std::span<const rig::Transform> pose, std::size_t count) const;
 
     /// `pose` holds the local transforms of all nodes; the chain's come back along the curve. `points`: 1 to
-    /// max_points, those after the first node. `memory`, for bones() bones, is only needed to report jumps;
-    /// it is in the space of the points. Status::InvalidInput for a pose, points or options that are not
+    /// max_points, those after the first node. `memory`, for bones() bones, is only needed to report jumps.
+    /// Status::InvalidInput for a pose, points or options that are not
     /// finite or out of range: nothing has changed.
     ik::CurveReport bend(std::span<rig::Transform> pose, std::span<const glm::vec3> points,
                          const BendOptions& options, ik::CurveMemory& memory) noexcept;

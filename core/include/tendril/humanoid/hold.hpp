@@ -8,9 +8,10 @@
 //
 // The grips close first: each hand is on its grip, turned as the grip says, within the limits of the arm's
 // joints. The object goes where it was asked to be only as far as that allows. If the arms cannot follow, it
-// gives way, and takes the nearest pose that the hands can hold; the report says by how much, which arm is
-// straight and which joint is at its limit. If no pose closes the grips, because the object is longer than
-// both arms, the hands share what is left between them.
+// gives way, to a pose nearby that the hands can hold with the trunk where it is: the nearest if no joint is
+// at its limit. The report says by how much, which arm is straight and which joint is at its limit. If no
+// pose is found that closes the grips (an object longer than both arms, a joint at its limit), the hands
+// share what is left.
 //
 // Method: Body::solve() reaches for the grips with hips and trunk. Then the arms and the object are solved
 // together, with the trunk where it is: sequential quadratic programming, in which the grips are equality
@@ -21,7 +22,12 @@
 //
 // Self-collision and balance act while the body reaches; closing the grips then moves the arms without them.
 //
-// Cost: some 2 to 4 times Body::solve() with the same targets, measured by tests/bench/humanoid_hands.cpp.
+// The lower arm takes its share of the hand's twist (BodyOptions::twist_share), counted from -180 to 180
+// degrees from rest. A hand without a limit that is turned past 180 degrees jumps to -180, and its lower arm
+// with it; HoldReport::jumped does not see that, for no joint moves.
+//
+// Cost: under 4 times Body::solve() with the same targets, under 6 where the object gives way in every frame
+// (tests/bench/humanoid_body.cpp).
 #pragma once
 
 #include "tendril/humanoid/body.hpp"
@@ -34,12 +40,13 @@ struct Grip {
     glm::dvec3 position{0.0};            ///< of the hand's joint, metres
     /// Of the hand's node. Unset: the hand turns with the forearm.
     std::optional<glm::dquat> rotation{};
-    /// The hand may turn about this axis in its grip, as round a bar; any length. Zero: it may not.
+    /// The hand may turn about this axis in its grip, as round a bar; longer than 1e-9. Shorter: it may
+    /// not.
     glm::dvec3 axis{0.0};
     bool operator==(const Grip&) const = default;
 };
 
-/// How a palm lies on an object, in the frame of the object. Vectors may have any length over 0.
+/// How a palm lies on an object, in the frame of the object. Directions are longer than 1e-9.
 struct Palm {
     Effector hand = Effector::LeftHand;
     glm::dvec3 middle{0.0};             ///< of the palm, metres
@@ -48,7 +55,8 @@ struct Palm {
     glm::dvec3 axis{0.0};               ///< Grip::axis
 };
 /// `reach`: metres from the hand's joint to the middle of its palm. Refuses an effector that is no hand, and
-/// directions that are zero, parallel or not finite. In the T-pose, the body's palms face down.
+/// directions that are too short, parallel (to 1e-6 radians) or not finite. In the T-pose, the body's palms
+/// face down.
 Expected<Grip> grip_of(const Body& body, const Palm& palm, double reach);
 
 /// Where an object is, in the character's space.
@@ -65,23 +73,24 @@ struct HeldObject {
 
 struct HoldOptions {
     BodyOptions body{};
-    /// Metres, over 0 to 1e3: turning the object by a radian counts as much as moving it so far.
+    /// Metres, from 0.05 to 1e3: turning the object by a radian counts as much as moving it so far.
     double turn_length = 0.3;
-    int max_iterations = 80;  ///< 1 to 1000
+    int max_iterations = 80;  ///< 1 to 1000; up to 20 more close the grips if it has not settled
 };
 
 /// Where the last solve ended, to tell jumps. Empty: there was none.
 struct HoldState {
-    std::optional<ObjectPose> asked{};
-    std::array<glm::dvec3, 2> shoulders{};  ///< joints of the upper arms; left, right
+    /// Where they were asked to be, of each hand that held; left, right.
+    std::array<std::optional<glm::dvec3>, 2> grips{};
+    std::array<glm::dvec3, 2> shoulders{};  ///< joints of the upper arms
     std::array<glm::dvec3, 2> elbows{}, hands{};
     bool operator==(const HoldState&) const = default;
 };
 
 struct GripReport {
     bool holds = false;     ///< this hand has a grip
-    double gap = 0.0;       ///< metres between the hand's joint and the grip; 0 if closed
-    double off = 0.0;       ///< radians between the hand's rotation and the grip's; 0 if closed
+    double gap = 0.0;       ///< metres between the hand's joint and the grip; at most 1e-5 if closed
+    double off = 0.0;       ///< radians between the hand's rotation and the grip's; at most 5e-4 if closed
     bool straight = false;  ///< the arm is at its full length, and the object would take it farther
 };
 
@@ -92,8 +101,9 @@ struct HoldReport {
     double turned = 0.0;  ///< radians from how it was asked to be turned
     std::array<GripReport, 2> grips{};  ///< left, right
     int iterations = 0;
-    bool settled = true;  ///< false: stopped by max_iterations
-    /// An elbow or hand has moved over 20 times as far as the asked grips and the shoulders.
+    bool settled = true;  ///< false: max_iterations stopped it, or it found no finite pose
+    /// An elbow or hand has moved over 20 times as far as the asked grips and the shoulders. A hand counts
+    /// from its second frame on.
     bool jumped = false;
     /// Every gap and turn is closed, to 1e-5 m and 5e-4 radians.
     bool closed() const noexcept;

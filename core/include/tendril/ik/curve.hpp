@@ -56,12 +56,11 @@ struct CurveOptions {
 /// Where the joints were along the curve after the last call. A value, kept with the joints; only needed to
 /// report jumps.
 struct CurveMemory {
-    std::size_t points = 0;           ///< control points; 0: no memory
-    std::vector<double> at{};         ///< one per joint: piece of the curve, with the fraction along it
-    std::vector<glm::vec3> joints{};  ///< metres
+    std::size_t points = 0;    ///< control points; 0: no memory
+    std::vector<double> at{};  ///< one per joint: piece of the curve, with the fraction along it
 
     CurveMemory() = default;
-    explicit CurveMemory(std::size_t bones) : at(bones + 1), joints(bones + 1) {}
+    explicit CurveMemory(std::size_t bones) : at(bones + 1) {}
     bool operator==(const CurveMemory&) const = default;
 };
 

@@ -25,8 +25,7 @@ Home Work::home(std::size_t chain) const noexcept {
             3 * block_lanes, block_lanes};
 }
 
-/// Joints and targets in the plane's coordinates, and the side of each chain. One that cannot be iterated has
-/// a target that is not finite.
+/// Joints and targets in the plane's coordinates, and the side of each chain.
 void Work::take_into_plane(const Block& block, std::size_t first, std::size_t lanes,
                            Scratch& scratch) const noexcept {
     for (std::size_t lane = 0; lane < lanes; ++lane) {

@@ -29,8 +29,7 @@ bool is_valid(std::span<const glm::vec3> points, const CurveChain& chain, std::s
         return std::abs(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z - 1.0f) <= 2e-3f;
     };
     return bones > 0 && joints.size() == bones + 1 && state.bones() == bones &&
-           (memory.joints.empty() || memory.joints.size() == bones + 1) &&
-           memory.at.size() == memory.joints.size() &&
+           (memory.at.empty() || memory.at.size() == bones + 1) &&
            (chain.rest_directions.empty() || chain.rest_directions.size() == bones) &&
            (options.weights.empty() || options.weights.size() == bones) && points.size() >= 2 &&
            points.size() <= max_control_points && std::ranges::all_of(points, is_point) &&
@@ -162,30 +161,27 @@ glm::quat narrow_rotation(const glm::dquat& q) noexcept {
 class Jumps {
   public:
     Jumps(Path& path, std::span<const glm::vec3> points, CurveMemory& memory) noexcept
-        : path_(path),
-          memory_(memory),
-          comparable_(memory.points == points.size() && !memory.joints.empty()) {
+        : path_(path), memory_(memory), comparable_(memory.points == points.size() && !memory.at.empty()) {
         memory_.points = points.size();
     }
 
-    void root(const Place& place, const glm::dvec3& now) noexcept {
-        if (!memory_.joints.empty()) remember(0, place, now);
+    void root(const Place& place) noexcept {
+        if (!memory_.at.empty()) remember(0, place);
     }
     /// The bone from joint i - 1 to joint i, on the path. A joint beyond the first jump moves with it.
     void bone(std::size_t i, const Place& from, const glm::dvec3& start, const Place& place,
-              const glm::dvec3& now, double length) noexcept {
-        if (memory_.joints.empty()) return;
+              double length) noexcept {
+        if (memory_.at.empty()) return;
         if (comparable_ && !jumped && length > 0.0 && !same_crossing(i, from, start, place, length))
             jumped = i;
-        remember(i, place, now);
+        remember(i, place);
     }
 
     std::optional<std::size_t> jumped{};
 
   private:
-    void remember(std::size_t i, const Place& place, const glm::dvec3& now) noexcept {
+    void remember(std::size_t i, const Place& place) noexcept {
         memory_.at[i] = static_cast<double>(place.piece) + place.t;
-        memory_.joints[i] = narrow(now);
     }
     /// The rule of CurveReport::jumped.
     bool same_crossing(std::size_t i, const Place& from, const glm::dvec3& start, const Place& place,
@@ -247,7 +243,7 @@ CurveReport place_along(std::span<const glm::vec3> points, const CurveChain& cha
     Jumps jumps(path, points, memory);
     Place place;
     glm::dvec3 on_path = path.point(place);
-    jumps.root(place, on_path);
+    jumps.root(place);
     const glm::dvec3 up = wide(options.up);
     const glm::dvec3 first_tangent = path.sample(place, rest_direction(0)).tangent;
     Frame frame{on_path, first_tangent, upper_side(up, first_tangent)};
@@ -268,7 +264,7 @@ CurveReport place_along(std::span<const glm::vec3> points, const CurveChain& cha
         const double bone = factor * static_cast<double>(lengths[i]);
         const Place next = path.next(place, on_path, bone);
         const glm::dvec3 next_on_path = path.point(next);
-        jumps.bone(i + 1, place, on_path, next, next_on_path, bone);
+        jumps.bone(i + 1, place, on_path, next, bone);
         if (path.on_ray(next)) ++report.bones_past_end;
 
         // The side that turns least from the rest pose, then the path's, then the roll.

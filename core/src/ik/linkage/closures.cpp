@@ -179,6 +179,4 @@ std::size_t LinkageSolve::free_columns() const noexcept {
     return static_cast<std::size_t>(std::ranges::count(work_.held, std::uint8_t{0}));
 }
 
-/// mode(), with what is watched held if nothing is driven. Where the last solve ended it is known.
-
 }  // namespace tendril::ik::detail

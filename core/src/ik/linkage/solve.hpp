@@ -25,7 +25,7 @@ class LinkageSolve {
     /// Closes the linkage by descent with the drivers where they are, from where it is.
     /// Otherwise it ends with its closures as near as descent brings them.
     bool close_from_here() noexcept;
-    /// The sign of the determinant of the closures by the joints that `by` does not hold: it changes at a
+    /// The sign of the determinant of the closures by the joints that are not held: it changes at a
     /// dead point of the held ones, and only there. 0 if these do not determine the pose.
     int mode() noexcept;
     void hold_drivers() noexcept;
@@ -96,11 +96,10 @@ class LinkageSolve {
     double heaviest_ = 0.0;        ///< of the weights of the aim's targets
     bool descended_ = false;       ///< the last descent took a step
     double predicted_gain_ = 0.0;  ///< of the last step of a descent
-    bool convex_ = true;           ///< the pose that it was found in is near a minimum
-    bool plain_ = false;           ///< the next step is Gauss' and Newton's
-    bool turns_away_ = false;      ///< or the pull grows as the step gives way
-    /// Metres: how far the targets pull their points at first, were what holds these straight. Negative
-    /// before.
+    bool convex_ = true;           ///< the last step was Newton's: the curvature was positive
+    bool plain_ = false;           ///< use a Gauss-Newton step next
+    bool turns_away_ = false;      ///< the cost curves downwards along the last step
+    /// Metres by which a step along the first gradient moves the targets' points. Negative until known.
     double first_pull_ = -1.0;
     bool turned_away_ = false;  ///< such a step was taken
     bool stopped_ = false, out_of_iterations_ = false, beyond_range_ = false;
