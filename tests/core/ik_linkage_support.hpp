@@ -26,7 +26,9 @@ struct Machine {
     explicit Machine(const Expected<LinkageSketch>& sketch) : Machine(linkage_from(*sketch)) {}
 
     std::size_t link(const std::string& name) const { return solver.linkage().find_link(name).value(); }
-    std::size_t point_index(const std::string& name) const { return solver.linkage().find_point(name).value(); }
+    std::size_t point_index(const std::string& name) const {
+        return solver.linkage().find_point(name).value();
+    }
     glm::dvec3 point(const std::string& name) const { return solver.point(point_index(name)); }
     double value(const std::string& name) const { return state.joints[link(name)].value; }
     LinkageReport drive(const std::string& name, double value) {

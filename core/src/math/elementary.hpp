@@ -1,6 +1,6 @@
-// Exponential, sine, cosine, arctangent and random numbers in plain arithmetic, because the standard library's
-// differ between systems, and sometimes between processors. Functions are accurate to 1e-15 of the result. Not
-// installed.
+// Exponential, sine, cosine, arctangent and random numbers in plain arithmetic, because the standard
+// library's differ between systems, and sometimes between processors. Functions are accurate to 1e-15 of the
+// result. Not installed.
 #pragma once
 
 #include <bit>
@@ -30,8 +30,8 @@ static inline double decay(double x) noexcept {
     return sum * std::bit_cast<double>(static_cast<std::uint64_t>(1023 - static_cast<std::int64_t>(k)) << 52);
 }
 
-/// SplitMix64 (G. Steele, D. Lea, C. Flood, "Fast splittable pseudorandom number generators", 2014): 64 random
-/// bits, and the state for the next.
+/// SplitMix64 (G. Steele, D. Lea, C. Flood, "Fast splittable pseudorandom number generators", 2014): 64
+/// random bits, and the state for the next.
 static inline std::uint64_t random_bits(std::uint64_t& state) noexcept {
     std::uint64_t z = (state += 0x9e3779b97f4a7c15u);
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;

@@ -14,7 +14,7 @@
 namespace tendril::ik::detail {
 namespace {
 
-/// Metres: a root nearer to the origin than this leaves room for coordinates relative to it.
+/// Metres: from a root nearer to the origin than this, relative coordinates stay below max_magnitude.
 constexpr float far_away = 0.25f * max_magnitude;
 
 }  // namespace
