@@ -6,6 +6,7 @@
 #include "humanoid/limb.hpp"
 #include "ik/curve/path.hpp"
 #include "math/checks.hpp"
+#include "math/rotation.hpp"
 
 namespace tendril::humanoid {
 namespace {
@@ -16,15 +17,6 @@ using math::wide;
 using tendril::detail::refused;
 
 constexpr double shortest_bone = 1e-9;
-
-glm::quat narrow_turn(const glm::dquat& q) noexcept {
-    return {static_cast<float>(q.w), static_cast<float>(q.x), static_cast<float>(q.y),
-            static_cast<float>(q.z)};
-}
-glm::dquat wide_turn(const glm::quat& q) noexcept {
-    return unit_quaternion(static_cast<double>(q.w), static_cast<double>(q.x), static_cast<double>(q.y),
-                           static_cast<double>(q.z));
-}
 
 /// The parent of a chain, seen from the space of the control points: there it is not turned.
 Placement seen_from_points(const Placement& above) noexcept {
@@ -183,7 +175,7 @@ ik::CurveReport BentChain::Plan::bend(std::span<rig::Transform> pose, std::span<
     for (std::size_t i = 0; i < bones(); ++i) {
         const glm::dquat straight = math::compose(swing, rotations[i]);
         rest[i] = narrow(rotated(swing, directions[i]));
-        state.rotations[i] = narrow_turn(math::compose(placed[i].rotation(), conjugate(straight)));
+        state.rotations[i] = narrow(math::compose(placed[i].rotation(), conjugate(straight)));
     }
     ik::CurveReport report = ik::place_along(curve, {lengths, rest}, joints, state, memory,
                                              {.kind = options.kind,
@@ -212,7 +204,7 @@ void BentChain::Plan::lay(std::span<rig::Transform> pose, Placement at, const gl
         moved = moved || weight > 0.0;
         if (moved) {
             const glm::dquat turned =
-                math::compose(math::compose(wide_turn(state.rotations[i]), swing), rotations[i]);
+                math::compose(math::compose(wide(state.rotations[i]), swing), rotations[i]);
             detail::turn(local, at, math::compose(turned, conjugate((at * placement(local)).rotation())));
             const Placement now = at * placement(local);
             const auto is = direction_of(minus(now.apply(end), now.position), shortest_bone);

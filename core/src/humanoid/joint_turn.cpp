@@ -10,14 +10,7 @@ namespace tendril::humanoid::detail {
 
 using namespace rig::detail;
 
-namespace {
-
-glm::dquat wide(const glm::quat& q) noexcept {
-    return unit_quaternion(static_cast<double>(q.w), static_cast<double>(q.x), static_cast<double>(q.y),
-                           static_cast<double>(q.z));
-}
-
-}  // namespace
+using math::wide;
 
 glm::dquat exponential(const glm::dvec3& turn) noexcept {
     const double angle = length(turn);
@@ -30,11 +23,6 @@ glm::dvec3 logarithm(const glm::dquat& q) noexcept {
     const double sine = length(axis);
     if (sine < 1e-9) return times(axis, 2.0);
     return times(axis, 2.0 * arctangent(sine, sign * q.w) / sine);
-}
-
-glm::quat narrow(const glm::dquat& q) noexcept {
-    return {static_cast<float>(q.w), static_cast<float>(q.x), static_cast<float>(q.y),
-            static_cast<float>(q.z)};
 }
 
 double hinge_angle(const glm::dvec3& axis, const glm::dquat& turn) noexcept {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "humanoid/body_work.hpp"
+#include "math/rotation.hpp"
 
 namespace tendril::humanoid::detail {
 
@@ -10,7 +11,7 @@ namespace tendril::humanoid::detail {
 glm::dquat exponential(const glm::dvec3& turn) noexcept;
 glm::dvec3 logarithm(const glm::dquat& q) noexcept;
 
-glm::quat narrow(const glm::dquat& q) noexcept;
+using math::narrow;
 
 /// The angle of a hinge: the twist of `turn` about its axis, radians.
 double hinge_angle(const glm::dvec3& axis, const glm::dquat& turn) noexcept;

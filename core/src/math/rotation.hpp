@@ -19,6 +19,15 @@ static inline Quat<T> unit_quaternion(T w, T x, T y, T z) noexcept {
     const T scale = T(1) / std::sqrt(w * w + x * x + y * y + z * z);
     return {w * scale, x * scale, y * scale, z * scale};
 }
+static inline glm::quat narrow(const glm::dquat& q) noexcept {
+    return {static_cast<float>(q.w), static_cast<float>(q.x), static_cast<float>(q.y),
+            static_cast<float>(q.z)};
+}
+/// As unit, which a float quaternion is only to 1e-7.
+static inline glm::dquat wide(const glm::quat& q) noexcept {
+    return unit_quaternion(static_cast<double>(q.w), static_cast<double>(q.x), static_cast<double>(q.y),
+                           static_cast<double>(q.z));
+}
 template <class T>
 static inline Quat<T> conjugate(const Quat<T>& q) noexcept {
     return {q.w, -q.x, -q.y, -q.z};

@@ -9,6 +9,7 @@
 #include "app/labs/humanoid/hold/hold.hpp"
 #include "app/labs/kit/panel_rows.hpp"
 #include "app/widgets/fields.hpp"
+#include "app/widgets/lists.hpp"
 
 namespace tendril::app {
 
@@ -82,10 +83,13 @@ void hold_rows(const HumanoidPanel& panel) {
     const auto& hold = panel.part.ik.hold;
     if (!hold) {
         if (!why.empty()) return note("Full-body IK is off: " + why + ".");
-        for (const HeldKind kind : {HeldKind::Wheel, HeldKind::Rifle, HeldKind::Box})
-            if (row_button(held_kinds.title(kind), 3, true, held_kinds.help(kind)))
-                panel.emit("humanoid.hold", {{"kind", held_kinds.name(kind)}});
-        end_row();
+        constexpr HeldKind kinds[] = {HeldKind::Wheel, HeldKind::Rifle, HeldKind::Box};
+        const char* const titles[] = {"nothing", held_kinds.title(kinds[0]), held_kinds.title(kinds[1]),
+                                      held_kinds.title(kinds[2])};
+        int chosen = 0;
+        if (choice_field("object", chosen, titles, 4) && chosen > 0)
+            panel.emit("humanoid.hold", {{"kind", held_kinds.name(kinds[chosen - 1])}});
+        explain("What both hands hold.");
         return;
     }
     FieldRows(*hold, "humanoid.hold", panel.emit).rows("kind", "size", "hands", "with_body");

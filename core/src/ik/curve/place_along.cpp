@@ -152,10 +152,6 @@ glm::dquat rotation_to(const glm::dvec3& axis, const glm::dvec3& side, const glm
                                                        : glm::dquat(swing, by.x, by.y, by.z));
     return unit_quaternion(to.w, to.x, to.y, to.z);
 }
-glm::quat narrow_rotation(const glm::dquat& q) noexcept {
-    return {static_cast<float>(q.w), static_cast<float>(q.x), static_cast<float>(q.y),
-            static_cast<float>(q.z)};
-}
 
 /// Compares with the last call, and remembers this one.
 class Jumps {
@@ -287,10 +283,10 @@ CurveReport place_along(std::span<const glm::vec3> points, const CurveChain& cha
             const glm::vec3 was = rotated(old, narrow(rest));
             const glm::quat from =
                 compose(minimal_rotation(was, math::direction(given, given_next, was)), old);
-            state.rotations[i] = math::slerp(from, narrow_rotation(target), weight);
+            state.rotations[i] = math::slerp(from, narrow(target), weight);
             on_curve = false;
         } else {
-            state.rotations[i] = narrow_rotation(target);
+            state.rotations[i] = narrow(target);
         }
         const double drawn =
             static_cast<double>(lengths[i]) * (1.0 + static_cast<double>(weight) * (factor - 1.0));

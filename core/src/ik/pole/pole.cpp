@@ -186,7 +186,7 @@ template <class Watch>
 void face_with_each_joint(Problem& problem, Watch watch) noexcept {
     // In double throughout: floats would be rounded in every sweep, and bones would drift.
     std::transform(problem.joints.begin(), problem.joints.end(), problem.scratch.pole.wide_joints.begin(),
-                   wide);
+                   [](const glm::vec3& joint) { return wide(joint); });
     const int sweeps = problem.scratch.pole.allowance < unlimited ? 1 : max_sweeps;
     for (int sweep = 0; sweep < sweeps; ++sweep) {
         double largest = 0.0;
