@@ -72,10 +72,10 @@ struct CurveReport {
     float past_end = 0.0f;           ///< metres from the last control point to the tip, if it is beyond
     float short_of_end = 0.0f;       ///< metres from the tip to the last control point, if it is before
     float factor = 1.0f;             ///< by which the bones were scaled
-    /// The first joint that is at another crossing than after the last call. It is at the same one if the
-    /// curve, between where the joint was along it and where it is now, gets further from the joint before
-    /// all the way: then there is no other crossing between them. How far the joint moved does not matter, so
-    /// a fast drag hides no jump, and a joint that a flat curve sweeps along has not jumped.
+    /// The first joint that is at another crossing than after the last call. It is at the same one if, from
+    /// its old place on the curve to its new one, the curve only moves away from the previous joint: then no
+    /// other crossing lies between. How far the joint moved does not matter, so a fast drag hides no jump,
+    /// and a joint that a flat curve sweeps along has not jumped.
     std::optional<std::size_t> jumped{};
     /// All control points coincide: the curve has no direction. The chain lies along its first rest
     /// direction.
