@@ -43,16 +43,6 @@ double distance_kept(const Tie& tie, double h) noexcept {
     return std::clamp(length, tie.now - way, tie.now + way);
 }
 
-double compliance(const Settings& settings, const Link& link) noexcept {
-    if (link.kind != Link::Kind::Stretch) return link.compliance;
-    if (settings.solver == Solver::Relaxation) return 0.0;
-    return static_cast<double>(settings.compliance) * link.rest + link.compliance;
-}
-
-double kinetic_energy(double mass, const dvec3& by, double h) noexcept {
-    return h > 0.0 ? 0.5 * mass * dot(by, by) / (h * h) : 0.0;
-}
-
 double elastic_energy(const Link& link, double compliance, double tension, const dvec3& now,
                       const dvec3& by) noexcept {
     if (link.kind != Link::Kind::Stretch) return 0.5 * compliance * tension * tension;

@@ -45,7 +45,11 @@ double wind_pressure(const Settings& settings) noexcept;
 /// Carries the gusts along for a substep.
 void drift_gusts(State& state) noexcept;
 /// The compliance of a link as its solver uses it, m/N.
-double compliance(const Settings& settings, const Link& link) noexcept;
+inline double compliance(const Settings& settings, const Link& link) noexcept {
+    if (link.kind != Link::Kind::Stretch) return link.compliance;
+    if (settings.solver == Solver::Relaxation) return 0.0;
+    return static_cast<double>(settings.compliance) * link.rest + link.compliance;
+}
 
 /// Whether a body resists bending. Only the direct solver knows it.
 inline bool bends(const State& state, const Body& body) noexcept {
@@ -73,7 +77,9 @@ double distance_kept(const Tie& tie, double h) noexcept;
 // step conserves is conserved.
 
 /// Of a particle that moved by `by` in h seconds.
-double kinetic_energy(double mass, const glm::dvec3& by, double h) noexcept;
+inline double kinetic_energy(double mass, const glm::dvec3& by, double h) noexcept {
+    return h > 0.0 ? 0.5 * mass * dot(by, by) / (h * h) : 0.0;
+}
 /// Of a link under `tension`. Its ends are `now` apart, a distance that changed by `by` in the substep. A
 /// solver that fell short leaves a link longer than its tension implies; its length halfway is taken to be
 /// off by the same factor. Shear and bend links are so stiff that rotation alone falsifies their length

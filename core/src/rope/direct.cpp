@@ -352,7 +352,15 @@ void Substep::solve_again(std::uint32_t chain) {
     const double enough =
         has_fallback_contact(plan_.chains[chain].body) ? 10.0 * accepted_error : accepted_error;
     const Plan::Chain& it = plan_.chains[chain];
-    if (scratch_.chain_error[chain] <= enough && !ledger_of(it).gains(1e-4)) return;
+    if (scratch_.chain_error[chain] <= enough) {
+        const Ledger ledger = ledger_of(it);
+        if (!ledger.gains(1e-4)) {
+            // Nothing else moves it in this substep: the same ledger balances it.
+            const bool untouched = scratch_.body_near[it.body] == Scratch::Nearest::None;
+            if (untouched && island_.contacts == 0) scratch_.chain_slowed[chain] = balance(ledger);
+            return;
+        }
+    }
     Block block{local_.block.data() + local_.block_offset, it.links, 1};
     const int restarts = std::min(max_restarts, state_.settings.iterations);
     for (std::uint32_t k = it.first_link; k < it.first_link + it.links; ++k) {

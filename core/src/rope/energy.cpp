@@ -4,6 +4,7 @@
 // would gain by bending cannot be removed so; its step is shortened (direct.cpp).
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "rope/build.hpp"
@@ -46,31 +47,31 @@ bool strains(const Link& link, const dvec3& along) {
 
 }  // namespace
 
-void Substep::Ledger::add_particle(std::size_t i) {
-    const dvec3 now = it_.scratch_.place[i] - it_.state_.position[i];
-    if (it_.scratch_.weight[i] == 0.0) {
+inline void Substep::Ledger::add_particle(std::size_t i) {
+    const dvec3 now = it_->scratch_.place[i] - it_->state_.position[i];
+    if (it_->scratch_.weight[i] == 0.0) {
         worked_on_ = worked_on_ || now != dvec3(0.0);
         pinned_ = true;
         return;
     }
-    const dvec3 then = it_.state_.displacement[i];
-    pushed_ += it_.state_.mass[i] * (it_.scratch_.place[i] - it_.scratch_.base[i]);
-    const double mass = it_.state_.mass[i], moving = detail::kinetic_energy(mass, now, it_.h_);
-    const double half = 0.5 * mass * detail::dot(it_.acceleration_, now);
+    const dvec3 then = it_->state_.displacement[i];
+    pushed_ += it_->state_.mass[i] * (it_->scratch_.place[i] - it_->scratch_.base[i]);
+    const double mass = it_->state_.mass[i], moving = detail::kinetic_energy(mass, now, it_->h_);
+    const double half = 0.5 * mass * detail::dot(it_->acceleration_, now);
     mass_ += mass;
     kinetic_ += moving;
     momentum_ += mass * now;
     fallen_ += half;
-    const double moved = detail::kinetic_energy(mass, then, it_.h_);
-    gained_ += moving - moved - half - it_.before_ * 0.5 * mass * detail::dot(it_.acceleration_, then);
-    if (it_.blows_)  // what the wind did is no gain
-        gained_ -= detail::dot(it_.scratch_.blown[i], now + then) * (0.5 * mass / (it_.h_ * it_.h_));
+    const double moved = detail::kinetic_energy(mass, then, it_->h_);
+    gained_ += moving - moved - half - it_->before_ * 0.5 * mass * detail::dot(it_->acceleration_, then);
+    if (it_->blows_)  // what the wind did is no gain
+        gained_ -= detail::dot(it_->scratch_.blown[i], now + then) * (0.5 * mass / (it_->h_ * it_->h_));
     kinetic_before_ += moved;
-    damped_ += (1.0 - it_.damping_ * it_.damping_) * moved;
+    damped_ += (1.0 - it_->damping_ * it_->damping_) * moved;
 }
 
-void Substep::Ledger::add_link(std::uint32_t number) {
-    const State& state = it_.state_;
+inline void Substep::Ledger::add_link(std::uint32_t number) {
+    const State& state = it_->state_;
     const Link& link = state.links[number];
     length_ += link.rest;
     const double compliance = detail::compliance(state.settings, link);
@@ -80,8 +81,8 @@ void Substep::Ledger::add_link(std::uint32_t number) {
         strained_ = strained_ || (asked && strains(link, then));
         return;
     }
-    const dvec3 now = it_.scratch_.place[link.b] - it_.scratch_.place[link.a];
-    const double tension = it_.scratch_.multiplier[number] / (it_.h_ * it_.h_);
+    const dvec3 now = it_->scratch_.place[link.b] - it_->scratch_.place[link.a];
+    const double tension = it_->scratch_.multiplier[number] / (it_->h_ * it_->h_);
     const double half = detail::elastic_energy(link, compliance, tension, now, now - then);
     gained_ += half - detail::elastic_energy(link, compliance, link.tension, then,
                                              state.displacement[link.b] - state.displacement[link.a]);
@@ -91,7 +92,7 @@ void Substep::Ledger::add_link(std::uint32_t number) {
 
 /// The mean at both ends of a substep is what a solver bounds that takes curvatures there.
 void Substep::Ledger::add_bending(const Plan::Chain& chain) {
-    const State& state = it_.state_;
+    const State& state = it_->state_;
     const Body& body = state.bodies[chain.body];
     if (!detail::bends(state, body)) return;
     const auto energy = [&](auto at) {
@@ -100,7 +101,7 @@ void Substep::Ledger::add_bending(const Plan::Chain& chain) {
             sum += detail::bending_energy(state, body, state.links[k - 1], state.links[k], at);
         return sum;
     };
-    const double now = energy([&](std::uint32_t i) { return it_.scratch_.place[i]; });
+    const double now = energy([&](std::uint32_t i) { return it_->scratch_.place[i]; });
     const double start = energy([&](std::uint32_t i) { return state.position[i]; });
     const double then = energy([&](std::uint32_t i) { return state.position[i] - state.displacement[i]; });
     gained_ += 0.5 * (now - then);
@@ -115,7 +116,7 @@ void Substep::Ledger::add_cloth(const detail::Cloth& cloth) {
 }
 
 bool Substep::Ledger::gains(double part) const {
-    return gained() > 0.0 && gained() > part * mass_ * length_ * detail::length(it_.acceleration_);
+    return gained() > 0.0 && gained() > part * mass_ * length_ * detail::length(it_->acceleration_);
 }
 
 /// Removes the gain from motion relative to the mean first, so that a free body keeps falling freely. A pin
@@ -130,7 +131,7 @@ Substep::Slowed Substep::Ledger::slowed() const {
         left -= lost(kinetic_, fallen_ + released_, slowed.whole);
     } else {
         slowed.mean = (1.0 / mass_) * momentum_;
-        const double whole = detail::kinetic_energy(mass_, slowed.mean, it_.h_);
+        const double whole = detail::kinetic_energy(mass_, slowed.mean, it_->h_);
         const double apart = std::max(0.0, kinetic_ - whole);
         slowed.apart = slower(apart, released_, left);
         left -= lost(apart, released_, slowed.apart);
@@ -145,7 +146,7 @@ Substep::Slowed Substep::Ledger::slowed() const {
 
 bool Substep::Ledger::keeps(double part) const {
     return slowed().left >
-           part * std::max(kinetic_before_, mass_ * length_ * detail::length(it_.acceleration_));
+           part * std::max(kinetic_before_, mass_ * length_ * detail::length(it_->acceleration_));
 }
 
 double Substep::Ledger::contact_loss() const {
@@ -154,7 +155,7 @@ double Substep::Ledger::contact_loss() const {
 
 bool Substep::Ledger::suspended() const {
     constexpr double seen = 0.1;  // relative to its weight
-    const double fall = it_.h_ * it_.h_ * detail::length(it_.acceleration_);
+    const double fall = it_->h_ * it_->h_ * detail::length(it_->acceleration_);
     return near_ == Scratch::Nearest::None && !pinned_ && fall > 0.0 &&
            detail::length(pushed_) > seen * mass_ * fall;
 }
@@ -166,8 +167,10 @@ Substep::Ledger Substep::ledger_of(const Plan::Chain& chain) const {
 }
 
 void Substep::add_chain(Ledger& ledger, const Plan::Chain& chain) const {
-    for (std::uint32_t k = 0; k <= chain.links; ++k) ledger.add_particle(plan_.nodes[chain.first_node + k]);
-    for (std::uint32_t k = 0; k < chain.links; ++k) ledger.add_link(chain.first_link + k);
+    Ledger sums = ledger;  // nothing else refers to it: its sums stay in registers
+    for (std::uint32_t k = 0; k <= chain.links; ++k) sums.add_particle(plan_.nodes[chain.first_node + k]);
+    for (std::uint32_t k = 0; k < chain.links; ++k) sums.add_link(chain.first_link + k);
+    ledger = sums;
     ledger.add_bending(chain);
 }
 
@@ -232,7 +235,7 @@ void Substep::balance_energy() {
         for (std::uint32_t r = part.chains.first; part.alone && r < part.chains.first + part.chains.count;
              ++r) {
             if (std::binary_search(together.begin(), together.end(), r)) continue;
-            scratch_.chain_slowed[r] = balance(ledger_of(plan_.chains[r]));
+            if (!scratch_.chain_slowed[r]) scratch_.chain_slowed[r] = balance(ledger_of(plan_.chains[r]));
         }
 }
 
@@ -257,8 +260,9 @@ void Substep::slow_down() {
             slacken(state_.links[links[i]], slowed, parts[k].grid != 0 || tied_in_grid(parts[k], i));
     }
     for (std::uint32_t r = island_.chains.first; r < island_.chains.first + island_.chains.count; ++r) {
-        const Slowed slowed = std::exchange(scratch_.chain_slowed[r], {});
-        if (!slowed.any()) continue;
+        const std::optional<Slowed> balanced = std::exchange(scratch_.chain_slowed[r], std::nullopt);
+        if (!balanced || !balanced->any()) continue;
+        const Slowed& slowed = *balanced;
         const Plan::Chain& chain = plan_.chains[r];
         for (std::uint32_t k = 0; k <= chain.links; ++k) slow(plan_.nodes[chain.first_node + k], slowed);
         for (std::uint32_t k = 0; k < chain.links; ++k)

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/gtc/quaternion.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -199,8 +200,8 @@ struct Scratch {
         double left = 0.0;  ///< joules of gain that slowing leaves
         bool any() const { return whole != 1.0 || apart != 1.0 || tension != 1.0; }
     };
-    std::vector<Slowed> chain_slowed;
-    std::vector<BodyContactScratch> body_contacts;  ///< of the plan's islands with collisions
+    std::vector<std::optional<Slowed>> chain_slowed;  ///< empty until its energy is balanced
+    std::vector<BodyContactScratch> body_contacts;    ///< of the plan's islands with collisions
     /// A particle that may collide: where it was when candidates were listed, how far it may roam from there
     /// until they are listed again, and how far it may go in a substep. Squared: how far it has roamed, how
     /// far it goes in this one, and how far the solver has moved it so far.

@@ -130,7 +130,7 @@ class Substep : IslandStep {
 class Substep::Ledger {
   public:
     Ledger(const Substep& substep, Scratch::Nearest near)
-        : it_(substep), near_(near), worked_on_(near == Scratch::Nearest::Moving) {}
+        : it_(&substep), near_(near), worked_on_(near == Scratch::Nearest::Moving) {}
 
     void add_particle(std::size_t i);
     void add_link(std::uint32_t link);
@@ -154,7 +154,7 @@ class Substep::Ledger {
     bool suspended() const;
 
   private:
-    const Substep& it_;
+    const Substep* it_;
     Scratch::Nearest near_;
     double gained_ = 0.0, damped_ = 0.0, kinetic_ = 0.0, kinetic_before_ = 0.0, elastic_ = 0.0, mass_ = 0.0,
            length_ = 0.0;
