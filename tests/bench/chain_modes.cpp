@@ -22,8 +22,7 @@
 namespace {
 
 using tendril::Chain;
-using tendril::bench::require;
-using tendril::bench::take_flag;
+using namespace tendril::bench;
 
 constexpr std::size_t sizes[] = {10, 100, 1'000, 10'000, 100'000, 1'000'000};
 constexpr const char* modes[] = {"forward", "backward", "with_index", "fixed"};
@@ -121,21 +120,6 @@ void run_chain(benchmark::State& state, const std::string& mode, std::size_t cou
     count_segments(state, count);
 }
 
-/// Seconds per pull, by name ("mode/size"), from the medians of the repetitions.
-class Medians : public benchmark::ConsoleReporter {
-  public:
-    Medians() : ConsoleReporter(OO_Tabular) {}
-    void ReportRuns(const std::vector<Run>& runs) override {
-        ConsoleReporter::ReportRuns(runs);
-        for (const Run& each : runs) {
-            if (each.run_type == Run::RT_Aggregate && each.aggregate_name == "median") {
-                seconds[each.run_name.function_name] = each.GetAdjustedCPUTime() * 1e-9;
-            }
-        }
-    }
-    std::map<std::string, double> seconds;
-};
-
 std::string name_of(const std::string& mode, std::size_t count) {
     return mode + "/" + std::to_string(count);
 }
@@ -169,12 +153,6 @@ Result result_of(const std::string& mode, const std::map<std::string, double>& s
     return result;
 }
 
-bool claim(const char* mode, const char* what, double value, double most) {
-    const bool holds = value <= most;
-    std::printf("%s  %-11s %-28s %.3f, at most %.2f\n", holds ? "PASS" : "FAIL", mode, what, value, most);
-    return holds;
-}
-
 /// Prints the table and the claims; false unless all of them hold.
 bool report(const std::map<std::string, double>& seconds) {
     std::printf("\nns per segment (and times the same pull as a plain loop), medians of %d\n%-11s",
@@ -195,8 +173,10 @@ bool report(const std::map<std::string, double>& seconds) {
     std::printf("\n");
     bool all = true;
     for (const char* mode : {"forward", "backward", "with_index"}) {
-        all &= claim(mode, "worst ratio to a plain loop", results[mode].worst_ratio, max_ratio);
-        all &= claim(mode, "exponent of growth", results[mode].exponent, max_exponent);
+        const std::string name = mode;
+        all &= claim_at_most((name + ": worst ratio to a plain loop").c_str(), results[name].worst_ratio,
+                             max_ratio);
+        all &= claim_at_most((name + ": exponent of growth").c_str(), results[name].exponent, max_exponent);
     }
     return all;
 }

@@ -127,8 +127,8 @@ int main(int count, char** arguments) {
                     ns);
         worst_collider = std::max(worst_collider, ns);
     }
-    const bool clear = claim("30 ns over the cost of a bone and collider", 30.0 / worst_collider, 1.0);
-    const bool cheap = claim("1.2 us over the cost of a bone, worst row", 1.2 / worst, 1.0);
+    const bool clear = claim_loops("a bone and collider", 1e-9 * worst_collider, 0.025);
+    const bool cheap = claim_loops("a bone, worst row", 1e-6 * worst, 1);
     const bool near = claim("3.5 times VRM's rule over springs, worst row", 3.5 / worst_ratio, 1.0);
     return (cheap && near && clear) || !has_flag(count, arguments, "--check") ? 0 : 1;
 }

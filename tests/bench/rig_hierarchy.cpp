@@ -84,21 +84,22 @@ struct Row {
     double nanoseconds = 0.0;
 };
 
-/// Measures all rows of a table in turn, repeating `run` until a measurement takes a millisecond.
+/// Measures all rows of a table in turn, each with as many calls as make a fixed number of parts.
 template <class Subject, class Call>
-void measure(const char* title, std::vector<Row>& rows, std::vector<Subject>& subjects, Call run) {
+void measure(const char* title, std::vector<Row>& rows, std::vector<Subject>& subjects, Call run,
+             const std::source_location& where = std::source_location::current()) {
+    constexpr std::size_t parts = 50'000;  // some milliseconds
     std::vector<std::function<void()>> runs;
     std::vector<std::size_t> times;
     for (std::size_t i = 0; i < rows.size(); ++i) {
-        const double start = wall_seconds();
-        std::size_t count = 0;
-        for (; wall_seconds() - start < 1e-3; ++count) run(subjects[i]);
+        const std::size_t count = std::max<std::size_t>(1, parts / rows[i].parts);
         times.push_back(count);
         runs.push_back([&run, &subject = subjects[i], count] {
             for (std::size_t j = 0; j < count; ++j) run(subject);
         });
     }
-    const std::vector<double> seconds = race(runs, 31);
+    const std::vector<double> seconds = race(
+        runs, 31, cpu_seconds, [] {}, where);
     std::printf("%s\n", title);
     for (std::size_t i = 0; i < rows.size(); ++i) {
         rows[i].nanoseconds =

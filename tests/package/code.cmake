@@ -1,5 +1,5 @@
 # The output of `tendril code` must compile without warnings against the installed library and give exactly the
-# program's own results. Every script in code/ creates a scene. Additional input: program.
+# program's own results. Every script in code/ creates a scene. Additional input: program, werror.
 include(${CMAKE_CURRENT_LIST_DIR}/common.cmake)
 set(folder ${work}/code_source)
 file(REMOVE_RECURSE ${folder})
@@ -37,7 +37,7 @@ foreach(name IN LISTS names)
     file(WRITE ${folder}/${name}.cpp "${output}")
 endforeach()
 set(build_type None)  # only the library must be optimised
-build_project(${folder} ${work}/code -D CMAKE_PREFIX_PATH=${prefix})
+build_project(${folder} ${work}/code -D CMAKE_PREFIX_PATH=${prefix} -D TENDRIL_WERROR=${werror})
 
 # Expects each line, numbers with spaces between them, at its path in the state: the same bits, or `within` that much.
 function(expect_at paths lines within)

@@ -228,7 +228,7 @@ TEST_F(MotionProgram, a_signal_ends_a_bake_at_once_and_leaves_nothing) {
             while (process.running() && process.cpu_seconds() < 0.1)
                 std::this_thread::sleep_for(std::chrono::milliseconds(5));
             process.signal(number);
-            const Outcome outcome = process.wait(20.0);
+            const Outcome outcome = process.wait();
             EXPECT_TRUE(outcome.exit_code == 128 + number || arguments[0] == "lint")
                 << arguments[0] << ' ' << outcome.exit_code << outcome.err;
         }

@@ -280,7 +280,7 @@ TEST_F(Solve, a_million_cases_take_little_more_memory_than_their_text) {
     EXPECT_EQ(count_lines(outcome.out), 1'000'001);
     EXPECT_TRUE(has(outcome.out.substr(outcome.out.size() - 100), "\n999999,fabrik,"));
     EXPECT_LT(outcome.peak_megabytes, 200 * sanitizer_factor);
-    EXPECT_LT(outcome.seconds, 60.0 * sanitizer_factor);
+    EXPECT_LT(outcome.cpu_seconds, 60.0 * sanitizer_factor);
 }
 
 class SolveSignals : public testing::TestWithParam<std::pair<int, const char*>> {};
@@ -300,7 +300,7 @@ TEST_P(SolveSignals, end_with_what_is_done_whole) {
     for (int i = 0; i < 6000 && process.running() && process.out().size() < 200; ++i)
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
     process.signal(number);
-    const Outcome outcome = process.wait(30.0);
+    const Outcome outcome = process.wait();
     EXPECT_EQ(outcome.exit_code, 0);
     EXPECT_TRUE(has(outcome.err, "tendril: stopped after "));
     if (std::string(format) == "--json") {

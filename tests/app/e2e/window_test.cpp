@@ -24,7 +24,7 @@ void sleep(int milliseconds) {
 
 /// Waits until the condition is true; false if it never is.
 template <class Condition>
-bool eventually(const Condition& condition, int seconds = 15) {
+bool eventually(const Condition& condition, int seconds = 300) {
     for (int i = 0; i < seconds * 50 * sanitizer_factor; ++i) {
         if (condition()) return true;
         sleep(20);
@@ -96,7 +96,7 @@ class RealWindow : public testing::Test {
     }
     Outcome xdotool(std::vector<std::string> arguments) {
         arguments.insert(arguments.begin(), "xdotool");
-        return Process(arguments, environment()).wait(20.0);
+        return Process(arguments, environment()).wait();
     }
     void move(glm::vec2 at) {
         xdotool(
@@ -120,7 +120,7 @@ class RealWindow : public testing::Test {
     }
     /// The state that it wrote, after it has ended cleanly.
     Json ended() {
-        const Outcome outcome = program_->wait(20.0);
+        const Outcome outcome = program_->wait();
         EXPECT_TRUE(succeeded(outcome));
         return app::parse_json(read(folder_ / "state.json"));
     }
@@ -301,7 +301,7 @@ TEST_F(RealWindow, keeps_unsaved_work_whatever_ends_it) {
         if (ends == "SIGTERM") program_->signal(SIGTERM);
         if (ends == "SIGHUP") program_->signal(SIGHUP);
         if (ends == "the display") server_->signal(SIGKILL);
-        program_->wait(20.0);
+        program_->wait();
         std::size_t kept = 0;
         for (const auto& entry : fs::directory_iterator(config))
             kept += entry.path().filename().string().starts_with("autosave-") &&

@@ -48,8 +48,7 @@ void redirect(const std::filesystem::path& path, int descriptor, int flags) {
 }  // namespace
 
 Process::Process(const std::vector<std::string>& command, const Environment& changes,
-                 const std::filesystem::path& folder)
-    : started_(now()) {
+                 const std::filesystem::path& folder) {
     write(texts_ / "out", "");
     write(texts_ / "err", "");
     id_ = ::fork();
@@ -70,7 +69,8 @@ bool Process::reap(bool block) {
     Outcome outcome;
     outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     outcome.peak_megabytes = usage.ru_maxrss / 1024;
-    outcome.seconds = now() - started_;
+    for (const timeval& part : {usage.ru_utime, usage.ru_stime})
+        outcome.cpu_seconds += static_cast<double>(part.tv_sec) + 1e-6 * static_cast<double>(part.tv_usec);
     outcome.out = out();
     outcome.err = err();
     outcome_ = std::move(outcome);
@@ -138,14 +138,14 @@ Outcome run_here(const std::vector<std::string>& arguments, const std::filesyste
     for (const std::string& argument : arguments) words.push_back(argument.c_str());
 
     Outcome outcome;
-    const double began = now();
+    const std::clock_t began = std::clock();
     if (!folder.empty()) std::filesystem::current_path(folder);
     testing::internal::CaptureStdout();
     testing::internal::CaptureStderr();
     outcome.exit_code = app::run_command_line(static_cast<int>(words.size()), words.data());
     outcome.err = testing::internal::GetCapturedStderr();
     outcome.out = testing::internal::GetCapturedStdout();
-    outcome.seconds = now() - began;
+    outcome.cpu_seconds = static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC;
     std::filesystem::current_path(started_in);
     before ? ::setenv("XDG_CONFIG_HOME", before->c_str(), 1) : ::unsetenv("XDG_CONFIG_HOME");
     return outcome;

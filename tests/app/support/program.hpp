@@ -19,8 +19,8 @@ using Environment = std::vector<std::pair<std::string, std::optional<std::string
 struct Outcome {
     int exit_code = -1;  ///< 128 plus the signal if one ended it
     std::string out, err;
-    long peak_megabytes = 0;  ///< peak memory
-    double seconds = 0.0;     ///< wall time
+    long peak_megabytes = 0;   ///< peak memory
+    double cpu_seconds = 0.0;  ///< processor time, which other processes do not change
 };
 
 /// A process that runs until it ends, or until this object is destroyed.
@@ -41,14 +41,13 @@ class Process {
     std::string out() const { return read(texts_ / "out"); }
     std::string err() const { return read(texts_ / "err"); }
     /// Waits for its end; kills it and fails the test after `seconds`.
-    Outcome wait(double seconds = 60.0);
+    Outcome wait(double seconds = 600.0);
 
   private:
     bool reap(bool block);
 
     TempFolder texts_;
     pid_t id_ = -1;
-    double started_ = 0.0;
     std::optional<Outcome> outcome_;
 };
 
