@@ -2,6 +2,7 @@
 // scenes break nothing, and replaying them gives the same result.
 #include <algorithm>
 #include <cstdlib>
+#include <random>
 
 #include "app/document/command.hpp"
 #include "app/document/scene_file.hpp"
@@ -9,6 +10,7 @@
 #include "tests/app/e2e/monkey.hpp"
 #include "tests/app/labs/spring/spring_lab.hpp"
 #include "tests/app/support/temp_folder.hpp"
+#include "tests/says.hpp"
 
 namespace tendril::test {
 namespace {
@@ -203,6 +205,37 @@ TEST_P(EveryScene, IsUndoneToWhereItBegan) {
             app.run({command.name, to_json(command.arguments)});
     while (app.workspace().history.can_undo()) app.run({"undo"});
     EXPECT_EQ(save_scene(app.workspace()).at("labs"), blank);
+}
+
+/// Values of a saved scene, chosen at random, become one of another type or size: the scene is refused with
+/// the path of what is wrong, or read whole.
+TEST_P(EveryScene, IsRefusedWithThePathOfWhatIsWrongOrReadWhole) {
+    const Labs labs = all_labs();
+    const auto window = open_offscreen({640, 480});
+    App app(*window, false, all_labs());
+    set_up(app, GetParam());
+    for (int i = 0; i < 3; ++i) app.tick(nullptr);
+    const Json scene = save_scene(app.workspace()), flat = scene.at("labs").at(GetParam().lab).flatten();
+    std::vector<std::string> paths;
+    for (const auto& [path, value] : flat.items()) paths.push_back("/labs/" + GetParam().lab + path);
+    const Json others[]{nullptr, true, -1, 0, 2.5, 1e8, 3e9, 1e300, "text", Json::array(), Json::object()};
+    std::mt19937 random(7);
+    for (int i = 0; i < 120 && !HasFailure(); ++i) {
+        const std::string& path = paths[random() % paths.size()];
+        Json changed = scene;
+        changed[Json::json_pointer(path)] = others[random() % std::size(others)];
+        SCOPED_TRACE(path + " as " + changed[Json::json_pointer(path)].dump());
+        Workspace opened = make_blank_workspace(labs);
+        try {
+            load_scene(opened, changed);
+        } catch (const std::exception& error) {
+            EXPECT_TRUE(says(error.what(), "labs " + GetParam().lab));
+            EXPECT_EQ(std::string(error.what()).find("json.exception"), std::string::npos) << error.what();
+            continue;
+        }
+        labs.find(GetParam().lab)->step(opened);
+        expect_opens_again(opened);
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(EveryLab, EveryScene, testing::ValuesIn(all_scenes()),
