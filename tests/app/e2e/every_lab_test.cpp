@@ -58,17 +58,35 @@ std::vector<std::string> words_of(const TestScene& scene) {
     return words;
 }
 
-/// A saved scene opens, and saves the same again.
-void expect_opens_again(const Workspace& workspace) {
+/// A saved scene opens and saves the same again.
+Workspace opened_again(const Workspace& workspace) {
     static const Labs labs = all_labs();
     const Json saved = save_scene(workspace);
     Workspace opened = make_blank_workspace(labs);
     try {
         load_scene(opened, parse_json(json_to_text(saved)));
+        EXPECT_EQ(save_scene(opened), saved);
     } catch (const std::exception& error) {
-        FAIL() << "what was saved is not opened: " << error.what();
+        ADD_FAILURE() << "what was saved is not opened: " << error.what();
     }
-    EXPECT_EQ(save_scene(opened), saved);
+    return opened;
+}
+
+/// And the open lab shows the same, to the bit, then and through the next five seconds.
+void expect_opens_as_it_was(App& app) {
+    Workspace& live = app.workspace();
+    Workspace opened = opened_again(live);
+    const Lab& lab = *app.labs().find(live.lab);
+    opened.clock = live.clock;
+    for (int ticks = 0; ticks <= 300 && !testing::Test::HasFailure(); ++ticks) {
+        if (ticks == 0 || ticks == 300) {
+            EXPECT_EQ(Json::diff(lab.state(live), lab.state(opened)), Json::array())
+                << "after " << ticks << " ticks";
+        }
+        EXPECT_EQ(lab.moving(opened), lab.moving(live)) << "after " << ticks << " ticks";
+        for (Workspace* each : {&live, &opened})
+            if (lab.moving(*each)) lab.step(*each);
+    }
 }
 
 class EveryScene : public testing::TestWithParam<LabScene> {
@@ -87,7 +105,7 @@ TEST_P(EveryScene, StandsRandomEventsAndCommandsAndReplaysThem) {
             for (int i = 0; i < 60 && !HasFailure(); ++i) {
                 monkey.act();
                 if (i % 20 == 0) expect_finite(app.state(), "state");
-                if (i % 10 == 9) expect_opens_again(app.workspace());
+                if (i % 10 == 9) opened_again(app.workspace());
             }
             app.draw();
             expect_finite(app.state(), "state");
@@ -98,7 +116,7 @@ TEST_P(EveryScene, StandsRandomEventsAndCommandsAndReplaysThem) {
 /// Random scenes per test scene; TENDRIL_RANDOM_SCENES overrides it.
 unsigned random_scenes() {
     const char* const given = std::getenv("TENDRIL_RANDOM_SCENES");
-    return given == nullptr ? 3u : static_cast<unsigned>(std::strtoul(given, nullptr, 10));
+    return given == nullptr ? 2u : static_cast<unsigned>(std::strtoul(given, nullptr, 10));
 }
 
 TEST_P(EveryScene, OpensAsItWasSavedWhateverWasDoneToIt) {
@@ -109,9 +127,11 @@ TEST_P(EveryScene, OpensAsItWasSavedWhateverWasDoneToIt) {
         SCOPED_TRACE("seed " + std::to_string(seed));
         app.run({"scene.new"});
         set_up(app, GetParam());
-        Monkey monkey(app, seed, vocabulary(app, GetParam().lab), words_of(GetParam().scene));
-        for (int i = 0; i < 30; ++i) monkey.act();
-        expect_opens_again(app.workspace());
+        std::vector<std::string> names = vocabulary(app, GetParam().lab);
+        std::erase(names, "scene.new");
+        Monkey monkey(app, seed, std::move(names), words_of(GetParam().scene));
+        for (int i = 0; i < 20; ++i) monkey.edit(), monkey.act();
+        expect_opens_as_it_was(app);
     }
 }
 
