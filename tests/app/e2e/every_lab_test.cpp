@@ -72,18 +72,28 @@ Workspace opened_again(const Workspace& workspace) {
     return opened;
 }
 
-/// And the open lab shows the same, to the bit, then and through the next five seconds.
+/// What a lab shows, without reports on the ticks before, which a scene does not have.
+Json lasting_state(const Lab& lab, const Workspace& workspace) {
+    Json state = lab.state(workspace);
+    for (const char* key : {"verdict", "why", "status", "last_second", "frame_ms", "race"}) state.erase(key);
+    if (state.contains("solve")) state["solve"].erase("report");
+    return {{"state", std::move(state)}, {"saved", workspace.document.parts().at(workspace.lab)->save()}};
+}
+
+/// And the open lab shows the same, to the bit, then and five seconds later; half a second if that takes long.
 void expect_opens_as_it_was(App& app) {
+    constexpr std::uint64_t long_work = 50'000;
     Workspace& live = app.workspace();
     Workspace opened = opened_again(live);
     const Lab& lab = *app.labs().find(live.lab);
     opened.clock = live.clock;
-    for (int ticks = 0; ticks <= 300 && !testing::Test::HasFailure(); ++ticks) {
-        if (ticks == 0 || ticks == 300) {
-            EXPECT_EQ(Json::diff(lab.state(live), lab.state(opened)), Json::array())
-                << "after " << ticks << " ticks";
+    const int ticks = lab.tick_work(live) > long_work ? 30 : 300;
+    for (int tick = 0; tick <= ticks && !testing::Test::HasFailure(); ++tick) {
+        EXPECT_EQ(lab.moving(opened), lab.moving(live)) << "after " << tick << " ticks";
+        if (tick == 0 || tick == ticks) {
+            EXPECT_EQ(Json::diff(lasting_state(lab, live), lasting_state(lab, opened)), Json::array())
+                << "after " << tick << " ticks";
         }
-        EXPECT_EQ(lab.moving(opened), lab.moving(live)) << "after " << ticks << " ticks";
         for (Workspace* each : {&live, &opened})
             if (lab.moving(*each)) lab.step(*each);
     }
@@ -123,14 +133,18 @@ TEST_P(EveryScene, OpensAsItWasSavedWhateverWasDoneToIt) {
     ASSERT_GT(random_scenes(), 0u);
     const auto window = open_offscreen({1280, 720});
     App app(*window, false, all_labs());
-    for (unsigned seed = 0; seed < random_scenes() && !HasFailure(); ++seed) {
+    unsigned seed = 0;  // other edits in each scene
+    for (const char letter : GetParam().scene.name) seed = 31 * seed + static_cast<unsigned char>(letter);
+    for (const unsigned end = seed + random_scenes(); seed != end && !HasFailure(); ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
         app.run({"scene.new"});
         set_up(app, GetParam());
         std::vector<std::string> names = vocabulary(app, GetParam().lab);
-        std::erase(names, "scene.new");
+        for (const char* each : {"scene.new", "rope.hold"}) std::erase(names, each);
         Monkey monkey(app, seed, std::move(names), words_of(GetParam().scene));
         for (int i = 0; i < 20; ++i) monkey.edit(), monkey.act();
+        const Event release = MousePress{MouseButton::Left, false};
+        app.tick(&release);
         expect_opens_as_it_was(app);
     }
 }
