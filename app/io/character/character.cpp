@@ -70,24 +70,51 @@ std::vector<std::string> Character::sentences() const {
     return all;
 }
 
-void read_as(Character& character, double scale, const FileSpace& space) {
-    const FileSpace before = std::exchange(character.space, space);
-    if (space.positions != before.positions) {
-        const double times = space.positions == RootPositions::Add ? character.scale : -character.scale;
-        for (const RootOffset& root : character.root_offsets)
-            for (humanoid::Clip& clip : character.clips)
+namespace {
+
+struct HowRead {
+    double scale;
+    FileSpace space;
+};
+
+void convert(std::vector<humanoid::Node>& nodes, std::vector<humanoid::Clip>& clips,
+             std::span<const RootOffset> roots, const HowRead& before, const HowRead& now) {
+    if (now.space.positions != before.space.positions) {
+        const double times = now.space.positions == RootPositions::Add ? before.scale : -before.scale;
+        for (const RootOffset& root : roots)
+            for (humanoid::Clip& clip : clips)
                 for (humanoid::Channel& channel : clip.channels)
                     if (channel.node == root.node)
                         for (glm::dvec3& value : channel.translation.values)
-                            value += turn_of(before.up) * (times * root.offset);
-        character.guesses.positions.clear();
+                            value += turn_of(before.space.up) * (times * root.offset);
     }
-    const double times = scale / std::exchange(character.scale, scale);
-    if (times != 1.0) character.guesses.unit.clear();
-    if (space.up != before.up) character.guesses.up.clear();
+    normalise(nodes, clips, now.scale / before.scale,
+              now.space.up == before.space.up
+                  ? turn_of(UpAxis::Y)
+                  : turn_of(now.space.up) * conjugate(turn_of(before.space.up)));
+}
+
+}  // namespace
+
+humanoid::Clip read_as_now(humanoid::Clip clip, double scale, const FileSpace& space,
+                           const Character& character, bool of_its_file) {
     std::vector<humanoid::Node> nodes = character.skeleton.nodes();
-    normalise(nodes, character.clips, times,
-              space.up == before.up ? turn_of(UpAxis::Y) : turn_of(space.up) * conjugate(turn_of(before.up)));
+    std::vector<humanoid::Clip> clips{std::move(clip)};
+    convert(nodes, clips, of_its_file ? character.root_offsets : std::vector<RootOffset>(), {scale, space},
+            {character.scale, character.space});
+    if (const Result bad = check(clips[0], character.skeleton); !bad)
+        throw std::runtime_error(std::string(bad.message()));
+    return std::move(clips[0]);
+}
+
+void read_as(Character& character, double scale, const FileSpace& space) {
+    const HowRead before{std::exchange(character.scale, scale), std::exchange(character.space, space)};
+    const double times = scale / before.scale;
+    if (times != 1.0) character.guesses.unit.clear();
+    if (space.up != before.space.up) character.guesses.up.clear();
+    if (space.positions != before.space.positions) character.guesses.positions.clear();
+    std::vector<humanoid::Node> nodes = character.skeleton.nodes();
+    convert(nodes, character.clips, character.root_offsets, before, {scale, space});
     character.skeleton = skeleton_of(std::move(nodes));
     for (const humanoid::Clip& clip : character.clips)
         if (const Result bad = check(clip, character.skeleton); !bad)

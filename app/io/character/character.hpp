@@ -92,6 +92,11 @@ struct Character {
 /// guess any more. Throws std::runtime_error if a number becomes too large.
 void read_as(Character& character, double scale, const FileSpace& space);
 
+/// Converts a clip that was made for the character while it was read with `scale` and `space`. Root positions
+/// concern only clips of the character's own file.
+humanoid::Clip read_as_now(humanoid::Clip clip, double scale, const FileSpace& space,
+                           const Character& character, bool of_its_file);
+
 /// Converts the file's nodes and clips to Y up and metres: rotates the roots and scales every translation.
 void normalise(std::vector<humanoid::Node>& nodes, std::vector<humanoid::Clip>& clips, double scale,
                const glm::dquat& turn = {1.0, 0.0, 0.0, 0.0});

@@ -12,8 +12,6 @@
 namespace tendril::app {
 namespace {
 
-using humanoid::Bone;
-
 /// The saved path may not exist on another machine; then tries the file name alone.
 SharedCharacter read_again(const JsonPlace& place, const std::string& file) {
     const auto path = place.optional("path");
@@ -29,54 +27,49 @@ SharedCharacter read_again(const JsonPlace& place, const std::string& file) {
     }
 }
 
-/// With the unit and the axes of the scene; older scenes have no axes.
-SharedCharacter read_as_saved(const JsonPlace& place, SharedCharacter character) {
-    double metres = character->character.scale;
-    FileSpace space = character->character.space;
-    if (const auto scale = place.optional("scale")) metres = scale->real(min_unit, max_unit);
-    if (const auto saved = place.optional("space")) load_fields(*saved, space);
-    if (metres == character->character.scale && space == character->character.space) return character;
-    try {
-        return read_as(*character, metres, space);
-    } catch (const std::exception& error) {
-        place["file"].fail(error.what());
-    }
-}
-
-/// The bones that the user has mapped to other nodes.
-Json corrections(const HumanoidPart& part) {
+Json corrections_json(const Corrections& corrections, const humanoid::Skeleton& skeleton) {
     Json bones = Json::object();
-    for (std::size_t i = 0; i < humanoid::bone_count; ++i) {
-        const std::int32_t node = part.map->bones[i].node;
-        if (node == part.loaded->matched.bones[i].node) continue;
-        bones[humanoid::name(static_cast<Bone>(i))] =
-            node < 0 ? Json(nullptr) : Json(part.skeleton()[static_cast<std::size_t>(node)].name);
-    }
+    for (const auto& [bone, node] : corrections)
+        bones[humanoid::name(bone)] =
+            node < 0 ? Json(nullptr) : Json(skeleton[static_cast<std::size_t>(node)].name);
     return bones;
 }
 
-void read_corrections(const JsonPlace& place, HumanoidPart& part) {
+Corrections read_corrections(const JsonPlace& place, const humanoid::Skeleton& skeleton) {
     if (!place.json().is_object()) place.fail("expected an object of bones");
-    // Bones that lose their node come first, so that the node is free.
-    for (const bool picked : {false, true}) {
-        for (const auto& [name, value] : place.json().items()) {
-            const auto bone = humanoid::bone_named(name);
-            if (!bone) place.fail("there is no bone \"" + name + "\"");
-            if (value.is_null() == picked) continue;
-            if (!picked) {
-                set_bone(part, *bone, std::nullopt);
-                continue;
-            }
-            const JsonPlace at = place[name.c_str()];
-            const auto node = part.skeleton().find(at.text());
-            if (!node) at.fail("the character has no node \"" + at.text() + "\"");
-            set_bone(part, *bone, node);
-        }
+    Corrections corrections;
+    for (const auto& [name, value] : place.json().items()) {
+        const auto bone = humanoid::bone_named(name);
+        if (!bone) place.fail("there is no bone \"" + name + "\"");
+        corrections[*bone] = -1;
+        if (value.is_null()) continue;
+        const JsonPlace at = place[name.c_str()];
+        const auto node = skeleton.find(at.text());
+        if (!node) at.fail("the character has no node \"" + at.text() + "\"");
+        corrections[*bone] = static_cast<std::int32_t>(*node);
     }
+    return corrections;
+}
+
+/// Settings that are missing are those of `reading`.
+Reading read_reading(const JsonPlace& place, Reading reading, const humanoid::Skeleton& skeleton) {
+    if (const auto scale = place.optional("scale")) reading.scale = scale->real(min_unit, max_unit);
+    if (const auto space = place.optional("space")) load_fields(*space, reading.space);
+    if (const auto bones = place.optional("bones")) reading.bones = read_corrections(*bones, skeleton);
+    if (const auto limits = place.optional("limits")) reading.limits = limits->choice(limits_from);
+    return reading;
+}
+
+/// Reads the part's character with these settings.
+void take(const JsonPlace& place, HumanoidPart& part, const Reading& reading) {
+    const char* key = "file";
     try {
-        check_bones(part);
-    } catch (const std::invalid_argument& why) {
-        place.fail(why.what());
+        part.loaded = read_as(part.loaded, reading.scale, reading.space);
+        part.ik.limits = reading.limits;
+        key = "bones";
+        correct(part, reading.bones);
+    } catch (const std::exception& error) {
+        (place.has(key) ? place[key] : place).fail(error.what());
     }
 }
 
@@ -120,34 +113,66 @@ Playback read_playback(const JsonPlace& place, const LoadedCharacter& character)
     return playback;
 }
 
-Json cures_json(const std::vector<ClipCure>& cures) {
+Json edits_json(const LoadedCharacter& character) {
     Json list = Json::array();
-    for (const ClipCure& each : cures) {
-        list.push_back({{"clip", each.clip}});
-        if (each.fault) list.back()["kind"] = humanoid::name(*each.fault);
-        if (!each.node.empty()) list.back()["node"] = each.node;
-        if (each.frame) list.back()["frame"] = *each.frame;
+    for (const ClipEdit& each : character.edits) {
+        Json json{{"scale", each.as.scale},
+                  {"space", save_fields(each.as.space)},
+                  {"bones", corrections_json(each.as.bones, character.skeleton())},
+                  {"limits", limits_from.name(each.as.limits)}};
+        if (const auto* motion = std::get_if<LoadedMotion>(&each.what)) {
+            json.update({{"file", motion->file}, {"path", motion->path}, {"clip", motion->clip}});
+        } else {
+            const ClipCure& cure = std::get<ClipCure>(each.what);
+            json["clip"] = cure.clip;
+            if (cure.fault) json["kind"] = humanoid::name(*cure.fault);
+            if (!cure.node.empty()) json["node"] = cure.node;
+            if (cure.frame) json["frame"] = *cure.frame;
+        }
+        list.push_back(std::move(json));
     }
     return list;
 }
 
-/// Repeats the cures, in order, on the character as read from its file.
-void read_cures(const JsonPlace& place, HumanoidPart& part) {
-    constexpr std::size_t max_cures = 10'000;
-    place.for_each("cures", max_cures, [&](const JsonPlace& each) {
-        ClipCure cure{.clip = each["clip"].text()};
-        if (const auto kind = each.optional("kind")) {
-            cure.fault = fault_named(kind->text());
-            if (!cure.fault) kind->fail("there is no such fault");
-        }
-        if (const auto node = each.optional("node")) cure.node = node->text();
-        if (const auto frame = each.optional("frame")) cure.frame = frame->index(humanoid::max_lint_frames);
-        try {
-            part.loaded = cured(part, cure).loaded;
-        } catch (const std::invalid_argument& error) {
-            each.fail(error.what());
-        }
-    });
+ClipCure read_cure(const JsonPlace& place) {
+    ClipCure cure{.clip = place["clip"].text()};
+    if (const auto kind = place.optional("kind")) {
+        cure.fault = fault_named(kind->text());
+        if (!cure.fault) kind->fail("there is no such fault");
+    }
+    if (const auto node = place.optional("node")) cure.node = node->text();
+    if (const auto frame = place.optional("frame")) cure.frame = frame->index(humanoid::max_lint_frames);
+    return cure;
+}
+
+void read_edit(const JsonPlace& place, HumanoidPart& part) {
+    const ClipCure cure = read_cure(place);
+    const std::string file = place.has("file") ? place["file"].text() : std::string();
+    const std::string path = file.empty() ? file : place["path"].text();
+    try {
+        // The path may not exist on another machine.
+        part.loaded =
+            file.empty() ? cured(part, cure).loaded
+                         : with_motion(part, std::filesystem::exists(path) ? path : file, cure.clip, file).loaded;
+    } catch (const std::exception& error) {
+        (file.empty() ? place : place["file"]).fail(error.what());
+    }
+}
+
+/// Makes the edits again, each as the character was read then. Older scenes have no order, "motions" before
+/// "cures", and no such settings: they are those of the scene, with the default limits.
+void read_edits(const JsonPlace& place, HumanoidPart& part) {
+    constexpr std::size_t max_edits = 10'000;
+    const Reading now = reading_of(part);
+    for (const char* key : {"motions", "cures", "edits"}) {
+        const auto edits = place.optional(key);
+        if (!edits) continue;
+        edits->for_each(key, max_edits, [&](const JsonPlace& each) {
+            take(each, part, read_reading(each, now, part.skeleton()));
+            read_edit(each, part);
+        });
+    }
+    take(place, part, now);
 }
 
 }  // namespace
@@ -159,9 +184,8 @@ Json HumanoidPart::save() const {
         json["scale"] = loaded->character.scale;
         json["space"] = save_fields(loaded->character.space);
     }
-    json["bones"] = corrections(*this);
-    if (!loaded->motions.empty()) json["motions"] = motions_json(*loaded);
-    if (!loaded->cures.empty()) json["cures"] = cures_json(loaded->cures);
+    json["bones"] = corrections_json(corrections_of(*map, *loaded), skeleton());
+    if (!loaded->edits.empty()) json["edits"] = edits_json(*loaded);
     json["clip"] = save_playback(*this);
     json["t_pose"] = t_pose;
     json["ik"] = ik_json(*this);
@@ -178,12 +202,10 @@ Json HumanoidPart::save() const {
 std::shared_ptr<Part> HumanoidPart::load(const Json& json, const std::string& where) const {
     const JsonPlace place(json, where);
     const std::string file = place["file"].text();
-    SharedCharacter character = file.empty() ? load_character(file) : read_again(place, file);
-    character = read_as_saved(place, std::move(character));
-    auto part = std::make_shared<HumanoidPart>(std::move(character));
-    if (const auto bones = place.optional("bones")) read_corrections(*bones, *part);
-    if (const auto motions = place.optional("motions")) read_motions(*motions, *part);
-    if (const auto cures = place.optional("cures")) read_cures(*cures, *part);
+    auto part =
+        std::make_shared<HumanoidPart>(file.empty() ? load_character(file) : read_again(place, file));
+    take(place, *part, read_reading(place, reading_of(*part), part->skeleton()));
+    read_edits(place, *part);
     if (const auto clip = place.optional("clip")) part->playback = read_playback(*clip, *part->loaded);
     measure_pace(*part);
     if (const auto on = place.optional("t_pose")) part->t_pose = on->flag();

@@ -88,7 +88,7 @@ std::vector<FileKind> HumanoidLab::files() const {
 std::vector<CommandCall> HumanoidLab::opening() const {
     return {{"humanoid.view", {{"skin", "solid"}, {"ghost", false}}},
             {"humanoid.attach", {{"bone", "UpperChest"}, {"kind", "cloth"}, {"name", "cape"}}},
-            {"humanoid.ground", {{"kind", "stairs"}, {"step_height", 0.16}, {"step_depth", 0.36}}},
+            {"humanoid.ground", {{"kind", "stairs"}, {"step_height", 0.16}, {"step_depth", 0.4}}},
             {"humanoid.foot_ik", {{"on", true}}},
             {"humanoid.clip", {{"name", "walk"}, {"play", true}}},
             {"camera.set",

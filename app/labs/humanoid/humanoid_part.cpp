@@ -9,7 +9,6 @@ namespace tendril::app {
 
 using humanoid::Bone;
 using humanoid::BoneMap;
-using humanoid::BoneMatch;
 
 HumanoidPart::HumanoidPart() : HumanoidPart(load_character({})) {}
 
@@ -76,25 +75,25 @@ bool HumanoidPart::operator==(const HumanoidPart& other) const {
            flips == other.flips;
 }
 
-void set_bone(HumanoidPart& part, Bone bone, std::optional<std::size_t> node) {
-    BoneMap map = *part.map;
-    const std::int32_t to = node ? static_cast<std::int32_t>(*node) : -1;
-    const BoneMatch& matched = part.loaded->matched[bone];
-    if (node)
-        if (const auto before = part.bone_of(*node); before && *before != bone)
-            map[*before] = {-1, 0.0, "its node was picked for " + std::string(humanoid::name(bone))};
-    if (to == matched.node)
-        map[bone] = matched;
-    else
-        map[bone] = {to, node ? 1.0 : 0.0, node ? "picked by hand" : "removed by hand"};
-    humanoid::review(map, part.skeleton());
-    part.map = std::make_shared<const BoneMap>(std::move(map));
-    if (part.playback.travel) measure_pace(part);
+Corrections corrections_of(const BoneMap& map, const LoadedCharacter& character) {
+    Corrections corrections;
+    for (std::size_t i = 0; i < humanoid::bone_count; ++i)
+        if (map.bones[i].node != character.matched.bones[i].node)
+            corrections[static_cast<Bone>(i)] = map.bones[i].node;
+    return corrections;
 }
 
-void check_bones(const HumanoidPart& part) {
-    const Result bad = check(*part.map, part.skeleton());
+void correct(HumanoidPart& part, const Corrections& corrections) {
+    BoneMap map = corrected(*part.loaded, corrections);
+    const Result bad = check(map, part.skeleton());
     if (!bad && check(part.loaded->matched, part.skeleton())) throw std::invalid_argument(bad.message());
+    part.map = std::make_shared<const BoneMap>(std::move(map));
+    measure_pace(part);
+}
+
+Reading reading_of(const HumanoidPart& part) {
+    const Character& character = part.loaded->character;
+    return {character.scale, character.space, corrections_of(*part.map, *part.loaded), part.ik.limits};
 }
 
 namespace {

@@ -96,11 +96,12 @@ struct HumanoidPart final : Part {
 inline constexpr FlipWords humanoid_flip_words{"humanoid.flips", "target", "the target, as the bone sees it,",
                                                "height", "the character's height"};
 
-/// Maps a bone to a node, or to none. A node is mapped to one bone at most, so a bone that had it loses it.
-void set_bone(HumanoidPart& part, humanoid::Bone bone, std::optional<std::size_t> node);
-/// Call after set_bone(). Throws std::invalid_argument if the bones do not form a body's hierarchy any more,
-/// unless the file's own map did not either.
-void check_bones(const HumanoidPart& part);
+/// The bones that `map` has elsewhere than the character's own.
+Corrections corrections_of(const humanoid::BoneMap& map, const LoadedCharacter& character);
+/// Maps the bones as matched, but for these. Throws std::invalid_argument if they do not form a body's
+/// hierarchy any more, unless the file's own map did not either.
+void correct(HumanoidPart& part, const Corrections& corrections);
+Reading reading_of(const HumanoidPart& part);
 
 /// The IK settings and state to be saved.
 Json ik_json(const HumanoidPart& part);

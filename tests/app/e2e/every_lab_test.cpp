@@ -60,17 +60,45 @@ std::vector<std::string> words_of(const TestScene& scene) {
     return words;
 }
 
-/// A saved scene opens, and saves the same again.
-void expect_opens_again(const Workspace& workspace) {
+/// A saved scene opens and saves the same again.
+Workspace opened_again(const Workspace& workspace) {
     static const Labs labs = all_labs();
     const Json saved = save_scene(workspace);
     Workspace opened = make_blank_workspace(labs);
     try {
         load_scene(opened, parse_json(json_to_text(saved)));
+        EXPECT_EQ(save_scene(opened), saved);
     } catch (const std::exception& error) {
-        FAIL() << "what was saved is not opened: " << error.what();
+        ADD_FAILURE() << "what was saved is not opened: " << error.what();
     }
-    EXPECT_EQ(save_scene(opened), saved);
+    return opened;
+}
+
+/// What a lab shows, without reports on the ticks before, which a scene does not have.
+Json lasting_state(const Lab& lab, const Workspace& workspace) {
+    Json state = lab.state(workspace);
+    for (const char* key : {"verdict", "why", "status", "last_second", "frame_ms", "race"}) state.erase(key);
+    if (state.contains("solve")) state["solve"].erase("report");
+    return {{"state", std::move(state)}, {"saved", workspace.document.parts().at(workspace.lab)->save()}};
+}
+
+/// And the open lab shows the same, to the bit, then and five seconds later; half a second if that takes long.
+void expect_opens_as_it_was(App& app) {
+    constexpr std::uint64_t long_work = 50'000;
+    Workspace& live = app.workspace();
+    Workspace opened = opened_again(live);
+    const Lab& lab = *app.labs().find(live.lab);
+    opened.clock = live.clock;
+    const int ticks = lab.tick_work(live) > long_work ? 30 : 300;
+    for (int tick = 0; tick <= ticks && !testing::Test::HasFailure(); ++tick) {
+        EXPECT_EQ(lab.moving(opened), lab.moving(live)) << "after " << tick << " ticks";
+        if (tick == 0 || tick == ticks) {
+            EXPECT_EQ(Json::diff(lasting_state(lab, live), lasting_state(lab, opened)), Json::array())
+                << "after " << tick << " ticks";
+        }
+        for (Workspace* each : {&live, &opened})
+            if (lab.moving(*each)) lab.step(*each);
+    }
 }
 
 class EveryScene : public testing::TestWithParam<LabScene> {
@@ -89,7 +117,7 @@ TEST_P(EveryScene, StandsRandomEventsAndCommandsAndReplaysThem) {
             for (int i = 0; i < 60 && !HasFailure(); ++i) {
                 monkey.act();
                 if (i % 20 == 0) expect_finite(app.state(), "state");
-                if (i % 10 == 9) expect_opens_again(app.workspace());
+                if (i % 10 == 9) opened_again(app.workspace());
             }
             app.draw();
             expect_finite(app.state(), "state");
@@ -100,20 +128,26 @@ TEST_P(EveryScene, StandsRandomEventsAndCommandsAndReplaysThem) {
 /// Random scenes per test scene; TENDRIL_RANDOM_SCENES overrides it.
 unsigned random_scenes() {
     const char* const given = std::getenv("TENDRIL_RANDOM_SCENES");
-    return given == nullptr ? 3u : static_cast<unsigned>(std::strtoul(given, nullptr, 10));
+    return given == nullptr ? 2u : static_cast<unsigned>(std::strtoul(given, nullptr, 10));
 }
 
 TEST_P(EveryScene, OpensAsItWasSavedWhateverWasDoneToIt) {
     ASSERT_GT(random_scenes(), 0u);
     const auto window = open_offscreen({1280, 720});
     App app(*window, false, all_labs());
-    for (unsigned seed = 0; seed < random_scenes() && !HasFailure(); ++seed) {
+    unsigned seed = 0;  // other edits in each scene
+    for (const char letter : GetParam().scene.name) seed = 31 * seed + static_cast<unsigned char>(letter);
+    for (const unsigned end = seed + random_scenes(); seed != end && !HasFailure(); ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
         app.run({"scene.new"});
         set_up(app, GetParam());
-        Monkey monkey(app, seed, vocabulary(app, GetParam().lab), words_of(GetParam().scene));
-        for (int i = 0; i < 30; ++i) monkey.act();
-        expect_opens_again(app.workspace());
+        std::vector<std::string> names = vocabulary(app, GetParam().lab);
+        for (const char* each : {"scene.new", "rope.hold"}) std::erase(names, each);
+        Monkey monkey(app, seed, std::move(names), words_of(GetParam().scene));
+        for (int i = 0; i < 20; ++i) monkey.edit(), monkey.act();
+        const Event release = MousePress{MouseButton::Left, false};
+        app.tick(&release);
+        expect_opens_as_it_was(app);
     }
 }
 

@@ -18,13 +18,13 @@ void Monkey::command() {
     Json arguments = Json::object();
     for (const Argument& argument : app_.commands().find(name)->arguments) {
         if (!argument.required && coin()) continue;
-        if (below(20) == 0) continue;
+        if (!careful_ && below(20) == 0) continue;
         switch (argument.type) {
             case ArgumentType::Number:
-                arguments[argument.name] = any_number();
+                arguments[argument.name] = careful_ ? Json(number_in(argument)) : any_number();
                 break;
             case ArgumentType::Integer:
-                arguments[argument.name] = any_index();
+                arguments[argument.name] = careful_ ? Json(std::lround(number_in(argument))) : any_index();
                 break;
             case ArgumentType::Boolean:
                 arguments[argument.name] = coin();
@@ -45,7 +45,8 @@ void Monkey::command() {
                 break;
             case ArgumentType::Text:
                 arguments[argument.name] =
-                    one_of(argument.choices.empty() || below(8) == 0 ? words_ : argument.choices);
+                    careful_ ? name_for(argument)
+                             : one_of(argument.choices.empty() || below(8) == 0 ? words_ : argument.choices);
                 break;
         }
     }

@@ -1,6 +1,7 @@
 // A monkey test: random events and commands, many of them hostile, in a running program.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <limits>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "app/app.hpp"
+#include "app/document/argument.hpp"
 #include "tests/app/support/play.hpp"
 
 namespace tendril::test {
@@ -35,8 +37,26 @@ class Monkey {
 
     /// Runs a random command; it may be refused.
     void command();
+    /// Runs one with arguments in their ranges and names that exist now; it may still be refused.
+    void edit() {
+        careful_ = true;
+        command();
+        careful_ = false;
+    }
 
   private:
+    /// In the argument's range, if that is not open.
+    double number_in(const Argument& argument) {
+        const double low = std::max(argument.low, -3.0), high = std::min(argument.high, 3.0);
+        return low <= high ? std::uniform_real_distribution<double>(low, high)(random_)
+                           : std::clamp(0.0, argument.low, argument.high);
+    }
+    /// Names that exist, else the words.
+    std::string name_for(const Argument& argument) {
+        const std::vector<std::string> known =
+            argument.known ? argument.known(app_.workspace()) : std::vector<std::string>();
+        return one_of(!argument.choices.empty() ? argument.choices : !known.empty() ? known : words_);
+    }
     int below(int end) { return static_cast<int>(random_() % static_cast<unsigned>(end)); }
     const std::string& one_of(const std::vector<std::string>& list) {
         return list[static_cast<std::size_t>(below(static_cast<int>(list.size())))];
@@ -46,6 +66,7 @@ class Monkey {
 
     /// A plausible number, sometimes a hostile one.
     Json any_number() {
+        if (careful_) return number(between(0.0f, 3.0f));
         static const std::vector<Json> hostile{0.0,
                                                -1.0,
                                                1e9,
@@ -157,6 +178,7 @@ class Monkey {
 
     App& app_;
     std::mt19937 random_;
+    bool careful_ = false;
     std::vector<std::string> names_, words_;
 };
 

@@ -76,7 +76,7 @@ void use(Workspace& workspace, const Arguments&) {
     const SavedMap* const kept = maps.kept(workspace);
     if (kept == nullptr) throw std::invalid_argument("no map is kept for the character's node names");
     change_part<HumanoidPart>(workspace, humanoid_lab, [&](HumanoidPart& part, const HumanoidPart&) {
-        take_map(part, applied(*kept, part.skeleton()));
+        correct(part, corrections_of(applied(*kept, part.skeleton()), *part.loaded));
     });
 }
 
@@ -124,18 +124,6 @@ std::vector<Bone> bones_that_differ(const SavedMap& map, const HumanoidPart& par
     for (std::size_t i = 0; i < humanoid::bone_count; ++i)
         if (map.bones[i] != now.bones[i]) bones.push_back(static_cast<Bone>(i));
     return bones;
-}
-
-/// Unmaps the bones that lose their node first, so that the node is free.
-void take_map(HumanoidPart& part, const humanoid::BoneMap& wanted) {
-    for (const bool picked : {false, true}) {
-        for (std::size_t i = 0; i < humanoid::bone_count; ++i) {
-            const std::int32_t node = wanted.bones[i].node;
-            if (node == part.map->bones[i].node || (picked && node < 0)) continue;
-            set_bone(part, static_cast<Bone>(i),
-                     picked ? std::optional(static_cast<std::size_t>(node)) : std::nullopt);
-        }
-    }
 }
 
 void keep_correction(Workspace& workspace) {
@@ -203,12 +191,12 @@ std::string discarded_text(const HumanoidPart& part) {
         if (count == 0) return;
         text += (text.empty() ? "" : ", ") + std::to_string(count) + ' ' + (count == 1 ? one : many);
     };
-    std::size_t bones = 0;
-    for (std::size_t i = 0; i < humanoid::bone_count; ++i)
-        bones += part.map->bones[i].node != part.loaded->matched.bones[i].node;
-    add(part.loaded->cures.size(), "fix of a clip", "fixes of clips");
-    add(part.loaded->motions.size(), "loaded motion", "loaded motions");
-    add(bones, "corrected bone", "corrected bones");
+    const std::vector<ClipEdit>& edits = part.loaded->edits;
+    const auto motions = static_cast<std::size_t>(std::ranges::count_if(
+        edits, [](const ClipEdit& each) { return std::holds_alternative<LoadedMotion>(each.what); }));
+    add(edits.size() - motions, "fix of a clip", "fixes of clips");
+    add(motions, "loaded motion", "loaded motions");
+    add(corrections_of(*part.map, *part.loaded).size(), "corrected bone", "corrected bones");
     add(static_cast<std::size_t>(
             std::ranges::count_if(part.ik.targets, [](const auto& each) { return each.has_value(); })),
         "target", "targets");
@@ -257,20 +245,15 @@ void load(Workspace& workspace, const Arguments& given) {
 }
 
 void map(HumanoidPart& part, const Arguments& given) {
-    const auto bone = humanoid::bone_named(given.text("bone"));
-    std::optional<std::size_t> node;
-    if (given.has("node") && !given.text("node").empty()) node = node_named(part, given.text("node"));
-    set_bone(part, *bone, node);
-    check_bones(part);
-}
-
-/// The bones as matched, but for those that were corrected.
-humanoid::BoneMap with_corrections(const LoadedCharacter& loaded, const HumanoidPart& from) {
-    humanoid::BoneMap wanted = loaded.matched;
-    for (std::size_t i = 0; i < humanoid::bone_count; ++i)
-        if (from.map->bones[i].node != from.loaded->matched.bones[i].node)
-            wanted.bones[i].node = from.map->bones[i].node;
-    return wanted;
+    const Bone bone = *humanoid::bone_named(given.text("bone"));
+    humanoid::BoneMap wanted = *part.map;
+    wanted[bone].node = -1;
+    if (given.has("node") && !given.text("node").empty()) {
+        const std::size_t node = node_named(part, given.text("node"));
+        if (const auto before = part.bone_of(node)) wanted[*before].node = -1;
+        wanted[bone].node = static_cast<std::int32_t>(node);
+    }
+    correct(part, corrections_of(wanted, *part.loaded));
 }
 
 /// What a user has placed on or around the character keeps its place there in another unit.
@@ -295,13 +278,11 @@ void read_again(Workspace& workspace, double metres, const FileSpace& space) {
     if (metres == was && space == before->character.space) return;
     if (before->file.empty())
         throw std::invalid_argument("the stick figure has no file and is in metres, Y up");
-    const SharedCharacter loaded = read_as(*before, metres, space);
-    const humanoid::BoneMap wanted = with_corrections(*loaded, now);
+    const SharedCharacter loaded = read_as(before, metres, space);
+    const Corrections corrections = corrections_of(*now.map, *before);
     HumanoidPart& part = workspace.document.edit<HumanoidPart>(humanoid_lab);
     part.loaded = loaded;
-    part.map = std::make_shared<const humanoid::BoneMap>(loaded->matched);
-    take_map(part, wanted);
-    measure_pace(part);
+    correct(part, corrections);
     part.ik_state.springs.clear();  // what IK remembers is in the old metres
     part.ik_state.release = {};
     part.ik_state.body = {};
@@ -470,7 +451,7 @@ void save_map(Workspace& workspace, const Arguments& given) {
 }
 
 void load_map(HumanoidPart& part, const Arguments& given) {
-    take_map(part, applied(read_map(given.text("path")), part.skeleton()));
+    correct(part, corrections_of(applied(read_map(given.text("path")), part.skeleton()), *part.loaded));
 }
 
 /// The named clip, else the chosen one, else the first.

@@ -34,8 +34,6 @@ class KeptMaps {
 
 /// The bones that `map` assigns to other nodes than the character does now.
 std::vector<humanoid::Bone> bones_that_differ(const SavedMap& map, const HumanoidPart& part);
-/// Assigns the bones as if picked by hand.
-void take_map(HumanoidPart& part, const humanoid::BoneMap& wanted);
 /// Keeps a correction, if the window keeps things. Reports errors as a toast only.
 void keep_correction(Workspace& workspace);
 

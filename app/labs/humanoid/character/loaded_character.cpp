@@ -1,5 +1,6 @@
 #include "app/labs/humanoid/character/loaded_character.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <utility>
 
@@ -22,6 +23,24 @@ SharedCharacter shared(std::string file, std::string path, Character character) 
     return loaded;
 }
 
+const SharedCharacter& source_of(const SharedCharacter& character) {
+    return character->source ? character->source : character;
+}
+
+/// Replaces the clip of that name, or adds it.
+void apply(const ClipEdit& edit, Character& character, std::size_t own_clips) {
+    std::vector<humanoid::Clip>& clips = character.clips;
+    const auto place = std::ranges::find(clips, edit.clip->name, &humanoid::Clip::name);
+    const bool own = place < clips.begin() + static_cast<std::ptrdiff_t>(own_clips);
+    humanoid::Clip clip = edit.as.scale == character.scale && edit.as.space == character.space
+                              ? *edit.clip
+                              : read_as_now(*edit.clip, edit.as.scale, edit.as.space, character, own);
+    if (place == clips.end())
+        clips.push_back(std::move(clip));
+    else
+        *place = std::move(clip);
+}
+
 }  // namespace
 
 SharedCharacter load_character(const std::string& file, LoadProgress* progress) {
@@ -33,13 +52,43 @@ SharedCharacter load_character(const std::string& file, LoadProgress* progress) 
                   read_character(file, progress));
 }
 
-SharedCharacter read_as(const LoadedCharacter& character, double metres, const FileSpace& space) {
-    Character copy = character.character;
+SharedCharacter read_as(const SharedCharacter& character, double metres, const FileSpace& space) {
+    if (metres == character->character.scale && space == character->character.space) return character;
+    const SharedCharacter& source = source_of(character);
+    Character copy = source->character;
     read_as(copy, metres, space);
-    auto loaded = std::make_shared<LoadedCharacter>(*shared(character.file, character.path, std::move(copy)));
-    loaded->motions = character.motions;
-    loaded->cures = character.cures;
+    for (const ClipEdit& each : character->edits) apply(each, copy, source->clips().size());
+    auto loaded = std::make_shared<LoadedCharacter>(*shared(source->file, source->path, std::move(copy)));
+    loaded->edits = character->edits;
+    loaded->source = source;
     return loaded;
+}
+
+SharedCharacter edited(const SharedCharacter& character, ClipEdit edit) {
+    auto loaded = std::make_shared<LoadedCharacter>(*character);
+    loaded->source = source_of(character);
+    apply(edit, loaded->character, loaded->source->clips().size());
+    loaded->edits.push_back(std::move(edit));
+    return loaded;
+}
+
+humanoid::BoneMap corrected(const LoadedCharacter& character, const Corrections& corrections) {
+    const humanoid::BoneMap& matched = character.matched;
+    humanoid::BoneMap map = matched;
+    for (const auto& [bone, node] : corrections)
+        if (node != matched[bone].node)
+            map[bone] = {node, node < 0 ? 0.0 : 1.0, node < 0 ? "removed by hand" : "picked by hand"};
+    for (const auto& [bone, node] : corrections) {
+        if (node < 0 || map[bone].node != node) continue;
+        for (std::size_t i = 0; i < humanoid::bone_count; ++i) {
+            humanoid::BoneMatch& other = map.bones[i];
+            if (i != static_cast<std::size_t>(bone) &&
+                (other.node == node || (other.node < 0 && matched.bones[i].node == node)))
+                other = {-1, 0.0, "its node was picked for " + std::string(humanoid::name(bone))};
+        }
+    }
+    humanoid::review(map, character.skeleton());
+    return map;
 }
 
 Loading::~Loading() {

@@ -5,16 +5,19 @@
 #include <cstdint>
 #include <exception>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <tendril/humanoid/lint.hpp>
 #include <thread>
+#include <variant>
 #include <vector>
 
 #include "app/document/workspace.hpp"
 #include "app/io/character/character.hpp"
 #include "app/io/character/progress.hpp"
+#include "app/labs/humanoid/ik/ik_settings.hpp"
 
 namespace tendril::app {
 
@@ -36,12 +39,30 @@ struct LoadedMotion {
     bool operator==(const LoadedMotion&) const = default;
 };
 
+/// The bones that the user has mapped to other nodes than the file's names suggest; -1: to none.
+using Corrections = std::map<humanoid::Bone, std::int32_t>;
+
+/// The settings that a clip depends on when it is carried over or cured.
+struct Reading {
+    double scale = 1.0;  ///< Character::scale
+    FileSpace space{};
+    Corrections bones{};
+    LimitsFrom limits = LimitsFrom::Defaults;
+};
+
+/// A clip that was added or changed. A scene file has `what` and `as`, and its clip is made again from them.
+struct ClipEdit {
+    std::variant<LoadedMotion, ClipCure> what;
+    Reading as{};                                ///< the settings when it was made
+    std::shared_ptr<const humanoid::Clip> clip;  ///< in the metres and axes of `as`
+};
+
 struct LoadedCharacter {
     std::string file;  ///< as given; empty: the stick figure
     std::string path;  ///< absolute path; empty for the stick figure
     Character character;
-    std::vector<LoadedMotion> motions{};    ///< its last clips before they were cured
-    std::vector<ClipCure> cures{};          ///< applied to its clips, in this order
+    std::vector<ClipEdit> edits{};          ///< of its clips, in the order in which they were made
+    std::shared_ptr<const LoadedCharacter> source{};  ///< as the file was first read; null: this is it
     humanoid::BoneMap matched;              ///< as named in the file, or as matched by the library
     std::vector<humanoid::Placement> rest;  ///< of all nodes
     RestBounds bounds{};                    ///< at rest
@@ -56,8 +77,13 @@ using SharedCharacter = std::shared_ptr<const LoadedCharacter>;
 
 /// An empty file name gives the stick figure. Throws std::runtime_error that begins with the file name.
 SharedCharacter load_character(const std::string& file, LoadProgress* progress = nullptr);
-/// The same character with a unit of `metres` and other axes. Throws std::runtime_error.
-SharedCharacter read_as(const LoadedCharacter& character, double metres, const FileSpace& space);
+/// The same character with a unit of `metres` and other axes. The result does not depend on those that it had
+/// in between. Throws std::runtime_error.
+SharedCharacter read_as(const SharedCharacter& character, double metres, const FileSpace& space);
+/// The same character with one more edit, made as it is read now.
+SharedCharacter edited(const SharedCharacter& character, ClipEdit edit);
+/// The bone map as matched, with corrections. A node that is picked for a bone is taken from any other.
+humanoid::BoneMap corrected(const LoadedCharacter& character, const Corrections& corrections);
 
 // Reads a large file, or fixes a long clip, in the background. The document stays until that succeeds.
 

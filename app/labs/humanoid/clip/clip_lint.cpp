@@ -201,10 +201,9 @@ CuredClip cured(const HumanoidPart& part, const ClipCure& cure, LoadProgress* pr
             throw std::invalid_argument("clip " + cure.clip + " has no such fault that can be fixed");
         throw std::invalid_argument(fixable->text + " cannot be fixed without a new fault");
     }
-    auto loaded = std::make_shared<LoadedCharacter>(*part.loaded);
-    loaded->character.clips[static_cast<std::size_t>(place - clips.begin())] = std::move(clip);
-    loaded->cures.push_back(cure);
-    return {std::move(loaded), cured_text(cure.clip, before - now, now, left)};
+    return {edited(part.loaded,
+                   {cure, reading_of(part), std::make_shared<const Clip>(std::move(clip))}),
+            cured_text(cure.clip, before - now, now, left)};
 }
 
 // The panel's rows: the findings of the lint with their cures, and where maps and clips are saved.

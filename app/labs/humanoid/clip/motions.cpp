@@ -6,8 +6,6 @@
 #include <span>
 #include <stdexcept>
 
-#include "app/document/json_complete.hpp"
-#include "app/document/json_place.hpp"
 #include "app/io/character/read.hpp"
 #include "app/io/character/retargeted_motion.hpp"
 #include "app/labs/humanoid/humanoid_commands.hpp"
@@ -32,48 +30,29 @@ std::string free_name(const LoadedCharacter& character, const std::string& wante
 
 }  // namespace
 
-PlayedMotion with_motion(const HumanoidPart& part, const std::string& file, const std::string& clip) {
+PlayedMotion with_motion(const HumanoidPart& part, const std::string& file, const std::string& clip,
+                         const std::string& named) {
     const Character source = read_character(file);
     const Clip& wanted = clip_named(source, file, clip);
     RetargetedMotion motion = retargeted_clip(source, file, wanted, part.skeleton(), *part.map);
-    auto loaded = std::make_shared<LoadedCharacter>(*part.loaded);
-    motion.clip.name = free_name(*loaded, wanted.name);
+    motion.clip.name = free_name(*part.loaded, wanted.name);
     PlayedMotion played;
     played.text = "Clip " + motion.clip.name + " from " + std::filesystem::path(file).filename().string() +
                   ". " + motion.notes.front();
-    loaded->motions.push_back({file, std::filesystem::absolute(file).lexically_normal().string(), wanted.name,
-                               std::move(motion.notes)});
-    loaded->character.clips.push_back(std::move(motion.clip));
-    played.loaded = std::move(loaded);
+    played.loaded = edited(
+        part.loaded, {LoadedMotion{named.empty() ? file : named,
+                                   std::filesystem::absolute(file).lexically_normal().string(), wanted.name,
+                                   std::move(motion.notes)},
+                      reading_of(part), std::make_shared<const Clip>(std::move(motion.clip))});
     return played;
 }
 
 const LoadedMotion* motion_of(const LoadedCharacter& character, std::size_t clip) {
-    const std::size_t own = character.clips().size() - character.motions.size();
-    return clip >= own && clip < character.clips().size() ? &character.motions[clip - own] : nullptr;
-}
-
-Json motions_json(const LoadedCharacter& character) {
-    Json list = Json::array();
-    for (const LoadedMotion& each : character.motions)
-        list.push_back({{"file", each.file}, {"path", each.path}, {"clip", each.clip}});
-    return list;
-}
-
-void read_motions(const JsonPlace& place, HumanoidPart& part) {
-    constexpr std::size_t max_motions = 1000;
-    place.for_each("motions", max_motions, [&](const JsonPlace& each) {
-        const std::string file = each["file"].text(), path = each["path"].text();
-        try {
-            // The path may not exist on another machine.
-            auto played = with_motion(part, std::filesystem::exists(path) ? path : file, each["clip"].text());
-            auto loaded = std::make_shared<LoadedCharacter>(*played.loaded);
-            loaded->motions.back().file = file;
-            part.loaded = std::move(loaded);
-        } catch (const std::exception& error) {
-            each["file"].fail(error.what());
-        }
-    });
+    // Each has added a clip behind the character's own.
+    std::size_t at = character.source ? character.source->clips().size() : 0;
+    for (const ClipEdit& each : character.edits)
+        if (const auto* motion = std::get_if<LoadedMotion>(&each.what); motion && at++ == clip) return motion;
+    return nullptr;
 }
 
 // The command and its rows.

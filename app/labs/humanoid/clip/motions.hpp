@@ -3,12 +3,10 @@
 
 #include <string>
 
-#include "app/document/json.hpp"
 #include "app/labs/humanoid/character/loaded_character.hpp"
 
 namespace tendril::app {
 
-class JsonPlace;
 struct HumanoidPart;
 
 struct PlayedMotion {
@@ -16,15 +14,12 @@ struct PlayedMotion {
     std::string text;        ///< for the user: its name, and what could not be carried over
 };
 
-/// Reads the clip of that name from a file of any kind; empty: the first one. Throws std::runtime_error that
-/// begins with the file's name.
-PlayedMotion with_motion(const HumanoidPart& part, const std::string& file, const std::string& clip);
+/// Reads the clip of that name from a file of any kind; empty: the first one. `named`: what the user called
+/// the file, if it was found elsewhere. Throws std::runtime_error that begins with the file's name.
+PlayedMotion with_motion(const HumanoidPart& part, const std::string& file, const std::string& clip,
+                         const std::string& named = {});
 
 /// The motion that this clip is; null: a clip of the character's own.
 const LoadedMotion* motion_of(const LoadedCharacter& character, std::size_t clip);
-
-Json motions_json(const LoadedCharacter& character);
-/// Reads the files again. Throws std::runtime_error that begins with the JSON path.
-void read_motions(const JsonPlace& place, HumanoidPart& part);
 
 }  // namespace tendril::app

@@ -47,6 +47,16 @@ TEST_F(FootDepth, IsToldWithItsCause) {
     EXPECT_EQ(humanoid_verdict(workspace).text, "Complete body");
 }
 
+TEST_F(FootDepth, OfTheOpeningIsNone) {
+    for (const CommandCall& each : lab().opening()) run(each.name.c_str(), to_json(each.arguments));
+    for (int i = 0; i < 600; ++i) {
+        tick();
+        if (i % 10 == 0) {
+            ASSERT_EQ(humanoid_verdict(workspace).text, "Complete body") << "tick " << i;
+        }
+    }
+}
+
 /// Ten clips that others made, where they are there: no foot is deeper in the ground than the verdict says.
 TEST_F(FootDepth, OfOthersClipsIsNeverKeptQuiet) {
     const auto folder = test::characters_folder();

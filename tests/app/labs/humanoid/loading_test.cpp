@@ -129,7 +129,7 @@ TEST_F(HumanoidLoading, a_long_clip_is_fixed_beside_the_frames) {
     EXPECT_FALSE(lab_.working(workspace_));
     table_.run(workspace_, "humanoid.cure", Json::object());
     wait();
-    EXPECT_EQ(humanoid_part(workspace_).loaded->cures.size(), 1u);
+    EXPECT_EQ(humanoid_part(workspace_).loaded->edits.size(), 1u);
     EXPECT_EQ(workspace_.history.undo_label(), "humanoid.cure");
     ASSERT_FALSE(workspace_.ui.toasts.empty());
     EXPECT_TRUE(test::says(workspace_.ui.toasts.back().text, "1 fault fixed none left"));

@@ -1,10 +1,13 @@
 // Motions of other characters, carried over to the lab's.
 #include "app/io/character/character.hpp"
+#include "app/document/command.hpp"
 #include "app/labs/humanoid/draw.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "humanoid_support.hpp"
 #include "tests/app/io/gltf_text.hpp"
+#include "tests/app/support/random_numbers.hpp"
 #include "tests/app/support/temp_folder.hpp"
+#include "tests/places.hpp"
 #include "tests/says.hpp"
 
 namespace tendril::app {
@@ -111,7 +114,7 @@ TEST_F(HumanoidMotions, ItIsAClipLikeOthers) {
     EXPECT_EQ(part().clip()->name, "wave_2") << "it has one of that name";
     run("humanoid.export", {{"path", path("out.glb")}});
     run("humanoid.scale", {{"metres", 2.0}});
-    EXPECT_EQ(part().loaded->motions.size(), 1u);
+    EXPECT_EQ(part().loaded->edits.size(), 1u);
     const Workspace again = reopened();
     EXPECT_EQ(humanoid_part(again).loaded->clips(), part().loaded->clips());
     run("humanoid.load", {{"path", path("out.glb")}});
@@ -153,7 +156,7 @@ TEST_F(HumanoidMotions, WhatWasGuessedOfItsFileIsSaid) {
     run("humanoid.motion.load", {{"path", path("wave.bvh")}});
     EXPECT_TRUE(test::says(notes(), "At rest: Chest hips scaled unit")) << notes();
     const Workspace again = reopened();
-    EXPECT_EQ(humanoid_part(again).loaded->motions, part().loaded->motions);
+    EXPECT_TRUE(humanoid_part(again).loaded->edits.at(0).what == part().loaded->edits.at(0).what);
     run("humanoid.clip", {{"index", 0}});
     EXPECT_EQ(notes(), before) << "of a clip of its own there is nothing to say";
 }
@@ -183,6 +186,71 @@ TEST_F(HumanoidMotions, WhatCannotBeCarriedOverIsRefusedOrSaid) {
     run("humanoid.map", {{"bone", "Hips"}});
     EXPECT_TRUE(
         test::says(refused("humanoid.motion.load", {{"path", path("wave.vrma")}}), "wave.vrma to.map Hips"));
+}
+
+/// Motions and fixes keep the unit, axes, bones and limits that they were made with.
+TEST_F(HumanoidMotions, OpenAsSavedWhateverTheOrderOfEdits) {
+    const std::string faulty = tendril::test::source_path("tests/app/golden/faulty_walk.bvh");
+    test::write(folder_ / "figure.bvh", bvh_figure());
+    const std::vector<std::pair<const char*, Json>> edits{
+        {"humanoid.motion.load", {{"path", path("wave.vrma")}}},
+        {"humanoid.motion.load", {{"path", faulty}}},
+        {"humanoid.up", {{"axis", "z"}}},
+        {"humanoid.up", {{"axis", "y"}}},
+        {"humanoid.scale", {{"metres", 0.7}}},
+        {"humanoid.scale", {{"metres", 0.013}}},
+        {"humanoid.root", {{"positions", "replace"}}},
+        {"humanoid.map", {{"bone", "Spine"}}},
+        {"humanoid.map", {{"bone", "LeftHand"}, {"node", "LeftHand_End"}}},
+        {"humanoid.map", {{"bone", "LeftFoot"}, {"node", "LeftToes"}}},
+        {"humanoid.limits", {{"from", "motion"}}},
+        {"humanoid.limits", {{"from", "none"}}},
+        {"humanoid.cure", {{"clip", "motion"}}},
+        {"humanoid.cure", {{"clip", "motion_2"}}},
+        {"humanoid.cure", Json::object()}};
+    test::RandomNumbers random(6);
+    for (int scene = 0; scene < 12 && !HasFailure(); ++scene) {
+        run("humanoid.load", {{"path", scene % 2 == 0 ? faulty : path("figure.bvh")}});
+        std::string made;
+        for (int i = 0; i < 12; ++i) {
+            const auto& [name, arguments] = edits[random.random() % edits.size()];
+            try {
+                run(name, arguments);
+                made += std::string(name) + ' ' + arguments.dump() + '\n';
+            } catch (const Refused&) {
+            }
+        }
+        SCOPED_TRACE(made);
+        Workspace again = reopened();
+        EXPECT_EQ(save_scene(again), save_scene(workspace));
+        EXPECT_TRUE(humanoid_part(again).loaded->clips() == part().loaded->clips());
+        for (const int ticks : {0, 300}) {
+            for (int i = 0; i < ticks; ++i)
+                for (Workspace* each : {&again, &workspace}) lab().step(*each);
+            EXPECT_EQ(lab().state(again), state());
+        }
+    }
+}
+
+/// As of version 1: all motions, then all cures, made with the settings of the scene.
+TEST_F(HumanoidMotions, OfOlderScenesAreMadeWithTheSettingsOfTheScene) {
+    run("humanoid.load", {{"path", tendril::test::source_path("tests/app/golden/faulty_walk.bvh")}});
+    run("humanoid.up", {{"axis", "z"}});
+    run("humanoid.motion.load", {{"path", path("wave.vrma")}});
+    run("humanoid.cure", {{"clip", "motion"}});
+    Json scene = save_scene(workspace);
+    Json& lab = scene["labs"][humanoid_lab];
+    const auto without = [](Json edit) {
+        for (const char* key : {"scale", "space", "bones", "limits"}) edit.erase(key);
+        return edit;
+    };
+    lab["motions"] = {without(lab["edits"][0])};
+    lab["cures"] = {without(lab["edits"][1])};
+    lab.erase("edits");
+    Workspace old = make_blank_workspace(labs);
+    load_scene(old, scene);
+    EXPECT_EQ(save_scene(old), save_scene(workspace));
+    EXPECT_TRUE(humanoid_part(old).loaded->clips() == part().loaded->clips());
 }
 
 }  // namespace
