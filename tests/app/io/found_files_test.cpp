@@ -144,6 +144,12 @@ const std::vector<FoundFile>& found_files() {
              read_as(lying, lying.scale, {.up = UpAxis::Y, .positions = lying.space.positions});
              EXPECT_TRUE(lying.guesses.up.empty());
          }},
+        {"bvh_walk_folded.bvh",
+         [](const Character& character) { EXPECT_TRUE(bone_map(character).is_usable()); }},
+        {"bvh_walk_folded_yaw.bvh",
+         [](const Character& character) { EXPECT_TRUE(bone_map(character).is_usable()); }},
+        {"bvh_walk_60hz_300.bvh", [](const Character& character) { EXPECT_EQ(keys_of(character), 300u); }},
+        {"bvh_walk_30hz_61.bvh", [](const Character& character) { EXPECT_EQ(keys_of(character), 61u); }},
         {"bvh_acclaim_names.bvh",
          [](const Character& character) {
              const humanoid::BoneMap map = bone_map(character);
