@@ -3,7 +3,7 @@
 //
 // The reader accepts any number of roots; any channels in any order at any joint, with rotations multiplied
 // in that order; names with blanks; end sites, which become nodes ("LeftToeBase end"); any line ends; and,
-// with a note, what some programs write: whole rows beyond the declared frames, other blanks around the
+// with a note, what some programs write: more or fewer rows than the declared frames, other blanks around the
 // colons, a ^Z or NUL at the end. A joint's position replaces its OFFSET.
 //
 // A file does not say whether that is so for the root too, which axis is up or how long its unit is:

@@ -33,8 +33,6 @@ class Words {
         while (at_ < text_.size() && !is_blank(text_[at_])) ++at_;
         return text_.substr(begin, at_ - begin);
     }
-    /// Characters not yet read.
-    std::size_t left() const { return text_.size() - at_; }
     std::string_view peek() {
         const std::size_t at = at_, line = line_;
         const std::string_view word = next();
@@ -252,18 +250,24 @@ rig::Transform local_of(const BvhJoint& joint, const double* values) {
 bool moves(const BvhJoint& joint) {
     return std::any_of(joint.channels.begin(), joint.channels.end(), [](int each) { return each < 3; });
 }
+bool turns(const BvhJoint& joint) {
+    return std::any_of(joint.channels.begin(), joint.channels.end(), [](int each) { return each >= 3; });
+}
 
-/// Reads over whole rows beyond the declared ones: some programs count one too few.
-void leave_out_more(Words& words, std::size_t frames, std::vector<double>& row,
-                    std::vector<std::string>& notes) {
-    std::size_t more = 0;
-    for (; !row.empty() && !words.peek().empty(); ++more) words.row(row);
+/// Reads over whole rows beyond the declared ones, and says how many more or fewer there are: some programs
+/// count one too few, and takes are cut short.
+void compare_rows(Words& words, std::size_t frames, std::size_t declared, std::vector<double>& row,
+                  std::vector<std::string>& notes) {
+    std::size_t found = row.empty() ? declared : frames;
+    for (; !row.empty() && !words.peek().empty(); ++found) words.row(row);
     if (const std::string_view rest = words.next(); !rest.empty())
         words.fail("expected the end of the file after " + std::to_string(frames) + " frames, found " +
                    Words::shown(rest));
-    if (more > 0)
-        notes.push_back("The file has " + std::to_string(more) + (more == 1 ? " more row" : " more rows") +
-                        " than the " + std::to_string(frames) + " frames that it declares; left out.");
+    if (found == declared) return;
+    const std::size_t by = std::max(found, declared) - std::min(found, declared);
+    notes.push_back("The file has " + std::to_string(by) + (found > declared ? " more row" : " fewer row") +
+                    (by == 1 ? "" : "s") + " than the " + std::to_string(declared) +
+                    " frames that it declares" + (found > declared ? "; left out." : "."));
 }
 
 humanoid::Clip read_motion(Words& words, const Hierarchy& hierarchy, std::vector<std::string>& notes,
@@ -272,15 +276,11 @@ humanoid::Clip read_motion(Words& words, const Hierarchy& hierarchy, std::vector
     const double count = words.number();
     if (count < 0 || count > static_cast<double>(max_frames) || count != std::floor(count))
         words.fail("expected 0 to 1000000 frames");
-    const auto frames = static_cast<std::size_t>(count);
-    if (frames * hierarchy.channels > max_values) words.fail("more than 100000000 numbers");
-    // A number and its separator take at least two characters.
-    if (2 * frames * hierarchy.channels > words.left() + 1)
-        words.fail("claims " + std::to_string(frames) + " frames of " + std::to_string(hierarchy.channels) +
-                   " numbers, the file has " + std::to_string(words.left()) + " more characters");
+    const auto declared = static_cast<std::size_t>(count);
+    if (declared * hierarchy.channels > max_values) words.fail("more than 100000000 numbers");
     const bool usual_time = words.label("Frame Time");
     const double step = words.number();
-    if (!(step > 0.0) && frames > 1)
+    if (!(step > 0.0) && declared > 1)
         words.fail("the frame time must be over 0, found " + fixed_text(step, 4));
     if (!usual_frames || !usual_time)
         notes.push_back(std::string("The blanks around the colon after ") +
@@ -291,34 +291,29 @@ humanoid::Clip read_motion(Words& words, const Hierarchy& hierarchy, std::vector
 
     humanoid::Clip clip;
     clip.name = "motion";
-    clip.duration = frames > 1 ? static_cast<double>(frames - 1) * step : 0.0;
-    for (std::size_t node = 0; node < hierarchy.joints.size(); ++node) {
-        const std::vector<int>& channels = hierarchy.joints[node].channels;
-        if (channels.empty()) continue;
-        humanoid::Channel channel{.node = node};
-        std::vector<double> times;
-        for (std::size_t i = 0; i < frames; ++i)
-            times.push_back(std::min(static_cast<double>(i) * step, clip.duration));
-        if (moves(hierarchy.joints[node])) channel.translation.times = times;
-        if (std::any_of(channels.begin(), channels.end(), [](int each) { return each >= 3; }))
-            channel.rotation.times = std::move(times);
-        clip.channels.push_back(std::move(channel));
-    }
-    std::vector<double> row(hierarchy.channels);
-    for (std::size_t frame = 0; frame < frames; ++frame) {
-        if (frame % 64 == 0)
-            report(progress, 0.1 + 0.8 * static_cast<double>(frame) / static_cast<double>(frames));
+    for (std::size_t node = 0; node < hierarchy.joints.size(); ++node)
+        if (!hierarchy.joints[node].channels.empty()) clip.channels.push_back({.node = node});
+    std::vector<double> row(hierarchy.channels), times;
+    for (; times.size() < declared && !row.empty() && !words.peek().empty();
+         times.push_back(static_cast<double>(times.size()) * step)) {
+        if (times.size() % 64 == 0)
+            report(progress, 0.1 + 0.8 * static_cast<double>(times.size()) / static_cast<double>(declared));
         words.row(row);
         const double* values = row.data();
         for (humanoid::Channel& channel : clip.channels) {
             const BvhJoint& joint = hierarchy.joints[channel.node];
             const rig::Transform local = local_of(joint, values);
             values += joint.channels.size();
-            if (!channel.translation.times.empty()) channel.translation.values.push_back(local.translation);
-            if (!channel.rotation.times.empty()) channel.rotation.values.push_back(local.rotation);
+            if (moves(joint)) channel.translation.values.push_back(local.translation);
+            if (turns(joint)) channel.rotation.values.push_back(local.rotation);
         }
     }
-    leave_out_more(words, frames, row, notes);
+    clip.duration = times.size() > 1 ? times.back() : 0.0;
+    for (humanoid::Channel& channel : clip.channels) {
+        if (moves(hierarchy.joints[channel.node])) channel.translation.times = times;
+        if (turns(hierarchy.joints[channel.node])) channel.rotation.times = times;
+    }
+    compare_rows(words, times.size(), declared, row, notes);
     return clip;
 }
 

@@ -9,7 +9,9 @@
 // Springs of a VRM file (gltf_vrm_springs.hpp) are the character's.
 //
 // Mended, each with a note: keys before 0 s, at the same time as another, or of no rotation; a node of scale
-// 0. Left out with a note: compressed meshes, and pictures that are missing or neither PNG nor JPEG.
+// 0. Left out with a note: compressed meshes, pictures that are missing or neither PNG nor JPEG, and what
+// KHR_animation_pointer animates other than nodes. Not followed, with a note: node constraints of a VRM, and
+// colliders of its springs that are planes or hold them inside.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,6 @@
 #include "app/io/character/gltf_parse.hpp"
 
+#include <charconv>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
@@ -96,6 +97,31 @@ tinygltf::Model read_json(std::string_view text) {
     return model;
 }
 
+/// KHR_animation_pointer (Khronos): a pointer to a node's property is that node's usual channel. tinygltf
+/// leaves out channels without a node, so the others get node -1, with which they can be said. After
+/// check_gltf().
+void resolve_pointers(json& file) {
+    const json::json_pointer place("/extensions/KHR_animation_pointer/pointer");
+    if (!file.contains("animations") || !file.contains("nodes")) return;
+    for (json& animation : file["animations"]) {
+        if (!animation.contains("channels")) continue;
+        for (json& channel : animation["channels"]) {
+            if (!channel.contains("target") || channel["target"].contains("node")) continue;
+            json& target = channel["target"];
+            target["node"] = -1;
+            if (!target.contains(place) || !target[place].is_string()) continue;
+            const std::string path = target[place];
+            if (!path.starts_with("/nodes/")) continue;
+            std::size_t node = 0;
+            const auto [end, error] = std::from_chars(path.data() + 7, path.data() + path.size(), node);
+            const std::string property(end, path.data() + path.size());
+            if (error != std::errc() || node >= file["nodes"].size()) continue;
+            for (const char* known : {"translation", "rotation", "scale", "weights"})
+                if (property == std::string("/") + known) target["node"] = node, target["path"] = known;
+        }
+    }
+}
+
 }  // namespace
 
 std::string_view gltf_json(std::string_view bytes) {
@@ -114,6 +140,7 @@ tinygltf::Model gltf_model(std::string_view bytes, const fs::path& folder) {
     check_gltf(file);
     json without = file;
     take_out_bytes(without);
+    resolve_pointers(without);
     tinygltf::Model model = read_json(without.dump());
     put_in_bytes(file, chunks.binary, folder, model);
     return model;

@@ -121,11 +121,13 @@ class GltfReader {
                     vrm_->nodes[i] < 0 ? -1 : place_[static_cast<std::size_t>(vrm_->nodes[i])];
         }
         character.springs = named_springs(springs_, character, place_, character.notes);
+        note_unfollowed(model_, character.notes);
         std::vector<humanoid::Placement> local;
         for (std::size_t i = 0; i < model_.nodes.size(); ++i)
             local.push_back(humanoid::placement(local_of(model_.nodes[i], i)));
         character.skin = gltf_skin(model_, {parents_, place_}, local, dropped_, character.notes);
         if (dropped_.any()) character.notes.push_back(dropped_text(dropped_));
+        note_pointers(character.notes);
         return character;
     }
 
@@ -297,6 +299,25 @@ class GltfReader {
                                      ": expected a unit quaternion, found one of length " +
                                      std::to_string(size));
         return rig::normalised(value);
+    }
+
+    /// What is animated by a pointer is a node's (gltf_parse.cpp), or left out.
+    void note_pointers(std::vector<std::string>& notes) const {
+        std::size_t count = 0;
+        std::string first;
+        for (const tinygltf::Animation& animation : model_.animations)
+            for (const tinygltf::AnimationChannel& channel : animation.channels) {
+                if (channel.target_node >= 0) continue;
+                const auto found = channel.target_extensions.find("KHR_animation_pointer");
+                if (found == channel.target_extensions.end()) continue;
+                if (count++ == 0 && found->second.Has("pointer") && found->second.Get("pointer").IsString())
+                    first = printable(found->second.Get("pointer").Get<std::string>());
+            }
+        if (count > 0)
+            notes.push_back("Animations of " + std::to_string(count) +
+                            (count == 1 ? " property" : " properties") + " are left out (" +
+                            (first.empty() ? "no pointer" : "the first is " + first) +
+                            "): only translations, rotations, scales and weights of nodes are played.");
     }
 
     Clip read_clip(std::size_t index) {

@@ -104,6 +104,20 @@ void add_groups(const tinygltf::Model& model, std::vector<VrmSpring>& springs) {
     }
 }
 
+/// VRMC_springBone_extended_collider-1.0 by the VRM Consortium. A collider's own shape is for readers without
+/// it; here, where it is a plane or holds springs inside.
+const Value* extended(const Value* collider) {
+    return part_of(part_of(collider, "extensions"), "VRMC_springBone_extended_collider");
+}
+bool is_beyond_capsules(const Value* shape) {
+    if (part_of(shape, "plane")) return true;
+    for (const char* kind : {"sphere", "capsule"})
+        if (const Value* inside = part_of(part_of(shape, kind), "inside");
+            inside && inside->IsBool() && inside->Get<bool>())
+            return true;
+    return false;
+}
+
 /// VRM 1.0: a list of joints each. The first one's settings are taken for all.
 void add_chains(const tinygltf::Model& model, std::vector<VrmSpring>& springs) {
     const Value* all = extension(model, "VRMC_springBone");
@@ -124,7 +138,8 @@ void add_chains(const tinygltf::Model& model, std::vector<VrmSpring>& springs) {
         spring.hit_radius = radius_of(first, "hitRadius");
         each_collider(part_of(chain, "colliderGroups"), groups, [&](const Value*, const Value* member) {
             const Value* collider = named_by(shapes, member);
-            const Value* shape = part_of(collider, "shape");
+            const Value* shape = part_of(extended(collider), "shape");
+            if (!shape || is_beyond_capsules(shape)) shape = part_of(collider, "shape");
             const Value* capsule = part_of(shape, "capsule");
             add_collider(model, part_of(collider, "node"), capsule ? capsule : part_of(shape, "sphere"),
                          spring);
@@ -179,6 +194,30 @@ std::vector<VrmSpring> vrm_springs(const tinygltf::Model& model) {
     add_groups(model, springs);
     add_chains(model, springs);
     return springs;
+}
+
+void note_unfollowed(const tinygltf::Model& model, std::vector<std::string>& notes) {
+    std::size_t colliders = 0;
+    const Value* list = part_of(extension(model, "VRMC_springBone"), "colliders");
+    for (std::size_t i = 0; const Value* each = part_of(list, i); ++i)
+        colliders += is_beyond_capsules(part_of(extended(each), "shape"));
+    if (colliders > 0)
+        notes.push_back(
+            std::to_string(colliders) +
+            (colliders == 1 ? " spring collider is a plane or holds springs"
+                            : " spring colliders are planes or hold springs") +
+            " inside, which is not followed; the plain shape that the file gives instead is used.");
+    std::string kinds;
+    for (const char* kind : {"roll", "aim", "rotation"}) {
+        const auto count = std::ranges::count_if(model.nodes, [&](const tinygltf::Node& node) {
+            const auto found = node.extensions.find("VRMC_node_constraint");
+            return found != node.extensions.end() && part_of(part_of(&found->second, "constraint"), kind);
+        });
+        if (count > 0) kinds += (kinds.empty() ? "" : ", ") + std::to_string(count) + ' ' + kind;
+    }
+    if (!kinds.empty())
+        notes.push_back("The file's node constraints are not followed (" + kinds +
+                        "): those nodes keep their own rotation.");
 }
 
 /// VRM moves a bone's tip by Verlet's method, 60 times a second: with the tip y beside its rest, drag d,

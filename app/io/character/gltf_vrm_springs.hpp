@@ -35,4 +35,7 @@ std::vector<NamedSpring> named_springs(const std::vector<VrmSpring>& springs, co
                                        const std::vector<std::int32_t>& place,
                                        std::vector<std::string>& notes);
 
+/// Appends sentences about colliders and node constraints (VRMC_node_constraint) that are not followed.
+void note_unfollowed(const tinygltf::Model& model, std::vector<std::string>& notes);
+
 }  // namespace tendril::app

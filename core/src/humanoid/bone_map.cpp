@@ -31,7 +31,9 @@ class Names {
     /// For the spine, hips and head without a telling name are taken from the shape.
     Names(const Skeleton& skeleton, const ShapeReading& shape)
         : skeleton_(skeleton), readings_(skeleton.size()) {
-        for (std::size_t i = 0; i < skeleton.size(); ++i) readings_[i] = detail::read_name(skeleton[i].name);
+        const std::string ignored = detail::common_word(skeleton);
+        for (std::size_t i = 0; i < skeleton.size(); ++i)
+            readings_[i] = detail::read_name(skeleton[i].name, ignored);
         found.fill(-1);
         set(Bone::Hips, find_hips());
         set(Bone::Head, topmost(Part::Head, Side::None, at(Bone::Hips)));
@@ -210,6 +212,73 @@ std::int32_t middle_of_palm(const Skeleton& skeleton, std::int32_t hand) {
     return hand;
 }
 
+using Path = std::vector<std::int32_t>;
+/// The nodes down to each, from below the last node that both have above them. The shorter path goes on to
+/// the length of the other one, as far as its nodes have one child.
+std::array<Path, 2> apart(const Skeleton& skeleton, std::int32_t a, std::int32_t b) {
+    const auto index = [](std::int32_t node) { return static_cast<std::size_t>(node); };
+    const auto path_to = [&](std::int32_t node, std::int32_t other) {
+        Path path;
+        for (; node >= 0 && node != other && !skeleton.is_below(index(other), index(node));
+             node = skeleton[index(node)].parent)
+            path.insert(path.begin(), node);
+        return path;
+    };
+    std::array<Path, 2> paths{path_to(a, b), path_to(b, a)};
+    for (const std::size_t side : {0u, 1u})
+        while (!paths[side].empty() && paths[side].size() < paths[1 - side].size()) {
+            const auto children = skeleton.children(index(paths[side].back()));
+            if (children.size() != 1) break;
+            paths[side].push_back(children[0]);
+        }
+    return paths;
+}
+
+/// Limbs of as many nodes on both sides have their bones at the same ones: where the sides differ, the one
+/// that the shape agrees with more is right.
+void agree(const Skeleton& skeleton, const ShapeReading& shape, BoneMap& map) {
+    constexpr std::size_t bones = 4;
+    for (const Bone first : {Bone::LeftShoulder, Bone::LeftUpperLeg}) {
+        const auto bone = [&](std::size_t side, std::size_t i) {
+            return static_cast<Bone>(static_cast<std::size_t>(side == 0 ? first : mirrored(first)) + i);
+        };
+        std::array<std::int32_t, 2> ends{-1, -1};
+        std::array<int, 2> sound{};
+        for (const std::size_t side : {0u, 1u})
+            for (std::size_t i = 0; i < bones; ++i)
+                if (const std::int32_t node = map[bone(side, i)].node; node >= 0) {
+                    ends[side] = node;
+                    sound[side] += node == shape[bone(side, i)] ? 2 : 1;
+                }
+        if (ends[0] < 0 || ends[1] < 0) continue;
+        const std::array<Path, 2> paths = apart(skeleton, ends[0], ends[1]);
+        if (paths[0].size() != paths[1].size()) continue;
+        const std::size_t better = sound[1] > sound[0] ? 1 : 0;
+        const auto mirror = [&](std::size_t from, std::size_t i) {
+            const auto& path = paths[from];
+            const auto at = static_cast<std::size_t>(
+                std::find(path.begin(), path.end(), map[bone(from, i)].node) - path.begin());
+            BoneMatch& match = map[bone(1 - from, i)];
+            if (at == path.size() || match.node == paths[1 - from][at]) return;  // a loose foot is on none
+            match = {paths[1 - from][at], 0.65, "as "};
+            match.reasons += skeleton[static_cast<std::size_t>(path[at])].name + " on the other side";
+        };
+        for (std::size_t i = 0; i < bones; ++i)
+            if (map[bone(better, i)].node >= 0) mirror(better, i);
+        for (std::size_t i = 0; i < bones; ++i) {
+            BoneMatch& other = map[bone(1 - better, i)];
+            if (map[bone(better, i)].node >= 0 || other.node < 0) continue;
+            bool is_taken = false;
+            for (std::size_t k = 0; k < bones; ++k)
+                is_taken = is_taken || (k != i && map[bone(1 - better, k)].node == other.node);
+            if (is_taken)
+                other = {};
+            else
+                mirror(1 - better, i);
+        }
+    }
+}
+
 /// The shape alone cannot tell left from right if the feet point nowhere; names can.
 void swap_sides(ShapeReading& shape) {
     for (std::size_t i = 0; i < bone_count; ++i) {
@@ -279,6 +348,7 @@ BoneMap match_bones(const Skeleton& skeleton) {
         }
         map.bones[i] = weigh(skeleton, by_name.found[i], by_shape);
     }
+    agree(skeleton, shape, map);
     if (by_name.raised) map[Bone::Hips].reasons = "the legs and the node named hips are below it";
     review(map, skeleton);
     return map;

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
-#include <iterator>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -41,72 +41,58 @@ std::vector<std::string> words_of(std::string_view name) {
     return words;
 }
 
-template <std::size_t N>
-bool is_one_of(std::string_view word, const std::string_view (&list)[N]) {
-    return std::find(std::begin(list), std::end(list), word) != std::end(list);
+/// Whether a list, with a blank between words, has the word.
+bool is_one_of(std::string_view word, std::string_view list) {
+    for (std::size_t at = list.find(word); at != list.npos; at = list.find(word, at + 1)) {
+        const std::size_t end = at + word.size();
+        if ((at == 0 || list[at - 1] == ' ') && (end == list.size() || list[end] == ' '))
+            return !word.empty();
+    }
+    return false;
 }
 
 /// A node with one of these words in its name is not a bone of the body.
-constexpr std::string_view not_bones[]{
-    "twist",  "roll",    "helper", "ik",       "pole",       "poletarget", "target",    "end",
-    "leaf",   "tip",     "nub",    "top",      "socket",     "attach",     "weapon",    "prop",
-    "hair",   "skirt",   "cloth",  "cape",     "tail",       "ear",        "eye",       "eyes",
-    "brow",   "jaw",     "mouth",  "lip",      "tongue",     "teeth",      "nose",      "cheek",
-    "face",   "breast",  "finger", "fingers",  "thumb",      "index",      "ring",      "pinky",
-    "little", "pinkie",  "mid",    "palm",     "metacarpal", "carpal",     "wing",      "muscle",
-    "share",  "stretch", "tweak",  "fk",       "ctrl",       "control",    "mch",       "site",
-    "camera", "light",   "holder", "effector", "goal",       "bend",       "ankleroll", "sec"};
+constexpr std::string_view not_bones =
+    "twist roll helper ik pole poletarget target end leaf tip nub top socket attach "
+    "weapon prop hair skirt cloth cape tail ear eye eyes brow jaw mouth lip tongue "
+    "teeth nose cheek face breast finger fingers thumb index ring pinky little pinkie "
+    "mid palm metacarpal carpal wing muscle share tweak fk ctrl control mch site "
+    "camera light holder effector goal ankleroll sec";
 /// Words to ignore.
-constexpr std::string_view fillers[]{"mixamorig", "bip",       "biped",  "def",  "org", "valve", "j",
-                                     "b",         "cc",        "base",   "bone", "bn",  "jnt",   "rig",
-                                     "armature",  "character", "c",      "m",    "jt",  "skel",  "sk",
-                                     "bones",     "human",     "center", "g"};
+constexpr std::string_view fillers =
+    "mixamorig bip biped def org valve j b cc base bone bn jnt rig armature character "
+    "c m jt skel sk bones human center g x bend stretch avg";
 
-struct Word {
-    std::string_view text;
-    Part part;
-};
 /// The remaining words of a name, joined.
-constexpr Word dictionary[]{{"hips", Part::Hips},         {"hip", Part::Hips},
-                            {"pelvis", Part::Hips},       {"spine", Part::Spine},
-                            {"chest", Part::Spine},       {"upperchest", Part::Spine},
-                            {"lowerback", Part::Spine},   {"torso", Part::Spine},
-                            {"abdomen", Part::Spine},     {"waist", Part::Spine},
-                            {"ribcage", Part::Spine},     {"thorax", Part::Spine},
-                            {"back", Part::Spine},        {"upperback", Part::Spine},
-                            {"lowerspine", Part::Spine},  {"upperspine", Part::Spine},
-                            {"spineupper", Part::Spine},  {"spinelower", Part::Spine},
-                            {"ribs", Part::Spine},        {"neck", Part::Neck},
-                            {"head", Part::Head},         {"clavicle", Part::Shoulder},
-                            {"collar", Part::Shoulder},   {"collarbone", Part::Shoulder},
-                            {"clav", Part::Shoulder},     {"shoulder", Part::ShoulderArm},
-                            {"shldr", Part::UpperArm},    {"upperarm", Part::UpperArm},
-                            {"uparm", Part::UpperArm},    {"armupper", Part::UpperArm},
-                            {"bicep", Part::UpperArm},    {"humerus", Part::UpperArm},
-                            {"arm", Part::Arm},           {"lowerarm", Part::LowerArm},
-                            {"forearm", Part::LowerArm},  {"loarm", Part::LowerArm},
-                            {"armlower", Part::LowerArm}, {"elbow", Part::LowerArm},
-                            {"lowarm", Part::LowerArm},   {"hand", Part::Hand},
-                            {"wrist", Part::Hand},        {"thigh", Part::UpperLeg},
-                            {"upperleg", Part::UpperLeg}, {"upleg", Part::UpperLeg},
-                            {"legupper", Part::UpperLeg}, {"femur", Part::UpperLeg},
-                            {"leg", Part::Leg},           {"calf", Part::LowerLeg},
-                            {"shin", Part::LowerLeg},     {"lowerleg", Part::LowerLeg},
-                            {"loleg", Part::LowerLeg},    {"leglower", Part::LowerLeg},
-                            {"knee", Part::LowerLeg},     {"lowleg", Part::LowerLeg},
-                            {"foot", Part::Foot},         {"ankle", Part::Foot},
-                            {"toe", Part::Toes},          {"toes", Part::Toes},
-                            {"toebase", Part::Toes},      {"ball", Part::Toes}};
+constexpr std::pair<Part, std::string_view> dictionary[]{
+    {Part::Hips, "hips hip pelvis"},
+    {Part::Spine,
+     "spine chest upperchest lowerback torso abdomen waist ribcage thorax back "
+     "upperback ab lumbar abdomenlower abdomenupper chestlower chestupper lowerspine "
+     "upperspine spineupper spinelower spinenavel spinechest uppertorso ribs"},
+    {Part::Neck, "neck lowerneck upperneck necklower neckupper"},
+    {Part::Head, "head"},
+    {Part::Shoulder, "clavicle collar collarbone clav scapula shoulderjoint"},
+    {Part::ShoulderArm, "shoulder"},
+    {Part::Arm, "arm"},
+    {Part::UpperArm, "upperarm uparm uarm armupper shldr bicep humerus"},
+    {Part::LowerArm, "lowerarm lowarm loarm armlower forearm farm elbow radius ulna"},
+    {Part::Hand, "hand wrist"},
+    {Part::Leg, "leg"},
+    {Part::UpperLeg, "upperleg upleg legupper thigh femur"},
+    {Part::LowerLeg, "lowerleg lowleg loleg leglower calf shin knee tibia fibula"},
+    {Part::Foot, "foot ankle"},
+    {Part::Toes, "toe toes toebase ball"}};
 
 Part part_of(std::string_view text) {
-    for (const Word& word : dictionary)
-        if (word.text == text) return word.part;
+    for (const auto& [part, words] : dictionary)
+        if (is_one_of(text, words)) return part;
     return Part::None;
 }
 
 Side side_of(std::string_view word) {
     if (word == "l" || word == "left" || word == "lft" || word == "lf") return Side::Left;
-    if (word == "r" || word == "right" || word == "rgt" || word == "rt") return Side::Right;
+    if (word == "r" || word == "right" || word == "rgt" || word == "rt" || word == "rf") return Side::Right;
     return Side::None;
 }
 
@@ -128,11 +114,28 @@ Side take_side(std::string& text) {
 
 }  // namespace
 
-NameReading read_name(std::string_view name) {
+std::string common_word(const Skeleton& skeleton) {
+    std::map<std::string, std::size_t> counts;
+    for (const Node& node : skeleton.nodes()) {
+        const std::vector<std::string> words = words_of(node.name);
+        const auto first = std::find_if(words.begin(), words.end(), [](const std::string& word) {
+            return !is_digit(word.front()) && !is_one_of(word, fillers) && !is_one_of(word, not_bones) &&
+                   side_of(word) == Side::None && part_of(word) == Part::None;
+        });
+        if (first != words.end() && ++counts[*first] > skeleton.size() / 2) return *first;
+    }
+    return {};
+}
+
+NameReading read_name(std::string_view name, std::string_view ignored) {
     NameReading reading;
     std::string text;
-    for (const std::string& word : words_of(name)) {
-        if (is_digit(word.front())) continue;
+    const std::vector<std::string> words = words_of(name);
+    // Vertebrae: L5, T12
+    if (words.size() == 2 && (words[0] == "l" || words[0] == "t") && is_digit(words[1].front()))
+        return {.part = Part::Spine};
+    for (const std::string& word : words) {
+        if (is_digit(word.front()) || word == ignored) continue;
         if (is_one_of(word, not_bones)) return {};
         if (const Side side = side_of(word); side != Side::None)
             reading.side = side;
@@ -156,7 +159,7 @@ bool is_palm_name(std::string_view name) {
 }
 
 std::optional<Finger> finger_named(std::string_view name) {
-    constexpr std::string_view ends[]{"end", "tip", "nub", "leaf", "site", "ik"};
+    constexpr std::string_view ends = "end tip nub leaf site ik";
     constexpr std::pair<std::string_view, Finger> known[]{
         {"thumb", Finger::Thumb},   {"index", Finger::Index},  {"middle", Finger::Middle},
         {"mid", Finger::Middle},    {"ring", Finger::Ring},    {"pinky", Finger::Little},

@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "tendril/humanoid/skeleton.hpp"
+
 namespace tendril::humanoid::detail {
 
 enum class Part : std::uint8_t {
@@ -37,8 +39,10 @@ struct NameReading {
 };
 
 /// Ignores prefixes of programs and characters, case and separators. Part::None for nodes that are no bones
-/// of the body: twist and roll bones, IK targets, end joints, fingers, faces, hair.
-NameReading read_name(std::string_view name);
+/// of the body: twist and roll bones, IK targets, end joints, fingers, faces, hair. Skips the word `ignored`.
+NameReading read_name(std::string_view name, std::string_view ignored = {});
+/// The word that begins more than half of the names, a character's or an asset's; "" if there is none.
+std::string common_word(const Skeleton& skeleton);
 
 enum class Finger : std::uint8_t { Thumb, Index, Middle, Ring, Little };
 /// "LeftHandIndex2", "thumb_01_l", "Bip01 L Finger21" (the middle finger's second bone). nullopt for bones of

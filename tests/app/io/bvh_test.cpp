@@ -50,6 +50,9 @@ TEST(Bvh, spellings_of_real_exporters_are_read_as_declared_with_a_note) {
         {"no space", stalk + "MOTION\nFrames: 3\nFrame Time:0.0333333\n" + rows, "Frame Time"},
         {"^Z", stalk + motion + "\x1a", "control character"},
         {"NUL", stalk + motion + std::string(3, '\0') + "\r\n", "control character"},
+        {"fewer rows", stalk + "MOTION\nFrames: 5\nFrame Time: 0.0333333\n" + rows, "2 fewer rows than 5"},
+        {"one row fewer", stalk + "MOTION\nFrames: 4\nFrame Time: 0.0333333\n" + rows + "\n ",
+         "1 fewer row than 4"},
     };
     const Character strict = parse_bvh(stalk + motion, "it.bvh");
     for (const auto& each : loose) {

@@ -163,7 +163,8 @@ GltfText dressed(const std::string& extensions) {
                     R"(},{"input":)" + input + R"(,"output":)" + weights +
                     R"(}],"channels":[{"sampler":0,"target":{"node":0,"path":"rotation"}},)"
                     R"({"sampler":1,"target":{"node":2,"path":"translation"}},)"
-                    R"({"sampler":2,"target":{"node":1,"path":"weights"}}]}])" +
+                    R"({"sampler":2,"target":{"node":1,"path":"weights"}},{"sampler":0,"target":{"path":"pointer",)"
+                    R"("extensions":{"KHR_animation_pointer":{"pointer":"/nodes/3/rotation"}}}}]}])" +
                     extensions;
     return file;
 }
@@ -175,7 +176,8 @@ const std::string version_0 =
 const std::string version_1 =
     R"(,"extensions":{"VRMC_vrm":{"humanoid":{"humanBones":{"hips":{"node":0}}}},"VRMC_springBone":{"springs":[{"joints":[)"
     R"({"node":2,"stiffness":1,"dragForce":0.4,"gravityPower":1,"gravityDir":[0,-1,0]},{"node":3}],"colliderGroups":[0]}],)"
-    R"("colliders":[{"node":0,"shape":{"sphere":{"offset":[0,0,0],"radius":0.1}}}],"colliderGroups":[{"colliders":[0]}]}})";
+    R"("colliders":[{"node":0,"shape":{"sphere":{"offset":[0,0,0],"radius":0.1}},"extensions":{)"
+    R"("VRMC_springBone_extended_collider":{"shape":{"sphere":{"radius":0.1,"inside":true}}}}}],"colliderGroups":[{"colliders":[0]}]}})";
 
 std::vector<Format> formats() {
     static const test::TempFolder folder;

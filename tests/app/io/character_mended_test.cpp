@@ -135,6 +135,39 @@ TEST(MendedCharacter, rotations_of_length_0_are_dropped) {
     EXPECT_NE(test::message_of([] { one_track({0}, {0, 0, 0, 9}, "rotation"); }), "") << "no rotation at all";
 }
 
+TEST(MendedCharacter, APointerToANodesPropertyIsItsChannelAndOthersAreSaid) {
+    const auto read = [](const std::string& target) {
+        GltfText file;
+        const std::string input = file.scalars({0, 1}), output = file.vectors({0, 0, 0, 4, 0, 0});
+        file.members =
+            R"("nodes":[{"name":"root","children":[1]},{"name":"bone"}],"skins":[{"joints":[0,1]}],)"
+            R"("animations":[{"samplers":[{"input":)" +
+            input + R"(,"output":)" + output + R"(}],"channels":[{"sampler":0,"target":{)" + target + "}}]}]";
+        return parse_gltf(file.gltf(), "own.gltf", {});
+    };
+    const auto pointer = [](const std::string& to) {
+        return R"("path":"pointer","extensions":{"KHR_animation_pointer":{"pointer":)" + to + "}}";
+    };
+    for (const char* path : {"translation", "scale"}) {
+        const Character direct = read(std::string(R"("node":1,"path":")") + path + '"');
+        const Character pointed = read(pointer(std::string(R"("/nodes/1/)") + path + '"'));
+        EXPECT_EQ(pointed.clips, direct.clips);
+        EXPECT_EQ(pointed.clips.at(0).duration, 1.0);
+        EXPECT_EQ(pointed.notes, std::vector<std::string>());
+    }
+    for (const std::string other :
+         {"/nodes/9/rotation", "/nodes/-1/rotation", "/nodes/99999999999999999999/scale", "/nodes//scale",
+          "/nodes/1/rotation/x", "/nodes/1", "/nodes/1/extensions/KHR_node_visibility/visible",
+          "/materials/0/alphaCutoff", "", "/"}) {
+        const Character left_out = read(pointer('"' + other + '"'));
+        EXPECT_TRUE(left_out.clips.at(0).channels.empty()) << other;
+        EXPECT_TRUE(test::says(mend_notes(left_out), "1 property left out " + other)) << mend_notes(left_out);
+    }
+    for (const char* none : {"7", "{}", "null", "[]"})
+        EXPECT_TRUE(test::says(mend_notes(read(pointer(none))), "1 property left out")) << none;
+    EXPECT_EQ(mend_notes(read(R"("path":"translation")")), "") << "no node and no pointer is nothing";
+}
+
 TEST(MendedCharacter, a_scale_of_0_is_taken_and_said) {
     const auto read = [](const std::string& node) {
         return parse_gltf(R"({"asset":{"version":"2.0"},"nodes":[{"name":"up","children":[1],)" + node +

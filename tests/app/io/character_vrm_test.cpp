@@ -196,6 +196,47 @@ TEST(VrmCharacter, colliders_of_both_versions_are_the_springs) {
     EXPECT_EQ(large.springs[0].colliders[1].to, glm::dvec3(0.0, 0.8, 0.0));
 }
 
+TEST(VrmCharacter, CollidersAndConstraintsThatAreNotFollowedAreSaid) {
+    const auto hair = [](const std::string& extended) {
+        return with_hair(
+            R"("VRMC_springBone":{"colliders":[{"node":1,"shape":{"sphere":{"radius":0.5}},"extensions":{)"
+            R"("VRMC_springBone_extended_collider":{"specVersion":"1.0","shape":{)" +
+            extended +
+            R"(}}}}],"colliderGroups":[{"colliders":[0]}],"springs":[{"joints":[{"node":2},{"node":3}],)"
+            R"("colliderGroups":[0]}]})");
+    };
+    for (const char* beyond :
+         {R"("plane":{"offset":[0,0,0],"normal":[0,1,0]})", R"("sphere":{"radius":2,"inside":true})",
+          R"("capsule":{"radius":2,"tail":[0,1,0],"inside":true})"}) {
+        const Character character = hair(beyond);
+        EXPECT_EQ(character.springs.at(0).colliders.at(0).radius, 0.5) << "the stand-in";
+        EXPECT_TRUE(test::says(character.notes.at(1), "1 collider plane inside not followed")) << beyond;
+    }
+    for (const char* within : {R"("sphere":{"radius":2,"inside":false})", R"("capsule":{"radius":2})"}) {
+        const Character character = hair(within);
+        EXPECT_EQ(character.springs.at(0).colliders.at(0).radius, 2.0);
+        EXPECT_EQ(character.notes.size(), 1u) << within;
+    }
+    const auto constrained = [](const std::string& first, const std::string& second) {
+        const auto node = [](const std::string& constraint) {
+            return R"("extensions":{"VRMC_node_constraint":{"specVersion":"1.0","constraint":)" + constraint +
+                   "}}";
+        };
+        return parse_gltf(R"({"asset":{"version":"2.0"},"nodes":[{"children":[1],)" + node(first) + "},{" +
+                              node(second) + R"(}],"skins":[{"joints":[0,1]}]})",
+                          "own.vrm", {})
+            .notes;
+    };
+    const auto notes =
+        constrained(R"({"roll":{"source":1,"rollAxis":"X","weight":1}})", R"({"aim":{"source":0}})");
+    ASSERT_EQ(notes.size(), 1u);
+    EXPECT_TRUE(test::says(notes[0], "constraints not followed 1 roll, 1 aim"));
+    EXPECT_TRUE(
+        test::says(constrained(R"({"rotation":{"source":1}})", R"({"rotation":{"source":9},"aim":7})").at(0),
+                   "1 aim, 2 rotation"));
+    EXPECT_TRUE(constrained("7", R"({"other":{}})").empty());
+}
+
 TEST(VrmCharacter, of_colliders_that_are_named_again_and_again_the_first_256_are_looked_at) {
     const auto times = [](int count, const std::string& each) {
         std::string all = each;

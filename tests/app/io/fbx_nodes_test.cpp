@@ -27,7 +27,7 @@ struct NaiveNode {
     std::string name{};
     glm::dvec3 t{0.0}, r{0.0}, s{1.0}, pre{0.0}, post{0.0}, roff{0.0}, rpiv{0.0}, soff{0.0}, spiv{0.0};
     int order = 0, inherit = 0;
-    bool rotates = true;
+    bool rotates = true, limits_only = false;
 };
 
 glm::dmat4 moved(const glm::dvec3& by) {
@@ -56,7 +56,7 @@ std::vector<NaivePlace> naive_places(const std::vector<NaiveNode>& nodes) {
     const char* const orders[] = {"XYZ", "XZY", "YZX", "YXZ", "ZXY", "ZYX"};
     std::vector<NaivePlace> result;
     for (const NaiveNode& node : nodes) {  // parents come first
-        const glm::dmat4 rotation = node.rotates
+        const glm::dmat4 rotation = node.rotates && !node.limits_only
                                         ? turned(node.pre, "XYZ") * turned(node.r, orders[node.order]) *
                                               glm::inverse(turned(node.post, "XYZ"))
                                         : turned(node.r, "XYZ");
@@ -110,6 +110,7 @@ std::vector<NaiveNode> random_tree(std::mt19937& random, int count) {
         node.order = below(6);
         node.inherit = below(3);
         node.rotates = below(8) > 0;
+        node.limits_only = below(8) == 0;
         nodes.push_back(node);
     }
     return nodes;
@@ -122,6 +123,7 @@ FbxScene scene_of(const std::vector<NaiveNode>& nodes) {
         ids.push_back(scene.model(
             node.name, node.parent < 0 ? 0 : ids[static_cast<std::size_t>(node.parent)],
             {FbxScene::property("RotationActive", {std::int64_t{node.rotates ? 1 : 0}}),
+             FbxScene::property("RotationSpaceForLimitOnly", {std::int64_t{node.limits_only ? 1 : 0}}),
              FbxScene::property("RotationOrder", {std::int64_t{node.order}}),
              FbxScene::property("InheritType", {std::int64_t{node.inherit}}),
              FbxScene::vector("PreRotation", node.pre), FbxScene::vector("PostRotation", node.post),

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
+#include <glm/trigonometric.hpp>
 #include <tendril/humanoid/lint.hpp>
 
 #include "app/io/character/export.hpp"
@@ -88,6 +89,26 @@ const std::vector<FoundFile>& found_files() {
              const humanoid::LintReport report = lint(character.skeleton, bone_map(character), clip);
              EXPECT_TRUE(report.findings.empty()) << report.findings.at(0).text;
          }},
+        {"fbx_limit_only.fbx",
+         [](const Character& character) {
+             expect_near(at(character, "ankle", -1), {0.0, 0.0302, -0.1710});
+             EXPECT_TRUE(character.notes.empty());
+         }},
+        {"fbx_auto_tangent_ends.fbx",
+         [](const Character& character) {
+             const double bent = glm::radians(16.406);  // the knee at 0.125 s
+             EXPECT_LT(glm::distance(at(character, "ankle", 0, 0.125) - at(character, "knee", 0, 0.125),
+                                     0.5 * glm::dvec3(0.0, -std::cos(bent), -std::sin(bent))),
+                       1e-4);
+         }},
+        {"fbx_key_next_line.fbx",
+         [](const Character& character) {
+             expect_near(at(character, "C", 0, 0.5), {0.0, 1.7071, 0.7071});
+         }},
+        {"fbx_with_sound.fbx",
+         [](const Character& character) {
+             EXPECT_TRUE(test::says(test_posed::lines(character.notes), "unknown kind left out Z"));
+         }},
         {"bvh_root_offset.bvh",
          [](const Character& character) {
              EXPECT_EQ(character.scale, 0.01);
@@ -122,6 +143,37 @@ const std::vector<FoundFile>& found_files() {
              Character lying = character;
              read_as(lying, lying.scale, {.up = UpAxis::Y, .positions = lying.space.positions});
              EXPECT_TRUE(lying.guesses.up.empty());
+         }},
+        {"bvh_walk_folded.bvh",
+         [](const Character& character) { EXPECT_TRUE(bone_map(character).is_usable()); }},
+        {"bvh_walk_folded_yaw.bvh",
+         [](const Character& character) { EXPECT_TRUE(bone_map(character).is_usable()); }},
+        {"bvh_walk_60hz_300.bvh", [](const Character& character) { EXPECT_EQ(keys_of(character), 300u); }},
+        {"bvh_walk_30hz_61.bvh", [](const Character& character) { EXPECT_EQ(keys_of(character), 61u); }},
+        {"bvh_acclaim_names.bvh",
+         [](const Character& character) {
+             const humanoid::BoneMap map = bone_map(character);
+             EXPECT_TRUE(map.is_usable());
+             EXPECT_EQ(
+                 character.skeleton[static_cast<std::size_t>(map[humanoid::Bone::LeftLowerArm].node)].name,
+                 "lradius");
+         }},
+        {"bvh_left_right_differ.bvh",
+         [](const Character& character) {
+             const humanoid::BoneMap map = bone_map(character);
+             EXPECT_TRUE(map.is_usable());
+             EXPECT_EQ(
+                 character.skeleton[static_cast<std::size_t>(map[humanoid::Bone::LeftUpperArm].node)].name,
+                 "LUArm");
+             EXPECT_EQ(
+                 character.skeleton[static_cast<std::size_t>(map[humanoid::Bone::RightUpperArm].node)].name,
+                 "RUArm");
+         }},
+        {"gltf_animation_pointer.gltf",
+         [](const Character& character) {
+             EXPECT_NEAR(character.clips.at(0).duration, 0.2, 1e-6);
+             EXPECT_TRUE(character.notes.empty());
+             expect_near(at(character, "j2", 0, 0.2), {-std::sqrt(0.75), 1.5, 0.0});
          }},
         {"glb_empty_bin.vrm", noted(54, "")},
         {"glb_draco.vrm", noted(19, "KHR_draco_mesh_compression left out")},

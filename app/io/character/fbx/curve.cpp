@@ -31,56 +31,72 @@ struct Tangents {
     bool is_tcb() const { return !is_user() && (flags & tangent_tcb) != 0; }
 };
 
-/// The secants before and after a key; at an end, the only one twice.
+/// The secants before and after a key; 0 where there is none.
 struct Secants {
     double before = 0.0, after = 0.0;
-    double whole = 0.0;  ///< from neighbour to neighbour
-    double mean = 0.0;   ///< of both
-    bool at_end = false;
+    double whole = 0.0;  ///< from neighbour to neighbour; at an end, the only one
+    bool at_end = true;
 };
 Secants secants_at(const std::vector<CurveKey>& keys, std::size_t i) {
     const auto between = [&](std::size_t a, std::size_t b) {
-        return (keys[b].value - keys[a].value) / (keys[b].time() - keys[a].time());
+        return a == b ? 0.0 : (keys[b].value - keys[a].value) / (keys[b].time() - keys[a].time());
     };
-    if (keys.size() < 2) return {.at_end = true};
-    const bool first = i == 0, last = i + 1 == keys.size();
-    const double before = first ? between(0, 1) : between(i - 1, i);
-    const double after = last ? before : between(i, i + 1);
-    if (first || last) return {before, before, before, before, true};
-    return {before, after, between(i - 1, i + 1), 0.5 * (before + after), false};
+    const std::size_t previous = i > 0 ? i - 1 : i, next = std::min(i + 1, keys.size() - 1);
+    return {between(previous, i), between(i, next), between(previous, next), previous == i || next == i};
 }
 
-/// A smooth slope; clamped ones let no tangent leave the range of the neighbours' values.
-double automatic(const Secants& at, const Tangents& key) {
-    const double slope = (key.flags & time_independent) != 0 ? at.whole : at.mean;
-    if ((key.flags & (generic_clamp | clamp_progressive)) == 0) return at.at_end ? 0.0 : slope;
-    if (at.at_end || at.before * at.after <= 0.0) return 0.0;
-    const double limit = std::min(std::abs(at.before), std::abs(at.after)) / usual_weight;
-    return std::copysign(std::min(std::abs(slope), limit), slope);
+// Slopes that the file leaves to its readers, as Autodesk's documentation of FbxAnimCurveDef names them. It
+// gives no formulas; these are as ufbx (github.com/ufbx/ufbx) found them by comparison with MotionBuilder.
+
+/// A bias in percent draws the slope from the mean of both secants to one of them; what it has beyond 500
+/// steepens without bound. Only keys that depend on time have one.
+double biased(double slope, const Secants& at, double bias) {
+    const double part = std::abs(bias) / 100.0, toward = bias > 0.0 ? at.after : at.before;
+    const double way = at.at_end ? 0.0 : toward - slope;
+    const double excess = std::max(part - 5.0, 0.0), sign = std::abs(way) > 1e-5 ? way : bias;
+    return slope + way * part + std::copysign(40.0 * excess * excess, sign);
+}
+/// Of an automatic key. A clamped one is level where a neighbour has its value; a progressively clamped one
+/// is level at the ends, and no control point of its tangents leaves the range of the neighbours' values.
+double automatic(const Secants& at, std::int64_t flags, double bias, double left_weight,
+                 double right_weight) {
+    const bool is_progressive = (flags & clamp_progressive) != 0;
+    if (is_progressive && (at.at_end || at.before * at.after <= 0.0)) return 0.0;
+    if ((flags & generic_clamp) != 0 && !at.at_end && at.before * at.after == 0.0) return 0.0;
+    double slope = at.whole;
+    if ((flags & time_independent) == 0)
+        slope = biased(at.at_end ? at.whole : 0.5 * (at.before + at.after), at, bias);
+    if (!is_progressive) return slope;
+    const double limit = std::min(std::abs(at.before) / left_weight, std::abs(at.after) / right_weight);
+    return slope * at.before <= 0.0 ? 0.0 : std::copysign(std::min(std::abs(slope), limit), slope);
 }
 /// D. Kochanek, R. Bartels, "Interpolating splines with local tension, continuity, and bias control",
-/// SIGGRAPH 1984.
+/// SIGGRAPH 1984. At an end the only secant counts twice.
 double kochanek(const Secants& at, const Tangents& key, bool leaving) {
     const double tension = key.data[0], bias = key.data[2];
     const double continuity = leaving ? key.data[1] : -key.data[1];
-    return 0.5 * (1.0 - tension) *
+    return (at.at_end ? 1.0 : 0.5) * (1.0 - tension) *
            ((1.0 + bias) * (1.0 + continuity) * at.before + (1.0 - bias) * (1.0 - continuity) * at.after);
 }
 
 /// Turns what the keys say into slopes between them.
 void set_slopes(std::vector<CurveKey>& keys, const std::vector<Tangents>& tangents) {
+    // A key has its own slope or bias to the right, and the next key's to the left.
     const auto slope = [&](std::size_t i, bool leaving) {
         const Tangents& key = tangents[i];
-        // A user's slope is one for both sides, unless the tangents are broken: then the key before has it.
-        if (key.is_user()) return key.data[0];
+        const Tangents before = i > 0 ? tangents[i - 1] : Tangents();
+        const double left = before.is_tcb() ? 0.0 : before.data[1];
+        if (keys[i].shape != Shape::Cubic) return left;
+        if (key.is_user()) return leaving || !(before.is_user() || key.is_broken()) ? key.data[0] : left;
         const Secants at = secants_at(keys, i);
-        return key.is_tcb() ? kochanek(at, key, leaving) : automatic(at, key);
+        if (key.is_tcb()) return kochanek(at, key, leaving);
+        return automatic(at, key.flags, leaving ? key.data[0] : -left, before.next_left_weight,
+                         key.right_weight);
     };
     for (std::size_t i = 0; i + 1 < keys.size(); ++i) {
         if (keys[i].shape != Shape::Cubic) continue;
-        const bool has_both = tangents[i].is_user() || tangents[i + 1].is_broken();
         keys[i].leaving = slope(i, true);
-        keys[i].arriving = has_both ? tangents[i].data[1] : slope(i + 1, false);
+        keys[i].arriving = slope(i + 1, false);
         keys[i].leaving_weight = tangents[i].right_weight;
         keys[i].arriving_weight = tangents[i].next_left_weight;
     }

@@ -23,6 +23,7 @@ class CharacterReader {
 
     Character read() {
         const File file = read_records(bytes_);
+        if (!file.note.empty()) character_.notes.push_back(file.note);
         report(progress_, 0.3);
         const Objects objects(file);
         std::vector<Node> nodes = read_nodes(objects, character_.notes);

@@ -48,8 +48,9 @@ Node read_node(const Objects& objects, std::size_t object, std::vector<std::stri
     node.translation = vector("Lcl Translation");
     node.euler = vector("Lcl Rotation");
     node.scale = vector("Lcl Scaling", 1.0);
-    // Only with RotationActive have order, pre- and post-rotation an effect.
-    if (objects.integer(object, "RotationActive", 0) != 0) {
+    // Only with RotationActive have order, pre- and post-rotation an effect, and that may be on limits alone.
+    if (objects.integer(object, "RotationActive", 0) != 0 &&
+        objects.integer(object, "RotationSpaceForLimitOnly", 0) == 0) {
         const std::int64_t order = objects.integer(object, "RotationOrder", 0);
         if (order >= 0 && order < static_cast<std::int64_t>(axis_orders.size()))
             node.order = static_cast<int>(order);

@@ -3,6 +3,7 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <charconv>
 #include <cmath>
@@ -69,28 +70,24 @@ std::string unpacked(std::string_view packed, std::size_t size) {
     return bytes;
 }
 
-bool is_array(char kind) {
-    return kind != 0 && std::strchr("bcfdil", kind);
-}
-std::size_t element_bytes(char kind) {
-    return kind == 'b' || kind == 'c' ? 1 : kind == 'i' || kind == 'f' ? 4 : 8;
+template <class T, class From>
+T converted(From value) {
+    if constexpr (std::is_floating_point_v<From> && std::is_integral_v<T>)
+        return std::abs(value) < From(9e18) ? static_cast<T>(value) : T(0);
+    else
+        return static_cast<T>(value);
 }
 
 /// The elements of a binary array, converted to T.
 template <class T>
 std::vector<T> elements(const Property& array) {
-    const std::size_t count = raw_at<std::uint32_t>(array.bytes, 0), size = element_bytes(array.kind);
+    const std::size_t count = raw_at<std::uint32_t>(array.bytes, 0), size = number_bytes(array.kind);
     std::string_view bytes = array.bytes.substr(12);
     std::string own;
     if (raw_at<std::uint32_t>(array.bytes, 4) == 1) bytes = own = unpacked(bytes, count * size);
     std::vector<T> result;
     result.reserve(count);
-    const auto add = [&](auto value) {
-        if constexpr (std::is_floating_point_v<decltype(value)> && std::is_integral_v<T>)
-            result.push_back(std::abs(value) < decltype(value)(9e18) ? static_cast<T>(value) : T(0));
-        else
-            result.push_back(static_cast<T>(value));
-    };
+    const auto add = [&](auto value) { result.push_back(converted<T>(value)); };
     for (std::size_t i = 0; i < count; ++i) {
         switch (array.kind) {
             case 'f':
@@ -118,7 +115,31 @@ const std::vector<Property>& holders(const Record& record) {
     return array ? array->properties : record.properties;
 }
 
+template <class T>
+std::vector<T> all_of(const Record& record) {
+    const std::vector<Property>& from = holders(record);
+    if (from.size() == 1 && is_array(from[0].kind)) return elements<T>(from[0]);
+    std::vector<T> result;
+    result.reserve(from.size());
+    for (const Property& each : from) {
+        if (each.kind != 'T')
+            visit(each, [&](auto value) { result.push_back(converted<T>(value)); });
+        else if constexpr (std::is_integral_v<T>)
+            result.push_back(integer_in(each.bytes, 0));
+        else
+            result.push_back(number_in(each.bytes, 0.0));
+    }
+    return result;
+}
+
 }  // namespace
+
+std::size_t number_bytes(char kind) {
+    constexpr std::string_view letters = "BCbcYIFifDLdl";
+    constexpr std::array<std::size_t, letters.size()> sizes{1, 1, 1, 1, 2, 4, 4, 4, 4, 8, 8, 8, 8};
+    const std::size_t at = letters.find(kind);
+    return at == letters.npos ? 0 : sizes[at];
+}
 
 const Record* Record::child(std::string_view wanted) const {
     const auto found = std::ranges::find(children, wanted, &Record::name);
@@ -157,34 +178,10 @@ std::string_view Record::text(std::size_t index) const {
 }
 
 std::vector<double> Record::numbers() const {
-    const std::vector<Property>& from = holders(*this);
-    if (from.size() == 1 && is_array(from[0].kind)) return elements<double>(from[0]);
-    std::vector<double> result;
-    result.reserve(from.size());
-    for (const Property& each : from) {
-        if (each.kind == 'T')
-            result.push_back(number_in(each.bytes, 0.0));
-        else
-            visit(each, [&](auto value) { result.push_back(static_cast<double>(value)); });
-    }
-    return result;
+    return all_of<double>(*this);
 }
-
 std::vector<std::int64_t> Record::integers() const {
-    const std::vector<Property>& from = holders(*this);
-    if (from.size() == 1 && is_array(from[0].kind)) return elements<std::int64_t>(from[0]);
-    std::vector<std::int64_t> result;
-    result.reserve(from.size());
-    for (const Property& each : from) {
-        if (each.kind == 'T')
-            result.push_back(integer_in(each.bytes, 0));
-        else
-            visit(each, [&](auto value) {
-                const auto real = static_cast<double>(value);
-                result.push_back(std::abs(real) < 9e18 ? static_cast<std::int64_t>(value) : 0);
-            });
-    }
-    return result;
+    return all_of<std::int64_t>(*this);
 }
 
 std::vector<double> Record::floats() const {

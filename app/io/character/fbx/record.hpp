@@ -48,7 +48,8 @@ struct Record {
 
 struct File {
     Record root{};
-    int version = 0;  ///< 7400 for 7.4
+    int version = 0;     ///< 7400 for 7.4
+    std::string note{};  ///< what was left out; "": nothing
 };
 
 /// The records keep views of `bytes`. Throws std::runtime_error with the reason and the byte or line.
@@ -56,6 +57,12 @@ struct File {
 File read_records(std::string_view bytes);
 
 // For read_records().
+
+/// The size of a binary file's number of that letter, or of an array's; 0: it is none.
+std::size_t number_bytes(char kind);
+inline bool is_array(char kind) {
+    return kind >= 'a' && kind <= 'z' && number_bytes(kind) > 0;
+}
 
 /// What the readers of both forms share: the records that the place they are at is inside of.
 class RecordReader {

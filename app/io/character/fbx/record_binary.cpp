@@ -84,39 +84,30 @@ class BinaryRecords final : public RecordReader {
         if (end > head.end) fail("properties longer than their record");
         for (std::uint64_t i = 0; i < head.count; ++i) {
             if (at_ >= end) fail("claims " + to_string(head.count) + " properties, has " + to_string(i));
+            if (const char kind = bytes_[at_]; number_bytes(kind) == 0 && kind != 'S' && kind != 'R') {
+                skip_unknown(head.record.name, end);
+                break;
+            }
             head.record.properties.push_back(property());
         }
         if (at_ != end) fail("properties that do not end where they say");
     }
+    /// How long a property of unknown kind is, only its record says.
+    void skip_unknown(std::string_view name, std::size_t end) {
+        const char kind[]{bytes_[at_], '\0'};
+        if (file_.note.empty())
+            file_.note =
+                "Values of an unknown kind are left out, the first one (kind " +
+                (kind[0] > ' ' && kind[0] <= '~' ? std::string(kind)
+                                                 : to_string(int(static_cast<unsigned char>(kind[0])))) +
+                ") in record " + std::string(name) + ".";
+        at_ = end;
+    }
     Property property() {
         const char kind = static_cast<char>(take<std::uint8_t>());
-        switch (kind) {
-            case 'B':
-            case 'C':
-                return {kind, take(1)};
-            case 'Y':
-                return {kind, take(2)};
-            case 'I':
-            case 'F':
-                return {kind, take(4)};
-            case 'D':
-            case 'L':
-                return {kind, take(8)};
-            case 'S':
-            case 'R':
-                return {kind, take(take<std::uint32_t>())};
-            case 'b':
-            case 'c':
-                return {kind, array(1)};
-            case 'i':
-            case 'f':
-                return {kind, array(4)};
-            case 'l':
-            case 'd':
-                return {kind, array(8)};
-            default:
-                fail("a property of unknown kind");
-        }
+        const std::size_t size = number_bytes(kind);
+        if (size == 0) return {kind, take(take<std::uint32_t>())};  // a string
+        return {kind, is_array(kind) ? array(size) : take(size)};
     }
     std::string_view array(std::uint64_t size) {
         const std::size_t begin = at_;

@@ -5,8 +5,8 @@
 namespace tendril::app::fbx {
 namespace {
 
-/// `Name: value, value { records }`. A list goes on in the next line after a comma, or if that line begins
-/// with one.
+/// `Name: value, value { records }`. A list begins in a later line, or goes on there after a comma, unless a
+/// record begins there; it also goes on if that line begins with a comma.
 class TextRecords final : public RecordReader {
   public:
     explicit TextRecords(std::string_view text) : text_(text) {}
@@ -69,26 +69,32 @@ class TextRecords final : public RecordReader {
         ++at_;
         return name;
     }
-    void properties(Record& record) {
+    /// Whether what follows is no value: `Name:`, a brace, or the end.
+    bool at_record() {
+        const std::size_t begin = at_;
+        const bool has_word = !word().empty();
         skip_blanks();
-        if (at_ == text_.size() || text_[at_] == '\n' || text_[at_] == ';' || text_[at_] == '{' ||
-            text_[at_] == '}')
-            return;
-        while (true) {
+        const char next = at_ < text_.size() ? text_[at_] : '}';
+        const bool ends = has_word ? next == ':' : next == '{' || next == '}';
+        at_ = begin;
+        return ends;
+    }
+    void properties(Record& record) {
+        for (bool more = true; more;) {
+            skip_lines();
+            if (at_record()) return;
             record.properties.push_back(property());
             const std::size_t after = at_, line = line_;
             skip_lines();
-            if (at_ < text_.size() && text_[at_] == ',') {
+            more = at_ < text_.size() && text_[at_] == ',';
+            if (more)
                 ++at_;
-                skip_lines();
-                continue;
-            }
-            at_ = after, line_ = line;
-            skip_blanks();
-            if (at_ < text_.size() && std::string_view("\n;{}").find(text_[at_]) == std::string_view::npos)
-                fail("expected a comma or the end of the line");
-            return;
+            else
+                at_ = after, line_ = line;
         }
+        skip_blanks();
+        if (at_ < text_.size() && std::string_view("\n;{}").find(text_[at_]) == text_.npos)
+            fail("expected a comma or the end of the line");
     }
     Property property() {
         if (at_ == text_.size() || text_[at_] != '"') return {'T', word()};
