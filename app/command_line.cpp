@@ -241,6 +241,10 @@ CLI::App* add_trace(CLI::App& line, TraceOptions& options) {
     trace->add_option("--rotations", choice.rotations, "The order of a quaternion's numbers")
         ->check(CLI::IsMember(quaternion_orders.names()))
         ->option_text("xyzw|wxyz");
+    trace
+        ->add_option("--target-joint", choice.target_joint,
+                     "The joint that reaches for the target, from 0 at the root; default: the nearest to it")
+        ->option_text("N");
     trace->add_option("--fps", options.fps, "Frames per second; default: the file's, or 60")
         ->option_text("N");
     trace->footer(trace_help);

@@ -55,11 +55,12 @@ Script read_script(const SessionOptions& options, const CommandTable& commands) 
 void open_given(App& app, const std::string& file) {
     Workspace& workspace = app.workspace();
     if (file_route(app.labs(), file).lab == nullptr) return load_scene_file(workspace, file);
+    const std::uint64_t beginnings = workspace.beginnings;
     app.commands().run(workspace, "file.open", {{"path", file}});
     app.commands().find("file.open")->finish(workspace);
     workspace.saved = workspace.document;
     workspace.history.clear();
-    workspace.start_anew();
+    if (workspace.beginnings == beginnings) workspace.start_anew();  // else the file has a past of its own
 }
 
 void open_scene(App& app, const SessionOptions& options) {

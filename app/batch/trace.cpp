@@ -141,8 +141,10 @@ With - it is read from standard input. Only the joints are required:
   {"joints": [[0,0,140],[28,0,138],[52,3,130]], "target": [60,0,130],
    "pole": [30,-50,140], "t": 0.0, "chain": "left"}
   time,j0x,j0y,j0z,j1x,j1y,j1z,j2x,j2y,j2z,tx,ty,tz,px,py,pz
-Limits are degrees between the bones before and after a joint; 0 is straight. Up,
-hand and unit are guessed where they are not given, and the first line says how.
+The target is the last joint's or, where it is far nearer, another's; "target_joint"
+in the first line, or --target-joint, says whose. Limits are degrees between the
+bones before and after a joint; 0 is straight. Up, hand and unit are guessed where
+they are not given, and the first line says how.
 Prints a line for each incident, with its frame from 0, joint from 0 at the root,
 amount and cause; with --json one array:
   [{"frame", "last_frame", "joint", "kind": "flip" | "nan" | "length" | "limit" |

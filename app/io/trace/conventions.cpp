@@ -208,7 +208,7 @@ std::string Conventions::text() const {
         const std::string order = std::string("rotations ") + quaternion_orders.title(rotations.value);
         add(order.c_str(), rotations.sure, rotations.reason);
     }
-    return result + " (" + reason + ")";
+    return result + " (" + reason + ")" + target;
 }
 
 Conventions conventions_of(const RawTrace& trace, std::span<const RawFrame> frames,

@@ -4,6 +4,7 @@
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -39,6 +40,7 @@ struct Conventions {
     Known<TraceUnit> unit;
     Known<QuaternionOrder> rotations;
     bool has_rotations = false;
+    std::string target{};  ///< for display: whose the target is, unless it is the last joint's
 
     /// Metres, right-handed, Y up. NaN stays NaN; what no float holds becomes infinite.
     glm::vec3 point(const glm::dvec3& p) const;
@@ -54,6 +56,7 @@ struct Conventions {
 /// What somebody chose. Overrides the file.
 struct ConventionChoice {
     std::string up, handed, unit, rotations;  ///< names, as in the tables above; empty: as the file says
+    std::optional<std::size_t> target_joint{};
 };
 
 /// From the header, or guessed from the first frames. Throws std::runtime_error for an unknown name.

@@ -126,6 +126,8 @@ void read_header(TraceHeader& header, const JsonPlace& place) {
     header.rotations = text_of(place, "rotations");
     header.engine = text_of(place, "engine");
     if (const auto fps = place.optional("fps")) header.fps = fps->real(0.001, 1e6);
+    if (const auto joint = place.optional("target_joint"))
+        header.target_joint = joint->index(max_trace_joints);
     if (const auto bones = place.optional("bones"))
         bones->for_each("bones", max_trace_joints,
                         [&](const JsonPlace& each) { header.bones.push_back(each.text()); });

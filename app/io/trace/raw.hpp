@@ -31,6 +31,7 @@ struct RawFrame {
 struct TraceHeader {
     std::string up, handed, unit, rotations, engine;
     std::optional<double> fps;
+    std::optional<std::size_t> target_joint;  ///< the one that reaches for the target
     std::vector<std::string> bones;
     std::vector<ik::BendLimit> limits;
 };

@@ -45,7 +45,7 @@ void Retrace::begin(const TracedFrame& frame) {
     joints_ = frame.joints;
     std::vector<float> lengths;
     std::vector<glm::vec3> rest;
-    for (std::size_t i = 1; i < joints_.size(); ++i) {
+    for (std::size_t i = 1; i <= frame.end_effector(); ++i) {
         const glm::vec3 bone = joints_[i] - joints_[i - 1];
         lengths.push_back(glm::length(bone));
         rest.push_back(lengths.back() > 0.0f ? bone / lengths.back() : glm::vec3(1, 0, 0));
@@ -80,7 +80,10 @@ const std::vector<glm::vec3>& Retrace::follow(const TracedFrame& frame) {
     options.limits = limits_;
     options.pole = how_.pole(frame);
     options.soft_zone = how_.soft_zone;
-    solver_->solve(how_.method, joints_, state_, frame.goal(), options);
+    const std::size_t end = frame.end_effector();
+    const glm::vec3 was = joints_[end];
+    solver_->solve(how_.method, std::span(joints_).first(end + 1), state_, frame.goal(), options);
+    for (std::size_t i = end + 1; i < joints_.size(); ++i) joints_[i] += joints_[end] - was;
     return joints_;
 }
 
@@ -98,7 +101,7 @@ class Attempts {
   public:
     Attempts(std::span<const TracedFrame> frames, std::size_t at) : frames_(frames), at_(at), allowed_(0.0f) {
         const TracedFrame& first = frames.front();
-        for (std::size_t i = 1; i < first.joints.size(); ++i)
+        for (std::size_t i = 1; i <= first.end_effector(); ++i)
             reach_ += glm::distance(first.joints[i - 1], first.joints[i]);
         for (const TracedFrame& frame : frames)
             if (frame.finite()) allowed_ = std::max(allowed_, shortfall(frame, frame.joints));
@@ -109,7 +112,7 @@ class Attempts {
     bool prevents(const TraceSolve& how) const { return run(how).prevents(); }
     Attempt run(const TraceSolve& how) const {
         Retrace chain(how);
-        ik::IncidentFinder finder;
+        ik::IncidentFinder finder({.end_effector = frames_.front().end});
         Attempt came{.reaches = true};
         try {
             for (const TracedFrame& frame : frames_) {
@@ -131,7 +134,7 @@ class Attempts {
   private:
     float shortfall(const TracedFrame& frame, const std::vector<glm::vec3>& joints) const {
         const float beyond = glm::distance(frame.goal(), joints.front()) - reach_;
-        return glm::distance(frame.goal(), joints.back()) - std::max(0.0f, beyond);
+        return glm::distance(frame.goal(), joints[frame.end_effector()]) - std::max(0.0f, beyond);
     }
 
     std::span<const TracedFrame> frames_;
@@ -200,7 +203,8 @@ std::optional<Prevention> try_hinge(const Attempts& attempts, std::size_t joint,
 
 }  // namespace
 
-PreventedFlip prevent_flip(std::span<const TracedFrame> frames, std::size_t at, std::size_t joint) {
+PreventedFlip prevent_flip(std::span<const TracedFrame> frames, std::size_t at, std::size_t joint,
+                           ik::FlipCause cause) {
     PreventedFlip result;
     if (frames.front().joints.size() > max_tried_joints || !frames.front().finite() || !frames[at].finite())
         return result;
@@ -219,8 +223,8 @@ PreventedFlip prevent_flip(std::span<const TracedFrame> frames, std::size_t at, 
     const auto add = [&](std::optional<Prevention> tried) {
         if (tried) result.by.push_back(std::move(*tried));
     };
+    if (result.flips_in || cause == ik::FlipCause::PassedAxis) add(try_poles(attempts, frames[at], base));
     if (result.flips_in) {
-        add(try_poles(attempts, frames[at], base));
         add(try_soft_zones(attempts, base));
         add(try_hinge(attempts, joint, base));
     }

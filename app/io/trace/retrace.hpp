@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <tendril/ik/flip.hpp>
 #include <tendril/ik/limit.hpp>
 #include <tendril/ik/method.hpp>
 #include <tendril/ik/solver.hpp>
@@ -26,9 +27,11 @@ struct TracedFrame {
     std::vector<glm::quat> rotations;  ///< empty, or one a bone or a joint
     std::optional<float> dt;
     std::size_t line = 0;
+    std::optional<std::size_t> end{};  ///< the joint that reaches for the target; without it, the last
 
-    /// The tip stands in where there is no target.
-    glm::vec3 goal() const { return target.value_or(joints.back()); }
+    std::size_t end_effector() const { return end.value_or(joints.size() - 1); }
+    /// The end effector stands in where there is no target.
+    glm::vec3 goal() const { return target.value_or(joints[end_effector()]); }
     /// Whether joints, target and pole target are finite.
     bool finite() const;
 };
@@ -45,7 +48,8 @@ struct TraceSolve {
     std::optional<glm::vec3> pole(const TracedFrame& frame) const;
 };
 
-/// A chain that is led through frames, from the pose of the first.
+/// A chain that is led through frames, from the pose of the first. Joints beyond the end effector are carried
+/// along.
 class Retrace {
   public:
     explicit Retrace(const TraceSolve& how) : how_(how) {}
@@ -93,6 +97,7 @@ inline constexpr std::size_t max_tried_joints = 64, max_joints_of_tries = 400;
 
 /// `frames` are consecutive and of one chain; the flip is between `at` and the frame before it, and most of
 /// it at `joint`. Some milliseconds.
-PreventedFlip prevent_flip(std::span<const TracedFrame> frames, std::size_t at, std::size_t joint);
+PreventedFlip prevent_flip(std::span<const TracedFrame> frames, std::size_t at, std::size_t joint,
+                           ik::FlipCause cause = ik::FlipCause::Unexplained);
 
 }  // namespace tendril::app

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <glm/geometric.hpp>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -55,7 +57,9 @@ std::string amount_of(const ik::ChainIncident& incident) {
             std::snprintf(text, sizeof text, "%.3g m", amount);
             return text;
         case ik::IncidentKind::Repeated:
-            return "drawn twice";
+            if (amount == 1.0) return "drawn twice";
+            std::snprintf(text, sizeof text, "drawn %.0f times", amount + 1.0);
+            return text;
         case ik::IncidentKind::Nan:
             break;
     }
@@ -76,6 +80,7 @@ TraceReader::TraceReader(std::istream& in, const ConventionChoice& choice, std::
     if (first_.empty()) throw std::runtime_error("has no frames: expected joints");
     const std::vector<RawFrame> frames(first_.begin(), first_.end());
     conventions_ = conventions_of(*raw_, frames, choice);
+    find_end_effectors(choice);
     if (fps) {
         fps_ = *fps;
         fps_known_ = true;
@@ -102,6 +107,57 @@ bool TraceReader::next_raw(RawFrame& frame) {
         notes_.push_back(printable(error.what()) + "; what comes before it was read");
         damaged_ = true;
         return false;
+    }
+}
+
+namespace {
+
+/// How far from the target each joint is over the frames: the median, at the best of some lags.
+std::vector<double> distances_to_target(const std::vector<const RawFrame*>& frames) {
+    constexpr std::size_t max_lag = 8;
+    std::vector<double> least(frames.front()->joints.size(), std::numeric_limits<double>::infinity());
+    for (std::size_t joint = 0; joint < least.size(); ++joint)
+        for (std::size_t lag = 0; lag <= max_lag && 2 * lag < frames.size(); ++lag) {
+            std::vector<double> all;
+            for (std::size_t i = lag; i < frames.size(); ++i)
+                if (const auto& target = frames[i - lag]->target)
+                    if (const double d = glm::distance(*target, frames[i]->joints[joint]); std::isfinite(d))
+                        all.push_back(d);
+            if (all.empty()) continue;
+            const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
+            std::ranges::nth_element(all, middle);
+            least[joint] = std::min(least[joint], *middle);
+        }
+    return least;
+}
+
+}  // namespace
+
+// The last joint, unless another is far nearer to the target: a wrist with a hand beyond it.
+void TraceReader::find_end_effectors(const ConventionChoice& choice) {
+    constexpr double nearer = 0.25, near = 0.02;  // times the last joint's distance; of the reach
+    const auto given = choice.target_joint ? choice.target_joint : raw_->header.target_joint;
+    std::map<std::string, std::vector<const RawFrame*>> chains;
+    for (const RawFrame& frame : first_) chains[frame.chain].push_back(&frame);
+    for (const auto& [name, frames] : chains) {
+        const auto& joints = frames.front()->joints;
+        std::size_t end = joints.size() - 1;
+        if (given) {
+            if (*given == 0 || *given > end)
+                throw std::runtime_error("target_joint: must be 1 to " + std::to_string(end) + ", got " +
+                                         std::to_string(*given));
+            end = *given;
+        } else {
+            const std::vector<double> away = distances_to_target(frames);
+            const auto nearest = static_cast<std::size_t>(std::ranges::min_element(away) - away.begin());
+            double reach = 0.0;
+            for (std::size_t i = 1; i < joints.size(); ++i) reach += glm::distance(joints[i - 1], joints[i]);
+            if (nearest > 0 && away[end] > near * reach && away[nearest] < nearer * away[end]) end = nearest;
+        }
+        if (end + 1 == joints.size()) continue;
+        ends_[name] = end;
+        conventions_.target = ", the target is that of joint " + std::to_string(end) +
+                              (given ? " (given)" : " (the nearest to it)");
     }
 }
 
@@ -146,6 +202,8 @@ bool TraceReader::next(TracedFrame& frame) {
     }
     frame.chain = std::move(raw.chain);
     frame.line = raw.line;
+    const auto end = ends_.find(frame.chain);
+    frame.end = end == ends_.end() ? std::nullopt : std::optional(end->second);
     frame.joints.clear();
     for (const glm::dvec3& joint : raw.joints) frame.joints.push_back(conventions_.point(joint));
     const auto point = [&](const std::optional<glm::dvec3>& p) {
@@ -216,7 +274,8 @@ class ChainTrial {
                                               latest_.end());
         if (joints_of_tries + frames.front().joints.size() > max_joints_of_tries) return;
         joints_of_tries += frames.front().joints.size();
-        tried_[flip.frame] = prevent_flip(frames, static_cast<std::size_t>(flip.frame - first), flip.joint);
+        tried_[flip.frame] =
+            prevent_flip(frames, static_cast<std::size_t>(flip.frame - first), flip.joint, flip.flip);
     }
 
     std::string name_;
@@ -238,7 +297,8 @@ TraceFindings find_incidents(TraceReader& reader, const std::function<void()>& p
         if (chain == running.end()) {
             running.emplace_back(frame.chain, ik::IncidentOptions{.resolution = reader.resolution(),
                                                                   .fps = static_cast<float>(reader.fps()),
-                                                                  .limits = reader.header().limits});
+                                                                  .limits = reader.header().limits,
+                                                                  .end_effector = frame.end});
             chain = running.end() - 1;
         }
         chain->add(frame, joints_of_tries);

@@ -3,7 +3,7 @@
 //
 // JSON Lines, the first line optional, `joints` required:
 //   {"tendril": "trace", "up": "z", "handed": "left", "unit": "cm", "rotations": "xyzw", "fps": 60,
-//    "bones": ["upper_arm", "lower_arm"], "limits": [null, [0, 150]]}
+//    "bones": ["upper_arm", "lower_arm"], "limits": [null, [0, 150]], "target_joint": 2}
 //   {"t": 0.0, "joints": [[0,0,140],[28,0,138],[52,3,130]], "target": [60,0,130], "pole": [30,-50,140]}
 // CSV: time, j0x, j0y, j0z, ..., tx, ty, tz, px, py, pz.
 #pragma once
@@ -48,11 +48,13 @@ class TraceReader {
   private:
     bool next_raw(RawFrame& frame);
     void find_rate();
+    void find_end_effectors(const ConventionChoice& choice);
 
     std::unique_ptr<RawTrace> raw_;
     std::deque<RawFrame> first_;
     Conventions conventions_;
     std::map<std::string, std::size_t> joints_;  ///< of each chain
+    std::map<std::string, std::size_t> ends_;    ///< the end effector of a chain, unless it is the last joint
     std::vector<std::string> notes_;
     double fps_ = 60.0;
     bool fps_known_ = false, damaged_ = false;

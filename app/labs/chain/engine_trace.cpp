@@ -163,7 +163,7 @@ class Moments {
     explicit Moments(std::shared_ptr<const ShownTrace> trace) {
         const TraceSolve solve = trace->view.solve();
         Retrace ghost(solve);
-        ik::IncidentFinder flips;
+        ik::IncidentFinder flips({.end_effector = trace->frames.front().end});
         for (const TracedFrame& frame : trace->frames) {
             auto part = std::make_shared<ChainPart>(first_chain());
             part->mode = ChainMode::Reach;

@@ -88,9 +88,10 @@ FlipAdvice flip_advice(ik::FlipCause cause, bool poled) {
             return {"Lead the target around the root: there, every direction is equally near."};
         case PassedPole:
         case ClosePole:
-            return {"Move the pole out of the plane in which the target moves: towards you, if you drag in "
-                    "the view.",
-                    FlipCure::MovePole};
+            return {
+                "Move the pole out of the plane in which the target moves: towards you, if you drag in "
+                "the view.",
+                FlipCure::MovePole};
         case Straight:
             if (poled) return {"Keep the target within reach, where the chain stays bent."};
             return {"Add a pole target on the side to which it should bend, or keep the target within reach.",
@@ -98,6 +99,8 @@ FlipAdvice flip_advice(ik::FlipCause cause, bool poled) {
         case Folded:
             if (poled) return {"Keep the target within reach, where the chain stays bent."};
             return {"Add a pole target on the side to which it should bend.", FlipCure::AddPole};
+        case PassedAxis:
+            return {"Add a pole target off that axis, or bend towards another one there.", FlipCure::AddPole};
         case Rolled:
             return {"Look at how the bone's up axis is chosen: positions leave its roll open."};
         case Unexplained:

@@ -42,6 +42,7 @@ enum class FlipCause : std::uint8_t {
     Straight,     ///< the chain was straight, so every bend was equally near
     Folded,       ///< likewise, folded onto one line
     ClosePole,    ///< the line came close to the pole target
+    PassedAxis,   ///< without a pole target: the line passed an axis of the space, see passed_axis()
     Rolled,       ///< the bone turned about itself, which positions do not show
     Unexplained   ///< nothing in the input explains it
 };
@@ -78,6 +79,11 @@ struct PolePassage {
     bool close = false;   ///< in one of the poses the line is within 10 degrees of the pole target
 };
 PolePassage pole_passage(const ReachPose& before, const ReachPose& after) noexcept;
+
+/// Whether the line from root to target passed along an axis of the space, in either direction, while there
+/// is no pole target: a solver that bends towards that axis, as many do towards the one that is up, has no
+/// side there. flip_cause() leaves it out, for Tendril's solvers do not.
+bool passed_axis(const ReachPose& before, const ReachPose& after) noexcept;
 
 /// The distance of the joint that is furthest from the line through root and tip.
 float bend_of(const ReachPose& pose) noexcept;

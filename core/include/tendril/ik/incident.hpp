@@ -34,7 +34,7 @@ enum class IncidentKind : std::uint8_t {
     Missed,     ///< the tip does not arrive, though the target is within reach; amount: metres short
     Lag,        ///< the tip is where the target was some frames ago; amount: frames
     Jitter,     ///< the tip swings while the target is still; amount: metres to either side
-    Repeated,   ///< a frame equals the one before, in the middle of a motion; amount: frames
+    Repeated,   ///< frames equal the one before them, in the middle of a motion; amount: frames
     TargetJump  ///< amount: metres
 };
 /// "flip", "nan", "length", "limit", "missed", "lag", "jitter", "repeated", "target_jump"
@@ -66,6 +66,9 @@ struct IncidentOptions {
     float resolution = 0.0f;
     float fps = 60.0f;  ///< for frequencies
     std::vector<BendLimit> limits{};
+    /// The joint that reaches for the target, from 1; without it, or beyond the last, the last. The joints
+    /// after it are carried along: they may flip and change length, and neither arrive nor miss.
+    std::optional<std::size_t> end_effector{};
 };
 
 /// At least two joints, and as many in every frame. Values may be NaN or infinite.
@@ -94,6 +97,8 @@ class IncidentFinder {
 
   private:
     static constexpr std::size_t max_lag = 8, still_window = 64;
+    /// Paths are compared by position (0), and by steps of so many frames.
+    static constexpr std::array<std::size_t, 3> spans{0, 1, 16};
 
     /// What lasts over some frames, while `open`.
     struct Episode {
@@ -108,10 +113,16 @@ class IncidentFinder {
     void find_lengths(const ReachPose& pose);
     void find_limits(const ReachPose& pose);
     void find_flips(const ReachPose& pose, bool jumped);
+    FlipCause cause_of_flip(const ReachPose& before, const ReachPose& after) const;
     void find_rolls(const ReachPose& pose, std::span<const glm::quat> rotations);
     bool changed_sides(const ReachPose& pose, bool jumped);
     bool find_jump(const ReachPose& pose);
     void find_repeated(const ReachPose& pose);
+    bool both_moved(const ReachPose& a, const ReachPose& b) const noexcept;
+    bool resumes(const ReachPose& pose) const;
+    float inner_reach() const noexcept;
+    /// The pose without the joints beyond the end effector.
+    ReachPose reaching(const ReachPose& pose) const;
     /// Whether the joint moved more than this many times as far as target and pole target did.
     static bool leads(const ReachPose& before, const ReachPose& after, std::size_t joint,
                       float times) noexcept;
@@ -119,13 +130,15 @@ class IncidentFinder {
     void follow(const ReachPose& pose);
     void find_jitter(const ReachPose& pose);
     void judge_jitter();
+    std::size_t find_lag() const;
     void finish_following();
     void forget_motion() noexcept;
 
     IncidentOptions options_;
     std::vector<ChainIncident> found_;
     std::uint64_t frames_ = 0, left_off_ = 0;
-    float reach_ = 0.0f;  ///< of the first finite frame
+    float reach_ = 0.0f;   ///< to the end effector, of the first finite frame
+    std::size_t end_ = 0;  ///< the end effector
     std::vector<float> lengths_;
     Episode nan_, missed_;
     std::vector<Episode> length_, limit_;
@@ -142,13 +155,40 @@ class IncidentFinder {
         bool straight_since = false;
     };
     std::optional<Side> side_;
-    // A jump and a repeated frame are only sure one frame later.
+    // A jump is only sure one frame later.
     float step_ = 0.0f, step_before_ = 0.0f;
     std::size_t steps_ = 0;
-    // Sums over frames of the squared distance from the tip to where the target was 0, 1, 2... frames ago.
-    std::vector<glm::vec3> targets_;  ///< relative to the root, newest last
-    std::array<double, max_lag + 1> squares_{};
-    std::uint64_t followed_ = 0;
+    /// Frames that equal the one before them, up to the latest.
+    struct Held {
+        std::uint64_t frames = 0;
+        float earlier_step = 0.0f;  ///< of the tip, before the last step
+        glm::vec3 step{0.0f};       ///< the last step of the tip
+        bool moved = false;         ///< tip and target did in it
+        glm::vec3 target{0.0f};     ///< at the beginning
+    };
+    Held held_;
+    /// Sums over frames, to fit the tip's path with the target's of some frames ago.
+    struct Following {
+        struct Lagged {
+            glm::dvec3 sum{0.0};
+            double square = 0.0, product = 0.0;
+            void add(const glm::dvec3& tip, const glm::dvec3& target) noexcept;
+        };
+        std::array<Lagged, max_lag + 1> lags{};
+        glm::dvec3 sum{0.0};
+        double square = 0.0, count = 0.0;
+        std::array<double, max_lag + 1> before{};  ///< squares left by what was closed
+        std::uint64_t frames = 0;
+
+        void add(const glm::dvec3& tip) noexcept;
+        /// What follows is fitted for itself.
+        void close() noexcept;
+        /// Of each lag, the squares that are left of the tip's.
+        std::array<double, max_lag + 1> left() const noexcept;
+    };
+    std::vector<glm::vec3> targets_, followers_;  ///< and tips; relative to the root, newest last
+    std::array<Following, spans.size()> paths_{};
+    glm::dvec3 origin_{0.0};
     std::optional<std::uint64_t> first_move_;
     float missed_before_ = 0.0f;
     std::size_t missed_frames_ = 0;

@@ -12,12 +12,19 @@ namespace {
 
 constexpr float near_root = 0.02f, nearly_straight = 0.02f;  ///< of the reach
 constexpr float close_to_pole = 0.17f;                       ///< radians, ten degrees
+constexpr float axis_turn = 0.52f;                           ///< radians: as far as a bone that flips
 
 float distance_to_segment(glm::vec3 point, glm::vec3 a, glm::vec3 b) noexcept {
     const glm::vec3 along = b - a;
     const float square = glm::dot(along, along);
     const float t = square > 0.0f ? std::clamp(glm::dot(point - a, along) / square, 0.0f, 1.0f) : 0.0f;
     return glm::distance(point, a + t * along);
+}
+
+/// Radians between two lines, 0 to pi/2.
+float off_line(glm::vec3 a, glm::vec3 b) noexcept {
+    const float angle = angle_between(a, b);
+    return std::min(angle, glm::pi<float>() - angle);
 }
 
 /// How far the target and the pole target moved, relative to the root.
@@ -43,14 +50,17 @@ InputMove input_move(const ReachPose& before, const ReachPose& after) noexcept {
 }  // namespace
 
 const char* text(FlipCause cause) noexcept {
-    static constexpr std::array texts{"the target jumped",
-                                      "the target went through the root",
-                                      "the target's line passed the pole",
-                                      "the chain was straight (collinear)",
-                                      "the chain was folded onto one line (collinear)",
-                                      "the target's line came close to the pole",
-                                      "the bone rolled about itself, while its ends hardly moved",
-                                      "nothing in the input explains it: look at the solver's own state"};
+    static constexpr std::array texts{
+        "the target jumped",
+        "the target went through the root",
+        "the target's line passed the pole",
+        "the chain was straight (collinear)",
+        "the chain was folded onto one line (collinear)",
+        "the target's line came close to the pole",
+        "the target's line passed a reference axis (up, or another of the world's), "
+        "where a bend towards it has no side",
+        "the bone rolled about itself, while its ends hardly moved",
+        "nothing in the input explains it: look at the solver's own state"};
     return texts[static_cast<std::size_t>(cause)];
 }
 
@@ -109,15 +119,23 @@ bool went_through_root(const ReachPose& before, const ReachPose& after) noexcept
 
 PolePassage pole_passage(const ReachPose& before, const ReachPose& after) noexcept {
     if (!before.target || !after.target || !before.pole || !after.pole) return {};
-    const auto side = [](const ReachPose& pose) {
-        return glm::cross(*pose.target - pose.root(), *pose.pole - pose.root());
-    };
-    const auto off_line = [](const ReachPose& pose) {
-        const float angle = angle_between(*pose.target - pose.root(), *pose.pole - pose.root());
-        return std::min(angle, glm::pi<float>() - angle);
-    };
-    return {glm::dot(side(before), side(after)) < 0.0f,
-            std::min(off_line(before), off_line(after)) < close_to_pole};
+    const glm::vec3 from = *before.target - before.root(), to = *after.target - after.root(),
+                    pole_from = *before.pole - before.root(), pole_to = *after.pole - after.root();
+    return {glm::dot(glm::cross(from, pole_from), glm::cross(to, pole_to)) < 0.0f,
+            std::min(off_line(from, pole_from), off_line(to, pole_to)) < close_to_pole};
+}
+
+bool passed_axis(const ReachPose& before, const ReachPose& after) noexcept {
+    if (!before.target || !after.target || before.pole || after.pole) return false;
+    const glm::vec3 from = *before.target - before.root(), to = *after.target - after.root();
+    for (int i = 0; i < 3; ++i) {
+        glm::vec3 axis(0.0f);
+        axis[i] = 1.0f;
+        const float turned = angle_between(glm::cross(from, axis), glm::cross(to, axis));
+        const bool close = std::min(off_line(from, axis), off_line(to, axis)) < close_to_pole;
+        if (turned > (close ? axis_turn : glm::half_pi<float>())) return true;
+    }
+    return false;
 }
 
 float bend_of(const ReachPose& pose) noexcept {

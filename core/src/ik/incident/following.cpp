@@ -3,6 +3,8 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <span>
+#include <utility>
 
 #include "ik/incident/thresholds.hpp"
 #include "tendril/ik/incident.hpp"
@@ -30,33 +32,57 @@ bool IncidentFinder::find_jump(const ReachPose& pose) {
     return step > long_step && step > jump_factor * step_before_;
 }
 
-// The frame before this one, if it equals the one before it while chain and target move on either side.
+// Frames that equal the one before them: sure once tip and target move on, as they did before.
 void IncidentFinder::find_repeated(const ReachPose& pose) {
-    if (recent_.size() < 3) return;
-    const ReachPose &first = recent_[recent_.size() - 3], &second = recent_[recent_.size() - 2],
-                    &repeated = recent_.back();
-    if (repeated.joints != second.joints) return;
-    const float moving = std::max(moving_share * reach_, rounding_steps * options_.resolution);
-    const auto moved = [&](const ReachPose& a, const ReachPose& b) {
-        return glm::distance(a.joints.back(), b.joints.back()) > moving &&
-               glm::distance(*a.target, *b.target) > moving;
-    };
-    if (moved(first, second) && moved(repeated, pose))
+    if (recent_.size() < 2) return;
+    const ReachPose &before = recent_.back(), &earlier = recent_[recent_.size() - 2];
+    if (pose.joints == before.joints) {
+        if (held_.frames++ > 0) return;
+        held_.step = before.joints[end_] - earlier.joints[end_];
+        held_.earlier_step = 0.0f;
+        if (recent_.size() > 2)
+            held_.earlier_step =
+                glm::distance(earlier.joints[end_], recent_[recent_.size() - 3].joints[end_]);
+        held_.moved = both_moved(earlier, before);
+        held_.target = *before.target;
+        return;
+    }
+    if (held_.frames > 0 && held_.moved && both_moved(before, pose) && resumes(pose))
         note({.kind = IncidentKind::Repeated,
-              .frame = frames_ - 1,
+              .frame = frames_ - held_.frames,
               .last_frame = frames_ - 1,
-              .amount = 1.0,
+              .amount = static_cast<double>(held_.frames),
               .cause = "all joints are where they were a frame before, in the middle of a motion"});
+    held_ = {};
+}
+
+bool IncidentFinder::both_moved(const ReachPose& a, const ReachPose& b) const noexcept {
+    const float moving = std::max(moving_share * reach_, rounding_steps * options_.resolution);
+    return glm::distance(a.joints[end_], b.joints[end_]) > moving &&
+           glm::distance(*a.target, *b.target) > moving;
+}
+
+// One frame that repeats is a fault. Over several a chain may also rest, but then it slows down before, or
+// starts in another direction or at another speed; unless its target went on.
+bool IncidentFinder::resumes(const ReachPose& pose) const {
+    const ReachPose& before = recent_.back();
+    if (held_.frames == 1 || glm::distance(held_.target, *before.target) > moving_share * reach_) return true;
+    const glm::vec3 step = pose.joints[end_] - before.joints[end_];
+    const float was = glm::length(held_.step), is = glm::length(step);
+    const float longest = resumed_faster * static_cast<float>(held_.frames + 1) * was;
+    return was > resumed_share * held_.earlier_step && is > resumed_share * was && is < longest &&
+           glm::dot(held_.step, step) > resumed_cosine * was * is;
 }
 
 void IncidentFinder::find_missed(const ReachPose& pose) {
     const float distance = glm::distance(*pose.target, pose.root());
-    const float longest = lengths_.empty() ? 0.0f : *std::ranges::max_element(lengths_);
-    const float inner = std::max(0.0f, 2.0f * longest - reach_);
+    const float inner = inner_reach();
     const float allowed = std::max(missed_share * reach_, rounding_steps * options_.resolution);
-    const glm::vec3 tip = pose.joints.back() - pose.root();
+    const glm::vec3 tip = pose.joints[end_] - pose.root();
     float error = glm::distance(tip, *pose.target - pose.root());
-    for (const glm::vec3 target : targets_) error = std::min(error, glm::distance(tip, target));
+    const auto latest = static_cast<std::ptrdiff_t>(std::min(targets_.size(), max_lag));
+    for (auto target = targets_.end() - latest; target != targets_.end(); ++target)
+        error = std::min(error, glm::distance(tip, *target));
     // A bone of another length moves the tip as well; that is reported.
     const bool whole_bones = std::ranges::none_of(length_, &Episode::open);
     const bool reachable = distance < reach_ - allowed && distance > inner + allowed && whole_bones;
@@ -73,7 +99,7 @@ void IncidentFinder::find_missed(const ReachPose& pose) {
     ChainIncident now{.kind = IncidentKind::Missed,
                       .frame = frames_ + 1 - missed_frames_,
                       .last_frame = frames_,
-                      .joint = pose.joints.size() - 1,
+                      .joint = end_,
                       .amount = static_cast<double>(error),
                       .cause = "the target is within reach: look for a limit, or too few iterations"};
     for (const Episode& each : limit_)
@@ -81,23 +107,54 @@ void IncidentFinder::find_missed(const ReachPose& pose) {
     last(missed_, true, now);
 }
 
+// A target beyond reach counts as where the tip can be, on the way to it.
 void IncidentFinder::follow(const ReachPose& pose) {
-    const glm::vec3 target = *pose.target - pose.root(), tip = pose.joints.back() - pose.root();
-    const bool full = targets_.size() == max_lag;
-    const bool within =
-        std::ranges::all_of(targets_, [&](glm::vec3 each) { return glm::length(each) < reach_; });
+    const glm::vec3 target = *pose.target - pose.root();
     const float moving = std::max(moving_share * reach_, options_.resolution);
-    const bool moves = !targets_.empty() && glm::distance(target, targets_.back()) > moving;
-    if (moves && !first_move_) first_move_ = frames_;
-    if (full && within && glm::length(target) < reach_ && moves) {
-        for (std::size_t lag = 0; lag <= max_lag; ++lag) {
-            const glm::vec3 off = tip - (lag == 0 ? target : targets_[max_lag - lag]);
-            squares_[lag] += static_cast<double>(glm::dot(off, off));
+    const auto moved = [&](glm::vec3 a, glm::vec3 b) { return glm::distance(a, b) > moving; };
+    if (!first_move_ && !targets_.empty() && moved(target, targets_.back())) first_move_ = frames_;
+    // A tip that jumps alone arrives from now on, or misses from now on.
+    const glm::vec3 tip_now = pose.joints[end_] - pose.root();
+    if (!followers_.empty()) {
+        float longest = glm::distance(target, targets_.back());
+        for (std::size_t i = 1; i < targets_.size(); ++i)
+            longest = std::max(longest, glm::distance(targets_[i - 1], targets_[i]));
+        if (glm::distance(tip_now, followers_.back()) > leap_steps * longest + leap_share * reach_) {
+            targets_.clear();
+            followers_.clear();
+            for (Following& path : paths_) path.close();
         }
-        ++followed_;
     }
     targets_.push_back(target);
-    if (targets_.size() > max_lag) targets_.erase(targets_.begin());
+    followers_.push_back(tip_now);
+    if (targets_.size() > max_lag + spans.back() + 1) {
+        targets_.erase(targets_.begin());
+        followers_.erase(followers_.begin());
+    }
+    const auto within_reach = [&](std::size_t ago) {
+        const glm::vec3 at = targets_[targets_.size() - 1 - ago];
+        const float away = glm::length(at);
+        return glm::dvec3(away > 0.0f ? at * (std::clamp(away, inner_reach(), reach_) / away) : at);
+    };
+    if (targets_.size() <= max_lag ||
+        std::adjacent_find(targets_.end() - (max_lag + 1), targets_.end(), moved) == targets_.end())
+        return;
+    const glm::dvec3 tip(followers_.back());
+    if (paths_[0].frames == 0) origin_ = tip;
+    for (std::size_t i = 0; i < spans.size(); ++i) {
+        const std::size_t span = spans[i];
+        if (targets_.size() <= max_lag + span) continue;
+        const glm::dvec3 from = span == 0 ? origin_ : glm::dvec3(followers_[followers_.size() - 1 - span]);
+        paths_[i].add(tip - from);
+        for (std::size_t lag = 0; lag <= max_lag; ++lag)
+            paths_[i].lags[lag].add(tip - from,
+                                    within_reach(lag) - (span == 0 ? origin_ : within_reach(lag + span)));
+    }
+}
+
+float IncidentFinder::inner_reach() const noexcept {
+    const auto reaching = std::span(lengths_).first(end_);
+    return std::max(0.0f, 2.0f * std::ranges::max(reaching) - reach_);
 }
 
 void IncidentFinder::find_jitter(const ReachPose& pose) {
@@ -112,7 +169,7 @@ void IncidentFinder::find_jitter(const ReachPose& pose) {
         return;
     }
     if (jitter_judged_) return;
-    tips_.push_back(pose.joints.back() - pose.root());
+    tips_.push_back(pose.joints[end_] - pose.root());
     if (tips_.size() == fast_jitter || tips_.size() == still_window) judge_jitter();
 }
 
@@ -151,25 +208,78 @@ void IncidentFinder::judge_jitter() {
     note({.kind = IncidentKind::Jitter,
           .frame = still_since_,
           .last_frame = frames_,
-          .joint = recent_.empty() ? no_joint : recent_.back().joints.size() - 1,
+          .joint = end_,
           .amount = amplitude,
           .hertz = 0.5 * static_cast<double>(crossings) * static_cast<double>(options_.fps) / (count - 1.0),
           .cause = "the target is still, and the tip is not"});
 }
 
+void IncidentFinder::Following::add(const glm::dvec3& tip) noexcept {
+    ++frames;
+    count += 1.0;
+    sum += tip;
+    square += glm::dot(tip, tip);
+}
+
+void IncidentFinder::Following::Lagged::add(const glm::dvec3& tip, const glm::dvec3& target) noexcept {
+    sum += target;
+    square += glm::dot(target, target);
+    product += glm::dot(tip, target);
+}
+
+void IncidentFinder::Following::close() noexcept {
+    const std::array<double, max_lag + 1> squares = left();
+    *this = {.before = squares, .frames = frames};
+}
+
+std::array<double, IncidentFinder::max_lag + 1> IncidentFinder::Following::left() const noexcept {
+    std::array<double, max_lag + 1> squares = before;
+    if (count == 0.0) return squares;
+    const double tips = square - glm::dot(sum, sum) / count;
+    for (std::size_t lag = 0; lag <= max_lag; ++lag) {
+        const Lagged& with = lags[lag];
+        const double targets = with.square - glm::dot(with.sum, with.sum) / count,
+                     both = with.product - glm::dot(with.sum, sum) / count;
+        const double scale = targets > 0.0 ? std::clamp(both / targets, lag_scale, 1.0 / lag_scale) : 1.0;
+        squares[lag] += std::max(0.0, tips - 2.0 * scale * both + scale * scale * targets);
+    }
+    return squares;
+}
+
+// The frames ago at which the target's path fits the tip's best, up to an offset and a scale: a tip that
+// misses its target is late all the same. A miss that changes spoils the fit of the positions, and hardly
+// that of steps; noise spoils that of short steps.
+std::size_t IncidentFinder::find_lag() const {
+    const double least_rms = std::max(lag_share * static_cast<double>(reach_),
+                                      static_cast<double>(rounding_steps * options_.resolution));
+    std::size_t best = 0;
+    double best_ratio = lag_better;
+    std::array<std::array<double, max_lag + 1>, spans.size()> left{};
+    std::ranges::transform(paths_, left.begin(), &Following::left);
+    for (std::size_t i = 0; i < spans.size(); ++i) {
+        const auto frames = static_cast<double>(paths_[i].frames);
+        const auto lag = static_cast<std::size_t>(std::ranges::min_element(left[i]) - left[i].begin());
+        const double gained = std::sqrt((left[i][0] - left[i][lag]) / frames);
+        const bool fits =
+            frames >= lag_frames && lag > 0 && left[i][lag] < best_ratio * left[i][0] && gained > least_rms;
+        if (!fits ||
+            std::ranges::any_of(left, [&](const auto& other) { return other[lag] > lag_agrees * other[0]; }))
+            continue;
+        best = lag;
+        best_ratio = left[i][lag] / left[i][0];
+    }
+    return best;
+}
+
 void IncidentFinder::finish_following() {
     last(missed_, false, {});
     judge_jitter();
-    if (followed_ < lag_frames) return;
-    const auto best = static_cast<std::size_t>(std::ranges::min_element(squares_) - squares_.begin());
-    const double rms = std::sqrt(squares_[0] / static_cast<double>(followed_));
-    const double least =
-        static_cast<double>(std::max(lag_share * reach_, rounding_steps * options_.resolution));
-    if (best == 0 || rms < least || squares_[best] > lag_better * squares_[0]) return;
+    const std::size_t best = find_lag();
+    if (best == 0) return;
     note({.kind = IncidentKind::Lag,
           .frame = first_move_.value_or(0),
           .last_frame = frames_ > 0 ? frames_ - 1 : 0,
-          .joint = lengths_.size(),
+          .joint = end_,
           .amount = static_cast<double>(best),
           .cause = best == 1 ? "the tip is where the target was one frame before: the order of updates"
                              : "the tip is where the target was some frames before: smoothing, or a queue"});

@@ -79,13 +79,15 @@ void IncidentFinder::add(const TraceFrame& frame) {
         ++frames_;
         return;
     }
+    const std::size_t tip = frame.joints.size() - 1;
+    end_ = std::clamp<std::size_t>(options_.end_effector.value_or(tip), 1, tip);
     ReachPose pose{.joints = {frame.joints.begin(), frame.joints.end()},
-                   .target = frame.target.value_or(frame.joints.back()),
+                   .target = frame.target.value_or(frame.joints[end_]),
                    .pole = frame.pole};
     if (lengths_.empty()) {
         for (std::size_t i = 1; i < pose.joints.size(); ++i)
             lengths_.push_back(glm::distance(pose.joints[i - 1], pose.joints[i]));
-        for (const float length : lengths_) reach_ += length;
+        for (std::size_t i = 0; i < end_; ++i) reach_ += lengths_[i];
         length_.resize(lengths_.size());
         limit_.resize(options_.limits.size());
     }
@@ -109,10 +111,18 @@ void IncidentFinder::forget_motion() noexcept {
     recent_.clear();
     rotations_.clear();
     targets_.clear();
+    followers_.clear();
     tips_.clear();
     side_.reset();
     steps_ = 0;
+    held_ = {};
     missed_frames_ = 0;
+}
+
+ReachPose IncidentFinder::reaching(const ReachPose& pose) const {
+    ReachPose part = pose;
+    part.joints.resize(end_ + 1);
+    return part;
 }
 
 const char* IncidentFinder::nan_cause(const TraceFrame& frame) const noexcept {
@@ -201,7 +211,7 @@ void IncidentFinder::find_flips(const ReachPose& pose, bool jumped) {
     if (recent_.empty()) return;
     const ReachPose& before = recent_.back();
     const auto cause = [&](const ReachPose& was) {
-        return jumped ? FlipCause::TargetJump : flip_cause(was, pose);
+        return jumped ? FlipCause::TargetJump : cause_of_flip(was, pose);
     };
     // What turns far, and moves so much further than what drives it, flips whatever angle the target
     // describes: close to the root that is any. A damped solver takes some frames for it.
@@ -220,6 +230,14 @@ void IncidentFinder::find_flips(const ReachPose& pose, bool jumped) {
     const ReachPose& first = recent_.front();
     if (const auto turn = swung(first, std::max(options_.flip_degrees, swing_degrees)))
         flip(*turn, cause(first));
+}
+
+FlipCause IncidentFinder::cause_of_flip(const ReachPose& before, const ReachPose& after) const {
+    const FlipCause cause = flip_cause(reaching(before), reaching(after));
+    const bool axis =
+        cause == FlipCause::Unexplained &&
+        std::ranges::any_of(recent_, [&](const ReachPose& was) { return passed_axis(was, after); });
+    return axis ? FlipCause::PassedAxis : cause;
 }
 
 /// A rotation turns the bone from where it pointed to where it points, and rolls it about itself by the rest.
@@ -264,10 +282,10 @@ bool IncidentFinder::leads(const ReachPose& before, const ReachPose& after, std:
 }
 
 bool IncidentFinder::changed_sides(const ReachPose& pose, bool jumped) {
-    if (pose.joints.size() != 3) return false;
-    const glm::vec3 line = pose.joints.back() - pose.root(), elbow = pose.joints[1] - pose.root();
+    if (end_ != 2) return false;
+    const glm::vec3 line = pose.joints[end_] - pose.root(), elbow = pose.joints[1] - pose.root();
     const float length = glm::length(line);
-    if (bend_of(pose) < side_bend * reach_ || !(length > side_bend * reach_)) {
+    if (bend_of(reaching(pose)) < side_bend * reach_ || !(length > side_bend * reach_)) {
         if (side_) side_->straight_since = true;
         return false;
     }

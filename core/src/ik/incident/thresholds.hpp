@@ -20,13 +20,23 @@ inline constexpr float jump_share = 0.15f;    ///< a target's step
 inline constexpr float jump_factor = 4.0f;    ///< times the steps before and after it
 inline constexpr float moving_share = 1e-3f;  ///< a step of less is still
 
+/// Of the step before: one that is shorter slows down, or starts anew. Several frames may be caught up at
+/// once.
+inline constexpr float resumed_share = 0.6f, resumed_faster = 1.5f;
+inline constexpr float resumed_cosine = 0.5f;  ///< between the steps before and after
+
 inline constexpr float missed_share = 0.01f;
 inline constexpr std::size_t missed_run = 5;  ///< frames
 inline constexpr float approach = 0.98f;      ///< a tip that comes closer by more a frame is under way
 
-inline constexpr float lag_share = 3e-3f;     ///< rms
-inline constexpr double lag_better = 0.25;    ///< of the squares without a lag
+inline constexpr double lag_share = 1e-3;     ///< rms by which a lag fits better
+inline constexpr double lag_better = 0.5;     ///< of the squares without a lag
+inline constexpr double lag_agrees = 1.02;    ///< likewise, of each way to compare
+inline constexpr double lag_scale = 0.5;      ///< of the target's path, and no more than twice it
 inline constexpr std::size_t lag_frames = 8;  ///< moving ones, at least
+
+/// A tip leaps if its step is longer than so many of the target's and so much of the reach.
+inline constexpr float leap_steps = 3.0f, leap_share = 0.025f;
 
 inline constexpr float jitter_share = 2e-4f;
 inline constexpr std::size_t fast_jitter = 16;  ///< frames

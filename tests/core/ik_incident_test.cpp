@@ -1,0 +1,209 @@
+// Families of recorded arms with one fault each: lag, repeated poses, an axis that was crossed, a hand beyond
+// the joint that reaches.
+#include "tendril/ik/incident.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <glm/geometric.hpp>
+#include <random>
+#include <vector>
+
+namespace tendril::ik {
+namespace {
+
+class Random {
+  public:
+    explicit Random(unsigned seed) : random_(seed) {}
+    float uniform(float low, float high) {
+        return low + (high - low) * static_cast<float>(random_() >> 8) / 16777216.0f;
+    }
+    std::size_t below(std::size_t count) { return random_() % count; }
+    glm::vec3 in_ball() {
+        for (;;) {
+            const glm::vec3 v(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1));
+            if (glm::length(v) > 0.1f && glm::length(v) < 1.0f) return v;
+        }
+    }
+
+  private:
+    std::mt19937 random_;
+};
+
+/// Two bones of 0.5 m from the origin, bent towards `side`.
+std::vector<glm::vec3> arm(glm::vec3 target, glm::vec3 side) {
+    const float far = glm::length(target), d = std::clamp(far, 0.01f, 0.99999f);
+    const glm::vec3 line = target / far, off = glm::normalize(side - line * glm::dot(side, line));
+    return {glm::vec3(0.0f), 0.5f * d * line + std::sqrt(0.25f - 0.25f * d * d) * off, d * line};
+}
+
+std::vector<ChainIncident> incidents_of(std::size_t frames, const IncidentOptions& options,
+                                        const std::function<std::vector<glm::vec3>(std::size_t)>& joints,
+                                        const std::function<glm::vec3(std::size_t)>& target,
+                                        std::optional<glm::vec3> pole = {}) {
+    IncidentFinder finder(options);
+    for (std::size_t i = 0; i < frames; ++i) {
+        const auto pose = joints(i);
+        finder.add({.joints = pose, .target = target(i), .pole = pole});
+    }
+    finder.finish();
+    return finder.incidents();
+}
+
+/// Targets of many kinds, at a given speed in shares of the reach a frame.
+std::vector<glm::vec3> moving_target(Random& random, std::size_t kind, std::size_t frames, float speed) {
+    const glm::vec3 centre = random.uniform(0.45f, 0.65f) * glm::normalize(random.in_ball());
+    const glm::vec3 a = glm::normalize(random.in_ball()), b = glm::normalize(glm::cross(a, random.in_ball()));
+    const float radius = random.uniform(0.1f, 0.3f), pace = speed / radius;
+    glm::vec3 at = centre, way(0.0f), from = centre, to = centre + radius * b;
+    std::vector<glm::vec3> targets;
+    float along = 0.0f;
+    for (std::size_t i = 0; i < frames; ++i) {
+        const float t = pace * static_cast<float>(i);
+        if (kind == 0) at = centre + radius * (std::cos(t) * a + std::sin(t) * b);
+        if (kind == 1) at = centre + radius * (std::sin(t) * a + std::sin(1.7f * t) * b);
+        if (kind == 2) at = centre + radius * std::sin(t) * a;
+        if (kind == 3) {  // from place to place
+            along += speed / glm::distance(from, to);
+            if (along >= 1.0f) along = 0.0f, from = to, to = centre + radius * random.in_ball();
+            at = glm::mix(from, to, along);
+        }
+        if (kind == 4) {  // a hand
+            way = 0.9f * way + 0.5f * speed * random.in_ball() - 0.02f * (at - centre);
+            at += way;
+        }
+        if (kind == 5 && i % 20 == 0) at = centre + radius * random.in_ball();  // somewhere else at once
+        targets.push_back(at);
+    }
+    return targets;
+}
+
+std::size_t lag_in(const std::vector<ChainIncident>& incidents) {
+    for (const ChainIncident& each : incidents)
+        if (each.kind == IncidentKind::Lag) return static_cast<std::size_t>(each.amount);
+    return 0;
+}
+
+// 150 late, 150 not: with noise, and tips that miss by an offset or a share.
+TEST(Incident, LagIsFoundBehindNoiseAndMisses) {
+    std::size_t found = 0;
+    for (unsigned seed = 0; seed < 300; ++seed) {
+        Random random(seed);
+        const std::size_t frames = 80 + random.below(200), lag = seed % 2 == 0 ? 0 : 1 + random.below(5);
+        const auto targets =
+            moving_target(random, seed / 2 % 6, frames, std::exp(random.uniform(-5.0f, -3.0f)));
+        const glm::vec3 side = 2.0f * glm::normalize(random.in_ball());
+        const float noise = std::array{0.0f, 0.001f, 0.004f}[random.below(3)];
+        const std::size_t miss = random.below(4);
+        const glm::vec3 offset = miss == 1 ? random.uniform(0.05f, 0.1f) * random.in_ball() : glm::vec3(0.0f);
+        const float share = miss == 2 ? random.uniform(0.93f, 0.98f) : 1.0f;
+        const auto all = incidents_of(
+            frames, {},
+            [&](std::size_t i) {
+                return arm(share * targets[i < lag ? 0 : i - lag] + offset + noise * random.in_ball(), side);
+            },
+            [&](std::size_t i) { return targets[i]; }, side);
+        const std::size_t seen = lag_in(all);
+        EXPECT_TRUE(lag > 0 || seen == 0) << "seed " << seed;
+        found += lag > 0 && seen == lag;
+    }
+    EXPECT_GE(found, 142u) << "of 150";
+}
+
+TEST(Incident, APoseThatIsRepeatedIsFoundOverAnyNumberOfFrames) {
+    for (unsigned seed = 0; seed < 120; ++seed) {
+        Random random(seed);
+        const std::size_t held = seed % 6, first = 30 + random.below(20);
+        // Either the target goes on, or it stands still too, and is caught up with or not.
+        const bool target_goes_on = seed % 3 == 0, catches_up = seed % 2 == 0;
+        const auto targets = moving_target(random, 0, 120, 0.015f);
+        const glm::vec3 side = 2.0f * glm::normalize(random.in_ball());
+        const auto shown = [&](std::size_t i) {
+            if (i < first) return i;
+            if (i < first + held) return first - 1;
+            return catches_up || target_goes_on ? i : i - held;
+        };
+        const auto all = incidents_of(
+            110, {}, [&](std::size_t i) { return arm(targets[shown(i)], side); },
+            [&](std::size_t i) { return targets[target_goes_on ? i : shown(i)]; }, side);
+        const auto repeated = std::ranges::find(all, IncidentKind::Repeated, &ChainIncident::kind);
+        ASSERT_EQ(repeated != all.end(), held > 0) << "seed " << seed << ", " << held;
+        if (held == 0) continue;
+        EXPECT_EQ(repeated->frame, first) << "seed " << seed;
+        EXPECT_EQ(repeated->last_frame, first + held - 1);
+        EXPECT_EQ(repeated->amount, static_cast<double>(held));
+    }
+}
+
+TEST(Incident, AChainThatSlowsDownAndRestsIsNotRepeated) {
+    for (const std::size_t rest : {2u, 5u, 30u}) {
+        const auto target = [&](std::size_t i) {
+            const std::size_t leg = i / (20 + rest), in = std::min<std::size_t>(i % (20 + rest), 20);
+            const float t = static_cast<float>(in) / 20.0f;
+            return glm::vec3(0.5f, 0.1f * (static_cast<float>(leg) + t * t * (3.0f - 2.0f * t)), 0.0f);
+        };
+        const auto all = incidents_of(
+            100, {}, [&](std::size_t i) { return arm(target(i), glm::vec3(0, 0, 2)); }, target,
+            glm::vec3(0, 0, 2));
+        EXPECT_TRUE(all.empty()) << rest << ": " << (all.empty() ? "" : name(all[0].kind));
+    }
+}
+
+// An arm without a pole target, bent towards an axis that its target's line passes at 0.2 degrees or so.
+TEST(Incident, AFlipAtAReferenceAxisSaysSo) {
+    for (unsigned seed = 0; seed < 60; ++seed) {
+        Random random(seed);
+        glm::vec3 axis(0.0f);
+        axis[static_cast<int>(seed % 3)] = seed % 2 == 0 ? 1.0f : -1.0f;
+        const glm::vec3 a = glm::normalize(glm::cross(axis, random.in_ball())), b = glm::cross(axis, a);
+        const float aside = std::tan(glm::radians(random.uniform(0.02f, 0.4f))),
+                    speed = random.uniform(0.02f, 0.05f);
+        const auto target = [&](std::size_t i) {
+            return 0.8f * glm::normalize(axis + aside * b + speed * (static_cast<float>(i) - 29.6f) * a);
+        };
+        const auto all = incidents_of(
+            60, {}, [&](std::size_t i) { return arm(target(i), axis); }, target);
+        ASSERT_GE(all.size(), 1u) << "seed " << seed;
+        EXPECT_EQ(all[0].flip, FlipCause::PassedAxis) << "seed " << seed << ": " << all[0].cause;
+        EXPECT_NEAR(static_cast<double>(all[0].frame), 30.0, 1.0);
+        // Nowhere near an axis, the same flip is for nothing.
+        const auto away = [&](std::size_t i) {
+            return 0.8f *
+                   glm::normalize(glm::vec3(1, 1, 1) + 0.01f * static_cast<float>(i) * glm::vec3(1, -1, 0));
+        };
+        const auto other = incidents_of(
+            60, {},
+            [&](std::size_t i) { return arm(away(i), i < 30 ? glm::vec3(0, 1, 0) : glm::vec3(0, -1, 0)); },
+            away);
+        ASSERT_EQ(other.size(), 1u);
+        EXPECT_EQ(other[0].flip, FlipCause::Unexplained);
+    }
+}
+
+TEST(Incident, TheJointThatReachesMayHaveOthersBeyondIt) {
+    Random random(5);
+    const auto targets = moving_target(random, 0, 120, 0.01f);
+    const auto with_hand = [&](std::size_t i) {
+        auto joints = arm(targets[i], glm::vec3(0, 2, 0));
+        joints.push_back(joints[2] + glm::vec3(0.18f, i < 60 ? 0.0f : 0.01f, 0.0f));
+        return joints;
+    };
+    const auto target = [&](std::size_t i) { return targets[i]; };
+    const auto at_wrist = incidents_of(120, {.end_effector = 2}, with_hand, target, glm::vec3(0, 2, 0));
+    EXPECT_TRUE(at_wrist.empty() || at_wrist[0].kind == IncidentKind::Length);
+    const auto at_tip = incidents_of(120, {}, with_hand, target, glm::vec3(0, 2, 0));
+    ASSERT_FALSE(at_tip.empty());
+    EXPECT_EQ(at_tip[0].kind, IncidentKind::Missed);
+    const auto stuck = incidents_of(
+        120, {.end_effector = 2}, [&](std::size_t i) { return with_hand(std::min<std::size_t>(i, 80)); },
+        target, glm::vec3(0, 2, 0));
+    ASSERT_FALSE(stuck.empty());
+    EXPECT_EQ(stuck.back().kind, IncidentKind::Missed);
+    EXPECT_EQ(stuck.back().joint, 2u);
+}
+
+}  // namespace
+}  // namespace tendril::ik
