@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <glm/geometric.hpp>
 
 #include "ik/incident/thresholds.hpp"
+#include "ik/math.hpp"
 #include "tendril/ik/incident.hpp"
 
 namespace tendril::ik {
@@ -16,7 +16,7 @@ bool IncidentFinder::find_jump(const ReachPose& pose) {
         return false;
     }
     const ReachPose& before = recent_.back();
-    const float step = glm::distance(*before.target - before.root(), *pose.target - pose.root());
+    const float step = math::distance(*before.target - before.root(), *pose.target - pose.root());
     const float long_step = std::max(jump_share * reach_, rounding_steps * options_.resolution);
     if (steps_ > 0 && step_ > long_step && step_ > jump_factor * std::max(step, step_before_))
         note({.kind = IncidentKind::TargetJump,
@@ -38,8 +38,8 @@ void IncidentFinder::find_repeated(const ReachPose& pose) {
     if (repeated.joints != second.joints) return;
     const float moving = std::max(moving_share * reach_, rounding_steps * options_.resolution);
     const auto moved = [&](const ReachPose& a, const ReachPose& b) {
-        return glm::distance(a.joints.back(), b.joints.back()) > moving &&
-               glm::distance(*a.target, *b.target) > moving;
+        return math::distance(a.joints.back(), b.joints.back()) > moving &&
+               math::distance(*a.target, *b.target) > moving;
     };
     if (moved(first, second) && moved(repeated, pose))
         note({.kind = IncidentKind::Repeated,
@@ -50,13 +50,13 @@ void IncidentFinder::find_repeated(const ReachPose& pose) {
 }
 
 void IncidentFinder::find_missed(const ReachPose& pose) {
-    const float distance = glm::distance(*pose.target, pose.root());
+    const float distance = math::distance(*pose.target, pose.root());
     const float longest = lengths_.empty() ? 0.0f : *std::ranges::max_element(lengths_);
     const float inner = std::max(0.0f, 2.0f * longest - reach_);
     const float allowed = std::max(missed_share * reach_, rounding_steps * options_.resolution);
     const glm::vec3 tip = pose.joints.back() - pose.root();
-    float error = glm::distance(tip, *pose.target - pose.root());
-    for (const glm::vec3 target : targets_) error = std::min(error, glm::distance(tip, target));
+    float error = math::distance(tip, *pose.target - pose.root());
+    for (const glm::vec3 target : targets_) error = std::min(error, math::distance(tip, target));
     // A bone of another length moves the tip as well; that is reported.
     const bool whole_bones = std::ranges::none_of(length_, &Episode::open);
     const bool reachable = distance < reach_ - allowed && distance > inner + allowed && whole_bones;
@@ -85,14 +85,14 @@ void IncidentFinder::follow(const ReachPose& pose) {
     const glm::vec3 target = *pose.target - pose.root(), tip = pose.joints.back() - pose.root();
     const bool full = targets_.size() == max_lag;
     const bool within =
-        std::ranges::all_of(targets_, [&](glm::vec3 each) { return glm::length(each) < reach_; });
+        std::ranges::all_of(targets_, [&](glm::vec3 each) { return math::length(each) < reach_; });
     const float moving = std::max(moving_share * reach_, options_.resolution);
-    const bool moves = !targets_.empty() && glm::distance(target, targets_.back()) > moving;
+    const bool moves = !targets_.empty() && math::distance(target, targets_.back()) > moving;
     if (moves && !first_move_) first_move_ = frames_;
-    if (full && within && glm::length(target) < reach_ && moves) {
+    if (full && within && math::length(target) < reach_ && moves) {
         for (std::size_t lag = 0; lag <= max_lag; ++lag) {
             const glm::vec3 off = tip - (lag == 0 ? target : targets_[max_lag - lag]);
-            squares_[lag] += static_cast<double>(glm::dot(off, off));
+            squares_[lag] += static_cast<double>(math::dot(off, off));
         }
         ++followed_;
     }
@@ -102,7 +102,7 @@ void IncidentFinder::follow(const ReachPose& pose) {
 
 void IncidentFinder::find_jitter(const ReachPose& pose) {
     const bool still =
-        targets_.size() >= 2 && glm::distance(targets_[targets_.size() - 2], targets_.back()) <=
+        targets_.size() >= 2 && math::distance(targets_[targets_.size() - 2], targets_.back()) <=
                                     std::max(0.1f * jitter_share * reach_, 2.0f * options_.resolution);
     if (!still) {
         judge_jitter();
